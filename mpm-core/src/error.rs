@@ -1,0 +1,107 @@
+//! Typed errors of the solver.
+
+use thiserror::Error;
+
+/// What went wrong in a step, with the offending value.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Fault {
+    /// A quantity of a particle is NaN or infinite.
+    #[error("{quantity} is not finite ({value})")]
+    NotFinite {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The determinant of the deformation gradient is not positive.
+    #[error("Jacobian J = {0} is not positive")]
+    NonPositiveJacobian(f64),
+    /// The particle has left the grid: coordinate `axis` lies outside `[lo, hi]` (m).
+    #[error("coordinate {axis} = {value} m lies off the grid [{lo}, {hi}] m")]
+    OffGrid {
+        /// Axis, counted from zero.
+        axis: usize,
+        /// Coordinate (m).
+        value: f64,
+        /// Lower end of the grid (m).
+        lo: f64,
+        /// Upper end of the grid (m).
+        hi: f64,
+    },
+    /// The time step exceeds what the wave and particle speeds allow.
+    #[error("time step is unstable: CFL number {cfl} exceeds {limit}")]
+    UnstableTimeStep {
+        /// (c + |v|) Δt / h of the particle.
+        cfl: f64,
+        /// The largest admissible value.
+        limit: f64,
+    },
+}
+
+impl Fault {
+    /// Stable name of the kind, as written to records.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::NotFinite { .. } => "not-finite",
+            Self::NonPositiveJacobian(_) => "non-positive-jacobian",
+            Self::OffGrid { .. } => "off-grid",
+            Self::UnstableTimeStep { .. } => "unstable-time-step",
+        }
+    }
+
+    /// The offending value.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        match *self {
+            Self::NotFinite { value, .. } | Self::OffGrid { value, .. } => value,
+            Self::NonPositiveJacobian(j) => j,
+            Self::UnstableTimeStep { cfl, .. } => cfl,
+        }
+    }
+}
+
+/// Errors of building a scene or running it.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Error {
+    /// A value of the scene is outside its range.
+    #[error("{what} = {value} is not allowed: {allowed}")]
+    Input {
+        /// The field.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The allowed range, in words.
+        allowed: &'static str,
+    },
+    /// The computation broke down at a particle.
+    #[error("step {step} (t = {time} s), particle {particle}: {fault}")]
+    Breakdown {
+        /// Time at the start of the failed step (s).
+        time: f64,
+        /// Number of steps completed before.
+        step: u64,
+        /// Identity of the first offending particle (its place in the seeding order).
+        particle: u32,
+        /// What broke.
+        fault: Fault,
+    },
+}
+
+/// Checks that `value` is finite and satisfies `ok`.
+pub(crate) fn require(
+    ok: bool,
+    what: &'static str,
+    value: f64,
+    allowed: &'static str,
+) -> Result<(), Error> {
+    if ok && value.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::Input {
+            what,
+            value,
+            allowed,
+        })
+    }
+}

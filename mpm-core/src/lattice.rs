@@ -1,0 +1,200 @@
+//! The nodes of a tensor-product basis on a grid, and how nodal fields are stored.
+//!
+//! Nodal fields are plain arrays beside the lattice. The first axis varies slowest: nodes of equal
+//! first index form a plane, planes are contiguous, and parallel scatters work on runs of planes
+//! (see [`crate::parallel`]).
+
+use crate::basis::{AxisNodes, AxisWeights, Basis, WallTreatment};
+use crate::grid::Grid;
+use crate::parallel::PLANES_BEFORE;
+use std::ops::AddAssign;
+
+/// A grid with the basis functions of its axes.
+#[derive(Debug, Clone)]
+pub struct Lattice<const D: usize, const S: usize, B> {
+    /// The grid.
+    pub grid: Grid<D>,
+    bases: [B; D],
+    nodes: [AxisNodes; D],
+    strides: [usize; D],
+    images: Vec<(usize, usize)>,
+}
+
+impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
+    /// The lattice of basis `B` on `grid`.
+    #[must_use]
+    pub fn new(grid: Grid<D>, wall: WallTreatment) -> Self {
+        let bases: [B; D] = std::array::from_fn(|a| B::new(&grid.axes[a], grid.h, wall));
+        let nodes: [AxisNodes; D] = std::array::from_fn(|a| bases[a].nodes());
+        let mut strides = [1; D];
+        for a in (0..D - 1).rev() {
+            strides[a] = strides[a + 1] * nodes[a + 1].position.len();
+        }
+        let mut lattice = Self {
+            grid,
+            bases,
+            nodes,
+            strides,
+            images: Vec::new(),
+        };
+        lattice.images = lattice.periodic_images();
+        lattice
+    }
+
+    /// Length of a nodal array.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        (PLANES_BEFORE + self.nodes[0].position.len()) * self.strides[0]
+    }
+
+    /// Never: a grid has nodes.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// Nodes in a plane of equal first index.
+    #[must_use]
+    pub fn plane(&self) -> usize {
+        self.strides[0]
+    }
+
+    /// The basis functions that see a particle at `x` (m) with half sizes `half_size` (m).
+    #[inline]
+    #[must_use]
+    pub fn stencil(&self, x: &[f64; D], half_size: &[f64; D]) -> Stencil<D, S> {
+        Stencil {
+            axis: std::array::from_fn(|a| self.bases[a].weights(x[a], half_size[a])),
+            strides: self.strides,
+        }
+    }
+
+    /// Position of a node (its Greville abscissae, m) from its multi-index.
+    #[must_use]
+    pub fn position(&self, index: &[usize; D]) -> [f64; D] {
+        std::array::from_fn(|a| self.nodes[a].position[index[a]])
+    }
+
+    /// Calls `visit(node, multi-index)` for every node.
+    pub fn for_each_node(&self, mut visit: impl FnMut(usize, &[usize; D])) {
+        let first = PLANES_BEFORE * self.strides[0];
+        for node in first..self.len() {
+            let mut rest = node - first;
+            let index = std::array::from_fn(|a| {
+                let i = rest / self.strides[a];
+                rest %= self.strides[a];
+                i
+            });
+            visit(node, &index);
+        }
+    }
+
+    /// Adds the values of periodic images to their originals and clears the images.
+    pub fn fold<T: Copy + Default + AddAssign>(&self, field: &mut [T]) {
+        for &(image, original) in &self.images {
+            let value = std::mem::take(&mut field[image]);
+            field[original] += value;
+        }
+    }
+
+    /// Copies the values of originals to their periodic images, in the opposite order.
+    pub fn unfold<T: Copy>(&self, field: &mut [T]) {
+        for &(image, original) in self.images.iter().rev() {
+            field[image] = field[original];
+        }
+    }
+
+    /// Pairs (image, original) of the periodic axes, axis by axis: a node that is an image on two
+    /// axes reaches its original in two hops.
+    fn periodic_images(&self) -> Vec<(usize, usize)> {
+        let mut images = Vec::new();
+        for a in 0..D {
+            if let Some(original) = &self.nodes[a].original {
+                self.for_each_node(|node, index| {
+                    let (from, to) = (index[a], original[index[a]]);
+                    if from != to {
+                        images.push((node, node + to * self.strides[a] - from * self.strides[a]));
+                    }
+                });
+            }
+        }
+        images
+    }
+}
+
+/// The functions of every axis that see one particle.
+#[derive(Debug, Clone, Copy)]
+pub struct Stencil<const D: usize, const S: usize> {
+    /// Per axis.
+    pub axis: [AxisWeights<S>; D],
+    strides: [usize; D],
+}
+
+/// A run of `S` consecutive nodes along the last axis.
+#[derive(Debug, Clone, Copy)]
+pub struct Row<const D: usize> {
+    /// The first node of the run.
+    pub node: usize,
+    /// Product of the outer axes' weights.
+    pub w: f64,
+    /// For each outer axis, the product with that axis' derivative (1/m); `w` in the last place.
+    pub gradient: [f64; D],
+}
+
+impl<const D: usize, const S: usize> Stencil<D, S> {
+    /// Visits the stencil row by row, weights factorised: on a row the weight of node `k` is
+    /// `row.w * last.w[k]` and its gradient `row.gradient[a] * last.w[k]`, with `last.dw[k]` instead
+    /// of `last.w[k]` in the last direction.
+    #[inline(always)]
+    pub fn for_each_row(&self, mut visit: impl FnMut(Row<D>)) {
+        let corner = self.axis[D - 1].first + PLANES_BEFORE * self.strides[0];
+        let mut row = Row {
+            node: corner,
+            w: 1.0,
+            gradient: [1.0; D],
+        };
+        if D == 1 {
+            visit(row);
+            return;
+        }
+        let outer = &self.axis[0];
+        for i in 0..S {
+            let plane = corner + (outer.first + i) * self.strides[0];
+            if D == 2 {
+                row.node = plane;
+                row.w = outer.w[i];
+                row.gradient[0] = outer.dw[i];
+                row.gradient[D - 1] = row.w;
+                visit(row);
+                continue;
+            }
+            let middle = &self.axis[1];
+            for j in 0..S {
+                row.node = plane + (middle.first + j) * self.strides[1];
+                row.w = outer.w[i] * middle.w[j];
+                row.gradient[0] = outer.dw[i] * middle.w[j];
+                row.gradient[1] = outer.w[i] * middle.dw[j];
+                row.gradient[D - 1] = row.w;
+                visit(row);
+            }
+        }
+    }
+
+    /// The weights along the last axis.
+    #[inline(always)]
+    #[must_use]
+    pub fn last(&self) -> &AxisWeights<S> {
+        &self.axis[D - 1]
+    }
+
+    /// Calls `visit(node, weight)` for every node of the stencil.
+    #[inline(always)]
+    pub fn for_each_weight(&self, mut visit: impl FnMut(usize, f64)) {
+        let last = self.last();
+        self.for_each_row(|row| {
+            for (k, w) in last.w.iter().enumerate() {
+                visit(row.node + k, row.w * w);
+            }
+        });
+    }
+}

@@ -1,0 +1,45 @@
+//! Explicit finite-strain material point method (MPM) with the F̄ family of locking remedies.
+//!
+//! The method is that of Zhao, Jiang & Choo, "Circumventing volumetric locking in explicit
+//! material point methods" (2022); equation numbers in this crate are theirs. The step is
+//! [`Solver::step`]; everything else is what it calls:
+//!
+//! * [`Grid`] and [`Lattice`]: cells, axes and the nodes of a basis;
+//! * [`basis`]: linear, uGIMP, quadratic and cubic B-splines, one-dimensional factors of a tensor product;
+//! * [`transfer`]: particle–grid transfers (PIC/FLIP blend);
+//! * [`material`]: constitutive laws, pure functions in three dimensions;
+//! * [`remedy`]: how the averaged Jacobian J̄ is formed;
+//! * [`stage`]: loads, force filters, constraints and particle filters that a scene may have;
+//! * [`monitor`]: mass, momentum, the energy budget, J and ln(J/J̄).
+//!
+//! All quantities are in SI units. The dimension is a const generic: 1 (uniaxial strain),
+//! 2 (plane strain) or 3.
+
+pub mod basis;
+pub mod error;
+pub mod grid;
+pub mod lattice;
+pub mod material;
+pub mod monitor;
+pub mod parallel;
+pub mod particles;
+pub mod projection;
+pub mod remedy;
+pub mod solver;
+pub mod space;
+pub mod stage;
+pub mod tensor;
+pub mod transfer;
+pub mod work;
+
+pub use basis::Basis;
+pub use error::{Error, Fault};
+pub use grid::{Axis, Grid, Side};
+pub use lattice::Lattice;
+pub use material::Law;
+pub use monitor::Totals;
+pub use particles::Particles;
+pub use remedy::Remedy;
+pub use solver::{Scene, Simulation, Solver};
+pub use tensor::SymmetricTensor;
+pub use work::Work;

@@ -1,0 +1,34 @@
+//! Constitutive laws: pure functions (ΔF̄, Δt, state) → (σ, state′) in three dimensions.
+
+mod neo_hookean;
+
+pub use neo_hookean::NeoHookean;
+
+use crate::tensor::SymmetricTensor;
+use nalgebra::Matrix3;
+
+/// A constitutive law.
+pub trait Law: Send + Sync {
+    /// What a particle remembers; nothing more than the law needs.
+    type State: Copy + Send + Sync + PartialEq + std::fmt::Debug;
+
+    /// The state of undeformed material.
+    fn initial_state(&self) -> Self::State;
+
+    /// Cauchy stress (Pa) and state after the relative deformation `delta_f` over `dt` (s).
+    fn update(
+        &self,
+        delta_f: &Matrix3<f64>,
+        dt: f64,
+        state: &Self::State,
+    ) -> (SymmetricTensor, Self::State);
+
+    /// Stored energy per reference volume (J/m³).
+    fn energy(&self, state: &Self::State) -> f64;
+
+    /// Speed of pressure waves (m/s) in undeformed material of the given density (kg/m³).
+    fn wave_speed(&self, density: f64) -> f64;
+}
+
+#[cfg(test)]
+mod tests;

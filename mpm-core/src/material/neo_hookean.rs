@@ -1,0 +1,77 @@
+//! Compressible neo-Hookean elasticity.
+//!
+//! W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 (ln J)², hence P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ and
+//! σ = \[μ (b − I) + λ ln J I\]/J with b = F Fᵀ.
+
+use super::Law;
+use crate::error::{Error, require};
+use crate::tensor::SymmetricTensor;
+use nalgebra::Matrix3;
+
+/// A neo-Hookean solid. Its state is the left Cauchy–Green tensor b = F Fᵀ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NeoHookean {
+    /// Lamé's first parameter λ (Pa).
+    pub lambda: f64,
+    /// Shear modulus μ (Pa).
+    pub mu: f64,
+}
+
+impl NeoHookean {
+    /// From Young's modulus (Pa) and Poisson's ratio at small strain.
+    ///
+    /// # Errors
+    /// A modulus that is not positive and finite; a ratio outside (−1, 0.5).
+    pub fn new(young_modulus: f64, poisson_ratio: f64) -> Result<Self, Error> {
+        require(
+            young_modulus > 0.0,
+            "Young's modulus",
+            young_modulus,
+            "positive (Pa)",
+        )?;
+        require(
+            poisson_ratio > -1.0 && poisson_ratio < 0.5,
+            "Poisson's ratio",
+            poisson_ratio,
+            "greater than −1 and less than 0.5",
+        )?;
+        Ok(Self {
+            lambda: young_modulus * poisson_ratio
+                / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio)),
+            mu: young_modulus / (2.0 * (1.0 + poisson_ratio)),
+        })
+    }
+}
+
+impl Law for NeoHookean {
+    type State = SymmetricTensor;
+
+    fn initial_state(&self) -> SymmetricTensor {
+        SymmetricTensor::identity()
+    }
+
+    #[inline]
+    fn update(
+        &self,
+        delta_f: &Matrix3<f64>,
+        _dt: f64,
+        state: &SymmetricTensor,
+    ) -> (SymmetricTensor, SymmetricTensor) {
+        let b = state.push_forward(delta_f);
+        let squared_jacobian = b.determinant();
+        let jacobian = squared_jacobian.sqrt();
+        let pressure_part = self.lambda * 0.5 * squared_jacobian.ln() - self.mu;
+        let stress = b.scale_add_identity(self.mu / jacobian, pressure_part / jacobian);
+        (stress, b)
+    }
+
+    fn energy(&self, b: &SymmetricTensor) -> f64 {
+        let log_jacobian = 0.5 * b.determinant().ln();
+        0.5 * self.mu * (b.trace() - 3.0 - 2.0 * log_jacobian)
+            + 0.5 * self.lambda * log_jacobian * log_jacobian
+    }
+
+    fn wave_speed(&self, density: f64) -> f64 {
+        ((self.lambda + 2.0 * self.mu) / density).sqrt()
+    }
+}

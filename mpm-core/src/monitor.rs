@@ -1,0 +1,87 @@
+//! What every run watches.
+
+use crate::material::Law;
+use crate::particles::Particles;
+
+/// Work done and energy moved since the start (J; per metre of depth in plane strain).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Accumulated {
+    /// Stress work Σ V σ : ∇v Δt.
+    pub stress_work: f64,
+    /// Work of the loads on the particles, Σ f·v Δt.
+    pub load_work: f64,
+    /// Energy taken by force filters (damping).
+    pub damping: f64,
+    /// Kinetic energy removed by constraints when they overwrite nodal velocities.
+    pub constraint_loss: f64,
+    /// Kinetic energy removed by particle filters (kinetic damping).
+    pub filter_loss: f64,
+}
+
+/// The state of the last step on the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Residual {
+    /// Σ|f_i| over the components that no constraint holds, before damping (N).
+    pub free_force: f64,
+    /// Σ f_i over the components that constraints hold, before they act: minus the reaction (N).
+    pub held_force: [f64; 3],
+}
+
+/// Sums over a body. The potential energy of the loads is −`accumulated.load_work` where they are
+/// conservative.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Totals {
+    /// Mass (kg).
+    pub mass: f64,
+    /// Linear momentum (kg m/s).
+    pub momentum: [f64; 3],
+    /// Kinetic energy of the particles (J).
+    pub kinetic_energy: f64,
+    /// Stored energy Σ V⁰ W(F̄) (J). With F̄ it differs from the stress work: see `docs/method.md`.
+    pub stored_energy: f64,
+    /// Work and losses so far.
+    pub accumulated: Accumulated,
+    /// Least and greatest J.
+    pub jacobian: (f64, f64),
+    /// Root mean square of ln(J/J̄) (0 without a remedy): how far the averaged Jacobian has parted
+    /// from the true one.
+    pub log_jacobian_gap_rms: f64,
+    /// Greatest |ln(J/J̄)|.
+    pub log_jacobian_gap_max: f64,
+}
+
+impl Totals {
+    /// The sums over `particles` of a law, in the particles' order.
+    #[must_use]
+    pub fn of<const D: usize, M: Law>(
+        law: &M,
+        particles: &Particles<D>,
+        states: &[M::State],
+        accumulated: Accumulated,
+    ) -> Self {
+        let mut t = Self {
+            accumulated,
+            jacobian: (f64::INFINITY, f64::NEG_INFINITY),
+            ..Self::default()
+        };
+        for (p, state) in states.iter().enumerate() {
+            let m = particles.mass[p];
+            t.mass += m;
+            for (sum, v) in t.momentum.iter_mut().zip(particles.velocity[p]) {
+                *sum += m * v;
+                t.kinetic_energy += 0.5 * m * v * v;
+            }
+            t.stored_energy += particles.reference_volume[p] * law.energy(state);
+            let j = particles.jacobian[p];
+            t.jacobian = (t.jacobian.0.min(j), t.jacobian.1.max(j));
+        }
+        let mut squares = 0.0;
+        for (j, j_bar) in particles.jacobian.iter().zip(&particles.j_bar) {
+            let gap = (j / j_bar).ln();
+            squares += gap * gap;
+            t.log_jacobian_gap_max = t.log_jacobian_gap_max.max(gap.abs());
+        }
+        t.log_jacobian_gap_rms = (squares / particles.len().max(1) as f64).sqrt();
+        t
+    }
+}

@@ -1,0 +1,44 @@
+//! Threads that leave every bit of a result unchanged.
+//!
+//! *Gathers* write to particles only: they run over chunks of [`CHUNK`] particles, and sums are
+//! formed per chunk and added in the order of the chunks.
+//!
+//! *Scatters* write to nodes. Particles are sorted by cell, and slabs of [`SLAB`] cells along the
+//! first axis hold contiguous runs of them. A slab's particles reach fewer than `2 SLAB` planes of
+//! nodes, so slabs of even number can run side by side, each on its own run of planes, and then
+//! those of odd number. A node thus receives its contributions in an order that the number of
+//! threads doesn't change, without atomics and without private grids.
+
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Particles per chunk of a gather.
+pub const CHUNK: usize = 1024;
+/// Cells per slab, along the first axis.
+pub const SLAB: usize = 8;
+/// Planes kept before the first node, so that the runs of planes of the first slab begin in the array.
+pub const PLANES_BEFORE: usize = 2;
+/// Planes in a run.
+const RUN: usize = 2 * SLAB;
+
+/// Scatters particles to `nodes`: `kernel(particles, nodes of the run, index of the run's first node)`
+/// for every slab. `slabs[k]` is the range of particles of slab `k`, `plane` the nodes in a plane.
+pub fn scatter<T: Send>(
+    nodes: &mut [T],
+    plane: usize,
+    slabs: &[Range<usize>],
+    kernel: impl Fn(Range<usize>, &mut [T], usize) + Sync,
+) {
+    for colour in 0..2 {
+        let start = colour * SLAB * plane;
+        if let Some(runs) = nodes.get_mut(start..) {
+            runs.par_chunks_mut(RUN * plane)
+                .enumerate()
+                .for_each(|(j, run)| {
+                    if let Some(particles) = slabs.get(2 * j + colour) {
+                        kernel(particles.clone(), run, start + j * RUN * plane);
+                    }
+                });
+        }
+    }
+}

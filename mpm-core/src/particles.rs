@@ -1,0 +1,156 @@
+//! The particles of a body, as columns, and their order.
+
+use crate::error::{Error, require};
+use crate::grid::Grid;
+use crate::parallel::SLAB;
+use crate::tensor::SymmetricTensor;
+use nalgebra::SMatrix;
+use std::ops::Range;
+
+/// Columns of one body. All have one entry per particle, but `j_bar`, which is empty where no
+/// remedy needs it.
+#[derive(Debug, Clone, Default)]
+pub struct Particles<const D: usize> {
+    /// Place in the seeding order.
+    pub id: Vec<u32>,
+    /// Reference position X (m).
+    pub reference: Vec<[f64; D]>,
+    /// Current position x (m).
+    pub position: Vec<[f64; D]>,
+    /// Velocity v (m/s).
+    pub velocity: Vec<[f64; D]>,
+    /// Mass (kg; per metre of depth in plane strain, per square metre of section in 1D).
+    pub mass: Vec<f64>,
+    /// Reference volume V⁰ (m³, likewise).
+    pub reference_volume: Vec<f64>,
+    /// Volume that weights stresses and averages, V (m³), Eq. (15).
+    pub volume: Vec<f64>,
+    /// Half the size of the particle's domain along each axis (m).
+    pub half_size: Vec<[f64; D]>,
+    /// Jacobian J = det F.
+    pub jacobian: Vec<f64>,
+    /// Averaged Jacobian J̄.
+    pub j_bar: Vec<f64>,
+    /// Cauchy stress that enters the force (Pa).
+    pub stress: Vec<SymmetricTensor>,
+    /// External force (N).
+    pub external_force: Vec<[f64; D]>,
+    /// Relative deformation gradient ΔF of the step, Eq. (16); after the remedy, ΔF̄.
+    pub delta_f: Vec<SMatrix<f64, D, D>>,
+    /// Displacement of the step (m).
+    pub increment: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Particles<D> {
+    /// Particles at rest at `positions` (m), each of the given `volume` (m³), `density` (kg/m³) and
+    /// `half_size` (m).
+    ///
+    /// # Errors
+    /// A volume, density or half size that is not positive and finite, or a position that is not finite.
+    pub fn new(
+        positions: Vec<[f64; D]>,
+        volume: f64,
+        density: f64,
+        half_size: [f64; D],
+    ) -> Result<Self, Error> {
+        require(volume > 0.0, "particle volume", volume, "positive (m³)")?;
+        require(density > 0.0, "density", density, "positive (kg/m³)")?;
+        for l in half_size {
+            require(l > 0.0, "particle half size", l, "positive (m)")?;
+        }
+        for x in positions.iter().flatten() {
+            require(true, "particle position", *x, "finite (m)")?;
+        }
+        let n = positions.len();
+        Ok(Self {
+            id: (0..n as u32).collect(),
+            reference: positions.clone(),
+            position: positions,
+            velocity: vec![[0.0; D]; n],
+            mass: vec![density * volume; n],
+            reference_volume: vec![volume; n],
+            volume: vec![volume; n],
+            half_size: vec![half_size; n],
+            jacobian: vec![1.0; n],
+            j_bar: Vec::new(),
+            stress: vec![SymmetricTensor::default(); n],
+            external_force: vec![[0.0; D]; n],
+            delta_f: vec![SMatrix::identity(); n],
+            increment: vec![[0.0; D]; n],
+        })
+    }
+
+    /// Number of particles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`.
+    pub fn permute(&mut self, order: &[u32]) {
+        permute(&mut self.id, order);
+        permute(&mut self.reference, order);
+        permute(&mut self.position, order);
+        permute(&mut self.velocity, order);
+        permute(&mut self.mass, order);
+        permute(&mut self.reference_volume, order);
+        permute(&mut self.volume, order);
+        permute(&mut self.half_size, order);
+        permute(&mut self.jacobian, order);
+        permute(&mut self.j_bar, order);
+        permute(&mut self.stress, order);
+        permute(&mut self.external_force, order);
+        permute(&mut self.delta_f, order);
+        permute(&mut self.increment, order);
+    }
+}
+
+/// Puts a column in the order `order`; an empty column stays empty.
+pub(crate) fn permute<T: Copy>(column: &mut Vec<T>, order: &[u32]) {
+    if !column.is_empty() {
+        *column = order.iter().map(|&p| column[p as usize]).collect();
+    }
+}
+
+/// The order of particles by cell (stable: of one cell in their present order), and the range of
+/// every slab of [`SLAB`] cells along the first axis.
+#[must_use]
+pub fn cell_order<const D: usize>(
+    grid: &Grid<D>,
+    positions: &[[f64; D]],
+) -> (Vec<u32>, Vec<Range<usize>>) {
+    let cell = |x: &[f64; D]| {
+        (0..D).fold(0, |index, a| {
+            index * grid.axes[a].cells + grid.cell(a, x[a])
+        })
+    };
+    let cells: usize = grid.axes.iter().map(|a| a.cells).product();
+    let mut begin = vec![0usize; cells + 1];
+    for x in positions {
+        begin[cell(x) + 1] += 1;
+    }
+    for c in 0..cells {
+        begin[c + 1] += begin[c];
+    }
+    let per_column = cells / grid.axes[0].cells;
+    let slabs = (0..grid.axes[0].cells)
+        .step_by(SLAB)
+        .map(|first| {
+            let last = (first + SLAB).min(grid.axes[0].cells);
+            begin[first * per_column]..begin[last * per_column]
+        })
+        .collect();
+    let mut order = vec![0u32; positions.len()];
+    for (p, x) in positions.iter().enumerate() {
+        let slot = &mut begin[cell(x)];
+        order[*slot] = p as u32;
+        *slot += 1;
+    }
+    (order, slabs)
+}

@@ -1,0 +1,23 @@
+//! Total F̄: J̄ⁿ⁺¹ = Π(Jⁿ⁺¹), Eqs. (18)–(21).
+
+use super::{Remedy, assume, fill};
+use crate::particles::Particles;
+use crate::projection::Average;
+
+/// The average of the true Jacobian; nothing accumulates.
+#[derive(Debug, Clone, Default)]
+pub struct FbarTotal {
+    next: Vec<f64>,
+}
+
+impl<const D: usize> Remedy<D> for FbarTotal {
+    fn attach(&mut self, particles: &mut Particles<D>) {
+        particles.j_bar = particles.jacobian.clone();
+    }
+
+    fn adjust_delta_f(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>) {
+        fill(&mut self.next, particles.len(), |p| particles.jacobian[p]);
+        average.average(particles, &mut self.next);
+        assume(particles, &self.next);
+    }
+}

@@ -1,0 +1,70 @@
+//! Remedies for volumetric locking: how the averaged Jacobian J̄ is formed.
+//!
+//! The F̄ method replaces ΔF by ΔF̄ = (J̄ⁿ⁺¹ / (J̄ⁿ ΔJ))^(1/dim) ΔF, Eq. (25). The members of the
+//! family differ in J̄ⁿ⁺¹ alone:
+//!
+//! | remedy | J̄ⁿ⁺¹ | |
+//! |---|---|---|
+//! | [`Standard`] | J | standard MPM |
+//! | [`FbarRecursive`] | Π(J̄ⁿ ΔJ) | Algorithm 1 as printed, Eq. (26) |
+//! | [`FbarTotal`] | Π(Jⁿ⁺¹) | Eqs. (18)–(21), nothing accumulates |
+//! | [`FbarRate`] | J̄ⁿ Π(ΔJ) | only the increment is averaged |
+
+mod fbar_rate;
+mod fbar_recursive;
+mod fbar_total;
+mod standard;
+
+pub use fbar_rate::FbarRate;
+pub use fbar_recursive::FbarRecursive;
+pub use fbar_total::FbarTotal;
+pub use standard::Standard;
+
+use crate::parallel::CHUNK;
+use crate::particles::Particles;
+use crate::projection::Average;
+use crate::space::{determinant, stretch_of_volume};
+use rayon::prelude::*;
+
+/// A locking remedy of a body.
+pub trait Remedy<const D: usize>: Send {
+    /// Gives the particles the columns that the remedy needs.
+    fn attach(&mut self, _particles: &mut Particles<D>) {}
+
+    /// Before the forces are formed: may replace the mean part of the particles' stress, for a
+    /// remedy that averages the pressure as well.
+    fn adjust_stress(&mut self, _particles: &mut Particles<D>, _average: &mut dyn Average<D>) {}
+
+    /// After ΔF and J are known: turns the particles' ΔF into ΔF̄. Positions and volumes are still
+    /// those of the step's start.
+    fn adjust_delta_f(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>);
+}
+
+/// Fills `out` with `f(particle)`, in parallel.
+fn fill(out: &mut Vec<f64>, n: usize, f: impl Fn(usize) -> f64 + Sync) {
+    out.resize(n, 0.0);
+    out.par_chunks_mut(CHUNK).enumerate().for_each(|(c, out)| {
+        for (k, value) in out.iter_mut().enumerate() {
+            *value = f(c * CHUNK + k);
+        }
+    });
+}
+
+/// Sets J̄ to `next` and scales ΔF to ΔF̄, Eq. (25).
+fn assume<const D: usize>(particles: &mut Particles<D>, next: &[f64]) {
+    particles
+        .delta_f
+        .par_chunks_mut(CHUNK)
+        .zip(particles.j_bar.par_chunks_mut(CHUNK))
+        .zip(next.par_chunks(CHUNK))
+        .for_each(|((delta_f, j_bar), next)| {
+            for ((delta_f, j_bar), next) in delta_f.iter_mut().zip(j_bar).zip(next) {
+                let volume_ratio = next / (*j_bar * determinant(delta_f));
+                *delta_f *= stretch_of_volume::<D>(volume_ratio);
+                *j_bar = *next;
+            }
+        });
+}
+
+#[cfg(test)]
+mod tests;

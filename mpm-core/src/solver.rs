@@ -1,0 +1,592 @@
+//! The explicit step (update stress last), Sections 2.2 and 3.3 of the paper.
+
+use crate::basis::{Basis, WallTreatment};
+use crate::error::{Error, Fault, require};
+use crate::grid::Grid;
+use crate::lattice::Lattice;
+use crate::material::Law;
+use crate::monitor::{Accumulated, Residual, Totals};
+use crate::parallel::{CHUNK, scatter};
+use crate::particles::{Particles, cell_order, permute};
+use crate::projection::{Average, NodalAverage, Projection};
+use crate::remedy::Remedy;
+use crate::space;
+use crate::stage::{Constraint, ForceFilter, Load, ParticleFilter, Prescribed};
+use crate::transfer::NodalState;
+use crate::transfer::flip::{Given, blend, grid_to_particle, particle_to_grid};
+use crate::work::Work;
+use nalgebra::SMatrix;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Largest (c + |v|) Δt / h: beyond it a wave or a particle crosses more than a cell in a step.
+const CFL_LIMIT: f64 = 1.0;
+
+/// Everything that a run is made of. Stages that a scene doesn't have are empty lists.
+pub struct Scene<const D: usize, M: Law> {
+    /// The grid.
+    pub grid: Grid<D>,
+    /// How B-splines meet walls.
+    pub wall: WallTreatment,
+    /// The law of the body.
+    pub law: M,
+    /// The particles of the body.
+    pub particles: Particles<D>,
+    /// The locking remedy of the body.
+    pub remedy: Box<dyn Remedy<D>>,
+    /// Loads.
+    pub loads: Vec<Box<dyn Load<D>>>,
+    /// Filters of nodal forces.
+    pub force_filters: Vec<Box<dyn ForceFilter>>,
+    /// Constraints.
+    pub constraints: Vec<Box<dyn Constraint<D>>>,
+    /// Filters of particles.
+    pub particle_filters: Vec<Box<dyn ParticleFilter<D>>>,
+    /// Blend η of Eq. (13): 1 is FLIP, 0 is PIC.
+    pub flip: f64,
+    /// Time step Δt (s).
+    pub dt: f64,
+}
+
+/// The time step (s) of CFL number `cfl` for waves of speed `c` (m/s) on cells of size `h` (m).
+#[must_use]
+pub fn courant_time_step(cfl: f64, h: f64, c: f64) -> f64 {
+    cfl * h / c
+}
+
+/// A run, whatever its basis and law.
+pub trait Simulation<const D: usize>: Send {
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// [`Error::Breakdown`] when the computation breaks down; the state is then that of the middle
+    /// of the step and no further step makes sense.
+    fn step(&mut self) -> Result<(), Error>;
+    /// Time (s).
+    fn time(&self) -> f64;
+    /// The particles, sorted by cell.
+    fn particles(&self) -> &Particles<D>;
+    /// Mass, momentum, energies, J.
+    fn totals(&self) -> Totals;
+    /// Out-of-balance and held forces of the last step.
+    fn residual(&self) -> Residual;
+    /// What the run did so far.
+    fn work(&self) -> Work;
+    /// Replaces `field` (one value per particle) by its average Π `field`.
+    fn average(&mut self, field: &mut [f64]);
+}
+
+/// Sums of one chunk of particles in a gather.
+#[derive(Debug, Clone, Copy, Default)]
+struct ChunkSums {
+    stress_power: f64,
+    load_power: f64,
+    kinetic_energy: f64,
+    largest_increment: f64,
+    wrapped: bool,
+    fault: Option<(usize, Fault)>,
+}
+
+/// The explicit solver for one body.
+pub struct Solver<const D: usize, const S: usize, B, M: Law> {
+    scene: Scene<D, M>,
+    lattice: Lattice<D, S, B>,
+    states: Vec<M::State>,
+    slabs: Vec<Range<usize>>,
+    nodes: Vec<NodalState>,
+    average_nodes: Vec<NodalAverage>,
+    prescribed: Vec<Prescribed>,
+    chunk_sums: Vec<ChunkSums>,
+    /// Largest distance (m) that a particle can have moved since the particles were sorted.
+    drift: f64,
+    wave_speed: f64,
+    time: f64,
+    accumulated: Accumulated,
+    residual: Residual,
+    work: Work,
+    /// Particle–node visits per particle and step, averages aside.
+    transfer_pairs: u64,
+}
+
+impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
+    /// A solver of `scene` at time zero.
+    ///
+    /// # Errors
+    /// A time step, blend or particle of the scene that is not allowed; a particle off the grid; a
+    /// time step beyond the CFL limit.
+    pub fn new(mut scene: Scene<D, M>) -> Result<Self, Error> {
+        require(scene.dt > 0.0, "time step", scene.dt, "positive (s)")?;
+        require(
+            (0.0..=1.0).contains(&scene.flip),
+            "PIC/FLIP blend",
+            scene.flip,
+            "from 0 (PIC) to 1 (FLIP)",
+        )?;
+        for l in scene.particles.half_size.iter().flatten() {
+            require(
+                *l <= 0.5 * scene.grid.h,
+                "particle half size",
+                *l,
+                "at most half a cell (m)",
+            )?;
+        }
+        let lattice = Lattice::new(scene.grid, scene.wall);
+        let density = scene
+            .particles
+            .mass
+            .iter()
+            .zip(&scene.particles.reference_volume)
+            .map(|(m, v)| m / v)
+            .fold(f64::INFINITY, f64::min);
+        scene.remedy.attach(&mut scene.particles);
+        let n = scene.particles.len();
+        let work = Work {
+            particles: n as u64,
+            nodes: lattice.len() as u64,
+            ..Work::default()
+        };
+        let mut solver = Self {
+            states: vec![scene.law.initial_state(); n],
+            slabs: Vec::new(),
+            nodes: vec![NodalState::default(); lattice.len()],
+            average_nodes: vec![NodalAverage::default(); lattice.len()],
+            prescribed: Vec::new(),
+            chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
+            drift: 0.0,
+            wave_speed: scene.law.wave_speed(density),
+            time: 0.0,
+            accumulated: Accumulated::default(),
+            residual: Residual::default(),
+            work,
+            transfer_pairs: 2 * (S as u64).pow(D as u32),
+            lattice,
+            scene,
+        };
+        solver.check_positions()?;
+        solver.declare_constraints();
+        solver.sort();
+        Ok(solver)
+    }
+
+    /// The law of the body.
+    pub fn law(&self) -> &M {
+        &self.scene.law
+    }
+
+    /// The states of the law, in the particles' order.
+    pub fn states(&self) -> &[M::State] {
+        &self.states
+    }
+
+    /// The particles, to set an initial motion.
+    pub fn particles_mut(&mut self) -> &mut Particles<D> {
+        &mut self.scene.particles
+    }
+
+    fn declare_constraints(&mut self) {
+        let (lattice, scene) = (&self.lattice, &self.scene);
+        let prescribed = &mut self.prescribed;
+        lattice.for_each_node(|node, index| {
+            let position = lattice.position(index);
+            for axis in 0..D {
+                let velocity = scene
+                    .constraints
+                    .iter()
+                    .find_map(|c| c.prescribe(&scene.grid, &position, axis));
+                if let Some(velocity) = velocity {
+                    prescribed.push(Prescribed {
+                        node,
+                        axis,
+                        velocity,
+                    });
+                }
+            }
+        });
+    }
+
+    /// Sorts the particles by cell when one of them may have left its cell's neighbours.
+    fn sort_if_needed(&mut self) {
+        if self.drift > self.scene.grid.h {
+            self.sort();
+        }
+    }
+
+    fn sort(&mut self) {
+        let (order, slabs) = cell_order(&self.scene.grid, &self.scene.particles.position);
+        self.scene.particles.permute(&order);
+        permute(&mut self.states, &order);
+        self.slabs = slabs;
+        self.drift = 0.0;
+        self.work.sorts += 1;
+    }
+
+    fn apply_loads(&mut self) {
+        if self.scene.loads.is_empty() {
+            return;
+        }
+        self.scene.particles.external_force.fill([0.0; D]);
+        for load in &self.scene.loads {
+            load.add(self.time, &mut self.scene.particles);
+        }
+    }
+
+    /// Mass, momentum and forces to the nodes, Eqs. (7), (8), (10).
+    fn particles_to_grid(&mut self) {
+        let (lattice, p) = (&self.lattice, &self.scene.particles);
+        self.nodes.fill(NodalState::default());
+        scatter(
+            &mut self.nodes,
+            lattice.plane(),
+            &self.slabs,
+            |slab, nodes, origin| {
+                for k in slab {
+                    let stencil = lattice.stencil(&p.position[k], &p.half_size[k]);
+                    let given = Given {
+                        mass: p.mass[k],
+                        velocity: &p.velocity[k],
+                        volume: p.volume[k],
+                        stress: &p.stress[k],
+                        external_force: &p.external_force[k],
+                    };
+                    particle_to_grid(&stencil, &given, nodes, origin);
+                }
+            },
+        );
+        lattice.fold(&mut self.nodes);
+    }
+
+    /// New nodal velocities, Eq. (9), with filters and constraints.
+    fn update_grid(&mut self) {
+        let dt = self.scene.dt;
+        let mut free_force = 0.0;
+        for node in self.nodes.iter_mut().filter(|n| n.mass() > 0.0) {
+            for a in 0..D {
+                node.motion[a] /= node.mass();
+                free_force += node.change[a].abs();
+            }
+        }
+        let mut held_force = [0.0; 3];
+        for c in &self.prescribed {
+            let f = self.nodes[c.node].change[c.axis];
+            free_force -= f.abs();
+            held_force[c.axis] += f;
+        }
+        self.residual = Residual {
+            free_force: free_force.max(0.0),
+            held_force,
+        };
+        for filter in &self.scene.force_filters {
+            self.accumulated.damping += dt * filter.filter(&mut self.nodes);
+        }
+        for node in self.nodes.iter_mut() {
+            if node.mass() > 0.0 {
+                for a in 0..D {
+                    node.change[a] *= dt / node.mass();
+                    node.motion[a] += node.change[a];
+                }
+            } else {
+                *node = NodalState::default();
+            }
+        }
+        for c in &self.prescribed {
+            let node = &mut self.nodes[c.node];
+            let (free, held) = (node.motion[c.axis], c.velocity);
+            self.accumulated.constraint_loss += 0.5 * node.mass() * (free * free - held * held);
+            node.change[c.axis] += held - free;
+            node.motion[c.axis] = held;
+        }
+        self.lattice.unfold(&mut self.nodes);
+    }
+
+    /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16).
+    fn grid_to_particles(&mut self) -> Result<(), Error> {
+        let (lattice, nodes) = (&self.lattice, &self.nodes);
+        let (dt, eta) = (self.scene.dt, self.scene.flip);
+        let p = &mut self.scene.particles;
+        (
+            self.chunk_sums.par_iter_mut(),
+            p.velocity.par_chunks_mut(CHUNK),
+            p.increment.par_chunks_mut(CHUNK),
+            p.delta_f.par_chunks_mut(CHUNK),
+            p.jacobian.par_chunks_mut(CHUNK),
+            p.position.par_chunks(CHUNK),
+            p.half_size.par_chunks(CHUNK),
+            p.mass.par_chunks(CHUNK),
+            p.volume.par_chunks(CHUNK),
+            p.stress.par_chunks(CHUNK),
+            p.external_force.par_chunks(CHUNK),
+        )
+            .into_par_iter()
+            .enumerate()
+            .for_each(
+                |(c, (sums, v, increment, delta_f, j, x, l, mass, volume, stress, force))| {
+                    *sums = ChunkSums::default();
+                    for k in 0..x.len() {
+                        let got = grid_to_particle(&lattice.stencil(&x[k], &l[k]), nodes);
+                        v[k] = blend(eta, &v[k], &got);
+                        let gradient =
+                            SMatrix::<f64, D, D>::from_fn(|a, b| got.gradient[a][b]);
+                        delta_f[k] = SMatrix::identity() + gradient * dt;
+                        j[k] *= space::determinant(&delta_f[k]);
+                        if sums.fault.is_none()
+                            && let Err(fault) = check_jacobian(j[k])
+                        {
+                            sums.fault = Some((c * CHUNK + k, fault));
+                        }
+                        for a in 0..D {
+                            increment[k][a] = dt * got.velocity[a];
+                            sums.load_power += force[k][a] * got.velocity[a];
+                            sums.kinetic_energy += 0.5 * mass[k] * v[k][a] * v[k][a];
+                            for b in 0..D {
+                                sums.stress_power +=
+                                    volume[k] * stress[k].get(a, b) * got.gradient[a][b];
+                            }
+                        }
+                    }
+                },
+            );
+        self.work.particle_node_pairs += self.transfer_pairs * self.work.particles;
+        for sums in &self.chunk_sums {
+            self.accumulated.stress_work += dt * sums.stress_power;
+            self.accumulated.load_work += dt * sums.load_power;
+        }
+        self.first_fault()
+    }
+
+    /// The remedy's share in the stress that enters the forces.
+    fn adjust_stress(&mut self) {
+        self.with_remedy(|remedy, particles, average| remedy.adjust_stress(particles, average));
+    }
+
+    /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26).
+    fn average_volume_change(&mut self) {
+        self.with_remedy(|remedy, particles, average| remedy.adjust_delta_f(particles, average));
+    }
+
+    fn with_remedy(
+        &mut self,
+        act: impl FnOnce(&mut dyn Remedy<D>, &mut Particles<D>, &mut dyn Average<D>),
+    ) {
+        let before = self.work.projections;
+        let mut projection = Projection {
+            lattice: &self.lattice,
+            slabs: &self.slabs,
+            nodes: &mut self.average_nodes,
+            count: &mut self.work.projections,
+        };
+        act(
+            self.scene.remedy.as_mut(),
+            &mut self.scene.particles,
+            &mut projection,
+        );
+        self.work.particle_node_pairs +=
+            (self.work.projections - before) * self.transfer_pairs * self.work.particles;
+    }
+
+    /// Stress, state and volume of the particles, Eqs. (15), (22).
+    fn update_stress(&mut self) {
+        let (law, dt) = (&self.scene.law, self.scene.dt);
+        let p = &mut self.scene.particles;
+        (
+            self.states.par_chunks_mut(CHUNK),
+            p.stress.par_chunks_mut(CHUNK),
+            p.volume.par_chunks_mut(CHUNK),
+            p.delta_f.par_chunks(CHUNK),
+            p.jacobian.par_chunks(CHUNK),
+            p.reference_volume.par_chunks(CHUNK),
+        )
+            .into_par_iter()
+            .for_each(|(states, stress, volume, delta_f, j, reference_volume)| {
+                for k in 0..states.len() {
+                    (stress[k], states[k]) =
+                        law.update(&space::embed(&delta_f[k]), dt, &states[k]);
+                    volume[k] = j[k] * reference_volume[k];
+                }
+            });
+    }
+
+    /// New positions, Eq. (17).
+    fn move_particles(&mut self) -> Result<(), Error> {
+        let grid = &self.scene.grid;
+        let wave_distance = self.wave_speed * self.scene.dt;
+        let p = &mut self.scene.particles;
+        (
+            self.chunk_sums.par_iter_mut(),
+            p.position.par_chunks_mut(CHUNK),
+            p.increment.par_chunks(CHUNK),
+        )
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(c, (sums, x, increment))| {
+                for k in 0..x.len() {
+                    let mut distance = 0.0_f64;
+                    for a in 0..D {
+                        x[k][a] += increment[k][a];
+                        distance = distance.max(increment[k][a].abs());
+                    }
+                    sums.largest_increment = sums.largest_increment.max(distance);
+                    let checked = check_cfl((distance + wave_distance) / grid.h)
+                        .and_then(|()| place_on_grid(grid, &mut x[k]));
+                    match checked {
+                        Ok(wrapped) => sums.wrapped |= wrapped,
+                        Err(fault) => {
+                            sums.fault.get_or_insert((c * CHUNK + k, fault));
+                        }
+                    }
+                }
+            });
+        let mut wrapped = false;
+        let mut largest = 0.0_f64;
+        for sums in &self.chunk_sums {
+            wrapped |= sums.wrapped;
+            largest = largest.max(sums.largest_increment);
+        }
+        self.drift += if wrapped { f64::INFINITY } else { largest };
+        self.first_fault()
+    }
+
+    fn filter_particles(&mut self) {
+        let mut kinetic: f64 = self.chunk_sums.iter().map(|s| s.kinetic_energy).sum();
+        for filter in &mut self.scene.particle_filters {
+            let loss = filter.filter(kinetic, &mut self.scene.particles);
+            self.accumulated.filter_loss += loss;
+            kinetic -= loss;
+        }
+    }
+
+    fn check_positions(&mut self) -> Result<(), Error> {
+        check_cfl(self.wave_speed * self.scene.dt / self.scene.grid.h)
+            .map_err(|fault| self.breakdown(0, fault))?;
+        for k in 0..self.scene.particles.len() {
+            let mut x = self.scene.particles.position[k];
+            let placed = place_on_grid(&self.scene.grid, &mut x);
+            placed.map_err(|fault| self.breakdown(k, fault))?;
+            self.scene.particles.position[k] = x;
+        }
+        Ok(())
+    }
+
+    fn breakdown(&self, index: usize, fault: Fault) -> Error {
+        Error::Breakdown {
+            time: self.time,
+            step: self.work.steps,
+            particle: self.scene.particles.id.get(index).copied().unwrap_or(0),
+            fault,
+        }
+    }
+
+    fn first_fault(&self) -> Result<(), Error> {
+        match self.chunk_sums.iter().find_map(|s| s.fault) {
+            Some((index, fault)) => Err(self.breakdown(index, fault)),
+            None => Ok(()),
+        }
+    }
+}
+
+fn check_jacobian(j: f64) -> Result<(), Fault> {
+    if !j.is_finite() {
+        return Err(Fault::NotFinite {
+            quantity: "Jacobian J",
+            value: j,
+        });
+    }
+    if j <= 0.0 {
+        return Err(Fault::NonPositiveJacobian(j));
+    }
+    Ok(())
+}
+
+fn check_cfl(cfl: f64) -> Result<(), Fault> {
+    if cfl > CFL_LIMIT {
+        return Err(Fault::UnstableTimeStep {
+            cfl,
+            limit: CFL_LIMIT,
+        });
+    }
+    Ok(())
+}
+
+/// Brings a position on a periodic axis back between its ends (true when it had left) and checks the
+/// others.
+fn place_on_grid<const D: usize>(grid: &Grid<D>, x: &mut [f64; D]) -> Result<bool, Fault> {
+    let mut wrapped = false;
+    for (axis, (x, ends)) in x.iter_mut().zip(&grid.axes).enumerate() {
+        let (lo, hi) = (ends.lo, ends.hi(grid.h));
+        if *x >= lo && *x < hi {
+            continue;
+        }
+        if !x.is_finite() {
+            return Err(Fault::NotFinite {
+                quantity: "position",
+                value: *x,
+            });
+        }
+        if ends.is_periodic() {
+            *x = lo + (*x - lo).rem_euclid(hi - lo);
+            wrapped = true;
+        } else if *x != hi {
+            return Err(Fault::OffGrid {
+                axis,
+                value: *x,
+                lo,
+                hi,
+            });
+        }
+    }
+    Ok(wrapped)
+}
+
+impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Simulation<D> for Solver<D, S, B, M> {
+    fn step(&mut self) -> Result<(), Error> {
+        self.sort_if_needed();
+        self.apply_loads();
+        self.adjust_stress();
+        self.particles_to_grid();
+        self.update_grid();
+        self.grid_to_particles()?;
+        self.average_volume_change();
+        self.update_stress();
+        self.move_particles()?;
+        self.filter_particles();
+        self.time += self.scene.dt;
+        self.work.steps += 1;
+        self.work.particle_steps += self.work.particles;
+        Ok(())
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn particles(&self) -> &Particles<D> {
+        &self.scene.particles
+    }
+
+    fn totals(&self) -> Totals {
+        Totals::of(
+            &self.scene.law,
+            &self.scene.particles,
+            &self.states,
+            self.accumulated,
+        )
+    }
+
+    fn residual(&self) -> Residual {
+        self.residual
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+
+    fn average(&mut self, field: &mut [f64]) {
+        let mut uncounted = 0;
+        Projection {
+            lattice: &self.lattice,
+            slabs: &self.slabs,
+            nodes: &mut self.average_nodes,
+            count: &mut uncounted,
+        }
+        .average(&self.scene.particles, field);
+    }
+}

@@ -1,0 +1,81 @@
+//! Body forces and dead forces.
+
+use super::Load;
+use crate::particles::Particles;
+
+/// A field of body force per unit mass (N/kg) as a function of the reference position (m) and time (s).
+pub type ForceField<const D: usize> = Box<dyn Fn(&[f64; D], f64) -> [f64; D] + Send + Sync>;
+
+/// A body force per unit mass, evaluated at the particles' reference positions.
+pub struct BodyForce<const D: usize>(pub ForceField<D>);
+
+impl<const D: usize> Load<D> for BodyForce<D> {
+    fn add(&self, time: f64, particles: &mut Particles<D>) {
+        let columns = particles
+            .external_force
+            .iter_mut()
+            .zip(&particles.reference)
+            .zip(&particles.mass);
+        for ((force, reference), mass) in columns {
+            let b = (self.0)(reference, time);
+            for (f, b) in force.iter_mut().zip(b) {
+                *f += mass * b;
+            }
+        }
+    }
+}
+
+/// A constant force on each of a set of particles: a dead traction, lumped to the particles that
+/// line the loaded side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeadForce<const D: usize> {
+    loaded: Vec<bool>,
+    force: [f64; D],
+    ramp: f64,
+}
+
+impl<const D: usize> DeadForce<D> {
+    /// Shares `total` (N) equally among the particles whose reference position satisfies `select`. It
+    /// grows as a smooth step over the first `ramp` seconds (0: it is there at once).
+    pub fn shared(
+        total: [f64; D],
+        ramp: f64,
+        particles: &Particles<D>,
+        select: impl Fn(&[f64; D]) -> bool,
+    ) -> Self {
+        let mut loaded = vec![false; particles.len()];
+        for (id, reference) in particles.id.iter().zip(&particles.reference) {
+            loaded[*id as usize] = select(reference);
+        }
+        let count = loaded.iter().filter(|&&l| l).count().max(1) as f64;
+        Self {
+            loaded,
+            force: total.map(|f| f / count),
+            ramp,
+        }
+    }
+
+    /// How many particles carry the load.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.loaded.iter().filter(|&&l| l).count()
+    }
+}
+
+impl<const D: usize> Load<D> for DeadForce<D> {
+    fn add(&self, time: f64, particles: &mut Particles<D>) {
+        let share = if time < self.ramp {
+            let s = time / self.ramp;
+            s * s * (3.0 - 2.0 * s)
+        } else {
+            1.0
+        };
+        for (force, id) in particles.external_force.iter_mut().zip(&particles.id) {
+            if self.loaded[*id as usize] {
+                for (f, add) in force.iter_mut().zip(self.force) {
+                    *f += share * add;
+                }
+            }
+        }
+    }
+}

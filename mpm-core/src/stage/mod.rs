@@ -1,0 +1,66 @@
+//! What a scene does to the motion, beyond the material itself.
+//!
+//! Four roles, called once per step; a scene lists the stages that it has, and an absent one costs
+//! nothing:
+//! * a [`Load`] adds to the particles' external force;
+//! * a [`ForceFilter`] changes nodal forces, knowing the nodal velocities (damping);
+//! * a [`Constraint`] declares nodes, axes and prescribed velocities;
+//! * a [`ParticleFilter`] acts on the particles after the step (kinetic damping).
+
+mod kinetic_damping;
+mod load;
+mod local_damping;
+mod rest;
+mod wall;
+
+pub use kinetic_damping::KineticDamping;
+pub use load::{BodyForce, DeadForce, ForceField};
+pub use local_damping::LocalDamping;
+pub use rest::{Observation, RestCriterion};
+pub use wall::{End, Wall, WallKind};
+
+use crate::particles::Particles;
+use crate::transfer::NodalState;
+
+/// A load on the particles.
+pub trait Load<const D: usize>: Send {
+    /// Adds the load at `time` (s) to the particles' external force (N).
+    fn add(&self, time: f64, particles: &mut Particles<D>);
+}
+
+/// A filter of nodal forces.
+pub trait ForceFilter: Send {
+    /// Changes the force (N, in `change`) of nodes whose `motion` is their velocity (m/s) before the
+    /// update; returns the power (W) that it takes from the motion.
+    fn filter(&self, nodes: &mut [NodalState]) -> f64;
+}
+
+/// A prescribed component of a nodal velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prescribed {
+    /// Index of the node in nodal arrays.
+    pub node: usize,
+    /// Component.
+    pub axis: usize,
+    /// Velocity (m/s).
+    pub velocity: f64,
+}
+
+/// A constraint on the motion of nodes. An explicit solver overwrites, an implicit one eliminates.
+pub trait Constraint<const D: usize>: Send {
+    /// Whether the node at `position` (m), of a lattice on `grid`, is constrained along `axis`, and
+    /// to which velocity (m/s).
+    fn prescribe(
+        &self,
+        grid: &crate::Grid<D>,
+        position: &[f64; D],
+        axis: usize,
+    ) -> Option<f64>;
+}
+
+/// A filter of the particles at the end of a step.
+pub trait ParticleFilter<const D: usize>: Send {
+    /// Changes the particles, knowing their kinetic energy (J) after the step; returns the energy (J)
+    /// that it takes from the motion.
+    fn filter(&mut self, kinetic_energy: f64, particles: &mut Particles<D>) -> f64;
+}

@@ -1,0 +1,126 @@
+//! When a relaxed motion counts as at rest.
+
+use std::collections::VecDeque;
+
+/// What is observed of a motion at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observation {
+    /// Time (s).
+    pub time: f64,
+    /// Σ|f| over the free nodal components, over the magnitude of the load.
+    pub force_ratio: f64,
+    /// Kinetic over stored energy.
+    pub energy_ratio: f64,
+    /// A displacement to watch (m).
+    pub displacement: f64,
+}
+
+/// At rest: over a whole window of time the out-of-balance force and the kinetic energy stay small,
+/// and the watched displacement drifts so slowly that it would change by less than `drift` of itself
+/// in a fundamental period.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RestCriterion {
+    /// Largest [`Observation::force_ratio`].
+    pub force_ratio: f64,
+    /// Largest [`Observation::energy_ratio`].
+    pub energy_ratio: f64,
+    /// Largest relative drift per period.
+    pub drift: f64,
+    /// Fundamental period (s).
+    pub period: f64,
+    /// Length of the window (s).
+    pub window: f64,
+    /// The observations of the window.
+    history: VecDeque<Observation>,
+}
+
+impl RestCriterion {
+    /// A criterion without history.
+    #[must_use]
+    pub fn new(force_ratio: f64, energy_ratio: f64, drift: f64, period: f64, window: f64) -> Self {
+        Self {
+            force_ratio,
+            energy_ratio,
+            drift,
+            period,
+            window,
+            history: VecDeque::new(),
+        }
+    }
+
+    /// Takes an observation; true when the motion is at rest.
+    pub fn observe(&mut self, now: Observation) -> bool {
+        self.history.push_back(now);
+        while self
+            .history
+            .get(1)
+            .is_some_and(|second| now.time - second.time >= self.window)
+        {
+            self.history.pop_front();
+        }
+        let Some(first) = self.history.front() else {
+            return false;
+        };
+        if now.time - first.time < self.window {
+            return false;
+        }
+        let small = self.history.iter().all(|o| {
+            o.force_ratio <= self.force_ratio && o.energy_ratio <= self.energy_ratio
+        });
+        small && self.drift_per_period() <= self.drift
+    }
+
+    /// Relative drift of the watched displacement over the window, extrapolated to a period.
+    #[must_use]
+    pub fn drift_per_period(&self) -> f64 {
+        match (self.history.front(), self.history.back()) {
+            (Some(first), Some(last)) if last.time > first.time => {
+                let change = (last.displacement - first.displacement).abs();
+                change / last.displacement.abs() * self.period / (last.time - first.time)
+            }
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(time: f64, force_ratio: f64, displacement: f64) -> Observation {
+        Observation {
+            time,
+            force_ratio,
+            energy_ratio: 0.0,
+            displacement,
+        }
+    }
+
+    #[test]
+    fn a_still_motion_rests_after_one_window() {
+        let mut rest = RestCriterion::new(1e-3, 1e-3, 1e-4, 10.0, 1.0);
+        let rested: Vec<bool> = (0..5)
+            .map(|k| rest.observe(at(0.5 * f64::from(k), 1e-4, 1.0)))
+            .collect();
+        assert_eq!(rested, [false, false, true, true, true]);
+    }
+
+    #[test]
+    fn creep_never_rests_though_forces_balance() {
+        let mut rest = RestCriterion::new(1e-3, 1e-3, 1e-4, 10.0, 1.0);
+        assert!((0..100).all(|k| {
+            let t = 0.1 * f64::from(k);
+            !rest.observe(at(t, 0.0, 1.0 + 2e-5 * t))
+        }));
+    }
+
+    #[test]
+    fn one_large_force_in_the_window_forbids_rest() {
+        let mut rest = RestCriterion::new(1e-3, 1e-3, 1e-4, 10.0, 1.0);
+        rest.observe(at(0.0, 1e-4, 1.0));
+        rest.observe(at(0.6, 1e-2, 1.0));
+        assert!(!rest.observe(at(1.1, 1e-4, 1.0)));
+        assert!(!rest.observe(at(1.6, 1e-4, 1.0)));
+        assert!(rest.observe(at(2.7, 1e-4, 1.0)));
+    }
+}

@@ -1,0 +1,123 @@
+//! Symmetric second-order tensors in three dimensions, stored without their mirror components.
+
+use nalgebra::Matrix3;
+
+/// A symmetric 3×3 tensor (a stress in Pa, a left Cauchy–Green tensor).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SymmetricTensor {
+    /// Component 11.
+    pub xx: f64,
+    /// Component 22.
+    pub yy: f64,
+    /// Component 33.
+    pub zz: f64,
+    /// Component 12.
+    pub xy: f64,
+    /// Component 23.
+    pub yz: f64,
+    /// Component 13.
+    pub xz: f64,
+}
+
+impl SymmetricTensor {
+    /// The identity.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self {
+            xx: 1.0,
+            yy: 1.0,
+            zz: 1.0,
+            ..Self::default()
+        }
+    }
+
+    /// The symmetric part of `m`.
+    #[must_use]
+    pub fn symmetric_part(m: &Matrix3<f64>) -> Self {
+        Self {
+            xx: m[(0, 0)],
+            yy: m[(1, 1)],
+            zz: m[(2, 2)],
+            xy: 0.5 * (m[(0, 1)] + m[(1, 0)]),
+            yz: 0.5 * (m[(1, 2)] + m[(2, 1)]),
+            xz: 0.5 * (m[(0, 2)] + m[(2, 0)]),
+        }
+    }
+
+    /// As a full matrix.
+    #[must_use]
+    pub fn to_matrix(&self) -> Matrix3<f64> {
+        Matrix3::new(
+            self.xx, self.xy, self.xz, self.xy, self.yy, self.yz, self.xz, self.yz, self.zz,
+        )
+    }
+
+    /// Component (`i`, `j`), counted from zero and below three.
+    #[must_use]
+    #[inline]
+    pub fn get(&self, i: usize, j: usize) -> f64 {
+        match (i.min(j), i.max(j)) {
+            (0, 0) => self.xx,
+            (1, 1) => self.yy,
+            (0, 1) => self.xy,
+            (1, 2) => self.yz,
+            (0, 2) => self.xz,
+            _ => self.zz,
+        }
+    }
+
+    /// Trace.
+    #[must_use]
+    #[inline]
+    pub fn trace(&self) -> f64 {
+        self.xx + self.yy + self.zz
+    }
+
+    /// A third of the trace: for a Cauchy stress the mean normal stress (Pa, tension positive).
+    #[must_use]
+    #[inline]
+    pub fn mean(&self) -> f64 {
+        self.trace() / 3.0
+    }
+
+    /// Determinant.
+    #[must_use]
+    #[inline]
+    pub fn determinant(&self) -> f64 {
+        self.xx * (self.yy * self.zz - self.yz * self.yz)
+            - self.xy * (self.xy * self.zz - self.yz * self.xz)
+            + self.xz * (self.xy * self.yz - self.yy * self.xz)
+    }
+
+    /// `a self + b I`.
+    #[must_use]
+    #[inline]
+    pub fn scale_add_identity(&self, a: f64, b: f64) -> Self {
+        Self {
+            xx: a * self.xx + b,
+            yy: a * self.yy + b,
+            zz: a * self.zz + b,
+            xy: a * self.xy,
+            yz: a * self.yz,
+            xz: a * self.xz,
+        }
+    }
+
+    /// `f self fᵀ`: the push-forward of a left Cauchy–Green tensor by a relative deformation gradient.
+    #[must_use]
+    #[inline]
+    pub fn push_forward(&self, f: &Matrix3<f64>) -> Self {
+        let m = f * self.to_matrix();
+        let entry = |i: usize, j: usize| {
+            m[(i, 0)] * f[(j, 0)] + m[(i, 1)] * f[(j, 1)] + m[(i, 2)] * f[(j, 2)]
+        };
+        Self {
+            xx: entry(0, 0),
+            yy: entry(1, 1),
+            zz: entry(2, 2),
+            xy: entry(0, 1),
+            yz: entry(1, 2),
+            xz: entry(0, 2),
+        }
+    }
+}
