@@ -60,11 +60,15 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
     }
 
     /// The basis functions that see a particle at `x` (m) with half sizes `half_size` (m).
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn stencil(&self, x: &[f64; D], half_size: &[f64; D]) -> Stencil<D, S> {
+        let mut axis = [AxisWeights::NONE; D];
+        for a in 0..D {
+            axis[a] = self.bases[a].weights(x[a], half_size[a]);
+        }
         Stencil {
-            axis: std::array::from_fn(|a| self.bases[a].weights(x[a], half_size[a])),
+            axis,
             strides: self.strides,
         }
     }
@@ -142,42 +146,39 @@ pub struct Row<const D: usize> {
 }
 
 impl<const D: usize, const S: usize> Stencil<D, S> {
-    /// Visits the stencil row by row, weights factorised: on a row the weight of node `k` is
+    /// Rows of a stencil.
+    pub const ROWS: usize = S.pow(D as u32 - 1);
+
+    /// Row `r` of the stencil, weights factorised: on it the weight of node `k` is
     /// `row.w * last.w[k]` and its gradient `row.gradient[a] * last.w[k]`, with `last.dw[k]` instead
     /// of `last.w[k]` in the last direction.
     #[inline(always)]
-    pub fn for_each_row(&self, mut visit: impl FnMut(Row<D>)) {
-        let corner = self.axis[D - 1].first + PLANES_BEFORE * self.strides[0];
+    #[must_use]
+    pub fn row(&self, r: usize) -> Row<D> {
+        let begin = self.last().first + PLANES_BEFORE * self.strides[0];
         let mut row = Row {
-            node: corner,
+            node: begin,
             w: 1.0,
             gradient: [1.0; D],
         };
-        if D == 1 {
-            visit(row);
-            return;
+        if D == 2 {
+            let outer = &self.axis[0];
+            row.node = begin + (outer.first + r) * self.strides[0];
+            row.w = outer.w[r];
+            row.gradient[0] = outer.dw[r];
         }
-        let outer = &self.axis[0];
-        for i in 0..S {
-            let plane = corner + (outer.first + i) * self.strides[0];
-            if D == 2 {
-                row.node = plane;
-                row.w = outer.w[i];
-                row.gradient[0] = outer.dw[i];
-                row.gradient[D - 1] = row.w;
-                visit(row);
-                continue;
-            }
-            let middle = &self.axis[1];
-            for j in 0..S {
-                row.node = plane + (middle.first + j) * self.strides[1];
-                row.w = outer.w[i] * middle.w[j];
-                row.gradient[0] = outer.dw[i] * middle.w[j];
-                row.gradient[1] = outer.w[i] * middle.dw[j];
-                row.gradient[D - 1] = row.w;
-                visit(row);
-            }
+        if D == 3 {
+            let (outer, middle) = (&self.axis[0], &self.axis[1]);
+            let (i, j) = (r / S, r % S);
+            row.node = begin
+                + (outer.first + i) * self.strides[0]
+                + (middle.first + j) * self.strides[1];
+            row.w = outer.w[i] * middle.w[j];
+            row.gradient[0] = outer.dw[i] * middle.w[j];
+            row.gradient[1] = outer.w[i] * middle.dw[j];
         }
+        row.gradient[D - 1] = row.w;
+        row
     }
 
     /// The weights along the last axis.
@@ -185,16 +186,5 @@ impl<const D: usize, const S: usize> Stencil<D, S> {
     #[must_use]
     pub fn last(&self) -> &AxisWeights<S> {
         &self.axis[D - 1]
-    }
-
-    /// Calls `visit(node, weight)` for every node of the stencil.
-    #[inline(always)]
-    pub fn for_each_weight(&self, mut visit: impl FnMut(usize, f64)) {
-        let last = self.last();
-        self.for_each_row(|row| {
-            for (k, w) in last.w.iter().enumerate() {
-                visit(row.node + k, row.w * w);
-            }
-        });
     }
 }

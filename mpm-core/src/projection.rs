@@ -4,7 +4,7 @@
 //! constants, V Π is symmetric, and its eigenvalues lie in \[0, 1\].
 
 use crate::basis::Basis;
-use crate::lattice::Lattice;
+use crate::lattice::{Lattice, Stencil};
 use crate::parallel::{CHUNK, scatter};
 use crate::particles::Particles;
 use rayon::prelude::*;
@@ -61,14 +61,18 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, 
             self.slabs,
             |slab, nodes, first| {
                 for p in slab {
-                    let volume = volume[p];
-                    let value = volume * values[p];
-                    lattice.stencil(&x[p], &l[p]).for_each_weight(|node, w| {
-                        nodes[node - first] += NodalAverage {
-                            value: w * value,
-                            volume: w * volume,
-                        };
-                    });
+                    let stencil = lattice.stencil(&x[p], &l[p]);
+                    let last = stencil.last();
+                    for r in 0..Stencil::<D, S>::ROWS {
+                        let row = stencil.row(r);
+                        let begin = row.node - first;
+                        let row_volume = row.w * volume[p];
+                        let row_value = row_volume * values[p];
+                        for (node, w) in nodes[begin..begin + S].iter_mut().zip(&last.w) {
+                            node.value += w * row_value;
+                            node.volume += w * row_volume;
+                        }
+                    }
                 }
             },
         );
@@ -86,10 +90,15 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, 
             .zip(l.par_chunks(CHUNK))
             .for_each(|((field, x), l)| {
                 for ((q, x), l) in field.iter_mut().zip(x).zip(l) {
+                    let stencil = lattice.stencil(x, l);
+                    let last = stencil.last();
                     let mut sum = 0.0;
-                    lattice
-                        .stencil(x, l)
-                        .for_each_weight(|node, w| sum += w * nodes[node].value);
+                    for r in 0..Stencil::<D, S>::ROWS {
+                        let row = stencil.row(r);
+                        let nodes = &nodes[row.node..row.node + S];
+                        let row_sum: f64 = nodes.iter().zip(&last.w).map(|(n, w)| w * n.value).sum();
+                        sum += row.w * row_sum;
+                    }
                     *q = sum;
                 }
             });

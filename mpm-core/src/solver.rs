@@ -260,14 +260,18 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
         let dt = self.scene.dt;
         let mut free_force = 0.0;
         for node in self.nodes.iter_mut().filter(|n| n.mass() > 0.0) {
-            for a in 0..D {
-                node.motion[a] /= node.mass();
-                free_force += node.change[a].abs();
+            let mass = node.mass();
+            let motion = node.motion.as_mut_array();
+            for v in &mut motion[..D] {
+                *v /= mass;
+            }
+            for f in &node.change.as_array()[..D] {
+                free_force += f.abs();
             }
         }
         let mut held_force = [0.0; 3];
         for c in &self.prescribed {
-            let f = self.nodes[c.node].change[c.axis];
+            let f = self.nodes[c.node].change.as_array()[c.axis];
             free_force -= f.abs();
             held_force[c.axis] += f;
         }
@@ -280,20 +284,19 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
         }
         for node in self.nodes.iter_mut() {
             if node.mass() > 0.0 {
-                for a in 0..D {
-                    node.change[a] *= dt / node.mass();
-                    node.motion[a] += node.change[a];
-                }
+                // The padding of the force is zero, so the mass stays what it is.
+                node.change *= dt / node.mass();
+                node.motion += node.change;
             } else {
                 *node = NodalState::default();
             }
         }
         for c in &self.prescribed {
             let node = &mut self.nodes[c.node];
-            let (free, held) = (node.motion[c.axis], c.velocity);
+            let (free, held) = (node.motion.as_array()[c.axis], c.velocity);
             self.accumulated.constraint_loss += 0.5 * node.mass() * (free * free - held * held);
-            node.change[c.axis] += held - free;
-            node.motion[c.axis] = held;
+            node.change.as_mut_array()[c.axis] += held - free;
+            node.motion.as_mut_array()[c.axis] = held;
         }
         self.lattice.unfold(&mut self.nodes);
     }

@@ -15,9 +15,9 @@ geometrically towards all sides (the clamped corner (0,44) is singular):
 
 The stored values come from the mixed formulation.  Their uncertainty is twice
 the largest difference from three other discretisations: mixed of one degree
-more, mixed on a mesh coarser throughout (four times at the sides), and
-displacement of one degree more on that coarser mesh.  The last one counts for displacements only, as its lambda ln J
-oscillates when nu is near 1/2.
+more, mixed on a coarser mesh (five times coarser at the sides), and
+displacement of one degree more on that coarser mesh.  The last one counts for
+displacements only, as its lambda ln J oscillates when nu is near 1/2.
 
 cook.json holds the displacement of the tip (48,60), of the middle (48,52) of
 the right side and the mean of u_y over that side, the mean Cauchy stress

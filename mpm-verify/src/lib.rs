@@ -1,2 +1,20 @@
-//! x
+//! The verification bench of the material point method.
+//!
+//! A [`case::Case`] is a problem with its parameters, schemes, levels and checks. Running one gives a
+//! [`record::Record`] with metrics; checks turn metrics into verdicts ([`check::Verdict`]); a study
+//! runs many side by side; the report draws. Every hand-off is a plain file, so each later stage runs
+//! again without simulating.
+
+pub mod case;
+pub mod cases;
+pub mod check;
+pub mod error;
+pub mod files;
+pub mod parameter;
+pub mod probe;
+pub mod record;
 pub mod report;
+pub mod run;
+pub mod scheme;
+pub mod statistics;
+pub mod study;

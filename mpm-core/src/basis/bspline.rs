@@ -102,24 +102,27 @@ impl<const S: usize> Basis<S> for BSpline<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn weights(&self, x: f64, _half_size: f64) -> AxisWeights<S> {
         let distance = (x - self.origin) * self.inverse_h;
         let first = (distance as usize).min(self.pattern.len() - 1);
         let t = distance - first as f64;
         let c = &self.polynomials[self.pattern[first]];
-        let mut w = c[S - 1];
-        let mut dw = [0.0; S];
+        let mut weights = AxisWeights {
+            first,
+            w: c[S - 1],
+            dw: [0.0; S],
+        };
         for k in (0..S - 1).rev() {
             for s in 0..S {
-                dw[s] = dw[s] * t + w[s];
-                w[s] = w[s] * t + c[k][s];
+                weights.dw[s] = weights.dw[s] * t + weights.w[s];
+                weights.w[s] = weights.w[s] * t + c[k][s];
             }
         }
-        for d in &mut dw {
+        for d in &mut weights.dw {
             *d *= self.inverse_h;
         }
-        AxisWeights { first, w, dw }
+        weights
     }
 }
 

@@ -43,7 +43,7 @@ impl Basis<3> for Gimp {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn weights(&self, x: f64, half_size: f64) -> AxisWeights<3> {
         let length = 2.0 * half_size * self.inverse_h;
         let begin = (x - half_size - self.origin) * self.inverse_h;

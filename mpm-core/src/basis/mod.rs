@@ -26,6 +26,15 @@ pub struct AxisWeights<const S: usize> {
     pub dw: [f64; S],
 }
 
+impl<const S: usize> AxisWeights<S> {
+    /// No weight anywhere.
+    pub const NONE: Self = Self {
+        first: 0,
+        w: [0.0; S],
+        dw: [0.0; S],
+    };
+}
+
 /// The nodes of a basis along one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisNodes {

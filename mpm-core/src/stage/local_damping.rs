@@ -32,7 +32,8 @@ impl ForceFilter for LocalDamping {
     fn filter(&self, nodes: &mut [NodalState]) -> f64 {
         let mut power = 0.0;
         for node in nodes {
-            for (v, f) in node.motion[..3].iter().zip(&mut node.change[..3]) {
+            let velocity = node.motion.as_array()[..3].iter();
+            for (v, f) in velocity.zip(&mut node.change.as_mut_array()[..3]) {
                 if *v != 0.0 {
                     let opposing = self.alpha * f.abs();
                     power += opposing * v.abs();

@@ -1,6 +1,6 @@
 //! The PIC/FLIP transfer, Eqs. (7), (8), (10)–(13).
 
-use super::{NodalState, Node, axpy, pad};
+use super::{NodalState, Node};
 use crate::lattice::Stencil;
 use crate::tensor::SymmetricTensor;
 
@@ -28,36 +28,35 @@ pub fn particle_to_grid<const D: usize, const S: usize>(
     nodes: &mut [NodalState],
     origin: usize,
 ) {
-    let momentum: [f64; D] = std::array::from_fn(|a| given.mass * given.velocity[a]);
-    let carried = pad(&momentum, given.mass);
-    let external = pad(given.external_force, 0.0);
-    let flux: [Node; D] = std::array::from_fn(|b| {
-        pad::<D>(
-            &std::array::from_fn(|a| -given.volume * given.stress.get(a, b)),
-            0.0,
-        )
-    });
-    let last = stencil.last();
-    stencil.for_each_row(|row| {
-        // On a row the force is `across` w + `along` w′ of the last axis.
-        let mut row_carried = [0.0; 4];
-        axpy(&mut row_carried, row.w, &carried);
-        let mut across = [0.0; 4];
-        axpy(&mut across, row.w, &external);
-        for a in 0..D - 1 {
-            axpy(&mut across, row.gradient[a], &flux[a]);
+    let mut carried = [0.0, 0.0, 0.0, given.mass];
+    let mut external = [0.0; 4];
+    let mut flux = [[0.0; 4]; D];
+    for a in 0..D {
+        carried[a] = given.mass * given.velocity[a];
+        external[a] = given.external_force[a];
+        for b in 0..D {
+            flux[b][a] = -given.volume * given.stress.get(a, b);
         }
-        let mut along = [0.0; 4];
-        axpy(&mut along, row.gradient[D - 1], &flux[D - 1]);
+    }
+    let (carried, external) = (Node::from(carried), Node::from(external));
+    let last = stencil.last();
+    for r in 0..Stencil::<D, S>::ROWS {
+        let row = stencil.row(r);
+        // On a row the force is `across` w + `along` w′ of the last axis.
+        let row_carried = carried * row.w;
+        let mut across = external * row.w;
+        for a in 0..D - 1 {
+            across += Node::from(flux[a]) * row.gradient[a];
+        }
+        let along = Node::from(flux[D - 1]) * row.gradient[D - 1];
 
         let begin = row.node - origin;
         let nodes = &mut nodes[begin..begin + S];
         for k in 0..S {
-            axpy(&mut nodes[k].motion, last.w[k], &row_carried);
-            axpy(&mut nodes[k].change, last.w[k], &across);
-            axpy(&mut nodes[k].change, last.dw[k], &along);
+            nodes[k].motion += row_carried * last.w[k];
+            nodes[k].change += across * last.w[k] + along * last.dw[k];
         }
-    });
+    }
 }
 
 /// What a particle receives from the grid.
@@ -77,36 +76,49 @@ pub fn grid_to_particle<const D: usize, const S: usize>(
     stencil: &Stencil<D, S>,
     nodes: &[NodalState],
 ) -> Received<D> {
-    let mut v = [0.0; 4];
-    let mut dv = [0.0; 4];
-    let mut columns = [[0.0; 4]; D];
+    let (mut v, mut dv) = (Node::ZERO, Node::ZERO);
+    let mut columns = [Node::ZERO; D];
     let last = stencil.last();
-    stencil.for_each_row(|row| {
+    for r in 0..Stencil::<D, S>::ROWS {
+        let row = stencil.row(r);
         let nodes = &nodes[row.node..row.node + S];
-        let (mut value, mut slope, mut change) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        let (mut value, mut slope, mut change) = (Node::ZERO, Node::ZERO, Node::ZERO);
         for k in 0..S {
-            axpy(&mut value, last.w[k], &nodes[k].motion);
-            axpy(&mut slope, last.dw[k], &nodes[k].motion);
-            axpy(&mut change, last.w[k], &nodes[k].change);
+            value += nodes[k].motion * last.w[k];
+            slope += nodes[k].motion * last.dw[k];
+            change += nodes[k].change * last.w[k];
         }
-        axpy(&mut v, row.w, &value);
-        axpy(&mut dv, row.w, &change);
+        v += value * row.w;
+        dv += change * row.w;
         for a in 0..D - 1 {
-            axpy(&mut columns[a], row.gradient[a], &value);
+            columns[a] += value * row.gradient[a];
         }
-        axpy(&mut columns[D - 1], row.gradient[D - 1], &slope);
-    });
-    Received {
-        velocity: std::array::from_fn(|a| v[a]),
-        increment: std::array::from_fn(|a| dv[a]),
-        gradient: std::array::from_fn(|a| std::array::from_fn(|b| columns[b][a])),
+        columns[D - 1] += slope * row.gradient[D - 1];
     }
+    let (v, dv) = (v.to_array(), dv.to_array());
+    let columns = columns.map(Node::to_array);
+    let mut received = Received {
+        velocity: [0.0; D],
+        increment: [0.0; D],
+        gradient: [[0.0; D]; D],
+    };
+    for a in 0..D {
+        received.velocity[a] = v[a];
+        received.increment[a] = dv[a];
+        for b in 0..D {
+            received.gradient[a][b] = columns[b][a];
+        }
+    }
+    received
 }
 
 /// The blend of Eq. (13): `eta` = 1 is FLIP, 0 is PIC.
 #[inline(always)]
 pub fn blend<const D: usize>(eta: f64, old: &[f64; D], received: &Received<D>) -> [f64; D] {
-    std::array::from_fn(|a| {
-        eta * (old[a] + received.increment[a]) + (1.0 - eta) * received.velocity[a]
-    })
+    let mut new = *old;
+    for a in 0..D {
+        let flip = old[a] + received.increment[a];
+        new[a] = eta * flip + (1.0 - eta) * received.velocity[a];
+    }
+    new
 }

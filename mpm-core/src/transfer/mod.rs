@@ -3,9 +3,10 @@
 pub mod flip;
 
 use std::ops::AddAssign;
+use wide::f64x4;
 
 /// A nodal vector, padded to four components; the last one is free for a scalar (the mass).
-pub type Node = [f64; 4];
+pub type Node = f64x4;
 
 /// What the nodes hold during a step: one cache line each.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,8 +20,8 @@ pub struct NodalState {
 
 impl AddAssign for NodalState {
     fn add_assign(&mut self, other: Self) {
-        axpy(&mut self.motion, 1.0, &other.motion);
-        axpy(&mut self.change, 1.0, &other.change);
+        self.motion += other.motion;
+        self.change += other.change;
     }
 }
 
@@ -29,22 +30,6 @@ impl NodalState {
     #[must_use]
     #[inline(always)]
     pub fn mass(&self) -> f64 {
-        self.motion[3]
+        self.motion.as_array()[3]
     }
-}
-
-/// `y += a x`, component-wise.
-#[inline(always)]
-pub(crate) fn axpy(y: &mut Node, a: f64, x: &Node) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y += a * x;
-    }
-}
-
-/// `v` padded to a node, with `last` as the scalar.
-#[inline(always)]
-pub(crate) fn pad<const D: usize>(v: &[f64; D], last: f64) -> Node {
-    let mut node = [0.0, 0.0, 0.0, last];
-    node[..D].copy_from_slice(v);
-    node
 }

@@ -1,1 +1,3 @@
-//! x
+//! What is shown: pictures, tables, files for other programs.
+
+pub mod vtu;

@@ -1,0 +1,172 @@
+//! What a problem must say of itself.
+
+use crate::check::{Kind, Verdict};
+use crate::error::Error;
+use crate::parameter::{Parameter, Parameters};
+use crate::record::{Discretisation, Metric, Record, WorkDone};
+use crate::scheme::Scheme;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// When a run is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum)]
+pub enum Tier {
+    /// Within ten seconds.
+    Quick,
+    /// On every pull request.
+    Pr,
+    /// Every night.
+    Nightly,
+    /// By hand.
+    Long,
+}
+
+impl fmt::Display for Tier {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Quick => "quick",
+            Self::Pr => "pr",
+            Self::Nightly => "nightly",
+            Self::Long => "long",
+        })
+    }
+}
+
+/// A level of refinement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Level {
+    /// Name.
+    pub name: &'static str,
+    /// Cell size (m).
+    pub h: f64,
+}
+
+/// A metric.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MetricInfo {
+    /// Name.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// What it measures.
+    pub meaning: &'static str,
+}
+
+/// A check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CheckInfo {
+    /// Name.
+    pub name: &'static str,
+    /// Kind.
+    pub kind: Kind,
+    /// What it demands, of which schemes, and where the tolerance comes from.
+    pub statement: &'static str,
+}
+
+/// One run of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunSpec {
+    /// Scheme.
+    pub scheme: Scheme,
+    /// Level.
+    pub level: Level,
+    /// Parameters changed from the defaults, as `name=value`.
+    pub set: Vec<String>,
+}
+
+impl RunSpec {
+    /// Folder of the run below that of its case.
+    #[must_use]
+    pub fn folder(&self) -> String {
+        let mut folder = format!("{}/{}", self.scheme, self.level.name);
+        for assignment in &self.set {
+            folder.push('+');
+            folder.push_str(assignment);
+        }
+        folder
+    }
+}
+
+/// A named particle column with its unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Name.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// Values in seeding order.
+    pub values: Vec<f64>,
+}
+
+/// A running simulation of a case.
+pub trait Job: Send {
+    /// The discretisation.
+    fn discretisation(&self) -> Discretisation;
+    /// Names (with units) of the columns of the time series.
+    fn series_columns(&self) -> Vec<&'static str>;
+    /// Runs to the next time of observation and returns that row of the series.
+    ///
+    /// # Errors
+    /// The computation broke down.
+    fn advance(&mut self) -> Result<Vec<f64>, mpm_core::Error>;
+    /// Whether the run is complete.
+    fn finished(&self) -> bool;
+    /// Share of the longest possible run that is done, 0 to 1.
+    fn progress(&self) -> f64;
+    /// The particles as columns in seeding order: positions first (x, y, …).
+    fn particles(&mut self) -> Vec<Column>;
+    /// The metrics at the end.
+    fn metrics(&mut self) -> BTreeMap<String, Metric>;
+    /// Work so far.
+    fn work(&self) -> WorkDone;
+}
+
+/// A problem.
+pub trait Case: Sync {
+    /// Name on the command line.
+    fn name(&self) -> &'static str;
+    /// Title.
+    fn title(&self) -> &'static str;
+    /// What it is, in a few lines.
+    fn description(&self) -> &'static str;
+    /// References with their uncertainty.
+    fn references(&self) -> Vec<String>;
+    /// What it does not show.
+    fn limits(&self) -> &'static [&'static str];
+    /// Parameters.
+    fn parameters(&self) -> &'static [Parameter];
+    /// Schemes that it compares.
+    fn schemes(&self) -> Vec<Scheme>;
+    /// Levels, coarsest first.
+    fn levels(&self) -> &'static [Level];
+    /// Metrics.
+    fn metrics(&self) -> &'static [MetricInfo];
+    /// Checks.
+    fn checks(&self) -> &'static [CheckInfo];
+    /// The runs of a tier.
+    fn plan(&self, tier: Tier) -> Vec<RunSpec>;
+    /// Relative cost of a run, to start the longest first.
+    fn cost(&self, spec: &RunSpec) -> f64;
+    /// Begins a run.
+    ///
+    /// # Errors
+    /// The parameters don't make a scene.
+    fn start(&self, spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error>;
+    /// Verdicts on one run.
+    fn judge(&self, record: &Record) -> Vec<Verdict>;
+    /// Verdicts on runs together.
+    fn judge_study(&self, records: &[Record]) -> Vec<Verdict>;
+}
+
+/// Finds a level of a case by name.
+///
+/// # Errors
+/// No level of this name; the error lists those there are.
+pub fn find_level(case: &dyn Case, name: &str) -> Result<Level, Error> {
+    let levels = case.levels();
+    levels
+        .iter()
+        .find(|l| l.name == name)
+        .copied()
+        .ok_or_else(|| Error::unknown("level", name, levels.iter().map(|l| l.name)))
+}

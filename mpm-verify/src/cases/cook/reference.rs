@@ -1,0 +1,199 @@
+//! The reference: an independent finite-element solution, valid for stated parameters.
+
+use crate::parameter::Parameters;
+use serde::Deserialize;
+use std::sync::OnceLock;
+
+const SOLUTIONS: &str = include_str!("../../../references/cook.json");
+const FIELD: &str = include_str!("../../../references/cook_mean_stress.csv");
+
+/// Spacing of the lattice of the reference field (m); its first point is at half of it.
+const LATTICE: f64 = 0.5;
+
+#[derive(Debug, Deserialize)]
+struct Document {
+    method: String,
+    load_over_young_modulus: f64,
+    solutions: Vec<Solution>,
+}
+
+/// A displacement (m).
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(super) struct Displacement {
+    pub(super) uy: f64,
+}
+
+/// Mean normal stress at a material point.
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(super) struct StressPoint {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) value: f64,
+}
+
+impl StressPoint {
+    /// Name of the metric that measures it.
+    pub(super) fn metric(&self) -> String {
+        format!("mean_stress_{}_{}", self.x, self.y)
+    }
+}
+
+/// The solution at one Poisson's ratio.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Solution {
+    pub(super) poisson_ratio: f64,
+    pub(super) tip: Displacement,
+    pub(super) mid_edge: Displacement,
+    pub(super) edge_mean_uy: f64,
+    pub(super) uncertainty_displacement: f64,
+    pub(super) mean_stress: Vec<StressPoint>,
+    pub(super) uncertainty_mean_stress: f64,
+}
+
+fn document() -> Option<&'static Document> {
+    static DOCUMENT: OnceLock<Option<Document>> = OnceLock::new();
+    DOCUMENT
+        .get_or_init(|| serde_json::from_str(SOLUTIONS).ok())
+        .as_ref()
+}
+
+/// Where mean stresses are probed.
+pub(super) fn stress_points() -> &'static [StressPoint] {
+    document().map_or(&[], |d| &d.solutions[0].mean_stress)
+}
+
+/// The solution for `parameters`, if the reference covers them: displacements depend on ν and on
+/// load over E alone, so both must be those of a stored solution.
+pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, String> {
+    let Some(document) = document() else {
+        return Err("the stored reference can't be read".to_owned());
+    };
+    let ratio = parameters.number("load") / parameters.number("young_modulus");
+    let stored = document.load_over_young_modulus;
+    if (ratio - stored).abs() > 1e-9 * stored {
+        return Err(format!(
+            "the reference is for load/E = 1/70, not {ratio}"
+        ));
+    }
+    let nu = parameters.number("poisson_ratio");
+    document
+        .solutions
+        .iter()
+        .find(|s| s.poisson_ratio == nu)
+        .ok_or_else(|| format!("no reference at ν = {nu}"))
+}
+
+/// The references in words.
+pub(super) fn describe() -> Vec<String> {
+    let Some(document) = document() else {
+        return Vec::new();
+    };
+    let mut lines = vec![document.method.clone()];
+    lines.extend(document.solutions.iter().map(|s| {
+        format!(
+            "ν = {}: u_y tip {:.6}, mid-edge {:.6}, edge mean {:.6} m (± {:.0e} m); mean stress ± {:.0e} Pa",
+            s.poisson_ratio,
+            s.tip.uy,
+            s.mid_edge.uy,
+            s.edge_mean_uy,
+            s.uncertainty_displacement,
+            s.uncertainty_mean_stress
+        )
+    }));
+    lines
+}
+
+/// The reference field of mean normal stress at ν = 0.499, on a lattice of material points.
+pub(super) struct Field {
+    columns: usize,
+    rows: usize,
+    values: Vec<Option<f64>>,
+}
+
+impl Field {
+    /// The stored field.
+    pub(super) fn stored() -> &'static Self {
+        static STORED: OnceLock<Field> = OnceLock::new();
+        STORED.get_or_init(|| {
+            let (columns, rows) = (96, 120);
+            let mut values = vec![None; columns * rows];
+            let mut reader = csv::Reader::from_reader(FIELD.as_bytes());
+            for (x, y, stress) in reader.deserialize::<(f64, f64, f64)>().flatten() {
+                let index = (x / LATTICE) as usize * rows + (y / LATTICE) as usize;
+                if let Some(value) = values.get_mut(index) {
+                    *value = Some(stress);
+                }
+            }
+            Self {
+                columns,
+                rows,
+                values,
+            }
+        })
+    }
+
+    fn at(&self, i: usize, j: usize) -> Option<f64> {
+        (i < self.columns && j < self.rows).then(|| self.values[i * self.rows + j])?
+    }
+
+    /// The field at a material point (m), bilinear between the four lattice points around it; `None`
+    /// where one of them lies outside the membrane.
+    pub(super) fn interpolate(&self, x: [f64; 2]) -> Option<f64> {
+        let place = |q: f64| {
+            let s = (q / LATTICE - 0.5).max(0.0);
+            let i = (s + 1e-9) as usize;
+            (i, (s - i as f64).max(0.0))
+        };
+        let ((i, s), (j, t)) = (place(x[0]), place(x[1]));
+        let mut sum = 0.0;
+        for (di, ws) in [(0, 1.0 - s), (1, s)] {
+            for (dj, wt) in [(0, 1.0 - t), (1, t)] {
+                if ws * wt > 1e-9 {
+                    sum += ws * wt * self.at(i + di, j + dj)?;
+                }
+            }
+        }
+        Some(sum)
+    }
+
+    /// Magnitude of the field's gradient (Pa/m) at a material point, by central differences over
+    /// `reach` (m).
+    pub(super) fn gradient(&self, x: [f64; 2], reach: f64) -> Option<f64> {
+        let along = |dx: f64, dy: f64| {
+            let ahead = self.interpolate([x[0] + dx, x[1] + dy])?;
+            let behind = self.interpolate([x[0] - dx, x[1] - dy])?;
+            Some((ahead - behind) / (2.0 * reach))
+        };
+        Some(along(reach, 0.0)?.hypot(along(0.0, reach)?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stored_solutions_agree_with_the_stored_field() {
+        let solution = document()
+            .unwrap()
+            .solutions
+            .iter()
+            .find(|s| s.poisson_ratio == 0.499)
+            .unwrap();
+        for point in &solution.mean_stress {
+            let field = Field::stored().interpolate([point.x, point.y]).unwrap();
+            // Bilinear interpolation over 0.5 m: half a lattice step squared over eight, times the
+            // curvature of the field, stays below 1e-4 Pa.
+            assert!((field - point.value).abs() < 1e-4, "{point:?} {field}");
+        }
+    }
+
+    #[test]
+    fn the_field_covers_the_membrane_and_nothing_else() {
+        let field = Field::stored();
+        assert_eq!(field.values.iter().flatten().count(), 5776);
+        assert!(field.interpolate([24.0, 36.0]).is_some());
+        assert!(field.interpolate([24.0, 10.0]).is_none());
+        assert!(field.interpolate([500.0, 10.0]).is_none());
+    }
+}

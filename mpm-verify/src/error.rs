@@ -1,0 +1,61 @@
+//! Errors of the harness and the exit codes of the command line.
+
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// How the program ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum ExitCode {
+    /// All good.
+    Good = 0,
+    /// A TRUTH check failed.
+    TruthFailed = 1,
+    /// Usage or input.
+    Input = 2,
+    /// A run failed numerically.
+    RunFailed = 4,
+}
+
+/// An error that ends the program.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// What the user asked for is not allowed; the text names what is.
+    #[error("{0}")]
+    Input(String),
+    /// The scene could not be built from the parameters.
+    #[error("{0}")]
+    Scene(#[from] mpm_core::Error),
+    /// A file or folder could not be read or written.
+    #[error("{}: {cause}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The cause.
+        cause: String,
+    },
+}
+
+impl Error {
+    /// A file error.
+    pub fn file(path: &Path, cause: impl ToString) -> Self {
+        Self::File {
+            path: path.to_path_buf(),
+            cause: cause.to_string(),
+        }
+    }
+
+    /// "unknown {kind} "{given}"; allowed: …".
+    #[must_use]
+    pub fn unknown<'a>(
+        kind: &str,
+        given: &str,
+        allowed: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        let allowed: Vec<&str> = allowed.into_iter().collect();
+        Self::Input(format!(
+            "unknown {kind} \"{given}\"; allowed: {}",
+            allowed.join(", ")
+        ))
+    }
+}

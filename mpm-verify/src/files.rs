@@ -1,0 +1,72 @@
+//! Files that are written whole or not at all.
+
+use crate::error::Error;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+/// Makes a folder and its parents.
+///
+/// # Errors
+/// The folder can't be made.
+pub fn make_folder(path: &Path) -> Result<(), Error> {
+    fs::create_dir_all(path).map_err(|e| Error::file(path, e))
+}
+
+/// Checks that files can be written in a folder, making it if need be.
+///
+/// # Errors
+/// They can't.
+pub fn require_writable(folder: &Path) -> Result<(), Error> {
+    make_folder(folder)?;
+    tempfile::NamedTempFile::new_in(folder)
+        .map(drop)
+        .map_err(|e| Error::file(folder, format!("not writable: {e}")))
+}
+
+/// Writes a file by way of a temporary one beside it.
+///
+/// # Errors
+/// The file can't be written.
+pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    make_folder(folder)?;
+    let mut draft = tempfile::NamedTempFile::new_in(folder).map_err(|e| Error::file(path, e))?;
+    draft
+        .write_all(content)
+        .map_err(|e| Error::file(path, e))?;
+    draft.persist(path).map_err(|e| Error::file(path, e))?;
+    Ok(())
+}
+
+/// Writes JSON, indented, with a final newline.
+///
+/// # Errors
+/// The file can't be written.
+pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
+    let mut text = serde_json::to_string_pretty(value).map_err(|e| Error::file(path, e))?;
+    text.push('\n');
+    write_whole(path, text.as_bytes())
+}
+
+/// Writes a table as CSV.
+///
+/// # Errors
+/// The file can't be written.
+pub fn write_csv(
+    path: &Path,
+    header: &[String],
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> Result<(), Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer
+        .write_record(header)
+        .map_err(|e| Error::file(path, e))?;
+    for row in rows {
+        writer
+            .write_record(&row)
+            .map_err(|e| Error::file(path, e))?;
+    }
+    let bytes = writer.into_inner().map_err(|e| Error::file(path, e))?;
+    write_whole(path, &bytes)
+}

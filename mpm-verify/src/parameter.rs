@@ -1,0 +1,218 @@
+//! Typed parameters of a case, with their ranges.
+
+use crate::error::Error;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// The value of a parameter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// A boolean.
+    Boolean(bool),
+    /// A number (an integer is one without a fraction).
+    Number(f64),
+    /// A choice.
+    Choice(String),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Boolean(b) => write!(f, "{b}"),
+            Self::Number(x) => write!(f, "{x}"),
+            Self::Choice(c) => f.write_str(c),
+        }
+    }
+}
+
+/// What a parameter may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Domain {
+    /// A number from `least` to `most`; with `below` the upper end is excluded.
+    Number {
+        /// Least value.
+        least: f64,
+        /// Greatest value.
+        most: f64,
+        /// Whether `most` itself is excluded.
+        below: bool,
+    },
+    /// A whole number from `least` to `most`.
+    Integer {
+        /// Least value.
+        least: i32,
+        /// Greatest value.
+        most: i32,
+    },
+    /// True or false.
+    Boolean,
+    /// One of some words.
+    Choice(&'static [&'static str]),
+}
+
+impl fmt::Display for Domain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number { least, most, below } => {
+                write!(f, "{least} to {}{most}", if *below { "below " } else { "" })
+            }
+            Self::Integer { least, most } => write!(f, "a whole number from {least} to {most}"),
+            Self::Boolean => f.write_str("true, false"),
+            Self::Choice(words) => f.write_str(&words.join(", ")),
+        }
+    }
+}
+
+/// A parameter of a case.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// Name.
+    pub name: &'static str,
+    /// Unit, `-` for none.
+    pub unit: &'static str,
+    /// Default, as it would be written with `--set`.
+    pub default: &'static str,
+    /// Allowed values.
+    pub domain: Domain,
+    /// What it is.
+    pub meaning: &'static str,
+}
+
+impl Parameter {
+    /// Reads a value.
+    ///
+    /// # Errors
+    /// A value that is malformed, not finite or out of range; the error names what is allowed.
+    pub fn parse(&self, text: &str) -> Result<Value, Error> {
+        let refuse = |why: &str| {
+            Err(Error::Input(format!(
+                "parameter {}: \"{text}\" {why}; allowed: {}{}",
+                self.name,
+                self.domain,
+                if self.unit == "-" {
+                    String::new()
+                } else {
+                    format!(" ({})", self.unit)
+                }
+            )))
+        };
+        match self.domain {
+            Domain::Choice(words) if words.contains(&text) => Ok(Value::Choice(text.to_owned())),
+            Domain::Choice(_) => refuse("is not a choice"),
+            Domain::Boolean => match text.parse() {
+                Ok(b) => Ok(Value::Boolean(b)),
+                Err(_) => refuse("is not a boolean"),
+            },
+            Domain::Number { least, most, below } => match text.parse::<f64>() {
+                Err(_) => refuse("is not a number"),
+                Ok(x) if !x.is_finite() => refuse("is not finite"),
+                Ok(x) if x < least || x > most || (below && x == most) => refuse("is out of range"),
+                Ok(x) => Ok(Value::Number(x)),
+            },
+            Domain::Integer { least, most } => match text.parse::<i32>() {
+                Err(_) => refuse("is not a whole number"),
+                Ok(n) if n < least || n > most => refuse("is out of range"),
+                Ok(n) => Ok(Value::Number(f64::from(n))),
+            },
+        }
+    }
+}
+
+/// The values of all parameters of a case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
+#[serde(transparent)]
+pub struct Parameters(BTreeMap<String, Value>);
+
+impl Parameters {
+    /// The defaults of `known`, changed by `assignments` of the form `name=value`.
+    ///
+    /// # Errors
+    /// An assignment that is malformed, of an unknown parameter, or of a value that is not allowed.
+    pub fn new(known: &[Parameter], assignments: &[String]) -> Result<Self, Error> {
+        let mut values = BTreeMap::new();
+        for p in known {
+            values.insert(p.name.to_owned(), p.parse(p.default)?);
+        }
+        for assignment in assignments {
+            let Some((name, text)) = assignment.split_once('=') else {
+                return Err(Error::Input(format!(
+                    "\"{assignment}\" is not of the form name=value"
+                )));
+            };
+            let Some(p) = known.iter().find(|p| p.name == name) else {
+                return Err(Error::unknown(
+                    "parameter",
+                    name,
+                    known.iter().map(|p| p.name),
+                ));
+            };
+            values.insert(name.to_owned(), p.parse(text)?);
+        }
+        Ok(Self(values))
+    }
+
+    /// A numeric parameter; NaN if the case has none of this name.
+    #[must_use]
+    pub fn number(&self, name: &str) -> f64 {
+        match self.0.get(name) {
+            Some(Value::Number(x)) => *x,
+            _ => f64::NAN,
+        }
+    }
+
+    /// A boolean parameter.
+    #[must_use]
+    pub fn boolean(&self, name: &str) -> bool {
+        matches!(self.0.get(name), Some(Value::Boolean(true)))
+    }
+
+    /// Whether the choice `name` is `word`.
+    #[must_use]
+    pub fn is(&self, name: &str, word: &str) -> bool {
+        matches!(self.0.get(name), Some(Value::Choice(c)) if c == word)
+    }
+
+    /// The value as text; empty if there is none of this name.
+    #[must_use]
+    pub fn text(&self, name: &str) -> String {
+        self.0.get(name).map_or_else(String::new, Value::to_string)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RATIO: Parameter = Parameter {
+        name: "poisson_ratio",
+        unit: "-",
+        default: "0.3",
+        domain: Domain::Number {
+            least: 0.0,
+            most: 0.5,
+            below: true,
+        },
+        meaning: "",
+    };
+
+    #[test]
+    fn every_bad_value_names_the_parameter_and_its_range() {
+        for bad in ["nan", "inf", "1e400", "-0.1", "0.5", "x", ""] {
+            let text = RATIO.parse(bad).unwrap_err().to_string();
+            assert!(text.contains("poisson_ratio"), "{text}");
+            assert!(text.contains("0 to below 0.5"), "{text}");
+        }
+        assert_eq!(RATIO.parse("0.499").unwrap(), Value::Number(0.499));
+    }
+
+    #[test]
+    fn assignments_override_defaults_and_unknown_names_are_refused() {
+        let p = Parameters::new(&[RATIO], &["poisson_ratio=0.4".into()]).unwrap();
+        assert_eq!(p.number("poisson_ratio"), 0.4);
+        let unknown = Parameters::new(&[RATIO], &["nu=0.4".into()]).unwrap_err();
+        assert!(unknown.to_string().contains("allowed: poisson_ratio"));
+        assert!(Parameters::new(&[RATIO], &["nu".into()]).is_err());
+    }
+}

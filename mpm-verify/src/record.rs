@@ -1,0 +1,183 @@
+//! The record of a run: stable, versioned, in SI units.
+
+use crate::check::Verdict;
+use crate::parameter::Parameters;
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Version of the record's format.
+pub const SCHEMA: u32 = 1;
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// As planned.
+    Ok,
+    /// It broke down.
+    Failed,
+}
+
+/// Where and why a run broke down.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Failure {
+    /// Kind of fault.
+    pub kind: String,
+    /// Time (s).
+    pub time: f64,
+    /// Completed steps.
+    pub step: u64,
+    /// Particle, in seeding order.
+    pub particle: u32,
+    /// The offending value (null where it is not finite).
+    pub value: Option<f64>,
+    /// In words.
+    pub message: String,
+}
+
+/// The discretisation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Discretisation {
+    /// Dimension.
+    pub dim: usize,
+    /// Cell size (m).
+    pub h: f64,
+    /// Particles per cell.
+    pub ppc: u32,
+    /// Time step (s).
+    pub dt: f64,
+    /// How B-splines meet walls.
+    pub wall: String,
+}
+
+/// A measured quantity; null where it could not be measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Metric {
+    /// Value.
+    pub value: Option<f64>,
+    /// Unit.
+    pub unit: String,
+}
+
+/// Exact counts of what was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names are those of mpm_core::Work")]
+pub struct WorkDone {
+    pub particles: u64,
+    pub nodes: u64,
+    pub steps: u64,
+    pub particle_steps: u64,
+    pub particle_node_pairs: u64,
+    pub projections: u64,
+    pub sorts: u64,
+}
+
+impl From<mpm_core::Work> for WorkDone {
+    fn from(w: mpm_core::Work) -> Self {
+        Self {
+            particles: w.particles,
+            nodes: w.nodes,
+            steps: w.steps,
+            particle_steps: w.particle_steps,
+            particle_node_pairs: w.particle_node_pairs,
+            projections: w.projections,
+            sorts: w.sorts,
+        }
+    }
+}
+
+/// Time taken.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// By the clock (s).
+    pub wall_s: f64,
+    /// By the processor, over all threads (s).
+    pub cpu_s: f64,
+}
+
+/// The machine.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Machine {
+    /// Operating system.
+    pub os: String,
+    /// Architecture.
+    pub arch: String,
+    /// Cores.
+    pub cores: usize,
+    /// Threads of the run.
+    pub threads: usize,
+}
+
+/// What ran.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Version {
+    /// Version of this program.
+    pub mpm_verify: String,
+}
+
+/// The record of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Version of this format.
+    pub schema: u32,
+    /// Case.
+    pub case: String,
+    /// Basis.
+    pub basis: BasisName,
+    /// Remedy.
+    pub remedy: RemedyName,
+    /// Transfer.
+    pub transfer: TransferName,
+    /// Level.
+    pub level: String,
+    /// Parameters changed from their defaults by the plan or the user, as `name=value`.
+    pub set: Vec<String>,
+    /// How it ended.
+    pub status: Status,
+    /// Why it failed.
+    pub error: Option<Failure>,
+    /// Discretisation.
+    pub discretisation: Discretisation,
+    /// All parameters.
+    pub parameters: Parameters,
+    /// Metrics.
+    pub metrics: BTreeMap<String, Metric>,
+    /// Verdicts.
+    pub verdicts: Vec<Verdict>,
+    /// Work.
+    pub work: WorkDone,
+    /// Time taken.
+    pub time: Timing,
+    /// Machine.
+    pub machine: Machine,
+    /// Version.
+    pub version: Version,
+}
+
+impl Record {
+    /// The scheme.
+    #[must_use]
+    pub fn scheme(&self) -> Scheme {
+        Scheme {
+            basis: self.basis,
+            remedy: self.remedy,
+            transfer: self.transfer,
+        }
+    }
+
+    /// A metric's value; NaN where there is none.
+    #[must_use]
+    pub fn metric(&self, name: &str) -> f64 {
+        self.metrics
+            .get(name)
+            .and_then(|m| m.value)
+            .unwrap_or(f64::NAN)
+    }
+
+    /// Whether the run was of the case's own parameters.
+    #[must_use]
+    pub fn is_default(&self) -> bool {
+        self.set.is_empty()
+    }
+}

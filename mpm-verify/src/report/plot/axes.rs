@@ -1,0 +1,167 @@
+//! Axes: ranges, ticks and their labels, and the box that they make.
+
+use super::canvas::{Canvas, Frame, INK, Point, Rgb, SMALL, largest};
+
+const GRID: Rgb = 0xE2E2E2;
+const MINOR_GRID: Rgb = 0xF1F1F1;
+/// Length of a major tick with its gap to the label.
+pub(super) const TICK: f64 = 20.0;
+/// Distance from an axis to its label below.
+pub(super) const LABEL_DROP: f64 = TICK + 33.0;
+
+/// Ticks as positions on the axis (log axes: of the logarithm) with labels; minor ones have none.
+type Ticks = Vec<(f64, String)>;
+
+/// The smallest 1-2-5 step that puts at most `most` ticks on a range, and these ticks.
+fn nice_ticks(lo: f64, hi: f64, most: usize) -> (f64, Vec<f64>) {
+    let decade = ((hi - lo) / most as f64).log10().floor() as i32;
+    let steps = (0..4).flat_map(|e| [1.0, 2.0, 5.0].map(|d| d * 10f64.powi(decade + e)));
+    let ends = |step: f64| ((lo / step - 1e-9).ceil(), (hi / step + 1e-9).floor());
+    let mut fitting = steps.map(|step| (step, ends(step)));
+    fitting
+        .find(|(_, (first, last))| last - first < most as f64)
+        .map_or((hi - lo, Vec::new()), |(step, (first, last))| {
+            let count = (last - first + 1.0) as usize;
+            (step, (0..count).map(|k| (first + k as f64) * step).collect())
+        })
+}
+
+fn superscript(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let digit = |c: char| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]);
+    exponent.to_string().chars().map(digit).collect()
+}
+
+/// Label of a tick among ticks `step` apart, whose largest magnitude is `largest`.
+fn tick_label(value: f64, step: f64, largest: f64) -> String {
+    if value.abs() < 1e-6 * step {
+        return "0".to_string();
+    }
+    let sign = if value < 0.0 { "−" } else { "" };
+    let order = |v: f64| (v.log10() + 1e-9).floor() as i32;
+    let digits = |exponent: i32| {
+        let decimals = usize::try_from(exponent - order(step)).unwrap_or(0);
+        format!("{:.decimals$}", value.abs() / 10f64.powi(exponent))
+    };
+    if !(1e-3..1e6).contains(&largest) {
+        let exponent = order(largest);
+        return format!("{sign}{}×10{}", digits(exponent), superscript(exponent));
+    }
+    let mut label = digits(0);
+    let whole = label.find('.').unwrap_or(label.len());
+    for place in (1..whole).rev().filter(|p| whole > 4 && (whole - p) % 3 == 0) {
+        label.insert(place, '\u{2009}');
+    }
+    format!("{sign}{label}")
+}
+
+fn linear_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
+    let (step, values) = nice_ticks(lo, hi, most);
+    let largest = largest(values.iter().map(|v| v.abs()));
+    let labelled = values.iter().map(|&v| (v, tick_label(v, step, largest)));
+    labelled.collect()
+}
+
+/// Ticks of a log axis from 10^lo to 10^hi: decades; over about one decade or less, 1-2-5; where
+/// these are too few, linear steps.
+fn log_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
+    // Every multiple of a power of ten, as exponent, digit and logarithm.
+    let multiple = |e: i32, d: i32| (e, d, f64::from(e) + f64::from(d).log10());
+    let decades = lo.floor() as i32..=hi.ceil() as i32;
+    let mut all: Vec<_> = decades
+        .flat_map(|e| (1..10).map(move |d| multiple(e, d)))
+        .filter(|m| (lo - 1e-9..=hi + 1e-9).contains(&m.2))
+        .collect();
+    let count = |digits: &[i32]| all.iter().filter(|m| digits.contains(&m.1)).count();
+    let (whole, few) = (count(&[1]), count(&[1, 2, 5]));
+    let stride = whole.div_ceil(most).max(1);
+    let wide = hi - lo >= 1.5 && whole > 1;
+    let chosen = !wide && (3..=most.max(3)).contains(&few);
+    if wide && stride > 1 {
+        all.retain(|m| m.1 == 1);
+    }
+    let label = |e: i32, d: i32| match d {
+        1 if wide && e.rem_euclid(stride as i32) == 0 => format!("10{}", superscript(e)),
+        1 | 2 | 5 if chosen => {
+            let (value, step) = (f64::from(d) * 10f64.powi(e), 10f64.powi(e));
+            tick_label(value, step, value)
+        }
+        _ => String::new(),
+    };
+    let mut ticks: Ticks = all.iter().map(|&(e, d, log)| (log, label(e, d))).collect();
+    if !wide && !chosen {
+        let linear = linear_ticks(10f64.powf(lo), 10f64.powf(hi), most);
+        ticks.extend(linear.into_iter().map(|(v, label)| (v.log10(), label)));
+    }
+    ticks
+}
+
+/// An axis: its range (log axes: of the logarithm), its length in pixels, and its ticks.
+pub(super) struct Axis {
+    log: bool,
+    pub(super) range: (f64, f64),
+    pub(super) length: f64,
+    pub(super) ticks: Ticks,
+}
+
+impl Axis {
+    /// Lays as many ticks as leave room between the labels along the axis.
+    pub(super) fn new(range: (f64, f64), log: bool, length: f64, upright: bool) -> Self {
+        let lay = if log { log_ticks } else { linear_ticks };
+        let size = |label: &str| if upright { 24.0 } else { SMALL.width(label) };
+        let axis = |most| Self {
+            log,
+            range,
+            length,
+            ticks: lay(range.0, range.1, most),
+        };
+        let fits = |axis: &Self| {
+            let labels: Vec<_> = axis.ticks.iter().filter(|t| !t.1.is_empty()).collect();
+            labels.windows(2).all(|w| {
+                let room = axis.pixels(w[1].0) - axis.pixels(w[0].0);
+                room >= (size(&w[0].1) + size(&w[1].1)) / 2.0 + 30.0
+            })
+        };
+        let mut fitting = (2..=9).rev().map(axis).filter(fits);
+        fitting.next().unwrap_or_else(|| axis(1))
+    }
+
+    /// Pixels from the start of the axis to a position on it (log axes: the logarithm).
+    fn pixels(&self, position: f64) -> f64 {
+        (position - self.range.0) / (self.range.1 - self.range.0) * self.length
+    }
+
+    /// Pixels from the start of the axis to a value.
+    pub(super) fn at(&self, value: f64) -> f64 {
+        self.pixels(if self.log { value.log10() } else { value })
+    }
+
+    pub(super) fn label_width(&self) -> f64 {
+        largest(self.ticks.iter().map(|t| SMALL.width(&t.1)))
+    }
+
+    /// Whole pixels from the start of the axis to the ticks with their labels.
+    fn marks(&self) -> impl Iterator<Item = (f64, &str)> {
+        let mark = |(position, label): &'_ (f64, String)| (self.pixels(*position).round(), label);
+        self.ticks.iter().map(move |t| (mark(t).0, t.1.as_str()))
+    }
+}
+
+/// Widens a range by a fraction on both sides; an empty one, to a readable range about its value.
+pub(super) fn widen((lo, hi): (f64, f64), fraction: f64) -> (f64, f64) {
+    let size = lo.abs().max(hi.abs());
+    let half = if hi - lo > 1e-12 * size {
+        fraction * (hi - lo)
+    } else if size > 0.0 {
+        0.1 * size
+    } else {
+        1.0
+    };
+    (lo - half, hi + half)
+}
+
+/// Smallest range that holds the finite values.
+pub(super) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    let finite = values.filter(|v| v.is_finite());
+    finite.map(|v| (v, v)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
