@@ -30,5 +30,6 @@ fn main(){
       let e=t.kinetic_energy+t.stored_energy-t.accumulated.load_work; 
       println!("t {:.2} tip {:.6} KE {:.3e} U {:.5e} R {:.3e} reac {:.5} gap {:.3e} E {:.3e} sw {:.5e} fl {:.3e}",s.time(),p.position[best][1]-p.reference[best][1],t.kinetic_energy,t.stored_energy,r.free_force,r.held_force[1],t.log_jacobian_gap_rms,e,t.accumulated.stress_work,t.accumulated.filter_loss);}
   }});
+  {let p=s.particles(); let mut v:Vec<(f64,usize)>=(0..p.len()).map(|k|(p.velocity[k][0].hypot(p.velocity[k][1]),k)).collect(); v.sort_by(|a,b|b.0.total_cmp(&a.0)); for (q,k) in v.iter().take(12){println!("v {q:.3e} at {:?} X {:?} vel {:?}",p.position[*k],p.reference[*k],p.velocity[*k]);} let (mut mx,mut my)=(0.0,0.0); for k in 0..p.len(){mx+=p.velocity[k][0];my+=p.velocity[k][1];} println!("mean v {} {}",mx/p.len() as f64,my/p.len() as f64);}
   let el=t0.elapsed().as_secs_f64(); let w=s.work(); println!("{:.2} s, {:.1} ns/particle-step, steps {} sorts {}",el,el*1e9/w.particle_steps as f64,w.steps,w.sorts);
 }

@@ -12,7 +12,8 @@ pub struct Accumulated {
     pub load_work: f64,
     /// Energy taken by force filters (damping).
     pub damping: f64,
-    /// Kinetic energy removed by constraints when they overwrite nodal velocities.
+    /// Energy removed by constraints: the kinetic energy that was mapped to the held nodes, less what
+    /// the constraint puts in by moving against the forces there.
     pub constraint_loss: f64,
     /// Kinetic energy removed by particle filters (kinetic damping).
     pub filter_loss: f64,
@@ -25,6 +26,8 @@ pub struct Residual {
     pub free_force: f64,
     /// Σ f_i over the components that constraints hold, before they act: minus the reaction (N).
     pub held_force: [f64; 3],
+    /// Kinetic energy of the nodes after the update (J): without the particles' null space.
+    pub kinetic_energy: f64,
 }
 
 /// Sums over a body. The potential energy of the loads is −`accumulated.load_work` where they are
@@ -61,6 +64,7 @@ impl Totals {
     ) -> Self {
         let mut t = Self {
             accumulated,
+            kinetic_energy: particles.kinetic_energy(),
             jacobian: (f64::INFINITY, f64::NEG_INFINITY),
             ..Self::default()
         };
@@ -69,7 +73,6 @@ impl Totals {
             t.mass += m;
             for (sum, v) in t.momentum.iter_mut().zip(particles.velocity[p]) {
                 *sum += m * v;
-                t.kinetic_energy += 0.5 * m * v * v;
             }
             t.stored_energy += particles.reference_volume[p] * law.energy(state);
             let j = particles.jacobian[p];

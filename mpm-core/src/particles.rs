@@ -92,6 +92,13 @@ impl<const D: usize> Particles<D> {
         self.position.is_empty()
     }
 
+    /// Kinetic energy Σ ½ m v² (J).
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        let squares = self.velocity.iter().map(|v| v.iter().map(|v| v * v).sum::<f64>());
+        self.mass.iter().zip(squares).map(|(m, v2)| 0.5 * m * v2).sum()
+    }
+
     /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`.
     pub fn permute(&mut self, order: &[u32]) {
         permute(&mut self.id, order);

@@ -81,7 +81,6 @@ pub trait Simulation<const D: usize>: Send {
 struct ChunkSums {
     stress_power: f64,
     load_power: f64,
-    kinetic_energy: f64,
     largest_increment: f64,
     wrapped: bool,
     fault: Option<(usize, Fault)>,
@@ -278,6 +277,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
         self.residual = Residual {
             free_force: free_force.max(0.0),
             held_force,
+            kinetic_energy: 0.0,
         };
         for filter in &self.scene.force_filters {
             self.accumulated.damping += dt * filter.filter(&mut self.nodes);
@@ -294,9 +294,16 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
         for c in &self.prescribed {
             let node = &mut self.nodes[c.node];
             let (free, held) = (node.motion.as_array()[c.axis], c.velocity);
-            self.accumulated.constraint_loss += 0.5 * node.mass() * (free * free - held * held);
+            let before = free - node.change.as_array()[c.axis];
+            self.accumulated.constraint_loss += node.mass()
+                * (0.5 * (before * before - held * held) + (free - before) * held);
             node.change.as_mut_array()[c.axis] += held - free;
             node.motion.as_mut_array()[c.axis] = held;
+        }
+        for node in &self.nodes {
+            let v = node.motion.as_array();
+            let square: f64 = v[..D].iter().map(|v| v * v).sum();
+            self.residual.kinetic_energy += 0.5 * node.mass() * square;
         }
         self.lattice.unfold(&mut self.nodes);
     }
@@ -314,7 +321,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             p.jacobian.par_chunks_mut(CHUNK),
             p.position.par_chunks(CHUNK),
             p.half_size.par_chunks(CHUNK),
-            p.mass.par_chunks(CHUNK),
             p.volume.par_chunks(CHUNK),
             p.stress.par_chunks(CHUNK),
             p.external_force.par_chunks(CHUNK),
@@ -322,7 +328,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             .into_par_iter()
             .enumerate()
             .for_each(
-                |(c, (sums, v, increment, delta_f, j, x, l, mass, volume, stress, force))| {
+                |(c, (sums, v, increment, delta_f, j, x, l, volume, stress, force))| {
                     *sums = ChunkSums::default();
                     for k in 0..x.len() {
                         let got = grid_to_particle(&lattice.stencil(&x[k], &l[k]), nodes);
@@ -339,7 +345,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
                         for a in 0..D {
                             increment[k][a] = dt * got.velocity[a];
                             sums.load_power += force[k][a] * got.velocity[a];
-                            sums.kinetic_energy += 0.5 * mass[k] * v[k][a] * v[k][a];
                             for b in 0..D {
                                 sums.stress_power +=
                                     volume[k] * stress[k].get(a, b) * got.gradient[a][b];
@@ -449,11 +454,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
     }
 
     fn filter_particles(&mut self) {
-        let mut kinetic: f64 = self.chunk_sums.iter().map(|s| s.kinetic_energy).sum();
         for filter in &mut self.scene.particle_filters {
-            let loss = filter.filter(kinetic, &mut self.scene.particles);
-            self.accumulated.filter_loss += loss;
-            kinetic -= loss;
+            self.accumulated.filter_loss +=
+                filter.filter(self.residual.kinetic_energy, &mut self.scene.particles);
         }
     }
 

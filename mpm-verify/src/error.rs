@@ -26,6 +26,9 @@ pub enum Error {
     /// The scene could not be built from the parameters.
     #[error("{0}")]
     Scene(#[from] mpm_core::Error),
+    /// A picture could not be drawn.
+    #[error(transparent)]
+    Plot(#[from] crate::report::plot::PlotError),
     /// A file or folder could not be read or written.
     #[error("{}: {cause}", path.display())]
     File {

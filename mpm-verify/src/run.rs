@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Column, Job, RunSpec};
 use crate::error::Error;
-use crate::files::{make_folder, write_csv, write_json};
+use crate::files::{require_writable, write_csv, write_json};
 use crate::parameter::Parameters;
 use crate::record::{Failure, Machine, Record, SCHEMA, Status, Timing, Version};
 use crate::report::vtu::write_vtu;
@@ -110,7 +110,7 @@ fn drive(
 ) -> Result<Option<Failure>, Error> {
     let mut series = match folder {
         Some(folder) => {
-            make_folder(folder)?;
+            require_writable(folder)?;
             let path = folder.join("series.csv");
             let mut writer =
                 csv::Writer::from_path(&path).map_err(|e| Error::file(&path, e))?;

@@ -60,7 +60,7 @@ pub trait Constraint<const D: usize>: Send {
 
 /// A filter of the particles at the end of a step.
 pub trait ParticleFilter<const D: usize>: Send {
-    /// Changes the particles, knowing their kinetic energy (J) after the step; returns the energy (J)
-    /// that it takes from the motion.
-    fn filter(&mut self, kinetic_energy: f64, particles: &mut Particles<D>) -> f64;
+    /// Changes the particles, knowing the kinetic energy (J) of the nodes in the step; returns the
+    /// energy (J) that it takes from the particles.
+    fn filter(&mut self, nodal_kinetic_energy: f64, particles: &mut Particles<D>) -> f64;
 }

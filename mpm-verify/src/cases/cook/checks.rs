@@ -1,15 +1,294 @@
-//! Verdicts on Cook's membrane.
+//! Verdicts on Cook's membrane. The tolerances are derived in `docs/cook.md`.
 
+use super::reference::{Field, Solution, solution};
 use crate::case::CheckInfo;
-use crate::check::Verdict;
+use crate::check::{Kind, Verdict};
 use crate::record::Record;
+use crate::scheme::{BasisName, RemedyName};
+use std::collections::BTreeMap;
 
-pub(super) const CHECKS: &[CheckInfo] = &[];
+/// Relative tolerance of mid-edge and edge mean at h = 1 m; it shrinks with h.
+const EDGE_TOLERANCE: f64 = 0.01;
+/// Relative tolerance of the tip, where h ≤ 1 m; above, it grows with h.
+const TIP_TOLERANCE: f64 = 0.02;
+/// Largest oscillation of a locking-free pressure, rms(σ_m − Πσ_m) / rms σ_m.
+const SMOOTH: f64 = 0.2;
+/// Least oscillation of a locked one.
+const LOCKED: f64 = 0.5;
+/// Coarsest cell (m) that resolves the field well enough for the two.
+const RESOLVED: f64 = 1.0;
+/// Strain per period that counts as creep.
+const CREEP: f64 = 1e-4;
+/// Least R² of linear growth.
+const LINEAR: f64 = 0.95;
+/// Largest relative gain of energy.
+const GAIN: f64 = 1e-3;
+/// Relative tolerance of the clamp's reaction.
+const REACTION: f64 = 0.02;
+/// Particles at two per direction, by cell size.
+const COUNTS: [(f64, f64); 4] = [(2.0, 1448.0), (1.0, 5776.0), (0.5, 23_072.0), (0.25, 92_224.0)];
 
-pub(super) fn judge(_record: &Record) -> Vec<Verdict> {
-    Vec::new()
+const fn check(name: &'static str, kind: Kind, statement: &'static str) -> CheckInfo {
+    CheckInfo { name, kind, statement }
 }
 
-pub(super) fn judge_study(_records: &[Record]) -> Vec<Verdict> {
-    Vec::new()
+pub(super) const CHECKS: &[CheckInfo] = &[
+    check("particle-count", Kind::Truth, "1,448, 5,776, 23,072 and 92,224 particles at h = 2, 1, ½ and ¼ with two per direction; the second and third are the paper's"),
+    check("at-rest", Kind::Truth, "none, fbar-total, fbar-rate: rest is reached in the time given"),
+    check("reaction", Kind::Truth, "none, fbar-total, fbar-rate: at rest the clamp's reaction balances the load within 2 % (linear momentum)"),
+    check("no-energy-gain", Kind::Truth, "all: kinetic energy + stress work + losses exceeds the load's work by no more than 0.1 % of it (the oscillation of symplectic Euler at CFL 0.3)"),
+    check("mid-edge", Kind::Truth, "fbar-total, fbar-rate: u_y at (48, 52) m within 1 % · h/(1 m) of the FEM reference"),
+    check("edge-mean", Kind::Truth, "fbar-total, fbar-rate: mean u_y of the right side within 1 % · h/(1 m) of the FEM reference"),
+    check("tip", Kind::Truth, "fbar-total, fbar-rate: u_y at (48, 60) m within 2 % (2 % · h/(1 m) above h = 1 m) of the FEM reference"),
+    check("mean-stress-probe", Kind::Truth, "fbar-total, fbar-rate: σ_m at seven points within h |∇σ_m| of the FEM reference"),
+    check("mean-stress-rms", Kind::Truth, "fbar-total, fbar-rate: rms of σ_m − reference at most √((h rms|∇σ_m|)² + (0.2 rms σ_m)²)"),
+    check("smooth-pressure", Kind::Truth, "fbar-total, fbar-rate at h ≤ 1: rms(σ_m − Πσ_m) below 0.2 rms σ_m"),
+    check("no-creep", Kind::Truth, "fbar-total, fbar-rate: rms ln(J/J̄) changes by less than 1e-4 per period"),
+    check("locked", Kind::KnownLimit, "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m"),
+    check("never-at-rest", Kind::KnownLimit, "fbar-recursive: rest is never reached"),
+    check("creep", Kind::KnownLimit, "fbar-recursive: rms ln(J/J̄) grows by more than 1e-4 per period"),
+    check("creep-is-linear", Kind::KnownLimit, "fbar-recursive: that growth is a straight line in time, R² above 0.95"),
+    check("creep-grows-as-dt-falls", Kind::KnownLimit, "fbar-recursive: it is faster with half the time step"),
+    check("error-falls", Kind::Truth, "none, fbar-total, fbar-rate: |error| of mid-edge u_y falls from level to level"),
+];
+
+fn is_free_of_locking(record: &Record) -> bool {
+    matches!(record.remedy, RemedyName::FbarTotal | RemedyName::FbarRate)
+}
+
+pub(super) fn judge(record: &Record) -> Vec<Verdict> {
+    let mut verdicts = Vec::new();
+    count(record, &mut verdicts);
+    verdicts.push(Verdict::at_most(
+        "no-energy-gain",
+        Kind::Truth,
+        "energy_gain",
+        record.metric("energy_gain"),
+        GAIN,
+        "energy balance; symplectic Euler oscillates by ½ Δt times the power",
+    ));
+    if record.remedy == RemedyName::FbarRecursive {
+        creep(record, &mut verdicts);
+    } else {
+        rest(record, &mut verdicts);
+    }
+    if record.remedy == RemedyName::None && record.basis == BasisName::Gimp {
+        verdicts.push(Verdict::above(
+            "locked",
+            Kind::KnownLimit,
+            "checkerboard_ratio",
+            record.metric("checkerboard_ratio"),
+            LOCKED,
+            "standard MPM locks: Zhao et al. 2022, Figure 3",
+        ));
+    }
+    if is_free_of_locking(record) {
+        match solution(&record.parameters) {
+            Ok(reference) => against_reference(record, reference, &mut verdicts),
+            Err(why) => {
+                for (name, metric) in [
+                    ("mid-edge", "mid_edge_uy"),
+                    ("edge-mean", "edge_mean_uy"),
+                    ("tip", "tip_uy"),
+                    ("mean-stress-probe", "mean_stress_24_36"),
+                    ("mean-stress-rms", "mean_stress_rms_error"),
+                ] {
+                    verdicts.push(Verdict::not_applicable(name, metric, why.clone()));
+                }
+            }
+        }
+        smoothness(record, &mut verdicts);
+        verdicts.push(Verdict::at_most(
+            "no-creep",
+            Kind::Truth,
+            "creep_rate",
+            record.metric("creep_rate").abs(),
+            CREEP / record.metric("period"),
+            "an equilibrium does not move",
+        ));
+    }
+    verdicts
+}
+
+fn count(record: &Record, verdicts: &mut Vec<Verdict>) {
+    let h = record.discretisation.h;
+    let expected = COUNTS.iter().find(|(size, _)| *size == h);
+    verdicts.push(match expected {
+        Some((_, count)) if record.discretisation.ppc == 4 => Verdict::close(
+            "particle-count",
+            "particles",
+            record.work.particles as f64,
+            *count,
+            0.0,
+            "Zhao et al. 2022, section 4.1 (h = 1 and ½); the same rule elsewhere",
+        ),
+        _ => Verdict::not_applicable(
+            "particle-count",
+            "particles",
+            "counted for two particles per direction only",
+        ),
+    });
+}
+
+fn rest(record: &Record, verdicts: &mut Vec<Verdict>) {
+    verdicts.push(Verdict::close(
+        "at-rest",
+        "at_rest",
+        record.metric("at_rest"),
+        1.0,
+        0.0,
+        "a statically loaded elastic body has an equilibrium",
+    ));
+    let load = record.parameters.number("load");
+    verdicts.push(Verdict::close(
+        "reaction",
+        "reaction_uy",
+        record.metric("reaction_uy"),
+        -load,
+        REACTION * load.abs(),
+        "linear momentum at rest",
+    ));
+}
+
+fn creep(record: &Record, verdicts: &mut Vec<Verdict>) {
+    let limit = |name, metric: &str, bound| {
+        Verdict::above(
+            name,
+            Kind::KnownLimit,
+            metric,
+            record.metric(metric),
+            bound,
+            "Π is no projection: Eq. (26) averages the average and so diffuses J̄",
+        )
+    };
+    verdicts.push(Verdict::at_most(
+        "never-at-rest",
+        Kind::KnownLimit,
+        "at_rest",
+        record.metric("at_rest"),
+        0.0,
+        "Π is no projection: Eq. (26) averages the average and so diffuses J̄",
+    ));
+    verdicts.push(limit("creep", "creep_rate", CREEP / record.metric("period")));
+    verdicts.push(limit("creep-is-linear", "creep_linearity", LINEAR));
+}
+
+fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<Verdict>) {
+    let h = record.discretisation.h;
+    let uncertainty = reference.uncertainty_displacement;
+    let source = format!(
+        "independent high-order FEM, this project, ν = {}, ± {uncertainty:.0e} m",
+        reference.poisson_ratio
+    );
+    for (name, metric, exact, relative) in [
+        ("mid-edge", "mid_edge_uy", reference.mid_edge.uy, EDGE_TOLERANCE * h),
+        ("edge-mean", "edge_mean_uy", reference.edge_mean_uy, EDGE_TOLERANCE * h),
+        ("tip", "tip_uy", reference.tip.uy, TIP_TOLERANCE * h.max(1.0)),
+    ] {
+        verdicts.push(Verdict::close(
+            name,
+            metric,
+            record.metric(metric),
+            exact,
+            relative * exact.abs() + uncertainty,
+            source.clone(),
+        ));
+    }
+    for point in &reference.mean_stress {
+        let metric = point.metric();
+        let gradient = Field::stored().gradient([point.x, point.y], 1.0).unwrap_or(0.0);
+        verdicts.push(Verdict::close(
+            "mean-stress-probe",
+            &metric,
+            record.metric(&metric),
+            point.value,
+            h * gradient + reference.uncertainty_mean_stress,
+            format!("{source}; tolerance: the point moved by a cell"),
+        ));
+    }
+    verdicts.push(if reference.poisson_ratio == 0.499 {
+        let (gradient, stress) = Field::stored().rms_of_gradient_and_value();
+        Verdict::at_most(
+            "mean-stress-rms",
+            Kind::Truth,
+            "mean_stress_rms_error",
+            record.metric("mean_stress_rms_error"),
+            (h * gradient).hypot(SMOOTH * stress),
+            format!("{source}; every point moved by a cell, and the oscillation that smooth-pressure admits"),
+        )
+    } else {
+        Verdict::not_applicable(
+            "mean-stress-rms",
+            "mean_stress_rms_error",
+            "the reference field is stored for ν = 0.499",
+        )
+    });
+}
+
+fn smoothness(record: &Record, verdicts: &mut Vec<Verdict>) {
+    verdicts.push(if record.discretisation.h <= RESOLVED {
+        Verdict::at_most(
+            "smooth-pressure",
+            Kind::Truth,
+            "checkerboard_ratio",
+            record.metric("checkerboard_ratio"),
+            SMOOTH,
+            "a locking-free pressure is smooth on the scale of a cell",
+        )
+    } else {
+        Verdict::not_applicable(
+            "smooth-pressure",
+            "checkerboard_ratio",
+            "cells above 1 m don't resolve the field: Π changes the exact field too",
+        )
+    });
+}
+
+pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
+    let mut verdicts = Vec::new();
+    let standard: Vec<&Record> = records.iter().filter(|r| r.is_default()).collect();
+    for slow in &standard {
+        let halved = records.iter().find(|r| {
+            r.set == ["cfl=0.15"] && r.scheme() == slow.scheme() && r.level == slow.level
+        });
+        if let Some(halved) = halved {
+            verdicts.push(Verdict::above(
+                "creep-grows-as-dt-falls",
+                Kind::KnownLimit,
+                &format!("creep_rate of {} {}", slow.scheme(), slow.level),
+                halved.metric("creep_rate") / slow.metric("creep_rate"),
+                1.0,
+                "the diffusivity of Eq. (26) is ½ s² h²/Δt",
+            ));
+        }
+    }
+    let mut ladders: BTreeMap<_, Vec<&Record>> = BTreeMap::new();
+    for record in standard {
+        if record.remedy != RemedyName::FbarRecursive {
+            ladders.entry(record.scheme()).or_default().push(record);
+        }
+    }
+    for (scheme, mut ladder) in ladders {
+        ladder.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
+        let errors: Vec<f64> = ladder
+            .iter()
+            .map(|r| r.metric("fem_mid_edge_error").abs())
+            .collect();
+        if errors.len() < 2 {
+            continue;
+        }
+        let worst = errors
+            .windows(2)
+            .map(|pair| pair[1] / pair[0])
+            .fold(f64::NEG_INFINITY, f64::max);
+        verdicts.push(Verdict::at_most(
+            "error-falls",
+            Kind::Truth,
+            &format!("fem_mid_edge_error of {scheme} over {} levels, largest ratio", errors.len()),
+            worst,
+            1.0,
+            "a consistent scheme converges",
+        ));
+    }
+    verdicts
 }

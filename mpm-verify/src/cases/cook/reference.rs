@@ -1,6 +1,8 @@
 //! The reference: an independent finite-element solution, valid for stated parameters.
 
+use super::simulation::away_from_singularities;
 use crate::parameter::Parameters;
+use crate::statistics::rms;
 use serde::Deserialize;
 use std::sync::OnceLock;
 
@@ -154,6 +156,19 @@ impl Field {
             }
         }
         Some(sum)
+    }
+
+    /// Root mean squares of |gradient| (Pa/m) and of the field (Pa) over the lattice points that
+    /// count in the stress error.
+    pub(super) fn rms_of_gradient_and_value(&self) -> (f64, f64) {
+        let counted = (0..self.columns * self.rows).filter_map(|k| {
+            let place = |i: usize| (i as f64 + 0.5) * LATTICE;
+            let x = [place(k / self.rows), place(k % self.rows)];
+            let value = self.values[k].filter(|_| away_from_singularities(&x))?;
+            Some((self.gradient(x, LATTICE)?, value))
+        });
+        let (gradients, values): (Vec<f64>, Vec<f64>) = counted.unzip();
+        (rms(gradients), rms(values))
     }
 
     /// Magnitude of the field's gradient (Pa/m) at a material point, by central differences over

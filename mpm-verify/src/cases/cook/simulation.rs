@@ -1,8 +1,8 @@
 //! The simulation of Cook's membrane: geometry, load, observation, rest.
 
 use super::reference::{Field, solution, stress_points};
-use super::{Cook, METRICS};
-use crate::case::{Case, Column, Job, RunSpec};
+use super::METRICS;
+use crate::case::{Column, Job, RunSpec};
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::probe::{PointProbe, nearest};
@@ -58,11 +58,12 @@ pub(super) struct Simulated {
     at_rest: bool,
     max_time: f64,
     steps_per_observation: u64,
-    load: f64,
+    period: f64,
     density: f64,
     /// (time, rms ln(J/J̄)).
     gaps: Vec<(f64, f64)>,
-    energy_defect: f64,
+    /// Largest gain and largest loss of energy that nothing accounts for (J/m).
+    energy_defect: (f64, f64),
     work_residuals: Vec<f64>,
 }
 
@@ -183,10 +184,10 @@ impl Simulated {
             at_rest: false,
             max_time: number("max_periods") * period,
             steps_per_observation: ((period / OBSERVATIONS / dt).round() as u64).max(1),
-            load: number("load"),
+            period,
             density,
             gaps: Vec::new(),
-            energy_defect: 0.0,
+            energy_defect: (0.0, 0.0),
             work_residuals: Vec::new(),
         })
     }
@@ -331,6 +332,7 @@ impl Job for Simulated {
             "tip_uy (m)",
             "mid_edge_uy (m)",
             "kinetic_energy (J/m)",
+            "nodal_kinetic_energy (J/m)",
             "stored_energy (J/m)",
             "stress_work (J/m)",
             "load_work (J/m)",
@@ -365,7 +367,7 @@ impl Job for Simulated {
         self.at_rest = self.rest.observe(Observation {
             time,
             force_ratio: work_residual,
-            energy_ratio: totals.kinetic_energy / totals.stored_energy,
+            energy_ratio: residual.kinetic_energy / totals.stored_energy,
             displacement: tip,
         });
         self.work_residuals.push(work_residual);
@@ -373,12 +375,14 @@ impl Job for Simulated {
         let work = totals.accumulated;
         let losses = work.damping + work.filter_loss + work.constraint_loss;
         let defect = totals.kinetic_energy + work.stress_work + losses - work.load_work;
-        self.energy_defect = self.energy_defect.max((defect / work.load_work).abs());
+        let (gain, loss) = self.energy_defect;
+        self.energy_defect = (gain.max(defect), loss.max(-defect));
         Ok(vec![
             time,
             tip,
             self.probes.mid_edge.value(&uy),
             totals.kinetic_energy,
+            residual.kinetic_energy,
             totals.stored_energy,
             work.stress_work,
             work.load_work,
@@ -469,7 +473,15 @@ impl Job for Simulated {
             ("reaction_uy".to_owned(), -self.simulation.residual().held_force[1]),
             ("mass".to_owned(), totals.mass),
             ("seeded_volume".to_owned(), totals.mass / self.density),
-            ("energy_defect".to_owned(), self.energy_defect),
+            (
+                "energy_gain".to_owned(),
+                self.energy_defect.0 / totals.accumulated.load_work,
+            ),
+            (
+                "energy_loss".to_owned(),
+                self.energy_defect.1 / totals.accumulated.load_work,
+            ),
+            ("period".to_owned(), self.period),
         ];
         for (name, probe) in &self.probes.stress {
             values.push((name.clone(), probe.value(&mean_stress)));
@@ -506,6 +518,7 @@ impl Job for Simulated {
 
 #[cfg(test)]
 mod tests {
+    use super::super::PARAMETERS;
     use super::*;
 
     #[test]
@@ -517,7 +530,7 @@ mod tests {
     fn the_edge_load_has_its_resultant_on_the_side() {
         for name in ["edge", "column"] {
             let set = [format!("load_at={name}"), "load_ramp=0".to_owned()];
-            let parameters = Parameters::new(Cook.parameters(), &set).unwrap();
+            let parameters = Parameters::new(&PARAMETERS, &set).unwrap();
             let mut particles = Particles::new(seed(0.5), 0.25, 1.0, [0.25; 2]).unwrap();
             for load in loads(&parameters, 1.0, 0.5, &particles.clone()) {
                 load.add(0.0, &mut particles);

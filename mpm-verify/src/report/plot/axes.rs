@@ -1,13 +1,13 @@
 //! Axes: ranges, ticks and their labels, and the box that they make.
 
-use super::canvas::{Canvas, Frame, INK, Point, Rgb, SMALL, largest};
+use super::canvas::{Block, Canvas, Frame, INK, LABEL, Point, Rgb, SMALL, largest};
 
 const GRID: Rgb = 0xE2E2E2;
 const MINOR_GRID: Rgb = 0xF1F1F1;
 /// Length of a major tick with its gap to the label.
 pub(super) const TICK: f64 = 20.0;
 /// Distance from an axis to its label below.
-pub(super) const LABEL_DROP: f64 = TICK + 33.0;
+const LABEL_DROP: f64 = TICK + 33.0;
 
 /// Ticks as positions on the axis (log axes: of the logarithm) with labels; minor ones have none.
 type Ticks = Vec<(f64, String)>;
@@ -16,14 +16,11 @@ type Ticks = Vec<(f64, String)>;
 fn nice_ticks(lo: f64, hi: f64, most: usize) -> (f64, Vec<f64>) {
     let decade = ((hi - lo) / most as f64).log10().floor() as i32;
     let steps = (0..4).flat_map(|e| [1.0, 2.0, 5.0].map(|d| d * 10f64.powi(decade + e)));
-    let ends = |step: f64| ((lo / step - 1e-9).ceil(), (hi / step + 1e-9).floor());
-    let mut fitting = steps.map(|step| (step, ends(step)));
-    fitting
-        .find(|(_, (first, last))| last - first < most as f64)
-        .map_or((hi - lo, Vec::new()), |(step, (first, last))| {
-            let count = (last - first + 1.0) as usize;
-            (step, (0..count).map(|k| (first + k as f64) * step).collect())
-        })
+    let mut all = steps.map(|s| (s, (lo / s - 1e-9).ceil(), (hi / s + 1e-9).floor()));
+    let fitting = all.find(|(_, first, last)| last - first < most as f64);
+    let (step, first, last) = fitting.unwrap_or((hi - lo, 1.0, 0.0));
+    let counts = 0..(last - first + 1.0) as usize;
+    (step, counts.map(|k| (first + k as f64) * step).collect())
 }
 
 fn superscript(exponent: i32) -> String {
@@ -49,9 +46,10 @@ fn tick_label(value: f64, step: f64, largest: f64) -> String {
     }
     let mut label = digits(0);
     let whole = label.find('.').unwrap_or(label.len());
-    for place in (1..whole).rev().filter(|p| whole > 4 && (whole - p) % 3 == 0) {
-        label.insert(place, '\u{2009}');
-    }
+    let groups = (1..whole)
+        .rev()
+        .filter(|p| whole > 4 && (whole - p) % 3 == 0);
+    groups.for_each(|place| label.insert(place, '\u{2009}'));
     format!("{sign}{label}")
 }
 
@@ -101,7 +99,7 @@ pub(super) struct Axis {
     log: bool,
     pub(super) range: (f64, f64),
     pub(super) length: f64,
-    pub(super) ticks: Ticks,
+    ticks: Ticks,
 }
 
 impl Axis {
@@ -140,10 +138,10 @@ impl Axis {
         largest(self.ticks.iter().map(|t| SMALL.width(&t.1)))
     }
 
-    /// Whole pixels from the start of the axis to the ticks with their labels.
-    fn marks(&self) -> impl Iterator<Item = (f64, &str)> {
-        let mark = |(position, label): &'_ (f64, String)| (self.pixels(*position).round(), label);
-        self.ticks.iter().map(move |t| (mark(t).0, t.1.as_str()))
+    /// The ticks with their distances from the start of the axis, in whole pixels.
+    pub(super) fn marks(&self) -> impl Iterator<Item = (f64, &str)> {
+        let place = |t: &(f64, String)| self.pixels(t.0).round();
+        self.ticks.iter().map(move |t| (place(t), t.1.as_str()))
     }
 }
 
@@ -163,5 +161,137 @@ pub(super) fn widen((lo, hi): (f64, f64), fraction: f64) -> (f64, f64) {
 /// Smallest range that holds the finite values.
 pub(super) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let finite = values.filter(|v| v.is_finite());
-    finite.map(|v| (v, v)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    finite
+        .map(|v| (v, v))
+        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
+
+/// The axes of a box, with their wrapped labels.
+pub(super) struct Axes {
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+    x_label: Block,
+    y_label: Block,
+}
+
+impl Axes {
+    /// Labels are wrapped to the lengths of the axes, but not shorter than `least`.
+    pub(super) fn new([x, y]: [Axis; 2], labels: [&str; 2], least: f64) -> Self {
+        let x_label = Block::new(labels[0], LABEL, x.length.max(least));
+        let y_label = Block::new(labels[1], LABEL, y.length.max(least));
+        Self {
+            x,
+            y,
+            x_label,
+            y_label,
+        }
+    }
+
+    /// Room for the ordinate's label and tick labels.
+    pub(super) fn left(&self) -> f64 {
+        self.y_label.height() + 12.0 + self.y.label_width() + TICK
+    }
+
+    /// Room for the abscissa's label and tick labels.
+    pub(super) fn below(&self) -> f64 {
+        LABEL_DROP + self.x_label.height()
+    }
+
+    pub(super) fn width(&self) -> f64 {
+        self.x.length.max(self.x_label.width())
+    }
+
+    /// The box, whose upper left corner lies at the next whole pixels.
+    pub(super) fn frame(&self, (left, top): Point) -> Frame {
+        let (left, top) = (left.round(), top.round());
+        [left, top, left + self.x.length, top + self.y.length]
+    }
+
+    pub(super) fn draw_grid(&self, canvas: &mut Canvas, [left, top, right, bottom]: Frame) {
+        for (major, colour) in [(false, MINOR_GRID), (true, GRID)] {
+            let chosen = |mark: &(f64, &str)| mark.1.is_empty() != major;
+            for x in self.x.marks().filter(chosen).map(|m| left + m.0) {
+                canvas.rectangle([x - 1.0, top, x + 1.0, bottom], colour, 1.0);
+            }
+            for y in self.y.marks().filter(chosen).map(|m| bottom - m.0) {
+                canvas.rectangle([left, y - 1.0, right, y + 1.0], colour, 1.0);
+            }
+        }
+    }
+
+    /// Draws the box and its ticks, labels of the two axes where asked for, and a title above.
+    pub(super) fn draw(&self, canvas: &mut Canvas, frame: Frame, title: &Block, on: [bool; 2]) {
+        let [left, top, right, bottom] = frame;
+        for x in [left, right] {
+            canvas.rectangle([x - 1.0, top - 1.0, x + 1.0, bottom + 1.0], INK, 1.0);
+        }
+        for y in [top, bottom] {
+            canvas.rectangle([left - 1.0, y - 1.0, right + 1.0, y + 1.0], INK, 1.0);
+        }
+        let length = |label: &str| if label.is_empty() { 5.0 } else { 10.0 };
+        for (x, label) in self.x.marks().map(|m| (left + m.0, m.1)) {
+            canvas.rectangle([x - 1.0, bottom, x + 1.0, bottom + length(label)], INK, 1.0);
+            if on[0] {
+                canvas.text(label, (x, bottom + TICK), SMALL, (0.5, 0.0), false);
+            }
+        }
+        for (y, label) in self.y.marks().map(|m| (bottom - m.0, m.1)) {
+            canvas.rectangle([left - length(label), y - 1.0, left, y + 1.0], INK, 1.0);
+            if on[1] {
+                canvas.text(label, (left - TICK, y), SMALL, (1.0, 0.5), false);
+            }
+        }
+        let (middle, beside) = ((left + right) / 2.0, left - self.left());
+        canvas.block(title, (middle, top - 12.0 - title.height()), false);
+        if on[0] {
+            canvas.block(&self.x_label, (middle, bottom + LABEL_DROP), false);
+        }
+        if on[1] {
+            canvas.block(&self.y_label, (beside, (top + bottom) / 2.0), true);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(ticks: Ticks) -> Vec<String> {
+        let labels = ticks.into_iter().map(|t| t.1);
+        labels.filter(|label| !label.is_empty()).collect()
+    }
+
+    #[test]
+    fn linear_ticks_are_round() {
+        for (lo, hi, most, expected) in [
+            (0.257, 0.283, 4, "0.26 0.27 0.28"),
+            (-1.0, 1.0, 5, "−1.0 −0.5 0 0.5 1.0"),
+            (0.0, 45_000.0, 3, "0 20\u{2009}000 40\u{2009}000"),
+            (-2.1e6, 0.0, 3, "−2×10⁶ −1×10⁶ 0"),
+            (0.0, 4e-7, 3, "0 2×10⁻⁷ 4×10⁻⁷"),
+        ] {
+            assert_eq!(labels(linear_ticks(lo, hi, most)).join(" "), expected);
+        }
+        for (lo, hi) in [(0.1, 0.7), (-3e5, 12.0), (1e-9, 1.1e-9), (99.0, 101.0)] {
+            for most in 2..10 {
+                let (_, ticks) = nice_ticks(lo, hi, most);
+                assert!(
+                    (1..=most).contains(&ticks.len()),
+                    "{lo} {hi} {most}: {ticks:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn log_ticks_follow_the_span() {
+        for (lo, hi, most, expected) in [
+            (-3.2, 0.1, 9, "10⁻³ 10⁻² 10⁻¹ 10⁰"),
+            (-12.0, 0.0, 5, "10⁻¹² 10⁻⁹ 10⁻⁶ 10⁻³ 10⁰"),
+            (-1.0, 0.0, 9, "0.1 0.2 0.5 1"),
+            (0.26_f64.log10(), 0.29_f64.log10(), 3, "0.26 0.28"),
+        ] {
+            assert_eq!(labels(log_ticks(lo, hi, most)).join(" "), expected);
+        }
+    }
 }

@@ -70,9 +70,14 @@ impl Font {
         FontDesc::new(FontFamily::SansSerif, FINE * self.0, style)
     }
 
+    /// Advance of a character, in the library's pixels.
+    fn advance(self, glyph: &str) -> i32 {
+        self.face().box_size(glyph).map_or(0, |size| size.0 as i32)
+    }
+
     pub(super) fn width(self, text: &str) -> f64 {
-        let size = self.face().box_size(text);
-        size.map_or(0.0, |(width, _)| f64::from(width) / FINE)
+        let glyphs = text.split("").map(|glyph| self.advance(glyph));
+        f64::from(glyphs.sum::<i32>()) / FINE
     }
 }
 
@@ -121,8 +126,8 @@ impl Canvas {
 
     /// Copies a part out, on which nothing can be drawn beyond its frame.
     pub(super) fn cut(&self, [left, top, right, bottom]: Frame) -> Self {
-        let [x, y, w, h] =
-            [left, top, right - left, bottom - top].map(|v| (FINE * v).round() as u32);
+        let sides = [left, top, right - left, bottom - top];
+        let [x, y, w, h] = sides.map(|v| (FINE * v).round() as u32);
         let image = imageops::crop_imm(&self.image, x, y, w, h).to_image();
         Self { image, error: None }
     }
@@ -136,6 +141,10 @@ impl Canvas {
     fn draw<E: Display>(&mut self, act: impl FnOnce(&mut BitMapBackend) -> Result<(), E>) {
         let size = self.image.dimensions();
         let drawn = act(&mut BitMapBackend::with_buffer(&mut self.image, size));
+        self.record(drawn);
+    }
+
+    fn record<T, E: Display>(&mut self, drawn: Result<T, E>) {
         if let Err(error) = drawn {
             self.error.get_or_insert(error.to_string());
         }
@@ -151,17 +160,14 @@ impl Canvas {
         self.draw(|to| to.fill_polygon(corners.iter().copied().map(fine), &rgb(colour)));
     }
 
-    fn circle(&mut self, centre: Point, radius: f64, colour: Rgb) {
-        let radius = (FINE * radius) as u32;
-        self.draw(|to| to.draw_circle(fine(centre), radius, &rgb(colour), true));
-    }
-
     /// Draws a round-ended line.
     fn segment(&mut self, ends: [Point; 2], width: f64, colour: Rgb) {
-        let style = rgb(colour).stroke_width((FINE * width).round() as u32);
+        // The library's polygons and circles cover a pixel more than their width.
+        let style = rgb(colour).stroke_width((FINE * width).round() as u32 - 1);
         self.draw(|to| to.draw_path(ends.map(fine), &style));
+        let radius = (FINE * width / 2.0) as u32;
         for end in ends {
-            self.circle(end, width / 2.0, colour);
+            self.draw(|to| to.draw_circle(fine(end), radius, &rgb(colour), true));
         }
     }
 
@@ -212,12 +218,6 @@ impl Canvas {
         // A regular polygon: number of corners, angle of the first, and size.
         let (corners, turn, size) = match marker {
             Marker::None => return,
-            Marker::Circle => {
-                for (radius, colour) in [(12.0, WHITE), (10.0, colour), (6.67, inner)] {
-                    self.circle(at, radius, colour);
-                }
-                return;
-            }
             Marker::Cross => {
                 for (width, colour) in [(LINE + 4.0, WHITE), (LINE + 0.7, colour)] {
                     self.segment([about(-8.5, -8.5), about(8.5, 8.5)], width, colour);
@@ -225,6 +225,7 @@ impl Canvas {
                 }
                 return;
             }
+            Marker::Circle => (48, 0.0, 10.0),
             Marker::Square => (4, 45.0, 12.8),
             Marker::Triangle => (3, 90.0, 14.0),
             Marker::Diamond => (4, 90.0, 13.0),
@@ -241,17 +242,30 @@ impl Canvas {
     /// Draws one line of text; `anchor` is the fraction of its width and of a capital's height (from
     /// the top) that lies at the point. Turned text reads upwards, with `anchor` turned along.
     pub(super) fn text(&mut self, text: &str, at: Point, font: Font, anchor: Point, turned: bool) {
-        // The library puts the baseline half the font's height below its origin.
-        let along = -anchor.0 * font.width(text);
+        let turn = [FontTransform::None, FontTransform::Rotate270][usize::from(turned)].clone();
+        let (face, colour) = (font.face().transform(turn), rgb(INK));
+        let style = TextStyle::from(face.clone()).color(&colour);
+        // The library puts the baseline half the font's height below its origin, and a character's
+        // ink, which belongs about the middle of its advance, at its start.
         let down = font.0 * (CAPITAL * (1.0 - anchor.1) - 0.5);
-        let (x, y, turn) = if turned {
-            (down, -along, FontTransform::Rotate270)
-        } else {
-            (along, down, FontTransform::None)
-        };
-        let style = TextStyle::from(font.face().transform(turn));
-        let place = fine((at.0 + x, at.1 + y));
-        self.draw(|to| to.draw_text(text, &style.color(&rgb(INK)), place));
+        let (mut pen, down) = fine((-anchor.0 * font.width(text), down));
+        let (x, y) = fine(at);
+        for glyph in text.split("").filter(|glyph| !glyph.is_empty()) {
+            let (advance, mut ink) = (font.advance(glyph), 0);
+            let measure = |x: i32, _, _| {
+                ink = ink.max(x + 1);
+                Ok::<(), &str>(())
+            };
+            self.record(face.draw(glyph, (0, 0), measure));
+            let along = pen + (advance - ink) / 2;
+            let place = if turned {
+                (x + down, y - along)
+            } else {
+                (x + along, y + down)
+            };
+            self.draw(|to| to.draw_text(glyph, &style, place));
+            pen += advance;
+        }
     }
 
     /// Draws centred lines of text downwards from `at` (turned: rightwards).

@@ -1,0 +1,95 @@
+//! Progress: bars on a terminal, plain lines otherwise.
+
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mpm_verify::case::{Case, Tier};
+use mpm_verify::record::{Record, Status};
+use mpm_verify::study::{Listener, plan_of};
+use std::io::{self, IsTerminal, Write};
+use std::sync::Mutex;
+
+/// Positions of a full bar.
+pub(crate) const SCALE: f64 = 1000.0;
+
+fn style() -> ProgressStyle {
+    ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {elapsed}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+/// A bar for one run; hidden where stderr is no terminal.
+pub(crate) fn single(message: &str) -> ProgressBar {
+    let bar = ProgressBar::new(SCALE as u64).with_style(style());
+    bar.set_message(message.to_owned());
+    bar
+}
+
+/// The progress of a plan.
+pub(crate) struct Plan {
+    names: Vec<String>,
+    bars: MultiProgress,
+    running: Mutex<Vec<Option<ProgressBar>>>,
+    ended: Mutex<usize>,
+    terminal: bool,
+}
+
+impl Plan {
+    pub(crate) fn new(cases: &[&dyn Case], tier: Tier) -> Self {
+        let names: Vec<String> = plan_of(cases, tier)
+            .iter()
+            .map(|(case, spec)| format!("{} {}", case.name(), spec.folder()))
+            .collect();
+        let terminal = io::stderr().is_terminal();
+        let bars = MultiProgress::new();
+        if !terminal {
+            bars.set_draw_target(ProgressDrawTarget::hidden());
+        }
+        Self {
+            running: Mutex::new(vec![None; names.len()]),
+            ended: Mutex::new(0),
+            names,
+            bars,
+            terminal,
+        }
+    }
+
+    pub(crate) fn finish(&self) {
+        // A terminal that can't be cleared is no reason to fail.
+        let _ = self.bars.clear();
+    }
+}
+
+impl Listener for Plan {
+    fn progress(&self, run: usize, share: f64) {
+        if let Ok(mut running) = self.running.lock() {
+            let bar = running[run].get_or_insert_with(|| self.bars.add(single(&self.names[run])));
+            bar.set_position((share * SCALE) as u64);
+        }
+    }
+
+    fn ended(&self, run: usize, record: &Record) {
+        let failed = record.verdicts.iter().filter(|v| v.failed()).count();
+        let outcome = match (record.status, failed) {
+            (Status::Failed, _) => "FAILED".to_owned(),
+            (Status::Ok, 0) => "ok".to_owned(),
+            (Status::Ok, n) => format!("{n} checks failed"),
+        };
+        let count = self.ended.lock().map_or(0, |mut ended| {
+            *ended += 1;
+            *ended
+        });
+        let line = format!(
+            "[{count}/{}] {}  {outcome}  {:.1} s",
+            self.names.len(),
+            self.names[run],
+            record.time.wall_s
+        );
+        let bar = self.running.lock().ok().and_then(|mut r| r[run].take());
+        if let Some(bar) = bar {
+            bar.finish_and_clear();
+        }
+        if self.terminal {
+            let _ = self.bars.println(line);
+        } else {
+            let _ = writeln!(io::stderr(), "{line}");
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Text for the terminal: lists, explanations, verdicts.
+
+use crate::case::{Case, Tier};
+use crate::check::{Kind, Verdict};
+use crate::record::{Record, Status};
+use crate::study::Summary;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// The cases as text, with the runs of a tier if one is given.
+#[must_use]
+pub fn list_text(cases: &[&dyn Case], tier: Option<Tier>) -> String {
+    let mut text = String::new();
+    for case in cases {
+        let levels: Vec<&str> = case.levels().iter().map(|l| l.name).collect();
+        let _ = writeln!(text, "{}  {}", case.name(), case.title());
+        let _ = writeln!(text, "  levels: {}", levels.join(" "));
+        match tier {
+            None => {
+                let _ = writeln!(text, "  schemes:");
+                for scheme in case.schemes() {
+                    let _ = writeln!(text, "    {scheme}");
+                }
+            }
+            Some(tier) => {
+                let _ = writeln!(text, "  runs of tier {tier}:");
+                for spec in case.plan(tier) {
+                    let _ = writeln!(text, "    {}", spec.folder());
+                }
+            }
+        }
+    }
+    text
+}
+
+/// The same as JSON.
+#[must_use]
+pub fn list_json(cases: &[&dyn Case], tier: Option<Tier>) -> String {
+    let cases: Vec<Value> = cases
+        .iter()
+        .map(|case| {
+            let mut entry = json!({
+                "case": case.name(),
+                "title": case.title(),
+                "levels": case.levels().iter().map(|l| l.name).collect::<Vec<_>>(),
+                "schemes": case.schemes(),
+            });
+            if let Some(tier) = tier {
+                entry["tier"] = json!(tier.to_string());
+                entry["runs"] = case
+                    .plan(tier)
+                    .iter()
+                    .map(|s| json!({"scheme": s.scheme, "level": s.level.name, "set": s.set}))
+                    .collect();
+            }
+            entry
+        })
+        .collect();
+    format!("{:#}\n", Value::Array(cases))
+}
+
+/// Everything about a case.
+#[must_use]
+pub fn explain(case: &dyn Case) -> String {
+    let mut t = format!("{}: {}\n\n{}\n", case.name(), case.title(), case.description());
+    let _ = writeln!(t, "\nParameters (--set name=value)");
+    for p in case.parameters() {
+        let _ = writeln!(
+            t,
+            "  {} ({})  default {}, allowed {}\n      {}",
+            p.name, p.unit, p.default, p.domain, p.meaning
+        );
+    }
+    let _ = writeln!(t, "\nSchemes (--basis B --remedy R --transfer T)");
+    for s in case.schemes() {
+        let _ = writeln!(t, "  --basis {} --remedy {} --transfer {}", s.basis, s.remedy, s.transfer);
+    }
+    let _ = writeln!(t, "\nLevels (--level L)");
+    for l in case.levels() {
+        let _ = writeln!(t, "  {}  cells of {} m", l.name, l.h);
+    }
+    let _ = writeln!(t, "\nMetrics");
+    for m in case.metrics() {
+        let _ = writeln!(t, "  {} ({})  {}", m.name, m.unit, m.meaning);
+    }
+    let _ = writeln!(t, "\nChecks");
+    for c in case.checks() {
+        let _ = writeln!(t, "  {} [{}]  {}", c.name, kind(c.kind), c.statement);
+    }
+    let _ = writeln!(t, "\nReferences");
+    for r in case.references() {
+        let _ = writeln!(t, "  {r}");
+    }
+    let _ = writeln!(t, "\nLimits");
+    for l in case.limits() {
+        let _ = writeln!(t, "  {l}");
+    }
+    t
+}
+
+/// Name of a kind of check.
+#[must_use]
+pub fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Truth => "TRUTH",
+        Kind::KnownLimit => "known limit",
+    }
+}
+
+/// Outcome of a verdict in a word or two.
+#[must_use]
+pub fn outcome(verdict: &Verdict) -> &'static str {
+    match verdict.pass {
+        Some(true) => "pass",
+        Some(false) => "FAIL",
+        None => "not applicable",
+    }
+}
+
+/// A number of a verdict, or a dash.
+#[must_use]
+pub fn number(value: Option<f64>) -> String {
+    match value {
+        None => "–".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(x) if (1e-3..1e5).contains(&x.abs()) => {
+            let text = format!("{x:.6}");
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        }
+        Some(x) => format!("{x:.3e}"),
+    }
+}
+
+/// One verdict on a line.
+#[must_use]
+pub fn verdict_line(v: &Verdict) -> String {
+    format!(
+        "{:14} [{}] {}: {} = {} (reference {}, tolerance {}) {}",
+        outcome(v),
+        kind(v.kind),
+        v.check,
+        v.metric,
+        number(v.value),
+        number(v.reference),
+        number(v.tolerance),
+        v.source
+    )
+}
+
+/// A run: metrics and verdicts.
+#[must_use]
+pub fn record(r: &Record) -> String {
+    let mut t = format!("{} {} {} {}\n", r.case, r.scheme(), r.level, r.set.join(" "));
+    if let Some(e) = &r.error {
+        let _ = writeln!(t, "FAILED ({}): {}", e.kind, e.message);
+    }
+    for (name, metric) in &r.metrics {
+        let _ = writeln!(t, "  {name} = {} {}", number(metric.value), metric.unit);
+    }
+    let _ = writeln!(
+        t,
+        "  {} particles, {} steps, {:.1} s, {:.0} ns per particle and step",
+        r.work.particles,
+        r.work.steps,
+        r.time.wall_s,
+        1e9 * r.time.wall_s / r.work.particle_steps.max(1) as f64
+    );
+    for v in &r.verdicts {
+        let _ = writeln!(t, "{}", verdict_line(v));
+    }
+    t
+}
+
+/// What a verification found: failures first, then counts.
+#[must_use]
+pub fn verdict_summary(summary: &Summary) -> String {
+    let mut t = String::new();
+    for (study, record, verdict) in summary.verdicts().filter(|(_, _, v)| v.failed()) {
+        let run = record.map_or_else(String::new, |r| {
+            format!("{} {} {} ", r.scheme(), r.level, r.set.join(" "))
+        });
+        let _ = writeln!(t, "{} {run}{}", study.case, verdict_line(verdict));
+    }
+    for record in summary.cases.iter().flat_map(|c| &c.records) {
+        if let (Status::Failed, Some(e)) = (record.status, &record.error) {
+            let _ = writeln!(t, "{} {} {}: {}", record.case, record.scheme(), record.level, e.message);
+        }
+    }
+    let c = summary.counts;
+    let _ = writeln!(
+        t,
+        "{} runs ({} broke down, {} without an applicable check): {} checks passed, {} failed, {} not applicable",
+        c.runs, c.failed_runs, c.runs_without_truth, c.passed, c.failed, c.not_applicable
+    );
+    t
+}

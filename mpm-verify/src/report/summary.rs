@@ -1,0 +1,128 @@
+//! The summary in Markdown.
+
+use super::Picture;
+use super::describe::{kind, number, outcome};
+use crate::error::Error;
+use crate::files::write_whole;
+use crate::record::Record;
+use crate::study::Summary;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Metrics of the table of results: name, heading, factor, decimals.
+const RESULTS: [(&str, &str, f64, usize); 8] = [
+    ("fem_mid_edge_error", "mid-edge error (%)", 100.0, 2),
+    ("fem_edge_mean_error", "edge-mean error (%)", 100.0, 2),
+    ("fem_tip_error", "tip error (%)", 100.0, 2),
+    ("mean_stress_rms_error", "σ_m rms error (mPa)", 1e3, 1),
+    ("checkerboard_ratio", "checkerboard (–)", 1.0, 2),
+    ("rest_time", "time to rest (s)", 1.0, 0),
+    ("creep_rate", "creep of ln(J/J̄) (10⁻⁶/s)", 1e6, 2),
+    ("log_jacobian_gap", "ln(J/J̄) at the end (10⁻⁴)", 1e4, 2),
+];
+
+/// Writes `summary.md` into `out`.
+pub(super) fn write(summary: &Summary, pictures: &[Picture], out: &Path) -> Result<(), Error> {
+    let path = out.join("summary.md");
+    write_whole(&path, text(summary, pictures).as_bytes())
+}
+
+fn text(summary: &Summary, pictures: &[Picture]) -> String {
+    let c = summary.counts;
+    let mut t = format!(
+        "# Verification, tier {}\n\n{} runs, {} broke down. {} checks passed, {} failed, {} not applicable.\n",
+        summary.tier, c.runs, c.failed_runs, c.passed, c.failed, c.not_applicable
+    );
+    if c.runs_without_truth > 0 {
+        let _ = writeln!(t, "\n{} runs have no applicable check.", c.runs_without_truth);
+    }
+    failures(summary, &mut t);
+    for study in &summary.cases {
+        let _ = writeln!(t, "\n## {}\n", study.case);
+        results(&study.records, &mut t);
+    }
+    for picture in pictures {
+        let _ = writeln!(t, "\n![{}]({})\n\n{}", picture.caption, picture.file, picture.caption);
+    }
+    verdicts(summary, &mut t);
+    t
+}
+
+fn failures(summary: &Summary, t: &mut String) {
+    for record in summary.cases.iter().flat_map(|s| &s.records) {
+        if let Some(error) = &record.error {
+            let _ = writeln!(t, "\n**Broke down**: {} {} {}: {}", record.case, record.scheme(), record.level, error.message);
+        }
+    }
+    if summary.counts.failed > 0 {
+        let _ = writeln!(t, "\n## Failed checks\n");
+        table(summary, t, |v| v.pass == Some(false));
+    }
+}
+
+fn results(records: &[Record], t: &mut String) {
+    let headings: Vec<&str> = RESULTS.iter().map(|r| r.1).collect();
+    let _ = writeln!(
+        t,
+        "| scheme | level | changed | particles | steps | {} | CPU (s) |",
+        headings.join(" | ")
+    );
+    let _ = writeln!(t, "|{}", "---|".repeat(RESULTS.len() + 6));
+    for r in records {
+        let cells: Vec<String> = RESULTS
+            .iter()
+            .map(|(name, _, factor, decimals)| {
+                let value = r.metric(name) * factor;
+                let resting = *name != "rest_time" || r.metric("at_rest") > 0.0;
+                match (value.is_finite(), resting) {
+                    (false, _) => "–".to_owned(),
+                    (true, true) => format!("{value:.decimals$}"),
+                    (true, false) => format!("not within {value:.decimals$}"),
+                }
+            })
+            .collect();
+        let _ = writeln!(
+            t,
+            "| {} {} | {} | {} | {} | {} | {} | {:.1} |",
+            r.basis,
+            r.remedy,
+            r.level,
+            r.set.join(" "),
+            r.work.particles,
+            r.work.steps,
+            cells.join(" | "),
+            r.time.cpu_s
+        );
+    }
+}
+
+fn verdicts(summary: &Summary, t: &mut String) {
+    let _ = writeln!(t, "\n## All verdicts\n");
+    table(summary, t, |_| true);
+}
+
+fn table(summary: &Summary, t: &mut String, keep: impl Fn(&crate::check::Verdict) -> bool) {
+    let _ = writeln!(
+        t,
+        "| outcome | kind | check | run | metric | value | reference | tolerance | source |\n|---|---|---|---|---|---|---|---|---|"
+    );
+    for (study, record, v) in summary.verdicts().filter(|(_, _, v)| keep(v)) {
+        let run = record.map_or_else(
+            || study.case.clone(),
+            |r| format!("{} {} {} {}", r.basis, r.remedy, r.level, r.set.join(" ")),
+        );
+        let _ = writeln!(
+            t,
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            outcome(v),
+            kind(v.kind),
+            v.check,
+            run.trim(),
+            v.metric,
+            number(v.value),
+            number(v.reference),
+            number(v.tolerance),
+            v.source.replace('|', "\\|")
+        );
+    }
+}
