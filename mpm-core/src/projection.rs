@@ -60,7 +60,9 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, 
             lattice.plane(),
             self.slabs,
             |slab, nodes, first| {
-                for p in slab {
+                let (x, l) = (&x[slab.clone()], &l[slab.clone()]);
+                let (volume, values) = (&volume[slab.clone()], &values[slab]);
+                for p in 0..x.len() {
                     let stencil = lattice.stencil(&x[p], &l[p]);
                     let last = stencil.last();
                     for r in 0..Stencil::<D, S>::ROWS {

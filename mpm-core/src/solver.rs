@@ -238,16 +238,19 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             lattice.plane(),
             &self.slabs,
             |slab, nodes, origin| {
-                for k in slab {
-                    let stencil = lattice.stencil(&p.position[k], &p.half_size[k]);
+                let (x, l) = (&p.position[slab.clone()], &p.half_size[slab.clone()]);
+                let (mass, v) = (&p.mass[slab.clone()], &p.velocity[slab.clone()]);
+                let (volume, stress) = (&p.volume[slab.clone()], &p.stress[slab.clone()]);
+                let external_force = &p.external_force[slab];
+                for k in 0..x.len() {
                     let given = Given {
-                        mass: p.mass[k],
-                        velocity: &p.velocity[k],
-                        volume: p.volume[k],
-                        stress: &p.stress[k],
-                        external_force: &p.external_force[k],
+                        mass: mass[k],
+                        velocity: &v[k],
+                        volume: volume[k],
+                        stress: &stress[k],
+                        external_force: &external_force[k],
                     };
-                    particle_to_grid(&stencil, &given, nodes, origin);
+                    particle_to_grid(&lattice.stencil(&x[k], &l[k]), &given, nodes, origin);
                 }
             },
         );
@@ -329,28 +332,30 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             .enumerate()
             .for_each(
                 |(c, (sums, v, increment, delta_f, j, x, l, volume, stress, force))| {
-                    *sums = ChunkSums::default();
+                    let mut chunk = ChunkSums::default();
                     for k in 0..x.len() {
                         let got = grid_to_particle(&lattice.stencil(&x[k], &l[k]), nodes);
                         v[k] = blend(eta, &v[k], &got);
-                        let gradient =
-                            SMatrix::<f64, D, D>::from_fn(|a, b| got.gradient[a][b]);
+                        let gradient = SMatrix::<f64, D, D>::from_fn(|a, b| got.gradient[a][b]);
                         delta_f[k] = SMatrix::identity() + gradient * dt;
                         j[k] *= space::determinant(&delta_f[k]);
-                        if sums.fault.is_none()
+                        if chunk.fault.is_none()
                             && let Err(fault) = check_jacobian(j[k])
                         {
-                            sums.fault = Some((c * CHUNK + k, fault));
+                            chunk.fault = Some((c * CHUNK + k, fault));
                         }
+                        let (mut load_power, mut stress_power) = (0.0, 0.0);
                         for a in 0..D {
                             increment[k][a] = dt * got.velocity[a];
-                            sums.load_power += force[k][a] * got.velocity[a];
+                            load_power += force[k][a] * got.velocity[a];
                             for b in 0..D {
-                                sums.stress_power +=
-                                    volume[k] * stress[k].get(a, b) * got.gradient[a][b];
+                                stress_power += stress[k].get(a, b) * got.gradient[a][b];
                             }
                         }
+                        chunk.load_power += load_power;
+                        chunk.stress_power += volume[k] * stress_power;
                     }
+                    *sums = chunk;
                 },
             );
         self.work.particle_node_pairs += self.transfer_pairs * self.work.particles;
@@ -426,14 +431,15 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             .into_par_iter()
             .enumerate()
             .for_each(|(c, (sums, x, increment))| {
+                let mut largest = 0.0_f64;
                 for k in 0..x.len() {
                     let mut distance = 0.0_f64;
                     for a in 0..D {
                         x[k][a] += increment[k][a];
                         distance = distance.max(increment[k][a].abs());
                     }
-                    sums.largest_increment = sums.largest_increment.max(distance);
-                    let checked = check_cfl((distance + wave_distance) / grid.h)
+                    largest = largest.max(distance);
+                    let checked = check_cfl(distance + wave_distance, grid.h)
                         .and_then(|()| place_on_grid(grid, &mut x[k]));
                     match checked {
                         Ok(wrapped) => sums.wrapped |= wrapped,
@@ -442,6 +448,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
                         }
                     }
                 }
+                sums.largest_increment = largest;
             });
         let mut wrapped = false;
         let mut largest = 0.0_f64;
@@ -461,7 +468,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
     }
 
     fn check_positions(&mut self) -> Result<(), Error> {
-        check_cfl(self.wave_speed * self.scene.dt / self.scene.grid.h)
+        check_cfl(self.wave_speed * self.scene.dt, self.scene.grid.h)
             .map_err(|fault| self.breakdown(0, fault))?;
         for k in 0..self.scene.particles.len() {
             let mut x = self.scene.particles.position[k];
@@ -502,10 +509,11 @@ fn check_jacobian(j: f64) -> Result<(), Fault> {
     Ok(())
 }
 
-fn check_cfl(cfl: f64) -> Result<(), Fault> {
-    if cfl > CFL_LIMIT {
+/// Whether what moves `distance` (m) in a step stays within the CFL limit on cells of size `h` (m).
+fn check_cfl(distance: f64, h: f64) -> Result<(), Fault> {
+    if distance > CFL_LIMIT * h {
         return Err(Fault::UnstableTimeStep {
-            cfl,
+            cfl: distance / h,
             limit: CFL_LIMIT,
         });
     }

@@ -31,12 +31,20 @@ pub fn require_writable(folder: &Path) -> Result<(), Error> {
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
     let folder = path.parent().unwrap_or(Path::new("."));
     make_folder(folder)?;
-    let mut draft = tempfile::NamedTempFile::new_in(folder).map_err(|e| Error::file(path, e))?;
+    let mut draft = readable_draft(folder).map_err(|e| Error::file(path, e))?;
     draft
         .write_all(content)
         .map_err(|e| Error::file(path, e))?;
     draft.persist(path).map_err(|e| Error::file(path, e))?;
     Ok(())
+}
+
+/// A temporary file with the permissions of an ordinary one.
+fn readable_draft(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
 }
 
 /// Writes JSON, indented, with a final newline.

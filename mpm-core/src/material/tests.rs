@@ -1,0 +1,135 @@
+//! The properties that every law must have.
+
+use super::*;
+use nalgebra::{Rotation3, Vector3};
+use proptest::prelude::*;
+
+/// Deformation gradients with stretches near one and a positive determinant.
+fn deformations() -> impl Strategy<Value = Matrix3<f64>> {
+    prop::array::uniform9(-0.2..0.2_f64).prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a))
+}
+
+fn rotations() -> impl Strategy<Value = Matrix3<f64>> {
+    prop::array::uniform3(-3.0..3.0_f64).prop_map(|a| Rotation3::new(Vector3::from(a)).into_inner())
+}
+
+fn deform<M: Law>(law: &M, f: &Matrix3<f64>) -> (SymmetricTensor, M::State) {
+    law.update(f, 1e-3, &law.initial_state())
+}
+
+/// Stress scale (Pa): the P-wave modulus.
+fn modulus<M: Law>(law: &M) -> f64 {
+    law.wave_speed(1.0).powi(2)
+}
+
+/// Cauchy stress from the stored energy: σ = (∂W/∂F) Fᵀ / J by central differences. With step d the
+/// error is of order d² M from truncation and 1e-16 M/d from rounding: 1e-9 M at d = 1e-5.
+fn stress_is_the_derivative_of_the_energy<M: Law>(law: &M, f: &Matrix3<f64>) {
+    let d = 1e-5;
+    let energy = |f: &Matrix3<f64>| law.energy(&deform(law, f).1);
+    let first_piola = Matrix3::from_fn(|i, j| {
+        let mut step = Matrix3::zeros();
+        step[(i, j)] = d;
+        (energy(&(f + step)) - energy(&(f - step))) / (2.0 * d)
+    });
+    let expected = first_piola * f.transpose() / f.determinant();
+    let stress = deform(law, f).0.to_matrix();
+    let error = (stress - expected).abs().max() / modulus(law);
+    assert!(error < 1e-7, "stress {stress} but energy gives {expected}");
+    let skew = (expected - expected.transpose()).abs().max() / modulus(law);
+    assert!(skew < 1e-7, "stress is not symmetric: {expected}");
+}
+
+fn stress_turns_with_the_body<M: Law>(law: &M, f: &Matrix3<f64>, q: &Matrix3<f64>) {
+    let turned = deform(law, &(q * f)).0.to_matrix();
+    let expected = q * deform(law, f).0.to_matrix() * q.transpose();
+    assert!((turned - expected).abs().max() < 1e-12 * modulus(law));
+}
+
+fn rest_is_free_of_stress<M: Law>(law: &M, q: &Matrix3<f64>) {
+    let (stress, state) = deform(law, &Matrix3::identity());
+    assert_eq!(stress, SymmetricTensor::default());
+    assert_eq!(state, law.initial_state());
+    assert_eq!(law.energy(&state), 0.0);
+    let turned = deform(law, q).0.to_matrix();
+    assert!(turned.abs().max() < 1e-12 * modulus(law));
+}
+
+/// Two steps give what one gives: the state forgets nothing.
+fn increments_compose<M: Law>(law: &M, first: &Matrix3<f64>, second: &Matrix3<f64>) {
+    let half = deform(law, first).1;
+    let stress = law.update(second, 1e-3, &half).0.to_matrix();
+    let expected = deform(law, &(second * first)).0.to_matrix();
+    assert!((stress - expected).abs().max() < 1e-11 * modulus(law));
+}
+
+/// ρ c² is the slope of axial stress in uniaxial strain.
+fn waves_run_at_the_stated_speed<M: Law>(law: &M) {
+    let d = 1e-6;
+    let axial = |e: f64| deform(law, &Matrix3::from_diagonal(&Vector3::new(1.0 + e, 1.0, 1.0))).0.xx;
+    let slope = (axial(d) - axial(-d)) / (2.0 * d);
+    let density = 3.0;
+    let speed = law.wave_speed(density);
+    assert!((density * speed * speed / slope - 1.0).abs() < 1e-6);
+}
+
+/// Registers a law: all properties, under the law's name.
+macro_rules! every_law_must {
+    ($name:ident, $law:expr) => {
+        mod $name {
+            use super::*;
+
+            proptest! {
+                #[test]
+                fn derive_stress_from_energy(f in deformations()) {
+                    stress_is_the_derivative_of_the_energy(&$law, &f);
+                }
+
+                #[test]
+                fn be_objective(f in deformations(), q in rotations()) {
+                    stress_turns_with_the_body(&$law, &f, &q);
+                }
+
+                #[test]
+                fn rest_without_stress(q in rotations()) {
+                    rest_is_free_of_stress(&$law, &q);
+                }
+
+                #[test]
+                fn compose_increments(f in deformations(), g in deformations()) {
+                    increments_compose(&$law, &f, &g);
+                }
+            }
+
+            #[test]
+            fn know_its_wave_speed() {
+                waves_run_at_the_stated_speed(&$law);
+            }
+        }
+    };
+}
+
+every_law_must!(neo_hookean, NeoHookean { lambda: 3.0, mu: 2.0 });
+every_law_must!(nearly_incompressible_neo_hookean, NeoHookean::new(70.0, 0.499).unwrap());
+
+#[test]
+fn neo_hookean_matches_its_closed_form_in_shear_and_uniaxial_strain() {
+    let law = NeoHookean { lambda: 5.0, mu: 2.0 };
+    let mut shear = Matrix3::identity();
+    shear[(0, 1)] = 0.3;
+    let s = deform(&law, &shear).0;
+    for (value, exact) in [(s.xx, 2.0 * 0.09), (s.xy, 2.0 * 0.3), (s.yy, 0.0), (s.zz, 0.0)] {
+        assert!((value - exact).abs() < 1e-14);
+    }
+    let stretch = Matrix3::from_diagonal(&Vector3::new(1.2, 1.0, 1.0));
+    let s = deform(&law, &stretch).0;
+    assert!((s.xx - (2.0 * (1.44 - 1.0) + 5.0 * 1.2_f64.ln()) / 1.2).abs() < 1e-14);
+    assert!((s.zz - 5.0 * 1.2_f64.ln() / 1.2).abs() < 1e-14);
+}
+
+#[test]
+fn elastic_constants_out_of_range_are_refused() {
+    for (young, poisson) in [(0.0, 0.3), (f64::NAN, 0.3), (1.0, 0.5), (1.0, -1.0), (1.0, f64::NAN), (f64::INFINITY, 0.3)] {
+        assert!(NeoHookean::new(young, poisson).is_err());
+    }
+}

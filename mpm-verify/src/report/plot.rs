@@ -715,7 +715,7 @@ mod tests {
                 ..
             })
         ));
-        let lost = draw_charts(path, &[chart()], 1);
+        let lost = draw_charts(Path::new("Cargo.toml/picture.png"), &[chart()], 1);
         assert!(matches!(lost, Err(PlotError::Write { .. })));
     }
 }

@@ -2,7 +2,7 @@
 //! averaged down, which smooths them all alike.
 
 use std::fmt::Display;
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::path::Path;
 use std::sync::Once;
 
@@ -12,6 +12,7 @@ use plotters::prelude::{Color, FontDesc, FontFamily, FontStyle, RGBColor, TextSt
 use plotters::style::{FontTransform, register_font};
 
 use super::{Marker, PlotError};
+use crate::files::write_whole;
 
 /// A position, rightwards and downwards in pixels or in data coordinates.
 pub(super) type Point = (f64, f64);
@@ -292,10 +293,7 @@ impl Canvas {
         imageops::thumbnail(&self.image, width, height)
             .write_to(&mut png, ImageFormat::Png)
             .map_err(|e| failed(&e))?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let mut draft = tempfile::NamedTempFile::new_in(folder).map_err(|e| failed(&e))?;
-        draft.write_all(png.get_ref()).map_err(|e| failed(&e))?;
-        draft.persist(path).map(drop).map_err(|e| failed(&e))
+        write_whole(path, png.get_ref()).map_err(|e| failed(&e))
     }
 }
 

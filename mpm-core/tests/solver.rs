@@ -1,0 +1,471 @@
+//! The solver as a whole: conservation, exact motions, errors, determinism, allocation.
+
+use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::material::{Law, NeoHookean};
+use mpm_core::projection::Average;
+use mpm_core::remedy::{FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::solver::courant_time_step;
+use mpm_core::stage::{BodyForce, Constraint, End, KineticDamping, LocalDamping, Wall, WallKind};
+use mpm_core::{
+    Axis, Basis, Error, Fault, Grid, Particles, Remedy, Scene, Side, Simulation, Solver,
+    SymmetricTensor,
+};
+use std::f64::consts::PI;
+
+const DENSITY: f64 = 2.0;
+
+fn law() -> NeoHookean {
+    NeoHookean::new(100.0, 0.3).unwrap()
+}
+
+/// A block of particles, `per_cell` per cell and direction, filling `[lo, hi]` cells of size `h`.
+fn block<const D: usize>(h: f64, per_cell: usize, lo: [usize; D], hi: [usize; D]) -> Particles<D> {
+    let spacing = h / per_cell as f64;
+    let counts: [usize; D] = std::array::from_fn(|a| (hi[a] - lo[a]) * per_cell);
+    let total: usize = counts.iter().product();
+    let positions = (0..total)
+        .map(|k| {
+            let mut rest = k;
+            std::array::from_fn(|a| {
+                let i = rest % counts[a];
+                rest /= counts[a];
+                lo[a] as f64 * h + (i as f64 + 0.5) * spacing
+            })
+        })
+        .collect();
+    Particles::new(positions, spacing.powi(D as i32), DENSITY, [0.5 * spacing; D]).unwrap()
+}
+
+fn scene<const D: usize>(grid: Grid<D>, particles: Particles<D>) -> Scene<D, NeoHookean> {
+    let law = law();
+    Scene {
+        dt: courant_time_step(0.3, grid.h, law.wave_speed(DENSITY)),
+        grid,
+        wall: WallTreatment::OpenKnot,
+        law,
+        particles,
+        remedy: Box::new(Standard),
+        loads: Vec::new(),
+        force_filters: Vec::new(),
+        constraints: Vec::new(),
+        particle_filters: Vec::new(),
+        flip: 1.0,
+    }
+}
+
+fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {
+    vec![
+        Box::new(Standard),
+        Box::new(FbarRecursive::default()),
+        Box::new(FbarTotal::default()),
+        Box::new(FbarRate::default()),
+    ]
+}
+
+fn open_grid<const D: usize>(h: f64, cells: usize) -> Grid<D> {
+    Grid::new(h, [Axis::open(0.0, cells); D]).unwrap()
+}
+
+/// A motion with gradients, decided by position alone.
+fn swirl<const D: usize>(particles: &mut Particles<D>, speed: f64) {
+    for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
+        for a in 0..D {
+            v[a] = speed * (3.0 * x[(a + 1) % D] + a as f64).sin();
+        }
+    }
+}
+
+fn free_body_conserves<const D: usize, const S: usize, B: Basis<S> + 'static>() {
+    for remedy in remedies::<D>() {
+        let mut particles = block(0.5, 2, [4; D], [8; D]);
+        swirl(&mut particles, 0.3);
+        let mut scene = scene(open_grid(0.5, 12), particles);
+        scene.remedy = remedy;
+        let mut solver = Solver::<D, S, B, _>::new(scene).unwrap();
+        let before = solver.totals();
+        for _ in 0..50 {
+            solver.step().unwrap();
+        }
+        let after = solver.totals();
+        assert_eq!(before.mass, after.mass);
+        // Internal forces sum to zero at every step to rounding of forces of order E h^(D−1).
+        for (p, q) in before.momentum.iter().zip(after.momentum) {
+            assert!((p - q).abs() < 1e-11 * before.mass, "momentum {p} became {q}");
+        }
+    }
+}
+
+#[test]
+fn a_free_body_keeps_mass_and_momentum_in_every_basis_dimension_and_remedy() {
+    free_body_conserves::<1, 2, Linear>();
+    free_body_conserves::<1, 4, CubicBSpline>();
+    free_body_conserves::<2, 2, Linear>();
+    free_body_conserves::<2, 3, Gimp>();
+    free_body_conserves::<2, 3, QuadraticBSpline>();
+    free_body_conserves::<2, 4, CubicBSpline>();
+    free_body_conserves::<3, 3, Gimp>();
+    free_body_conserves::<3, 4, CubicBSpline>();
+}
+
+#[test]
+fn rigid_translation_is_exact_and_free_of_stress_across_cells_and_a_periodic_end() {
+    for remedy in remedies::<2>() {
+        let grid = Grid::new(0.5, [Axis::periodic(0.0, 8), Axis::open(0.0, 12)]).unwrap();
+        let mut particles = block(0.5, 2, [1, 4], [7, 8]);
+        particles.velocity.fill([3.0, 0.2]);
+        let mut scene = scene(grid, particles);
+        scene.remedy = remedy;
+        let dt = scene.dt;
+        let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene).unwrap();
+        let steps = 400;
+        for _ in 0..steps {
+            solver.step().unwrap();
+        }
+        let travelled = 3.0 * dt * f64::from(steps);
+        assert!(travelled > 4.0, "the body must pass the periodic end");
+        let p = solver.particles();
+        for k in 0..p.len() {
+            let x = (p.reference[k][0] + travelled).rem_euclid(4.0);
+            let gap = (p.position[k][0] - x).abs();
+            assert!(gap.min(4.0 - gap) < 1e-10);
+            assert!(p.stress[k].trace().abs() < 1e-10);
+            assert!((p.velocity[k][0] - 3.0).abs() < 1e-10);
+        }
+    }
+}
+
+#[test]
+fn free_fall_is_exact() {
+    // Symplectic Euler under a constant force: x_n = x_0 + g Δt² n (n + 1)/2, exactly.
+    let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 5], [8, 9]));
+    scene.loads.push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
+    let dt = scene.dt;
+    let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+    for _ in 0..100 {
+        solver.step().unwrap();
+    }
+    let drop = -dt * dt * 100.0 * 101.0 / 2.0;
+    let p = solver.particles();
+    for (x, reference) in p.position.iter().zip(&p.reference) {
+        assert!((x[1] - reference[1] - drop).abs() < 1e-10);
+        assert!((x[0] - reference[0]).abs() < 1e-10);
+    }
+}
+
+/// The fundamental period of a bar held at one end and free at the other is 4L/c.
+#[test]
+fn a_bar_vibrates_at_its_fundamental_frequency() {
+    let (h, cells) = (0.05, 20);
+    let length = h * f64::from(cells);
+    let grid = Grid::new(h, [Axis::bounded(0.0, 24, (Side::Wall, Side::Open))]).unwrap();
+    let mut particles = block(h, 2, [0], [cells as usize]);
+    let speed = 1e-4;
+    for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
+        v[0] = speed * (0.5 * PI * x[0] / length).sin();
+    }
+    let mut scene = scene(grid, particles);
+    scene.constraints.push(Box::new(Wall {
+        axis: 0,
+        end: End::Lo,
+        kind: WallKind::Fixed,
+    }));
+    let dt = scene.dt;
+    let period = 4.0 * length / law().wave_speed(DENSITY);
+    let mut solver = Solver::<1, 3, QuadraticBSpline, _>::new(scene).unwrap();
+    let tip = |s: &Solver<1, 3, QuadraticBSpline, NeoHookean>| {
+        let p = s.particles();
+        let last = (0..p.len()).max_by(|a, b| p.reference[*a][0].total_cmp(&p.reference[*b][0]));
+        last.map(|k| p.position[k][0] - p.reference[k][0]).unwrap()
+    };
+    // Time of the first downward passage through zero: half a period.
+    let (mut before, mut now) = (0.0, 0.0);
+    while now >= 0.0 || solver.time() < 0.25 * period {
+        solver.step().unwrap();
+        before = now;
+        now = tip(&solver);
+    }
+    let passage = solver.time() - dt * now / (now - before);
+    // Second-order dispersion of 20 cells, (π h / 2 L)²/24 ≈ 3e-4, and the first-order half step of
+    // the starting velocity, ½ Δt / (½ T) ≈ 4e-3.
+    assert!((passage / (0.5 * period) - 1.0).abs() < 6e-3, "{passage} {period}");
+}
+
+#[test]
+fn walls_hold_what_they_say() {
+    let run = |kind| {
+        let grid = Grid::new(0.5, [Axis::walls(0.0, 4), Axis::walls(0.0, 4)]).unwrap();
+        let mut particles = block(0.5, 2, [0, 0], [4, 4]);
+        particles.velocity.fill([0.1, 0.2]);
+        let mut scene = scene(grid, particles);
+        let wall = |axis, end| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
+        scene.constraints = vec![wall(0, End::Lo), wall(0, End::Hi)];
+        let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene).unwrap();
+        solver.step().unwrap();
+        let p = solver.particles();
+        // The particle in the corner cell nearest to the wall x = 0.
+        let k = (0..p.len()).find(|k| p.reference[*k] == [0.125, 1.125]).unwrap();
+        (p.increment[k], solver.totals().momentum)
+    };
+    let (rolling, momentum) = run(WallKind::Roller);
+    let (fixed, _) = run(WallKind::Fixed);
+    let dt = courant_time_step(0.3, 0.5, law().wave_speed(DENSITY));
+    assert!((rolling[1] - 0.2 * dt).abs() < 1e-15, "rollers let slide");
+    assert!(rolling[0] < 0.1 * dt && fixed[0] < 0.1 * dt, "both stop the normal motion");
+    assert!(fixed[1] < 0.2 * dt, "fixed walls stop the tangential motion");
+    assert!((momentum[1] - 0.2 * 8.0).abs() < 1e-12);
+}
+
+#[test]
+fn pic_dissipates_and_flip_does_not() {
+    let energy = |flip: f64| {
+        let mut particles = block(0.5, 2, [4, 4], [8, 8]);
+        swirl(&mut particles, 0.01);
+        let mut scene = scene(open_grid::<2>(0.5, 12), particles);
+        scene.flip = flip;
+        let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+        for _ in 0..40 {
+            solver.step().unwrap();
+        }
+        let t = solver.totals();
+        t.kinetic_energy + t.stored_energy
+    };
+    assert!(energy(0.0) < 0.8 * energy(1.0));
+}
+
+#[test]
+fn damping_takes_energy_and_says_how_much() {
+    let run = |local: bool| {
+        let mut particles = block(0.5, 2, [4, 4], [8, 8]);
+        swirl(&mut particles, 0.01);
+        let mut scene = scene(open_grid::<2>(0.5, 12), particles);
+        if local {
+            scene.force_filters.push(Box::new(LocalDamping::new(0.5).unwrap()));
+        } else {
+            scene.particle_filters.push(Box::new(KineticDamping::default()));
+        }
+        let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+        let before = solver.totals().kinetic_energy;
+        for _ in 0..200 {
+            solver.step().unwrap();
+        }
+        let t = solver.totals();
+        let lost = before - t.kinetic_energy - t.stored_energy;
+        (before, lost, t.accumulated.damping + t.accumulated.filter_loss)
+    };
+    for local in [true, false] {
+        let (before, lost, accounted) = run(local);
+        assert!(lost > 0.3 * before, "{local}: {lost} of {before}");
+        assert!(accounted > 0.0 && accounted <= 1.2 * before, "{local}: {accounted} of {before}");
+    }
+    assert!(LocalDamping::new(1.0).is_err());
+    assert!(LocalDamping::new(f64::NAN).is_err());
+}
+
+fn fault(change: impl FnOnce(&mut Scene<2, NeoHookean>)) -> (u32, Fault) {
+    let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
+    change(&mut scene);
+    let outcome = Solver::<2, 3, Gimp, _>::new(scene).and_then(|mut solver| {
+        (0..2000).try_for_each(|_| solver.step())
+    });
+    match outcome {
+        Err(Error::Breakdown { particle, fault, time, .. }) => {
+            assert!(time.is_finite());
+            (particle, fault)
+        }
+        other => panic!("expected a breakdown, got {other:?}"),
+    }
+}
+
+#[test]
+fn breakdowns_are_typed_and_name_the_particle() {
+    let (_, not_finite) = fault(|s| s.particles.velocity[7] = [f64::NAN, 0.0]);
+    assert!(matches!(not_finite, Fault::NotFinite { .. }), "{not_finite:?}");
+
+    let (_, collapsed) = fault(|s| {
+        // A velocity field that turns the body inside out within one step.
+        let rate = -1.1 / s.dt;
+        s.flip = 0.0;
+        s.dt *= 1e-3;
+        for (v, x) in s.particles.velocity.iter_mut().zip(&s.particles.position) {
+            *v = [1e3 * rate * (x[0] - 3.0), 0.0];
+        }
+    });
+    assert!(matches!(collapsed, Fault::NonPositiveJacobian(j) if j <= 0.0), "{collapsed:?}");
+
+    let (_, gone) = fault(|s| s.particles.velocity.fill([0.0, -5.0]));
+    assert!(matches!(gone, Fault::OffGrid { axis: 1, .. }), "{gone:?}");
+
+    let (_, unstable) = fault(|s| s.dt *= 4.0);
+    assert!(matches!(unstable, Fault::UnstableTimeStep { cfl, .. } if cfl > 1.0));
+
+    let (particle, outside) = fault(|s| s.particles.position[3] = [-1.0, 2.0]);
+    assert_eq!(particle, 3);
+    assert!(matches!(outside, Fault::OffGrid { axis: 0, .. }));
+}
+
+#[test]
+fn bad_input_is_refused_with_its_range() {
+    let refuse = |change: fn(&mut Scene<2, NeoHookean>)| {
+        let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
+        change(&mut scene);
+        let error = Solver::<2, 3, Gimp, _>::new(scene).err().unwrap();
+        assert!(matches!(error, Error::Input { .. }), "{error}");
+    };
+    refuse(|s| s.dt = 0.0);
+    refuse(|s| s.dt = f64::NAN);
+    refuse(|s| s.flip = 1.5);
+    refuse(|s| s.particles.half_size[0] = [0.3, 0.1]);
+    assert!(Grid::new(0.0, [Axis::open(0.0, 8)]).is_err());
+    assert!(Grid::new(1.0, [Axis::open(0.0, 3)]).is_err());
+    assert!(Particles::new(vec![[f64::NAN]], 1.0, 1.0, [0.1]).is_err());
+    assert!(Particles::new(vec![[0.0]], -1.0, 1.0, [0.1]).is_err());
+}
+
+/// A remedy whose projected pressure enters the force: here the force sees no mean stress at all.
+struct WithoutPressure;
+
+impl Remedy<2> for WithoutPressure {
+    fn adjust_stress(&mut self, particles: &mut Particles<2>, average: &mut dyn Average<2>) {
+        let mut mean: Vec<f64> = particles.stress.iter().map(SymmetricTensor::mean).collect();
+        average.average(particles, &mut mean);
+        for s in &mut particles.stress {
+            *s = s.scale_add_identity(1.0, -s.mean());
+        }
+    }
+
+    fn adjust_delta_f(&mut self, _: &mut Particles<2>, _: &mut dyn Average<2>) {}
+}
+
+#[test]
+fn a_remedy_may_change_the_stress_that_enters_the_force() {
+    // A uniform expansion has a mean stress only, so without it nothing decelerates.
+    let run = |remedy: Box<dyn Remedy<2>>| {
+        let mut particles = block(0.5, 2, [4, 4], [8, 8]);
+        for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
+            *v = [0.01 * (x[0] - 3.0), 0.01 * (x[1] - 3.0)];
+        }
+        let mut scene = scene(open_grid::<2>(0.5, 12), particles);
+        scene.law = NeoHookean { lambda: 100.0, mu: 1e-9 };
+        scene.remedy = remedy;
+        let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+        let before = solver.totals().kinetic_energy;
+        for _ in 0..20 {
+            solver.step().unwrap();
+        }
+        (solver.totals().kinetic_energy / before, solver.work().projections)
+    };
+    let (decelerated, none) = run(Box::new(Standard));
+    let (free, projections) = run(Box::new(WithoutPressure));
+    assert!(decelerated < 0.9, "{decelerated}");
+    // The plane part of the deviator of a plane expansion, of order μ, remains.
+    assert!((free - 1.0).abs() < 1e-6, "{free}");
+    assert_eq!((none, projections), (0, 20));
+}
+
+fn bits<const D: usize, const S: usize, B: Basis<S> + 'static>(threads: usize) -> Vec<u64> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| {
+        let mut lo = [4; D];
+        let mut hi = [8; D];
+        lo[0] = 2;
+        hi[0] = 40;
+        let mut particles = block(0.5, 2, lo, hi);
+        swirl(&mut particles, 0.5);
+        for v in &mut particles.velocity {
+            v[0] += 2.0;
+        }
+        let mut axes = [Axis::open(0.0, 12); D];
+        axes[0] = Axis::periodic(0.0, 48);
+        let mut scene = scene(Grid::new(0.5, axes).unwrap(), particles);
+        scene.remedy = Box::new(FbarRate::default());
+        let mut solver = Solver::<D, S, B, _>::new(scene).unwrap();
+        for _ in 0..60 {
+            solver.step().unwrap();
+        }
+        assert!(solver.work().sorts > 1, "the test must cover sorting");
+        let p = solver.particles();
+        let t = solver.totals();
+        let columns = p.position.iter().flatten().chain(p.velocity.iter().flatten());
+        let stress = p.stress.iter().map(|s| s.xx.to_bits());
+        let sums = [t.kinetic_energy, t.accumulated.stress_work, solver.residual().free_force];
+        columns
+            .map(|v| v.to_bits())
+            .chain(stress)
+            .chain(sums.map(f64::to_bits))
+            .collect()
+    })
+}
+
+#[test]
+fn results_are_bitwise_the_same_for_any_number_of_threads() {
+    let one = bits::<2, 3, Gimp>(1);
+    for threads in [2, 3, 7] {
+        assert_eq!(one, bits::<2, 3, Gimp>(threads), "{threads} threads");
+    }
+    assert_eq!(bits::<2, 4, CubicBSpline>(1), bits::<2, 4, CubicBSpline>(4));
+    assert_eq!(bits::<3, 3, QuadraticBSpline>(1), bits::<3, 3, QuadraticBSpline>(4));
+    assert_eq!(bits::<1, 2, Linear>(1), bits::<1, 2, Linear>(4));
+}
+
+#[test]
+fn the_order_of_the_particles_changes_rounding_only() {
+    let run = |reverse: bool| {
+        let mut particles = block(0.5, 2, [4, 4], [8, 8]);
+        swirl(&mut particles, 0.3);
+        if reverse {
+            let order: Vec<u32> = (0..particles.len() as u32).rev().collect();
+            particles.permute(&order);
+        }
+        let mut solver =
+            Solver::<2, 3, Gimp, _>::new(scene(open_grid::<2>(0.5, 12), particles)).unwrap();
+        for _ in 0..40 {
+            solver.step().unwrap();
+        }
+        let p = solver.particles();
+        let mut sorted: Vec<(u32, [f64; 2])> =
+            p.id.iter().copied().zip(p.position.iter().copied()).collect();
+        sorted.sort_by_key(|(id, _)| *id);
+        sorted
+    };
+    for ((_, a), (_, b)) in run(false).iter().zip(run(true)) {
+        assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_step_allocates_nothing() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    pool.install(|| {
+        for remedy in remedies::<2>() {
+            let mut particles = block(0.5, 2, [4, 4], [8, 8]);
+            swirl(&mut particles, 0.01);
+            let mut scene = scene(open_grid::<2>(0.5, 12), particles);
+            scene.remedy = remedy;
+            scene.loads.push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1e-3]))));
+            scene.force_filters.push(Box::new(LocalDamping::new(0.1).unwrap()));
+            let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+            solver.step().unwrap();
+            let info = allocation_counter::measure(|| {
+                for _ in 0..20 {
+                    solver.step().unwrap();
+                }
+            });
+            assert_eq!(info.count_total, 0);
+        }
+    });
+}
+
+#[test]
+fn work_is_counted_exactly() {
+    let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
+    scene.remedy = Box::new(FbarRate::default());
+    let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+    for _ in 0..10 {
+        solver.step().unwrap();
+    }
+    let w = solver.work();
+    assert_eq!((w.particles, w.steps, w.particle_steps), (64, 10, 640));
+    assert_eq!((w.projections, w.sorts), (10, 1));
+    // Two transfers and two halves of Π, nine nodes each.
+    assert_eq!(w.particle_node_pairs, 640 * 9 * 4);
+}
