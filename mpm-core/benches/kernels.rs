@@ -1,1 +1,123 @@
-fn main(){}
+//! Kernels on one thread: time per particle of P2G, G2P, the volume average Π and the law.
+//!
+//! Plane strain, two particles per cell and direction, sorted by cell.
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
+use mpm_core::material::{Law, NeoHookean};
+use mpm_core::particles::cell_order;
+use mpm_core::projection::{Average, NodalAverage, Projection};
+use mpm_core::space::embed;
+use mpm_core::transfer::flip::{Given, grid_to_particle, particle_to_grid};
+use mpm_core::transfer::NodalState;
+use mpm_core::{Axis, Basis, Grid, Lattice, Particles};
+use nalgebra::Matrix2;
+use std::hint::black_box;
+
+const CELLS: usize = 40;
+
+fn body() -> (Grid<2>, Particles<2>, Vec<std::ops::Range<usize>>) {
+    let grid = Grid::new(1.0, [Axis::open(0.0, CELLS); 2]);
+    let n = 2 * (CELLS - 8);
+    let positions = (0..n * n)
+        .map(|k| [4.25 + 0.5 * (k / n) as f64, 4.25 + 0.5 * (k % n) as f64])
+        .collect();
+    let particles = Particles::new(positions, 0.25, 1.0, [0.25; 2]);
+    let (Ok(grid), Ok(mut particles)) = (grid, particles) else {
+        unreachable!("the scene is fixed and valid")
+    };
+    let (order, slabs) = cell_order(&grid, &particles.position);
+    particles.permute(&order);
+    (grid, particles, slabs)
+}
+
+fn transfers<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
+    let (grid, p, slabs) = body();
+    let lattice = Lattice::<2, S, B>::new(grid, WallTreatment::OpenKnot);
+    let mut nodes = vec![NodalState::default(); lattice.len()];
+    let mut group = c.benchmark_group(name);
+    group.throughput(Throughput::Elements(p.len() as u64));
+    group.bench_function("p2g", |b| {
+        b.iter(|| {
+            for k in 0..p.len() {
+                let given = Given {
+                    mass: p.mass[k],
+                    velocity: &p.velocity[k],
+                    volume: p.volume[k],
+                    stress: &p.stress[k],
+                    external_force: &p.external_force[k],
+                };
+                let stencil = lattice.stencil(&p.position[k], &p.half_size[k]);
+                particle_to_grid(&stencil, &given, &mut nodes, 0);
+            }
+        });
+    });
+    group.bench_function("g2p", |b| {
+        b.iter(|| {
+            for k in 0..p.len() {
+                let stencil = lattice.stencil(&p.position[k], &p.half_size[k]);
+                black_box(grid_to_particle(&stencil, &nodes));
+            }
+        });
+    });
+    group.bench_function("stencil", |b| {
+        b.iter(|| {
+            for k in 0..p.len() {
+                black_box(lattice.stencil(&p.position[k], &p.half_size[k]).row(S - 1));
+            }
+        });
+    });
+    let mut field = vec![1.0; p.len()];
+    let mut average_nodes = vec![NodalAverage::default(); lattice.len()];
+    let mut count = 0;
+    group.bench_function("average", |b| {
+        b.iter(|| {
+            let mut projection = Projection {
+                lattice: &lattice,
+                slabs: &slabs,
+                nodes: &mut average_nodes,
+                count: &mut count,
+            };
+            projection.average(&p, &mut field);
+        });
+    });
+    group.finish();
+}
+
+fn law(c: &mut Criterion) {
+    let law = NeoHookean {
+        lambda: 1e4,
+        mu: 20.0,
+    };
+    let n = 4096;
+    let mut states = vec![law.initial_state(); n];
+    let delta_f = Matrix2::new(1.0, 1e-6, -1e-6, 1.0);
+    let mut group = c.benchmark_group("law");
+    group.throughput(Throughput::Elements(n as u64));
+    group.bench_function("neo-hookean", |b| {
+        b.iter(|| {
+            for state in &mut states {
+                let (stress, next) = law.update(&embed(black_box(&delta_f)), 1e-3, state);
+                black_box(stress);
+                *state = next;
+            }
+        });
+    });
+    group.finish();
+}
+
+fn kernels(c: &mut Criterion) {
+    transfers::<3, Gimp>(c, "gimp");
+    transfers::<3, QuadraticBSpline>(c, "bspline2");
+    transfers::<4, CubicBSpline>(c, "bspline3");
+    law(c);
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .warm_up_time(std::time::Duration::from_millis(300))
+        .measurement_time(std::time::Duration::from_secs(1));
+    targets = kernels
+}
+criterion_main!(benches);

@@ -71,8 +71,8 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, 
                         let row_volume = row.w * volume[p];
                         let row_value = row_volume * values[p];
                         for (node, w) in nodes[begin..begin + S].iter_mut().zip(&last.w) {
-                            node.value += w * row_value;
-                            node.volume += w * row_volume;
+                            node.value = w.mul_add(row_value, node.value);
+                            node.volume = w.mul_add(row_volume, node.volume);
                         }
                     }
                 }
@@ -98,8 +98,11 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, 
                     for r in 0..Stencil::<D, S>::ROWS {
                         let row = stencil.row(r);
                         let nodes = &nodes[row.node..row.node + S];
-                        let row_sum: f64 = nodes.iter().zip(&last.w).map(|(n, w)| w * n.value).sum();
-                        sum += row.w * row_sum;
+                        let mut row_sum = 0.0;
+                        for (node, w) in nodes.iter().zip(&last.w) {
+                            row_sum = w.mul_add(node.value, row_sum);
+                        }
+                        sum = row.w.mul_add(row_sum, sum);
                     }
                     *q = sum;
                 }

@@ -334,6 +334,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
                 |(c, (sums, v, increment, delta_f, j, x, l, volume, stress, force))| {
                     let mut chunk = ChunkSums::default();
                     for k in 0..x.len() {
+                        let (stress, volume, force) = (stress[k], volume[k], force[k]);
                         let got = grid_to_particle(&lattice.stencil(&x[k], &l[k]), nodes);
                         v[k] = blend(eta, &v[k], &got);
                         let gradient = SMatrix::<f64, D, D>::from_fn(|a, b| got.gradient[a][b]);
@@ -347,13 +348,13 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
                         let (mut load_power, mut stress_power) = (0.0, 0.0);
                         for a in 0..D {
                             increment[k][a] = dt * got.velocity[a];
-                            load_power += force[k][a] * got.velocity[a];
+                            load_power += force[a] * got.velocity[a];
                             for b in 0..D {
-                                stress_power += stress[k].get(a, b) * got.gradient[a][b];
+                                stress_power += stress.get(a, b) * got.gradient[a][b];
                             }
                         }
                         chunk.load_power += load_power;
-                        chunk.stress_power += volume[k] * stress_power;
+                        chunk.stress_power += volume * stress_power;
                     }
                     *sums = chunk;
                 },

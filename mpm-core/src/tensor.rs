@@ -107,10 +107,18 @@ impl SymmetricTensor {
     #[must_use]
     #[inline]
     pub fn push_forward(&self, f: &Matrix3<f64>) -> Self {
-        let m = f * self.to_matrix();
-        let entry = |i: usize, j: usize| {
-            m[(i, 0)] * f[(j, 0)] + m[(i, 1)] * f[(j, 1)] + m[(i, 2)] * f[(j, 2)]
+        let dot = |i: usize, b: [f64; 3]| {
+            f[(i, 2)].mul_add(b[2], f[(i, 1)].mul_add(b[1], f[(i, 0)] * b[0]))
         };
+        let half = |i: usize| {
+            [
+                dot(i, [self.xx, self.xy, self.xz]),
+                dot(i, [self.xy, self.yy, self.yz]),
+                dot(i, [self.xz, self.yz, self.zz]),
+            ]
+        };
+        let rows = [half(0), half(1), half(2)];
+        let entry = |i: usize, j: usize| dot(j, rows[i]);
         Self {
             xx: entry(0, 0),
             yy: entry(1, 1),

@@ -59,9 +59,12 @@ impl Law for NeoHookean {
     ) -> (SymmetricTensor, SymmetricTensor) {
         let b = state.push_forward(delta_f);
         let squared_jacobian = b.determinant();
-        let jacobian = squared_jacobian.sqrt();
+        let inverse_jacobian = 1.0 / squared_jacobian.sqrt();
         let pressure_part = self.lambda * 0.5 * squared_jacobian.ln() - self.mu;
-        let stress = b.scale_add_identity(self.mu / jacobian, pressure_part / jacobian);
+        let stress = b.scale_add_identity(
+            self.mu * inverse_jacobian,
+            pressure_part * inverse_jacobian,
+        );
         (stress, b)
     }
 

@@ -46,15 +46,16 @@ pub fn particle_to_grid<const D: usize, const S: usize>(
         let row_carried = carried * row.w;
         let mut across = external * row.w;
         for a in 0..D - 1 {
-            across += Node::from(flux[a]) * row.gradient[a];
+            across = Node::from(flux[a]).mul_add(Node::splat(row.gradient[a]), across);
         }
         let along = Node::from(flux[D - 1]) * row.gradient[D - 1];
 
         let begin = row.node - origin;
         let nodes = &mut nodes[begin..begin + S];
         for k in 0..S {
-            nodes[k].motion += row_carried * last.w[k];
-            nodes[k].change += across * last.w[k] + along * last.dw[k];
+            let (w, dw) = (Node::splat(last.w[k]), Node::splat(last.dw[k]));
+            nodes[k].motion = row_carried.mul_add(w, nodes[k].motion);
+            nodes[k].change = across.mul_add(w, along.mul_add(dw, nodes[k].change));
         }
     }
 }
@@ -84,16 +85,18 @@ pub fn grid_to_particle<const D: usize, const S: usize>(
         let nodes = &nodes[row.node..row.node + S];
         let (mut value, mut slope, mut change) = (Node::ZERO, Node::ZERO, Node::ZERO);
         for k in 0..S {
-            value += nodes[k].motion * last.w[k];
-            slope += nodes[k].motion * last.dw[k];
-            change += nodes[k].change * last.w[k];
+            let (w, dw) = (Node::splat(last.w[k]), Node::splat(last.dw[k]));
+            value = nodes[k].motion.mul_add(w, value);
+            slope = nodes[k].motion.mul_add(dw, slope);
+            change = nodes[k].change.mul_add(w, change);
         }
-        v += value * row.w;
-        dv += change * row.w;
+        let w = Node::splat(row.w);
+        v = value.mul_add(w, v);
+        dv = change.mul_add(w, dv);
         for a in 0..D - 1 {
-            columns[a] += value * row.gradient[a];
+            columns[a] = value.mul_add(Node::splat(row.gradient[a]), columns[a]);
         }
-        columns[D - 1] += slope * row.gradient[D - 1];
+        columns[D - 1] = slope.mul_add(w, columns[D - 1]);
     }
     let (v, dv) = (v.to_array(), dv.to_array());
     let columns = columns.map(Node::to_array);
