@@ -170,9 +170,8 @@ impl<const D: usize, const S: usize> Stencil<D, S> {
         if D == 3 {
             let (outer, middle) = (&self.axis[0], &self.axis[1]);
             let (i, j) = (r / S, r % S);
-            row.node = begin
-                + (outer.first + i) * self.strides[0]
-                + (middle.first + j) * self.strides[1];
+            row.node =
+                begin + (outer.first + i) * self.strides[0] + (middle.first + j) * self.strides[1];
             row.w = outer.w[i] * middle.w[j];
             row.gradient[0] = outer.dw[i] * middle.w[j];
             row.gradient[1] = outer.w[i] * middle.dw[j];

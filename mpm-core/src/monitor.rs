@@ -22,7 +22,7 @@ pub struct Accumulated {
 /// The state of the last step on the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Residual {
-    /// Σ|f_i| over the components that no constraint holds, before damping (N).
+    /// Σ|f_i| over the components that no constraint holds, damping included (N).
     pub free_force: f64,
     /// Σ f_i over the components that constraints hold, before they act: minus the reaction (N).
     pub held_force: [f64; 3],

@@ -95,8 +95,15 @@ impl<const D: usize> Particles<D> {
     /// Kinetic energy Σ ½ m v² (J).
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
-        let squares = self.velocity.iter().map(|v| v.iter().map(|v| v * v).sum::<f64>());
-        self.mass.iter().zip(squares).map(|(m, v2)| 0.5 * m * v2).sum()
+        let squares = self
+            .velocity
+            .iter()
+            .map(|v| v.iter().map(|v| v * v).sum::<f64>());
+        self.mass
+            .iter()
+            .zip(squares)
+            .map(|(m, v2)| 0.5 * m * v2)
+            .sum()
     }
 
     /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`.

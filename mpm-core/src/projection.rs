@@ -48,11 +48,7 @@ pub struct Projection<'a, const D: usize, const S: usize, B> {
 impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, D, S, B> {
     fn average(&mut self, particles: &Particles<D>, field: &mut [f64]) {
         let lattice = self.lattice;
-        let (x, l, volume) = (
-            &particles.position,
-            &particles.half_size,
-            &particles.volume,
-        );
+        let (x, l, volume) = (&particles.position, &particles.half_size, &particles.volume);
         self.nodes.fill(NodalAverage::default());
         let values: &[f64] = field;
         scatter(

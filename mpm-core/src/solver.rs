@@ -260,54 +260,48 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
     /// New nodal velocities, Eq. (9), with filters and constraints.
     fn update_grid(&mut self) {
         let dt = self.scene.dt;
-        let mut free_force = 0.0;
-        for node in self.nodes.iter_mut().filter(|n| n.mass() > 0.0) {
+        let mut residual = Residual::default();
+        let mut damping = 0.0;
+        for node in self.nodes.iter_mut() {
             let mass = node.mass();
-            let motion = node.motion.as_mut_array();
-            for v in &mut motion[..D] {
+            if mass <= 0.0 {
+                *node = NodalState::default();
+                continue;
+            }
+            let velocity = node.motion.as_mut_array();
+            for v in &mut velocity[..D] {
                 *v /= mass;
             }
+            for filter in &self.scene.force_filters {
+                damping += filter.filter(node);
+            }
             for f in &node.change.as_array()[..D] {
-                free_force += f.abs();
+                residual.free_force += f.abs();
             }
+            // The padding of the force is zero, so the mass stays what it is.
+            node.change *= dt / mass;
+            node.motion += node.change;
+            residual.kinetic_energy += node.kinetic_energy();
         }
-        let mut held_force = [0.0; 3];
-        for c in &self.prescribed {
-            let f = self.nodes[c.node].change.as_array()[c.axis];
-            free_force -= f.abs();
-            held_force[c.axis] += f;
-        }
-        self.residual = Residual {
-            free_force: free_force.max(0.0),
-            held_force,
-            kinetic_energy: 0.0,
-        };
-        for filter in &self.scene.force_filters {
-            self.accumulated.damping += dt * filter.filter(&mut self.nodes);
-        }
-        for node in self.nodes.iter_mut() {
-            if node.mass() > 0.0 {
-                // The padding of the force is zero, so the mass stays what it is.
-                node.change *= dt / node.mass();
-                node.motion += node.change;
-            } else {
-                *node = NodalState::default();
-            }
-        }
+        self.accumulated.damping += dt * damping;
         for c in &self.prescribed {
             let node = &mut self.nodes[c.node];
-            let (free, held) = (node.motion.as_array()[c.axis], c.velocity);
-            let before = free - node.change.as_array()[c.axis];
-            self.accumulated.constraint_loss += node.mass()
-                * (0.5 * (before * before - held * held) + (free - before) * held);
-            node.change.as_mut_array()[c.axis] += held - free;
-            node.motion.as_mut_array()[c.axis] = held;
+            let mass = node.mass();
+            residual.kinetic_energy -= node.kinetic_energy();
+            let change = &mut node.change.as_mut_array()[c.axis];
+            let velocity = &mut node.motion.as_mut_array()[c.axis];
+            let force = mass * *change / dt;
+            residual.free_force -= force.abs();
+            residual.held_force[c.axis] += force;
+            let (free, held) = (*velocity, c.velocity);
+            let before = free - *change;
+            self.accumulated.constraint_loss +=
+                mass * (0.5 * (before * before - held * held) + (free - before) * held);
+            *change += held - free;
+            *velocity = held;
+            residual.kinetic_energy += node.kinetic_energy();
         }
-        for node in &self.nodes {
-            let v = node.motion.as_array();
-            let square: f64 = v[..D].iter().map(|v| v * v).sum();
-            self.residual.kinetic_energy += 0.5 * node.mass() * square;
-        }
+        self.residual = residual;
         self.lattice.unfold(&mut self.nodes);
     }
 
@@ -412,8 +406,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             .into_par_iter()
             .for_each(|(states, stress, volume, delta_f, j, reference_volume)| {
                 for k in 0..states.len() {
-                    (stress[k], states[k]) =
-                        law.update(&space::embed(&delta_f[k]), dt, &states[k]);
+                    (stress[k], states[k]) = law.update(&space::embed(&delta_f[k]), dt, &states[k]);
                     volume[k] = j[k] * reference_volume[k];
                 }
             });

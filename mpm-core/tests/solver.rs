@@ -1,5 +1,11 @@
 //! The solver as a whole: conservation, exact motions, errors, determinism, allocation.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::projection::Average;
@@ -33,7 +39,13 @@ fn block<const D: usize>(h: f64, per_cell: usize, lo: [usize; D], hi: [usize; D]
             })
         })
         .collect();
-    Particles::new(positions, spacing.powi(D as i32), DENSITY, [0.5 * spacing; D]).unwrap()
+    Particles::new(
+        positions,
+        spacing.powi(D as i32),
+        DENSITY,
+        [0.5 * spacing; D],
+    )
+    .unwrap()
 }
 
 fn scene<const D: usize>(grid: Grid<D>, particles: Particles<D>) -> Scene<D, NeoHookean> {
@@ -90,7 +102,10 @@ fn free_body_conserves<const D: usize, const S: usize, B: Basis<S> + 'static>() 
         assert_eq!(before.mass, after.mass);
         // Internal forces sum to zero at every step to rounding of forces of order E h^(D−1).
         for (p, q) in before.momentum.iter().zip(after.momentum) {
-            assert!((p - q).abs() < 1e-11 * before.mass, "momentum {p} became {q}");
+            assert!(
+                (p - q).abs() < 1e-11 * before.mass,
+                "momentum {p} became {q}"
+            );
         }
     }
 }
@@ -138,7 +153,9 @@ fn rigid_translation_is_exact_and_free_of_stress_across_cells_and_a_periodic_end
 fn free_fall_is_exact() {
     // Symplectic Euler under a constant force: x_n = x_0 + g Δt² n (n + 1)/2, exactly.
     let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 5], [8, 9]));
-    scene.loads.push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
+    scene
+        .loads
+        .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
     let dt = scene.dt;
     let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
     for _ in 0..100 {
@@ -187,7 +204,10 @@ fn a_bar_vibrates_at_its_fundamental_frequency() {
     let passage = solver.time() - dt * now / (now - before);
     // Second-order dispersion of 20 cells, (π h / 2 L)²/24 ≈ 3e-4, and the first-order half step of
     // the starting velocity, ½ Δt / (½ T) ≈ 4e-3.
-    assert!((passage / (0.5 * period) - 1.0).abs() < 6e-3, "{passage} {period}");
+    assert!(
+        (passage / (0.5 * period) - 1.0).abs() < 6e-3,
+        "{passage} {period}"
+    );
 }
 
 #[test]
@@ -203,15 +223,23 @@ fn walls_hold_what_they_say() {
         solver.step().unwrap();
         let p = solver.particles();
         // The particle in the corner cell nearest to the wall x = 0.
-        let k = (0..p.len()).find(|k| p.reference[*k] == [0.125, 1.125]).unwrap();
+        let k = (0..p.len())
+            .find(|k| p.reference[*k] == [0.125, 1.125])
+            .unwrap();
         (p.increment[k], solver.totals().momentum)
     };
     let (rolling, momentum) = run(WallKind::Roller);
     let (fixed, _) = run(WallKind::Fixed);
     let dt = courant_time_step(0.3, 0.5, law().wave_speed(DENSITY));
     assert!((rolling[1] - 0.2 * dt).abs() < 1e-15, "rollers let slide");
-    assert!(rolling[0] < 0.1 * dt && fixed[0] < 0.1 * dt, "both stop the normal motion");
-    assert!(fixed[1] < 0.2 * dt, "fixed walls stop the tangential motion");
+    assert!(
+        rolling[0] < 0.1 * dt && fixed[0] < 0.1 * dt,
+        "both stop the normal motion"
+    );
+    assert!(
+        fixed[1] < 0.2 * dt,
+        "fixed walls stop the tangential motion"
+    );
     assert!((momentum[1] - 0.2 * 8.0).abs() < 1e-12);
 }
 
@@ -239,9 +267,13 @@ fn damping_takes_energy_and_says_how_much() {
         swirl(&mut particles, 0.01);
         let mut scene = scene(open_grid::<2>(0.5, 12), particles);
         if local {
-            scene.force_filters.push(Box::new(LocalDamping::new(0.5).unwrap()));
+            scene
+                .force_filters
+                .push(Box::new(LocalDamping::new(0.5).unwrap()));
         } else {
-            scene.particle_filters.push(Box::new(KineticDamping::default()));
+            scene
+                .particle_filters
+                .push(Box::new(KineticDamping::default()));
         }
         let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
         let before = solver.totals().kinetic_energy;
@@ -250,12 +282,19 @@ fn damping_takes_energy_and_says_how_much() {
         }
         let t = solver.totals();
         let lost = before - t.kinetic_energy - t.stored_energy;
-        (before, lost, t.accumulated.damping + t.accumulated.filter_loss)
+        (
+            before,
+            lost,
+            t.accumulated.damping + t.accumulated.filter_loss,
+        )
     };
     for local in [true, false] {
         let (before, lost, accounted) = run(local);
         assert!(lost > 0.3 * before, "{local}: {lost} of {before}");
-        assert!(accounted > 0.0 && accounted <= 1.2 * before, "{local}: {accounted} of {before}");
+        assert!(
+            accounted > 0.0 && accounted <= 1.2 * before,
+            "{local}: {accounted} of {before}"
+        );
     }
     assert!(LocalDamping::new(1.0).is_err());
     assert!(LocalDamping::new(f64::NAN).is_err());
@@ -264,11 +303,15 @@ fn damping_takes_energy_and_says_how_much() {
 fn fault(change: impl FnOnce(&mut Scene<2, NeoHookean>)) -> (u32, Fault) {
     let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
     change(&mut scene);
-    let outcome = Solver::<2, 3, Gimp, _>::new(scene).and_then(|mut solver| {
-        (0..2000).try_for_each(|_| solver.step())
-    });
+    let outcome = Solver::<2, 3, Gimp, _>::new(scene)
+        .and_then(|mut solver| (0..2000).try_for_each(|_| solver.step()));
     match outcome {
-        Err(Error::Breakdown { particle, fault, time, .. }) => {
+        Err(Error::Breakdown {
+            particle,
+            fault,
+            time,
+            ..
+        }) => {
             assert!(time.is_finite());
             (particle, fault)
         }
@@ -279,7 +322,10 @@ fn fault(change: impl FnOnce(&mut Scene<2, NeoHookean>)) -> (u32, Fault) {
 #[test]
 fn breakdowns_are_typed_and_name_the_particle() {
     let (_, not_finite) = fault(|s| s.particles.velocity[7] = [f64::NAN, 0.0]);
-    assert!(matches!(not_finite, Fault::NotFinite { .. }), "{not_finite:?}");
+    assert!(
+        matches!(not_finite, Fault::NotFinite { .. }),
+        "{not_finite:?}"
+    );
 
     let (_, collapsed) = fault(|s| {
         // A velocity field that turns the body inside out within one step.
@@ -290,7 +336,10 @@ fn breakdowns_are_typed_and_name_the_particle() {
             *v = [1e3 * rate * (x[0] - 3.0), 0.0];
         }
     });
-    assert!(matches!(collapsed, Fault::NonPositiveJacobian(j) if j <= 0.0), "{collapsed:?}");
+    assert!(
+        matches!(collapsed, Fault::NonPositiveJacobian(j) if j <= 0.0),
+        "{collapsed:?}"
+    );
 
     let (_, gone) = fault(|s| s.particles.velocity.fill([0.0, -5.0]));
     assert!(matches!(gone, Fault::OffGrid { axis: 1, .. }), "{gone:?}");
@@ -345,14 +394,20 @@ fn a_remedy_may_change_the_stress_that_enters_the_force() {
             *v = [0.01 * (x[0] - 3.0), 0.01 * (x[1] - 3.0)];
         }
         let mut scene = scene(open_grid::<2>(0.5, 12), particles);
-        scene.law = NeoHookean { lambda: 100.0, mu: 1e-9 };
+        scene.law = NeoHookean {
+            lambda: 100.0,
+            mu: 1e-9,
+        };
         scene.remedy = remedy;
         let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
         let before = solver.totals().kinetic_energy;
         for _ in 0..20 {
             solver.step().unwrap();
         }
-        (solver.totals().kinetic_energy / before, solver.work().projections)
+        (
+            solver.totals().kinetic_energy / before,
+            solver.work().projections,
+        )
     };
     let (decelerated, none) = run(Box::new(Standard));
     let (free, projections) = run(Box::new(WithoutPressure));
@@ -363,7 +418,10 @@ fn a_remedy_may_change_the_stress_that_enters_the_force() {
 }
 
 fn bits<const D: usize, const S: usize, B: Basis<S> + 'static>(threads: usize) -> Vec<u64> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap();
     pool.install(|| {
         let mut lo = [4; D];
         let mut hi = [8; D];
@@ -385,9 +443,17 @@ fn bits<const D: usize, const S: usize, B: Basis<S> + 'static>(threads: usize) -
         assert!(solver.work().sorts > 1, "the test must cover sorting");
         let p = solver.particles();
         let t = solver.totals();
-        let columns = p.position.iter().flatten().chain(p.velocity.iter().flatten());
+        let columns = p
+            .position
+            .iter()
+            .flatten()
+            .chain(p.velocity.iter().flatten());
         let stress = p.stress.iter().map(|s| s.xx.to_bits());
-        let sums = [t.kinetic_energy, t.accumulated.stress_work, solver.residual().free_force];
+        let sums = [
+            t.kinetic_energy,
+            t.accumulated.stress_work,
+            solver.residual().free_force,
+        ];
         columns
             .map(|v| v.to_bits())
             .chain(stress)
@@ -403,7 +469,10 @@ fn results_are_bitwise_the_same_for_any_number_of_threads() {
         assert_eq!(one, bits::<2, 3, Gimp>(threads), "{threads} threads");
     }
     assert_eq!(bits::<2, 4, CubicBSpline>(1), bits::<2, 4, CubicBSpline>(4));
-    assert_eq!(bits::<3, 3, QuadraticBSpline>(1), bits::<3, 3, QuadraticBSpline>(4));
+    assert_eq!(
+        bits::<3, 3, QuadraticBSpline>(1),
+        bits::<3, 3, QuadraticBSpline>(4)
+    );
     assert_eq!(bits::<1, 2, Linear>(1), bits::<1, 2, Linear>(4));
 }
 
@@ -423,7 +492,10 @@ fn the_order_of_the_particles_changes_rounding_only() {
         }
         let p = solver.particles();
         let mut sorted: Vec<(u32, [f64; 2])> =
-            p.id.iter().copied().zip(p.position.iter().copied()).collect();
+            p.id.iter()
+                .copied()
+                .zip(p.position.iter().copied())
+                .collect();
         sorted.sort_by_key(|(id, _)| *id);
         sorted
     };
@@ -434,15 +506,22 @@ fn the_order_of_the_particles_changes_rounding_only() {
 
 #[test]
 fn a_step_allocates_nothing() {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
     pool.install(|| {
         for remedy in remedies::<2>() {
             let mut particles = block(0.5, 2, [4, 4], [8, 8]);
             swirl(&mut particles, 0.01);
             let mut scene = scene(open_grid::<2>(0.5, 12), particles);
             scene.remedy = remedy;
-            scene.loads.push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1e-3]))));
-            scene.force_filters.push(Box::new(LocalDamping::new(0.1).unwrap()));
+            scene
+                .loads
+                .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1e-3]))));
+            scene
+                .force_filters
+                .push(Box::new(LocalDamping::new(0.1).unwrap()));
             let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
             solver.step().unwrap();
             let info = allocation_counter::measure(|| {

@@ -32,9 +32,7 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
     let folder = path.parent().unwrap_or(Path::new("."));
     make_folder(folder)?;
     let mut draft = readable_draft(folder).map_err(|e| Error::file(path, e))?;
-    draft
-        .write_all(content)
-        .map_err(|e| Error::file(path, e))?;
+    draft.write_all(content).map_err(|e| Error::file(path, e))?;
     draft.persist(path).map_err(|e| Error::file(path, e))?;
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The command line: `mpm-verify list | explain | run | verify`.
+//! The command line: `mpm-verify list | explain | run | verify | report`.
 
 mod progress;
 
@@ -10,7 +10,7 @@ use mpm_verify::parameter::Parameters;
 use mpm_verify::record::{Record, Status};
 use mpm_verify::report::{describe, write_report};
 use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use mpm_verify::study::{has_truth, verify};
+use mpm_verify::study::{has_truth, read_summary, verify};
 use mpm_verify::{cases, run};
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -64,6 +64,11 @@ enum Command {
         /// Threads (all cores if not given)
         #[arg(long)]
         threads: Option<usize>,
+    },
+    /// Rebuild pictures, tables and summary of a report folder from its records
+    Report {
+        /// The folder, as `verify` left it
+        folder: PathBuf,
     },
     /// Run a tier of cases, judge them and write the report
     Verify {
@@ -166,6 +171,12 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             };
             let spec = RunSpec { scheme, level, set };
             run_one(case, &spec, out.as_deref(), parse_threads(threads)?)
+        }
+        Command::Report { folder } => {
+            let summary = read_summary(&folder)?;
+            write_report(&summary, &folder)?;
+            say(&describe::verdict_summary(&summary))?;
+            Ok(summary.exit_code())
         }
         Command::Verify {
             cases: names,

@@ -75,7 +75,10 @@ mod tests {
     #[test]
     fn too_few_particles_give_no_probe() {
         assert_eq!(PointProbe::new(&lattice(), [50.0, 50.0], 1.0), None);
-        assert_eq!(PointProbe::new(&[[0.0, 0.0], [1.0, 1.0]], [0.0, 0.0], 2.0), None);
+        assert_eq!(
+            PointProbe::new(&[[0.0, 0.0], [1.0, 1.0]], [0.0, 0.0], 2.0),
+            None
+        );
     }
 
     #[test]

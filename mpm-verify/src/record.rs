@@ -180,4 +180,31 @@ impl Record {
     pub fn is_default(&self) -> bool {
         self.set.is_empty()
     }
+
+    /// Whether `name` is the only parameter that was changed.
+    #[must_use]
+    pub fn changes_only(&self, name: &str) -> bool {
+        !self.set.is_empty()
+            && self
+                .set
+                .iter()
+                .all(|assignment| assignment.split('=').next() == Some(name))
+    }
+}
+
+/// One record per scheme and level at the case's own parameters. A state of rest does not depend on
+/// the time step, so where there is no such record one that differs in `cfl` alone stands in, but for
+/// schemes that never come to rest.
+#[must_use]
+pub fn of_own_parameters(records: &[Record]) -> Vec<&Record> {
+    let same = |a: &Record, b: &Record| a.scheme() == b.scheme() && a.level == b.level;
+    records
+        .iter()
+        .filter(|r| {
+            let stands_in = r.changes_only("cfl")
+                && r.remedy != RemedyName::FbarRecursive
+                && !records.iter().any(|d| d.is_default() && same(d, r));
+            r.is_default() || stands_in
+        })
+        .collect()
 }

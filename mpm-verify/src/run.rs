@@ -1,6 +1,7 @@
 //! One run: a job driven to its end, its outputs and its record.
 
 use crate::case::{Case, Column, Job, RunSpec};
+use crate::check::Verdict;
 use crate::error::Error;
 use crate::files::{require_writable, write_csv, write_json};
 use crate::parameter::Parameters;
@@ -71,12 +72,25 @@ pub fn execute(
             record.metrics = job.metrics();
             record.verdicts = case.judge(&record);
         }
+        record.verdicts.insert(0, completes(&record));
         if let Some(folder) = folder {
             write_particles(folder, &job.particles())?;
             write_json(&folder.join("record.json"), &record)?;
         }
         Ok(record)
     })
+}
+
+/// Whether the run came to its end: a check of every case.
+fn completes(record: &Record) -> Verdict {
+    Verdict::close(
+        "completes",
+        "run",
+        f64::from(u8::from(record.status == Status::Ok)),
+        1.0,
+        0.0,
+        "the equations have a solution",
+    )
 }
 
 /// Processor time: of the calling thread for a run on one thread (others may run beside it), else of
@@ -112,8 +126,7 @@ fn drive(
         Some(folder) => {
             require_writable(folder)?;
             let path = folder.join("series.csv");
-            let mut writer =
-                csv::Writer::from_path(&path).map_err(|e| Error::file(&path, e))?;
+            let mut writer = csv::Writer::from_path(&path).map_err(|e| Error::file(&path, e))?;
             writer
                 .write_record(job.series_columns())
                 .map_err(|e| Error::file(&path, e))?;

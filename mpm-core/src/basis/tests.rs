@@ -22,7 +22,13 @@ fn places() -> impl Strategy<Value = f64> {
     prop_oneof![4 => 0.0..=1.0, 1 => Just(0.0), 1 => Just(1.0), 1 => Just(0.25), 1 => Just(0.5)]
 }
 
-fn check<const S: usize, B: Basis<S>>(axis: Axis, h: f64, wall: WallTreatment, place: f64, half: f64) {
+fn check<const S: usize, B: Basis<S>>(
+    axis: Axis,
+    h: f64,
+    wall: WallTreatment,
+    place: f64,
+    half: f64,
+) {
     let basis = B::new(&axis, h, wall);
     let nodes = basis.nodes();
     let length = axis.hi(h) - axis.lo;
@@ -33,15 +39,28 @@ fn check<const S: usize, B: Basis<S>>(axis: Axis, h: f64, wall: WallTreatment, p
 
     let unity: f64 = at.w.iter().sum();
     let slope: f64 = at.dw.iter().sum();
-    assert!((unity - 1.0).abs() < ROUNDING, "partition of unity: {unity}");
+    assert!(
+        (unity - 1.0).abs() < ROUNDING,
+        "partition of unity: {unity}"
+    );
     assert!((slope * h).abs() < ROUNDING, "derivative of one: {slope}");
-    assert!(at.w.iter().all(|w| *w > -ROUNDING), "negative weight: {:?}", at.w);
+    assert!(
+        at.w.iter().all(|w| *w > -ROUNDING),
+        "negative weight: {:?}",
+        at.w
+    );
 
     let position = &nodes.position[at.first..at.first + S];
     let reproduced: f64 = at.w.iter().zip(position).map(|(w, q)| w * q).sum();
     let one: f64 = at.dw.iter().zip(position).map(|(dw, q)| dw * q).sum();
-    assert!((reproduced - x).abs() < ROUNDING * 10.0, "{x} became {reproduced}");
-    assert!((one - 1.0).abs() < ROUNDING * 100.0, "derivative of x: {one}");
+    assert!(
+        (reproduced - x).abs() < ROUNDING * 10.0,
+        "{x} became {reproduced}"
+    );
+    assert!(
+        (one - 1.0).abs() < ROUNDING * 100.0,
+        "derivative of x: {one}"
+    );
 
     // A central difference of step d errs by d² w‴/6 inside a polynomial piece and by d w″ where a
     // knot lies within it; w″ h² ≤ 6 and w‴ h³ ≤ 9 for all bases, but for the kink of hats.
@@ -54,10 +73,17 @@ fn check<const S: usize, B: Basis<S>>(axis: Axis, h: f64, wall: WallTreatment, p
             all
         };
         let (ahead, behind) = (dense(x + d), dense(x - d));
-        let kink = S == 2 && ((x - axis.lo) / h).fract().min(1.0 - ((x - axis.lo) / h).fract()) < 2e-6;
+        let kink = S == 2
+            && ((x - axis.lo) / h)
+                .fract()
+                .min(1.0 - ((x - axis.lo) / h).fract())
+                < 2e-6;
         for (k, dw) in at.dw.iter().enumerate() {
             let difference = (ahead[at.first + k] - behind[at.first + k]) / (2.0 * d);
-            assert!(kink || (difference - dw).abs() * h < 2e-5, "{dw} but {difference} at {x}");
+            assert!(
+                kink || (difference - dw).abs() * h < 2e-5,
+                "{dw} but {difference} at {x}"
+            );
         }
     }
 }

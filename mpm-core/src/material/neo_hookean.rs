@@ -61,10 +61,8 @@ impl Law for NeoHookean {
         let squared_jacobian = b.determinant();
         let inverse_jacobian = 1.0 / squared_jacobian.sqrt();
         let pressure_part = self.lambda * 0.5 * squared_jacobian.ln() - self.mu;
-        let stress = b.scale_add_identity(
-            self.mu * inverse_jacobian,
-            pressure_part * inverse_jacobian,
-        );
+        let stress =
+            b.scale_add_identity(self.mu * inverse_jacobian, pressure_part * inverse_jacobian);
         (stress, b)
     }
 

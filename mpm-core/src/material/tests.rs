@@ -6,7 +6,8 @@ use proptest::prelude::*;
 
 /// Deformation gradients with stretches near one and a positive determinant.
 fn deformations() -> impl Strategy<Value = Matrix3<f64>> {
-    prop::array::uniform9(-0.2..0.2_f64).prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a))
+    prop::array::uniform9(-0.2..0.2_f64)
+        .prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a))
 }
 
 fn rotations() -> impl Strategy<Value = Matrix3<f64>> {
@@ -66,7 +67,14 @@ fn increments_compose<M: Law>(law: &M, first: &Matrix3<f64>, second: &Matrix3<f6
 /// ρ c² is the slope of axial stress in uniaxial strain.
 fn waves_run_at_the_stated_speed<M: Law>(law: &M) {
     let d = 1e-6;
-    let axial = |e: f64| deform(law, &Matrix3::from_diagonal(&Vector3::new(1.0 + e, 1.0, 1.0))).0.xx;
+    let axial = |e: f64| {
+        deform(
+            law,
+            &Matrix3::from_diagonal(&Vector3::new(1.0 + e, 1.0, 1.0)),
+        )
+        .0
+        .xx
+    };
     let slope = (axial(d) - axial(-d)) / (2.0 * d);
     let density = 3.0;
     let speed = law.wave_speed(density);
@@ -109,16 +117,33 @@ macro_rules! every_law_must {
     };
 }
 
-every_law_must!(neo_hookean, NeoHookean { lambda: 3.0, mu: 2.0 });
-every_law_must!(nearly_incompressible_neo_hookean, NeoHookean::new(70.0, 0.499).unwrap());
+every_law_must!(
+    neo_hookean,
+    NeoHookean {
+        lambda: 3.0,
+        mu: 2.0
+    }
+);
+every_law_must!(
+    nearly_incompressible_neo_hookean,
+    NeoHookean::new(70.0, 0.499).unwrap()
+);
 
 #[test]
 fn neo_hookean_matches_its_closed_form_in_shear_and_uniaxial_strain() {
-    let law = NeoHookean { lambda: 5.0, mu: 2.0 };
+    let law = NeoHookean {
+        lambda: 5.0,
+        mu: 2.0,
+    };
     let mut shear = Matrix3::identity();
     shear[(0, 1)] = 0.3;
     let s = deform(&law, &shear).0;
-    for (value, exact) in [(s.xx, 2.0 * 0.09), (s.xy, 2.0 * 0.3), (s.yy, 0.0), (s.zz, 0.0)] {
+    for (value, exact) in [
+        (s.xx, 2.0 * 0.09),
+        (s.xy, 2.0 * 0.3),
+        (s.yy, 0.0),
+        (s.zz, 0.0),
+    ] {
         assert!((value - exact).abs() < 1e-14);
     }
     let stretch = Matrix3::from_diagonal(&Vector3::new(1.2, 1.0, 1.0));
@@ -129,7 +154,14 @@ fn neo_hookean_matches_its_closed_form_in_shear_and_uniaxial_strain() {
 
 #[test]
 fn elastic_constants_out_of_range_are_refused() {
-    for (young, poisson) in [(0.0, 0.3), (f64::NAN, 0.3), (1.0, 0.5), (1.0, -1.0), (1.0, f64::NAN), (f64::INFINITY, 0.3)] {
+    for (young, poisson) in [
+        (0.0, 0.3),
+        (f64::NAN, 0.3),
+        (1.0, 0.5),
+        (1.0, -1.0),
+        (1.0, f64::NAN),
+        (f64::INFINITY, 0.3),
+    ] {
         assert!(NeoHookean::new(young, poisson).is_err());
     }
 }

@@ -59,16 +59,26 @@ fn properties<const S: usize, B: Basis<S>>(places: &[[f64; 4]]) {
     // Symmetry: (r, V Π q) = (q, V Π r); positivity and contraction: 0 ≤ (q, VΠq) ≤ (q, Vq).
     let r: Vec<f64> = q.iter().map(|x| (7.0 * x).sin()).collect();
     let volume = &bench.particles.volume;
-    let product = |a: &[f64], b: &[f64]| -> f64 { (0..a.len()).map(|p| volume[p] * a[p] * b[p]).sum() };
+    let product =
+        |a: &[f64], b: &[f64]| -> f64 { (0..a.len()).map(|p| volume[p] * a[p] * b[p]).sum() };
     let (pq, pr) = (bench.average(&q), bench.average(&r));
     let scale = product(&q, &q) + product(&r, &r) + 1.0;
-    assert!((product(&r, &pq) - product(&q, &pr)).abs() < ROUNDING * scale, "symmetry");
+    assert!(
+        (product(&r, &pq) - product(&q, &pr)).abs() < ROUNDING * scale,
+        "symmetry"
+    );
     assert!(product(&q, &pq) > -ROUNDING * scale, "positive");
-    assert!(product(&q, &pq) < product(&q, &q) + ROUNDING * scale, "at most one");
+    assert!(
+        product(&q, &pq) < product(&q, &q) + ROUNDING * scale,
+        "at most one"
+    );
 
     // The volume integral of the field survives.
     let ones = vec![1.0; q.len()];
-    assert!((product(&ones, &pq) - product(&ones, &q)).abs() < ROUNDING * scale, "integral");
+    assert!(
+        (product(&ones, &pq) - product(&ones, &q)).abs() < ROUNDING * scale,
+        "integral"
+    );
 }
 
 fn clouds() -> impl Strategy<Value = Vec<[f64; 4]>> {
@@ -98,7 +108,12 @@ fn spread<const S: usize, B: Basis<S>>(per_cell: usize) -> f64 {
         .collect();
     let particles = Particles::new(positions, spacing, 1.0, [0.5 * spacing]).unwrap();
     let bench = Bench::<1, S, B>::new(grid, particles);
-    let squares: Vec<f64> = bench.particles.position.iter().map(|x| x[0] * x[0]).collect();
+    let squares: Vec<f64> = bench
+        .particles
+        .position
+        .iter()
+        .map(|x| x[0] * x[0])
+        .collect();
     let averaged = bench.average(&squares);
     let middle = 10 * per_cell..11 * per_cell;
     let mean: f64 = middle.map(|p| averaged[p] - squares[p]).sum::<f64>() / per_cell as f64;
@@ -112,7 +127,10 @@ fn the_spread_of_the_average_is_as_stated_for_each_basis() {
     let many = 50;
     let tolerance = 1.0 / (many * many) as f64;
     let close = |value: f64, exact: f64, tolerance: f64| {
-        assert!((value - exact).abs() <= tolerance, "{value} instead of {exact}");
+        assert!(
+            (value - exact).abs() <= tolerance,
+            "{value} instead of {exact}"
+        );
     };
     close(spread::<2, Linear>(many), 1.0 / 3.0, tolerance);
     close(spread::<3, QuadraticBSpline>(many), 0.5, tolerance);
@@ -173,7 +191,8 @@ fn the_family_differs_in_the_averaged_jacobian_alone() {
     let expected = |kind: &str| -> Vec<f64> {
         let (first, bench) = small_body(&mut Standard, 1);
         let (second, _) = small_body(&mut Standard, 2);
-        let product = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
+        let product =
+            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
         match kind {
             "recursive" => bench.average(&product(&bench.average(&first), &second)),
             "total" => bench.average(&product(&first, &second)),

@@ -29,16 +29,14 @@ impl LocalDamping {
 }
 
 impl ForceFilter for LocalDamping {
-    fn filter(&self, nodes: &mut [NodalState]) -> f64 {
+    fn filter(&self, node: &mut NodalState) -> f64 {
         let mut power = 0.0;
-        for node in nodes {
-            let velocity = node.motion.as_array()[..3].iter();
-            for (v, f) in velocity.zip(&mut node.change.as_mut_array()[..3]) {
-                if *v != 0.0 {
-                    let opposing = self.alpha * f.abs();
-                    power += opposing * v.abs();
-                    *f -= opposing * v.signum();
-                }
+        let velocity = node.motion.as_array()[..3].iter();
+        for (v, f) in velocity.zip(&mut node.change.as_mut_array()[..3]) {
+            if *v != 0.0 {
+                let opposing = self.alpha * f.abs();
+                power += opposing * v.abs();
+                *f -= opposing * v.signum();
             }
         }
         power

@@ -30,9 +30,9 @@ pub trait Load<const D: usize>: Send {
 
 /// A filter of nodal forces.
 pub trait ForceFilter: Send {
-    /// Changes the force (N, in `change`) of nodes whose `motion` is their velocity (m/s) before the
+    /// Changes the force (N, in `change`) of a node whose `motion` is its velocity (m/s) before the
     /// update; returns the power (W) that it takes from the motion.
-    fn filter(&self, nodes: &mut [NodalState]) -> f64;
+    fn filter(&self, node: &mut NodalState) -> f64;
 }
 
 /// A prescribed component of a nodal velocity.
@@ -50,12 +50,7 @@ pub struct Prescribed {
 pub trait Constraint<const D: usize>: Send {
     /// Whether the node at `position` (m), of a lattice on `grid`, is constrained along `axis`, and
     /// to which velocity (m/s).
-    fn prescribe(
-        &self,
-        grid: &crate::Grid<D>,
-        position: &[f64; D],
-        axis: usize,
-    ) -> Option<f64>;
+    fn prescribe(&self, grid: &crate::Grid<D>, position: &[f64; D], axis: usize) -> Option<f64>;
 }
 
 /// A filter of the particles at the end of a step.

@@ -32,4 +32,12 @@ impl NodalState {
     pub fn mass(&self) -> f64 {
         self.motion.as_array()[3]
     }
+
+    /// Kinetic energy of the node (J), once `motion` is a velocity.
+    #[must_use]
+    #[inline(always)]
+    pub fn kinetic_energy(&self) -> f64 {
+        let v = self.motion.as_array();
+        0.5 * v[3] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    }
 }

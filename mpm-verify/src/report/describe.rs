@@ -62,7 +62,12 @@ pub fn list_json(cases: &[&dyn Case], tier: Option<Tier>) -> String {
 /// Everything about a case.
 #[must_use]
 pub fn explain(case: &dyn Case) -> String {
-    let mut t = format!("{}: {}\n\n{}\n", case.name(), case.title(), case.description());
+    let mut t = format!(
+        "{}: {}\n\n{}\n",
+        case.name(),
+        case.title(),
+        case.description()
+    );
     let _ = writeln!(t, "\nParameters (--set name=value)");
     for p in case.parameters() {
         let _ = writeln!(
@@ -73,7 +78,11 @@ pub fn explain(case: &dyn Case) -> String {
     }
     let _ = writeln!(t, "\nSchemes (--basis B --remedy R --transfer T)");
     for s in case.schemes() {
-        let _ = writeln!(t, "  --basis {} --remedy {} --transfer {}", s.basis, s.remedy, s.transfer);
+        let _ = writeln!(
+            t,
+            "  --basis {} --remedy {} --transfer {}",
+            s.basis, s.remedy, s.transfer
+        );
     }
     let _ = writeln!(t, "\nLevels (--level L)");
     for l in case.levels() {
@@ -150,7 +159,13 @@ pub fn verdict_line(v: &Verdict) -> String {
 /// A run: metrics and verdicts.
 #[must_use]
 pub fn record(r: &Record) -> String {
-    let mut t = format!("{} {} {} {}\n", r.case, r.scheme(), r.level, r.set.join(" "));
+    let mut t = format!(
+        "{} {} {} {}\n",
+        r.case,
+        r.scheme(),
+        r.level,
+        r.set.join(" ")
+    );
     if let Some(e) = &r.error {
         let _ = writeln!(t, "FAILED ({}): {}", e.kind, e.message);
     }
@@ -183,7 +198,14 @@ pub fn verdict_summary(summary: &Summary) -> String {
     }
     for record in summary.cases.iter().flat_map(|c| &c.records) {
         if let (Status::Failed, Some(e)) = (record.status, &record.error) {
-            let _ = writeln!(t, "{} {} {}: {}", record.case, record.scheme(), record.level, e.message);
+            let _ = writeln!(
+                t,
+                "{} {} {}: {}",
+                record.case,
+                record.scheme(),
+                record.level,
+                e.message
+            );
         }
     }
     let c = summary.counts;

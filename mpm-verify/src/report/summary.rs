@@ -34,7 +34,11 @@ fn text(summary: &Summary, pictures: &[Picture]) -> String {
         summary.tier, c.runs, c.failed_runs, c.passed, c.failed, c.not_applicable
     );
     if c.runs_without_truth > 0 {
-        let _ = writeln!(t, "\n{} runs have no applicable check.", c.runs_without_truth);
+        let _ = writeln!(
+            t,
+            "\n{} runs have no applicable check.",
+            c.runs_without_truth
+        );
     }
     failures(summary, &mut t);
     for study in &summary.cases {
@@ -42,7 +46,11 @@ fn text(summary: &Summary, pictures: &[Picture]) -> String {
         results(&study.records, &mut t);
     }
     for picture in pictures {
-        let _ = writeln!(t, "\n![{}]({})\n\n{}", picture.caption, picture.file, picture.caption);
+        let _ = writeln!(
+            t,
+            "\n![{}]({})\n\n{}",
+            picture.caption, picture.file, picture.caption
+        );
     }
     verdicts(summary, &mut t);
     t
@@ -51,7 +59,14 @@ fn text(summary: &Summary, pictures: &[Picture]) -> String {
 fn failures(summary: &Summary, t: &mut String) {
     for record in summary.cases.iter().flat_map(|s| &s.records) {
         if let Some(error) = &record.error {
-            let _ = writeln!(t, "\n**Broke down**: {} {} {}: {}", record.case, record.scheme(), record.level, error.message);
+            let _ = writeln!(
+                t,
+                "\n**Broke down**: {} {} {}: {}",
+                record.case,
+                record.scheme(),
+                record.level,
+                error.message
+            );
         }
     }
     if summary.counts.failed > 0 {

@@ -36,22 +36,57 @@ fn document(columns: &[Column]) -> io::Result<Vec<u8>> {
 
     let mut w = Writer::new_with_indent(Vec::new(), b' ', 1);
     w.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    open(&mut w, "VTKFile", &[("type", "UnstructuredGrid"), ("version", "1.0")])?;
+    open(
+        &mut w,
+        "VTKFile",
+        &[("type", "UnstructuredGrid"), ("version", "1.0")],
+    )?;
     open(&mut w, "UnstructuredGrid", &[])?;
     let n = count.to_string();
-    open(&mut w, "Piece", &[("NumberOfPoints", &n), ("NumberOfCells", &n)])?;
+    open(
+        &mut w,
+        "Piece",
+        &[("NumberOfPoints", &n), ("NumberOfCells", &n)],
+    )?;
     open(&mut w, "Points", &[])?;
     data(&mut w, "Float64", "position (m)", "3", &points)?;
     close(&mut w, "Points")?;
     open(&mut w, "Cells", &[])?;
-    data(&mut w, "Int64", "connectivity", "1", &join(&mut (0..count).map(|k| k.to_string())))?;
-    data(&mut w, "Int64", "offsets", "1", &join(&mut (1..=count).map(|k| k.to_string())))?;
-    data(&mut w, "UInt8", "types", "1", &join(&mut (0..count).map(|_| VERTEX.to_owned())))?;
+    data(
+        &mut w,
+        "Int64",
+        "connectivity",
+        "1",
+        &join(&mut (0..count).map(|k| k.to_string())),
+    )?;
+    data(
+        &mut w,
+        "Int64",
+        "offsets",
+        "1",
+        &join(&mut (1..=count).map(|k| k.to_string())),
+    )?;
+    data(
+        &mut w,
+        "UInt8",
+        "types",
+        "1",
+        &join(&mut (0..count).map(|_| VERTEX.to_owned())),
+    )?;
     close(&mut w, "Cells")?;
     open(&mut w, "PointData", &[])?;
-    for c in columns.iter().filter(|c| !["x", "y", "z"].contains(&c.name)) {
+    for c in columns
+        .iter()
+        .filter(|c| !["x", "y", "z"].contains(&c.name))
+    {
         let name = format!("{} ({})", c.name, c.unit);
-        data(&mut w, "Float64", &name, "1", &join(&mut c.values.iter().map(f64::to_string)))?;
+        data(
+            &mut w,
+            "Float64",
+            &name,
+            "1",
+            &join(&mut c.values.iter().map(f64::to_string)),
+        )?;
     }
     close(&mut w, "PointData")?;
     close(&mut w, "Piece")?;

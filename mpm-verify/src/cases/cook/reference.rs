@@ -17,6 +17,16 @@ struct Document {
     method: String,
     load_over_young_modulus: f64,
     solutions: Vec<Solution>,
+    load_inset: Vec<LoadShift>,
+}
+
+/// What the displacements (m) change by when the load acts on x = 48 m − h/4 instead of the side.
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(super) struct LoadShift {
+    h: f64,
+    pub(super) tip_uy_change: f64,
+    pub(super) mid_edge_uy_change: f64,
+    pub(super) edge_mean_uy_change: f64,
 }
 
 /// A displacement (m).
@@ -59,6 +69,11 @@ fn document() -> Option<&'static Document> {
         .as_ref()
 }
 
+/// The change due to the load's place at cell size `h` (m), if it is stored.
+pub(super) fn load_shift(h: f64) -> Option<&'static LoadShift> {
+    document()?.load_inset.iter().find(|s| s.h == h)
+}
+
 /// Where mean stresses are probed.
 pub(super) fn stress_points() -> &'static [StressPoint] {
     document().map_or(&[], |d| &d.solutions[0].mean_stress)
@@ -73,9 +88,7 @@ pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, Str
     let ratio = parameters.number("load") / parameters.number("young_modulus");
     let stored = document.load_over_young_modulus;
     if (ratio - stored).abs() > 1e-9 * stored {
-        return Err(format!(
-            "the reference is for load/E = 1/70, not {ratio}"
-        ));
+        return Err(format!("the reference is for load/E = 1/70, not {ratio}"));
     }
     let nu = parameters.number("poisson_ratio");
     document

@@ -1,0 +1,179 @@
+//! The command line: what it offers and what it refuses.
+
+use super::{code, json, mpm_verify, stderr, stdout};
+
+/// Refused: exit code 2, one line on stderr that names what is wrong and what is allowed, and no
+/// trace in the output folder.
+fn refused(arguments: &[&str], needles: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut all = arguments.to_vec();
+    if ["run", "verify"].contains(&arguments[0]) && !arguments.contains(&"--out") {
+        all.extend(["--out", out.to_str().unwrap()]);
+    }
+    let output = mpm_verify(&all);
+    let text = stderr(&output);
+    assert_eq!(code(&output), 2, "{arguments:?}: {text}");
+    assert_eq!(text.trim_end().lines().count(), 1, "{arguments:?}: {text}");
+    assert!(text.starts_with("error: "), "{text}");
+    for needle in needles {
+        assert!(text.contains(needle), "\"{needle}\" is missing in: {text}");
+    }
+    assert!(!out.exists(), "{arguments:?} left something behind");
+}
+
+#[test]
+fn unknown_names_are_refused_with_those_that_exist() {
+    refused(&["run", "bridge"], &["case", "bridge", "cook"]);
+    refused(&["explain", "bridge"], &["case", "cook"]);
+    refused(&["verify", "bridge"], &["case", "cook"]);
+    refused(
+        &["run", "cook", "--basis", "cubic"],
+        &["basis", "gimp", "bspline2", "bspline3"],
+    );
+    refused(
+        &["run", "cook", "--remedy", "fbar"],
+        &["remedy", "fbar-rate", "fbar-total"],
+    );
+    refused(
+        &["run", "cook", "--transfer", "apic"],
+        &["transfer", "flip"],
+    );
+    refused(
+        &["run", "cook", "--basis", "linear"],
+        &["scheme", "gimp-none-flip"],
+    );
+    refused(&["run", "cook", "--level", "h3"], &["level", "h2", "h0.25"]);
+    refused(
+        &["run", "cook", "--set", "nu=0.3"],
+        &["parameter", "nu", "poisson_ratio"],
+    );
+    refused(
+        &["verify", "--tier", "weekly"],
+        &["tier", "quick, pr, nightly, long"],
+    );
+    refused(&["list", "--tier", "weekly"], &["tier"]);
+    refused(&["list", "--format", "xml"], &["format", "text, json"]);
+    refused(&["run", "cook", "--frobnicate"], &["--frobnicate"]);
+    refused(&["solve"], &["solve"]);
+}
+
+#[test]
+fn bad_values_are_refused_with_the_allowed_range() {
+    for (assignment, needle) in [
+        ("poisson_ratio=0.5", "0 to below 0.5"),
+        ("poisson_ratio=nan", "not finite"),
+        ("poisson_ratio=-0.1", "out of range"),
+        ("load=1e400", "not finite"),
+        ("load=", "not a number"),
+        ("young_modulus=0", "out of range"),
+        ("density=-1", "out of range"),
+        ("damping=1", "0 to below 1"),
+        ("cfl=0", "out of range"),
+        ("flip=1.5", "0 to 1"),
+        ("wall=glass", "open-knot, wall-line"),
+        ("kinetic_damping=maybe", "true, false"),
+        ("ppc_per_direction=2.5", "whole number from 1 to 4"),
+        ("load", "name=value"),
+    ] {
+        let name = assignment.split('=').next().unwrap();
+        refused(&["run", "cook", "--set", assignment], &[name, needle]);
+    }
+    refused(
+        &["run", "cook", "--threads", "0"],
+        &["threads", "1 or more"],
+    );
+    refused(&["verify", "--threads", "0"], &["threads", "1 or more"]);
+    refused(&["run", "cook", "--threads", "many"], &["threads"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let below_a_file = file.path().join("out");
+    let below_a_file = below_a_file.to_str().unwrap();
+    refused(&["run", "cook", "--out", below_a_file], &[below_a_file]);
+    refused(
+        &["verify", "--tier", "quick", "--out", below_a_file],
+        &[below_a_file],
+    );
+}
+
+#[test]
+fn list_and_explain_name_everything() {
+    let text = stdout(&mpm_verify(&["list"]));
+    assert!(text.contains("cook") && text.contains("bspline3-fbar-total-flip"));
+    let listed = mpm_verify(&["list", "--format", "json", "--tier", "pr"]);
+    let cases: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
+    assert_eq!(cases[0]["case"], "cook");
+    assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 12);
+    assert_eq!(cases[0]["tier"], "pr");
+
+    let text = stdout(&mpm_verify(&["explain", "cook"]));
+    for part in [
+        "poisson_ratio",
+        "0 to below 0.5",
+        "--remedy fbar-recursive",
+        "h0.25",
+        "mid_edge_uy",
+        "creep_rate",
+        "known limit",
+        "0.276467",
+        "Limits",
+    ] {
+        assert!(text.contains(part), "{part} is missing in explain");
+    }
+}
+
+/// The parameters that `explain` lists, with their defaults.
+fn explained_parameters() -> Vec<(String, String)> {
+    let text = stdout(&mpm_verify(&["explain", "cook"]));
+    text.lines()
+        .filter_map(|line| {
+            let (name, rest) = line.trim().split_once(" (")?;
+            let default = rest.split_once("default ")?.1.split(", allowed").next()?;
+            Some((name.to_owned(), default.to_owned()))
+        })
+        .collect()
+}
+
+#[test]
+fn every_explained_parameter_is_accepted_and_recorded() {
+    let parameters = explained_parameters();
+    assert!(parameters.len() >= 14, "{parameters:?}");
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let mut arguments: Vec<String> = ["run", "cook", "--out", out].map(str::to_owned).to_vec();
+    for (name, default) in &parameters {
+        let value = if name == "max_periods" {
+            "0.01"
+        } else {
+            default
+        };
+        arguments.extend(["--set".to_owned(), format!("{name}={value}")]);
+    }
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let output = mpm_verify(&arguments);
+    assert_eq!(
+        code(&output),
+        1,
+        "too short to come to rest: {}",
+        stderr(&output)
+    );
+    let record = json(&folder.path().join("record.json"));
+    for (name, _) in &parameters {
+        assert!(
+            !record["parameters"][name].is_null(),
+            "{name} is not recorded"
+        );
+    }
+}
+
+#[test]
+fn help_and_version_go_to_stdout() {
+    for argument in ["--help", "--version"] {
+        let output = mpm_verify(&[argument]);
+        assert_eq!(code(&output), 0);
+        assert!(!output.stdout.is_empty() && output.stderr.is_empty());
+    }
+}
