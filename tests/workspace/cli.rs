@@ -129,6 +129,9 @@ fn list_and_explain_name_everything() {
 fn explained_parameters() -> Vec<(String, String)> {
     let text = stdout(&mpm_verify(&["explain", "cook"]));
     text.lines()
+        .skip_while(|line| !line.starts_with("Parameters"))
+        .take_while(|line| !line.starts_with("Schemes"))
+        .filter(|line| line.contains("  default "))
         .filter_map(|line| {
             let (name, rest) = line.trim().split_once(" (")?;
             let default = rest.split_once("default ")?.1.split(", allowed").next()?;

@@ -153,13 +153,13 @@ const PARAMETERS: [Parameter; 14] = [
     Parameter {
         name: "max_periods",
         unit: "periods",
-        default: "1.1",
+        default: "2",
         domain: Domain::Number {
             least: 1e-3,
             most: 1e3,
             below: false,
         },
-        meaning: "longest time to run, in fundamental periods of 60 s (at the default E and ρ)",
+        meaning: "longest time to run, in fundamental periods of 60 s (at the default E and ρ); a run that creeps after one is stopped there",
     },
     Parameter {
         name: "rest_window",
@@ -244,7 +244,7 @@ const METRICS: &[MetricInfo] = &[
     metric(
         "at_rest",
         "-",
-        "1 if the criterion of rest was met, 0 if the time ran out",
+        "1 if the criterion of rest was met, 0 if the run was stopped without",
     ),
     metric("rest_time", "s", "time at the end of the run"),
     metric(

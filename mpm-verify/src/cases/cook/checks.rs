@@ -1,6 +1,6 @@
 //! Verdicts on Cook's membrane. The tolerances are derived in `docs/cook.md`.
 
-use super::reference::{Field, LoadShift, Solution, load_shift, solution};
+use super::reference::{Field, LoadShift, Solution, load_shift, solution, stress_scale};
 use crate::case::CheckInfo;
 use crate::check::{Kind, Verdict};
 use crate::record::{Record, of_own_parameters};
@@ -20,7 +20,7 @@ const LOCKED: f64 = 0.5;
 /// Coarsest cell (m) that resolves the field well enough for the two.
 const RESOLVED: f64 = 1.0;
 /// Strain per period that counts as creep.
-const CREEP: f64 = 1e-4;
+pub(super) const CREEP: f64 = 1e-4;
 /// Least R² of linear growth.
 const LINEAR: f64 = 0.95;
 /// Largest relative gain of energy.
@@ -306,6 +306,7 @@ fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<V
             source.clone(),
         ));
     }
+    let scale = stress_scale(&record.parameters);
     for point in &reference.mean_stress {
         let metric = point.metric();
         let gradient = Field::stored()
@@ -315,8 +316,8 @@ fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<V
             "mean-stress-probe",
             &metric,
             record.metric(&metric),
-            point.value,
-            h * gradient + reference.uncertainty_mean_stress,
+            scale * point.value,
+            scale * (h * gradient + reference.uncertainty_mean_stress),
             format!("{source}; tolerance: the point moved by a cell"),
         ));
     }
@@ -327,7 +328,7 @@ fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<V
             Kind::Truth,
             "mean_stress_rms_error",
             record.metric("mean_stress_rms_error"),
-            (h * gradient).hypot(SMOOTH * stress),
+            scale * (h * gradient).hypot(SMOOTH * stress),
             format!("{source}; every point moved by a cell, and the oscillation that smooth-pressure admits"),
         )
     } else {

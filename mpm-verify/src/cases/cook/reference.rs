@@ -9,6 +9,8 @@ use std::sync::OnceLock;
 const SOLUTIONS: &str = include_str!("../../../references/cook.json");
 const FIELD: &str = include_str!("../../../references/cook_mean_stress.csv");
 
+/// Young's modulus (Pa) of the stored solutions; stresses scale with it.
+const MODULUS: f64 = 70.0;
 /// Spacing of the lattice of the reference field (m); its first point is at half of it.
 const LATTICE: f64 = 0.5;
 
@@ -96,6 +98,11 @@ pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, Str
         .iter()
         .find(|s| s.poisson_ratio == nu)
         .ok_or_else(|| format!("no reference at ν = {nu}"))
+}
+
+/// What the stored stresses are to be multiplied with for `parameters`.
+pub(super) fn stress_scale(parameters: &Parameters) -> f64 {
+    parameters.number("young_modulus") / MODULUS
 }
 
 /// The references in words.

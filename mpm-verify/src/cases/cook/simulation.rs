@@ -1,14 +1,15 @@
 //! The simulation of Cook's membrane: geometry, load, observation, rest.
 
 use super::METRICS;
-use super::reference::{Field, solution, stress_points};
+use super::checks::CREEP;
+use super::reference::{Field, solution, stress_points, stress_scale};
 use crate::case::{Column, Job, RunSpec};
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::probe::{PointProbe, nearest};
 use crate::record::{Discretisation, Metric, WorkDone};
 use crate::scheme::{BasisName, Scheme};
-use crate::statistics::{fit_line, rms};
+use crate::statistics::{Line, fit_line, rms};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::solver::courant_time_step;
@@ -250,15 +251,35 @@ impl Simulated {
         )
     }
 
+    /// The growth of rms ln(J/J̄) over the second half of the run so far.
+    fn creep(&self) -> Option<Line> {
+        let half = 0.5 * self.simulation.time();
+        let later: Vec<(f64, f64)> = self
+            .gaps
+            .iter()
+            .copied()
+            .filter(|(t, _)| *t >= half)
+            .collect();
+        fit_line(&later)
+    }
+
+    /// Whether the run has shown, over a whole period, that it will never rest.
+    fn creeps(&self) -> bool {
+        self.simulation.time() >= self.period
+            && self
+                .creep()
+                .is_some_and(|line| line.slope * self.period > CREEP)
+    }
+
     fn stress_error(&self, mean_stress: &[f64]) -> f64 {
         if solution(&self.parameters).is_ok_and(|s| s.poisson_ratio == 0.499) {
-            let field = Field::stored();
+            let (field, scale) = (Field::stored(), stress_scale(&self.parameters));
             rms(self
                 .references
                 .iter()
                 .zip(mean_stress)
                 .filter(|(x, _)| away_from_singularities(x))
-                .filter_map(|(x, s)| Some(s - field.interpolate(*x)?)))
+                .filter_map(|(x, s)| Some(s - scale * field.interpolate(*x)?)))
         } else {
             f64::NAN
         }
@@ -402,7 +423,7 @@ impl Job for Simulated {
     }
 
     fn finished(&self) -> bool {
-        self.at_rest || self.simulation.time() >= self.max_time
+        self.at_rest || self.simulation.time() >= self.max_time || self.creeps()
     }
 
     fn progress(&self) -> f64 {
@@ -435,13 +456,7 @@ impl Job for Simulated {
         let (mean_stress, averaged) = self.mean_stress();
         let totals = self.simulation.totals();
         let time = self.simulation.time();
-        let later: Vec<(f64, f64)> = self
-            .gaps
-            .iter()
-            .copied()
-            .filter(|(t, _)| *t >= 0.5 * time)
-            .collect();
-        let creep = fit_line(&later);
+        let creep = self.creep();
         let stress_rms = rms(mean_stress.iter().copied());
         let board = rms(mean_stress.iter().zip(&averaged).map(|(s, a)| s - a));
         let window = (self.rest.window / time * self.work_residuals.len() as f64) as usize;
