@@ -10,7 +10,7 @@ use mpm_verify::parameter::Parameters;
 use mpm_verify::record::{Record, Status};
 use mpm_verify::report::{describe, write_report};
 use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use mpm_verify::study::{has_truth, read_summary, verify};
+use mpm_verify::study::{has_truth, judge_again, verify};
 use mpm_verify::{cases, run};
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -65,7 +65,7 @@ enum Command {
         #[arg(long)]
         threads: Option<usize>,
     },
-    /// Rebuild pictures, tables and summary of a report folder from its records
+    /// Judge the records of a report folder again and rebuild its pictures, tables and summary
     Report {
         /// The folder, as `verify` left it
         folder: PathBuf,
@@ -173,7 +173,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             run_one(case, &spec, out.as_deref(), parse_threads(threads)?)
         }
         Command::Report { folder } => {
-            let summary = read_summary(&folder)?;
+            let summary = judge_again(&folder)?;
             write_report(&summary, &folder)?;
             say(&describe::verdict_summary(&summary))?;
             Ok(summary.exit_code())

@@ -70,15 +70,23 @@ pub fn execute(
         };
         if record.status == Status::Ok {
             record.metrics = job.metrics();
-            record.verdicts = case.judge(&record);
         }
-        record.verdicts.insert(0, completes(&record));
+        record.verdicts = judge(case, &record);
         if let Some(folder) = folder {
             write_particles(folder, &job.particles())?;
             write_json(&folder.join("record.json"), &record)?;
         }
         Ok(record)
     })
+}
+
+/// All verdicts on one run.
+pub fn judge(case: &dyn Case, record: &Record) -> Vec<Verdict> {
+    let mut verdicts = vec![completes(record)];
+    if record.status == Status::Ok {
+        verdicts.extend(case.judge(record));
+    }
+    verdicts
 }
 
 /// Whether the run came to its end: a check of every case.

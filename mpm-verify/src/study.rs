@@ -1,11 +1,12 @@
 //! Many runs side by side.
 
 use crate::case::{Case, RunSpec, Tier};
+use crate::cases;
 use crate::check::Verdict;
 use crate::error::{Error, ExitCode};
 use crate::files::{require_writable, write_json};
 use crate::record::{Record, SCHEMA, Status};
-use crate::run::execute;
+use crate::run::{execute, judge};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -60,6 +61,19 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Forms all verdicts and counts from the records.
+    fn judge(&mut self) -> Result<(), Error> {
+        for study in &mut self.cases {
+            let case = cases::find(&study.case)?;
+            for record in &mut study.records {
+                record.verdicts = judge(case, record);
+            }
+            study.verdicts = case.judge_study(&study.records);
+        }
+        self.counts = count(self);
+        Ok(())
+    }
+
     /// How the program should end.
     #[must_use]
     pub fn exit_code(&self) -> ExitCode {
@@ -107,16 +121,14 @@ pub fn verify(
     let records = run_all(&plan, out, workers, listener)?;
     let mut studies: Vec<CaseStudy> = Vec::new();
     for case in cases {
-        let records: Vec<Record> = records
-            .iter()
-            .filter(|r| r.case == case.name())
-            .cloned()
-            .collect();
-        let verdicts = case.judge_study(&records);
         studies.push(CaseStudy {
             case: case.name().to_owned(),
-            records,
-            verdicts,
+            records: records
+                .iter()
+                .filter(|r| r.case == case.name())
+                .cloned()
+                .collect(),
+            verdicts: Vec::new(),
         });
     }
     let mut summary = Summary {
@@ -125,16 +137,23 @@ pub fn verify(
         counts: Counts::default(),
         cases: studies,
     };
-    summary.counts = count(&summary);
+    summary.judge()?;
     write_json(&out.join("summary.json"), &summary)?;
     Ok(summary)
 }
 
-/// Reads the summary that [`verify`] left in `folder`.
+/// Judges the records below `folder` again, by the checks as they are now, and rewrites its summary.
 ///
 /// # Errors
-/// It is missing, damaged, or of another schema.
-pub fn read_summary(folder: &Path) -> Result<Summary, Error> {
+/// The summary is missing, damaged, of another schema, or of a case that is not known.
+pub fn judge_again(folder: &Path) -> Result<Summary, Error> {
+    let mut summary = read_summary(folder)?;
+    summary.judge()?;
+    write_json(&folder.join("summary.json"), &summary)?;
+    Ok(summary)
+}
+
+fn read_summary(folder: &Path) -> Result<Summary, Error> {
     let path = folder.join("summary.json");
     let text = std::fs::read_to_string(&path).map_err(|e| Error::file(&path, e))?;
     let summary: Summary = serde_json::from_str(&text).map_err(|e| Error::file(&path, e))?;

@@ -27,6 +27,9 @@ const LINEAR: f64 = 0.95;
 const GAIN: f64 = 1e-3;
 /// Relative tolerance of the clamp's reaction.
 const REACTION: f64 = 0.02;
+/// Relative difference in displacement that two runs at rest may have: each is within the
+/// out-of-balance virtual work of 1e-3 that rest admits.
+const REST_NOISE: f64 = 2e-3;
 /// Particles at two per direction, by cell size.
 const COUNTS: [(f64, f64); 4] = [
     (2.0, 1448.0),
@@ -127,7 +130,7 @@ pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "error-falls",
         Kind::Truth,
-        "none, fbar-total, fbar-rate: |error| of mid-edge u_y falls from level to level",
+        "none, fbar-total, fbar-rate: |error| of mid-edge u_y falls from level to level, or stays below 0.2 %, which rest does not resolve",
     ),
 ];
 
@@ -394,7 +397,7 @@ pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
         }
         let worst = errors
             .windows(2)
-            .map(|pair| pair[1] / pair[0])
+            .map(|pair| pair[1] / pair[0].max(REST_NOISE))
             .fold(f64::NEG_INFINITY, f64::max);
         verdicts.push(Verdict::at_most(
             "error-falls",
@@ -405,7 +408,7 @@ pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
             ),
             worst,
             1.0,
-            "a consistent scheme converges",
+            "a consistent scheme converges; errors below 0.2 % count as that, since rest admits 0.1 % of either run",
         ));
     }
     verdicts
