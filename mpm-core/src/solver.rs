@@ -167,21 +167,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
         Ok(solver)
     }
 
-    /// The law of the body.
-    pub fn law(&self) -> &M {
-        &self.scene.law
-    }
-
-    /// The states of the law, in the particles' order.
-    pub fn states(&self) -> &[M::State] {
-        &self.states
-    }
-
-    /// The particles, to set an initial motion.
-    pub fn particles_mut(&mut self) -> &mut Particles<D> {
-        &mut self.scene.particles
-    }
-
     fn declare_constraints(&mut self) {
         let (lattice, scene) = (&self.lattice, &self.scene);
         let prescribed = &mut self.prescribed;
@@ -427,16 +412,21 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             .for_each(|(c, (sums, x, increment))| {
                 let mut largest = 0.0_f64;
                 for k in 0..x.len() {
+                    let mut next = x[k];
                     let mut distance = 0.0_f64;
                     for a in 0..D {
-                        x[k][a] += increment[k][a];
+                        next[a] += increment[k][a];
                         distance = distance.max(increment[k][a].abs());
                     }
-                    largest = largest.max(distance);
+                    // A particle that breaks down stays where it is, so the state can be inspected.
                     let checked = check_cfl(distance + wave_distance, grid.h)
-                        .and_then(|()| place_on_grid(grid, &mut x[k]));
+                        .and_then(|()| place_on_grid(grid, &mut next));
                     match checked {
-                        Ok(wrapped) => sums.wrapped |= wrapped,
+                        Ok(wrapped) => {
+                            x[k] = next;
+                            largest = largest.max(distance);
+                            sums.wrapped |= wrapped;
+                        }
                         Err(fault) => {
                             sums.fault.get_or_insert((c * CHUNK + k, fault));
                         }
@@ -451,7 +441,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             largest = largest.max(sums.largest_increment);
         }
         self.drift += if wrapped { f64::INFINITY } else { largest };
-        self.first_fault()
+        let outcome = self.first_fault();
+        self.sort_if_needed();
+        outcome
     }
 
     fn filter_particles(&mut self) {
@@ -546,7 +538,6 @@ fn place_on_grid<const D: usize>(grid: &Grid<D>, x: &mut [f64; D]) -> Result<boo
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Simulation<D> for Solver<D, S, B, M> {
     fn step(&mut self) -> Result<(), Error> {
-        self.sort_if_needed();
         self.apply_loads();
         self.adjust_stress();
         self.particles_to_grid();

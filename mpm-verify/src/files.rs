@@ -24,6 +24,17 @@ pub fn require_writable(folder: &Path) -> Result<(), Error> {
         .map_err(|e| Error::file(folder, format!("not writable: {e}")))
 }
 
+/// Removes the file of an earlier run, if there is one.
+///
+/// # Errors
+/// It is there and can't be removed.
+pub fn discard(path: &Path) -> Result<(), Error> {
+    match fs::remove_file(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::file(path, e)),
+        _ => Ok(()),
+    }
+}
+
 /// Writes a file by way of a temporary one beside it.
 ///
 /// # Errors

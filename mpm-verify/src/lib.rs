@@ -18,3 +18,4 @@ pub mod run;
 pub mod scheme;
 pub mod statistics;
 pub mod study;
+pub mod vtu;

@@ -2,11 +2,10 @@
 
 mod progress;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use mpm_verify::case::{Case, RunSpec, Tier, find_level};
 use mpm_verify::error::{Error, ExitCode};
-use mpm_verify::files::require_writable;
-use mpm_verify::parameter::Parameters;
 use mpm_verify::record::{Record, Status};
 use mpm_verify::report::{describe, write_report};
 use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
@@ -103,8 +102,14 @@ fn main() -> std::process::ExitCode {
     std::process::ExitCode::from(code as u8)
 }
 
+/// More threads than this are surely a slip.
+const MAX_THREADS: usize = 1024;
+
 /// The gist of an error of the command line's syntax.
 fn one_line(error: &clap::Error) -> String {
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return "a command is missing; allowed: list, explain, run, report, verify".to_owned();
+    }
     let text = error.to_string();
     let lines: Vec<&str> = text
         .lines()
@@ -134,9 +139,9 @@ fn parse_tier(name: &str) -> Result<Tier, Error> {
 
 fn parse_threads(threads: Option<usize>) -> Result<usize, Error> {
     match threads {
-        Some(0) => Err(Error::Input(
-            "--threads 0 is not allowed; allowed: 1 or more".to_owned(),
-        )),
+        Some(n) if !(1..=MAX_THREADS).contains(&n) => Err(Error::Input(format!(
+            "--threads {n} is not allowed; allowed: 1 to {MAX_THREADS}"
+        ))),
         Some(n) => Ok(n),
         None => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
     }
@@ -187,6 +192,9 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             let chosen = if names.is_empty() {
                 cases::all()
             } else {
+                let mut names = names;
+                names.sort();
+                names.dedup();
                 names
                     .iter()
                     .map(|name| cases::find(name))
@@ -223,10 +231,6 @@ fn run_one(
             &spec.scheme.to_string(),
             names.iter().map(String::as_str),
         ));
-    }
-    Parameters::new(case.parameters(), &spec.set)?;
-    if let Some(folder) = out {
-        require_writable(folder)?;
     }
     let bar = progress::single(&format!("{} {}", case.name(), spec.folder()));
     let record = run::execute(case, spec, out, threads, &|share| {

@@ -192,8 +192,8 @@ impl Record {
     }
 }
 
-/// One record per scheme and level at the case's own parameters. A state of rest does not depend on
-/// the time step, so where there is no such record one that differs in `cfl` alone stands in, but for
+/// One record per scheme and level at the case's own parameters. A state of rest hardly depends on the
+/// time step, so where there is no such record one that differs in `cfl` alone stands in, but for
 /// schemes that never come to rest.
 #[must_use]
 pub fn of_own_parameters(records: &[Record]) -> Vec<&Record> {

@@ -3,10 +3,10 @@
 use crate::case::{Case, Column, Job, RunSpec};
 use crate::check::Verdict;
 use crate::error::Error;
-use crate::files::{require_writable, write_csv, write_json};
+use crate::files::{discard, require_writable, write_csv, write_json};
 use crate::parameter::Parameters;
 use crate::record::{Failure, Machine, Record, SCHEMA, Status, Timing, Version};
-use crate::report::vtu::write_vtu;
+use crate::vtu::write_vtu;
 use cpu_time::ProcessTime;
 use std::path::Path;
 use std::time::Instant;
@@ -73,8 +73,8 @@ pub fn execute(
         }
         record.verdicts = judge(case, &record);
         if let Some(folder) = folder {
-            write_particles(folder, &job.particles())?;
             write_json(&folder.join("record.json"), &record)?;
+            write_particles(folder, &job.particles())?;
         }
         Ok(record)
     })
@@ -133,6 +133,7 @@ fn drive(
     let mut series = match folder {
         Some(folder) => {
             require_writable(folder)?;
+            discard(&folder.join("record.json"))?;
             let path = folder.join("series.csv");
             let mut writer = csv::Writer::from_path(&path).map_err(|e| Error::file(&path, e))?;
             writer

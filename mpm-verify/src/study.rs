@@ -2,7 +2,7 @@
 
 use crate::case::{Case, RunSpec, Tier};
 use crate::cases;
-use crate::check::Verdict;
+use crate::check::{Kind, Verdict};
 use crate::error::{Error, ExitCode};
 use crate::files::{require_writable, write_json};
 use crate::record::{Record, SCHEMA, Status};
@@ -116,8 +116,11 @@ pub fn verify(
     workers: usize,
     listener: &dyn Listener,
 ) -> Result<Summary, Error> {
-    require_writable(out)?;
     let plan = plan_of(cases, tier);
+    if plan.is_empty() {
+        return Err(Error::Input(format!("no case has runs in tier {tier}")));
+    }
+    require_writable(out)?;
     let records = run_all(&plan, out, workers, listener)?;
     let mut studies: Vec<CaseStudy> = Vec::new();
     for case in cases {
@@ -192,13 +195,13 @@ fn count(summary: &Summary) -> Counts {
     counts
 }
 
-/// Whether at least one check beyond completion was applied to a run.
+/// Whether at least one check against the truth, beyond completion, was applied to a run.
 #[must_use]
 pub fn has_truth(record: &Record) -> bool {
     record
         .verdicts
         .iter()
-        .any(|v| v.pass.is_some() && v.check != "completes")
+        .any(|v| v.kind == Kind::Truth && v.pass.is_some() && v.check != "completes")
 }
 
 fn run_all(
@@ -213,7 +216,7 @@ fn run_all(
     let queue = Mutex::new(order);
     let results = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
-        for _ in 0..workers {
+        for _ in 0..workers.min(plan.len()) {
             scope.spawn(|| {
                 while let Some(k) = queue.lock().ok().and_then(|mut q| q.pop()) {
                     let (case, spec) = &plan[k];

@@ -81,10 +81,44 @@ fn bad_values_are_refused_with_the_allowed_range() {
     }
     refused(
         &["run", "cook", "--threads", "0"],
-        &["threads", "1 or more"],
+        &["threads", "1 to 1024"],
     );
-    refused(&["verify", "--threads", "0"], &["threads", "1 or more"]);
+    refused(
+        &["verify", "--threads", "100000"],
+        &["threads", "1 to 1024"],
+    );
     refused(&["run", "cook", "--threads", "many"], &["threads"]);
+}
+
+#[test]
+fn values_that_cannot_go_together_are_refused() {
+    for (set, needles) in [
+        (
+            "young_modulus=1e12",
+            ["load / young_modulus", "0.0000001 to 100"],
+        ),
+        ("rest_window=3", ["rest_window", "max_periods"]),
+        ("max_periods=0.05", ["rest_window", "max_periods"]),
+        ("load_ramp=5", ["load_ramp", "max_periods"]),
+    ] {
+        refused(&["run", "cook", "--set", set], &needles);
+    }
+    refused(&["verify", "--tier", "long"], &["tier long"]);
+}
+
+#[test]
+fn without_a_command_the_commands_are_named() {
+    let output = mpm_verify(&[]);
+    assert_eq!(code(&output), 2);
+    assert_eq!(stderr(&output).lines().count(), 1);
+    assert!(stderr(&output).contains("list, explain, run, report, verify"));
+}
+
+/// What users read is reviewed as a difference in a snapshot.
+#[test]
+fn the_explanation_is_as_reviewed() {
+    insta::assert_snapshot!("explain-cook", stdout(&mpm_verify(&["explain", "cook"])));
+    insta::assert_snapshot!("list-pr", stdout(&mpm_verify(&["list", "--tier", "pr"])));
 }
 
 #[test]
@@ -148,10 +182,10 @@ fn every_explained_parameter_is_accepted_and_recorded() {
     let out = folder.path().to_str().unwrap();
     let mut arguments: Vec<String> = ["run", "cook", "--out", out].map(str::to_owned).to_vec();
     for (name, default) in &parameters {
-        let value = if name == "max_periods" {
-            "0.01"
-        } else {
-            default
+        let value = match name.as_str() {
+            "max_periods" => "0.01",
+            "rest_window" | "load_ramp" => "0.005",
+            _ => default,
         };
         arguments.extend(["--set".to_owned(), format!("{name}={value}")]);
     }

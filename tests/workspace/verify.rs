@@ -75,7 +75,8 @@ fn a_run_writes_a_complete_record_and_passes() {
 fn a_breakdown_keeps_what_was_written_and_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
-    // A hundred times the load turns particles inside out or off the grid.
+    // A thousand times the load turns particles inside out; the record of an earlier run is no more.
+    std::fs::write(folder.path().join("record.json"), "{}").unwrap();
     let output = mpm_verify(&[
         "run",
         "cook",
@@ -102,8 +103,67 @@ fn a_breakdown_keeps_what_was_written_and_says_why() {
 }
 
 #[test]
+fn every_kind_of_breakdown_ends_with_a_record() {
+    let mut kinds = std::collections::BTreeSet::new();
+    for (basis, remedy, set) in [
+        ("gimp", "none", "cfl=0.95"),
+        ("bspline2", "fbar-rate", "cfl=0.95"),
+        ("bspline3", "none", "load=6900"),
+        ("bspline2", "none", "load=70"),
+        ("gimp", "fbar-total", "load=70"),
+        ("gimp", "none", "load=6900"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().to_str().unwrap();
+        let output = mpm_verify(&[
+            "run", "cook", "--basis", basis, "--remedy", remedy, "--out", out, "--set", set,
+        ]);
+        assert_eq!(
+            code(&output),
+            4,
+            "{basis} {remedy} {set}: {}",
+            stderr(&output)
+        );
+        let record = json(&folder.path().join("record.json"));
+        assert_eq!(record["status"], "failed");
+        kinds.insert(record["error"]["kind"].as_str().unwrap().to_owned());
+        assert!(folder.path().join("particles.vtu").exists());
+    }
+    assert!(kinds.len() > 1, "{kinds:?}");
+}
+
+/// Parameters of a run that is too short to come to rest.
+const SHORT: [&str; 6] = [
+    "--set",
+    "max_periods=0.05",
+    "--set",
+    "rest_window=0.01",
+    "--set",
+    "load_ramp=0",
+];
+
+/// Exact work of a fixed number of steps: a change of algorithmic work is a readable difference.
+#[test]
+fn work_counters_are_as_reviewed() {
+    let mut table = String::new();
+    for basis in ["gimp", "bspline2", "bspline3"] {
+        for remedy in ["none", "fbar-recursive", "fbar-total", "fbar-rate"] {
+            let folder = tempfile::tempdir().unwrap();
+            let out = folder.path().to_str().unwrap();
+            let run = [
+                "run", "cook", "--basis", basis, "--remedy", remedy, "--out", out,
+            ];
+            mpm_verify(&[&run[..], &SHORT].concat());
+            let work = json(&folder.path().join("record.json"))["work"].to_string();
+            table.push_str(&format!("{basis} {remedy} {work}\n"));
+        }
+    }
+    insta::assert_snapshot!("work-counters", table);
+}
+
+#[test]
 fn a_run_that_misses_the_truth_exits_with_one() {
-    let output = mpm_verify(&["run", "cook", "--set", "max_periods=0.05"]);
+    let output = mpm_verify(&[&["run", "cook"][..], &SHORT].concat());
     assert_eq!(code(&output), 1);
     let text = stdout(&output);
     assert!(text.contains("FAIL") && text.contains("at-rest") && text.contains("mid-edge"));
@@ -164,7 +224,8 @@ fn the_number_of_threads_changes_no_bit_of_a_record() {
     let folder = tempfile::tempdir().unwrap();
     let metrics = |threads: &str| {
         let out = folder.path().join(threads);
-        mpm_verify(&[
+        let out_text = out.to_str().unwrap();
+        let run = [
             "run",
             "cook",
             "--level",
@@ -172,10 +233,9 @@ fn the_number_of_threads_changes_no_bit_of_a_record() {
             "--threads",
             threads,
             "--out",
-            out.to_str().unwrap(),
-            "--set",
-            "max_periods=0.02",
-        ]);
+            out_text,
+        ];
+        mpm_verify(&[&run[..], &SHORT].concat());
         let series = std::fs::read(out.join("series.csv")).unwrap();
         (json(&out.join("record.json"))["metrics"].clone(), series)
     };

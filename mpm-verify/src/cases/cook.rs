@@ -77,7 +77,7 @@ const PARAMETERS: [Parameter; 14] = [
         unit: "N/m",
         default: "1",
         domain: Domain::Number {
-            least: -1e12,
+            least: 1e-12,
             most: 1e12,
             below: false,
         },
@@ -128,7 +128,7 @@ const PARAMETERS: [Parameter; 14] = [
         domain: Domain::Number {
             least: 1e-3,
             most: 1.0,
-            below: false,
+            below: true,
         },
         meaning: "CFL number c Δt / h of pressure waves",
     },
@@ -379,7 +379,7 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
             .collect::<Vec<_>>()
     };
     let halved = ["cfl=0.15"];
-    // The state of rest does not depend on the time step: near the stability limit of each.
+    // The state of rest hardly depends on the time step (see the page): near each one's limit.
     let fine = |level| {
         [
             runs(level, &[Gimp], &[None], &["cfl=0.45"]),

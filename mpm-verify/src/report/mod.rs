@@ -7,7 +7,6 @@ pub mod describe;
 pub mod plot;
 mod summary;
 mod table;
-pub mod vtu;
 
 use crate::error::Error;
 use crate::study::Summary;

@@ -23,6 +23,8 @@ const RESOLVED: f64 = 1.0;
 pub(super) const CREEP: f64 = 1e-4;
 /// Least R² of linear growth.
 const LINEAR: f64 = 0.95;
+/// Least gain in creep when the time step is halved: √2, less the scatter of the two fits.
+const FASTER: f64 = 1.3;
 /// Largest relative gain of energy.
 const GAIN: f64 = 1e-3;
 /// Relative tolerance of the clamp's reaction.
@@ -110,7 +112,7 @@ pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "never-at-rest",
         Kind::KnownLimit,
-        "fbar-recursive: rest is never reached",
+        "fbar-recursive: rest is not reached within a period, by which the others are there",
     ),
     check(
         "creep",
@@ -125,7 +127,7 @@ pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "creep-grows-as-dt-falls",
         Kind::KnownLimit,
-        "fbar-recursive: it is faster with half the time step",
+        "fbar-recursive: with half the time step it is at least 1.3 times as fast (diffusion: 2 in the bulk, √2 from a boundary)",
     ),
     check(
         "error-falls",
@@ -267,8 +269,14 @@ fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<V
         reference.poisson_ratio
     );
     let shift = load_shift(h);
+    // The stored shift is for a load at h/4 from the side, two particles per direction.
+    let inset = if record.parameters.is("load_at", "column") {
+        2.0 / record.parameters.number("ppc_per_direction")
+    } else {
+        0.0
+    };
     let (edge_error, tip_error) = ELEMENT_ERROR;
-    let change = |f: fn(&LoadShift) -> f64| shift.map_or(0.0, |s| f(s).abs());
+    let change = |f: fn(&LoadShift) -> f64| shift.map_or(0.0, |s| inset * f(s).abs());
     for (name, metric, exact, fine, moved, element) in [
         (
             "mid-edge",
@@ -375,8 +383,8 @@ pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
                 Kind::KnownLimit,
                 &format!("creep_rate of {} {}", slow.scheme(), slow.level),
                 halved.metric("creep_rate") / slow.metric("creep_rate"),
-                1.0,
-                "the diffusivity of Eq. (26) is ½ s² h²/Δt",
+                FASTER,
+                "the diffusivity of Eq. (26) is ½ s² h²/Δt: twice as fast in the bulk, √2 times where it enters at a boundary",
             ));
         }
     }
@@ -398,7 +406,14 @@ pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
         let worst = errors
             .windows(2)
             .map(|pair| pair[1] / pair[0].max(REST_NOISE))
-            .fold(f64::NEG_INFINITY, f64::max);
+            .fold(f64::NEG_INFINITY, |worst, ratio| {
+                // NaN, of a run that broke down, must not be lost.
+                if ratio.is_nan() {
+                    ratio
+                } else {
+                    worst.max(ratio)
+                }
+            });
         verdicts.push(Verdict::at_most(
             "error-falls",
             Kind::Truth,

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::probe::{PointProbe, nearest};
 use crate::record::{Discretisation, Metric, WorkDone};
-use crate::scheme::{BasisName, Scheme};
+use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::statistics::{Line, fit_line, rms};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{Law, NeoHookean};
@@ -35,6 +35,8 @@ const OBSERVATIONS: f64 = 240.0;
 /// Criterion of rest: relative out-of-balance virtual work, kinetic over stored energy, relative
 /// drift of the tip over the window.
 const REST: (f64, f64, f64) = (1e-3, 1e-5, 1e-4);
+/// Allowed load per metre of depth over Young's modulus (m).
+const LOAD_OVER_MODULUS: (f64, f64) = (1e-7, 100.0);
 /// Points on the right side whose mean is `edge_mean_uy`.
 const EDGE_POINTS: usize = 8;
 /// Excluded from the stress error: x below this (m), and this far around the clamped corners.
@@ -60,12 +62,36 @@ pub(super) struct Simulated {
     max_time: f64,
     steps_per_observation: u64,
     period: f64,
+    ramp: f64,
+    recursive: bool,
     density: f64,
     /// (time, rms ln(J/J̄)).
     gaps: Vec<(f64, f64)>,
     /// Largest gain and largest loss of energy that nothing accounts for (J/m).
     energy_defect: (f64, f64),
     work_residuals: Vec<f64>,
+}
+
+/// What must hold of parameters together.
+fn check_together(parameters: &Parameters) -> Result<(), Error> {
+    let number = |name| parameters.number(name);
+    let strain = number("load") / number("young_modulus");
+    let (least, most) = LOAD_OVER_MODULUS;
+    if !(least..=most).contains(&strain) {
+        return Err(Error::Input(format!(
+            "load / young_modulus = {strain} m; allowed: {least} to {most} m, below which rounding hides the answer"
+        )));
+    }
+    for name in ["rest_window", "load_ramp"] {
+        if number(name) >= number("max_periods") {
+            return Err(Error::Input(format!(
+                "{name} = {} is not below max_periods = {}",
+                number(name),
+                number("max_periods")
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Particles of a lattice of the given spacing that lie inside the membrane or on its sides.
@@ -103,6 +129,7 @@ fn solver(scheme: Scheme, scene: Scene<2, NeoHookean>) -> Result<Box<dyn Simulat
 
 impl Simulated {
     pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
+        check_together(parameters)?;
         let h = spec.level.h;
         let number = |name| parameters.number(name);
         let per_direction = number("ppc_per_direction");
@@ -186,6 +213,8 @@ impl Simulated {
             max_time: number("max_periods") * period,
             steps_per_observation: ((period / OBSERVATIONS / dt).round() as u64).max(1),
             period,
+            ramp: number("load_ramp") * period,
+            recursive: spec.scheme.remedy == RemedyName::FbarRecursive,
             density,
             gaps: Vec::new(),
             energy_defect: (0.0, 0.0),
@@ -265,7 +294,8 @@ impl Simulated {
 
     /// Whether the run has shown, over a whole period, that it will never rest.
     fn creeps(&self) -> bool {
-        self.simulation.time() >= self.period
+        self.recursive
+            && self.simulation.time() >= self.period.max(2.0 * self.ramp)
             && self
                 .creep()
                 .is_some_and(|line| line.slope * self.period > CREEP)
@@ -386,12 +416,13 @@ impl Job for Simulated {
         let uy = self.displacement(1);
         let time = self.simulation.time();
         let tip = self.probes.tip.value(&uy);
-        self.at_rest = self.rest.observe(Observation {
+        let rests = self.rest.observe(Observation {
             time,
             force_ratio: work_residual,
             energy_ratio: residual.kinetic_energy / totals.stored_energy,
             displacement: tip,
         });
+        self.at_rest = rests && time >= self.ramp;
         self.work_residuals.push(work_residual);
         self.gaps.push((time, totals.log_jacobian_gap_rms));
         let work = totals.accumulated;
