@@ -41,7 +41,7 @@ pub fn fit_line(points: &[(f64, f64)]) -> Option<Line> {
     })
 }
 
-/// Root mean square; zero of nothing.
+/// Root mean square; NaN of nothing, which no check passes.
 #[must_use]
 pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (0.0, 0usize);
@@ -49,12 +49,18 @@ pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
         sum += v * v;
         count += 1;
     }
-    (sum / count.max(1) as f64).sqrt()
+    (sum / count as f64).sqrt()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_rms_of_nothing_is_not_a_number() {
+        assert_eq!(rms([3.0, -4.0]), 12.5_f64.sqrt());
+        assert!(rms([]).is_nan());
+    }
 
     #[test]
     fn a_line_is_recovered_and_scatter_lowers_r_squared() {
