@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use crate::record::{Discretisation, Metric, Record, WorkDone};
 use crate::scheme::Scheme;
+use crate::sketch::Sketch;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -63,6 +64,31 @@ pub struct CheckInfo {
     pub statement: &'static str,
 }
 
+/// A quantity whose convergence over the levels is studied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity {
+    /// The metric.
+    pub metric: &'static str,
+    /// What it is, as an axis is labelled.
+    pub label: &'static str,
+    /// Whether the metric is an error, whose exact value is zero; if not, Richardson's extrapolation
+    /// stands in for the exact value.
+    pub is_error: bool,
+}
+
+/// A column of the table of results.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Headline {
+    /// The metric.
+    pub metric: &'static str,
+    /// Heading, with unit.
+    pub heading: &'static str,
+    /// Factor from the metric's unit to that of the heading.
+    pub factor: f64,
+    /// Decimals shown.
+    pub decimals: usize,
+}
+
 /// One run of a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunSpec {
@@ -72,6 +98,9 @@ pub struct RunSpec {
     pub level: Level,
     /// Parameters changed from the defaults, as `name=value`.
     pub set: Vec<String>,
+    /// Whether every particle starts a last bit beside its place: what such a twin differs in is how far
+    /// results can be trusted to the digit.
+    pub perturbed: bool,
 }
 
 impl RunSpec {
@@ -83,7 +112,26 @@ impl RunSpec {
             folder.push('+');
             folder.push_str(assignment);
         }
+        if self.perturbed {
+            folder.push_str("/twin");
+        }
         folder
+    }
+
+    /// Where particles seeded at `positions` (m) start: there, or, in a twin, at the next floating-point
+    /// number above or below, in turn.
+    #[must_use]
+    pub fn start_at<const D: usize>(&self, mut positions: Vec<[f64; D]>) -> Vec<[f64; D]> {
+        if self.perturbed {
+            for (k, x) in positions.iter_mut().flatten().enumerate() {
+                *x = if k % 3 == 0 {
+                    x.next_up()
+                } else {
+                    x.next_down()
+                };
+            }
+        }
+        positions
     }
 }
 
@@ -143,6 +191,14 @@ pub trait Case: Sync {
     fn metrics(&self) -> &'static [MetricInfo];
     /// Checks.
     fn checks(&self) -> &'static [CheckInfo];
+    /// What the table of results shows.
+    fn headlines(&self) -> &'static [Headline];
+    /// Quantities whose convergence is studied.
+    fn quantities(&self) -> &'static [Quantity];
+    /// Columns of the time series, without units, that a reader should see first.
+    fn watched(&self) -> &'static [&'static str];
+    /// The geometry.
+    fn sketch(&self) -> Sketch;
     /// The runs of a tier.
     fn plan(&self, tier: Tier) -> Vec<RunSpec>;
     /// Relative cost of a run, to start the longest first.

@@ -16,6 +16,7 @@ pub mod record;
 pub mod report;
 pub mod run;
 pub mod scheme;
+pub mod sketch;
 pub mod statistics;
 pub mod study;
 pub mod vtu;

@@ -57,6 +57,9 @@ enum Command {
         /// Change a parameter
         #[arg(long = "set", value_name = "NAME=VALUE")]
         set: Vec<String>,
+        /// Start every particle a last bit beside its place
+        #[arg(long)]
+        perturb: bool,
         /// Folder for record, series, particles and VTU
         #[arg(long)]
         out: Option<PathBuf>,
@@ -161,6 +164,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             transfer,
             level,
             set,
+            perturb,
             out,
             threads,
         } => {
@@ -174,7 +178,12 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 Some(name) => find_level(case, &name)?,
                 None => case.levels()[0],
             };
-            let spec = RunSpec { scheme, level, set };
+            let spec = RunSpec {
+                scheme,
+                level,
+                set,
+                perturbed: perturb,
+            };
             run_one(case, &spec, out.as_deref(), parse_threads(threads)?)
         }
         Command::Report { folder } => {

@@ -114,6 +114,21 @@ pub struct Machine {
 pub struct Version {
     /// Version of this program.
     pub mpm_verify: String,
+    /// Fingerprint of the sources that determine the numbers: the core, the cases, the locked
+    /// dependencies.
+    #[serde(default)]
+    pub source: String,
+}
+
+impl Version {
+    /// Of this program.
+    #[must_use]
+    pub fn current() -> Self {
+        Self {
+            mpm_verify: env!("CARGO_PKG_VERSION").to_owned(),
+            source: env!("MPM_SOURCE_FINGERPRINT").to_owned(),
+        }
+    }
 }
 
 /// The record of a run.

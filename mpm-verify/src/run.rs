@@ -64,9 +64,7 @@ pub fn execute(
                 cores: std::thread::available_parallelism().map_or(1, usize::from),
                 threads,
             },
-            version: Version {
-                mpm_verify: env!("CARGO_PKG_VERSION").to_owned(),
-            },
+            version: Version::current(),
         };
         if record.status == Status::Ok {
             record.metrics = job.metrics();

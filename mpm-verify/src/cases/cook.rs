@@ -6,12 +6,13 @@ mod checks;
 mod reference;
 mod simulation;
 
-use crate::case::{Case, CheckInfo, Job, Level, MetricInfo, RunSpec, Tier};
+use crate::case::{Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Tier};
 use crate::check::Verdict;
 use crate::error::Error;
 use crate::parameter::{Domain, Parameter, Parameters};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::sketch::Sketch;
 use simulation::Simulated;
 
 /// Cook's membrane.
@@ -279,6 +280,50 @@ const METRICS: &[MetricInfo] = &[
     metric("fem_tip_error", "-", "relative error of tip_uy"),
 ];
 
+const HEADLINES: &[Headline] = &[
+    headline("fem_mid_edge_error", "mid-edge error (%)", 100.0, 2),
+    headline("fem_edge_mean_error", "edge-mean error (%)", 100.0, 2),
+    headline("fem_tip_error", "tip error (%)", 100.0, 2),
+    headline("mean_stress_rms_error", "σ_m rms error (mPa)", 1e3, 1),
+    headline("checkerboard_ratio", "checkerboard (–)", 1.0, 2),
+    headline("at_rest", "at rest (1: yes)", 1.0, 0),
+    headline("rest_time", "time at the end (s)", 1.0, 0),
+    headline("creep_rate", "creep of ln(J/J̄) (10⁻⁶/s)", 1e6, 2),
+    headline("log_jacobian_gap", "ln(J/J̄) at the end (10⁻⁴)", 1e4, 2),
+];
+
+const fn headline(
+    metric: &'static str,
+    heading: &'static str,
+    factor: f64,
+    decimals: usize,
+) -> Headline {
+    Headline {
+        metric,
+        heading,
+        factor,
+        decimals,
+    }
+}
+
+const QUANTITIES: &[Quantity] = &[
+    Quantity {
+        metric: "fem_edge_mean_error",
+        label: "relative error of edge-mean u_y",
+        is_error: true,
+    },
+    Quantity {
+        metric: "mean_stress_rms_error",
+        label: "rms error of σ_m (Pa)",
+        is_error: true,
+    },
+    Quantity {
+        metric: "tip_ux",
+        label: "tip u_x (m)",
+        is_error: false,
+    },
+];
+
 const fn metric(name: &'static str, unit: &'static str, meaning: &'static str) -> MetricInfo {
     MetricInfo {
         name,
@@ -337,6 +382,22 @@ impl Case for Cook {
         checks::CHECKS
     }
 
+    fn headlines(&self) -> &'static [Headline] {
+        HEADLINES
+    }
+
+    fn quantities(&self) -> &'static [Quantity] {
+        QUANTITIES
+    }
+
+    fn watched(&self) -> &'static [&'static str] {
+        &["tip_uy", "log_jacobian_gap_rms"]
+    }
+
+    fn sketch(&self) -> Sketch {
+        simulation::sketch()
+    }
+
     fn plan(&self, tier: Tier) -> Vec<RunSpec> {
         plan(tier)
     }
@@ -364,7 +425,7 @@ impl Case for Cook {
 }
 
 fn plan(tier: Tier) -> Vec<RunSpec> {
-    use BasisName::{Bspline2, Gimp};
+    use BasisName::{Bspline2, Bspline3, Gimp};
     use RemedyName::{FbarRate, FbarRecursive, FbarTotal, None};
     let [h2, h1, half, quarter] = LEVELS;
     let runs = |level: Level, bases: &[BasisName], remedies: &[RemedyName], set: &[&str]| {
@@ -375,16 +436,17 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
                 scheme,
                 level,
                 set: set.iter().map(|s| (*s).to_owned()).collect(),
+                perturbed: false,
             })
             .collect::<Vec<_>>()
     };
     let halved = ["cfl=0.15"];
+    let large = ["cfl=0.6"];
     // The state of rest hardly depends on the time step (see the page): near each one's limit.
-    let fine = |level| {
+    let standard = |level| {
         [
             runs(level, &[Gimp], &[None], &["cfl=0.45"]),
-            runs(level, &[Bspline2], &[None], &["cfl=0.6"]),
-            runs(level, &[Gimp, Bspline2], &[FbarRate], &["cfl=0.6"]),
+            runs(level, &[Bspline2], &[None], &large),
         ]
         .concat()
     };
@@ -398,14 +460,16 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
             runs(h2, &BASES, &REMEDIES, &[]),
             runs(h2, &[Gimp], &[FbarRecursive], &halved),
             runs(h1, &BASES, &REMEDIES, &[]),
-            fine(half),
+            standard(half),
+            runs(half, &[Gimp, Bspline2], &[FbarRate], &large),
         ]
         .concat(),
         Tier::Nightly => {
             let mut all = plan(Tier::Pr);
             all.extend(runs(half, &BASES, &REMEDIES, &[]));
             all.extend(runs(h2, &BASES, &[FbarRecursive], &halved));
-            all.extend(fine(quarter));
+            all.extend(standard(quarter));
+            all.extend(runs(quarter, &[Gimp, Bspline2], &[FbarRate], &[]));
             for ratio in ["0.3", "0.49", "0.4999"] {
                 let set = format!("poisson_ratio={ratio}");
                 all.extend(runs(
@@ -441,6 +505,11 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
             });
             all
         }
-        Tier::Long => Vec::new(),
+        Tier::Long => [
+            runs(quarter, &BASES, &[FbarRecursive], &[]),
+            runs(quarter, &[Gimp, Bspline2], &[FbarTotal], &large),
+            runs(quarter, &[Bspline3], &[None, FbarTotal, FbarRate], &large),
+        ]
+        .concat(),
     }
 }

@@ -94,6 +94,7 @@ impl Runs<'_> {
             scheme: record.scheme(),
             level: find_level(case, &record.level)?,
             set: record.set.clone(),
+            perturbed: false,
         };
         Table::read(&run_folder(self.out, &record.case, &spec).join(file))
     }

@@ -1,6 +1,6 @@
 //! Text for the terminal: lists, explanations, verdicts.
 
-use crate::case::{Case, Tier};
+use crate::case::{Case, Headline, Tier};
 use crate::check::{Kind, Verdict};
 use crate::record::{Record, Status};
 use crate::study::Summary;
@@ -137,6 +137,17 @@ pub fn number(value: Option<f64>) -> String {
             text.trim_end_matches('0').trim_end_matches('.').to_owned()
         }
         Some(x) => format!("{x:.3e}"),
+    }
+}
+
+/// A cell of the table of results, or a dash.
+#[must_use]
+pub fn headline(record: &Record, headline: &Headline) -> String {
+    let value = record.metric(headline.metric) * headline.factor;
+    if value.is_finite() {
+        format!("{value:.0$}", headline.decimals)
+    } else {
+        "–".to_owned()
     }
 }
 

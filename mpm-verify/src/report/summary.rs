@@ -1,7 +1,9 @@
 //! The summary in Markdown.
 
 use super::Picture;
-use super::describe::{kind, number, outcome};
+use super::describe::{headline, kind, number, outcome};
+use crate::case::Headline;
+use crate::cases;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::Record;
@@ -9,25 +11,13 @@ use crate::study::Summary;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Metrics of the table of results: name, heading, factor, decimals.
-const RESULTS: [(&str, &str, f64, usize); 8] = [
-    ("fem_mid_edge_error", "mid-edge error (%)", 100.0, 2),
-    ("fem_edge_mean_error", "edge-mean error (%)", 100.0, 2),
-    ("fem_tip_error", "tip error (%)", 100.0, 2),
-    ("mean_stress_rms_error", "σ_m rms error (mPa)", 1e3, 1),
-    ("checkerboard_ratio", "checkerboard (–)", 1.0, 2),
-    ("rest_time", "time to rest (s)", 1.0, 0),
-    ("creep_rate", "creep of ln(J/J̄) (10⁻⁶/s)", 1e6, 2),
-    ("log_jacobian_gap", "ln(J/J̄) at the end (10⁻⁴)", 1e4, 2),
-];
-
 /// Writes `summary.md` into `out`.
 pub(super) fn write(summary: &Summary, pictures: &[Picture], out: &Path) -> Result<(), Error> {
     let path = out.join("summary.md");
-    write_whole(&path, text(summary, pictures).as_bytes())
+    write_whole(&path, text(summary, pictures)?.as_bytes())
 }
 
-fn text(summary: &Summary, pictures: &[Picture]) -> String {
+fn text(summary: &Summary, pictures: &[Picture]) -> Result<String, Error> {
     let c = summary.counts;
     let mut t = format!(
         "# Verification, tier {}\n\n{} runs, {} broke down. {} checks passed, {} failed, {} not applicable.\n",
@@ -43,7 +33,11 @@ fn text(summary: &Summary, pictures: &[Picture]) -> String {
     failures(summary, &mut t);
     for study in &summary.cases {
         let _ = writeln!(t, "\n## {}\n", study.case);
-        results(&study.records, &mut t);
+        results(
+            cases::find(&study.case)?.headlines(),
+            &study.records,
+            &mut t,
+        );
     }
     for picture in pictures {
         let _ = writeln!(
@@ -53,7 +47,7 @@ fn text(summary: &Summary, pictures: &[Picture]) -> String {
         );
     }
     verdicts(summary, &mut t);
-    t
+    Ok(t)
 }
 
 fn failures(summary: &Summary, t: &mut String) {
@@ -75,27 +69,16 @@ fn failures(summary: &Summary, t: &mut String) {
     }
 }
 
-fn results(records: &[Record], t: &mut String) {
-    let headings: Vec<&str> = RESULTS.iter().map(|r| r.1).collect();
+fn results(headlines: &[Headline], records: &[Record], t: &mut String) {
+    let headings: Vec<&str> = headlines.iter().map(|h| h.heading).collect();
     let _ = writeln!(
         t,
         "| scheme | level | changed | particles | steps | {} | CPU (s) |",
         headings.join(" | ")
     );
-    let _ = writeln!(t, "|{}", "---|".repeat(RESULTS.len() + 6));
+    let _ = writeln!(t, "|{}", "---|".repeat(headlines.len() + 6));
     for r in records {
-        let cells: Vec<String> = RESULTS
-            .iter()
-            .map(|(name, _, factor, decimals)| {
-                let value = r.metric(name) * factor;
-                let resting = *name != "rest_time" || r.metric("at_rest") > 0.0;
-                match (value.is_finite(), resting) {
-                    (false, _) => "–".to_owned(),
-                    (true, true) => format!("{value:.decimals$}"),
-                    (true, false) => format!("not within {value:.decimals$}"),
-                }
-            })
-            .collect();
+        let cells: Vec<String> = headlines.iter().map(|h| headline(r, h)).collect();
         let _ = writeln!(
             t,
             "| {} {} | {} | {} | {} | {} | {} | {:.1} |",

@@ -1,6 +1,8 @@
 //! Verdicts on Cook's membrane. The tolerances are derived in `docs/cook.md`.
 
-use super::reference::{Field, LoadShift, Solution, load_shift, solution, stress_scale};
+use super::reference::{
+    Field, LoadShift, Solution, StressPoint, load_shift, solution, stress_scale,
+};
 use crate::case::CheckInfo;
 use crate::check::{Kind, Verdict};
 use crate::record::{Record, of_own_parameters};
@@ -34,6 +36,8 @@ const REACTION: f64 = 0.02;
 const REST_NOISE: f64 = 2e-3;
 /// Poisson's ratios for which F̄ is meant and its tolerances are stated.
 const NEARLY_INCOMPRESSIBLE: (f64, f64) = (0.49, 0.499);
+/// The probe (m) that is two cells of 1 m away from the free lower side.
+const NEAR_FREE_SIDE: (f64, f64) = (24.0, 24.0);
 /// Particles at two per direction, by cell size.
 const COUNTS: [(f64, f64); 4] = [
     (2.0, 1448.0),
@@ -120,6 +124,11 @@ pub(super) const CHECKS: &[CheckInfo] = &[
         "noisy-pressure",
         Kind::KnownLimit,
         "fbar-total, fbar-rate at ν > 0.499 and h = 1: rms(σ_m − Πσ_m) above 0.2 rms σ_m; smooth-pressure is not judged there",
+    ),
+    check(
+        "pressure-near-free-side",
+        Kind::KnownLimit,
+        "fbar-total, fbar-rate with GIMP at ν > 0.499 and h = 1: σ_m at (24, 24) m, two cells from the free side, is off by more than h |∇σ_m|; mean-stress-probe is not judged there",
     ),
     check(
         "never-at-rest",
@@ -374,14 +383,27 @@ fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<V
         let gradient = Field::stored()
             .gradient([point.x, point.y], 1.0)
             .unwrap_or(0.0);
-        verdicts.push(Verdict::close(
-            "mean-stress-probe",
-            &metric,
-            record.metric(&metric),
-            scale * point.value,
-            scale * (h * gradient + reference.uncertainty_mean_stress),
-            format!("{source}; tolerance: the point moved by a cell"),
-        ));
+        let (value, exact) = (record.metric(&metric), scale * point.value);
+        let tolerance = scale * (h * gradient + reference.uncertainty_mean_stress);
+        verdicts.push(if off_near_free_side(record, point) {
+            Verdict::above(
+                "pressure-near-free-side",
+                Kind::KnownLimit,
+                &format!("|error| of {metric}"),
+                (value - exact).abs(),
+                tolerance,
+                "the oscillation that Π leaves grows with the bulk modulus, most of all at a free side",
+            )
+        } else {
+            Verdict::close(
+                "mean-stress-probe",
+                &metric,
+                value,
+                exact,
+                tolerance,
+                format!("{source}; tolerance: the point moved by a cell"),
+            )
+        });
     }
     verdicts.push(if reference.poisson_ratio == 0.499 {
         let (gradient, stress) = Field::stored().rms_of_gradient_and_value();
@@ -400,6 +422,14 @@ fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<V
             "the reference field is stored for ν = 0.499",
         )
     });
+}
+
+/// Where the pressure of GIMP with F̄ is known to be off by more than a cell would explain.
+fn off_near_free_side(record: &Record, point: &StressPoint) -> bool {
+    record.basis == BasisName::Gimp
+        && record.discretisation.h == RESOLVED
+        && record.parameters.number("poisson_ratio") > NEARLY_INCOMPRESSIBLE.1
+        && (point.x, point.y) == NEAR_FREE_SIDE
 }
 
 fn smoothness(record: &Record, verdicts: &mut Vec<Verdict>) {

@@ -1,0 +1,47 @@
+//! The geometry of a problem, for a reader: shapes in the problem's own coordinates (m).
+
+/// A point (m).
+pub type Point = [f64; 2];
+
+/// A shape of a sketch.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// The body.
+    Body(Vec<Point>),
+    /// A side that is held, hatched on its left, seen from the first point to the second.
+    Held(Point, Point),
+    /// A load, with the arrow's tip at the second point.
+    Load(Point, Point),
+    /// A length, measured along a line beside the body.
+    Length {
+        /// One end.
+        from: Point,
+        /// The other.
+        to: Point,
+        /// Text beside the line.
+        label: String,
+    },
+    /// A place where something is measured.
+    Probe {
+        /// Where.
+        at: Point,
+        /// Text beside it.
+        label: String,
+    },
+    /// Text.
+    Note {
+        /// Where its middle is.
+        at: Point,
+        /// The text.
+        text: String,
+    },
+}
+
+/// A sketch.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sketch {
+    /// Shapes, the last on top.
+    pub shapes: Vec<Shape>,
+    /// In words, for those who can't see it.
+    pub description: &'static str,
+}
