@@ -10,6 +10,8 @@ pub enum Kind {
     Truth,
     /// A known limit of the scheme is still there; red when it vanishes.
     KnownLimit,
+    /// Against the blessed golden.
+    Drift,
 }
 
 /// The outcome of a check.
@@ -113,6 +115,18 @@ impl Verdict {
     #[must_use]
     pub fn failed(&self) -> bool {
         self.pass == Some(false)
+    }
+
+    /// Whether the check was applied, is not one of drift, and does not hold.
+    #[must_use]
+    pub fn misses_the_truth(&self) -> bool {
+        self.failed() && self.kind != Kind::Drift
+    }
+
+    /// Whether the result has drifted from its golden.
+    #[must_use]
+    pub fn drifts(&self) -> bool {
+        self.failed() && self.kind == Kind::Drift
     }
 }
 

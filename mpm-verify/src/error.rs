@@ -13,6 +13,8 @@ pub enum ExitCode {
     TruthFailed = 1,
     /// Usage or input.
     Input = 2,
+    /// Results differ from the goldens, and no check against the truth failed.
+    Drift = 3,
     /// A run failed numerically.
     RunFailed = 4,
 }

@@ -8,8 +8,10 @@
 pub mod case;
 pub mod cases;
 pub mod check;
+pub mod convergence;
 pub mod error;
 pub mod files;
+pub mod order;
 pub mod parameter;
 pub mod probe;
 pub mod record;

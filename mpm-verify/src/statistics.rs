@@ -5,6 +5,8 @@
 pub struct Line {
     /// Slope.
     pub slope: f64,
+    /// Standard error of the slope.
+    pub slope_error: f64,
     /// Value at zero.
     pub intercept: f64,
     /// Coefficient of determination R².
@@ -30,8 +32,10 @@ pub fn fit_line(points: &[(f64, f64)]) -> Option<Line> {
         return None;
     }
     let slope = sxy / sxx;
+    let residual = (syy - slope * sxy).max(0.0);
     Some(Line {
         slope,
+        slope_error: (residual / (n - 2.0) / sxx).sqrt(),
         intercept: my - slope * mx,
         r_squared: if syy > 0.0 {
             sxy * sxy / (sxx * syy)
@@ -69,7 +73,7 @@ mod tests {
             (exact.slope, exact.intercept, exact.r_squared),
             (2.0, 1.0, 1.0)
         );
-        // Anscombe's first set: slope 0.5001, intercept 3.0001, R² 0.6665.
+        // Anscombe's first set: slope 0.5001 ± 0.1179, intercept 3.0001, R² 0.6665.
         let x = [10.0, 8.0, 13.0, 9.0, 11.0, 14.0, 6.0, 4.0, 12.0, 7.0, 5.0];
         let y = [
             8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68,
@@ -77,6 +81,7 @@ mod tests {
         let points: Vec<_> = x.into_iter().zip(y).collect();
         let line = fit_line(&points).unwrap();
         assert!((line.slope - 0.5001).abs() < 1e-4);
+        assert!((line.slope_error - 0.1179).abs() < 1e-4);
         assert!((line.intercept - 3.0001).abs() < 1e-4);
         assert!((line.r_squared - 0.6665).abs() < 1e-4);
         assert_eq!(fit_line(&points[..2]), None);

@@ -3,6 +3,7 @@
 use crate::case::{Case, RunSpec, Tier};
 use crate::cases;
 use crate::check::{Kind, Verdict};
+use crate::convergence::{Convergence, convergence};
 use crate::error::{Error, ExitCode};
 use crate::files::{require_writable, write_json};
 use crate::record::{Record, SCHEMA, Status};
@@ -28,6 +29,8 @@ pub struct CaseStudy {
     pub records: Vec<Record>,
     /// Verdicts on runs together.
     pub verdicts: Vec<Verdict>,
+    /// Convergence of the case's quantities.
+    pub convergence: Vec<Convergence>,
 }
 
 /// Counts over all verdicts.
@@ -39,12 +42,16 @@ pub struct Counts {
     pub failed_runs: usize,
     /// Runs without a single applicable check against the truth.
     pub runs_without_truth: usize,
-    /// Checks that hold.
+    /// Checks against the truth and of known limits that hold.
     pub passed: usize,
-    /// Checks that don't.
+    /// Those that don't.
     pub failed: usize,
-    /// Checks that don't apply.
+    /// Those that don't apply.
     pub not_applicable: usize,
+    /// Comparisons with goldens that hold.
+    pub undrifted: usize,
+    /// Those that don't.
+    pub drifted: usize,
 }
 
 /// What a verification found.
@@ -69,6 +76,7 @@ impl Summary {
                 record.verdicts = judge(case, record);
             }
             study.verdicts = case.judge_study(&study.records);
+            study.convergence = convergence(case, &study.records);
         }
         self.counts = count(self);
         Ok(())
@@ -81,6 +89,8 @@ impl Summary {
             ExitCode::RunFailed
         } else if self.counts.failed > 0 {
             ExitCode::TruthFailed
+        } else if self.counts.drifted > 0 {
+            ExitCode::Drift
         } else {
             ExitCode::Good
         }
@@ -132,6 +142,7 @@ pub fn verify(
                 .cloned()
                 .collect(),
             verdicts: Vec::new(),
+            convergence: Vec::new(),
         });
     }
     let mut summary = Summary {
@@ -186,11 +197,13 @@ fn count(summary: &Summary) -> Counts {
         }
     }
     for (_, _, verdict) in summary.verdicts() {
-        match verdict.pass {
-            Some(true) => counts.passed += 1,
-            Some(false) => counts.failed += 1,
-            None => counts.not_applicable += 1,
-        }
+        *match (verdict.kind, verdict.pass) {
+            (Kind::Drift, Some(true)) => &mut counts.undrifted,
+            (Kind::Drift, _) => &mut counts.drifted,
+            (_, Some(true)) => &mut counts.passed,
+            (_, Some(false)) => &mut counts.failed,
+            (_, None) => &mut counts.not_applicable,
+        } += 1;
     }
     counts
 }

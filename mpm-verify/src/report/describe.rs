@@ -113,6 +113,7 @@ pub fn kind(kind: Kind) -> &'static str {
     match kind {
         Kind::Truth => "TRUTH",
         Kind::KnownLimit => "known limit",
+        Kind::Drift => "DRIFT",
     }
 }
 
