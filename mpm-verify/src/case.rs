@@ -107,11 +107,7 @@ impl RunSpec {
     /// Folder of the run below that of its case.
     #[must_use]
     pub fn folder(&self) -> String {
-        let mut folder = format!("{}/{}", self.scheme, self.level.name);
-        for assignment in &self.set {
-            folder.push('+');
-            folder.push_str(assignment);
-        }
+        let mut folder = run_folder(self.scheme, self.level.name, &self.set);
         if self.perturbed {
             folder.push_str("/twin");
         }
@@ -133,6 +129,17 @@ impl RunSpec {
         }
         positions
     }
+}
+
+/// Name of a run, which is also its folder below that of its case.
+#[must_use]
+pub fn run_folder(scheme: Scheme, level: &str, set: &[String]) -> String {
+    let mut folder = format!("{scheme}/{level}");
+    for assignment in set {
+        folder.push('+');
+        folder.push_str(assignment);
+    }
+    folder
 }
 
 /// A named particle column with its unit.

@@ -1,6 +1,8 @@
 //! Files that are written whole or not at all.
 
 use crate::error::Error;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -35,6 +37,17 @@ pub fn discard(path: &Path) -> Result<(), Error> {
     }
 }
 
+/// Removes a folder of an earlier report, if there is one.
+///
+/// # Errors
+/// It is there and can't be removed.
+pub fn discard_folder(path: &Path) -> Result<(), Error> {
+    match fs::remove_dir_all(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::file(path, e)),
+        _ => Ok(()),
+    }
+}
+
 /// Writes a file by way of a temporary one beside it.
 ///
 /// # Errors
@@ -56,6 +69,18 @@ fn readable_draft(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
+/// Writes a picture as PNG.
+///
+/// # Errors
+/// The file can't be written.
+pub fn write_picture(path: &Path, picture: &image::RgbImage) -> Result<(), Error> {
+    let mut png = std::io::Cursor::new(Vec::new());
+    picture
+        .write_to(&mut png, image::ImageFormat::Png)
+        .map_err(|e| Error::file(path, e))?;
+    write_whole(path, png.get_ref())
+}
+
 /// Writes JSON, indented, with a final newline.
 ///
 /// # Errors
@@ -64,6 +89,25 @@ pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Erro
     let mut text = serde_json::to_string_pretty(value).map_err(|e| Error::file(path, e))?;
     text.push('\n');
     write_whole(path, text.as_bytes())
+}
+
+/// Reads a JSON document that names its schema.
+///
+/// # Errors
+/// The file is missing, damaged or of another schema.
+pub fn read_versioned<T: DeserializeOwned>(path: &Path, schema: u32) -> Result<T, Error> {
+    #[derive(Deserialize)]
+    struct Versioned {
+        schema: u32,
+    }
+    let damaged = |e: serde_json::Error| Error::file(path, format!("damaged: {e}"));
+    let bytes = fs::read(path).map_err(|e| Error::file(path, e))?;
+    let found: Versioned = serde_json::from_slice(&bytes).map_err(damaged)?;
+    if found.schema != schema {
+        let cause = format!("schema {} where {schema} is expected", found.schema);
+        return Err(Error::file(path, cause));
+    }
+    serde_json::from_slice(&bytes).map_err(damaged)
 }
 
 /// Writes a table as CSV.

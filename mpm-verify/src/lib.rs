@@ -5,14 +5,17 @@
 //! runs many side by side; the report draws. Every hand-off is a plain file, so each later stage runs
 //! again without simulating.
 
+pub mod bless;
 pub mod case;
 pub mod cases;
 pub mod check;
 pub mod convergence;
 pub mod error;
 pub mod files;
+pub mod golden;
 pub mod order;
 pub mod parameter;
+pub mod plan;
 pub mod probe;
 pub mod record;
 pub mod report;
@@ -21,4 +24,5 @@ pub mod scheme;
 pub mod sketch;
 pub mod statistics;
 pub mod study;
+pub mod table;
 pub mod vtu;

@@ -1,18 +1,22 @@
-//! The command line: `mpm-verify list | explain | run | verify | report`.
+//! The command line: `mpm-verify list | explain | run | verify | report | bless | diff`.
 
 mod progress;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+use mpm_verify::bless::Candidates;
 use mpm_verify::case::{Case, RunSpec, Tier, find_level};
 use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::plan::{Plan, Shard};
 use mpm_verify::record::{Record, Status};
+use mpm_verify::report::diff::Difference;
+use mpm_verify::report::history::Night;
 use mpm_verify::report::{describe, write_report};
 use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use mpm_verify::study::{has_truth, judge_again, verify};
-use mpm_verify::{cases, run};
+use mpm_verify::study::{Gathered, has_truth, make_runs};
+use mpm_verify::{cases, golden, run};
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Verification bench of the locking-free material point method.
 #[derive(Debug, Parser)]
@@ -67,11 +71,6 @@ enum Command {
         #[arg(long)]
         threads: Option<usize>,
     },
-    /// Judge the records of a report folder again and rebuild its pictures, tables and summary
-    Report {
-        /// The folder, as `verify` left it
-        folder: PathBuf,
-    },
     /// Run a tier of cases, judge them and write the report
     Verify {
         /// The cases (all if none is given)
@@ -79,12 +78,66 @@ enum Command {
         /// quick, pr, nightly or long
         #[arg(long, default_value = "pr")]
         tier: String,
+        /// Make only the i-th of n shares of the runs; `report` puts the shares together
+        #[arg(long, value_name = "I/N")]
+        shard: Option<String>,
+        /// Keep the runs that are there already, if this very program made them
+        #[arg(long)]
+        resume: bool,
         /// Folder of the report
         #[arg(long, default_value = "reports/latest")]
         out: PathBuf,
+        /// Folder of the goldens
+        #[arg(long, default_value = "golden")]
+        golden: PathBuf,
         /// Runs side by side (as many as there are cores if not given)
         #[arg(long)]
         threads: Option<usize>,
+    },
+    /// Judge again what `verify` has left and rebuild the report, without simulating
+    Report {
+        /// The folder, or those of all shards
+        #[arg(required = true)]
+        folders: Vec<PathBuf>,
+        /// Folder of the report (that of the runs if there is one only)
+        #[arg(long)]
+        out: Option<PathBuf>,
+        /// Folder of the goldens
+        #[arg(long, default_value = "golden")]
+        golden: PathBuf,
+        /// Add this night (YYYY-MM-DD) to the report's history and draw the trends
+        #[arg(long, value_name = "DATE", requires = "commit")]
+        night: Option<String>,
+        /// The commit of that night
+        #[arg(long, requires = "night")]
+        commit: Option<String>,
+    },
+    /// Accept drift: take what `verify` has left as the new golden (refused while the truth is missed)
+    Bless {
+        /// The case
+        case: String,
+        /// Why the results have changed
+        #[arg(long)]
+        reason: String,
+        /// The folder that `verify` has written, or those of all shards
+        #[arg(long, default_value = "reports/latest", num_args = 1..)]
+        from: Vec<PathBuf>,
+        /// Folder of the goldens
+        #[arg(long, default_value = "golden")]
+        golden: PathBuf,
+        /// Runs side by side (as many as there are cores if not given)
+        #[arg(long)]
+        threads: Option<usize>,
+    },
+    /// Compare two report folders: numbers, verdicts, pictures
+    Diff {
+        /// The old report
+        old: PathBuf,
+        /// The new report
+        new: PathBuf,
+        /// Folder for the comparison with its pictures (old | new | difference)
+        #[arg(long)]
+        out: Option<PathBuf>,
     },
 }
 
@@ -111,7 +164,8 @@ const MAX_THREADS: usize = 1024;
 /// The gist of an error of the command line's syntax.
 fn one_line(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing; allowed: list, explain, run, report, verify".to_owned();
+        return "a command is missing; allowed: list, explain, run, verify, report, bless, diff"
+            .to_owned();
     }
     let text = error.to_string();
     let lines: Vec<&str> = text
@@ -186,33 +240,76 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             };
             run_one(case, &spec, out.as_deref(), parse_threads(threads)?)
         }
-        Command::Report { folder } => {
-            let summary = judge_again(&folder)?;
-            write_report(&summary, &folder)?;
-            say(&describe::verdict_summary(&summary))?;
-            Ok(summary.exit_code())
-        }
         Command::Verify {
             cases: names,
             tier,
+            shard,
+            resume,
             out,
+            golden,
             threads,
         } => {
-            let chosen = if names.is_empty() {
-                cases::all()
-            } else {
-                let mut names = names;
-                names.sort();
-                names.dedup();
-                names
-                    .iter()
-                    .map(|name| cases::find(name))
-                    .collect::<Result<_, _>>()?
+            let shard = match shard {
+                Some(text) => Shard::parse(&text)?,
+                None => Shard::WHOLE,
             };
-            let tier = parse_tier(&tier)?;
-            verify_all(&chosen, tier, &out, parse_threads(threads)?)
+            let plan = Plan::new(&chosen(names)?, parse_tier(&tier)?, shard)?;
+            verify(&plan, resume, &out, &golden, parse_threads(threads)?)
+        }
+        Command::Report {
+            folders,
+            out,
+            golden,
+            night,
+            commit,
+        } => {
+            let out = match (out, &folders[..]) {
+                (Some(out), _) => out,
+                (None, [folder]) => folder.clone(),
+                (None, _) => {
+                    return Err(Error::Input(
+                        "several folders: --out must say where the report goes".to_owned(),
+                    ));
+                }
+            };
+            let night = match night.zip(commit) {
+                Some((date, commit)) => Some(Night::new(&date, &commit)?),
+                None => None,
+            };
+            report_on(&folders, &out, &golden, night.as_ref())
+        }
+        Command::Bless {
+            case,
+            reason,
+            from,
+            golden,
+            threads,
+        } => bless(
+            cases::find(&case)?,
+            &reason,
+            &from,
+            &golden,
+            parse_threads(threads)?,
+        ),
+        Command::Diff { old, new, out } => {
+            let difference = Difference::between(&old, &new)?;
+            if let Some(out) = out {
+                difference.write(&out)?;
+            }
+            say(&difference.text())?;
+            Ok(difference.exit_code())
         }
     }
+}
+
+/// The named cases, in the order of all; all if none is named.
+fn chosen(names: Vec<String>) -> Result<Vec<&'static dyn Case>, Error> {
+    for name in &names {
+        cases::find(name)?;
+    }
+    let mut all = cases::all();
+    all.retain(|c| names.is_empty() || names.iter().any(|n| n == c.name()));
+    Ok(all)
 }
 
 fn list(tier: Option<&str>, format: &str) -> Result<ExitCode, Error> {
@@ -229,7 +326,7 @@ fn list(tier: Option<&str>, format: &str) -> Result<ExitCode, Error> {
 fn run_one(
     case: &'static dyn Case,
     spec: &RunSpec,
-    out: Option<&std::path::Path>,
+    out: Option<&Path>,
     threads: usize,
 ) -> Result<ExitCode, Error> {
     let offered = case.schemes();
@@ -263,17 +360,79 @@ fn exit_code(record: &Record) -> ExitCode {
     }
 }
 
-fn verify_all(
-    chosen: &[&dyn Case],
-    tier: Tier,
-    out: &std::path::Path,
+fn verify(
+    plan: &Plan,
+    resume: bool,
+    out: &Path,
+    golden: &Path,
     workers: usize,
 ) -> Result<ExitCode, Error> {
-    let listener = progress::Plan::new(chosen, tier);
-    let summary = verify(chosen, tier, out, workers, &listener)?;
+    let names = plan.own().map(|run| run.folder().display().to_string());
+    let listener = progress::Runs::new(names.collect());
+    let records = make_runs(plan, out, resume, workers, &listener)?;
     listener.finish();
-    write_report(&summary, out)?;
+    if plan.shard == Shard::WHOLE {
+        return report_on(&[out.to_path_buf()], out, golden, None);
+    }
+    let failed = records.iter().filter(|r| exit_code(r) != ExitCode::Good);
+    for record in failed {
+        say(&describe::record(record))?;
+    }
+    say(&format!(
+        "shard {} of tier {}: {} runs; `mpm-verify report` with the folders of all {} shards judges them together\n",
+        plan.shard,
+        plan.tier,
+        records.len(),
+        plan.shard.count
+    ))?;
+    Ok(records
+        .iter()
+        .map(exit_code)
+        .max()
+        .unwrap_or(ExitCode::Good))
+}
+
+fn report_on(
+    folders: &[PathBuf],
+    out: &Path,
+    golden: &Path,
+    night: Option<&Night>,
+) -> Result<ExitCode, Error> {
+    let gathered = Gathered::read(folders)?;
+    let summary = gathered.judge(|r| golden::compare(golden, r, &gathered.folder(r)))?;
+    write_report(&gathered, &summary, golden, night, out)?;
     say(&describe::verdict_summary(&summary))?;
-    say(&format!("Report: {}\n", out.join("summary.md").display()))?;
+    say(&format!("Report: {}\n", out.join("index.html").display()))?;
     Ok(summary.exit_code())
+}
+
+fn bless(
+    case: &'static dyn Case,
+    reason: &str,
+    from: &[PathBuf],
+    root: &Path,
+    workers: usize,
+) -> Result<ExitCode, Error> {
+    if reason.trim().is_empty() {
+        return Err(Error::Input(
+            "--reason is empty; say why the results have changed".to_owned(),
+        ));
+    }
+    let gathered = Gathered::read(from)?;
+    let summary = gathered.judge(|r| golden::compare(root, r, &gathered.folder(r)))?;
+    let Some(study) = summary.cases.into_iter().find(|s| s.case == case.name()) else {
+        let name = case.name();
+        return Err(Error::Input(format!("the folder has no runs of {name}")));
+    };
+    let candidates = Candidates::of(&study)?;
+    say(&candidates.table())?;
+    if let Some(refusal) = candidates.refusal() {
+        say(&refusal)?;
+        return Ok(ExitCode::TruthFailed);
+    }
+    let listener = progress::Runs::new(candidates.twin_names());
+    let blessed = candidates.bless(&gathered, root, reason, workers, &listener)?;
+    listener.finish();
+    say(&format!("{blessed} goldens blessed: {reason}\n"))?;
+    Ok(ExitCode::Good)
 }

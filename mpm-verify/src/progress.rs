@@ -1,9 +1,8 @@
 //! Progress: bars on a terminal, plain lines otherwise.
 
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mpm_verify::case::{Case, Tier};
 use mpm_verify::record::{Record, Status};
-use mpm_verify::study::{Listener, plan_of};
+use mpm_verify::study::Listener;
 use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
 
@@ -22,8 +21,8 @@ pub(crate) fn single(message: &str) -> ProgressBar {
     bar
 }
 
-/// The progress of a plan.
-pub(crate) struct Plan {
+/// The progress of runs side by side.
+pub(crate) struct Runs {
     names: Vec<String>,
     bars: MultiProgress,
     running: Mutex<Vec<Option<ProgressBar>>>,
@@ -31,12 +30,8 @@ pub(crate) struct Plan {
     terminal: bool,
 }
 
-impl Plan {
-    pub(crate) fn new(cases: &[&dyn Case], tier: Tier) -> Self {
-        let names: Vec<String> = plan_of(cases, tier)
-            .iter()
-            .map(|(case, spec)| format!("{} {}", case.name(), spec.folder()))
-            .collect();
+impl Runs {
+    pub(crate) fn new(names: Vec<String>) -> Self {
         let terminal = io::stderr().is_terminal();
         let bars = MultiProgress::new();
         if !terminal {
@@ -57,7 +52,7 @@ impl Plan {
     }
 }
 
-impl Listener for Plan {
+impl Listener for Runs {
     fn progress(&self, run: usize, share: f64) {
         if let Ok(mut running) = self.running.lock() {
             let bar = running[run].get_or_insert_with(|| self.bars.add(single(&self.names[run])));

@@ -1,5 +1,6 @@
 //! The record of a run: stable, versioned, in SI units.
 
+use crate::case::run_folder;
 use crate::check::Verdict;
 use crate::parameter::Parameters;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
@@ -179,6 +180,12 @@ impl Record {
             remedy: self.remedy,
             transfer: self.transfer,
         }
+    }
+
+    /// Name of the run, which is also its folder below that of its case.
+    #[must_use]
+    pub fn folder(&self) -> String {
+        run_folder(self.scheme(), &self.level, &self.set)
     }
 
     /// A metric's value; NaN where there is none.

@@ -1,14 +1,17 @@
 //! Many runs side by side.
 
-use crate::case::{Case, RunSpec, Tier};
+use crate::case::{Case, RunSpec, run_folder};
 use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::convergence::{Convergence, convergence};
 use crate::error::{Error, ExitCode};
-use crate::files::{require_writable, write_json};
-use crate::record::{Record, SCHEMA, Status};
+use crate::files::{discard, read_versioned, require_writable};
+use crate::plan::{Plan, PlannedRun};
+use crate::record::{Record, SCHEMA, Status, Version};
 use crate::run::{execute, judge};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -68,20 +71,6 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Forms all verdicts and counts from the records.
-    fn judge(&mut self) -> Result<(), Error> {
-        for study in &mut self.cases {
-            let case = cases::find(&study.case)?;
-            for record in &mut study.records {
-                record.verdicts = judge(case, record);
-            }
-            study.verdicts = case.judge_study(&study.records);
-            study.convergence = convergence(case, &study.records);
-        }
-        self.counts = count(self);
-        Ok(())
-    }
-
     /// How the program should end.
     #[must_use]
     pub fn exit_code(&self) -> ExitCode {
@@ -108,83 +97,244 @@ impl Summary {
     }
 }
 
-/// Folder of a run's outputs.
-#[must_use]
-pub fn run_folder(out: &Path, case: &str, spec: &RunSpec) -> PathBuf {
-    out.join(case).join(spec.folder())
+/// The runs of a whole plan, gathered from the folders of its shards.
+#[derive(Debug)]
+pub struct Gathered {
+    tier: String,
+    studies: Vec<CaseStudy>,
+    folders: BTreeMap<String, PathBuf>,
 }
 
-/// Runs the plans of `cases` for `tier`, as many side by side as there are `workers`, one thread
-/// each, the longest first; writes every run's outputs and `summary.json` below `out`.
-///
-/// # Errors
-/// The folder can't be written, or a planned scene can't be built.
-pub fn verify(
-    cases: &[&dyn Case],
-    tier: Tier,
-    out: &Path,
-    workers: usize,
-    listener: &dyn Listener,
-) -> Result<Summary, Error> {
-    let plan = plan_of(cases, tier);
-    if plan.is_empty() {
-        return Err(Error::Input(format!("no case has runs in tier {tier}")));
+impl Gathered {
+    /// Reads every record of a plan; `folders` are those of all its shards, in any order.
+    ///
+    /// # Errors
+    /// A folder holds no plan, the plans are not shares of one whole, a shard is missing or there
+    /// twice, a run has no record, or a record is damaged, of another schema, run or program.
+    pub fn read(folders: &[PathBuf]) -> Result<Self, Error> {
+        let plans = read_plans(folders)?;
+        let (_, whole) = &plans[0];
+        let mut gathered = Self {
+            tier: whole.tier.clone(),
+            studies: Vec::new(),
+            folders: BTreeMap::new(),
+        };
+        let mut missing = Vec::new();
+        for run in &whole.runs {
+            let shard = &plans[run.shard - 1].0;
+            let folder = shard.join(run.folder());
+            let Some(record) = read_record(&folder, run)? else {
+                missing.push((shard, run));
+                continue;
+            };
+            let place = run.folder().display().to_string();
+            gathered.folders.insert(place, folder);
+            match gathered.studies.last_mut() {
+                Some(study) if study.case == run.case => study.records.push(record),
+                _ => gathered.studies.push(CaseStudy {
+                    case: run.case.clone(),
+                    records: vec![record],
+                    verdicts: Vec::new(),
+                    convergence: Vec::new(),
+                }),
+            }
+        }
+        if let Some((shard, run)) = missing.first() {
+            return Err(Error::Input(format!(
+                "{}: incomplete: {} of {} runs have no record, the first is {}; `verify --resume` with the same tier, shard and folder makes them",
+                shard.display(),
+                missing.len(),
+                whole.runs.len(),
+                run.folder().display()
+            )));
+        }
+        gathered.of_one_program()?;
+        Ok(gathered)
     }
-    require_writable(out)?;
-    let records = run_all(&plan, out, workers, listener)?;
-    let mut studies: Vec<CaseStudy> = Vec::new();
-    for case in cases {
-        studies.push(CaseStudy {
-            case: case.name().to_owned(),
-            records: records
-                .iter()
-                .filter(|r| r.case == case.name())
-                .cloned()
-                .collect(),
-            verdicts: Vec::new(),
-            convergence: Vec::new(),
-        });
+
+    fn of_one_program(&self) -> Result<(), Error> {
+        let mut records = self.studies.iter().flat_map(|s| &s.records);
+        let Some(first) = records.next() else {
+            return Ok(());
+        };
+        match records.find(|r| r.version != first.version) {
+            None => Ok(()),
+            Some(other) => Err(Error::Input(format!(
+                "records of two programs: {} {} is of source {}, {} {} of {}",
+                first.case,
+                first.folder(),
+                first.version.source,
+                other.case,
+                other.folder(),
+                other.version.source
+            ))),
+        }
     }
-    let mut summary = Summary {
-        schema: SCHEMA,
-        tier: tier.to_string(),
-        counts: Counts::default(),
-        cases: studies,
+
+    /// Where the raw outputs of a run lie.
+    #[must_use]
+    pub fn folder(&self, record: &Record) -> PathBuf {
+        let place = format!("{}/{}", record.case, record.folder());
+        self.folders.get(&place).cloned().unwrap_or_default()
+    }
+
+    /// Every record.
+    pub fn records(&self) -> impl Iterator<Item = &Record> {
+        self.studies.iter().flat_map(|s| &s.records)
+    }
+
+    /// Forms every verdict by the checks as they are now; `drift` gives those on drift.
+    ///
+    /// # Errors
+    /// A case that is not known, or an error of `drift`.
+    pub fn judge(
+        &self,
+        drift: impl Fn(&Record) -> Result<Vec<Verdict>, Error> + Sync,
+    ) -> Result<Summary, Error> {
+        let mut cases = self.studies.clone();
+        for study in &mut cases {
+            let case = cases::find(&study.case)?;
+            study.records.par_iter_mut().try_for_each(|record| {
+                record.verdicts = judge(case, record);
+                record.verdicts.extend(drift(record)?);
+                Ok::<(), Error>(())
+            })?;
+            study.verdicts = case.judge_study(&study.records);
+            study.convergence = convergence(case, &study.records);
+        }
+        let mut summary = Summary {
+            schema: SCHEMA,
+            tier: self.tier.clone(),
+            counts: Counts::default(),
+            cases,
+        };
+        summary.counts = count(&summary);
+        Ok(summary)
+    }
+}
+
+/// The folders with their plans, in the order of the shards.
+fn read_plans(folders: &[PathBuf]) -> Result<Vec<(&Path, Plan)>, Error> {
+    let mut plans = Vec::new();
+    for folder in folders {
+        plans.push((folder.as_path(), Plan::read(folder)?));
+    }
+    plans.sort_by_key(|(_, plan)| plan.shard.index);
+    let Some((first, whole)) = plans.first() else {
+        return Err(Error::Input("no folder is given".to_owned()));
     };
-    summary.judge()?;
-    write_json(&out.join("summary.json"), &summary)?;
-    Ok(summary)
+    for (k, (folder, plan)) in plans.iter().enumerate() {
+        if !plan.is_of_one_whole_with(whole) {
+            return Err(Error::Input(format!(
+                "{} (tier {}, shard {}) and {} (tier {}, shard {}) are not shards of one plan",
+                first.display(),
+                whole.tier,
+                whole.shard,
+                folder.display(),
+                plan.tier,
+                plan.shard
+            )));
+        }
+        if k > 0 && plans[k - 1].1.shard == plan.shard {
+            return Err(Error::Input(format!(
+                "shard {} is there twice: {} and {}",
+                plan.shard,
+                plans[k - 1].0.display(),
+                folder.display()
+            )));
+        }
+    }
+    let given = |k: &usize| plans.iter().any(|(_, p)| p.shard.index == *k);
+    let missing: Vec<String> = (1..=whole.shard.count)
+        .filter(|k| !given(k))
+        .map(|k| k.to_string())
+        .collect();
+    if missing.is_empty() {
+        Ok(plans)
+    } else {
+        Err(Error::Input(format!(
+            "of {} shards these are missing: {}",
+            whole.shard.count,
+            missing.join(", ")
+        )))
+    }
 }
 
-/// Judges the records below `folder` again, by the checks as they are now, and rewrites its summary.
-///
-/// # Errors
-/// The summary is missing, damaged, of another schema, or of a case that is not known.
-pub fn judge_again(folder: &Path) -> Result<Summary, Error> {
-    let mut summary = read_summary(folder)?;
-    summary.judge()?;
-    write_json(&folder.join("summary.json"), &summary)?;
-    Ok(summary)
-}
-
-fn read_summary(folder: &Path) -> Result<Summary, Error> {
-    let path = folder.join("summary.json");
-    let text = std::fs::read_to_string(&path).map_err(|e| Error::file(&path, e))?;
-    let summary: Summary = serde_json::from_str(&text).map_err(|e| Error::file(&path, e))?;
-    if summary.schema != SCHEMA {
-        let cause = format!("schema {} where {SCHEMA} is expected", summary.schema);
+/// The record of a planned run, or `None` if the run has not ended.
+fn read_record(folder: &Path, run: &PlannedRun) -> Result<Option<Record>, Error> {
+    let path = folder.join("record.json");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let record: Record = read_versioned(&path, SCHEMA)?;
+    if record.case != run.case || record.folder() != run_folder(run.scheme, &run.level, &run.set) {
+        let cause = format!("of another run: {} {}", record.case, record.folder());
         return Err(Error::file(&path, cause));
     }
-    Ok(summary)
+    Ok(Some(record))
 }
 
-/// The runs of `tier`, in order.
-#[must_use]
-pub fn plan_of<'a>(cases: &[&'a dyn Case], tier: Tier) -> Vec<(&'a dyn Case, RunSpec)> {
-    cases
-        .iter()
-        .flat_map(|case| case.plan(tier).into_iter().map(|spec| (*case, spec)))
-        .collect()
+/// Makes the runs of a plan's own shard below `out`, as many side by side as there are `workers`, one
+/// thread each, the longest first. With `resume`, a run that has a record of this very program is kept.
+///
+/// # Errors
+/// The folder can't be written or, with `resume`, holds another plan; or a scene can't be built.
+pub fn make_runs(
+    plan: &Plan,
+    out: &Path,
+    resume: bool,
+    workers: usize,
+    listener: &dyn Listener,
+) -> Result<Vec<Record>, Error> {
+    require_writable(out)?;
+    if resume && out.join("plan.json").exists() {
+        let begun = Plan::read(out)?;
+        if begun != *plan {
+            return Err(Error::Input(format!(
+                "{}: holds another plan (tier {}, shard {}); nothing to resume",
+                out.display(),
+                begun.tier,
+                begun.shard
+            )));
+        }
+    }
+    plan.write(out)?;
+    let mut tasks = Vec::new();
+    for run in plan.own() {
+        let (case, spec) = run.resolve()?;
+        tasks.push(Task {
+            case,
+            spec,
+            folder: out.join(run.folder()),
+        });
+        if !resume {
+            discard(&out.join(run.folder()).join("record.json"))?;
+        }
+    }
+    run_all(&tasks, resume, workers, listener)
+}
+
+/// A run to be made in a folder.
+pub struct Task {
+    /// The case.
+    pub case: &'static dyn Case,
+    /// What to run of it.
+    pub spec: RunSpec,
+    /// Where its outputs go.
+    pub folder: PathBuf,
+}
+
+impl Task {
+    /// The record that a run of this very program has left.
+    fn made(&self) -> Option<Record> {
+        let record: Record = read_versioned(&self.folder.join("record.json"), SCHEMA).ok()?;
+        let same = record.case == self.case.name()
+            && record.scheme() == self.spec.scheme
+            && record.level == self.spec.level.name
+            && record.set == self.spec.set
+            && record.version == Version::current();
+        same.then_some(record)
+    }
 }
 
 fn count(summary: &Summary) -> Counts {
@@ -217,26 +367,32 @@ pub fn has_truth(record: &Record) -> bool {
         .any(|v| v.kind == Kind::Truth && v.pass.is_some() && v.check != "completes")
 }
 
-fn run_all(
-    plan: &[(&dyn Case, RunSpec)],
-    out: &Path,
+/// Runs tasks side by side, the longest first; the records come back in the order of the tasks.
+///
+/// # Errors
+/// A folder can't be written, or a scene can't be built.
+pub fn run_all(
+    tasks: &[Task],
+    resume: bool,
     workers: usize,
     listener: &dyn Listener,
 ) -> Result<Vec<Record>, Error> {
-    let mut order: Vec<usize> = (0..plan.len()).collect();
-    let cost = |k: usize| plan[k].0.cost(&plan[k].1);
+    let mut order: Vec<usize> = (0..tasks.len()).collect();
+    let cost = |k: usize| tasks[k].case.cost(&tasks[k].spec);
     order.sort_by(|&a, &b| cost(a).total_cmp(&cost(b)));
     let queue = Mutex::new(order);
     let results = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
-        for _ in 0..workers.min(plan.len()) {
+        for _ in 0..workers.min(tasks.len()) {
             scope.spawn(|| {
                 while let Some(k) = queue.lock().ok().and_then(|mut q| q.pop()) {
-                    let (case, spec) = &plan[k];
-                    let folder = run_folder(out, case.name(), spec);
-                    let result = execute(*case, spec, Some(&folder), 1, &|share| {
-                        listener.progress(k, share);
-                    });
+                    let task = &tasks[k];
+                    let result = match task.made().filter(|_| resume) {
+                        Some(record) => Ok(record),
+                        None => execute(task.case, &task.spec, Some(&task.folder), 1, &|share| {
+                            listener.progress(k, share);
+                        }),
+                    };
                     if let Ok(record) = &result {
                         listener.ended(k, record);
                     }

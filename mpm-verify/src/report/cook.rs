@@ -5,14 +5,12 @@ use super::plot::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Scale, Series, SlopeTriangle,
     draw_charts, draw_fields,
 };
-use super::table::Table;
-use crate::case::{RunSpec, find_level};
-use crate::cases;
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::record::{Record, Status, of_own_parameters};
 use crate::scheme::{BasisName, RemedyName, Scheme};
-use crate::study::{CaseStudy, run_folder};
+use crate::study::{CaseStudy, Gathered};
+use crate::table::Table;
 use std::path::Path;
 
 /// The mean normal stress is drawn between plus and minus this (Pa); the reference reaches 0.127 Pa
@@ -23,17 +21,23 @@ const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (48.0, 44.0), (48.0, 60.0), (0.0, 
 
 struct Runs<'a> {
     records: Vec<&'a Record>,
+    gathered: &'a Gathered,
     out: &'a Path,
     pictures: Vec<Picture>,
 }
 
 /// Draws everything there are runs for.
-pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error> {
+pub(super) fn draw(
+    study: &CaseStudy,
+    gathered: &Gathered,
+    out: &Path,
+) -> Result<Vec<Picture>, Error> {
     let mut runs = Runs {
         records: of_own_parameters(&study.records)
             .into_iter()
             .filter(|r| r.status == Status::Ok)
             .collect(),
+        gathered,
         out,
         pictures: Vec::new(),
     };
@@ -89,14 +93,7 @@ impl Runs<'_> {
     }
 
     fn table(&self, record: &Record, file: &str) -> Result<Table, Error> {
-        let case = cases::find(&record.case)?;
-        let spec = RunSpec {
-            scheme: record.scheme(),
-            level: find_level(case, &record.level)?,
-            set: record.set.clone(),
-            perturbed: false,
-        };
-        Table::read(&run_folder(self.out, &record.case, &spec).join(file))
+        Table::read(&self.gathered.folder(record).join(file))
     }
 
     /// One series per scheme over the levels, of records for which `measure` is finite.

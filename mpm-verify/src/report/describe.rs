@@ -223,8 +223,33 @@ pub fn verdict_summary(summary: &Summary) -> String {
     let c = summary.counts;
     let _ = writeln!(
         t,
-        "{} runs ({} broke down, {} without an applicable check): {} checks passed, {} failed, {} not applicable",
-        c.runs, c.failed_runs, c.runs_without_truth, c.passed, c.failed, c.not_applicable
+        "{} runs ({} broke down, {} without an applicable check): {} checks passed, {} failed, {} not applicable; against goldens {} hold, {} drift",
+        c.runs,
+        c.failed_runs,
+        c.runs_without_truth,
+        c.passed,
+        c.failed,
+        c.not_applicable,
+        c.undrifted,
+        c.drifted
     );
+    for command in bless_commands(summary) {
+        let _ = writeln!(t, "If the drift is meant: {command}");
+    }
     t
+}
+
+/// The commands that accept the drift of each case that has drifted and misses no truth.
+#[must_use]
+pub fn bless_commands(summary: &Summary) -> Vec<String> {
+    let meets = |name: &str, test: fn(&Verdict) -> bool| {
+        summary
+            .verdicts()
+            .any(|(study, _, v)| study.case == name && test(v))
+    };
+    let cases = summary.cases.iter().map(|study| study.case.as_str());
+    cases
+        .filter(|case| meets(case, Verdict::drifts) && !meets(case, Verdict::misses_the_truth))
+        .map(|case| format!("mpm-verify bless {case} --reason \"why the results have changed\""))
+        .collect()
 }

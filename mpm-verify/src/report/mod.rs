@@ -4,25 +4,43 @@
 
 mod cook;
 pub mod describe;
+pub mod diff;
+mod drift;
+pub mod history;
 pub mod plot;
 mod summary;
-mod table;
+mod triptych;
+pub mod watched;
 
 use crate::error::Error;
-use crate::study::Summary;
+use crate::files::write_json;
+use crate::study::{Gathered, Summary};
+use history::Night;
 use std::path::Path;
 
-/// Writes the pictures of every case, the CSV of everything plotted, and `summary.md`.
+/// Writes the pictures of every case, the CSV of everything plotted, `summary.json` and `summary.md`;
+/// what has drifted from its golden below `golden` is drawn beside it. With a night, it enters the
+/// history, and the trends are drawn.
 ///
 /// # Errors
 /// A record's files can't be read, or a picture can't be written.
-pub fn write_report(summary: &Summary, out: &Path) -> Result<(), Error> {
-    let mut pictures = Vec::new();
+pub fn write_report(
+    gathered: &Gathered,
+    summary: &Summary,
+    golden: &Path,
+    night: Option<&Night>,
+    out: &Path,
+) -> Result<(), Error> {
+    let mut pictures = drift::draw(gathered, summary, golden, out)?;
     for study in &summary.cases {
         if study.case == "cook" {
-            pictures.extend(cook::draw(study, out)?);
+            pictures.extend(cook::draw(study, gathered, out)?);
         }
     }
+    if let Some(night) = night {
+        pictures.extend(history::add(summary, night, out)?);
+    }
+    write_json(&out.join("summary.json"), summary)?;
     summary::write(summary, &pictures, out)
 }
 

@@ -1,9 +1,10 @@
 //! The summary in Markdown.
 
 use super::Picture;
-use super::describe::{headline, kind, number, outcome};
+use super::describe::{bless_commands, headline, kind, number, outcome};
 use crate::case::Headline;
 use crate::cases;
+use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::Record;
@@ -20,9 +21,19 @@ pub(super) fn write(summary: &Summary, pictures: &[Picture], out: &Path) -> Resu
 fn text(summary: &Summary, pictures: &[Picture]) -> Result<String, Error> {
     let c = summary.counts;
     let mut t = format!(
-        "# Verification, tier {}\n\n{} runs, {} broke down. {} checks passed, {} failed, {} not applicable.\n",
-        summary.tier, c.runs, c.failed_runs, c.passed, c.failed, c.not_applicable
+        "# Verification, tier {}\n\n{} runs, {} broke down. Against the truth: {} checks passed, {} failed, {} not applicable. Against goldens: {} hold, {} drift.\n",
+        summary.tier,
+        c.runs,
+        c.failed_runs,
+        c.passed,
+        c.failed,
+        c.not_applicable,
+        c.undrifted,
+        c.drifted
     );
+    for command in bless_commands(summary) {
+        let _ = writeln!(t, "\nIf the drift is meant, accept it with `{command}`.");
+    }
     if c.runs_without_truth > 0 {
         let _ = writeln!(
             t,
@@ -65,7 +76,11 @@ fn failures(summary: &Summary, t: &mut String) {
     }
     if summary.counts.failed > 0 {
         let _ = writeln!(t, "\n## Failed checks\n");
-        table(summary, t, |v| v.pass == Some(false));
+        table(summary, t, Verdict::misses_the_truth);
+    }
+    if summary.counts.drifted > 0 {
+        let _ = writeln!(t, "\n## Drift\n");
+        table(summary, t, Verdict::drifts);
     }
 }
 
@@ -96,10 +111,10 @@ fn results(headlines: &[Headline], records: &[Record], t: &mut String) {
 
 fn verdicts(summary: &Summary, t: &mut String) {
     let _ = writeln!(t, "\n## All verdicts\n");
-    table(summary, t, |_| true);
+    table(summary, t, |v| v.kind != Kind::Drift);
 }
 
-fn table(summary: &Summary, t: &mut String, keep: impl Fn(&crate::check::Verdict) -> bool) {
+fn table(summary: &Summary, t: &mut String, keep: impl Fn(&Verdict) -> bool) {
     let _ = writeln!(
         t,
         "| outcome | kind | check | run | metric | value | reference | tolerance | source |\n|---|---|---|---|---|---|---|---|---|"

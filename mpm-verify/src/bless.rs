@@ -1,0 +1,161 @@
+//! Accepting drift.
+
+use crate::check::Verdict;
+use crate::error::Error;
+use crate::golden::{Golden, home};
+use crate::plan::PlannedRun;
+use crate::record::{Record, Status, Version};
+use crate::report::describe::{number, verdict_line};
+use crate::study::{CaseStudy, Gathered, Listener, Task, run_all};
+use std::fmt::Write;
+use std::path::Path;
+
+/// The runs of a case that have drifted, and what speaks against blessing them.
+pub struct Candidates<'a> {
+    study: &'a CaseStudy,
+    drifted: Vec<&'a Record>,
+}
+
+impl<'a> Candidates<'a> {
+    /// Of a study that is judged, made by this very program.
+    ///
+    /// # Errors
+    /// The records were made by another program.
+    pub fn of(study: &'a CaseStudy) -> Result<Self, Error> {
+        let current = Version::current();
+        if let Some(other) = study.records.iter().find(|r| r.version != current) {
+            return Err(Error::Input(format!(
+                "{} {} was made by source {}, this program is of source {}: run `verify` first",
+                other.case,
+                other.folder(),
+                other.version.source,
+                current.source
+            )));
+        }
+        let drifts = |r: &&Record| r.verdicts.iter().any(Verdict::drifts);
+        Ok(Self {
+            study,
+            drifted: study.records.iter().filter(drifts).collect(),
+        })
+    }
+
+    /// What has drifted: one line per run and column.
+    #[must_use]
+    pub fn table(&self) -> String {
+        let mut t = String::new();
+        for record in &self.drifted {
+            for v in record.verdicts.iter().filter(|v| v.drifts()) {
+                let run = format!("{} {}", record.case, record.folder());
+                let _ = match (v.value, v.reference) {
+                    (Some(now), Some(golden)) => writeln!(
+                        t,
+                        "{run}  {}: golden {}, now {}, difference {:.3e}, tolerance {}",
+                        v.metric,
+                        number(Some(golden)),
+                        number(Some(now)),
+                        now - golden,
+                        number(v.tolerance)
+                    ),
+                    _ => writeln!(t, "{run}  {}: {}", v.metric, v.source),
+                };
+            }
+        }
+        let _ = writeln!(
+            t,
+            "{} of {} runs have drifted or have no golden",
+            self.drifted.len(),
+            self.study.records.len()
+        );
+        t
+    }
+
+    /// Why nothing may be blessed, if a check against the truth fails or a run broke down.
+    #[must_use]
+    pub fn refusal(&self) -> Option<String> {
+        let single = self.study.records.iter().flat_map(|r| &r.verdicts);
+        let missed: Vec<&Verdict> = single
+            .chain(&self.study.verdicts)
+            .filter(|v| v.misses_the_truth())
+            .collect();
+        if missed.is_empty() {
+            return None;
+        }
+        let mut t = String::new();
+        for verdict in &missed {
+            let _ = writeln!(t, "{}", verdict_line(verdict));
+        }
+        let _ = writeln!(
+            t,
+            "refused: {} checks against the truth fail; a golden never stands in for it",
+            missed.len()
+        );
+        Some(t)
+    }
+
+    /// Those whose numbers have drifted: their tolerances are measured again.
+    fn measured(&self) -> impl Iterator<Item = &&'a Record> {
+        self.drifted.iter().filter(|r| {
+            let mut drifting = r.verdicts.iter().filter(|v| v.drifts());
+            !drifting.all(|v| v.metric == crate::golden::PIXELS)
+        })
+    }
+
+    /// Names of the perturbed twins that blessing runs.
+    #[must_use]
+    pub fn twin_names(&self) -> Vec<String> {
+        self.measured()
+            .map(|r| format!("{}/{}/twin", r.case, r.folder()))
+            .collect()
+    }
+
+    /// Blesses every candidate, running a perturbed twin of those whose numbers have drifted (beside
+    /// the run itself; one that is there already is kept). Returns how many were blessed.
+    ///
+    /// # Errors
+    /// A twin breaks down, or a file can't be read or written.
+    pub fn bless(
+        &self,
+        gathered: &Gathered,
+        root: &Path,
+        reason: &str,
+        workers: usize,
+        listener: &dyn Listener,
+    ) -> Result<usize, Error> {
+        let measured: Vec<&Record> = self.measured().copied().collect();
+        let mut tasks = Vec::new();
+        for record in &measured {
+            let run = PlannedRun {
+                case: record.case.clone(),
+                scheme: record.scheme(),
+                level: record.level.clone(),
+                set: record.set.clone(),
+                shard: 1,
+            };
+            let (case, mut spec) = run.resolve()?;
+            spec.perturbed = true;
+            tasks.push(Task {
+                case,
+                spec,
+                folder: gathered.folder(record).join("twin"),
+            });
+        }
+        let twins = run_all(&tasks, true, workers, listener)?;
+        for ((record, twin), task) in measured.iter().zip(&twins).zip(&tasks) {
+            if let (Status::Failed, Some(error)) = (twin.status, &twin.error) {
+                return Err(Error::file(&task.folder, &error.message));
+            }
+            let folder = gathered.folder(record);
+            let golden = Golden::of_run(record, &folder, twin, &task.folder, reason)?;
+            golden.write(&home(root, record))?;
+        }
+        for record in &self.drifted {
+            if !measured.iter().any(|m| std::ptr::eq(*m, *record)) {
+                let folder = home(root, record);
+                Golden::read(&folder)?
+                    .redrawn(record, reason)?
+                    .write(&folder)?;
+            }
+        }
+        Ok(self.drifted.len())
+    }
+}

@@ -1,0 +1,218 @@
+//! What a folder of runs is to hold, and which share of it.
+
+use crate::case::{Case, RunSpec, Tier, find_level, run_folder};
+use crate::cases;
+use crate::error::Error;
+use crate::files::write_json;
+use crate::scheme::Scheme;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Version of the plan's format.
+const SCHEMA: u32 = 1;
+/// Name of the plan's file.
+const FILE: &str = "plan.json";
+/// More shards than this are surely a slip.
+const MAX_SHARDS: usize = 10_000;
+
+/// A share of a plan: the `index`-th of `count`, counted from one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shard {
+    /// Which.
+    pub index: usize,
+    /// Of how many.
+    pub count: usize,
+}
+
+impl Shard {
+    /// All there is.
+    pub const WHOLE: Self = Self { index: 1, count: 1 };
+
+    /// From `i/n`.
+    ///
+    /// # Errors
+    /// The text is not of that form, or i is not between 1 and n.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        text.split_once('/')
+            .and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)))
+            .map(|(index, count)| Self { index, count })
+            .filter(|s| (1..=s.count).contains(&s.index) && s.count <= MAX_SHARDS)
+            .ok_or_else(|| {
+                Error::Input(format!(
+                    "--shard \"{text}\" is not allowed; allowed: i/n with 1 ≤ i ≤ n ≤ {MAX_SHARDS}"
+                ))
+            })
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index, self.count)
+    }
+}
+
+/// A run of a plan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlannedRun {
+    /// Case.
+    pub case: String,
+    /// Scheme.
+    pub scheme: Scheme,
+    /// Level.
+    pub level: String,
+    /// Parameters changed from the defaults, as `name=value`.
+    pub set: Vec<String>,
+    /// Index of the shard that makes it.
+    pub shard: usize,
+}
+
+impl PlannedRun {
+    /// Folder of the run's outputs below that of the report.
+    #[must_use]
+    pub fn folder(&self) -> PathBuf {
+        Path::new(&self.case).join(run_folder(self.scheme, &self.level, &self.set))
+    }
+
+    /// The case and what to run of it.
+    ///
+    /// # Errors
+    /// The case or the level is not known to this program.
+    pub fn resolve(&self) -> Result<(&'static dyn Case, RunSpec), Error> {
+        let case = cases::find(&self.case)?;
+        let spec = RunSpec {
+            scheme: self.scheme,
+            level: find_level(case, &self.level)?,
+            set: self.set.clone(),
+            perturbed: false,
+        };
+        Ok((case, spec))
+    }
+}
+
+/// The plan of a folder of runs; it is written there before the first run begins.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// Version of this format.
+    pub schema: u32,
+    /// Tier.
+    pub tier: String,
+    /// The share of this folder.
+    pub shard: Shard,
+    /// Every run of every shard, in the order of the report.
+    pub runs: Vec<PlannedRun>,
+}
+
+impl Plan {
+    /// The plan of `cases` for `tier`. The shards are dealt the runs in turn, the costliest first.
+    ///
+    /// # Errors
+    /// The cases have no runs in this tier, or fewer than there are shards.
+    pub fn new(cases: &[&dyn Case], tier: Tier, shard: Shard) -> Result<Self, Error> {
+        let mut runs = Vec::new();
+        let mut costs = Vec::new();
+        for case in cases {
+            for spec in case.plan(tier) {
+                costs.push(case.cost(&spec));
+                runs.push(PlannedRun {
+                    case: case.name().to_owned(),
+                    scheme: spec.scheme,
+                    level: spec.level.name.to_owned(),
+                    set: spec.set,
+                    shard: 0,
+                });
+            }
+        }
+        if runs.len() < shard.count {
+            return Err(Error::Input(format!(
+                "tier {tier} has {} runs for {} shards",
+                runs.len(),
+                shard.count
+            )));
+        }
+        let mut order: Vec<usize> = (0..runs.len()).collect();
+        order.sort_by(|&a, &b| costs[b].total_cmp(&costs[a]));
+        for (turn, k) in order.into_iter().enumerate() {
+            runs[k].shard = turn % shard.count + 1;
+        }
+        Ok(Self {
+            schema: SCHEMA,
+            tier: tier.to_string(),
+            shard,
+            runs,
+        })
+    }
+
+    /// The runs of this folder.
+    pub fn own(&self) -> impl Iterator<Item = &PlannedRun> {
+        self.runs.iter().filter(|r| r.shard == self.shard.index)
+    }
+
+    /// Whether the two are shares of the same whole.
+    #[must_use]
+    pub fn is_of_one_whole_with(&self, other: &Self) -> bool {
+        self.tier == other.tier && self.shard.count == other.shard.count && self.runs == other.runs
+    }
+
+    /// Writes the plan into its folder.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        write_json(&folder.join(FILE), self)
+    }
+
+    /// Reads the plan of a folder.
+    ///
+    /// # Errors
+    /// It is missing, damaged or of another schema.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let path = folder.join(FILE);
+        if !path.exists() {
+            return Err(Error::file(
+                folder,
+                format!("no {FILE}: not a folder that `verify` has written"),
+            ));
+        }
+        crate::files::read_versioned(&path, SCHEMA)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_are_read_and_bad_ones_refused() {
+        assert_eq!(Shard::parse("2/4").unwrap(), Shard { index: 2, count: 4 });
+        for bad in ["0/4", "5/4", "1", "a/b", "1/0", "-1/4", "1/4/2", "1/100000"] {
+            let error = Shard::parse(bad).unwrap_err().to_string();
+            assert!(
+                error.contains(bad) && error.contains("1 ≤ i ≤ n"),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn every_run_belongs_to_exactly_one_shard_and_shards_are_alike() {
+        let all = cases::all();
+        let plan = |index| Plan::new(&all, Tier::Nightly, Shard { index, count: 4 }).unwrap();
+        let whole = plan(1);
+        assert!((1..=4).all(|k| plan(k).is_of_one_whole_with(&whole)));
+        let sizes: Vec<usize> = (1..=4).map(|k| plan(k).own().count()).collect();
+        assert_eq!(sizes.iter().sum::<usize>(), whole.runs.len());
+        assert!(sizes.iter().max().unwrap() - sizes.iter().min().unwrap() <= 1);
+        let costliest = |k: usize| plan(k).own().any(|r| r.level == "h0.25");
+        assert!((1..=4).all(costliest));
+    }
+
+    #[test]
+    fn more_shards_than_runs_are_refused() {
+        let shard = Shard {
+            index: 1,
+            count: 100,
+        };
+        assert!(Plan::new(&cases::all(), Tier::Quick, shard).is_err());
+    }
+}

@@ -1,0 +1,197 @@
+//! The difference of two report folders.
+
+use super::describe::{number, outcome};
+use super::triptych::{different_pixels, triptych};
+use crate::check::Verdict;
+use crate::error::{Error, ExitCode};
+use crate::files::{make_folder, read_versioned, write_picture, write_whole};
+use crate::record::SCHEMA;
+use crate::study::Summary;
+use image::RgbImage;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A picture of two reports.
+struct PictureChange {
+    file: PathBuf,
+    old: Option<RgbImage>,
+    new: Option<RgbImage>,
+}
+
+/// What differs between two report folders.
+pub struct Difference {
+    names: [String; 2],
+    /// (run, metric) with the old and the new value, where they are not the same.
+    numbers: Vec<(String, Option<f64>, Option<f64>)>,
+    /// (run, check, metric) with the old and the new outcome, where they are not the same.
+    verdicts: Vec<(String, &'static str, &'static str)>,
+    pictures: Vec<PictureChange>,
+}
+
+impl Difference {
+    /// Compares the summaries and pictures of two report folders. Times taken are not compared.
+    ///
+    /// # Errors
+    /// A summary is missing, damaged or of another schema, or a picture can't be read.
+    pub fn between(old: &Path, new: &Path) -> Result<Self, Error> {
+        let summary = |folder: &Path| -> Result<Summary, Error> {
+            read_versioned(&folder.join("summary.json"), SCHEMA)
+        };
+        let (a, b) = (summary(old)?, summary(new)?);
+        let mut pictures = Vec::new();
+        let mut files = BTreeSet::new();
+        for folder in [old, new] {
+            list_pictures(folder, folder, &mut files)?;
+        }
+        for file in files {
+            let change = PictureChange {
+                old: read_picture(&old.join(&file))?,
+                new: read_picture(&new.join(&file))?,
+                file,
+            };
+            if change.old != change.new {
+                pictures.push(change);
+            }
+        }
+        Ok(Self {
+            names: [old, new].map(|folder| folder.display().to_string()),
+            numbers: changes(numbers(&a), numbers(&b), None),
+            verdicts: changes(outcomes(&a), outcomes(&b), "absent"),
+            pictures,
+        })
+    }
+
+    /// [`ExitCode::Drift`] if anything differs.
+    #[must_use]
+    pub fn exit_code(&self) -> ExitCode {
+        if self.numbers.is_empty() && self.verdicts.is_empty() && self.pictures.is_empty() {
+            ExitCode::Good
+        } else {
+            ExitCode::Drift
+        }
+    }
+
+    /// The difference in Markdown.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let [old, new] = &self.names;
+        let mut t = format!(
+            "# {old} against {new}\n\n{} numbers, {} verdicts and {} pictures differ.\n",
+            self.numbers.len(),
+            self.verdicts.len(),
+            self.pictures.len()
+        );
+        if !self.verdicts.is_empty() {
+            let _ = writeln!(t, "\n| verdict | old | new |\n|---|---|---|");
+        }
+        for (what, a, b) in &self.verdicts {
+            let _ = writeln!(t, "| {what} | {a} | {b} |");
+        }
+        if !self.numbers.is_empty() {
+            let _ = writeln!(
+                t,
+                "\n| number | old | new | difference |\n|---|---|---|---|"
+            );
+        }
+        for (what, a, b) in &self.numbers {
+            let difference = a.zip(*b).map(|(a, b)| b - a);
+            let [a, b, difference] = [*a, *b, difference].map(number);
+            let _ = writeln!(t, "| {what} | {a} | {b} | {difference} |");
+        }
+        for change in &self.pictures {
+            let file = change.file.display();
+            let _ = match (&change.old, &change.new) {
+                (Some(a), Some(b)) => writeln!(
+                    t,
+                    "\n![{file}: old, new, difference]({file})\n\n{file}: {} pixels differ",
+                    different_pixels(a, b)
+                ),
+                (Some(_), None) => writeln!(t, "\n{file}: only in {old}"),
+                _ => writeln!(t, "\n{file}: only in {new}"),
+            };
+        }
+        t
+    }
+
+    /// Writes `diff.md` and, for each picture that differs, old | new | difference.
+    ///
+    /// # Errors
+    /// A file can't be written.
+    pub fn write(&self, out: &Path) -> Result<(), Error> {
+        make_folder(out)?;
+        for change in &self.pictures {
+            if let (Some(old), Some(new)) = (&change.old, &change.new) {
+                write_picture(&out.join(&change.file), &triptych(old, new))?;
+            }
+        }
+        write_whole(&out.join("diff.md"), self.text().as_bytes())
+    }
+}
+
+/// Entries of two tables that are not the same; `absent` stands for one that is not there.
+fn changes<T: Copy + PartialEq>(
+    old: BTreeMap<String, T>,
+    new: BTreeMap<String, T>,
+    absent: T,
+) -> Vec<(String, T, T)> {
+    let names: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
+    let value = |table: &BTreeMap<String, T>, name: &String| *table.get(name).unwrap_or(&absent);
+    names
+        .into_iter()
+        .map(|name| (name.clone(), value(&old, name), value(&new, name)))
+        .filter(|(_, a, b)| a != b)
+        .collect()
+}
+
+fn numbers(summary: &Summary) -> BTreeMap<String, Option<f64>> {
+    let records = summary.cases.iter().flat_map(|c| &c.records);
+    records
+        .flat_map(|r| {
+            let run = format!("{} {}", r.case, r.folder());
+            r.metrics
+                .iter()
+                .map(move |(name, m)| (format!("{run} {name} ({})", m.unit), m.value))
+        })
+        .collect()
+}
+
+fn outcomes(summary: &Summary) -> BTreeMap<String, &'static str> {
+    let name = |case: &str, run: Option<String>, v: &Verdict| {
+        format!(
+            "{case} {} {}: {}",
+            run.unwrap_or_default(),
+            v.check,
+            v.metric
+        )
+    };
+    summary
+        .verdicts()
+        .map(|(study, record, v)| {
+            let run = record.map(crate::record::Record::folder);
+            (name(&study.case, run, v), outcome(v))
+        })
+        .collect()
+}
+
+/// Collects the PNG files below `folder`, as paths relative to `root`.
+fn list_pictures(root: &Path, folder: &Path, found: &mut BTreeSet<PathBuf>) -> Result<(), Error> {
+    for entry in fs::read_dir(folder).map_err(|e| Error::file(folder, e))? {
+        let path = entry.map_err(|e| Error::file(folder, e))?.path();
+        if path.is_dir() {
+            list_pictures(root, &path, found)?;
+        } else if path.extension().is_some_and(|e| e == "png") {
+            found.extend(path.strip_prefix(root).map(Path::to_path_buf));
+        }
+    }
+    Ok(())
+}
+
+fn read_picture(path: &Path) -> Result<Option<RgbImage>, Error> {
+    if !path.exists() {
+        return Ok(None);
+    }
+    let picture = image::open(path).map_err(|e| Error::file(path, e))?;
+    Ok(Some(picture.to_rgb8()))
+}

@@ -1,0 +1,42 @@
+//! Pictures of what has drifted: golden | now | difference.
+
+use super::Picture;
+use super::triptych::triptych;
+use crate::check::Verdict;
+use crate::error::Error;
+use crate::files::{discard_folder, write_picture};
+use crate::golden::{Golden, home};
+use crate::study::{Gathered, Summary};
+use std::path::Path;
+
+/// Draws, for each run that has drifted from a golden, its watched series beside the golden's.
+pub(super) fn draw(
+    gathered: &Gathered,
+    summary: &Summary,
+    root: &Path,
+    out: &Path,
+) -> Result<Vec<Picture>, Error> {
+    let mut pictures = Vec::new();
+    discard_folder(&out.join("drift"))?;
+    for record in summary.cases.iter().flat_map(|s| &s.records) {
+        if !record.verdicts.iter().any(Verdict::drifts) {
+            continue;
+        }
+        // A golden that is missing or damaged, or a run without its rows, has nothing to show.
+        let both = Golden::read(&home(root, record))
+            .and_then(|g| g.pictures(record, &gathered.folder(record)));
+        if let Ok((golden, now)) = both {
+            let file = format!("drift/{}/{}.png", record.case, record.folder());
+            write_picture(&out.join(&file), &triptych(&golden, &now))?;
+            pictures.push(Picture {
+                file,
+                caption: format!(
+                    "Drift of {} {}: golden, now, difference.",
+                    record.case,
+                    record.folder()
+                ),
+            });
+        }
+    }
+    Ok(pictures)
+}

@@ -1,0 +1,187 @@
+//! Trends over nights: errors, orders and cost, kept in a table beside the report.
+
+use super::Picture;
+use super::plot::{Chart, Dash, Marker, Scale, Series, draw_charts};
+use crate::error::Error;
+use crate::files::write_whole;
+use crate::study::{CaseStudy, Summary};
+use jiff::civil::Date;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+const FILE: &str = "history.csv";
+const COST: &str = "cpu_s";
+const ORDER: &str = "order of ";
+
+/// A night and the commit that ran.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Night {
+    date: Date,
+    commit: String,
+}
+
+impl Night {
+    /// From a date of the form YYYY-MM-DD and a commit.
+    ///
+    /// # Errors
+    /// The date is not of that form, or the commit is empty.
+    pub fn new(date: &str, commit: &str) -> Result<Self, Error> {
+        let refuse = |what: String| Err(Error::Input(what));
+        match date.parse() {
+            Err(e) => refuse(format!("--night \"{date}\": {e}; allowed: YYYY-MM-DD")),
+            Ok(_) if commit.trim().is_empty() => refuse("--commit is empty".to_owned()),
+            Ok(date) => Ok(Self {
+                date,
+                commit: commit.to_owned(),
+            }),
+        }
+    }
+}
+
+/// A number of a night.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Row {
+    night: Date,
+    commit: String,
+    case: String,
+    /// Scheme with level, or scheme alone for an order.
+    run: String,
+    quantity: String,
+    value: f64,
+}
+
+/// Adds a night to the history in `out` (replacing it if it is there already) and draws the trends of
+/// every case.
+///
+/// # Errors
+/// The history is damaged, or a file can't be written.
+pub(super) fn add(summary: &Summary, night: &Night, out: &Path) -> Result<Vec<Picture>, Error> {
+    let path = out.join(FILE);
+    let mut rows = read(&path)?;
+    rows.retain(|row| row.night != night.date);
+    for study in &summary.cases {
+        rows.extend(rows_of(study, night));
+    }
+    rows.sort_by_key(|row| row.night);
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in &rows {
+        writer.serialize(row).map_err(|e| Error::file(&path, e))?;
+    }
+    let bytes = writer.into_inner().map_err(|e| Error::file(&path, e))?;
+    write_whole(&path, &bytes)?;
+    let mut pictures = Vec::new();
+    for study in &summary.cases {
+        pictures.extend(draw(study, &rows, out)?);
+    }
+    Ok(pictures)
+}
+
+fn read(path: &Path) -> Result<Vec<Row>, Error> {
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let mut reader = csv::Reader::from_path(path).map_err(|e| Error::file(path, e))?;
+    let rows = reader.deserialize::<Row>();
+    rows.map(|row| row.map_err(|e| Error::file(path, e)))
+        .collect()
+}
+
+fn rows_of(study: &CaseStudy, night: &Night) -> Vec<Row> {
+    let row = |run: String, quantity: String, value: f64| Row {
+        night: night.date,
+        commit: night.commit.clone(),
+        case: study.case.clone(),
+        run,
+        quantity,
+        value,
+    };
+    let mut rows = Vec::new();
+    for entry in study.convergence.iter().filter(|c| c.is_error) {
+        let finest = entry.points.last();
+        rows.extend(finest.map(|p| {
+            let run = format!("{}/{}", entry.scheme, p.level);
+            row(run, entry.metric.clone(), p.value.abs())
+        }));
+        rows.extend(entry.order.iter().map(|order| {
+            let quantity = format!("{ORDER}{}", entry.metric);
+            row(entry.scheme.to_string(), quantity, order.order)
+        }));
+    }
+    let mut cost: BTreeMap<String, f64> = BTreeMap::new();
+    for record in &study.records {
+        *cost.entry(record.scheme().to_string()).or_default() += record.time.cpu_s;
+    }
+    rows.extend(
+        cost.into_iter()
+            .map(|(scheme, seconds)| row(scheme, COST.to_owned(), seconds)),
+    );
+    rows
+}
+
+/// One row of charts per case: the errors at the finest level, the orders, the cost.
+fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, Error> {
+    let own: Vec<&Row> = rows.iter().filter(|r| r.case == study.case).collect();
+    let Some(first) = own.first().map(|r| r.night) else {
+        return Ok(None);
+    };
+    let mut quantities: Vec<&str> = Vec::new();
+    for row in &own {
+        if !quantities.contains(&row.quantity.as_str()) {
+            quantities.push(&row.quantity);
+        }
+    }
+    quantities.sort_by_key(|q| (*q == COST, q.starts_with(ORDER)));
+    let charts: Vec<Chart> = quantities
+        .iter()
+        .map(|quantity| {
+            let mut series: BTreeMap<&str, Vec<(f64, f64)>> = BTreeMap::new();
+            for row in own.iter().filter(|r| r.quantity == **quantity) {
+                let day = (row.night - first).get_days();
+                let points = series.entry(&row.run).or_default();
+                points.push((f64::from(day), row.value));
+            }
+            let markers = [
+                Marker::Circle,
+                Marker::Square,
+                Marker::Triangle,
+                Marker::Diamond,
+            ];
+            Chart {
+                title: (*quantity).to_owned(),
+                x_label: format!("days since {first}"),
+                y_label: match *quantity {
+                    COST => "CPU time of all runs (s)".to_owned(),
+                    q if q.starts_with(ORDER) => "order".to_owned(),
+                    _ => "|error| at the finest level".to_owned(),
+                },
+                x_scale: Scale::Linear,
+                y_scale: Scale::Linear,
+                series: series
+                    .into_iter()
+                    .enumerate()
+                    .map(|(k, (name, points))| Series {
+                        name: name.to_owned(),
+                        points,
+                        colour: k,
+                        marker: markers[k / 8 % markers.len()],
+                        dash: Dash::Solid,
+                    })
+                    .collect(),
+                reference_lines: Vec::new(),
+                slope_triangle: None,
+                x_range: None,
+                y_range: None,
+            }
+        })
+        .collect();
+    let file = format!("{}/trends.png", study.case);
+    draw_charts(&out.join(&file), &charts, 2)?;
+    Ok(Some(Picture {
+        file,
+        caption: format!(
+            "{}: errors, orders and cost, night by night (data: {FILE}).",
+            study.case
+        ),
+    }))
+}

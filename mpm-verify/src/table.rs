@@ -1,0 +1,175 @@
+//! CSV tables of numbers.
+
+use crate::error::Error;
+use crate::files::write_csv;
+use std::path::Path;
+
+/// A table of numbers with named columns, all of the same length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    header: Vec<String>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// A table of one row, of (name, value).
+    #[must_use]
+    pub fn of_row(cells: Vec<(String, f64)>) -> Self {
+        let (header, values): (Vec<String>, Vec<f64>) = cells.into_iter().unzip();
+        Self {
+            header,
+            columns: values.into_iter().map(|v| vec![v]).collect(),
+        }
+    }
+
+    /// Reads a CSV file whose cells are all numbers.
+    ///
+    /// # Errors
+    /// The file is missing, not UTF-8, has rows of different lengths or a cell that is no number.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let mut reader = csv::Reader::from_path(path).map_err(|e| Error::file(path, e))?;
+        let header: Vec<String> = reader
+            .headers()
+            .map_err(|e| Error::file(path, e))?
+            .iter()
+            .map(str::to_owned)
+            .collect();
+        let mut columns = vec![Vec::new(); header.len()];
+        for row in reader.deserialize::<Vec<f64>>() {
+            let row = row.map_err(|e| Error::file(path, e))?;
+            for (column, value) in columns.iter_mut().zip(row) {
+                column.push(value);
+            }
+        }
+        Ok(Self { header, columns })
+    }
+
+    /// Reads a table whose numbers must all be finite.
+    ///
+    /// # Errors
+    /// Those of [`Table::read`], a column that is there twice, and a cell that is NaN or infinite.
+    pub fn read_finite(path: &Path) -> Result<Self, Error> {
+        let table = Self::read(path)?;
+        for (k, (name, values)) in table.iter().enumerate() {
+            if table.header[..k].iter().any(|h| h == name) {
+                return Err(Error::file(path, format!("column {name} is there twice")));
+            }
+            if let Some(row) = values.iter().position(|v| !v.is_finite()) {
+                let cause = format!("column {name}, row {}: {}", row + 1, values[row]);
+                return Err(Error::file(path, cause));
+            }
+        }
+        Ok(table)
+    }
+
+    /// Writes the table as CSV; every number reads back as it was.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        let row = |k: usize| self.columns.iter().map(|c| c[k].to_string()).collect();
+        write_csv(path, &self.header, (0..self.rows()).map(row))
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// The columns with their names and units.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        let values = self.columns.iter().map(Vec::as_slice);
+        self.header.iter().map(String::as_str).zip(values)
+    }
+
+    /// The column named `header`, unit included.
+    #[must_use]
+    pub fn get(&self, header: &str) -> Option<&[f64]> {
+        self.iter().find(|(h, _)| *h == header).map(|(_, v)| v)
+    }
+
+    /// The column whose name, before its unit, is `name`; empty if there is none.
+    #[must_use]
+    pub fn column(&self, name: &str) -> &[f64] {
+        self.iter()
+            .find(|(h, _)| h.split(" (").next() == Some(name))
+            .map_or(&[], |(_, values)| values)
+    }
+
+    /// Two columns as points.
+    #[must_use]
+    pub fn points(&self, x: &str, y: &str) -> Vec<(f64, f64)> {
+        let ys = self.column(y).iter().copied();
+        self.column(x).iter().copied().zip(ys).collect()
+    }
+
+    /// The rows whose values in the first column are those of `keys`, in that order.
+    ///
+    /// # Errors
+    /// The first key that is not there.
+    pub fn at(&self, keys: &[f64]) -> Result<Self, f64> {
+        let first = self.columns.first().map_or(&[][..], Vec::as_slice);
+        let rows = keys
+            .iter()
+            .map(|key| first.iter().position(|v| v == key).ok_or(*key))
+            .collect::<Result<Vec<usize>, f64>>()?;
+        Ok(Self {
+            header: self.header.clone(),
+            columns: self
+                .columns
+                .iter()
+                .map(|c| rows.iter().map(|&k| c[k]).collect())
+                .collect(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(text: &[u8]) -> tempfile::NamedTempFile {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        file
+    }
+
+    #[test]
+    fn columns_are_found_by_name_and_bad_cells_are_errors() {
+        let good = file(b"time (s),u (m)\n0,1\n0.5,2\n");
+        let table = Table::read(good.path()).unwrap();
+        assert_eq!(table.points("time", "u"), [(0.0, 1.0), (0.5, 2.0)]);
+        assert!(table.column("v").is_empty());
+        for bad in [&b"time (s),u (m)\n0,x\n"[..], b"time (s),u (m)\n0\n"] {
+            assert!(Table::read(file(bad).path()).is_err());
+        }
+    }
+
+    #[test]
+    fn every_defect_of_a_table_that_must_be_finite_is_named() {
+        for (text, needle) in [
+            (&b"t,u\n0,NaN\n"[..], "column u, row 1: NaN"),
+            (b"t,u\n0,1\n1,inf\n", "column u, row 2: inf"),
+            (b"t,t\n0,1\n", "t is there twice"),
+            (b"t,u\n0,\xff\n", "UTF-8"),
+            (b"t,\xff\n0,1\n", "UTF-8"),
+            (b"t,u\n0,1\n2\n", "found record with 1 fields"),
+        ] {
+            let error = Table::read_finite(file(text).path())
+                .unwrap_err()
+                .to_string();
+            assert!(
+                error.to_lowercase().contains(&needle.to_lowercase()),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn rows_are_found_by_their_key() {
+        let table = Table::read(file(b"t,u\n0,1\n0.5,2\n1,3\n").path()).unwrap();
+        assert_eq!(table.at(&[0.0, 1.0]).unwrap().column("u"), [1.0, 3.0]);
+        assert_eq!(table.at(&[0.0, 0.7]), Err(0.7));
+    }
+}
