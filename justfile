@@ -12,13 +12,22 @@ test:
 verify tier="pr":
     cargo run --release -- verify --tier {{tier}}
 
+# Accept drift of a case, after `just verify`: just bless cook "why the results have changed"
+bless case reason:
+    cargo run --release -- bless {{case}} --reason "{{reason}}"
+
+# Pictures, tables and pages of a folder again, without simulating.
+report folder="reports/latest":
+    cargo run --release -- report {{folder}}
+
 # Time per particle of the kernels.
 bench:
     cargo bench -p mpm-core --bench kernels
 
-# The nightly tier, into the folder that is committed.
+# The nightly tier; its report goes into the folder that is committed.
 nightly:
-    cargo run --release -- verify --tier nightly --out reports/nightly
+    cargo run --release -- verify --tier nightly --resume --out reports/night
+    cargo run --release -- report reports/night --out reports/nightly --night "$(date -u +%F)" --commit "$(git rev-parse HEAD)"
 
 # Break the solver on purpose and see named checks go red.
 mutants:

@@ -136,6 +136,7 @@ fn build_and_run(copy: &Path, arguments: &[&str]) -> (i32, String) {
     );
     let output = Command::new(target.join("mutant/mpm-verify"))
         .args(arguments)
+        .current_dir(copy)
         .output()
         .unwrap();
     (
@@ -143,6 +144,18 @@ fn build_and_run(copy: &Path, arguments: &[&str]) -> (i32, String) {
         String::from_utf8_lossy(&output.stdout).into_owned(),
     )
 }
+
+/// A constant that is off by a millionth: no check against the truth can see it, the goldens do.
+const DRIFT: Fault = Fault {
+    name: "the neo-Hookean pressure is a millionth too large",
+    file: "mpm-core/src/material/neo_hookean.rs",
+    sound: "self.lambda * 0.5 * squared_jacobian.ln()",
+    broken: "self.lambda * 0.500_000_5 * squared_jacobian.ln()",
+    run: &[
+        "verify", "--tier", "quick", "--golden", "golden", "--out", "report",
+    ],
+    check: "golden",
+};
 
 #[test]
 fn every_seeded_fault_turns_a_named_check_red() {
@@ -180,6 +193,17 @@ fn every_seeded_fault_turns_a_named_check_red() {
                 fault.name, fault.check
             ));
         }
+    }
+    // A shift of rounding is no fault: what is sound holds against the goldens, in a build of its own.
+    copy_tree(&source.join("golden"), &copy.join("golden"));
+    let (code, text) = build_and_run(copy, DRIFT.run);
+    assert_eq!(code, 0, "the sound program must hold: {text}");
+    let path = copy.join(DRIFT.file);
+    let sound = fs::read_to_string(&path).unwrap();
+    fs::write(&path, sound.replace(DRIFT.sound, DRIFT.broken)).unwrap();
+    let (code, text) = build_and_run(copy, DRIFT.run);
+    if sound.matches(DRIFT.sound).count() != 1 || code != 3 || !text.contains("[DRIFT]") {
+        survivors.push(format!("{} (exit code {code}, not 3):\n{text}", DRIFT.name));
     }
     assert!(survivors.is_empty(), "survived:\n{}", survivors.join("\n"));
 }

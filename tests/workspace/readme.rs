@@ -1,5 +1,7 @@
 //! The README tells the truth: its commands are those that continuous integration runs.
 
+use super::{code, copy_tree, golden, quick, stderr, stdout, text};
+
 fn read(file: &str) -> String {
     let path = format!("{}/../{file}", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(&path).unwrap()
@@ -24,6 +26,55 @@ fn the_commands_of_the_readme_are_run_by_continuous_integration() {
     }
 }
 
+/// What stands under "More": each command is run as it stands, in a folder of its own.
+#[test]
+fn every_command_of_the_readme_works() {
+    let readme = read("README.md");
+    let folder = tempfile::tempdir().unwrap();
+    let [report, goldens] = ["report", "golden"].map(|name| folder.path().join(name));
+    copy_tree(quick().0, &report);
+    copy_tree(&golden(), &goldens);
+    let place = text(&report);
+    let commands: Vec<&str> = readme
+        .lines()
+        .filter_map(|line| line.strip_prefix("mpm-verify "))
+        .map(|line| line.split('#').next().unwrap().trim())
+        .collect();
+    assert!(commands.len() >= 7, "{commands:?}");
+    for command in commands {
+        let mut words: Vec<&str> = Vec::new();
+        for (k, part) in command.split('"').enumerate() {
+            if k % 2 == 1 {
+                words.push(part);
+            } else {
+                words.extend(part.split_whitespace());
+            }
+        }
+        let words = words.into_iter().map(|word| match word {
+            "DIR" | "OLD" | "NEW" => place,
+            // The level of the example takes ten times as long.
+            "h1" => "h2",
+            word => word,
+        });
+        let mut arguments: Vec<&str> = words.collect();
+        if arguments[0] == "bless" {
+            arguments.extend(["--from", place]);
+        }
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_mpm-verify"))
+            .args(&arguments)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert_eq!(
+            code(&output),
+            0,
+            "{command}: {}{}",
+            stdout(&output),
+            stderr(&output)
+        );
+    }
+}
+
 #[test]
 fn every_link_of_the_documents_leads_somewhere() {
     for file in [
@@ -31,6 +82,9 @@ fn every_link_of_the_documents_leads_somewhere() {
         "ARCHITECTURE.md",
         "docs/method.md",
         "docs/cook.md",
+        "docs/verification.md",
+        "docs/continuous.md",
+        "golden/README.md",
     ] {
         let text = read(file);
         let folder = std::path::Path::new(file).parent().unwrap();
