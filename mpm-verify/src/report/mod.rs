@@ -2,9 +2,12 @@
 //!
 //! Everything here is made from records and CSV files on disk, never from a running simulation.
 
+mod convergence;
 mod cook;
 pub mod describe;
+mod junit;
 pub mod plot;
+mod style;
 mod summary;
 mod table;
 
@@ -12,7 +15,7 @@ use crate::error::Error;
 use crate::study::Summary;
 use std::path::Path;
 
-/// Writes the pictures of every case, the CSV of everything plotted, and `summary.md`.
+/// Writes the pictures of every case, the CSV of everything plotted, `summary.md` and `junit.xml`.
 ///
 /// # Errors
 /// A record's files can't be read, or a picture can't be written.
@@ -22,8 +25,10 @@ pub fn write_report(summary: &Summary, out: &Path) -> Result<(), Error> {
         if study.case == "cook" {
             pictures.extend(cook::draw(study, out)?);
         }
+        pictures.extend(convergence::draw(study, out)?);
     }
-    summary::write(summary, &pictures, out)
+    summary::write(summary, &pictures, out)?;
+    junit::write(summary, out)
 }
 
 /// A picture of the report.
