@@ -5,8 +5,10 @@
 mod convergence;
 mod cook;
 pub mod describe;
+mod html;
 mod junit;
 pub mod plot;
+mod sketch;
 mod style;
 mod summary;
 mod table;
@@ -15,7 +17,8 @@ use crate::error::Error;
 use crate::study::Summary;
 use std::path::Path;
 
-/// Writes the pictures of every case, the CSV of everything plotted, `summary.md` and `junit.xml`.
+/// Writes the pictures of every case, the CSV of everything plotted, `summary.md`, `junit.xml` and the
+/// pages: `index.html` and one per case.
 ///
 /// # Errors
 /// A record's files can't be read, or a picture can't be written.
@@ -28,7 +31,8 @@ pub fn write_report(summary: &Summary, out: &Path) -> Result<(), Error> {
         pictures.extend(convergence::draw(study, out)?);
     }
     summary::write(summary, &pictures, out)?;
-    junit::write(summary, out)
+    junit::write(summary, out)?;
+    html::write(summary, &pictures, out)
 }
 
 /// A picture of the report.
