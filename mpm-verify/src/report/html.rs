@@ -9,7 +9,9 @@ use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::{Record, Status};
+use crate::scheme::Scheme;
 use crate::study::{CaseStudy, Summary};
+use minijinja::syntax::SyntaxConfig;
 use minijinja::{Environment, UndefinedBehavior, Value, context};
 use std::path::Path;
 
@@ -39,6 +41,12 @@ pub(super) fn write(summary: &Summary, pictures: &[Picture], out: &Path) -> Resu
 fn render(template: &str, context: Value) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.set_syntax(
+        SyntaxConfig::builder()
+            .trim_blocks(true)
+            .lstrip_blocks(true)
+            .build()?,
+    );
     for (name, source) in TEMPLATES {
         environment.add_template(name, source)?;
     }
@@ -68,7 +76,7 @@ fn index(summary: &Summary, pictures: &[Picture]) -> Result<Value, Error> {
     let machines = records().map(|r| {
         let m = &r.machine;
         format!(
-            "{} {}, {} cores, {} per run",
+            "{} {}, {} cores, threads per run: {}",
             m.os, m.arch, m.cores, m.threads
         )
     });
@@ -121,35 +129,40 @@ fn index(summary: &Summary, pictures: &[Picture]) -> Result<Value, Error> {
 /// A case on the index: schemes over levels, at its own parameters and at others.
 fn overview(study: &CaseStudy) -> Result<Value, Error> {
     let case = cases::find(&study.case)?;
-    let row = |(scheme, set): (String, Vec<String>)| {
-        let cell = |level: &str| {
-            let run = study
-                .records
-                .iter()
-                .find(|r| r.scheme().to_string() == scheme && r.level == level && r.set == set);
-            match run {
-                Some(r) => context! { href => link(study, r), outcome => outcome_of_run(r) },
-                None => context! { href => () },
-            }
-        };
-        let cells: Vec<Value> = case.levels().iter().map(|l| cell(l.name)).collect();
-        context! { cells, set => set.join(" "), scheme }
-    };
-    let own = case
-        .schemes()
-        .into_iter()
-        .map(|s| row((s.to_string(), Vec::new())));
-    let changed = study.records.iter().filter(|r| !r.is_default());
-    let changed = distinct(changed.map(|r| (r.scheme().to_string(), r.set.clone())));
+    let own = case.levels().iter().map(|l| (l.name, &[][..])).collect();
+    let changed = || study.records.iter().filter(|r| !r.is_default());
+    let all = case.schemes();
+    let some = |s: &&Scheme| changed().any(|r| r.scheme() == **s);
+    let schemes: Vec<Scheme> = all.iter().filter(some).copied().collect();
+    let mut columns = distinct(changed().map(|r| (&*r.level, &*r.set)));
+    columns.sort_by_key(|(level, _)| case.levels().iter().position(|l| l.name == *level));
     Ok(context! {
         name => case.name(),
         title => case.title(),
         page => file_of(study),
-        levels => case.levels().iter().map(|l| l.name).collect::<Vec<_>>(),
-        own => own.collect::<Vec<_>>(),
-        changed => changed.into_iter().map(row).collect::<Vec<_>>(),
+        own => matrix(study, &all, own),
+        changed => matrix(study, &schemes, columns),
         together => (!study.verdicts.is_empty()).then(|| outcome_of(&study.verdicts, 0)),
     })
+}
+
+/// The outcome of every scheme at every level with its changed parameters; nothing if there are none.
+fn matrix(study: &CaseStudy, schemes: &[Scheme], columns: Vec<(&str, &[String])>) -> Value {
+    let cell = |scheme: Scheme, (level, set): &(&str, &[String])| {
+        let same = |r: &&Record| r.scheme() == scheme && r.level == *level && r.set == *set;
+        study.records.iter().find(same).map(|r| {
+            context! { href => link(study, r), outcome => outcome_of_run(r) }
+        })
+    };
+    let row = |scheme: &Scheme| {
+        let cells: Vec<_> = columns.iter().map(|c| cell(*scheme, c)).collect();
+        context! { scheme => scheme.to_string(), cells }
+    };
+    let head = |(level, set): &(&str, &[String])| context! { level => *level, set => set.to_vec() };
+    context! {
+        columns => columns.iter().map(head).collect::<Vec<_>>(),
+        rows => schemes.iter().map(row).collect::<Vec<_>>(),
+    }
 }
 
 fn case_page(case: &dyn Case, study: &CaseStudy, tier: &str, pictures: &[Picture]) -> Value {
@@ -407,4 +420,100 @@ fn grouped(count: u64) -> String {
         text.push(digit);
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture::{NASTY, summary};
+    use quick_xml::escape::unescape;
+    use quick_xml::events::Event;
+
+    fn pages(summary: &Summary, pictures: &[Picture]) -> [String; 2] {
+        let folder = tempfile::tempdir().unwrap();
+        write(summary, pictures, folder.path()).unwrap();
+        ["index.html", "cook.html"]
+            .map(|file| std::fs::read_to_string(folder.path().join(file)).unwrap())
+    }
+
+    /// Names, ids and targets of links of a page, which must be well formed.
+    fn elements(page: &str) -> (Vec<String>, Vec<String>, Vec<String>) {
+        let (mut names, mut ids, mut targets) = (Vec::new(), Vec::new(), Vec::new());
+        let mut reader = quick_xml::Reader::from_str(page);
+        loop {
+            match reader.read_event().unwrap() {
+                Event::Start(e) | Event::Empty(e) => {
+                    names.push(e.name().as_ref().to_owned());
+                    for attribute in e.attributes() {
+                        let attribute = attribute.unwrap();
+                        let value = unescape(&attribute.value).unwrap().into_owned();
+                        match attribute.key.as_ref() {
+                            "id" => ids.push(value),
+                            "href" => targets.push(value),
+                            _ => {}
+                        }
+                    }
+                }
+                Event::Eof => return (names, ids, targets),
+                _ => {}
+            }
+        }
+    }
+
+    #[test]
+    fn no_text_breaks_a_page() {
+        let picture = Picture {
+            file: "trends.png".to_owned(),
+            caption: NASTY.to_owned(),
+        };
+        for page in pages(&summary(), &[picture]) {
+            assert!(page.contains("&lt;script&gt;"));
+            let (names, ..) = elements(&page);
+            assert!(!names.iter().any(|n| n == "script"));
+        }
+    }
+
+    #[test]
+    fn every_link_to_a_run_has_its_target_once() {
+        let [index, case] = pages(&summary(), &[]);
+        let ((_, _, targets), (_, ids, own)) = (elements(&index), elements(&case));
+        let anchors = targets.iter().filter_map(|t| t.strip_prefix("cook.html#"));
+        let anchors: Vec<&str> = anchors
+            .chain(own.iter().filter_map(|t| t.strip_prefix('#')))
+            .collect();
+        assert!(anchors.iter().filter(|a| a.starts_with("run-")).count() > 4);
+        for anchor in anchors {
+            assert_eq!(ids.iter().filter(|id| *id == anchor).count(), 1, "{anchor}");
+        }
+    }
+
+    #[test]
+    fn the_matrix_tells_what_broke_what_failed_and_what_was_not_run() {
+        let [index, case] = pages(&summary(), &[]);
+        for word in ["⚠ broke down", "✗ 1 failed", "not run"] {
+            assert!(index.contains(word), "{word}");
+        }
+        assert_eq!(case.matches("<details open=\"\">").count(), 2);
+        assert_eq!(case.matches("<details>").count(), 1);
+    }
+
+    #[test]
+    fn pictures_lie_on_the_page_of_their_case() {
+        let picture = |file: &str| Picture {
+            file: file.to_owned(),
+            caption: String::new(),
+        };
+        let pictures = [picture("trends.png"), picture("cook/rest.png")];
+        let [index, case] = pages(&summary(), &pictures);
+        assert!(index.contains("trends.png") && !index.contains("rest.png"));
+        assert!(case.contains("rest.png") && !case.contains("trends.png"));
+    }
+
+    #[test]
+    fn counts_are_grouped() {
+        assert_eq!(
+            [0, 999, 1000, 1_234_567].map(grouped),
+            ["0", "999", "1\u{2009}000", "1\u{2009}234\u{2009}567"]
+        );
+    }
 }

@@ -89,3 +89,46 @@ fn broke_down(failure: &Failure) -> TestCaseStatus {
         .set_message(&*failure.message);
     status
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture::{NASTY, summary};
+    use quick_xml::escape::unescape;
+    use quick_xml::events::Event;
+
+    #[test]
+    fn it_reads_back_with_every_verdict_and_its_outcome() {
+        let summary = summary();
+        let text = text(&summary).unwrap();
+        let mut reader = quick_xml::Reader::from_str(&text);
+        let (mut tests, mut failures, mut errors, mut skipped) = (0, 0, 0, 0);
+        let mut messages = Vec::new();
+        loop {
+            match reader.read_event().unwrap() {
+                Event::Start(e) | Event::Empty(e) => {
+                    *match e.name().as_ref() {
+                        "testcase" => &mut tests,
+                        "failure" => &mut failures,
+                        "error" => &mut errors,
+                        "skipped" => &mut skipped,
+                        _ => continue,
+                    } += 1;
+                    if let Some(message) = e.try_get_attribute("message").unwrap() {
+                        messages.push(unescape(&message.value).unwrap().into_owned());
+                    }
+                }
+                Event::Eof => break,
+                _ => {}
+            }
+        }
+        assert_eq!(tests, summary.verdicts().count());
+        assert_eq!((failures, errors, skipped), (1, 1, 1));
+        assert!(messages.iter().all(|m| m.contains(NASTY)), "{messages:?}");
+    }
+
+    #[test]
+    fn the_same_summary_gives_the_same_text() {
+        assert_eq!(text(&summary()).unwrap(), text(&summary()).unwrap());
+    }
+}

@@ -5,6 +5,8 @@
 mod convergence;
 mod cook;
 pub mod describe;
+#[cfg(test)]
+mod fixture;
 mod html;
 mod junit;
 pub mod plot;

@@ -332,8 +332,8 @@ mod tests {
         svg(&crate::cases::find("cook").unwrap().sketch(), "Cook")
     }
 
-    /// Frames of the texts of a picture, as its own layout sees them.
-    fn numbers(element: &str, name: &str) -> f64 {
+    /// An attribute of an element.
+    fn number(element: &str, name: &str) -> f64 {
         let after = element.split(&format!(" {name}=\"")).nth(1).unwrap();
         after.split('"').next().unwrap().parse().unwrap()
     }
@@ -353,10 +353,10 @@ mod tests {
     #[test]
     fn the_clamp_of_cook_is_hatched_outside_the_body() {
         let text = cook();
-        let hatch = text.lines().filter(|l| {
-            l.starts_with("<line") && numbers(l, "x1") == 0.0 && numbers(l, "x2") != 0.0
-        });
-        let ends: Vec<f64> = hatch.map(|l| numbers(l, "x2")).collect();
+        let hatch = text
+            .lines()
+            .filter(|l| l.starts_with("<line") && number(l, "x1") == 0.0 && number(l, "x2") != 0.0);
+        let ends: Vec<f64> = hatch.map(|l| number(l, "x2")).collect();
         assert!(ends.len() > 10 && ends.iter().all(|x| *x < 0.0), "{ends:?}");
     }
 
@@ -372,7 +372,7 @@ mod tests {
                     .split('<')
                     .map(|part| part.split_once('>').map_or(part, |p| p.1))
                     .collect::<String>();
-                let middle = [numbers(l, "x"), numbers(l, "y") - 0.35 * FONT];
+                let middle = [number(l, "x"), number(l, "y") - 0.35 * FONT];
                 (Frame::around(middle, text_width(&glyphs), FONT), label)
             })
             .collect();
@@ -382,7 +382,7 @@ mod tests {
                 assert!(!frame.overlaps(other), "{label} on {second}");
             }
             for line in text.lines().filter(|l| l.starts_with("<line")) {
-                let [x1, y1, x2, y2] = ["x1", "y1", "x2", "y2"].map(|n| numbers(line, n));
+                let [x1, y1, x2, y2] = ["x1", "y1", "x2", "y2"].map(|n| number(line, n));
                 assert!(
                     !frame.is_crossed(&[[x1, y1], [x2, y2]]),
                     "{label} on {line}"
@@ -418,6 +418,6 @@ mod tests {
                 _ => {}
             }
         }
-        assert!(!names.iter().any(|n| n == b"script"));
+        assert!(!names.iter().any(|n| n == "script"));
     }
 }
