@@ -2,9 +2,9 @@
 
 use super::Picture;
 use super::plot::{
-    Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Scale, Series, SlopeTriangle,
-    draw_charts, draw_fields,
+    Chart, FieldFigure, FieldPanel, ReferenceLine, Scale, Series, draw_charts, draw_fields,
 };
+use super::style::{Colour, series};
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::record::{Record, Status, of_own_parameters};
@@ -46,7 +46,6 @@ pub(super) fn draw(
     }
     runs.displacement()?;
     runs.rest()?;
-    runs.errors()?;
     Ok(runs.pictures)
 }
 
@@ -56,31 +55,6 @@ fn basis_title(basis: BasisName) -> &'static str {
         BasisName::Gimp => "GIMP",
         BasisName::Bspline2 => "quadratic B-splines",
         BasisName::Bspline3 => "cubic B-splines",
-    }
-}
-
-/// Colour by basis, marker and line by remedy.
-fn series(scheme: Scheme, points: Vec<(f64, f64)>, markers: bool) -> Series {
-    // Total and rate nearly coincide: the dashed line and the hollow marker let the other show.
-    let (marker, dash) = match scheme.remedy {
-        RemedyName::None => (Marker::Cross, Dash::Dotted),
-        RemedyName::FbarRecursive => (Marker::Triangle, Dash::Solid),
-        RemedyName::FbarTotal => (Marker::Square, Dash::Solid),
-        RemedyName::FbarRate => (Marker::Circle, Dash::Dashed),
-    };
-    let remedy_colour = match scheme.remedy {
-        RemedyName::None => 6,
-        RemedyName::FbarRecursive => 1,
-        RemedyName::FbarTotal => 2,
-        RemedyName::FbarRate => 0,
-    };
-    let basis_colour = BASES.iter().position(|b| *b == scheme.basis).unwrap_or(0);
-    Series {
-        name: format!("{} {}", scheme.basis, scheme.remedy),
-        points,
-        colour: if markers { basis_colour } else { remedy_colour },
-        marker: if markers { marker } else { Marker::None },
-        dash,
     }
 }
 
@@ -114,7 +88,7 @@ impl Runs<'_> {
                     .collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 if !points.is_empty() {
-                    all.push(series(Scheme::flip(basis, remedy), points, true));
+                    all.push(series(Scheme::flip(basis, remedy), points, Colour::Basis));
                 }
             }
         }
@@ -267,10 +241,14 @@ impl Runs<'_> {
             };
             let table = self.table(record, "series.csv")?;
             let scheme = record.scheme();
-            tip.push(series(scheme, table.points("time", "tip_uy"), false));
+            tip.push(series(
+                scheme,
+                table.points("time", "tip_uy"),
+                Colour::Remedy,
+            ));
             if remedy != RemedyName::None {
                 let points = table.points("time", "log_jacobian_gap_rms");
-                gap.push(series(scheme, points, false));
+                gap.push(series(scheme, points, Colour::Remedy));
             }
         }
         let chart = |title: &str, y_label: &str, series| Chart {
@@ -297,81 +275,6 @@ impl Runs<'_> {
             "rest",
             &format!("Approach to rest with GIMP at {level}: the recursive F̄ creeps and never rests, the others stop."),
             &charts,
-        )
-    }
-
-    fn errors(&mut self) -> Result<(), Error> {
-        let at_rest = [
-            RemedyName::None,
-            RemedyName::FbarTotal,
-            RemedyName::FbarRate,
-        ];
-        let chart =
-            |title: &str, x_label: &str, y_label: &str, series: Vec<Series>, slope_triangle| {
-                Chart {
-                    title: title.to_owned(),
-                    x_label: x_label.to_owned(),
-                    y_label: y_label.to_owned(),
-                    x_scale: Scale::Log10,
-                    y_scale: Scale::Log10,
-                    series,
-                    reference_lines: Vec::new(),
-                    slope_triangle,
-                    x_range: None,
-                    y_range: None,
-                }
-            };
-        let displacement = |r: &Record| r.metric("fem_edge_mean_error").abs();
-        let stress = |r: &Record| r.metric("mean_stress_rms_error");
-        let first_order = |at| {
-            Some(SlopeTriangle {
-                slope: 1.0,
-                at,
-                decades: 0.2,
-            })
-        };
-        let (u, s) = ("|relative error| of edge-mean u_y", "rms error of σ_m (Pa)");
-        let against_level = [
-            chart(
-                "Displacement",
-                "cell size h (m)",
-                u,
-                self.over_levels(&at_rest, |r| (r.discretisation.h, displacement(r))),
-                first_order((1.1, 1.2e-3)),
-            ),
-            chart(
-                "Mean normal stress",
-                "cell size h (m)",
-                s,
-                self.over_levels(&at_rest, |r| (r.discretisation.h, stress(r))),
-                first_order((1.1, 2.5e-3)),
-            ),
-        ];
-        let against_cost = [
-            chart(
-                "Displacement",
-                "CPU time (s)",
-                u,
-                self.over_levels(&at_rest, |r| (r.time.cpu_s, displacement(r))),
-                None,
-            ),
-            chart(
-                "Mean normal stress",
-                "CPU time (s)",
-                s,
-                self.over_levels(&at_rest, |r| (r.time.cpu_s, stress(r))),
-                None,
-            ),
-        ];
-        self.charts(
-            "error",
-            "Error against cell size, for the schemes that come to rest.",
-            &against_level,
-        )?;
-        self.charts(
-            "work-precision",
-            "Error against CPU time (one thread), for the schemes that come to rest.",
-            &against_cost,
         )
     }
 }

@@ -2,12 +2,19 @@
 //!
 //! Everything here is made from records and CSV files on disk, never from a running simulation.
 
+mod convergence;
 mod cook;
 pub mod describe;
 pub mod diff;
 mod drift;
+#[cfg(test)]
+mod fixture;
 pub mod history;
+mod html;
+mod junit;
 pub mod plot;
+mod sketch;
+mod style;
 mod summary;
 mod triptych;
 pub mod watched;
@@ -18,9 +25,9 @@ use crate::study::{Gathered, Summary};
 use history::Night;
 use std::path::Path;
 
-/// Writes the pictures of every case, the CSV of everything plotted, `summary.json` and `summary.md`;
-/// what has drifted from its golden below `golden` is drawn beside it. With a night, it enters the
-/// history, and the trends are drawn.
+/// Writes the pictures of every case, the CSV of everything plotted, `summary.json`, `summary.md`,
+/// `junit.xml` and the pages: `index.html` and one per case; what has drifted from its golden below
+/// `golden` is drawn beside it. With a night, it enters the history, and the trends are drawn.
 ///
 /// # Errors
 /// A record's files can't be read, or a picture can't be written.
@@ -36,12 +43,15 @@ pub fn write_report(
         if study.case == "cook" {
             pictures.extend(cook::draw(study, gathered, out)?);
         }
+        pictures.extend(convergence::draw(study, out)?);
     }
     if let Some(night) = night {
         pictures.extend(history::add(summary, night, out)?);
     }
     write_json(&out.join("summary.json"), summary)?;
-    summary::write(summary, &pictures, out)
+    summary::write(summary, &pictures, out)?;
+    junit::write(summary, out)?;
+    html::write(summary, &pictures, out)
 }
 
 /// A picture of the report.

@@ -1,0 +1,209 @@
+//! Convergence and work–precision of every case.
+
+use super::Picture;
+use super::plot::{Chart, Scale, SlopeTriangle, draw_charts};
+use super::style::{Colour, series};
+use crate::case::Quantity;
+use crate::cases;
+use crate::convergence::{Convergence, Point};
+use crate::error::Error;
+use crate::files::{write_csv, write_json};
+use crate::scheme::Scheme;
+use crate::study::CaseStudy;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Room between a slope triangle and the curves above it, as a ratio of errors.
+const CLEARANCE: f64 = 1.3;
+/// Width of a slope triangle, as a share of that of the curves.
+const SHARE: f64 = 0.22;
+
+/// Writes the numbers of the study and draws every error against cell size and against cost.
+pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error> {
+    let folder = out.join(&study.case);
+    write_json(&folder.join("study.json"), &study.convergence)?;
+    write_points(&study.convergence, &folder.join("convergence.csv"))?;
+
+    let errors = Errors {
+        entries: study.convergence.iter().filter(|c| c.is_error).collect(),
+        quantities: cases::find(&study.case)?.quantities(),
+    };
+    let against_size = errors.charts("cell size h (m)", |p| p.h, true);
+    let cpu = errors.charts("CPU time (s)", |p| p.cpu_s, false);
+    let pairs = errors.charts(
+        "particle–node pairs",
+        |p| p.particle_node_pairs as f64,
+        false,
+    );
+    let against_cost: Vec<Chart> = cpu
+        .into_iter()
+        .zip(pairs)
+        .flat_map(<[_; 2]>::from)
+        .collect();
+    let mut pictures = Vec::new();
+    for (name, charts, caption) in [
+        (
+            "convergence",
+            against_size,
+            "Error against cell size, for every scheme, converging or not. Both axes are logarithmic; the triangle shows an order.",
+        ),
+        (
+            "work-precision",
+            against_cost,
+            "Error against its cost, in CPU time (one thread) and in particle–node pairs visited, for every scheme, converging or not.",
+        ),
+    ] {
+        if !charts.is_empty() {
+            let file = format!("{}/{name}.png", study.case);
+            draw_charts(&out.join(&file), &charts, 2)?;
+            let caption = caption.to_owned();
+            pictures.push(Picture { file, caption });
+        }
+    }
+    Ok(pictures)
+}
+
+fn write_points(convergence: &[Convergence], path: &Path) -> Result<(), Error> {
+    let header = [
+        "quantity",
+        "scheme",
+        "level",
+        "set",
+        "h (m)",
+        "value",
+        "cpu_s (s)",
+        "particle_node_pairs",
+    ];
+    let rows = convergence.iter().flat_map(|c| {
+        c.points.iter().map(|p| {
+            vec![
+                c.metric.clone(),
+                c.scheme.to_string(),
+                p.level.clone(),
+                p.set.join(" "),
+                p.h.to_string(),
+                p.value.to_string(),
+                p.cpu_s.to_string(),
+                p.particle_node_pairs.to_string(),
+            ]
+        })
+    });
+    write_csv(path, &header.map(str::to_owned), rows)
+}
+
+struct Errors<'a> {
+    entries: Vec<&'a Convergence>,
+    quantities: &'a [Quantity],
+}
+
+impl Errors<'_> {
+    /// One chart per error that has something to show, all with the same schemes and so one legend.
+    fn charts(&self, x_label: &str, abscissa: fn(&Point) -> f64, triangle: bool) -> Vec<Chart> {
+        let schemes: BTreeSet<Scheme> = self.entries.iter().map(|c| c.scheme).collect();
+        let chart = |quantity: &Quantity| {
+            let of_quantity = || self.entries.iter().filter(|c| c.metric == quantity.metric);
+            let curve = |scheme: &Scheme| {
+                let points = of_quantity()
+                    .filter(|c| c.scheme == *scheme)
+                    .flat_map(|c| &c.points)
+                    .map(|p| (abscissa(p), p.value.abs()))
+                    // An error of zero has no logarithm.
+                    .filter(|(x, y)| *x > 0.0 && *y > 0.0);
+                series(*scheme, points.collect(), Colour::Basis)
+            };
+            let signed = of_quantity().any(|c| c.points.iter().any(|p| p.value < 0.0));
+            let series: Vec<_> = schemes.iter().map(curve).collect();
+            let orders = of_quantity().filter_map(|c| Some(c.order.as_ref()?.order));
+            let slope_triangle = typical_order(orders.collect())
+                .filter(|_| triangle)
+                .and_then(|slope| below_the_curves(slope, series.iter().map(|s| &s.points[..])));
+            Chart {
+                title: String::new(),
+                x_label: x_label.to_owned(),
+                y_label: if signed {
+                    format!("|{}|", quantity.label)
+                } else {
+                    quantity.label.to_owned()
+                },
+                x_scale: Scale::Log10,
+                y_scale: Scale::Log10,
+                series,
+                reference_lines: Vec::new(),
+                slope_triangle,
+                x_range: None,
+                y_range: None,
+            }
+        };
+        let shown = |c: &Chart| c.series.iter().any(|s| !s.points.is_empty());
+        self.quantities.iter().map(chart).filter(shown).collect()
+    }
+}
+
+/// The median of observed orders as a whole number, at least one.
+fn typical_order(mut orders: Vec<f64>) -> Option<f64> {
+    orders.sort_by(f64::total_cmp);
+    let median = orders.get(orders.len() / 2)?;
+    Some(median.round().max(1.0))
+}
+
+/// A triangle at the right end, below every curve that passes there.
+fn below_the_curves<'a>(
+    slope: f64,
+    curves: impl Iterator<Item = &'a [(f64, f64)]> + Clone,
+) -> Option<SlopeTriangle> {
+    let xs = || curves.clone().flatten().map(|p| p.0);
+    let (least, most) = (xs().fold(f64::INFINITY, f64::min), xs().fold(0.0, f64::max));
+    let decades = SHARE * (most / least).log10();
+    if !(decades > 0.0 && decades.is_finite()) {
+        return None;
+    }
+    let left = most / 10f64.powf(decades);
+    let at_left = |pair: &[(f64, f64)]| {
+        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
+        let share = (left / x0).ln() / (x1 / x0).ln();
+        (0.0..=1.0)
+            .contains(&share)
+            .then(|| y0 * (y1 / y0).powf(share))
+    };
+    let crossing = curves
+        .clone()
+        .flat_map(|c| c.windows(2).filter_map(at_left));
+    let inside = curves
+        .clone()
+        .flatten()
+        .filter(|p| p.0 >= left)
+        .map(|p| p.1);
+    let lowest = crossing.chain(inside).fold(f64::INFINITY, f64::min);
+    Some(SlopeTriangle {
+        slope,
+        at: (left, lowest / CLEARANCE / 10f64.powf(slope * decades)),
+        decades,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_triangle_lies_below_all_curves() {
+        let steep = [(1.0, 0.1), (0.5, 0.025), (0.25, 0.006)];
+        let flat = [(1.0, 0.04), (0.25, 0.03)];
+        let triangle = below_the_curves(2.0, [&steep[..], &flat[..]].into_iter()).unwrap();
+        let (left, bottom) = triangle.at;
+        let right = left * 10f64.powf(triangle.decades);
+        let top = bottom * (right / left).powi(2);
+        assert!(
+            (right - 1.0).abs() < 1e-12 && top < 0.04 / 1.2,
+            "{triangle:?}"
+        );
+    }
+
+    #[test]
+    fn one_level_has_no_triangle_and_no_order_no_slope() {
+        assert_eq!(below_the_curves(1.0, [&[(1.0, 0.1)][..]].into_iter()), None);
+        assert_eq!(typical_order(Vec::new()), None);
+        assert_eq!(typical_order(vec![0.2]), Some(1.0));
+        assert_eq!(typical_order(vec![1.8, 2.3, -1.0]), Some(2.0));
+    }
+}

@@ -1,0 +1,63 @@
+//! A small summary with every outcome, and texts that break what does not escape them.
+
+use crate::check::{Kind, Verdict};
+use crate::record::{Failure, Record, Status};
+use crate::study::{CaseStudy, Counts, Summary};
+
+/// Markup, if it is not escaped.
+pub(super) const NASTY: &str = "</td><script>\"'&amp;";
+
+/// One run that passes, one with a failed check and changed parameters, one that broke down.
+pub(super) fn summary() -> Summary {
+    let pass = Verdict::close("at-rest", "at_rest", 1.0, 1.0, 0.0, "");
+    let fail = Verdict::at_most("mid-edge", Kind::Truth, "mid_edge_uy", 2.0, 1.0, NASTY);
+    let skipped = Verdict::not_applicable("tip", "tip_uy", NASTY);
+    let broke = Verdict::close("completes", "run", 0.0, 1.0, 0.0, NASTY);
+    let mut failed = record("h2", vec![pass.clone(), fail]);
+    failed.set = vec!["cfl=0.1".to_owned(), NASTY.to_owned()];
+    let mut broken = record("h0.5", vec![broke]);
+    broken.status = Status::Failed;
+    broken.error = Some(Failure {
+        kind: "inverted".to_owned(),
+        time: 1.0,
+        step: 2,
+        particle: 3,
+        value: None,
+        message: NASTY.to_owned(),
+    });
+    Summary {
+        schema: 1,
+        tier: NASTY.to_owned(),
+        counts: Counts {
+            runs: 3,
+            failed_runs: 1,
+            passed: 2,
+            failed: 2,
+            not_applicable: 1,
+            ..Counts::default()
+        },
+        cases: vec![CaseStudy {
+            case: "cook".to_owned(),
+            records: vec![record("h1", vec![pass.clone(), skipped]), failed, broken],
+            verdicts: vec![pass],
+            convergence: Vec::new(),
+        }],
+    }
+}
+
+fn record(level: &str, verdicts: Vec<Verdict>) -> Record {
+    let record = serde_json::json!({
+        "schema": 1, "case": "cook", "basis": "gimp", "remedy": "none", "transfer": "flip",
+        "level": level, "set": [], "status": "ok", "error": null,
+        "discretisation": {"dim": 2, "h": 1.0, "ppc": 4, "dt": 0.001, "wall": "open-knot"},
+        "parameters": {}, "metrics": {}, "verdicts": verdicts,
+        "work": {
+            "particles": 1, "nodes": 2, "steps": 3, "particle_steps": 4,
+            "particle_node_pairs": 5, "projections": 6, "sorts": 7
+        },
+        "time": {"wall_s": 1.0, "cpu_s": 1.0},
+        "machine": {"os": "linux", "arch": "x86_64", "cores": 2, "threads": 1},
+        "version": {"mpm_verify": "0.1.0", "source": "0123456789ab"},
+    });
+    serde_json::from_value(record).unwrap()
+}

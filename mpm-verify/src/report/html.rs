@@ -1,0 +1,519 @@
+//! The report as a site that needs no server and no script: an index and a page per case.
+
+use super::describe::{headline, kind, number, outcome};
+use super::{Picture, sketch};
+use crate::case::{Case, Quantity};
+use crate::cases;
+use crate::check::{Kind, Verdict};
+use crate::convergence::Convergence;
+use crate::error::Error;
+use crate::files::write_whole;
+use crate::record::{Record, Status};
+use crate::scheme::Scheme;
+use crate::study::{CaseStudy, Summary};
+use minijinja::syntax::SyntaxConfig;
+use minijinja::{Environment, UndefinedBehavior, Value, context};
+use std::path::Path;
+
+const TEMPLATES: [(&str, &str); 5] = [
+    ("style.css", include_str!("../../templates/style.css")),
+    ("page.html", include_str!("../../templates/page.html")),
+    ("parts.html", include_str!("../../templates/parts.html")),
+    ("index.html", include_str!("../../templates/index.html")),
+    ("case.html", include_str!("../../templates/case.html")),
+];
+
+/// Writes `index.html` and the page of every case into `out`.
+pub(super) fn write(summary: &Summary, pictures: &[Picture], out: &Path) -> Result<(), Error> {
+    let page = |file: &str, template: &str, context: Value| {
+        let path = out.join(file);
+        let text = render(template, context).map_err(|e| Error::file(&path, e))?;
+        write_whole(&path, text.as_bytes())
+    };
+    page("index.html", "index.html", index(summary, pictures)?)?;
+    for study in &summary.cases {
+        let context = case_page(cases::find(&study.case)?, study, &summary.tier, pictures);
+        page(&file_of(study), "case.html", context)?;
+    }
+    Ok(())
+}
+
+fn render(template: &str, context: Value) -> Result<String, minijinja::Error> {
+    let mut environment = Environment::new();
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.set_syntax(
+        SyntaxConfig::builder()
+            .trim_blocks(true)
+            .lstrip_blocks(true)
+            .build()?,
+    );
+    for (name, source) in TEMPLATES {
+        environment.add_template(name, source)?;
+    }
+    environment.get_template(template)?.render(context)
+}
+
+fn file_of(study: &CaseStudy) -> String {
+    format!("{}.html", study.case)
+}
+
+/// Pictures whose file lies in `folder`, or, without one, in none.
+fn pictures_in(pictures: &[Picture], folder: Option<&str>) -> Vec<Value> {
+    let lies = |p: &&Picture| p.file.split_once('/').map(|(first, _)| first) == folder;
+    let value = |p: &Picture| context! { file => &p.file, caption => &p.caption };
+    pictures.iter().filter(lies).map(value).collect()
+}
+
+fn index(summary: &Summary, pictures: &[Picture]) -> Result<Value, Error> {
+    let records = || summary.cases.iter().flat_map(|s| &s.records);
+    let programs = records().map(|r| {
+        let version = &r.version;
+        format!(
+            "mpm-verify {}, source {}",
+            version.mpm_verify, version.source
+        )
+    });
+    let machines = records().map(|r| {
+        let m = &r.machine;
+        format!(
+            "{} {}, {} cores, threads per run: {}",
+            m.os, m.arch, m.cores, m.threads
+        )
+    });
+    let broken = summary.cases.iter().flat_map(|study| {
+        study.records.iter().filter_map(|r| {
+            let message = &r.error.as_ref()?.message;
+            Some(context! { href => link(study, r), name => name(r), message })
+        })
+    });
+    let failures = |which: fn(&Verdict) -> bool| {
+        summary
+            .verdicts()
+            .filter(move |(.., v)| which(v))
+            .map(|(study, record, v)| {
+                let (href, name) = match record {
+                    Some(r) => (link(study, r), name(r)),
+                    None => (
+                        format!("{}#together", file_of(study)),
+                        "runs together".into(),
+                    ),
+                };
+                context! { href, name, verdict => verdict(v) }
+            })
+    };
+    let failures = failures(Verdict::misses_the_truth).chain(failures(Verdict::drifts));
+    let cases: Result<Vec<Value>, Error> = summary.cases.iter().map(overview).collect();
+    let c = summary.counts;
+    Ok(context! {
+        tier => &summary.tier,
+        outcome => tally(c.failed_runs, c.failed, c.drifted, c.passed + c.undrifted),
+        counts => context! {
+            runs => c.runs,
+            failed_runs => c.failed_runs,
+            runs_without_truth => c.runs_without_truth,
+            passed => c.passed,
+            failed => c.failed,
+            not_applicable => c.not_applicable,
+            undrifted => c.undrifted,
+            drifted => c.drifted,
+        },
+        programs => distinct(programs),
+        machines => distinct(machines),
+        broken => broken.collect::<Vec<_>>(),
+        failures => failures.collect::<Vec<_>>(),
+        cases => cases?,
+        pictures => pictures_in(pictures, None),
+    })
+}
+
+/// A case on the index: schemes over levels, at its own parameters and at others.
+fn overview(study: &CaseStudy) -> Result<Value, Error> {
+    let case = cases::find(&study.case)?;
+    let own = case.levels().iter().map(|l| (l.name, &[][..])).collect();
+    let changed = || study.records.iter().filter(|r| !r.is_default());
+    let all = case.schemes();
+    let some = |s: &&Scheme| changed().any(|r| r.scheme() == **s);
+    let schemes: Vec<Scheme> = all.iter().filter(some).copied().collect();
+    let mut columns = distinct(changed().map(|r| (&*r.level, &*r.set)));
+    columns.sort_by_key(|(level, _)| case.levels().iter().position(|l| l.name == *level));
+    Ok(context! {
+        name => case.name(),
+        title => case.title(),
+        page => file_of(study),
+        own => matrix(study, &all, own),
+        changed => matrix(study, &schemes, columns),
+        together => (!study.verdicts.is_empty()).then(|| outcome_of(&study.verdicts, 0)),
+    })
+}
+
+/// The outcome of every scheme at every level with its changed parameters; nothing if there are none.
+fn matrix(study: &CaseStudy, schemes: &[Scheme], columns: Vec<(&str, &[String])>) -> Value {
+    let cell = |scheme: Scheme, (level, set): &(&str, &[String])| {
+        let same = |r: &&Record| r.scheme() == scheme && r.level == *level && r.set == *set;
+        study.records.iter().find(same).map(|r| {
+            context! { href => link(study, r), outcome => outcome_of_run(r) }
+        })
+    };
+    let row = |scheme: &Scheme| {
+        let cells: Vec<_> = columns.iter().map(|c| cell(*scheme, c)).collect();
+        context! { scheme => scheme.to_string(), cells }
+    };
+    let head = |(level, set): &(&str, &[String])| context! { level => *level, set => set.to_vec() };
+    context! {
+        columns => columns.iter().map(head).collect::<Vec<_>>(),
+        rows => schemes.iter().map(row).collect::<Vec<_>>(),
+    }
+}
+
+fn case_page(case: &dyn Case, study: &CaseStudy, tier: &str, pictures: &[Picture]) -> Value {
+    let sketch = case.sketch();
+    let parameters = case.parameters().iter().map(|p| {
+        context! {
+            name => p.name, unit => p.unit, default => p.default,
+            allowed => p.domain.to_string(), meaning => p.meaning,
+        }
+    });
+    let levels = case
+        .levels()
+        .iter()
+        .map(|l| context! { name => l.name, h => l.h.to_string() });
+    let metrics = case.metrics().iter();
+    let metrics =
+        metrics.map(|m| context! { name => m.name, unit => m.unit, meaning => m.meaning });
+    let known_limits = case.checks().iter().filter(|c| c.kind == Kind::KnownLimit);
+    let known_limits = known_limits.map(|c| context! { name => c.name, statement => c.statement });
+    let quantities = case
+        .quantities()
+        .iter()
+        .map(|q| quantity(q, &study.convergence));
+    context! {
+        tier,
+        name => case.name(),
+        title => case.title(),
+        description => case.description(),
+        sketch => Value::from_safe_string(sketch::svg(&sketch, case.title())),
+        sketch_caption => sketch.description,
+        parameters => parameters.collect::<Vec<_>>(),
+        schemes => case.schemes().iter().map(ToString::to_string).collect::<Vec<_>>(),
+        levels => levels.collect::<Vec<_>>(),
+        references => case.references(),
+        pictures => pictures_in(pictures, Some(case.name())),
+        headings => case.headlines().iter().map(|h| h.heading).collect::<Vec<_>>(),
+        runs => study.records.iter().map(|r| run(case, r)).collect::<Vec<_>>(),
+        quantities => quantities.flatten().collect::<Vec<_>>(),
+        checks => checks(case, study),
+        together => study.verdicts.iter().map(verdict).collect::<Vec<_>>(),
+        limits => case.limits().to_vec(),
+        known_limits => known_limits.collect::<Vec<_>>(),
+        metrics => metrics.collect::<Vec<_>>(),
+    }
+}
+
+fn run(case: &dyn Case, r: &Record) -> Value {
+    let (d, w) = (&r.discretisation, &r.work);
+    let facts = [
+        ("cell size", format!("{} m", d.h)),
+        ("particles per cell", d.ppc.to_string()),
+        ("time step", format!("{} s", number(Some(d.dt)))),
+        ("splines at walls", d.wall.clone()),
+        ("particles", grouped(w.particles)),
+        ("nodes", grouped(w.nodes)),
+        ("steps", grouped(w.steps)),
+        ("particle steps", grouped(w.particle_steps)),
+        ("particle–node pairs", grouped(w.particle_node_pairs)),
+        ("projections", grouped(w.projections)),
+        ("sorts", grouped(w.sorts)),
+        ("CPU time", format!("{:.1} s", r.time.cpu_s)),
+        ("time by the clock", format!("{:.1} s", r.time.wall_s)),
+    ];
+    let shown = r
+        .verdicts
+        .iter()
+        .filter(|v| v.kind != Kind::Drift || v.failed());
+    let undrifted = r
+        .verdicts
+        .iter()
+        .filter(|v| v.kind == Kind::Drift && v.pass == Some(true));
+    context! {
+        id => anchor(r),
+        name => name(r),
+        scheme => r.scheme().to_string(),
+        level => &r.level,
+        set => r.set.join(" "),
+        outcome => outcome_of_run(r),
+        open => r.status == Status::Failed || r.verdicts.iter().any(Verdict::failed),
+        error => r.error.as_ref().map(|e| &*e.message),
+        headlines => case.headlines().iter().map(|h| headline(r, h)).collect::<Vec<_>>(),
+        cpu => format!("{:.1}", r.time.cpu_s),
+        facts => facts.map(|(name, value)| vec![Value::from(name), Value::from(value)]).to_vec(),
+        verdicts => shown.map(verdict).collect::<Vec<_>>(),
+        undrifted => undrifted.count(),
+    }
+}
+
+fn verdict(v: &Verdict) -> Value {
+    let (class, symbol) = match v.pass {
+        Some(true) => ("pass", "✓"),
+        Some(false) if v.kind == Kind::Drift => ("drift", "≠"),
+        Some(false) => ("fail", "✗"),
+        None => ("none", "–"),
+    };
+    context! {
+        outcome => context! { class, symbol, text => outcome(v) },
+        kind => kind(v.kind),
+        check => &v.check,
+        metric => &v.metric,
+        value => number(v.value),
+        reference => number(v.reference),
+        tolerance => number(v.tolerance),
+        source => &v.source,
+    }
+}
+
+/// The worst that happened, in a word with a symbol and a class that gives its colour.
+fn tally(broken: usize, failed: usize, drifted: usize, held: usize) -> Value {
+    let (class, symbol, text) = if broken > 0 {
+        ("broke", "⚠", "broke down".to_owned())
+    } else if failed > 0 {
+        ("fail", "✗", format!("{failed} failed"))
+    } else if drifted > 0 {
+        ("drift", "≠", format!("{drifted} drifted"))
+    } else if held > 0 {
+        ("pass", "✓", "pass".to_owned())
+    } else {
+        ("none", "–", "nothing applies".to_owned())
+    };
+    context! { class, symbol, text }
+}
+
+fn outcome_of(verdicts: &[Verdict], broken: usize) -> Value {
+    let count = |which: fn(&Verdict) -> bool| verdicts.iter().filter(|v| which(v)).count();
+    let held = count(|v| v.pass == Some(true));
+    tally(
+        broken,
+        count(Verdict::misses_the_truth),
+        count(Verdict::drifts),
+        held,
+    )
+}
+
+fn outcome_of_run(record: &Record) -> Value {
+    outcome_of(
+        &record.verdicts,
+        usize::from(record.status == Status::Failed),
+    )
+}
+
+/// Every check with its outcomes: those that the case declares, then those that every case has.
+fn checks(case: &dyn Case, study: &CaseStudy) -> Vec<Value> {
+    let of_runs = study.records.iter().flat_map(|r| &r.verdicts);
+    let undeclared = of_runs
+        .chain(&study.verdicts)
+        .filter(|v| v.kind != Kind::Drift && !case.checks().iter().any(|c| c.name == v.check));
+    let undeclared = distinct(undeclared.map(|v| (&*v.check, v.kind, &*v.source)));
+    let declared = case.checks().iter().map(|c| (c.name, c.kind, c.statement));
+    let row = |(name, of, statement): (&str, Kind, &str)| {
+        let mut counts = [0, 0, 0];
+        let mut count = |verdicts: &[&Verdict]| {
+            let any = |pass| verdicts.iter().any(|v| v.pass == pass);
+            let worst = [Some(false), Some(true), None].into_iter().position(any);
+            if let Some(k) = worst {
+                counts[k] += 1;
+            }
+        };
+        let named = |v: &&Verdict| v.check == name;
+        for record in &study.records {
+            count(&record.verdicts.iter().filter(named).collect::<Vec<_>>());
+        }
+        for verdict in study.verdicts.iter().filter(named) {
+            count(&[verdict]);
+        }
+        let [fail, pass, none] = counts;
+        context! { name, kind => kind(of), statement, pass, fail, none }
+    };
+    declared.chain(undeclared).map(row).collect()
+}
+
+/// The convergence of a quantity, scheme by scheme, if there is any.
+fn quantity(quantity: &Quantity, convergence: &[Convergence]) -> Option<Value> {
+    let of_quantity = convergence.iter().filter(|c| c.metric == quantity.metric);
+    let schemes: Vec<Value> = of_quantity.map(row_of_convergence).collect();
+    let shown = !schemes.is_empty();
+    shown.then(|| context! { label => quantity.label, metric => quantity.metric, schemes })
+}
+
+fn row_of_convergence(c: &Convergence) -> Value {
+    let dash = || "–".to_owned();
+    let levels = c.points.iter().map(|p| match p.set.join(" ") {
+        set if set.is_empty() => p.level.clone(),
+        set => format!("{} ({set})", p.level),
+    });
+    let order = match (&c.order, &c.extrapolation) {
+        (Some(o), _) => format!("{:.2} ± {:.2}", o.order, o.uncertainty),
+        (None, Some(r)) => format!("{:.2}", r.order),
+        (None, None) => dash(),
+    };
+    let local = c.order.as_ref().map_or_else(dash, |o| {
+        let orders: Vec<String> = o.local.iter().map(|p| format!("{p:.2}")).collect();
+        orders.join(", ")
+    });
+    let extrapolation = c.extrapolation.as_ref();
+    context! {
+        scheme => c.scheme.to_string(),
+        levels => levels.collect::<Vec<_>>().join(", "),
+        order,
+        local,
+        extrapolated => number(extrapolation.map(|r| r.extrapolated)),
+        gci => extrapolation.map_or_else(dash, |r| format!("{:.2} %", 100.0 * r.gci)),
+        remark => c.remark.as_deref().unwrap_or_default(),
+    }
+}
+
+fn name(record: &Record) -> String {
+    let set = record.set.iter().map(|assignment| format!(" {assignment}"));
+    format!(
+        "{} {}{}",
+        record.scheme(),
+        record.level,
+        set.collect::<String>()
+    )
+}
+
+/// The name of a run as the target of a link.
+fn anchor(record: &Record) -> String {
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() || ".=_".contains(c) {
+            c
+        } else {
+            '-'
+        }
+    };
+    format!(
+        "run-{}",
+        name(record).chars().map(plain).collect::<String>()
+    )
+}
+
+fn link(study: &CaseStudy, record: &Record) -> String {
+    format!("{}#{}", file_of(study), anchor(record))
+}
+
+/// Each value once, in order of appearance.
+fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut seen = Vec::new();
+    for value in values {
+        if !seen.contains(&value) {
+            seen.push(value);
+        }
+    }
+    seen
+}
+
+/// A count with its digits in groups of three.
+fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut text = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push('\u{2009}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture::{NASTY, summary};
+    use quick_xml::escape::unescape;
+    use quick_xml::events::Event;
+
+    fn pages(summary: &Summary, pictures: &[Picture]) -> [String; 2] {
+        let folder = tempfile::tempdir().unwrap();
+        write(summary, pictures, folder.path()).unwrap();
+        ["index.html", "cook.html"]
+            .map(|file| std::fs::read_to_string(folder.path().join(file)).unwrap())
+    }
+
+    /// Names, ids and targets of links of a page, which must be well formed.
+    fn elements(page: &str) -> (Vec<String>, Vec<String>, Vec<String>) {
+        let (mut names, mut ids, mut targets) = (Vec::new(), Vec::new(), Vec::new());
+        let mut reader = quick_xml::Reader::from_str(page);
+        loop {
+            match reader.read_event().unwrap() {
+                Event::Start(e) | Event::Empty(e) => {
+                    names.push(e.name().as_ref().to_owned());
+                    for attribute in e.attributes() {
+                        let attribute = attribute.unwrap();
+                        let value = unescape(&attribute.value).unwrap().into_owned();
+                        match attribute.key.as_ref() {
+                            "id" => ids.push(value),
+                            "href" => targets.push(value),
+                            _ => {}
+                        }
+                    }
+                }
+                Event::Eof => return (names, ids, targets),
+                _ => {}
+            }
+        }
+    }
+
+    #[test]
+    fn no_text_breaks_a_page() {
+        let picture = Picture {
+            file: "trends.png".to_owned(),
+            caption: NASTY.to_owned(),
+        };
+        for page in pages(&summary(), &[picture]) {
+            assert!(page.contains("&lt;script&gt;"));
+            let (names, ..) = elements(&page);
+            assert!(!names.iter().any(|n| n == "script"));
+        }
+    }
+
+    #[test]
+    fn every_link_to_a_run_has_its_target_once() {
+        let [index, case] = pages(&summary(), &[]);
+        let ((_, _, targets), (_, ids, own)) = (elements(&index), elements(&case));
+        let anchors = targets.iter().filter_map(|t| t.strip_prefix("cook.html#"));
+        let anchors: Vec<&str> = anchors
+            .chain(own.iter().filter_map(|t| t.strip_prefix('#')))
+            .collect();
+        assert!(anchors.iter().filter(|a| a.starts_with("run-")).count() > 4);
+        for anchor in anchors {
+            assert_eq!(ids.iter().filter(|id| *id == anchor).count(), 1, "{anchor}");
+        }
+    }
+
+    #[test]
+    fn the_matrix_tells_what_broke_what_failed_and_what_was_not_run() {
+        let [index, case] = pages(&summary(), &[]);
+        for word in ["⚠ broke down", "✗ 1 failed", "not run"] {
+            assert!(index.contains(word), "{word}");
+        }
+        assert_eq!(case.matches("<details open=\"\">").count(), 2);
+        assert_eq!(case.matches("<details>").count(), 1);
+    }
+
+    #[test]
+    fn pictures_lie_on_the_page_of_their_case() {
+        let picture = |file: &str| Picture {
+            file: file.to_owned(),
+            caption: String::new(),
+        };
+        let pictures = [picture("trends.png"), picture("cook/rest.png")];
+        let [index, case] = pages(&summary(), &pictures);
+        assert!(index.contains("trends.png") && !index.contains("rest.png"));
+        assert!(case.contains("rest.png") && !case.contains("trends.png"));
+    }
+
+    #[test]
+    fn counts_are_grouped() {
+        assert_eq!(
+            [0, 999, 1000, 1_234_567].map(grouped),
+            ["0", "999", "1\u{2009}000", "1\u{2009}234\u{2009}567"]
+        );
+    }
+}

@@ -1,0 +1,134 @@
+//! The verdicts in the format of JUnit, which continuous integration servers show.
+
+use super::describe::{kind, number};
+use crate::check::Verdict;
+use crate::error::Error;
+use crate::files::write_whole;
+use crate::record::{Failure, Record};
+use crate::study::{CaseStudy, Summary};
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+use std::path::Path;
+use std::time::Duration;
+
+/// Writes `junit.xml` into `out`.
+pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
+    let path = out.join("junit.xml");
+    let text = text(summary).map_err(|e| Error::file(&path, e))?;
+    write_whole(&path, text.as_bytes())
+}
+
+fn text(summary: &Summary) -> Result<String, quick_junit::SerializeError> {
+    let mut report = Report::new("mpm-verify");
+    report.add_test_suites(summary.cases.iter().map(suite));
+    report.to_string()
+}
+
+fn suite(study: &CaseStudy) -> TestSuite {
+    let mut suite = TestSuite::new(&*study.case);
+    for record in &study.records {
+        suite.add_test_cases(of_run(record));
+    }
+    for verdict in &study.verdicts {
+        let mut test = TestCase::new(name(verdict), status(verdict));
+        test.set_classname(format!("{}.runs-together", study.case));
+        suite.add_test_case(test);
+    }
+    suite
+}
+
+/// The time of the run stands at its first test.
+fn of_run(record: &Record) -> Vec<TestCase> {
+    let mut class = format!("{}.{}.{}", record.case, record.scheme(), record.level);
+    for assignment in &record.set {
+        class.push('+');
+        class.push_str(assignment);
+    }
+    let test = |(k, verdict): (usize, &Verdict)| {
+        let status = match &record.error {
+            Some(failure) if verdict.failed() => broke_down(failure),
+            _ => status(verdict),
+        };
+        let mut test = TestCase::new(name(verdict), status);
+        test.set_classname(&*class);
+        let seconds = if k == 0 { record.time.cpu_s } else { 0.0 };
+        test.set_time(Duration::try_from_secs_f64(seconds).unwrap_or_default());
+        test
+    };
+    record.verdicts.iter().enumerate().map(test).collect()
+}
+
+/// A check may judge several metrics of a run.
+fn name(verdict: &Verdict) -> String {
+    format!("{} ({})", verdict.check, verdict.metric)
+}
+
+fn status(verdict: &Verdict) -> TestCaseStatus {
+    let mut status = match verdict.pass {
+        Some(true) => return TestCaseStatus::success(),
+        Some(false) => TestCaseStatus::non_success(NonSuccessKind::Failure),
+        None => TestCaseStatus::skipped(),
+    };
+    if verdict.failed() {
+        status.set_type(kind(verdict.kind)).set_message(format!(
+            "value {}, reference {}, tolerance {}: {}",
+            number(verdict.value),
+            number(verdict.reference),
+            number(verdict.tolerance),
+            verdict.source
+        ));
+    } else {
+        status.set_message(&*verdict.source);
+    }
+    status
+}
+
+fn broke_down(failure: &Failure) -> TestCaseStatus {
+    let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+    status
+        .set_type(&*failure.kind)
+        .set_message(&*failure.message);
+    status
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture::{NASTY, summary};
+    use quick_xml::escape::unescape;
+    use quick_xml::events::Event;
+
+    #[test]
+    fn it_reads_back_with_every_verdict_and_its_outcome() {
+        let summary = summary();
+        let text = text(&summary).unwrap();
+        let mut reader = quick_xml::Reader::from_str(&text);
+        let (mut tests, mut failures, mut errors, mut skipped) = (0, 0, 0, 0);
+        let mut messages = Vec::new();
+        loop {
+            match reader.read_event().unwrap() {
+                Event::Start(e) | Event::Empty(e) => {
+                    *match e.name().as_ref() {
+                        "testcase" => &mut tests,
+                        "failure" => &mut failures,
+                        "error" => &mut errors,
+                        "skipped" => &mut skipped,
+                        _ => continue,
+                    } += 1;
+                    if let Some(message) = e.try_get_attribute("message").unwrap() {
+                        messages.push(unescape(&message.value).unwrap().into_owned());
+                    }
+                }
+                Event::Eof => break,
+                _ => {}
+            }
+        }
+        assert_eq!(tests, summary.verdicts().count());
+        assert_eq!((failures, errors, skipped), (1, 1, 1));
+        assert!(messages.iter().all(|m| m.contains(NASTY)), "{messages:?}");
+    }
+
+    #[test]
+    fn the_same_summary_gives_the_same_text() {
+        assert_eq!(text(&summary()).unwrap(), text(&summary()).unwrap());
+    }
+}

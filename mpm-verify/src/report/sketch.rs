@@ -1,0 +1,423 @@
+//! The geometry of a case as a vector picture, in the colour of the text around it.
+
+use crate::sketch::{Point, Shape, Sketch};
+use quick_xml::escape::escape;
+use std::fmt::Write;
+
+/// Longest side of what is drawn, without labels (pixels, as all lengths here).
+const SPAN: f64 = 440.0;
+const MARGIN: f64 = 6.0;
+const FONT: f64 = 14.0;
+/// Width of a character, on the safe side.
+const GLYPH: f64 = 0.6 * FONT;
+/// Distance of hatch lines, which is their depth too.
+const HATCH: f64 = 9.0;
+/// Length and half the width of an arrow's head.
+const HEAD: (f64, f64) = (9.0, 3.2);
+/// Half the length of the ticks at the ends of a dimension line.
+const TICK: f64 = 5.0;
+/// Room between a witness line and the corner that it comes from.
+const WITNESS_GAP: f64 = 5.0;
+const DOT: f64 = 2.6;
+/// Widths of lines.
+const BOLD: f64 = 2.4;
+const PLAIN: f64 = 1.4;
+const FINE: f64 = 0.7;
+
+/// The sketch as an SVG element; y points up in the problem, down in the picture.
+pub(super) fn svg(sketch: &Sketch, title: &str) -> String {
+    let corners: Vec<Point> = sketch.shapes.iter().flat_map(corners).collect();
+    let extent = |axis: usize| {
+        let values = || corners.iter().map(|p| p[axis]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let scale = SPAN / extent(0).max(extent(1));
+    let place = |p: &Point| [p[0] * scale, -p[1] * scale];
+    let bodies = sketch.shapes.iter().filter_map(|shape| match shape {
+        Shape::Body(corners) => Some(corners.iter().map(place)),
+        _ => None,
+    });
+    let mut drawing = Drawing {
+        body: bodies.flatten().collect(),
+        lines: Vec::new(),
+        boxes: Vec::new(),
+        elements: String::new(),
+    };
+    for shape in &sketch.shapes {
+        match shape {
+            Shape::Body(corners) => drawing.body(&corners.iter().map(place).collect::<Vec<_>>()),
+            Shape::Held(a, b) => drawing.held(place(a), place(b)),
+            Shape::Load(a, b) => drawing.load(place(a), place(b)),
+            Shape::Length { from, to, label } => drawing.length(place(from), place(to), label),
+            Shape::Probe { at, .. } => drawing.dot(place(at)),
+            Shape::Note { at, text } => drawing.text(place(at), [0.0, 0.0], text),
+        }
+    }
+    // The labels of probes come last: they go where nothing else is.
+    for shape in &sketch.shapes {
+        if let Shape::Probe { at, label } = shape {
+            drawing.probe_label(place(at), label);
+        }
+    }
+    drawing.finish(title, sketch.description)
+}
+
+fn corners(shape: &Shape) -> Vec<Point> {
+    match shape {
+        Shape::Body(corners) => corners.clone(),
+        Shape::Held(a, b) | Shape::Load(a, b) => vec![*a, *b],
+        Shape::Length { from, to, .. } => vec![*from, *to],
+        Shape::Probe { at, .. } | Shape::Note { at, .. } => vec![*at],
+    }
+}
+
+fn along(a: Point, direction: Point, length: f64) -> Point {
+    [a[0] + length * direction[0], a[1] + length * direction[1]]
+}
+
+/// Unit vector from one point to another, and their distance.
+fn towards(a: Point, b: Point) -> (Point, f64) {
+    let (x, y) = (b[0] - a[0], b[1] - a[1]);
+    let length = x.hypot(y);
+    ([x / length, y / length], length)
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// To the left of a direction, for a viewer of the picture.
+fn left([x, y]: Point) -> Point {
+    [y, -x]
+}
+
+/// The hatch on the left of a side: strokes that start on it and lean back.
+fn hatch(a: Point, b: Point) -> Vec<[Point; 2]> {
+    let (direction, length) = towards(a, b);
+    let strokes = (length / HATCH).floor();
+    let stroke = |k: u32| {
+        let start = along(a, direction, length * f64::from(k) / strokes);
+        let end = along(along(start, direction, -HATCH), left(direction), HATCH);
+        [start, end]
+    };
+    (1..=strokes as u32).map(stroke).collect()
+}
+
+/// A box around text: left, top, right and bottom.
+#[derive(Clone, Copy)]
+struct Frame([f64; 4]);
+
+impl Frame {
+    fn around([x, y]: Point, width: f64, height: f64) -> Self {
+        let (w, h) = (width / 2.0, height / 2.0);
+        Self([x - w, y - h, x + w, y + h])
+    }
+
+    fn overlaps(&self, other: &Self) -> bool {
+        let (a, b) = (self.0, other.0);
+        a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
+    }
+
+    /// Whether a line passes through, seen at points a pixel apart.
+    fn is_crossed(&self, line: &[Point; 2]) -> bool {
+        let (direction, length) = towards(line[0], line[1]);
+        let [left, top, right, bottom] = self.0;
+        (0..=length as u32).any(|k| {
+            let [x, y] = along(line[0], direction, f64::from(k));
+            (left..=right).contains(&x) && (top..=bottom).contains(&y)
+        })
+    }
+}
+
+fn text_width(text: &str) -> f64 {
+    text.chars().count() as f64 * GLYPH
+}
+
+/// Text with the word after an underscore as a subscript.
+fn subscripted(text: &str) -> String {
+    let Some((head, tail)) = text.split_once('_') else {
+        return escape(text).into_owned();
+    };
+    let end = tail.find(|c: char| !c.is_alphanumeric());
+    let (index, rest) = tail.split_at(end.unwrap_or(tail.len()));
+    format!(
+        "{}<tspan dy=\"3\" font-size=\"75%\">{}</tspan><tspan dy=\"-3\">{}</tspan>",
+        escape(head),
+        escape(index),
+        escape(rest)
+    )
+}
+
+struct Drawing {
+    /// Corners of all bodies.
+    body: Vec<Point>,
+    /// What labels must not lie on.
+    lines: Vec<[Point; 2]>,
+    boxes: Vec<Frame>,
+    elements: String,
+}
+
+impl Drawing {
+    fn line(&mut self, a: Point, b: Point, width: f64) {
+        self.lines.push([a, b]);
+        let _ = writeln!(
+            self.elements,
+            r#"<line x1="{:.1}" y1="{:.1}" x2="{:.1}" y2="{:.1}" stroke-width="{width}"/>"#,
+            a[0], a[1], b[0], b[1]
+        );
+    }
+
+    fn polygon(&mut self, corners: &[Point], style: &str) {
+        let corners: Vec<String> = corners
+            .iter()
+            .map(|[x, y]| format!("{x:.1},{y:.1}"))
+            .collect();
+        let corners = corners.join(" ");
+        let _ = writeln!(self.elements, r#"<polygon points="{corners}" {style}/>"#);
+    }
+
+    fn body(&mut self, corners: &[Point]) {
+        let next = corners.iter().cycle().skip(1);
+        self.lines
+            .extend(corners.iter().zip(next).map(|(a, b)| [*a, *b]));
+        let style = format!(
+            r#"fill="currentColor" fill-opacity="0.1" stroke-width="{PLAIN}" stroke-linejoin="round""#
+        );
+        self.polygon(corners, &style);
+    }
+
+    fn held(&mut self, a: Point, b: Point) {
+        self.line(a, b, BOLD);
+        for [start, end] in hatch(a, b) {
+            self.line(start, end, FINE);
+        }
+    }
+
+    fn head(&mut self, from: Point, tip: Point) {
+        let (direction, _) = towards(from, tip);
+        let root = along(tip, direction, -HEAD.0);
+        let side = |half: f64| along(root, left(direction), half);
+        let style = r#"fill="currentColor" stroke="none""#;
+        self.polygon(&[tip, side(HEAD.1), side(-HEAD.1)], style);
+    }
+
+    fn load(&mut self, from: Point, tip: Point) {
+        // The line ends within the head, whose tip it would blunt.
+        let (direction, _) = towards(from, tip);
+        self.line(from, along(tip, direction, -0.5 * HEAD.0), PLAIN);
+        self.head(from, tip);
+        self.boxes.push(Frame::around(tip, 2.0 * HEAD.1, HEAD.0));
+    }
+
+    /// A dimension line, with witness lines to the corners of the body that it measures, and its label
+    /// on the far side.
+    fn length(&mut self, from: Point, to: Point, label: &str) {
+        let (direction, length) = towards(from, to);
+        let middle = along(from, direction, 0.5 * length);
+        let mut outwards = left(direction);
+        let body = self.body.iter().map(|p| dot(*p, outwards)).sum::<f64>();
+        if body > dot(middle, outwards) * self.body.len() as f64 {
+            outwards = outwards.map(|x| -x);
+        }
+        self.line(from, to, FINE);
+        for (end, other) in [(from, to), (to, from)] {
+            self.head(other, end);
+            let distance = |p: &Point| dot([end[0] - p[0], end[1] - p[1]], outwards);
+            let level = |p: &&Point| dot([end[0] - p[0], end[1] - p[1]], direction).abs() < 0.1;
+            let nearest = self.body.iter().filter(level).map(distance);
+            let reach = nearest.fold(f64::INFINITY, f64::min) - WITNESS_GAP;
+            let reach = if reach.is_finite() { reach } else { TICK };
+            let (inner, outer) = (along(end, outwards, -reach), along(end, outwards, TICK));
+            self.line(inner, outer, FINE);
+        }
+        self.text(along(middle, outwards, TICK), outwards, label);
+    }
+
+    fn dot(&mut self, [x, y]: Point) {
+        self.boxes
+            .push(Frame::around([x, y], 2.0 * DOT + 2.0, 2.0 * DOT + 2.0));
+        let _ = writeln!(
+            self.elements,
+            r#"<circle cx="{x:.1}" cy="{y:.1}" r="{DOT}" fill="currentColor" stroke="none"/>"#
+        );
+    }
+
+    /// Text beside a point, on the side that `towards` shows, or on it.
+    fn text(&mut self, at: Point, towards: Point, text: &str) {
+        let frame = beside(at, towards, text);
+        let [left, top, right, bottom] = frame.0;
+        self.boxes.push(frame);
+        let _ = writeln!(
+            self.elements,
+            r#"<text x="{:.1}" y="{:.1}" text-anchor="middle" fill="currentColor" stroke="none">{}</text>"#,
+            (left + right) / 2.0,
+            (top + bottom) / 2.0 + 0.35 * FONT,
+            subscripted(text)
+        );
+    }
+
+    /// A label beside a probe, at the first of many places where it hides nothing.
+    fn probe_label(&mut self, at: Point, label: &str) {
+        const DIRECTIONS: [Point; 8] = [
+            [0.7, -0.7],
+            [1.0, 0.0],
+            [0.0, -1.0],
+            [-0.7, -0.7],
+            [-1.0, 0.0],
+            [0.7, 0.7],
+            [0.0, 1.0],
+            [-0.7, 0.7],
+        ];
+        let places = [3.0, 7.0, 12.0, 20.0]
+            .into_iter()
+            .flat_map(|distance| DIRECTIONS.map(|d| (along(at, d, DOT + distance), d)));
+        let hidden = |(place, direction): &(Point, Point)| {
+            let frame = beside(*place, *direction, label);
+            let lines = self.lines.iter().filter(|l| frame.is_crossed(l)).count();
+            lines + self.boxes.iter().filter(|b| frame.overlaps(b)).count()
+        };
+        if let Some((place, direction)) = places.min_by_key(hidden) {
+            self.text(place, direction, label);
+        }
+    }
+
+    fn finish(self, title: &str, description: &str) -> String {
+        let of_lines = self.lines.iter().flatten().map(|[x, y]| [*x, *y, *x, *y]);
+        let all = of_lines.chain(self.boxes.iter().map(|b| b.0));
+        let whole = all.reduce(|a, b| {
+            let (low, high) = (f64::min, f64::max);
+            [
+                low(a[0], b[0]),
+                low(a[1], b[1]),
+                high(a[2], b[2]),
+                high(a[3], b[3]),
+            ]
+        });
+        let [left, top, right, bottom] = whole.unwrap_or_default();
+        let (width, height) = (right - left + 2.0 * MARGIN, bottom - top + 2.0 * MARGIN);
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"{:.0} {:.0} {width:.0} {height:.0}\" \
+             width=\"{width:.0}\" height=\"{height:.0}\" fill=\"none\" stroke=\"currentColor\" font-size=\"{FONT}\">\n\
+             <title>{}</title>\n<desc>{}</desc>\n{}</svg>\n",
+            left - MARGIN,
+            top - MARGIN,
+            escape(title),
+            escape(description),
+            self.elements
+        )
+    }
+}
+
+/// The box of a text that touches a point from the side that `direction` shows.
+fn beside(at: Point, direction: Point, text: &str) -> Frame {
+    let (width, height) = (text_width(text), 1.2 * FONT);
+    let shift = |side: f64, size: f64| match side {
+        s if s > 0.5 => size / 2.0,
+        s if s < -0.5 => -size / 2.0,
+        s => s * size,
+    };
+    let centre = [
+        at[0] + shift(direction[0], width),
+        at[1] + shift(direction[1], height),
+    ];
+    Frame::around(centre, width, height)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use quick_xml::events::Event;
+
+    fn cook() -> String {
+        svg(&crate::cases::find("cook").unwrap().sketch(), "Cook")
+    }
+
+    /// An attribute of an element.
+    fn number(element: &str, name: &str) -> f64 {
+        let after = element.split(&format!(" {name}=\"")).nth(1).unwrap();
+        after.split('"').next().unwrap().parse().unwrap()
+    }
+
+    #[test]
+    fn the_hatch_lies_on_the_left_seen_from_the_first_point() {
+        // Upwards in the problem is towards negative y in the picture.
+        for [start, end] in hatch([0.0, 0.0], [0.0, -100.0]) {
+            assert!(start[0] == 0.0 && end[0] < 0.0, "{start:?} {end:?}");
+            assert!((-100.0..=1e-9).contains(&end[1]), "{end:?}");
+        }
+        for [start, end] in hatch([0.0, 0.0], [100.0, 0.0]) {
+            assert!(start[1] == 0.0 && end[1] < 0.0, "{start:?} {end:?}");
+        }
+    }
+
+    #[test]
+    fn the_clamp_of_cook_is_hatched_outside_the_body() {
+        let text = cook();
+        let hatch = text
+            .lines()
+            .filter(|l| l.starts_with("<line") && number(l, "x1") == 0.0 && number(l, "x2") != 0.0);
+        let ends: Vec<f64> = hatch.map(|l| number(l, "x2")).collect();
+        assert!(ends.len() > 10 && ends.iter().all(|x| *x < 0.0), "{ends:?}");
+    }
+
+    #[test]
+    fn labels_hide_no_other_label_and_no_line() {
+        let text = cook();
+        let frames: Vec<(Frame, &str)> = text
+            .lines()
+            .filter(|l| l.starts_with("<text"))
+            .map(|l| {
+                let label = l.split_once('>').unwrap().1;
+                let glyphs = label
+                    .split('<')
+                    .map(|part| part.split_once('>').map_or(part, |p| p.1))
+                    .collect::<String>();
+                let middle = [number(l, "x"), number(l, "y") - 0.35 * FONT];
+                (Frame::around(middle, text_width(&glyphs), FONT), label)
+            })
+            .collect();
+        assert_eq!(frames.len(), 13);
+        for (k, (frame, label)) in frames.iter().enumerate() {
+            for (other, second) in &frames[..k] {
+                assert!(!frame.overlaps(other), "{label} on {second}");
+            }
+            for line in text.lines().filter(|l| l.starts_with("<line")) {
+                let [x1, y1, x2, y2] = ["x1", "y1", "x2", "y2"].map(|n| number(line, n));
+                assert!(
+                    !frame.is_crossed(&[[x1, y1], [x2, y2]]),
+                    "{label} on {line}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn labels_are_escaped_and_the_picture_is_well_formed() {
+        let nasty = "<script>\"&'</text>";
+        let sketch = Sketch {
+            shapes: vec![
+                Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]),
+                Shape::Note {
+                    at: [0.5, 0.5],
+                    text: nasty.to_owned(),
+                },
+                Shape::Probe {
+                    at: [1.0, 0.0],
+                    label: format!("u_{nasty}"),
+                },
+            ],
+            description: "a < b",
+        };
+        let text = svg(&sketch, nasty);
+        let mut reader = quick_xml::Reader::from_str(&text);
+        let mut names = Vec::new();
+        loop {
+            match reader.read_event().unwrap() {
+                Event::Start(e) | Event::Empty(e) => names.push(e.name().as_ref().to_owned()),
+                Event::Eof => break,
+                _ => {}
+            }
+        }
+        assert!(!names.iter().any(|n| n == "script"));
+    }
+}

@@ -1,0 +1,120 @@
+//! The report in a browser: no error, every picture loads, every link leads somewhere, and it fits a
+//! phone. Skipped where there is no Chromium or Chrome.
+
+use super::{code, mpm_verify, stderr, stdout};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Put into a copy of a page, before all else: tells the page around it what went wrong.
+const PROBE: &str = r#"<head><script>
+const found = [];
+addEventListener("error", e => found.push("fault error: " + (e.message || e.target.outerHTML)), true);
+addEventListener("load", () => {
+  for (const image of document.images)
+    found.push((image.naturalWidth > 0 ? "picture " : "fault no picture: ") + image.getAttribute("src"));
+  for (const a of document.querySelectorAll("a[href]")) found.push("link " + a.getAttribute("href"));
+  for (const e of document.querySelectorAll("[id]")) found.push("id " + e.id);
+  const width = document.documentElement.scrollWidth;
+  if (width > innerWidth) found.push("fault scrolls: " + width + " in " + innerWidth);
+  parent.postMessage(found.join("\n"), "*");
+});
+</script>"#;
+
+/// A phone around the copy: the window itself can't be as narrow. It writes down what it is told.
+const PHONE: &str = r#"<!DOCTYPE html><script>
+addEventListener("message", e => {
+  document.body.append("\nbegin\n" + e.data + "\nend\n");
+});
+</script><body><iframe src="probed.html" width="400" height="800"></iframe>"#;
+
+fn browser() -> Option<PathBuf> {
+    let named = std::env::var_os("CHROME").map(PathBuf::from);
+    named.or_else(|| {
+        let path = std::env::var_os("PATH")?;
+        ["chromium", "chromium-browser", "google-chrome"]
+            .iter()
+            .flat_map(|name| std::env::split_paths(&path).map(move |folder| folder.join(name)))
+            .find(|file| file.is_file())
+    })
+}
+
+/// What the browser finds on a page, line by line: `fault …`, `picture …`, `link …`, `id …`.
+fn look_at(browser: &Path, page: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(page).unwrap();
+    let (probed, phone) = (
+        page.with_file_name("probed.html"),
+        page.with_file_name("phone.html"),
+    );
+    std::fs::write(&probed, text.replacen("<head>", PROBE, 1)).unwrap();
+    std::fs::write(&phone, PHONE).unwrap();
+    let profile = tempfile::tempdir().unwrap();
+    let output = Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu"])
+        .args(["--no-first-run", "--disable-background-networking"])
+        .args(["--disable-component-update", "--disable-sync"])
+        .args(["--virtual-time-budget=20000", "--dump-dom"])
+        .args(["--enable-logging=stderr", "--v=0"])
+        .arg(format!("--user-data-dir={}", profile.path().display()))
+        .arg(format!("file://{}", phone.display()))
+        .output()
+        .expect("the browser starts");
+    let dom = stdout(&output);
+    let told = dom
+        .split_once("\nbegin\n")
+        .and_then(|(_, rest)| rest.split_once("\nend\n"))
+        .unwrap_or_else(|| panic!("{}: the page did not load: {dom}", page.display()));
+    let console = stderr(&output);
+    let errors = console.lines().filter(|l| l.contains("CONSOLE"));
+    told.0
+        .lines()
+        .map(str::to_owned)
+        .chain(errors.map(|line| format!("fault console: {line}")))
+        .collect()
+}
+
+fn all<'a>(found: &'a [String], kind: &str) -> Vec<&'a str> {
+    found
+        .iter()
+        .filter_map(|line| line.strip_prefix(kind)?.strip_prefix(' '))
+        .collect()
+}
+
+#[test]
+fn the_report_works_in_a_browser() {
+    let Some(browser) = browser() else {
+        eprintln!("skipped: no browser");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let output = mpm_verify(&["verify", "--tier", "quick", "--out", out.to_str().unwrap()]);
+    assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+
+    let mut pages = vec!["index.html".to_owned()];
+    let cases = super::json(&out.join("summary.json"));
+    for study in cases["cases"].as_array().unwrap() {
+        pages.push(format!("{}.html", study["case"].as_str().unwrap()));
+    }
+    let looked: Vec<_> = pages
+        .iter()
+        .map(|page| look_at(&browser, &out.join(page)))
+        .collect();
+    for (page, found) in pages.iter().zip(&looked) {
+        assert!(all(found, "fault").is_empty(), "{page}: {found:?}");
+        for target in all(found, "link") {
+            let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
+            let file = if file.is_empty() { page } else { file };
+            assert!(out.join(file).is_file(), "{page} links to {target}");
+            if let Some(k) = pages.iter().position(|p| p == file) {
+                let there = anchor.is_empty() || all(&looked[k], "id").contains(&anchor);
+                assert!(there, "{page} links to {target}");
+            }
+        }
+    }
+    assert!(all(&looked[1], "picture").len() > 2, "{:?}", looked[1]);
+
+    // What is missing is seen.
+    std::fs::remove_file(out.join("cook/rest.png")).unwrap();
+    let found = look_at(&browser, &out.join("cook.html"));
+    assert!(all(&found, "fault").iter().any(|f| f.contains("rest.png")));
+}
