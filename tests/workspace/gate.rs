@@ -232,7 +232,7 @@ fn drift_is_shown_named_and_accepted_with_a_reason() {
     assert!(said.contains("bless cook --reason"), "{said}");
     let summary = fs::read_to_string(scene.report.join("summary.md")).unwrap();
     assert!(summary.contains("## Drift") && summary.contains("bless cook --reason"));
-    let shown = scene.report.join(format!("drift/{RUN}.png"));
+    let shown = scene.report.join("cook/drift/gimp-fbar-rate-flip/h2.png");
     let picture = image::open(&shown).unwrap().to_rgb8();
     assert!(
         picture.width() > 3000,
@@ -380,7 +380,7 @@ fn nights_are_added_to_the_history_once() {
         all.lines().nth(1).unwrap().starts_with("2026-01-01"),
         "in the order of time"
     );
-    assert!(scene.report.join("cook/trends.png").exists());
+    assert!(scene.report.join("trends-cook.png").exists());
 
     assert_eq!(code(&night("2026-13-01", "a")), 2);
     fs::write(&path, "night,commit\n2026-01-01,a\n").unwrap();

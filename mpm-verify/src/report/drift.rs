@@ -17,7 +17,9 @@ pub(super) fn draw(
     out: &Path,
 ) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
-    discard_folder(&out.join("drift"))?;
+    for study in &summary.cases {
+        discard_folder(&out.join(&study.case).join("drift"))?;
+    }
     for record in summary.cases.iter().flat_map(|s| &s.records) {
         if !record.verdicts.iter().any(Verdict::drifts) {
             continue;
@@ -26,7 +28,7 @@ pub(super) fn draw(
         let both = Golden::read(&home(root, record))
             .and_then(|g| g.pictures(record, &gathered.folder(record)));
         if let Ok((golden, now)) = both {
-            let file = format!("drift/{}/{}.png", record.case, record.folder());
+            let file = format!("{}/drift/{}.png", record.case, record.folder());
             write_picture(&out.join(&file), &triptych(&golden, &now))?;
             pictures.push(Picture {
                 file,

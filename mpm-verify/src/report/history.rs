@@ -175,7 +175,7 @@ fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, 
             }
         })
         .collect();
-    let file = format!("{}/trends.png", study.case);
+    let file = format!("trends-{}.png", study.case);
     draw_charts(&out.join(&file), &charts, 2)?;
     Ok(Some(Picture {
         file,
