@@ -103,7 +103,14 @@ fn values_that_cannot_go_together_are_refused() {
     ] {
         refused(&["run", "cook", "--set", set], &needles);
     }
-    refused(&["verify", "--tier", "long"], &["tier long"]);
+    refused(
+        &["verify", "--tier", "quick", "--shard", "1/9"],
+        &["tier quick has 5 runs for 9 shards"],
+    );
+    refused(
+        &["verify", "--tier", "quick", "--shard", "3/2"],
+        &["--shard", "i/n"],
+    );
 }
 
 #[test]
@@ -111,7 +118,7 @@ fn without_a_command_the_commands_are_named() {
     let output = mpm_verify(&[]);
     assert_eq!(code(&output), 2);
     assert_eq!(stderr(&output).lines().count(), 1);
-    assert!(stderr(&output).contains("list, explain, run, report, verify"));
+    assert!(stderr(&output).contains("list, explain, run, verify, report, bless, diff"));
 }
 
 /// What users read is reviewed as a difference in a snapshot.
