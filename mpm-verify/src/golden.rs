@@ -27,6 +27,8 @@ const SCHEMA: u32 = 1;
 const ROWS: usize = 40;
 /// Tolerance over response.
 pub const MARGIN: f64 = 10.0;
+/// Runs of more particle steps than this (some minutes) have no golden: each would be run twice.
+pub const MOST_STEPS: u64 = 2_000_000_000;
 /// The metric of the verdict on a golden's picture.
 pub const PIXELS: &str = "different pixels of the picture";
 /// Name of the check.
@@ -86,6 +88,14 @@ pub fn compare(root: &Path, record: &Record, folder: &Path) -> Result<Vec<Verdic
     if record.status == Status::Failed {
         let why = "the run broke down: nothing to compare";
         return Ok(vec![mismatch("run", why.to_owned())]);
+    }
+    if record.work.particle_steps > MOST_STEPS {
+        let why = format!("no golden is kept of more than {MOST_STEPS:e} particle steps");
+        let verdict = Verdict::not_applicable(CHECK, "run", why);
+        return Ok(vec![Verdict {
+            kind: Kind::Drift,
+            ..verdict
+        }]);
     }
     match Golden::read(&home(root, record)) {
         Ok(golden) => golden.compare(record, folder),

@@ -349,7 +349,7 @@ fn count(summary: &Summary) -> Counts {
     for (_, _, verdict) in summary.verdicts() {
         *match (verdict.kind, verdict.pass) {
             (Kind::Drift, Some(true)) => &mut counts.undrifted,
-            (Kind::Drift, _) => &mut counts.drifted,
+            (Kind::Drift, Some(false)) => &mut counts.drifted,
             (_, Some(true)) => &mut counts.passed,
             (_, Some(false)) => &mut counts.failed,
             (_, None) => &mut counts.not_applicable,

@@ -4,7 +4,8 @@ use super::{golden, workspace};
 use mpm_verify::case::{Case, RunSpec, Tier};
 use mpm_verify::cases;
 use mpm_verify::check::Kind;
-use mpm_verify::golden::{Golden, MARGIN};
+use mpm_verify::golden::{Golden, MARGIN, MOST_STEPS};
+use mpm_verify::record::Record;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -14,12 +15,24 @@ fn planned(case: &dyn Case) -> Vec<RunSpec> {
     TIERS.iter().flat_map(|tier| case.plan(*tier)).collect()
 }
 
-/// Runs of the tier that is run by hand have no golden.
+/// Runs with a golden: neither of the tier that is run by hand, nor too long to be run twice.
 fn gated(case: &dyn Case) -> BTreeSet<String> {
+    let summary = super::json(&workspace().join("reports/nightly/summary.json"));
+    let studies = summary["cases"].as_array().unwrap();
+    let study = studies.iter().find(|s| s["case"] == case.name()).unwrap();
+    let long: BTreeSet<String> = study["records"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|r| serde_json::from_value::<Record>(r.clone()).unwrap())
+        .filter(|r| r.work.particle_steps > MOST_STEPS)
+        .map(|r| r.folder())
+        .collect();
     TIERS[..3]
         .iter()
         .flat_map(|tier| case.plan(*tier))
         .map(|spec| spec.folder())
+        .filter(|folder| !long.contains(folder))
         .collect()
 }
 
