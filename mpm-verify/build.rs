@@ -5,8 +5,26 @@ use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Where they lie, from this package's folder.
-const SOURCES: [&str; 3] = ["../mpm-core/src", "src/cases", "../Cargo.lock"];
+/// Where they lie, from this package's folder: all but what only draws and prints.
+const SOURCES: [&str; 17] = [
+    "../.cargo/config.toml",
+    "../Cargo.lock",
+    "../Cargo.toml",
+    "../mpm-core/Cargo.toml",
+    "../mpm-core/src",
+    "Cargo.toml",
+    "references",
+    "src/case.rs",
+    "src/cases",
+    "src/parameter.rs",
+    "src/probe.rs",
+    "src/record.rs",
+    "src/run.rs",
+    "src/scheme.rs",
+    "src/sketch.rs",
+    "src/statistics.rs",
+    "src/study.rs",
+];
 
 fn main() -> io::Result<()> {
     let mut files = Vec::new();
@@ -34,7 +52,7 @@ fn list(path: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
         for entry in fs::read_dir(path)? {
             list(&entry?.path(), files)?;
         }
-    } else if path.exists() {
+    } else {
         files.push(path.to_path_buf());
     }
     Ok(())

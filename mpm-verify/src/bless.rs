@@ -6,7 +6,7 @@ use crate::golden::{Golden, home};
 use crate::plan::PlannedRun;
 use crate::record::{Record, Status, Version};
 use crate::report::describe::{number, verdict_line};
-use crate::study::{CaseStudy, Gathered, Listener, Task, run_all};
+use crate::study::{CaseStudy, Gathered, Listener, Task, has_truth, run_all};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -72,23 +72,22 @@ impl<'a> Candidates<'a> {
     /// Why nothing may be blessed, if a check against the truth fails or a run broke down.
     #[must_use]
     pub fn refusal(&self) -> Option<String> {
-        let single = self.study.records.iter().flat_map(|r| &r.verdicts);
-        let missed: Vec<&Verdict> = single
-            .chain(&self.study.verdicts)
-            .filter(|v| v.misses_the_truth())
-            .collect();
-        if missed.is_empty() {
+        let mut t = String::new();
+        for record in &self.study.records {
+            for verdict in record.verdicts.iter().filter(|v| v.misses_the_truth()) {
+                let _ = writeln!(t, "{} {}", record.folder(), verdict_line(verdict));
+            }
+            if !has_truth(record) {
+                let _ = writeln!(t, "{} no check against the truth applies", record.folder());
+            }
+        }
+        for verdict in self.study.verdicts.iter().filter(|v| v.misses_the_truth()) {
+            let _ = writeln!(t, "runs together {}", verdict_line(verdict));
+        }
+        if t.is_empty() {
             return None;
         }
-        let mut t = String::new();
-        for verdict in &missed {
-            let _ = writeln!(t, "{}", verdict_line(verdict));
-        }
-        let _ = writeln!(
-            t,
-            "refused: {} checks against the truth fail; a golden never stands in for it",
-            missed.len()
-        );
+        t.push_str("refused: a golden never stands in for the truth\n");
         Some(t)
     }
 
@@ -109,10 +108,11 @@ impl<'a> Candidates<'a> {
     }
 
     /// Blesses every candidate, running a perturbed twin of those whose numbers have drifted (beside
-    /// the run itself; one that is there already is kept). Returns how many were blessed.
+    /// the run itself; one that is there already is kept). Nothing is written before everything is
+    /// measured. Returns how many were blessed, or which twin broke down.
     ///
     /// # Errors
-    /// A twin breaks down, or a file can't be read or written.
+    /// A file can't be read or written.
     pub fn bless(
         &self,
         gathered: &Gathered,
@@ -120,7 +120,7 @@ impl<'a> Candidates<'a> {
         reason: &str,
         workers: usize,
         listener: &dyn Listener,
-    ) -> Result<usize, Error> {
+    ) -> Result<Result<usize, String>, Error> {
         let measured: Vec<&Record> = self.measured().copied().collect();
         let mut tasks = Vec::new();
         for record in &measured {
@@ -136,26 +136,33 @@ impl<'a> Candidates<'a> {
             tasks.push(Task {
                 case,
                 spec,
-                folder: gathered.folder(record).join("twin"),
+                folder: gathered.folder(record)?.join("twin"),
             });
         }
         let twins = run_all(&tasks, true, workers, listener)?;
+        let mut goldens = Vec::new();
         for ((record, twin), task) in measured.iter().zip(&twins).zip(&tasks) {
             if let (Status::Failed, Some(error)) = (twin.status, &twin.error) {
-                return Err(Error::file(&task.folder, &error.message));
+                let run = record.folder();
+                return Ok(Err(format!(
+                    "the perturbed twin of {run} broke down: {}\n",
+                    error.message
+                )));
             }
-            let folder = gathered.folder(record);
-            let golden = Golden::of_run(record, &folder, twin, &task.folder, reason)?;
-            golden.write(&home(root, record))?;
+            let folder = gathered.folder(record)?;
+            let golden = Golden::of_run(record, folder, twin, &task.folder, reason)?;
+            goldens.push((home(root, record), golden));
         }
         for record in &self.drifted {
             if !measured.iter().any(|m| std::ptr::eq(*m, *record)) {
                 let folder = home(root, record);
-                Golden::read(&folder)?
-                    .redrawn(record, reason)?
-                    .write(&folder)?;
+                let redrawn = Golden::read(&folder)?.redrawn(record, reason)?;
+                goldens.push((folder, redrawn));
             }
         }
-        Ok(self.drifted.len())
+        for (folder, golden) in &goldens {
+            golden.write(folder)?;
+        }
+        Ok(Ok(goldens.len()))
     }
 }

@@ -81,12 +81,12 @@ fn study(scheme: Scheme, quantity: Quantity, points: Vec<Point>) -> Convergence 
         let why = if values.len() < 3 {
             "fewer than three levels"
         } else {
-            "the error changes sign: no power law"
+            "the error changes sign or vanishes: no power law"
         };
         let remark = order.is_none().then(|| why.to_owned());
         (order, None, remark)
     } else {
-        match extrapolate(&values, None) {
+        match extrapolate(&values) {
             Ok(found) => (None, Some(found), None),
             Err(why) => (None, None, Some(why)),
         }

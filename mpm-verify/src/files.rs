@@ -48,6 +48,24 @@ pub fn discard_folder(path: &Path) -> Result<(), Error> {
     }
 }
 
+/// Removes the files with one of some extensions that lie in a folder, if it is there.
+///
+/// # Errors
+/// The folder can't be read, or a file can't be removed.
+pub fn discard_all(folder: &Path, extensions: &[&str]) -> Result<(), Error> {
+    if !folder.exists() {
+        return Ok(());
+    }
+    for entry in fs::read_dir(folder).map_err(|e| Error::file(folder, e))? {
+        let path = entry.map_err(|e| Error::file(folder, e))?.path();
+        let extension = path.extension().and_then(|e| e.to_str());
+        if path.is_file() && extension.is_some_and(|e| extensions.contains(&e)) {
+            discard(&path)?;
+        }
+    }
+    Ok(())
+}
+
 /// Writes a file by way of a temporary one beside it.
 ///
 /// # Errors

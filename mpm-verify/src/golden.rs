@@ -58,6 +58,8 @@ pub struct Blessing {
     pub date: String,
     /// Why.
     pub reason: String,
+    /// Date and reason of a later drawing of the same numbers, if the picture alone has changed.
+    pub redrawn: Option<[String; 2]>,
     /// The program that ran.
     pub version: Version,
     /// Operating system and architecture it ran on.
@@ -89,7 +91,7 @@ pub fn compare(root: &Path, record: &Record, folder: &Path) -> Result<Vec<Verdic
         let why = "the run broke down: nothing to compare";
         return Ok(vec![mismatch("run", why.to_owned())]);
     }
-    if record.work.particle_steps > MOST_STEPS {
+    if record.work.particle_steps > MOST_STEPS && !home(root, record).exists() {
         let why = format!("no golden is kept of more than {MOST_STEPS:e} particle steps");
         let verdict = Verdict::not_applicable(CHECK, "run", why);
         return Ok(vec![Verdict {
@@ -154,6 +156,13 @@ impl Golden {
                     "{} {}: tolerance {:e} for a response of {:e}; allowed: 1 to {MARGIN} times the response",
                     row.table, row.column, row.tolerance, row.response
                 );
+                return Err(Error::file(&path, cause));
+            }
+            if tolerances
+                .iter()
+                .any(|t: &Tolerance| t.table == row.table && t.column == row.column)
+            {
+                let cause = format!("{} {} is there twice", row.table, row.column);
                 return Err(Error::file(&path, cause));
             }
             tolerances.push(row);
@@ -334,14 +343,12 @@ impl Golden {
         let twin_series = Table::read_finite(&twin_folder.join(SERIES))?;
         let times = series.iter().next().map_or(&[][..], |(_, times)| times);
         let step = times.len().div_ceil(ROWS).max(1);
-        // A twin may come to rest an observation sooner: only rows that both have can be judged.
-        let kept: Vec<f64> = times
-            .iter()
-            .skip(step - 1)
-            .step_by(step)
-            .copied()
-            .filter(|t| twin_series.at(&[*t]).is_ok())
-            .collect();
+        let sampled = times.iter().skip(step - 1).step_by(step).copied();
+        // A twin may come to rest an observation sooner and then lacks the last row.
+        let mut kept: Vec<f64> = sampled.collect();
+        if kept.last().is_some_and(|t| twin_series.at(&[*t]).is_err()) {
+            kept.pop();
+        }
         let missing = |t: f64| Error::file(folder, format!("no row at time {t}"));
         let series = series.at(&kept).map_err(missing)?;
         let twin_series = twin_series.at(&kept).map_err(missing)?;
@@ -356,14 +363,17 @@ impl Golden {
         })
     }
 
-    /// The same numbers with the picture as it is drawn now, blessed anew.
+    /// The same numbers with the picture as it is drawn now.
     ///
     /// # Errors
     /// The picture can't be drawn.
     pub fn redrawn(&self, record: &Record, reason: &str) -> Result<Self, Error> {
         Ok(Self {
             picture: draw_watched(&record.case, &self.series)?,
-            blessing: Blessing::now(record, reason),
+            blessing: Blessing {
+                redrawn: Some([today(), reason.to_owned()]),
+                ..self.blessing.clone()
+            },
             ..self.clone()
         })
     }
@@ -390,12 +400,14 @@ impl Golden {
             .into_inner()
             .map_err(|e| Error::file(&at(TOLERANCES), e))?;
         write_whole(&at(TOLERANCES), &bytes)?;
+        let failed = |e: std::io::Error| Error::file(folder, e);
+        let old = tempfile::tempdir_in(parent).map_err(failed)?;
         if folder.exists() {
-            fs::remove_dir_all(folder).map_err(|e| Error::file(folder, e))?;
+            fs::rename(folder, old.path().join("golden")).map_err(failed)?;
         }
         let draft = draft.keep();
         readable(&draft)?;
-        fs::rename(&draft, folder).map_err(|e| Error::file(folder, e))
+        fs::rename(&draft, folder).map_err(failed)
     }
 
     /// The picture that was blessed, and that of a run's series drawn at the same times.
@@ -414,15 +426,21 @@ impl Golden {
 
 impl Blessing {
     fn now(record: &Record, reason: &str) -> Self {
-        let now = jiff::Timestamp::now().to_string();
         Self {
             schema: SCHEMA,
-            date: now.chars().take("2026-01-01".len()).collect(),
+            date: today(),
             reason: reason.to_owned(),
+            redrawn: None,
             version: record.version.clone(),
             machine: format!("{} {}", record.machine.os, record.machine.arch),
         }
     }
+}
+
+/// The date (UTC), as YYYY-MM-DD.
+fn today() -> String {
+    let now = jiff::Timestamp::now().to_string();
+    now.chars().take("2026-01-01".len()).collect()
 }
 
 /// How much of its tolerance a verdict uses.

@@ -11,7 +11,7 @@ use mpm_verify::plan::{Plan, Shard};
 use mpm_verify::record::{Record, Status};
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::history::Night;
-use mpm_verify::report::{describe, write_report};
+use mpm_verify::report::{describe, discard_report, write_report};
 use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use mpm_verify::study::{Gathered, has_truth, make_runs};
 use mpm_verify::{cases, golden, run};
@@ -369,6 +369,7 @@ fn verify(
 ) -> Result<ExitCode, Error> {
     let names = plan.own().map(|run| run.folder().display().to_string());
     let listener = progress::Runs::new(names.collect());
+    discard_report(out)?;
     let records = make_runs(plan, out, resume, workers, &listener)?;
     listener.finish();
     if plan.shard == Shard::WHOLE {
@@ -398,8 +399,9 @@ fn report_on(
     golden: &Path,
     night: Option<&Night>,
 ) -> Result<ExitCode, Error> {
+    discard_report(out)?;
     let gathered = Gathered::read(folders)?;
-    let summary = gathered.judge(|r| golden::compare(golden, r, &gathered.folder(r)))?;
+    let summary = gathered.judge(|r| golden::compare(golden, r, gathered.folder(r)?))?;
     write_report(&gathered, &summary, golden, night, out)?;
     say(&describe::verdict_summary(&summary))?;
     say(&format!("Report: {}\n", out.join("index.html").display()))?;
@@ -419,7 +421,7 @@ fn bless(
         ));
     }
     let gathered = Gathered::read(from)?;
-    let summary = gathered.judge(|r| golden::compare(root, r, &gathered.folder(r)))?;
+    let summary = gathered.judge(|r| golden::compare(root, r, gathered.folder(r)?))?;
     let Some(study) = summary.cases.into_iter().find(|s| s.case == case.name()) else {
         let name = case.name();
         return Err(Error::Input(format!("the folder has no runs of {name}")));
@@ -433,6 +435,13 @@ fn bless(
     let listener = progress::Runs::new(candidates.twin_names());
     let blessed = candidates.bless(&gathered, root, reason, workers, &listener)?;
     listener.finish();
+    let blessed = match blessed {
+        Ok(count) => count,
+        Err(broken) => {
+            say(&broken)?;
+            return Ok(ExitCode::RunFailed);
+        }
+    };
     say(&format!("{blessed} goldens blessed: {reason}\n"))?;
     Ok(ExitCode::Good)
 }

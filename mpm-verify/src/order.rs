@@ -12,8 +12,8 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 pub const CONFIDENCE: f64 = 0.95;
 /// Factor of safety of the GCI for an order observed on three grids or more (Roache).
 const SAFETY: f64 = 1.25;
-/// Largest relative difference between the orders of two successive triplets of grids, or between the
-/// observed order and the formal one, in the asymptotic range.
+/// Largest relative difference between the orders of two successive triplets of grids in the asymptotic
+/// range.
 const ORDERS_AGREE: f64 = 0.2;
 /// Highest order that is believed.
 const MOST: f64 = 8.0;
@@ -114,30 +114,19 @@ pub fn richardson(points: [(f64, f64); 3]) -> Result<Richardson, String> {
 
 /// Richardson's extrapolation from the three finest of some levels, given as (h, value), coarsest
 /// first, if they lie in the asymptotic range: the three next coarser levels show the same order
-/// within 20 %, or, of three levels, theirs is the formal one within 20 %.
+/// within 20 %.
 ///
 /// # Errors
 /// Why the asymptotic range can't be claimed.
-pub fn extrapolate(points: &[(f64, f64)], formal: Option<f64>) -> Result<Richardson, String> {
-    let triplet = |end: usize| -> Result<Richardson, String> {
-        let first = end
-            .checked_sub(3)
-            .ok_or("fewer than three levels".to_owned())?;
-        richardson([points[first], points[first + 1], points[first + 2]])
+pub fn extrapolate(points: &[(f64, f64)]) -> Result<Richardson, String> {
+    let [.., d, c, b, a] = *points else {
+        return Err("fewer than four levels can't confirm each other".to_owned());
     };
-    let finest = triplet(points.len())?;
-    let (other, whose) = match formal {
-        _ if points.len() > 3 => (
-            triplet(points.len() - 1)?.order,
-            "the next coarser levels show",
-        ),
-        Some(order) => (order, "theory says"),
-        None => return Err("three levels can't confirm each other".to_owned()),
-    };
-    if (finest.order - other).abs() > ORDERS_AGREE * other {
+    let (finest, coarser) = (richardson([c, b, a])?, richardson([d, c, b])?);
+    if (finest.order - coarser.order).abs() > ORDERS_AGREE * coarser.order {
         return Err(format!(
-            "not asymptotic: order {:.2} where {whose} {other:.2}",
-            finest.order
+            "not asymptotic: order {:.2} where the next coarser levels show {:.2}",
+            finest.order, coarser.order
         ));
     }
     Ok(finest)
@@ -222,14 +211,10 @@ mod tests {
                 (h, 1.0 + 0.1 * h.powf(order) + first)
             })
         };
-        let good = extrapolate(&family(2.0, 0.0), None).unwrap();
+        let good = extrapolate(&family(2.0, 0.0)).unwrap();
         assert!((good.order - 2.0).abs() < 1e-9 && (good.extrapolated - 1.0).abs() < 1e-12);
-        let why = extrapolate(&family(2.0, 1.0), None).unwrap_err();
+        let why = extrapolate(&family(2.0, 1.0)).unwrap_err();
         assert!(why.contains("not asymptotic"), "{why}");
-        let three = &family(2.0, 0.0)[1..];
-        assert!(extrapolate(three, None).is_err());
-        assert!(extrapolate(three, Some(2.0)).is_ok());
-        assert!(extrapolate(three, Some(1.0)).is_err());
-        assert!(extrapolate(&three[..2], Some(2.0)).is_err());
+        assert!(extrapolate(&family(2.0, 0.0)[1..]).is_err());
     }
 }

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::files::write_json;
 use crate::scheme::Scheme;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -174,7 +175,37 @@ impl Plan {
                 format!("no {FILE}: not a folder that `verify` has written"),
             ));
         }
-        crate::files::read_versioned(&path, SCHEMA)
+        let plan: Self = crate::files::read_versioned(&path, SCHEMA)?;
+        plan.check().map_err(|why| Error::file(&path, why))?;
+        Ok(plan)
+    }
+
+    /// What must hold of a plan that was read.
+    fn check(&self) -> Result<(), String> {
+        let Shard { index, count } = self.shard;
+        if !(1..=MAX_SHARDS).contains(&count) || !(1..=count).contains(&index) {
+            return Err(format!(
+                "shard {index}/{count}; allowed: 1 ≤ i ≤ n ≤ {MAX_SHARDS}"
+            ));
+        }
+        if self.runs.is_empty() {
+            return Err("no runs".to_owned());
+        }
+        let mut seen = BTreeSet::new();
+        for run in &self.runs {
+            let folder = run.folder();
+            if !(1..=count).contains(&run.shard) {
+                return Err(format!(
+                    "{}: shard {}; allowed: 1 to {count}",
+                    folder.display(),
+                    run.shard
+                ));
+            }
+            if !seen.insert(folder.clone()) {
+                return Err(format!("{} is there twice", folder.display()));
+            }
+        }
+        Ok(())
     }
 }
 

@@ -74,6 +74,22 @@ pub struct WorkDone {
     pub sorts: u64,
 }
 
+impl WorkDone {
+    /// The counts by name.
+    #[must_use]
+    pub fn counts(&self) -> [(&'static str, u64); 7] {
+        [
+            ("particles", self.particles),
+            ("nodes", self.nodes),
+            ("steps", self.steps),
+            ("particle_steps", self.particle_steps),
+            ("particle_node_pairs", self.particle_node_pairs),
+            ("projections", self.projections),
+            ("sorts", self.sorts),
+        ]
+    }
+}
+
 impl From<mpm_core::Work> for WorkDone {
     fn from(w: mpm_core::Work) -> Self {
         Self {
@@ -115,9 +131,7 @@ pub struct Machine {
 pub struct Version {
     /// Version of this program.
     pub mpm_verify: String,
-    /// Fingerprint of the sources that determine the numbers: the core, the cases, the locked
-    /// dependencies.
-    #[serde(default)]
+    /// Fingerprint of the sources that determine the numbers: see `build.rs`.
     pub source: String,
 }
 
@@ -149,6 +163,8 @@ pub struct Record {
     pub level: String,
     /// Parameters changed from their defaults by the plan or the user, as `name=value`.
     pub set: Vec<String>,
+    /// Whether it is the perturbed twin of a run.
+    pub perturbed: bool,
     /// How it ended.
     pub status: Status,
     /// Why it failed.

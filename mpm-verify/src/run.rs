@@ -46,6 +46,7 @@ pub fn execute(
             transfer: spec.scheme.transfer,
             level: spec.level.name.to_owned(),
             set: spec.set.clone(),
+            perturbed: spec.perturbed,
             status: if failure.is_some() {
                 Status::Failed
             } else {
@@ -71,8 +72,8 @@ pub fn execute(
         }
         record.verdicts = judge(case, &record);
         if let Some(folder) = folder {
-            write_json(&folder.join("record.json"), &record)?;
             write_particles(folder, &job.particles())?;
+            write_json(&folder.join("record.json"), &record)?;
         }
         Ok(record)
     })
@@ -131,7 +132,9 @@ fn drive(
     let mut series = match folder {
         Some(folder) => {
             require_writable(folder)?;
-            discard(&folder.join("record.json"))?;
+            for file in ["record.json", "particles.csv", "particles.vtu"] {
+                discard(&folder.join(file))?;
+            }
             let path = folder.join("series.csv");
             let mut writer = csv::Writer::from_path(&path).map_err(|e| Error::file(&path, e))?;
             writer

@@ -5,15 +5,18 @@ use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::convergence::{Convergence, convergence};
 use crate::error::{Error, ExitCode};
-use crate::files::{discard, read_versioned, require_writable};
+use crate::files::{discard, discard_folder, read_versioned, require_writable};
 use crate::plan::{Plan, PlannedRun};
-use crate::record::{Record, SCHEMA, Status, Version};
+use crate::record::{self, Record, Status, Version};
 use crate::run::{execute, judge};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
+
+/// Version of the summary's format.
+pub const SCHEMA: u32 = 2;
 
 /// Hears of the progress of runs. `run` is the run's place in the plan.
 pub trait Listener: Sync {
@@ -172,10 +175,15 @@ impl Gathered {
     }
 
     /// Where the raw outputs of a run lie.
-    #[must_use]
-    pub fn folder(&self, record: &Record) -> PathBuf {
+    ///
+    /// # Errors
+    /// The run is not among those gathered.
+    pub fn folder(&self, record: &Record) -> Result<&Path, Error> {
         let place = format!("{}/{}", record.case, record.folder());
-        self.folders.get(&place).cloned().unwrap_or_default()
+        match self.folders.get(&place) {
+            Some(folder) => Ok(folder),
+            None => Err(Error::Input(format!("{place} is not among the runs read"))),
+        }
     }
 
     /// Every record.
@@ -266,8 +274,11 @@ fn read_record(folder: &Path, run: &PlannedRun) -> Result<Option<Record>, Error>
     if !path.exists() {
         return Ok(None);
     }
-    let record: Record = read_versioned(&path, SCHEMA)?;
-    if record.case != run.case || record.folder() != run_folder(run.scheme, &run.level, &run.set) {
+    let record: Record = read_versioned(&path, record::SCHEMA)?;
+    if record.perturbed
+        || record.case != run.case
+        || record.folder() != run_folder(run.scheme, &run.level, &run.set)
+    {
         let cause = format!("of another run: {} {}", record.case, record.folder());
         return Err(Error::file(&path, cause));
     }
@@ -298,7 +309,6 @@ pub fn make_runs(
             )));
         }
     }
-    plan.write(out)?;
     let mut tasks = Vec::new();
     for run in plan.own() {
         let (case, spec) = run.resolve()?;
@@ -309,8 +319,10 @@ pub fn make_runs(
         });
         if !resume {
             discard(&out.join(run.folder()).join("record.json"))?;
+            discard_folder(&out.join(run.folder()).join("twin"))?;
         }
     }
+    plan.write(out)?;
     run_all(&tasks, resume, workers, listener)
 }
 
@@ -327,8 +339,10 @@ pub struct Task {
 impl Task {
     /// The record that a run of this very program has left.
     fn made(&self) -> Option<Record> {
-        let record: Record = read_versioned(&self.folder.join("record.json"), SCHEMA).ok()?;
-        let same = record.case == self.case.name()
+        let path = self.folder.join("record.json");
+        let record: Record = read_versioned(&path, record::SCHEMA).ok()?;
+        let same = record.perturbed == self.spec.perturbed
+            && record.case == self.case.name()
             && record.scheme() == self.spec.scheme
             && record.level == self.spec.level.name
             && record.set == self.spec.set
@@ -385,7 +399,7 @@ pub fn run_all(
     std::thread::scope(|scope| {
         for _ in 0..workers.min(tasks.len()) {
             scope.spawn(|| {
-                while let Some(k) = queue.lock().ok().and_then(|mut q| q.pop()) {
+                while let Some(k) = unpoisoned(queue.lock()).pop() {
                     let task = &tasks[k];
                     let result = match task.made().filter(|_| resume) {
                         Some(record) => Ok(record),
@@ -396,14 +410,17 @@ pub fn run_all(
                     if let Ok(record) = &result {
                         listener.ended(k, record);
                     }
-                    if let Ok(mut results) = results.lock() {
-                        results.push((k, result));
-                    }
+                    unpoisoned(results.lock()).push((k, result));
                 }
             });
         }
     });
-    let mut results = results.into_inner().unwrap_or_default();
+    let mut results = unpoisoned(results.into_inner());
     results.sort_by_key(|(k, _)| *k);
     results.into_iter().map(|(_, result)| result).collect()
+}
+
+/// What a lock guards, whole even if another thread has panicked: queue and results change in one go.
+fn unpoisoned<T>(guarded: Result<T, PoisonError<T>>) -> T {
+    guarded.unwrap_or_else(PoisonError::into_inner)
 }

@@ -267,6 +267,27 @@ fn drift_is_shown_named_and_accepted_with_a_reason() {
     assert!(stdout(&scene.bless("again")).contains("0 goldens blessed"));
 }
 
+/// A run that is too long for a golden has none; but a golden that is there is held against it.
+#[test]
+fn more_steps_do_not_hide_drift() {
+    let scene = Scene::new();
+    let path = scene.report.join(RUN).join("record.json");
+    let mut record = json(&path);
+    record["work"]["particle_steps"] = json!(3_000_000_000_u64);
+    record["metrics"]["tip_uy"]["value"] = json!(0.27);
+    fs::write(&path, record.to_string()).unwrap();
+    assert_eq!(code(&scene.report()), 3);
+    fs::remove_dir_all(scene.golden.join(RUN)).unwrap();
+    assert_eq!(code(&scene.report()), 0);
+    let summary = json(&scene.report.join("summary.json"));
+    let verdicts = summary["cases"][0]["records"][3]["verdicts"]
+        .as_array()
+        .unwrap();
+    let drift: Vec<_> = verdicts.iter().filter(|v| v["kind"] == "drift").collect();
+    assert_eq!(drift.len(), 1);
+    assert!(drift[0]["pass"].is_null());
+}
+
 #[test]
 fn a_result_that_misses_the_truth_cannot_be_blessed() {
     let scene = Scene::new();
@@ -316,10 +337,24 @@ fn the_difference_of_two_reports_is_numbers_and_pictures() {
     let (report, _) = quick();
     let scene = Scene::new();
     let out = scene.report.parent().unwrap().join("diff");
+    let count = |folder: &Path| {
+        let mut summary = json(&folder.join("summary.json"));
+        summary["cases"][0]["records"][0]["work"]["steps"] = json!(1);
+        fs::write(folder.join("summary.json"), summary.to_string()).unwrap();
+    };
     let diff = |new: &Path| mpm_verify(&["diff", text(report), text(new), "--out", text(&out)]);
     let same = diff(&scene.report);
     assert_eq!(code(&same), 0, "{}", stdout(&same));
     assert!(stdout(&same).contains("0 numbers, 0 verdicts and 0 pictures differ"));
+
+    count(&scene.report);
+    let steps = diff(&scene.report);
+    assert_eq!(code(&steps), 3);
+    assert!(
+        stdout(&steps).contains("1 numbers, 0 verdicts"),
+        "{}",
+        stdout(&steps)
+    );
 
     scene.falsify("fem_mid_edge_error", 2.0);
     scene.falsify("mid_edge_uy", 1.05);

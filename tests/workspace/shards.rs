@@ -1,6 +1,7 @@
 //! Shards, resumption, and folders that are not what they should be.
 
 use super::{code, copy_tree, files, golden, json, mpm_verify, quick, stderr, text};
+use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +25,13 @@ fn report(folders: &[&Path], out: &Path) -> std::process::Output {
     arguments.extend(folders.iter().map(|f| text(f)));
     arguments.extend(["--out", text(out), "--golden", text(&golden)]);
     mpm_verify(&arguments)
+}
+
+/// A JSON document with one value replaced.
+fn changed(path: &Path, pointer: &str, value: serde_json::Value) -> String {
+    let mut document = json(path);
+    *document.pointer_mut(pointer).unwrap() = value;
+    document.to_string()
 }
 
 /// Every record below a folder of runs.
@@ -100,6 +108,11 @@ fn what_is_half_written_is_no_report_until_it_is_resumed() {
     );
     assert!(said.contains("cook/gimp-fbar-total-flip/h2"), "{said}");
 
+    // Nothing of the old report is left to be taken for the new one.
+    for file in ["summary.json", "index.html", "junit.xml", "cook/rest.png"] {
+        assert!(!out.join(file).exists(), "{file}");
+    }
+
     let resumed = verify(&out, &["--resume"]);
     assert_eq!(code(&resumed), 0, "{}", stderr(&resumed));
     assert!(lost.exists());
@@ -170,6 +183,27 @@ fn damaged_records_and_plans_are_errors() {
             &plan,
             "{\"schema\": 9}".to_owned(),
             "schema 9 where 1 is expected",
+        ),
+        (&plan, changed(&plan, "/runs", json!([])), "no runs"),
+        (
+            &plan,
+            changed(&plan, "/runs/1/shard", json!(2)),
+            "shard 2; allowed: 1 to 1",
+        ),
+        (
+            &plan,
+            changed(&plan, "/shard/count", json!(0)),
+            "shard 1/0; allowed",
+        ),
+        (
+            &record,
+            changed(&record, "/perturbed", json!(true)),
+            "of another run",
+        ),
+        (
+            &record,
+            changed(&record, "/version", json!({"mpm_verify": "0.1.0"})),
+            "missing field `source`",
         ),
     ] {
         let sound = fs::read(path).unwrap();

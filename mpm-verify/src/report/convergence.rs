@@ -13,6 +13,8 @@ use crate::study::CaseStudy;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+/// The picture that shows times taken.
+pub(super) const CPU_PICTURE: &str = "cpu-precision.png";
 /// Room between a slope triangle and the curves above it, as a ratio of errors.
 const CLEARANCE: f64 = 1.3;
 /// Width of a slope triangle, as a share of that of the curves.
@@ -35,26 +37,26 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         |p| p.particle_node_pairs as f64,
         false,
     );
-    let against_cost: Vec<Chart> = cpu
-        .into_iter()
-        .zip(pairs)
-        .flat_map(<[_; 2]>::from)
-        .collect();
     let mut pictures = Vec::new();
     for (name, charts, caption) in [
         (
-            "convergence",
+            "convergence.png",
             against_size,
             "Error against cell size, for every scheme, converging or not. Both axes are logarithmic; the triangle shows an order.",
         ),
         (
-            "work-precision",
-            against_cost,
-            "Error against its cost, in CPU time (one thread) and in particle–node pairs visited, for every scheme, converging or not.",
+            "work-precision.png",
+            pairs,
+            "Error against its cost in particle–node pairs visited, for every scheme, converging or not.",
+        ),
+        (
+            CPU_PICTURE,
+            cpu,
+            "Error against its cost in CPU time (one thread), for every scheme, converging or not.",
         ),
     ] {
         if !charts.is_empty() {
-            let file = format!("{}/{name}.png", study.case);
+            let file = format!("{}/{name}", study.case);
             draw_charts(&out.join(&file), &charts, 2)?;
             let caption = caption.to_owned();
             pictures.push(Picture { file, caption });

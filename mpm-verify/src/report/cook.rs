@@ -67,7 +67,7 @@ impl Runs<'_> {
     }
 
     fn table(&self, record: &Record, file: &str) -> Result<Table, Error> {
-        Table::read(&self.gathered.folder(record).join(file))
+        Table::read(&self.gathered.folder(record)?.join(file))
     }
 
     /// One series per scheme over the levels, of records for which `measure` is finite.

@@ -1,12 +1,13 @@
 //! The difference of two report folders.
 
+use super::convergence::CPU_PICTURE;
 use super::describe::{number, outcome};
+use super::history::TRENDS;
 use super::triptych::{different_pixels, triptych};
 use crate::check::Verdict;
 use crate::error::{Error, ExitCode};
 use crate::files::{make_folder, read_versioned, write_picture, write_whole};
-use crate::record::SCHEMA;
-use crate::study::Summary;
+use crate::study::{SCHEMA, Summary};
 use image::RgbImage;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -146,15 +147,25 @@ fn changes<T: Copy + PartialEq>(
 }
 
 fn numbers(summary: &Summary) -> BTreeMap<String, Option<f64>> {
-    let records = summary.cases.iter().flat_map(|c| &c.records);
-    records
-        .flat_map(|r| {
-            let run = format!("{} {}", r.case, r.folder());
-            r.metrics
-                .iter()
-                .map(move |(name, m)| (format!("{run} {name} ({})", m.unit), m.value))
-        })
-        .collect()
+    let mut numbers = BTreeMap::new();
+    for record in summary.cases.iter().flat_map(|c| &c.records) {
+        let run = format!("{} {}", record.case, record.folder());
+        for (name, m) in &record.metrics {
+            numbers.insert(format!("{run} {name} ({})", m.unit), m.value);
+        }
+        for (name, count) in record.work.counts() {
+            numbers.insert(format!("{run} {name}"), Some(count as f64));
+        }
+    }
+    for study in &summary.cases {
+        for entry in &study.convergence {
+            if let Some(order) = &entry.order {
+                let name = format!("{} {} order of {}", study.case, entry.scheme, entry.metric);
+                numbers.insert(name, Some(order.order));
+            }
+        }
+    }
+    numbers
 }
 
 fn outcomes(summary: &Summary) -> BTreeMap<String, &'static str> {
@@ -175,13 +186,19 @@ fn outcomes(summary: &Summary) -> BTreeMap<String, &'static str> {
         .collect()
 }
 
+/// Whether a picture shows times taken, which no two runs share.
+fn shows_time(path: &Path) -> bool {
+    let name = path.file_name().and_then(|n| n.to_str()).unwrap_or("");
+    name == CPU_PICTURE || name.starts_with(TRENDS)
+}
+
 /// Collects the PNG files below `folder`, as paths relative to `root`.
 fn list_pictures(root: &Path, folder: &Path, found: &mut BTreeSet<PathBuf>) -> Result<(), Error> {
     for entry in fs::read_dir(folder).map_err(|e| Error::file(folder, e))? {
         let path = entry.map_err(|e| Error::file(folder, e))?.path();
         if path.is_dir() {
             list_pictures(root, &path, found)?;
-        } else if path.extension().is_some_and(|e| e == "png") {
+        } else if path.extension().is_some_and(|e| e == "png") && !shows_time(&path) {
             found.extend(path.strip_prefix(root).map(Path::to_path_buf));
         }
     }

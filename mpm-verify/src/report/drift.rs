@@ -4,7 +4,7 @@ use super::Picture;
 use super::triptych::triptych;
 use crate::check::Verdict;
 use crate::error::Error;
-use crate::files::{discard_folder, write_picture};
+use crate::files::write_picture;
 use crate::golden::{Golden, home};
 use crate::study::{Gathered, Summary};
 use std::path::Path;
@@ -17,16 +17,13 @@ pub(super) fn draw(
     out: &Path,
 ) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
-    for study in &summary.cases {
-        discard_folder(&out.join(&study.case).join("drift"))?;
-    }
     for record in summary.cases.iter().flat_map(|s| &s.records) {
         if !record.verdicts.iter().any(Verdict::drifts) {
             continue;
         }
         // A golden that is missing or damaged, or a run without its rows, has nothing to show.
-        let both = Golden::read(&home(root, record))
-            .and_then(|g| g.pictures(record, &gathered.folder(record)));
+        let folder = gathered.folder(record)?;
+        let both = Golden::read(&home(root, record)).and_then(|g| g.pictures(record, folder));
         if let Ok((golden, now)) = both {
             let file = format!("{}/drift/{}.png", record.case, record.folder());
             write_picture(&out.join(&file), &triptych(&golden, &now))?;

@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 const FILE: &str = "history.csv";
+/// How the pictures' names begin.
+pub(super) const TRENDS: &str = "trends-";
 const COST: &str = "cpu_s";
 const ORDER: &str = "order of ";
 
@@ -59,7 +61,8 @@ struct Row {
 pub(super) fn add(summary: &Summary, night: &Night, out: &Path) -> Result<Vec<Picture>, Error> {
     let path = out.join(FILE);
     let mut rows = read(&path)?;
-    rows.retain(|row| row.night != night.date);
+    let told = |row: &Row| summary.cases.iter().any(|s| s.case == row.case);
+    rows.retain(|row| row.night != night.date || !told(row));
     for study in &summary.cases {
         rows.extend(rows_of(study, night));
     }
@@ -175,7 +178,7 @@ fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, 
             }
         })
         .collect();
-    let file = format!("trends-{}.png", study.case);
+    let file = format!("{TRENDS}{}.png", study.case);
     draw_charts(&out.join(&file), &charts, 2)?;
     Ok(Some(Picture {
         file,

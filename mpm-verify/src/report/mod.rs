@@ -19,8 +19,9 @@ mod summary;
 mod triptych;
 pub mod watched;
 
+use crate::cases;
 use crate::error::Error;
-use crate::files::write_json;
+use crate::files::{discard, discard_all, discard_folder, write_json};
 use crate::study::{Gathered, Summary};
 use history::Night;
 use std::path::Path;
@@ -38,6 +39,7 @@ pub fn write_report(
     night: Option<&Night>,
     out: &Path,
 ) -> Result<(), Error> {
+    discard_report(out)?;
     let mut pictures = drift::draw(gathered, summary, golden, out)?;
     for study in &summary.cases {
         if study.case == "cook" {
@@ -48,10 +50,31 @@ pub fn write_report(
     if let Some(night) = night {
         pictures.extend(history::add(summary, night, out)?);
     }
-    write_json(&out.join("summary.json"), summary)?;
     summary::write(summary, &pictures, out)?;
     junit::write(summary, out)?;
-    html::write(summary, &pictures, out)
+    html::write(summary, &pictures, out)?;
+    // The sign that the report is whole.
+    write_json(&out.join("summary.json"), summary)
+}
+
+/// Removes an earlier report from `out`; runs, plan and history stay.
+///
+/// # Errors
+/// A file is there and can't be removed.
+pub fn discard_report(out: &Path) -> Result<(), Error> {
+    for file in ["summary.json", "summary.md", "junit.xml", "index.html"] {
+        discard(&out.join(file))?;
+    }
+    for case in cases::all() {
+        let name = case.name();
+        discard(&out.join(format!("{name}.html")))?;
+        discard(&out.join(format!("{}{name}.png", history::TRENDS)))?;
+        let folder = out.join(name);
+        discard_folder(&folder.join("drift"))?;
+        discard(&folder.join("study.json"))?;
+        discard_all(&folder, &["png", "csv"])?;
+    }
+    Ok(())
 }
 
 /// A picture of the report.

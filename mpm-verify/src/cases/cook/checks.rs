@@ -484,17 +484,15 @@ pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
         if errors.len() < 2 {
             continue;
         }
-        let worst = errors
+        let ratios = errors
             .windows(2)
-            .map(|pair| pair[1] / pair[0].max(REST_NOISE))
-            .fold(f64::NEG_INFINITY, |worst, ratio| {
-                // NaN, of a run that broke down, must not be lost.
-                if ratio.is_nan() {
-                    ratio
-                } else {
-                    worst.max(ratio)
-                }
-            });
+            .map(|pair| pair[1] / pair[0].max(REST_NOISE));
+        // A run that broke down has no error, and must not be lost among the others.
+        let worst = if errors.iter().any(|e| e.is_nan()) {
+            f64::NAN
+        } else {
+            ratios.fold(f64::NEG_INFINITY, f64::max)
+        };
         verdicts.push(Verdict::at_most(
             "error-falls",
             Kind::Truth,
