@@ -121,6 +121,14 @@ mod tests {
     }
 
     #[test]
+    fn at_a_quarter_of_the_period_the_gradient_is_as_given() {
+        let s = check::solution(&ENTRY, &["g_xx=0.1", "g_xy=0.2", "g_yx=0.3", "g_yy=0.4"]);
+        let f = s.deformation_gradient(&Vector3::zeros(), 0.25);
+        let expected = Matrix3::new(1.1, 0.2, 0.0, 0.3, 1.4, 0.0, 0.0, 0.0, 1.0);
+        assert!((f - expected).norm() < 1e-15);
+    }
+
+    #[test]
     fn stress_and_strain_are_the_same_everywhere() {
         let s = check::solution(&ENTRY, &[]);
         let (x, y) = (Vector3::new(0.1, 0.2, 0.0), Vector3::new(0.9, 0.4, 0.0));

@@ -12,8 +12,8 @@
 //! ρ a = Div P − ρ g e_y holds exactly. Free slip on floor and sides.
 //!
 //! The wave starts flat. The largest displacement gradient, a k coth kH at the surface, is held below
-//! 0.1; in deep water the true frequency is then lower by (ak)²/8 (Tadjbakhsh & Keller 1960,
-//! doi:10.1017/S0022112060000724), about 0.1 %. J = det F is 1 to first order.
+//! 0.1; in deep water the true frequency is then lower by (ak)²/8 (Tadjbakhsh & Keller 1960, J. Fluid
+//! Mech. 8, 442–451), about 0.1 %. J = det F is 1 to first order.
 
 use super::material::density;
 use super::{Entry, Exact, GRAVITY, Material, number, require_below, sine};

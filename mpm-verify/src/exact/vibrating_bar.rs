@@ -198,6 +198,16 @@ mod tests {
         assert!((coarse / fine - 2.0).abs() < 0.02, "{}", coarse / fine);
     }
 
+    /// The bulk modulus λ + 2μ/3 times the volumetric strain.
+    #[test]
+    fn the_mean_stress_is_that_of_the_volumetric_strain() {
+        let s = bar("fixed-fixed", 1e-3);
+        let (x, t) = (Vector3::x() * 0.1, 3e-4);
+        let strain = s.jacobian(&x, t) - 1.0;
+        let expected = (s.material.lambda + s.material.mu * 2.0 / 3.0) * strain;
+        assert!((s.mean_stress(&x, t) - expected).abs() < 1e-10 * expected.abs());
+    }
+
     /// Half ρ₀ v² + half P ε, integrated at several times.
     #[test]
     fn the_energy_is_constant_and_as_stated() {
