@@ -5,12 +5,12 @@
 //! In cylindrical coordinates P = μ \[R α_R (e_r E_Θ + e_θ E_R) + R α_Z (e_θ E_Z + e_z E_Θ)\], and
 //! b_r = −R α_t² + (μ/ρ₀) R (α_R² + α_Z²), b_θ = R α_tt − (μ/ρ₀) (3 α_R + R α_RR + R α_ZZ), b_z = 0.
 
-use super::twist::{Angle, Twist};
+use super::twist::{Angle, Twist, Vortex};
 use super::vortex_box::{ANGLE, profile};
-use super::{Entry, Exact, Material, angular_frequency, sine};
+use super::{Entry, Material, angular_frequency, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
 /// Isochoric swirl in three dimensions.
@@ -48,6 +48,20 @@ impl Swirl {
             angular_frequency: p.number("angular_frequency"),
         })
     }
+}
+
+impl Vortex for Swirl {
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    fn material(&self) -> Material {
+        self.material
+    }
+
+    fn extent(&self) -> [[f64; 2]; 3] {
+        [[0.0, 1.0]; 3]
+    }
 
     fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
         let d = [x.x - 0.5, x.y - 0.5];
@@ -61,44 +75,6 @@ impl Swirl {
             ],
         };
         Twist::new(d, &angle)
-    }
-}
-
-impl Exact for Swirl {
-    fn dimension(&self) -> usize {
-        3
-    }
-
-    fn material(&self) -> Material {
-        self.material
-    }
-
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
-    }
-
-    fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).displacement()
-    }
-
-    fn velocity(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).velocity()
-    }
-
-    fn deformation_gradient(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
-        self.twist(x, t).deformation_gradient()
-    }
-
-    fn jacobian(&self, _: &Vector3<f64>, _: f64) -> f64 {
-        1.0
-    }
-
-    fn first_piola(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
-        self.twist(x, t).first_piola(self.material.mu)
-    }
-
-    fn body_force(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).body_force(&self.material)
     }
 }
 

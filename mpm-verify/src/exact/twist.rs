@@ -11,7 +11,7 @@
 //! Kamojjala, Brannon, Sadeghirad & Guilkey 2015 (doi:10.1007/s00366-013-0342-x); h as a function of
 //! R² spares the division by R on the axis.
 
-use super::Material;
+use super::{Exact, Material};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3, Vector4};
 
 /// The turn by 90° about z.
@@ -123,5 +123,58 @@ impl Twist {
         let radial = c2 * gradient.norm_squared() - self.gradient.w.powi(2);
         let hoop = self.hessian[(3, 3)] - c2 * laplacian;
         self.rotation * (radial * self.arm + QUARTER * (hoop * self.arm - 2.0 * c2 * gradient))
+    }
+}
+
+/// A solution whose every point only turns: isochoric, with u, P and b independent of λ.
+pub(super) trait Vortex: std::fmt::Debug + Send + Sync {
+    /// As [`Exact::dimension`].
+    fn dimension(&self) -> usize;
+
+    /// As [`Exact::material`].
+    fn material(&self) -> Material;
+
+    /// As [`Exact::extent`].
+    fn extent(&self) -> [[f64; 2]; 3];
+
+    /// The motion of the point `x` (m) at time `t` (s).
+    fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist;
+}
+
+impl<V: Vortex> Exact for V {
+    fn dimension(&self) -> usize {
+        Vortex::dimension(self)
+    }
+
+    fn material(&self) -> Material {
+        Vortex::material(self)
+    }
+
+    fn extent(&self) -> [[f64; 2]; 3] {
+        Vortex::extent(self)
+    }
+
+    fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
+        self.twist(x, t).displacement()
+    }
+
+    fn velocity(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
+        self.twist(x, t).velocity()
+    }
+
+    fn deformation_gradient(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
+        self.twist(x, t).deformation_gradient()
+    }
+
+    fn jacobian(&self, _: &Vector3<f64>, _: f64) -> f64 {
+        1.0
+    }
+
+    fn first_piola(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
+        self.twist(x, t).first_piola(Vortex::material(self).mu)
+    }
+
+    fn body_force(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
+        self.twist(x, t).body_force(&Vortex::material(self))
     }
 }

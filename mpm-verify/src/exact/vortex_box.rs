@@ -6,11 +6,11 @@
 //! ν → ½ over that at ν = 0.3 is a direct measure of locking, and σ_m − μ (R α_R)²/3, zero in the exact
 //! solution, is another.
 
-use super::twist::{Angle, PLANE, Twist};
-use super::{Entry, Exact, Material, angular_frequency, number, sine};
+use super::twist::{Angle, PLANE, Twist, Vortex};
+use super::{Entry, Material, angular_frequency, number, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
 /// Vortex in a box.
@@ -67,20 +67,9 @@ impl VortexBox {
             angular_frequency: p.number("angular_frequency"),
         })
     }
-
-    /// The motion of the point `x` (m), which need not be where a particle started.
-    pub(super) fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
-        let d = [x.x - 0.5, x.y - 0.5];
-        let angle = Angle {
-            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
-            profile: profile(d),
-            height: PLANE,
-        };
-        Twist::new(d, &angle)
-    }
 }
 
-impl Exact for VortexBox {
+impl Vortex for VortexBox {
     fn dimension(&self) -> usize {
         2
     }
@@ -93,28 +82,14 @@ impl Exact for VortexBox {
         [[0.0, 1.0]; 3]
     }
 
-    fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).displacement()
-    }
-
-    fn velocity(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).velocity()
-    }
-
-    fn deformation_gradient(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
-        self.twist(x, t).deformation_gradient()
-    }
-
-    fn jacobian(&self, _: &Vector3<f64>, _: f64) -> f64 {
-        1.0
-    }
-
-    fn first_piola(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
-        self.twist(x, t).first_piola(self.material.mu)
-    }
-
-    fn body_force(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).body_force(&self.material)
+    fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
+        let d = [x.x - 0.5, x.y - 0.5];
+        let angle = Angle {
+            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
+            profile: profile(d),
+            height: PLANE,
+        };
+        Twist::new(d, &angle)
     }
 }
 

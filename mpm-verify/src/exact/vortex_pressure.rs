@@ -9,6 +9,7 @@
 //!
 //! x,AB = Σ_ab x,ab X̂_a,A X̂_b,B + Σ_a x,a X̂_a,AB.
 
+use super::twist::Vortex;
 use super::vortex_box::{ANGLE, VortexBox};
 use super::{Entry, Exact, INVERTS, Material, angular_frequency, number, require_below, sine};
 use crate::error::Error;
@@ -113,7 +114,7 @@ impl Exact for VortexPressure {
     }
 
     fn extent(&self) -> [[f64; 2]; 3] {
-        self.vortex.extent()
+        Exact::extent(&self.vortex)
     }
 
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {

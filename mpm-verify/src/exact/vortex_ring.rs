@@ -7,11 +7,11 @@
 //! material at rest, its sides are fixed. h″, and with it b, jumps at the circles. u, b and P do not
 //! depend on λ.
 
-use super::twist::{Angle, PLANE, Twist};
-use super::{Entry, Exact, Material, angular_frequency, number, sine};
+use super::twist::{Angle, PLANE, Twist, Vortex};
+use super::{Entry, Material, angular_frequency, number, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
 /// Generalised vortex in a ring.
@@ -60,15 +60,6 @@ impl VortexRing {
             angular_frequency: p.number("angular_frequency"),
         })
     }
-
-    fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
-        let angle = Angle {
-            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
-            profile: profile(x.x.hypot(x.y)),
-            height: PLANE,
-        };
-        Twist::new([x.x, x.y], &angle)
-    }
 }
 
 /// h and its derivatives by R², from h′ and h″ by R: h′/(2R) and (h″ − h′/R)/(4R²).
@@ -83,7 +74,7 @@ fn profile(r: f64) -> [f64; 3] {
     [h, h_r / (2.0 * r), (h_rr - h_r / r) / (4.0 * r * r)]
 }
 
-impl Exact for VortexRing {
+impl Vortex for VortexRing {
     fn dimension(&self) -> usize {
         2
     }
@@ -96,28 +87,13 @@ impl Exact for VortexRing {
         [[-1.5, 1.5]; 3]
     }
 
-    fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).displacement()
-    }
-
-    fn velocity(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).velocity()
-    }
-
-    fn deformation_gradient(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
-        self.twist(x, t).deformation_gradient()
-    }
-
-    fn jacobian(&self, _: &Vector3<f64>, _: f64) -> f64 {
-        1.0
-    }
-
-    fn first_piola(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
-        self.twist(x, t).first_piola(self.material.mu)
-    }
-
-    fn body_force(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).body_force(&self.material)
+    fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
+        let angle = Angle {
+            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
+            profile: profile(x.x.hypot(x.y)),
+            height: PLANE,
+        };
+        Twist::new([x.x, x.y], &angle)
     }
 }
 
