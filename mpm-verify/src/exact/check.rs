@@ -55,7 +55,11 @@ fn unit(i: usize) -> Vector3<f64> {
 }
 
 /// ∂/∂X_j of a field over the axes of the motion, at `x`.
-fn gradient<T>(s: &dyn Exact, x: &Vector3<f64>, field: impl Fn(&Vector3<f64>) -> T) -> [T; 3]
+pub(super) fn gradient<T>(
+    s: &dyn Exact,
+    x: &Vector3<f64>,
+    field: impl Fn(&Vector3<f64>) -> T,
+) -> [T; 3]
 where
     T: Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
 {

@@ -92,6 +92,24 @@ mod tests {
         check::fixed_on_all_sides(s.as_ref(), 2.0);
     }
 
+    /// Second derivatives against differences of the first: all that closed forms don't use, too.
+    #[test]
+    fn the_second_derivatives_are_those_of_the_first() {
+        let s = Swirl::new(&Parameters::new(&PARAMETERS, &[]).unwrap()).unwrap();
+        let (x, t) = (Vector3::new(0.6, 0.35, 0.2), 0.3);
+        let slopes = check::gradient(&s, &x, |x| s.twist(x, t).first_derivatives());
+        let second = s.twist(&x, t).second_derivatives();
+        for (j, slope) in slopes.iter().enumerate() {
+            for (k, second) in second.iter().enumerate() {
+                let difference = second.column(j) - slope.row(k).transpose();
+                assert!(
+                    difference.norm() < 1e-9 * slope.norm(),
+                    "{k} {j}: {difference}"
+                );
+            }
+        }
+    }
+
     /// The formulas of the head of this file, in cylindrical coordinates.
     #[test]
     fn the_forces_are_those_of_cylindrical_coordinates() {
