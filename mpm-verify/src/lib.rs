@@ -11,6 +11,7 @@ pub mod cases;
 pub mod check;
 pub mod convergence;
 pub mod error;
+pub mod exact;
 pub mod files;
 pub mod golden;
 pub mod order;

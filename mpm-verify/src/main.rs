@@ -1,4 +1,4 @@
-//! The command line: `mpm-verify list | explain | run | verify | report | bless | diff`.
+//! The command line: `mpm-verify list | explain | run | verify | report | bless | diff | exact`.
 
 mod progress;
 
@@ -7,6 +7,7 @@ use clap::{Parser, Subcommand};
 use mpm_verify::bless::Candidates;
 use mpm_verify::case::{Case, RunSpec, Tier, find_level};
 use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::exact;
 use mpm_verify::plan::{Plan, Shard};
 use mpm_verify::record::{Record, Status};
 use mpm_verify::report::diff::Difference;
@@ -139,6 +140,20 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
+    /// Evaluate an exact solution at a reference point, as JSON
+    Exact {
+        /// The solution
+        name: String,
+        /// Reference coordinates (m), as many as the motion has dimensions
+        #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+        at: String,
+        /// Time (s)
+        #[arg(long, allow_hyphen_values = true)]
+        time: String,
+        /// Change a parameter
+        #[arg(long = "set", value_name = "NAME=VALUE")]
+        set: Vec<String>,
+    },
 }
 
 fn main() -> std::process::ExitCode {
@@ -164,7 +179,7 @@ const MAX_THREADS: usize = 1024;
 /// The gist of an error of the command line's syntax.
 fn one_line(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing; allowed: list, explain, run, verify, report, bless, diff"
+        return "a command is missing; allowed: list, explain, run, verify, report, bless, diff, exact"
             .to_owned();
     }
     let text = error.to_string();
@@ -298,6 +313,15 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             }
             say(&difference.text())?;
             Ok(difference.exit_code())
+        }
+        Command::Exact {
+            name,
+            at,
+            time,
+            set,
+        } => {
+            say(&exact::State::ask(&name, &at, &time, &set)?.json()?)?;
+            Ok(ExitCode::Good)
         }
     }
 }

@@ -10,6 +10,7 @@
 mod browser;
 mod cli;
 mod completeness;
+mod exact;
 mod gate;
 mod readme;
 mod shards;

@@ -1,0 +1,132 @@
+//! Vortex in a box: isochoric, no curved boundary; derived here from the vortex in a ring.
+//!
+//! On the unit square a point turns about the centre by α = α₀ sin ωt · h(R),
+//! h = (1 − R²/R₀²)⁴ for R < R₀ = 0.4 m, zero beyond: smooth but for the fourth derivative at R₀, so b
+//! has two. The sides are fixed (rollers are exact too). u, b and P do not depend on λ: the error at
+//! ν → ½ over that at ν = 0.3 is a direct measure of locking, and σ_m − μ (R α_R)²/3, zero in the exact
+//! solution, is another.
+
+use super::twist::{Angle, PLANE, Twist, Vortex};
+use super::{Entry, Material, angular_frequency, number, sine};
+use crate::error::Error;
+use crate::parameter::{Parameter, Parameters};
+use nalgebra::Vector3;
+use std::f64::consts::TAU;
+
+/// Vortex in a box.
+#[derive(Debug, Clone, Copy)]
+pub struct VortexBox {
+    /// Density and moduli.
+    pub material: Material,
+    /// Angle α₀ at the centre (rad).
+    pub angle: f64,
+    /// Angular frequency ω (rad/s).
+    pub angular_frequency: f64,
+}
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "mms-vortex-box",
+    summary: "isochoric vortex in the unit square",
+    parameters: &PARAMETERS,
+    build: |p| Ok(Box::new(VortexBox::new(p)?)),
+};
+
+const PARAMETERS: [Parameter; 5] = {
+    let [e, nu, rho] = Material::parameters("1e3", "0.3");
+    [e, nu, rho, ANGLE, angular_frequency("3.141592653589793")]
+};
+
+/// α₀.
+pub(super) const ANGLE: Parameter = number(["angle", "rad", "1"], [0.0, TAU], "largest angle α₀");
+
+/// Radius R₀ of the vortex (m).
+const RADIUS: f64 = 0.4;
+
+/// h = (1 − R²/R₀²)⁴ and its derivatives by R² (-, 1/m², 1/m⁴) at the arm `d` (m).
+pub(super) fn profile(d: [f64; 2]) -> [f64; 3] {
+    let q = 1.0 - (d[0] * d[0] + d[1] * d[1]) / (RADIUS * RADIUS);
+    if q <= 0.0 {
+        return [0.0; 3];
+    }
+    [
+        q.powi(4),
+        -4.0 * q.powi(3) / RADIUS.powi(2),
+        12.0 * q.powi(2) / RADIUS.powi(4),
+    ]
+}
+
+impl VortexBox {
+    /// The solution of the parameters of `mms-vortex-box`.
+    ///
+    /// # Errors
+    /// Moduli that the law does not allow.
+    pub fn new(p: &Parameters) -> Result<Self, Error> {
+        Ok(Self {
+            material: Material::new(p)?,
+            angle: p.number("angle"),
+            angular_frequency: p.number("angular_frequency"),
+        })
+    }
+}
+
+impl Vortex for VortexBox {
+    fn dimension(&self) -> usize {
+        2
+    }
+
+    fn material(&self) -> Material {
+        self.material
+    }
+
+    fn extent(&self) -> [[f64; 2]; 3] {
+        [[0.0, 1.0]; 3]
+    }
+
+    fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
+        let d = [x.x - 0.5, x.y - 0.5];
+        let angle = Angle {
+            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
+            profile: profile(d),
+            height: PLANE,
+        };
+        Twist::new(d, &angle)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::check;
+
+    #[test]
+    fn it_solves_the_equations_in_a_fixed_box() {
+        for nu in ["poisson_ratio=0.3", "poisson_ratio=0.4999"] {
+            let s = check::solution(&ENTRY, &[nu]);
+            check::solves_as_neo_hookean(s.as_ref(), 2.0, |x| {
+                ((x.x - 0.5).hypot(x.y - 0.5) - RADIUS).abs() > 0.05
+            });
+            check::fixed_on_all_sides(s.as_ref(), 2.0);
+        }
+    }
+
+    #[test]
+    fn the_centre_is_regular_and_the_motion_knows_no_lambda() {
+        let centre = Vector3::new(0.5, 0.5, 0.0);
+        let [soft, stiff] = ["poisson_ratio=0.3", "poisson_ratio=0.4999"]
+            .map(|nu| check::solution(&ENTRY, &["young_modulus=1000", nu]));
+        assert!(soft.body_force(&centre, 0.3).norm() < 1e-15);
+        assert!(soft.velocity(&centre, 0.3).norm() < 1e-15);
+        let x = Vector3::new(0.6, 0.4, 0.0);
+        assert_eq!(soft.displacement(&x, 0.3), stiff.displacement(&x, 0.3));
+    }
+
+    #[test]
+    fn the_mean_stress_is_that_of_the_shear_alone() {
+        let s = check::solution(&ENTRY, &["poisson_ratio=0.4999"]);
+        let x = Vector3::new(0.7, 0.5, 0.0);
+        let (r, q) = (0.2_f64, 0.75_f64);
+        let slope = -8.0 * r * q.powi(3) / 0.16;
+        let expected = s.material().mu * (r * slope).powi(2) / 3.0;
+        assert!((s.mean_stress(&x, 0.5) - expected).abs() < 1e-12 * expected);
+    }
+}
