@@ -45,8 +45,8 @@ const FAULTS: [Fault; 7] = [
     Fault {
         name: "P2G halves the mass",
         file: "mpm-core/src/transfer/kernel.rs",
-        sound: "[0.0, 0.0, 0.0, given.mass]",
-        broken: "[0.0, 0.0, 0.0, 0.5 * given.mass]",
+        sound: "[0.0, 0.0, 0.0, self.mass]",
+        broken: "[0.0, 0.0, 0.0, 0.5 * self.mass]",
         run: RATE,
         check: "mid-edge",
     },

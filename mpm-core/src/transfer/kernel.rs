@@ -29,10 +29,9 @@ impl<const D: usize> Given<'_, D> {
     #[inline(always)]
     #[must_use]
     pub fn momentum(&self) -> Node {
-        let given = self;
-        let mut carried = [0.0, 0.0, 0.0, given.mass];
+        let mut carried = [0.0, 0.0, 0.0, self.mass];
         for a in 0..D {
-            carried[a] = given.mass * given.velocity[a];
+            carried[a] = self.mass * self.velocity[a];
         }
         Node::from(carried)
     }

@@ -29,7 +29,7 @@ use crate::stage::Prescribed;
 use nalgebra::SMatrix;
 use std::ops::Range;
 
-/// Largest order: a sweep costs about as much as a step of PIC, and little is left to gain.
+/// Largest order: every sweep costs about a P2G, and gains less than the one before.
 const MAX_ORDER: u32 = 5;
 
 /// XPIC(m), with m − 1 extra passes between particles and grid per step.
