@@ -36,7 +36,7 @@ const RATE: &[&str] = &[
 const FAULTS: [Fault; 7] = [
     Fault {
         name: "P2G drops the stress along the last axis",
-        file: "mpm-core/src/transfer/flip.rs",
+        file: "mpm-core/src/transfer/kernel.rs",
         sound: "across.mul_add(w, along.mul_add(dw, nodes[k].change))",
         broken: "across.mul_add(w, (along * 0.0).mul_add(dw, nodes[k].change))",
         run: RATE,
@@ -44,9 +44,9 @@ const FAULTS: [Fault; 7] = [
     },
     Fault {
         name: "P2G halves the mass",
-        file: "mpm-core/src/transfer/flip.rs",
-        sound: "[0.0, 0.0, 0.0, given.mass]",
-        broken: "[0.0, 0.0, 0.0, 0.5 * given.mass]",
+        file: "mpm-core/src/transfer/kernel.rs",
+        sound: "[0.0, 0.0, 0.0, self.mass]",
+        broken: "[0.0, 0.0, 0.0, 0.5 * self.mass]",
         run: RATE,
         check: "mid-edge",
     },

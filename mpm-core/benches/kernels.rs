@@ -1,4 +1,5 @@
-//! Kernels on one thread: time per particle of P2G, G2P, the volume average Π and the law.
+//! Kernels on one thread: time per particle of P2G, G2P, a sweep of XPIC, the volume average Π and
+//! the law.
 //!
 //! Plane strain, two particles per cell and direction, sorted by cell.
 
@@ -8,9 +9,8 @@ use mpm_core::material::{Law, NeoHookean};
 use mpm_core::particles::cell_order;
 use mpm_core::projection::{Average, NodalAverage, Projection};
 use mpm_core::space::embed;
-use mpm_core::transfer::NodalState;
-use mpm_core::transfer::flip::{Given, grid_to_particle, particle_to_grid};
-use mpm_core::{Axis, Basis, Grid, Lattice, Particles};
+use mpm_core::transfer::{Apic, Flip, Given, NodalState, Xpic};
+use mpm_core::{Axis, Basis, Grid, Lattice, Particles, Transfer};
 use nalgebra::Matrix2;
 use std::hint::black_box;
 
@@ -31,8 +31,13 @@ fn body() -> (Grid<2>, Particles<2>, Vec<std::ops::Range<usize>>) {
     (grid, particles, slabs)
 }
 
-fn transfers<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
-    let (grid, p, slabs) = body();
+fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
+    c: &mut Criterion,
+    name: &str,
+    mut transfer: T,
+) {
+    let (grid, mut p, slabs) = body();
+    transfer.attach(&mut p);
     let lattice = Lattice::<2, S, B>::new(grid, WallTreatment::OpenKnot);
     let mut nodes = vec![NodalState::default(); lattice.len()];
     let mut group = c.benchmark_group(name);
@@ -41,25 +46,42 @@ fn transfers<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
         b.iter(|| {
             for k in 0..p.len() {
                 let given = Given {
+                    position: &p.position[k],
                     mass: p.mass[k],
                     velocity: &p.velocity[k],
+                    affine: p.affine.get(k),
                     volume: p.volume[k],
                     stress: &p.stress[k],
                     external_force: &p.external_force[k],
                 };
                 let stencil = lattice.stencil(&p.position[k], &p.half_size[k]);
-                particle_to_grid(&stencil, &given, &mut nodes, 0);
+                transfer.particle_to_grid(&lattice, &stencil, &given, &mut nodes, 0);
             }
         });
     });
+    group.bench_function("prepare", |b| {
+        b.iter(|| black_box(transfer.prepare(&lattice, &p, &slabs, &nodes, &[])));
+    });
+    let mut velocity = p.velocity.clone();
+    let mut affine = p.affine.clone();
     group.bench_function("g2p", |b| {
         b.iter(|| {
             for k in 0..p.len() {
-                let stencil = lattice.stencil(&p.position[k], &p.half_size[k]);
-                black_box(grid_to_particle(&stencil, &nodes));
+                let x = &p.position[k];
+                let stencil = lattice.stencil(x, &p.half_size[k]);
+                let (v, b) = (&mut velocity[k], affine.get_mut(k));
+                black_box(transfer.grid_to_particle(&lattice, &stencil, x, &nodes, v, b));
             }
         });
     });
+    group.finish();
+}
+
+fn passes<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
+    let (grid, p, slabs) = body();
+    let lattice = Lattice::<2, S, B>::new(grid, WallTreatment::OpenKnot);
+    let mut group = c.benchmark_group(name);
+    group.throughput(Throughput::Elements(p.len() as u64));
     group.bench_function("stencil", |b| {
         b.iter(|| {
             for k in 0..p.len() {
@@ -107,9 +129,16 @@ fn law(c: &mut Criterion) {
 }
 
 fn kernels(c: &mut Criterion) {
-    transfers::<3, Gimp>(c, "gimp");
-    transfers::<3, QuadraticBSpline>(c, "bspline2");
-    transfers::<4, CubicBSpline>(c, "bspline3");
+    transfers::<3, Gimp, _>(c, "gimp", Flip::default());
+    transfers::<3, QuadraticBSpline, _>(c, "bspline2", Flip::default());
+    transfers::<4, CubicBSpline, _>(c, "bspline3", Flip::default());
+    transfers::<3, QuadraticBSpline, _>(c, "bspline2-apic", Apic);
+    if let Ok(xpic) = Xpic::new(2) {
+        transfers::<3, QuadraticBSpline, _>(c, "bspline2-xpic2", xpic);
+    }
+    passes::<3, Gimp>(c, "gimp");
+    passes::<3, QuadraticBSpline>(c, "bspline2");
+    passes::<4, CubicBSpline>(c, "bspline3");
     law(c);
 }
 

@@ -73,6 +73,21 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         }
     }
 
+    /// Distances x_i − `x` (m) from a particle at `x` (m) to the nodes of its stencil, axis by axis.
+    #[inline(always)]
+    #[must_use]
+    pub fn arms(&self, stencil: &Stencil<D, S>, x: &[f64; D]) -> Arms<D, S> {
+        let mut arms = [[0.0; S]; D];
+        for a in 0..D {
+            let first = stencil.axis[a].first;
+            let nodes = &self.nodes[a].position[first..first + S];
+            for (arm, node) in arms[a].iter_mut().zip(nodes) {
+                *arm = node - x[a];
+            }
+        }
+        arms
+    }
+
     /// Position of a node (its Greville abscissae, m) from its multi-index.
     #[must_use]
     pub fn position(&self, index: &[usize; D]) -> [f64; D] {
@@ -126,6 +141,9 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
     }
 }
 
+/// Per axis, the distances (m) from a particle to the `S` nodes that see it.
+pub type Arms<const D: usize, const S: usize> = [[f64; S]; D];
+
 /// The functions of every axis that see one particle.
 #[derive(Debug, Clone, Copy)]
 pub struct Stencil<const D: usize, const S: usize> {
@@ -148,6 +166,21 @@ pub struct Row<const D: usize> {
 impl<const D: usize, const S: usize> Stencil<D, S> {
     /// Rows of a stencil.
     pub const ROWS: usize = S.pow(D as u32 - 1);
+
+    /// Place of row `r` along each axis but the last, counted from the stencil's first node.
+    #[inline(always)]
+    #[must_use]
+    pub fn outer(r: usize) -> [usize; D] {
+        let mut outer = [0; D];
+        if D == 2 {
+            outer[0] = r;
+        }
+        if D == 3 {
+            outer[0] = r / S;
+            outer[1] = r % S;
+        }
+        outer
+    }
 
     /// Row `r` of the stencil, weights factorised: on it the weight of node `k` is
     /// `row.w * last.w[k]` and its gradient `row.gradient[a] * last.w[k]`, with `last.dw[k]` instead

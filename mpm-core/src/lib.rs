@@ -6,7 +6,7 @@
 //!
 //! * [`Grid`] and [`Lattice`]: cells, axes and the nodes of a basis;
 //! * [`basis`]: linear, uGIMP, quadratic and cubic B-splines, one-dimensional factors of a tensor product;
-//! * [`transfer`]: particle–grid transfers (PIC/FLIP blend);
+//! * [`transfer`]: particle–grid transfers (PIC/FLIP blend, APIC, XPIC);
 //! * [`material`]: constitutive laws, pure functions in three dimensions;
 //! * [`remedy`]: how the averaged Jacobian J̄ is formed;
 //! * [`stage`]: loads, force filters, constraints and particle filters that a scene may have;
@@ -42,4 +42,5 @@ pub use particles::Particles;
 pub use remedy::Remedy;
 pub use solver::{Scene, Simulation, Solver};
 pub use tensor::SymmetricTensor;
+pub use transfer::Transfer;
 pub use work::Work;

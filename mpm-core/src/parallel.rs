@@ -9,6 +9,7 @@
 //! those of odd number. A node thus receives its contributions in an order that the number of
 //! threads doesn't change, without atomics and without private grids.
 
+use rayon::iter::repeat_n;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -20,6 +21,17 @@ pub const SLAB: usize = 8;
 pub const PLANES_BEFORE: usize = 2;
 /// Planes in a run.
 const RUN: usize = 2 * SLAB;
+
+/// The chunks of a column, or as many empty ones (`chunks` of them) if the column is absent (empty).
+pub fn chunks_if_present<T: Send>(
+    column: &mut [T],
+    chunks: usize,
+) -> impl IndexedParallelIterator<Item = &mut [T]> {
+    let absent = chunks - column.len().div_ceil(CHUNK);
+    column
+        .par_chunks_mut(CHUNK)
+        .chain(repeat_n((), absent).map(|()| <&mut [T]>::default()))
+}
 
 /// Scatters particles to `nodes`: `kernel(particles, nodes of the run, index of the run's first node)`
 /// for every slab. `slabs[k]` is the range of particles of slab `k`, `plane` the nodes in a plane.

@@ -7,8 +7,8 @@ use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 use std::ops::Range;
 
-/// Columns of one body. All have one entry per particle, but `j_bar`, which is empty where no
-/// remedy needs it.
+/// Columns of one body. All have one entry per particle, but `j_bar` and `affine`, which are empty
+/// where no remedy or transfer needs them.
 #[derive(Debug, Clone, Default)]
 pub struct Particles<const D: usize> {
     /// Place in the seeding order.
@@ -19,6 +19,9 @@ pub struct Particles<const D: usize> {
     pub position: Vec<[f64; D]>,
     /// Velocity v (m/s).
     pub velocity: Vec<[f64; D]>,
+    /// Moment B of the nodal velocities around the particle (m²/s), row by component of velocity. At
+    /// the start it is zero unless given: C D for a velocity gradient C.
+    pub affine: Vec<SMatrix<f64, D, D>>,
     /// Mass (kg; per metre of depth in plane strain, per square metre of section in 1D).
     pub mass: Vec<f64>,
     /// Reference volume V⁰ (m³, likewise).
@@ -67,6 +70,7 @@ impl<const D: usize> Particles<D> {
             reference: positions.clone(),
             position: positions,
             velocity: vec![[0.0; D]; n],
+            affine: Vec::new(),
             mass: vec![density * volume; n],
             reference_volume: vec![volume; n],
             volume: vec![volume; n],
@@ -92,7 +96,7 @@ impl<const D: usize> Particles<D> {
         self.position.is_empty()
     }
 
-    /// Kinetic energy Σ ½ m v² (J).
+    /// Kinetic energy Σ ½ m v² (J); that of affine parts is left out.
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
         let squares = self
@@ -112,6 +116,7 @@ impl<const D: usize> Particles<D> {
         permute(&mut self.reference, order);
         permute(&mut self.position, order);
         permute(&mut self.velocity, order);
+        permute(&mut self.affine, order);
         permute(&mut self.mass, order);
         permute(&mut self.reference_volume, order);
         permute(&mut self.volume, order);

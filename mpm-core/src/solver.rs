@@ -6,14 +6,13 @@ use crate::grid::Grid;
 use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::monitor::{Accumulated, Residual, Totals};
-use crate::parallel::{CHUNK, scatter};
+use crate::parallel::{CHUNK, chunks_if_present, scatter};
 use crate::particles::{Particles, cell_order, permute};
 use crate::projection::{Average, NodalAverage, Projection};
 use crate::remedy::Remedy;
 use crate::space;
 use crate::stage::{Constraint, ForceFilter, Load, ParticleFilter, Prescribed};
-use crate::transfer::NodalState;
-use crate::transfer::flip::{Given, blend, grid_to_particle, particle_to_grid};
+use crate::transfer::{Flip, Given, NodalState, Transfer};
 use crate::work::Work;
 use nalgebra::SMatrix;
 use rayon::prelude::*;
@@ -23,13 +22,15 @@ use std::ops::Range;
 const CFL_LIMIT: f64 = 1.0;
 
 /// Everything that a run is made of. Stages that a scene doesn't have are empty lists.
-pub struct Scene<const D: usize, M: Law> {
+pub struct Scene<const D: usize, M: Law, T = Flip> {
     /// The grid.
     pub grid: Grid<D>,
     /// How B-splines meet walls.
     pub wall: WallTreatment,
     /// The law of the body.
     pub law: M,
+    /// The particle–grid transfer.
+    pub transfer: T,
     /// The particles of the body.
     pub particles: Particles<D>,
     /// The locking remedy of the body.
@@ -42,8 +43,6 @@ pub struct Scene<const D: usize, M: Law> {
     pub constraints: Vec<Box<dyn Constraint<D>>>,
     /// Filters of particles.
     pub particle_filters: Vec<Box<dyn ParticleFilter<D>>>,
-    /// Blend η of Eq. (13): 1 is FLIP, 0 is PIC.
-    pub flip: f64,
     /// Time step Δt (s).
     pub dt: f64,
 }
@@ -87,8 +86,8 @@ struct ChunkSums {
 }
 
 /// The explicit solver for one body.
-pub struct Solver<const D: usize, const S: usize, B, M: Law> {
-    scene: Scene<D, M>,
+pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
+    scene: Scene<D, M, T>,
     lattice: Lattice<D, S, B>,
     states: Vec<M::State>,
     slabs: Vec<Range<usize>>,
@@ -107,20 +106,14 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law> {
     transfer_pairs: u64,
 }
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
+impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// A solver of `scene` at time zero.
     ///
     /// # Errors
-    /// A time step, blend or particle of the scene that is not allowed; a particle off the grid; a
+    /// A time step or particle of the scene that is not allowed; a particle off the grid; a
     /// time step beyond the CFL limit.
-    pub fn new(mut scene: Scene<D, M>) -> Result<Self, Error> {
+    pub fn new(mut scene: Scene<D, M, T>) -> Result<Self, Error> {
         require(scene.dt > 0.0, "time step", scene.dt, "positive (s)")?;
-        require(
-            (0.0..=1.0).contains(&scene.flip),
-            "PIC/FLIP blend",
-            scene.flip,
-            "from 0 (PIC) to 1 (FLIP)",
-        )?;
         for l in scene.particles.half_size.iter().flatten() {
             require(
                 *l <= 0.5 * scene.grid.h,
@@ -138,6 +131,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             .map(|(m, v)| m / v)
             .fold(f64::INFINITY, f64::min);
         scene.remedy.attach(&mut scene.particles);
+        scene.transfer.attach(&mut scene.particles);
         let n = scene.particles.len();
         let work = Work {
             particles: n as u64,
@@ -216,7 +210,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
 
     /// Mass, momentum and forces to the nodes, Eqs. (7), (8), (10).
     fn particles_to_grid(&mut self) {
-        let (lattice, p) = (&self.lattice, &self.scene.particles);
+        let lattice = &self.lattice;
+        let (transfer, p) = (&self.scene.transfer, &self.scene.particles);
         self.nodes.fill(NodalState::default());
         scatter(
             &mut self.nodes,
@@ -225,17 +220,21 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             |slab, nodes, origin| {
                 let (x, l) = (&p.position[slab.clone()], &p.half_size[slab.clone()]);
                 let (mass, v) = (&p.mass[slab.clone()], &p.velocity[slab.clone()]);
+                let affine = p.affine.get(slab.clone()).unwrap_or_default();
                 let (volume, stress) = (&p.volume[slab.clone()], &p.stress[slab.clone()]);
                 let external_force = &p.external_force[slab];
                 for k in 0..x.len() {
                     let given = Given {
+                        position: &x[k],
                         mass: mass[k],
                         velocity: &v[k],
+                        affine: affine.get(k),
                         volume: volume[k],
                         stress: &stress[k],
                         external_force: &external_force[k],
                     };
-                    particle_to_grid(&lattice.stencil(&x[k], &l[k]), &given, nodes, origin);
+                    let stencil = lattice.stencil(&x[k], &l[k]);
+                    transfer.particle_to_grid(lattice, &stencil, &given, nodes, origin);
                 }
             },
         );
@@ -292,12 +291,15 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
 
     /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16).
     fn grid_to_particles(&mut self) -> Result<(), Error> {
-        let (lattice, nodes) = (&self.lattice, &self.nodes);
-        let (dt, eta) = (self.scene.dt, self.scene.flip);
+        let (lattice, nodes, dt) = (&self.lattice, &self.nodes, self.scene.dt);
         let p = &mut self.scene.particles;
+        let transfer = &mut self.scene.transfer;
+        let passes = 1 + transfer.prepare(lattice, p, &self.slabs, nodes, &self.prescribed);
+        let (transfer, chunks) = (&*transfer, self.chunk_sums.len());
         (
             self.chunk_sums.par_iter_mut(),
             p.velocity.par_chunks_mut(CHUNK),
+            chunks_if_present(&mut p.affine, chunks),
             p.increment.par_chunks_mut(CHUNK),
             p.delta_f.par_chunks_mut(CHUNK),
             p.jacobian.par_chunks_mut(CHUNK),
@@ -310,12 +312,13 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
             .into_par_iter()
             .enumerate()
             .for_each(
-                |(c, (sums, v, increment, delta_f, j, x, l, volume, stress, force))| {
+                |(c, (sums, v, affine, increment, delta_f, j, x, l, volume, stress, force))| {
                     let mut chunk = ChunkSums::default();
                     for k in 0..x.len() {
                         let (stress, volume, force) = (stress[k], volume[k], force[k]);
-                        let got = grid_to_particle(&lattice.stencil(&x[k], &l[k]), nodes);
-                        v[k] = blend(eta, &v[k], &got);
+                        let (stencil, b) = (lattice.stencil(&x[k], &l[k]), affine.get_mut(k));
+                        let got = transfer
+                            .grid_to_particle(lattice, &stencil, &x[k], nodes, &mut v[k], b);
                         let gradient = SMatrix::<f64, D, D>::from_fn(|a, b| got.gradient[a][b]);
                         delta_f[k] = SMatrix::identity() + gradient * dt;
                         j[k] *= space::determinant(&delta_f[k]);
@@ -326,7 +329,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
                         }
                         let (mut load_power, mut stress_power) = (0.0, 0.0);
                         for a in 0..D {
-                            increment[k][a] = dt * got.velocity[a];
+                            increment[k][a] = dt * got.moving[a];
                             load_power += force[a] * got.velocity[a];
                             for b in 0..D {
                                 stress_power += stress.get(a, b) * got.gradient[a][b];
@@ -338,7 +341,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Solver<D, S, B, M> {
                     *sums = chunk;
                 },
             );
-        self.work.particle_node_pairs += self.transfer_pairs * self.work.particles;
+        self.work.particle_node_pairs += passes * self.transfer_pairs * self.work.particles;
         for sums in &self.chunk_sums {
             self.accumulated.stress_work += dt * sums.stress_power;
             self.accumulated.load_work += dt * sums.load_power;
@@ -536,7 +539,9 @@ fn place_on_grid<const D: usize>(grid: &Grid<D>, x: &mut [f64; D]) -> Result<boo
     Ok(wrapped)
 }
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law> Simulation<D> for Solver<D, S, B, M> {
+impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simulation<D>
+    for Solver<D, S, B, M, T>
+{
     fn step(&mut self) -> Result<(), Error> {
         self.apply_loads();
         self.adjust_stress();

@@ -40,6 +40,12 @@ pub enum RemedyName {
 pub enum TransferName {
     /// PIC/FLIP blend.
     Flip,
+    /// Affine particle-in-cell.
+    Apic,
+    /// XPIC of order 2.
+    Xpic2,
+    /// XPIC of order 3.
+    Xpic3,
 }
 
 impl RemedyName {
@@ -90,7 +96,8 @@ plain_text!(BasisName, "basis", [
 plain_text!(RemedyName, "remedy", [
     Self::None => "none", Self::FbarRecursive => "fbar-recursive",
     Self::FbarTotal => "fbar-total", Self::FbarRate => "fbar-rate"]);
-plain_text!(TransferName, "transfer", [Self::Flip => "flip"]);
+plain_text!(TransferName, "transfer", [
+    Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2", Self::Xpic3 => "xpic3"]);
 
 /// A scheme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]

@@ -2,6 +2,7 @@
 
 use super::ParticleFilter;
 use crate::particles::Particles;
+use nalgebra::SMatrix;
 
 /// Sets all velocities to zero whenever the kinetic energy of the nodes has passed a peak (Cundall
 /// 1976): near a peak the stored energy is near its least, and there is no coefficient to choose.
@@ -21,6 +22,7 @@ impl<const D: usize> ParticleFilter<D> for KineticDamping {
         }
         let loss = particles.kinetic_energy();
         particles.velocity.fill([0.0; D]);
+        particles.affine.fill(SMatrix::zeros());
         self.previous = 0.0;
         loss
     }

@@ -18,6 +18,7 @@ use mpm_core::stage::{
     DeadForce, End, ForceFilter, KineticDamping, Load, LocalDamping, Observation, ParticleFilter,
     RestCriterion, Wall, WallKind,
 };
+use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation, Solver};
 use std::collections::BTreeMap;
 
@@ -231,7 +232,7 @@ impl Simulated {
                     kind: WallKind::Fixed,
                 })],
                 particle_filters,
-                flip: number("flip"),
+                transfer: Flip::new(number("flip"))?,
                 dt,
             },
         )?;
