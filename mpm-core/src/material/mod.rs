@@ -1,8 +1,10 @@
 //! Constitutive laws: pure functions (ΔF̄, Δt, state) → (σ, state′) in three dimensions.
 
 mod neo_hookean;
+mod newtonian_fluid;
 
 pub use neo_hookean::NeoHookean;
+pub use newtonian_fluid::NewtonianFluid;
 
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;

@@ -9,12 +9,15 @@
 //! | [`FbarRecursive`] | Π(J̄ⁿ ΔJ) | Algorithm 1 as printed, Eq. (26) |
 //! | [`FbarTotal`] | Π(Jⁿ⁺¹) | Eqs. (18)–(21), nothing accumulates |
 //! | [`FbarRate`] | J̄ⁿ Π(ΔJ) | only the increment is averaged |
+//! | [`FbarConsistent`] | J̄ⁿ A(ΔJ), relaxed | the force averages as the rate does: A = 2Π − Π² |
 
+mod fbar_consistent;
 mod fbar_rate;
 mod fbar_recursive;
 mod fbar_total;
 mod standard;
 
+pub use fbar_consistent::FbarConsistent;
 pub use fbar_rate::FbarRate;
 pub use fbar_recursive::FbarRecursive;
 pub use fbar_total::FbarTotal;

@@ -2,8 +2,12 @@ use super::*;
 use crate::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use crate::grid::{Axis, Grid};
 use crate::lattice::Lattice;
+use crate::material::{Law, NeoHookean};
 use crate::particles::cell_order;
 use crate::projection::{NodalAverage, Projection};
+use crate::space::embed;
+use crate::tensor::SymmetricTensor;
+use nalgebra::SMatrix;
 use proptest::prelude::*;
 
 const ROUNDING: f64 = 1e-12;
@@ -221,5 +225,151 @@ fn the_assumed_gradient_has_the_averaged_volume_and_the_given_shape() {
         assert!((determinant(&assumed) - bench.particles.j_bar[p]).abs() < ROUNDING);
         // Shape: the ratio of two entries is untouched.
         assert!((assumed[(0, 1)] / assumed[(1, 0)] + 2.0).abs() < ROUNDING);
+    }
+}
+
+/// What a particle of the energy test carries beside its place: deviations of J and J̄ from one, and a
+/// velocity gradient.
+type Carried = ([f64; 2], [f64; 4]);
+
+/// A cloud of particles that have seen different deformations, whose J̄ has parted from J.
+fn strained<const S: usize, B: Basis<S>>(
+    law: &NeoHookean,
+    places: &[[f64; 4]],
+    carried: &[Carried],
+) -> (
+    Bench<2, S, B>,
+    Vec<SymmetricTensor>,
+    Vec<SMatrix<f64, 2, 2>>,
+) {
+    let (mut bench, _) = scattered::<S, B>(places);
+    let p = &mut bench.particles;
+    let mut states = Vec::new();
+    let mut gradients = Vec::new();
+    p.j_bar = vec![1.0; p.len()];
+    for k in 0..p.len() {
+        let ([j, j_bar], l) = carried[p.id[k] as usize % carried.len()];
+        p.jacobian[k] = 1.0 + 0.2 * j;
+        p.j_bar[k] = 1.0 + 0.2 * j_bar;
+        p.reference_volume[k] = p.volume[k] / p.jacobian[k];
+        // A shape of its own with the determinant J̄.
+        let shape = SMatrix::<f64, 2, 2>::new(1.0 + 0.2 * l[0], 0.3 * l[1], 0.1, 1.0);
+        let f_bar = shape * (p.j_bar[k] / determinant(&shape)).sqrt();
+        let (stress, state) = law.update(&embed(&f_bar), 1.0, &law.initial_state());
+        p.stress[k] = stress;
+        states.push(state);
+        gradients.push(SMatrix::<f64, 2, 2>::from_row_slice(&l));
+    }
+    (bench, states, gradients)
+}
+
+/// The power that the forces take from the grid, Σ V σ : ∇v with the adjusted stress, is the rate of the
+/// stored energy Σ V⁰ W(F̄), whatever the velocities, the clouds and the parting of J̄ from J. The rate is
+/// a central difference over ±ε: its error is of order ε² of third derivatives plus rounding over ε.
+fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
+    places: &[[f64; 4]],
+    carried: &[Carried],
+) {
+    let law = NeoHookean::new(70.0, 0.49).unwrap();
+    let (bench, states, gradients) = strained::<S, B>(&law, places, carried);
+    let act = |particles: &mut Particles<2>, remedy: &mut FbarConsistent, force: bool| {
+        let mut nodes = vec![NodalAverage::default(); bench.lattice.len()];
+        let mut average = Projection {
+            lattice: &bench.lattice,
+            slabs: &bench.slabs,
+            nodes: &mut nodes,
+            count: &mut 0,
+        };
+        if force {
+            remedy.adjust_stress(particles, &mut average);
+        } else {
+            remedy.adjust_delta_f(particles, &mut average);
+        }
+    };
+    let mut remedy = FbarConsistent::new(0.0);
+    let mut loaded = bench.particles.clone();
+    act(&mut loaded, &mut remedy, true);
+    let (mut power, mut scale) = (0.0, 0.0);
+    for (k, l) in gradients.iter().enumerate() {
+        for a in 0..2 {
+            for b in 0..2 {
+                let share = loaded.volume[k] * loaded.stress[k].get(a, b) * l[(a, b)];
+                power += share;
+                scale += share.abs();
+            }
+        }
+    }
+    let epsilon = 1e-5;
+    let mut stored = |sign: f64| -> f64 {
+        let mut moved = bench.particles.clone();
+        for (delta_f, l) in moved.delta_f.iter_mut().zip(&gradients) {
+            *delta_f = SMatrix::identity() + l * (sign * epsilon);
+        }
+        act(&mut moved, &mut remedy, false);
+        let energy =
+            |k: usize| law.energy(&law.update(&embed(&moved.delta_f[k]), 1.0, &states[k]).1);
+        (0..moved.len())
+            .map(|k| moved.reference_volume[k] * energy(k))
+            .sum()
+    };
+    let rate = (stored(1.0) - stored(-1.0)) / (2.0 * epsilon);
+    assert!(
+        (rate - power).abs() < 1e-7 * scale,
+        "{rate} {power} {scale}"
+    );
+}
+
+fn carried() -> impl Strategy<Value = Vec<Carried>> {
+    let pair = (
+        prop::array::uniform2(-1.0..1.0_f64),
+        prop::array::uniform4(-1.0..1.0_f64),
+    );
+    prop::collection::vec(pair, 120)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn the_consistent_force_takes_what_is_stored(places in clouds(), carried in carried()) {
+        power_is_the_rate_of_energy::<2, Linear>(&places, &carried);
+        power_is_the_rate_of_energy::<3, Gimp>(&places, &carried);
+        power_is_the_rate_of_energy::<3, QuadraticBSpline>(&places, &carried);
+        power_is_the_rate_of_energy::<4, CubicBSpline>(&places, &carried);
+    }
+
+    /// Relaxing keeps Σ V J̄ and never adds to Σ V J̄²; without shear nothing is relaxed.
+    #[test]
+    fn relaxing_keeps_the_volume_and_adds_no_energy(places in clouds(), carried in carried()) {
+        let law = NeoHookean::new(70.0, 0.49).unwrap();
+        let (bench, _, gradients) = strained::<3, Gimp>(&law, &places, &carried);
+        let j_bar_after = |shear: f64| -> Vec<f64> {
+            let mut particles = bench.particles.clone();
+            for (delta_f, l) in particles.delta_f.iter_mut().zip(&gradients) {
+                // Without a change of volume, to first order and to second.
+                *delta_f = SMatrix::<f64, 2, 2>::new(1.0, shear * l[(0, 1)], 0.0, 1.0);
+            }
+            let mut average = Projection {
+                lattice: &bench.lattice,
+                slabs: &bench.slabs,
+                nodes: &mut vec![NodalAverage::default(); bench.lattice.len()],
+                count: &mut 0,
+            };
+            FbarConsistent::new(100.0).adjust_delta_f(&mut particles, &mut average);
+            particles.j_bar
+        };
+        let volume = &bench.particles.volume;
+        let sum = |j: &[f64], power: i32| -> f64 {
+            j.iter().zip(volume).map(|(j, v)| v * j.powi(power)).sum()
+        };
+        let before = &bench.particles.j_bar;
+        for shear in [1e-3, 1e-2, 0.1] {
+            let after = j_bar_after(shear);
+            prop_assert!((sum(&after, 1) - sum(before, 1)).abs() < ROUNDING * sum(before, 1));
+            prop_assert!(sum(&after, 2) < sum(before, 2) * (1.0 + ROUNDING));
+        }
+        for (after, before) in j_bar_after(0.0).iter().zip(before) {
+            prop_assert!((after - before).abs() < ROUNDING);
+        }
     }
 }

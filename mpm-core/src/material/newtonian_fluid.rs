@@ -1,0 +1,67 @@
+//! A nearly incompressible Newtonian fluid.
+//!
+//! σ = K (J − 1) I + 2 μ dev d with the rate of deformation d = sym(ΔF − I)/Δt.
+
+use super::Law;
+use crate::error::{Error, require};
+use crate::tensor::SymmetricTensor;
+use nalgebra::Matrix3;
+
+/// A Newtonian fluid. Its state is J and nothing else; it stores K (J − 1)²/2 per reference volume…
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NewtonianFluid {
+    /// Bulk modulus K (Pa).
+    pub bulk_modulus: f64,
+    /// Dynamic viscosity μ (Pa s).
+    pub viscosity: f64,
+}
+
+impl NewtonianFluid {
+    /// From bulk modulus (Pa) and dynamic viscosity (Pa s).
+    ///
+    /// # Errors
+    /// A modulus that is not positive, a viscosity that is negative, or either not finite.
+    pub fn new(bulk_modulus: f64, viscosity: f64) -> Result<Self, Error> {
+        require(
+            bulk_modulus > 0.0,
+            "bulk modulus",
+            bulk_modulus,
+            "positive (Pa)",
+        )?;
+        require(
+            viscosity >= 0.0,
+            "viscosity",
+            viscosity,
+            "zero or positive (Pa s)",
+        )?;
+        Ok(Self {
+            bulk_modulus,
+            viscosity,
+        })
+    }
+}
+
+impl Law for NewtonianFluid {
+    type State = f64;
+
+    fn initial_state(&self) -> f64 {
+        1.0
+    }
+
+    #[inline]
+    fn update(&self, delta_f: &Matrix3<f64>, dt: f64, state: &f64) -> (SymmetricTensor, f64) {
+        let j = state * delta_f.determinant();
+        let rate = SymmetricTensor::symmetric_part(&((delta_f - Matrix3::identity()) / dt));
+        let viscous = 2.0 * self.viscosity;
+        let pressure_part = self.bulk_modulus * (j - 1.0) - viscous * rate.mean();
+        (rate.scale_add_identity(viscous, pressure_part), j)
+    }
+
+    fn energy(&self, j: &f64) -> f64 {
+        0.5 * self.bulk_modulus * (j - 1.0) * (j - 1.0)
+    }
+
+    fn wave_speed(&self, density: f64) -> f64 {
+        (self.bulk_modulus / density).sqrt()
+    }
+}

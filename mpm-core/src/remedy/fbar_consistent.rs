@@ -1,0 +1,138 @@
+//! Energy-consistent F̄: one average A in the rate of volume and in the pressure of the force.
+
+use super::{Remedy, assume, fill};
+use crate::parallel::CHUNK;
+use crate::particles::Particles;
+use crate::projection::Average;
+use crate::space::determinant;
+use nalgebra::SMatrix;
+use rayon::prelude::*;
+
+/// J̄ⁿ⁺¹ = J̄ⁿ A(ΔJ), less a relaxation of what A can't see, and the force from the stress
+/// (J̄/J) dev σ + A((J̄/J) p) I, with A = 2Π − Π².
+///
+/// A is symmetric in the volume-weighted product, as Π is, so the power that the pressure takes from
+/// the grid is the rate of the energy stored: `docs/remedy.md` derives it. It errs by the square of
+/// Π's error and has the same null space. That null space fills as particles pass each other; it is
+/// emptied by J̄ ← J̄ − (I − Π) θ (I − Π) J̄ with θ = min(1, β γ) and γ the shear strain of the step,
+/// which keeps the volume, never adds energy to first order, and does nothing at rest.
+#[derive(Debug, Clone)]
+pub struct FbarConsistent {
+    relaxation: f64,
+    field: Vec<f64>,
+    rest: Vec<f64>,
+}
+
+/// The relaxation β that serves every problem of the bench.
+const RELAXATION: f64 = 100.0;
+
+impl Default for FbarConsistent {
+    fn default() -> Self {
+        Self::new(RELAXATION)
+    }
+}
+
+impl FbarConsistent {
+    /// With relaxation β (dimensionless, zero for none).
+    #[must_use]
+    pub fn new(relaxation: f64) -> Self {
+        Self {
+            relaxation,
+            field: Vec::new(),
+            rest: Vec::new(),
+        }
+    }
+
+    /// Replaces `field` by A `field` = Π field + Π (I − Π) field.
+    fn average<const D: usize>(&mut self, particles: &Particles<D>, average: &mut dyn Average<D>) {
+        self.rest.clone_from(&self.field);
+        average.average(particles, &mut self.rest);
+        for (field, smooth) in self.field.iter_mut().zip(&mut self.rest) {
+            let rough = *field - *smooth;
+            *field = *smooth;
+            *smooth = rough;
+        }
+        average.average(particles, &mut self.rest);
+        for (field, seen) in self.field.iter_mut().zip(&self.rest) {
+            *field += seen;
+        }
+    }
+
+    /// Takes (I − Π) θ (I − Π) `field` off `field`.
+    fn relax<const D: usize>(&mut self, particles: &Particles<D>, average: &mut dyn Average<D>) {
+        self.rest.clone_from(&self.field);
+        average.average(particles, &mut self.rest);
+        let columns = self.rest.iter_mut().zip(&mut self.field);
+        for ((rest, field), delta_f) in columns.zip(&particles.delta_f) {
+            let theta = (self.relaxation * shear(delta_f)).min(1.0);
+            *rest = theta * (*field - *rest);
+            *field -= *rest;
+        }
+        average.average(particles, &mut self.rest);
+        for (field, smooth) in self.field.iter_mut().zip(&self.rest) {
+            *field += smooth;
+        }
+    }
+}
+
+/// √2 ‖dev sym(ΔF − I)‖, the shear strain of a step; the deviator is that of the motion's own dimensions.
+fn shear<const D: usize>(delta_f: &SMatrix<f64, D, D>) -> f64 {
+    let strain = 0.5 * (delta_f + delta_f.transpose());
+    let mean = (0..D).map(|a| strain[(a, a)]).sum::<f64>() / D as f64;
+    let mut squares = 0.0;
+    for a in 0..D {
+        for b in 0..D {
+            let e = strain[(a, b)] - if a == b { mean } else { 0.0 };
+            squares += e * e;
+        }
+    }
+    (2.0 * squares).sqrt()
+}
+
+impl<const D: usize> Remedy<D> for FbarConsistent {
+    fn attach(&mut self, particles: &mut Particles<D>) {
+        particles.j_bar = particles.jacobian.clone();
+    }
+
+    fn adjust_stress(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>) {
+        let (j, j_bar) = (&particles.jacobian, &particles.j_bar);
+        particles
+            .stress
+            .par_chunks_mut(CHUNK)
+            .zip(j.par_chunks(CHUNK))
+            .zip(j_bar.par_chunks(CHUNK))
+            .for_each(|((stress, j), j_bar)| {
+                for ((stress, j), j_bar) in stress.iter_mut().zip(j).zip(j_bar) {
+                    *stress = stress.scale_add_identity(j_bar / j, 0.0);
+                }
+            });
+        // The part of the stress that works on a change of volume: in plane strain, the in-plane mean.
+        let mean = |p: usize| (0..D).map(|a| particles.stress[p].get(a, a)).sum::<f64>() / D as f64;
+        fill(&mut self.field, particles.len(), mean);
+        self.average(particles, average);
+        particles
+            .stress
+            .par_chunks_mut(CHUNK)
+            .zip(self.field.par_chunks(CHUNK))
+            .for_each(|(stress, averaged)| {
+                for (stress, averaged) in stress.iter_mut().zip(averaged) {
+                    let mean = (0..D).map(|a| stress.get(a, a)).sum::<f64>() / D as f64;
+                    *stress = stress.scale_add_identity(1.0, averaged - mean);
+                }
+            });
+    }
+
+    fn adjust_delta_f(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>) {
+        fill(&mut self.field, particles.len(), |p| {
+            determinant(&particles.delta_f[p])
+        });
+        self.average(particles, average);
+        for (next, j_bar) in self.field.iter_mut().zip(&particles.j_bar) {
+            *next *= j_bar;
+        }
+        if self.relaxation > 0.0 {
+            self.relax(particles, average);
+        }
+        assume(particles, &self.field);
+    }
+}
