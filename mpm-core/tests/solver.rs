@@ -9,7 +9,7 @@
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::projection::Average;
-use mpm_core::remedy::{FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
 use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{
     BodyForce, Constraint, End, KineticDamping, LocalDamping, ParticleFilter, Wall, WallKind,
@@ -83,6 +83,7 @@ fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {
         Box::new(FbarRecursive::default()),
         Box::new(FbarTotal::default()),
         Box::new(FbarRate::default()),
+        Box::new(FbarConsistent::default()),
     ]
 }
 

@@ -82,6 +82,7 @@ fn every_link_of_the_documents_leads_somewhere() {
         "ARCHITECTURE.md",
         "docs/method.md",
         "docs/cook.md",
+        "docs/remedy.md",
         "docs/exact.md",
         "docs/verification.md",
         "docs/continuous.md",

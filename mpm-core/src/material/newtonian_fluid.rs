@@ -1,13 +1,14 @@
 //! A nearly incompressible Newtonian fluid.
 //!
-//! σ = K (J − 1) I + 2 μ dev d with the rate of deformation d = sym(ΔF − I)/Δt.
+//! σ = K (J − 1) I + 2 μ dev d with the rate of deformation d = sym(ΔF − I)/Δt; p = −K (J − 1) is the
+//! equation of state of Zhao, Jiang & Choo's dam break. With F̄, J is J̄.
 
 use super::Law;
 use crate::error::{Error, require};
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 
-/// A Newtonian fluid. Its state is J and nothing else; it stores K (J − 1)²/2 per reference volume…
+/// A Newtonian fluid. Its state is J and nothing else; it stores ½ K (J − 1)² per reference volume.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NewtonianFluid {
     /// Bulk modulus K (Pa).

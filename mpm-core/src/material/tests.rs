@@ -129,6 +129,33 @@ every_law_must!(
     NeoHookean::new(70.0, 0.499).unwrap()
 );
 
+// Viscosity is not elastic: what it adds is tested below.
+every_law_must!(inviscid_fluid, NewtonianFluid::new(5.0, 0.0).unwrap());
+
+#[test]
+fn a_fluid_resists_the_rate_of_shear_and_of_nothing_else() {
+    let law = NewtonianFluid::new(5.0, 0.3).unwrap();
+    let dt = 1e-3;
+    // Simple shear at the rate 2/s: σ_xy = μ γ̇, no pressure.
+    let mut shear = Matrix3::identity();
+    shear[(0, 1)] = 2.0 * dt;
+    let (s, j) = law.update(&shear, dt, &1.0);
+    assert!((s.xy - 0.6).abs() < 1e-12 && s.mean().abs() < 1e-12 && j == 1.0);
+    // Dilation: pressure alone, whatever its rate.
+    let (s, j) = law.update(&(Matrix3::identity() * 1.01), dt, &1.0);
+    let pressure_part = 5.0 * (j - 1.0);
+    assert!((j - 1.01_f64.powi(3)).abs() < 1e-15);
+    for normal in [s.xx, s.yy, s.zz] {
+        assert!((normal - pressure_part).abs() < 1e-12);
+    }
+    // The state remembers the volume, not the shear.
+    let (s, _) = law.update(&Matrix3::identity(), dt, &j);
+    assert!((s.mean() - pressure_part).abs() < 1e-15 && s.xy == 0.0);
+    for (bulk_modulus, viscosity) in [(0.0, 0.0), (f64::NAN, 0.0), (1.0, -1.0), (1.0, f64::NAN)] {
+        assert!(NewtonianFluid::new(bulk_modulus, viscosity).is_err());
+    }
+}
+
 #[test]
 fn neo_hookean_matches_its_closed_form_in_shear_and_uniaxial_strain() {
     let law = NeoHookean {
