@@ -36,8 +36,12 @@ fn unknown_names_are_refused_with_those_that_exist() {
         &["remedy", "fbar-rate", "fbar-total"],
     );
     refused(
+        &["run", "cook", "--transfer", "pic"],
+        &["transfer", "flip", "apic"],
+    );
+    refused(
         &["run", "cook", "--transfer", "apic"],
-        &["transfer", "flip"],
+        &["scheme", "gimp-fbar-rate-apic", "gimp-none-flip"],
     );
     refused(
         &["run", "cook", "--basis", "linear"],

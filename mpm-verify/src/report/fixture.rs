@@ -48,7 +48,7 @@ pub(super) fn summary() -> Summary {
 fn record(level: &str, verdicts: Vec<Verdict>) -> Record {
     let record = serde_json::json!({
         "schema": 1, "case": "cook", "basis": "gimp", "remedy": "none", "transfer": "flip",
-        "level": level, "set": [], "status": "ok", "error": null,
+        "level": level, "set": [], "status": "ok", "error": null, "perturbed": false,
         "discretisation": {"dim": 2, "h": 1.0, "ppc": 4, "dt": 0.001, "wall": "open-knot"},
         "parameters": {}, "metrics": {}, "verdicts": verdicts,
         "work": {
