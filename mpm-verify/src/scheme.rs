@@ -122,8 +122,45 @@ impl Scheme {
     }
 }
 
+impl Scheme {
+    /// From its name, basis-remedy-transfer.
+    ///
+    /// # Errors
+    /// A part that is missing or unknown.
+    pub fn parse(name: &str) -> Result<Self, Error> {
+        let parts = name.split_once('-').and_then(|(basis, rest)| {
+            let (remedy, transfer) = rest.rsplit_once('-')?;
+            Some((basis, remedy, transfer))
+        });
+        let Some((basis, remedy, transfer)) = parts else {
+            return Err(Error::Input(format!(
+                "scheme \"{name}\" is not of the form basis-remedy-transfer"
+            )));
+        };
+        Ok(Self {
+            basis: BasisName::parse(basis)?,
+            remedy: RemedyName::parse(remedy)?,
+            transfer: TransferName::parse(transfer)?,
+        })
+    }
+}
+
 impl fmt::Display for Scheme {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}-{}-{}", self.basis, self.remedy, self.transfer)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scheme_reads_back_from_its_name() {
+        let scheme = Scheme::flip(BasisName::Bspline2, RemedyName::FbarRate);
+        assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
+        for bad in ["", "gimp", "gimp-flip", "gimp-none-", "gimp-fbar-flip"] {
+            assert!(Scheme::parse(bad).is_err(), "{bad}");
+        }
     }
 }

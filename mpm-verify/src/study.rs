@@ -79,7 +79,7 @@ impl Summary {
     pub fn exit_code(&self) -> ExitCode {
         if self.counts.failed_runs > 0 {
             ExitCode::RunFailed
-        } else if self.counts.failed > 0 {
+        } else if self.counts.failed > 0 || self.counts.runs_without_truth > 0 {
             ExitCode::TruthFailed
         } else if self.counts.drifted > 0 {
             ExitCode::Drift

@@ -75,6 +75,18 @@ fn with_cell(text: &str, cell: &str) -> String {
     format!("{header}\n{cell},{rest}")
 }
 
+/// The tolerance of the tip replaced.
+fn with_tolerance(text: &str, tolerance: &str) -> String {
+    let line = |line: &str| {
+        let mut cells: Vec<&str> = line.split(',').collect();
+        if cells[1] == "tip_uy (m)" {
+            cells[3] = tolerance;
+        }
+        cells.join(",") + "\n"
+    };
+    text.lines().map(line).collect()
+}
+
 #[test]
 fn a_sound_report_holds_against_its_goldens() {
     let scene = Scene::new();
@@ -85,7 +97,7 @@ fn a_sound_report_holds_against_its_goldens() {
 #[test]
 fn every_defect_of_a_golden_is_a_clear_line_and_exit_code_three() {
     type Damage = (&'static str, fn(&Path), &'static str);
-    let damages: [Damage; 16] = [
+    let damages: [Damage; 18] = [
         ("missing", |p| fs::remove_dir_all(p).unwrap(), "no golden"),
         (
             "no metrics",
@@ -148,20 +160,22 @@ fn every_defect_of_a_golden_is_a_clear_line_and_exit_code_three() {
         ),
         (
             "too loose",
+            |p| change(p, "tolerances.csv", |t| with_tolerance(t, "0.1")),
+            "1 to 10 times the response",
+        ),
+        (
+            "too tight",
+            |p| change(p, "tolerances.csv", |t| with_tolerance(t, "1e-30")),
+            "1 to 10 times the response",
+        ),
+        (
+            "tolerance twice",
             |p| {
                 change(p, "tolerances.csv", |t| {
-                    t.lines()
-                        .map(|l| {
-                            let mut cells: Vec<&str> = l.split(',').collect();
-                            if cells[1] == "tip_uy (m)" {
-                                cells[3] = "0.1";
-                            }
-                            cells.join(",") + "\n"
-                        })
-                        .collect()
+                    t.to_owned() + t.lines().last().unwrap() + "\n"
                 })
             },
-            "1 to 10 times the response",
+            "is there twice",
         ),
         (
             "not UTF-8",

@@ -1,19 +1,22 @@
 //! Trends over nights: errors, orders and cost, kept in a table beside the report.
 
 use super::Picture;
-use super::plot::{Chart, Dash, Marker, Scale, Series, draw_charts};
+use super::plot::{Chart, Scale, draw_charts};
+use super::style::{Colour, series};
 use crate::error::Error;
 use crate::files::write_whole;
+use crate::scheme::Scheme;
 use crate::study::{CaseStudy, Summary};
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 const FILE: &str = "history.csv";
 /// How the pictures' names begin.
 pub(super) const TRENDS: &str = "trends-";
 const COST: &str = "cpu_s";
+const PAIRS: &str = "particle_node_pairs";
 const ORDER: &str = "order of ";
 
 /// A night and the commit that ran.
@@ -51,6 +54,12 @@ struct Row {
     run: String,
     quantity: String,
     value: f64,
+}
+
+impl Row {
+    fn scheme(&self) -> Result<Scheme, Error> {
+        Scheme::parse(self.run.split('/').next().unwrap_or_default())
+    }
 }
 
 /// Adds a night to the history in `out` (replacing it if it is there already) and draws the trends of
@@ -111,73 +120,76 @@ fn rows_of(study: &CaseStudy, night: &Night) -> Vec<Row> {
             row(entry.scheme.to_string(), quantity, order.order)
         }));
     }
-    let mut cost: BTreeMap<String, f64> = BTreeMap::new();
+    let mut cost: BTreeMap<Scheme, (f64, u64)> = BTreeMap::new();
     for record in &study.records {
-        *cost.entry(record.scheme().to_string()).or_default() += record.time.cpu_s;
+        let (seconds, pairs) = cost.entry(record.scheme()).or_default();
+        *seconds += record.time.cpu_s;
+        *pairs += record.work.particle_node_pairs;
     }
-    rows.extend(
-        cost.into_iter()
-            .map(|(scheme, seconds)| row(scheme, COST.to_owned(), seconds)),
-    );
+    for (scheme, (seconds, pairs)) in cost {
+        rows.push(row(scheme.to_string(), COST.to_owned(), seconds));
+        rows.push(row(scheme.to_string(), PAIRS.to_owned(), pairs as f64));
+    }
     rows
 }
 
-/// One row of charts per case: the errors at the finest level, the orders, the cost.
+/// What is watched of a quantity: how it is labelled and scaled.
+fn axis(quantity: &str) -> (String, Scale) {
+    match quantity {
+        COST => ("CPU time of all runs (s)".to_owned(), Scale::Log10),
+        PAIRS => ("particle–node pairs".to_owned(), Scale::Log10),
+        q if q.starts_with(ORDER) => (q.to_owned(), Scale::Linear),
+        q => (format!("|{q}|, finest level"), Scale::Log10),
+    }
+}
+
+/// The errors at the finest level, the orders and the cost of a case, scheme by scheme.
 fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, Error> {
     let own: Vec<&Row> = rows.iter().filter(|r| r.case == study.case).collect();
     let Some(first) = own.first().map(|r| r.night) else {
         return Ok(None);
     };
     let mut quantities: Vec<&str> = Vec::new();
+    let mut schemes = BTreeSet::new();
     for row in &own {
         if !quantities.contains(&row.quantity.as_str()) {
             quantities.push(&row.quantity);
         }
+        schemes.insert(row.scheme()?);
     }
-    quantities.sort_by_key(|q| (*q == COST, q.starts_with(ORDER)));
-    let charts: Vec<Chart> = quantities
-        .iter()
-        .map(|quantity| {
-            let mut series: BTreeMap<&str, Vec<(f64, f64)>> = BTreeMap::new();
-            for row in own.iter().filter(|r| r.quantity == **quantity) {
-                let day = (row.night - first).get_days();
-                let points = series.entry(&row.run).or_default();
-                points.push((f64::from(day), row.value));
+    quantities.sort_by_key(|q| ([COST, PAIRS].contains(q), q.starts_with(ORDER)));
+    let mut charts = Vec::new();
+    for quantity in quantities {
+        let (y_label, y_scale) = axis(quantity);
+        let mut curves: BTreeMap<Scheme, Vec<(f64, f64)>> =
+            schemes.iter().map(|s| (*s, Vec::new())).collect();
+        for row in own.iter().filter(|r| r.quantity == quantity) {
+            let day = f64::from((row.night - first).get_days());
+            // An error of zero has no logarithm.
+            if y_scale == Scale::Linear || row.value > 0.0 {
+                curves
+                    .entry(row.scheme()?)
+                    .or_default()
+                    .push((day, row.value));
             }
-            let markers = [
-                Marker::Circle,
-                Marker::Square,
-                Marker::Triangle,
-                Marker::Diamond,
-            ];
-            Chart {
-                title: (*quantity).to_owned(),
-                x_label: format!("days since {first}"),
-                y_label: match *quantity {
-                    COST => "CPU time of all runs (s)".to_owned(),
-                    q if q.starts_with(ORDER) => "order".to_owned(),
-                    _ => "|error| at the finest level".to_owned(),
-                },
-                x_scale: Scale::Linear,
-                y_scale: Scale::Linear,
-                series: series
-                    .into_iter()
-                    .enumerate()
-                    .map(|(k, (name, points))| Series {
-                        name: name.to_owned(),
-                        points,
-                        colour: k,
-                        marker: markers[k / 8 % markers.len()],
-                        dash: Dash::Solid,
-                    })
-                    .collect(),
-                reference_lines: Vec::new(),
-                slope_triangle: None,
-                x_range: None,
-                y_range: None,
-            }
-        })
-        .collect();
+        }
+        charts.push(Chart {
+            title: String::new(),
+            x_label: format!("days since {first}"),
+            y_label,
+            x_scale: Scale::Linear,
+            y_scale,
+            series: curves
+                .into_iter()
+                .map(|(scheme, points)| series(scheme, points, Colour::Basis))
+                .collect(),
+            reference_lines: Vec::new(),
+            slope_triangle: None,
+            x_range: None,
+            y_range: None,
+        });
+    }
+    charts.retain(|c| c.series.iter().any(|s| !s.points.is_empty()));
     let file = format!("{TRENDS}{}.png", study.case);
     draw_charts(&out.join(&file), &charts, 2)?;
     Ok(Some(Picture {
