@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::golden::{Golden, home};
 use crate::plan::PlannedRun;
 use crate::record::{Record, Status, Version};
-use crate::report::describe::{number, verdict_line};
+use crate::report::describe::{drift_line, verdict_line};
 use crate::study::{CaseStudy, Gathered, Listener, Task, has_truth, run_all};
 use std::fmt::Write;
 use std::path::Path;
@@ -45,19 +45,7 @@ impl<'a> Candidates<'a> {
         let mut t = String::new();
         for record in &self.drifted {
             for v in record.verdicts.iter().filter(|v| v.drifts()) {
-                let run = format!("{} {}", record.case, record.folder());
-                let _ = match (v.value, v.reference) {
-                    (Some(now), Some(golden)) => writeln!(
-                        t,
-                        "{run}  {}: golden {}, now {}, difference {:.3e}, tolerance {}",
-                        v.metric,
-                        number(Some(golden)),
-                        number(Some(now)),
-                        now - golden,
-                        number(v.tolerance)
-                    ),
-                    _ => writeln!(t, "{run}  {}: {}", v.metric, v.source),
-                };
+                let _ = writeln!(t, "{} {}  {}", record.case, record.folder(), drift_line(v));
             }
         }
         let _ = writeln!(

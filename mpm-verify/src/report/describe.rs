@@ -198,17 +198,53 @@ pub fn record(r: &Record) -> String {
     t
 }
 
+/// How far a result is from its golden, relative to it; infinite where there is nothing to compare.
+fn relative_difference(verdict: &Verdict) -> f64 {
+    match (verdict.value, verdict.reference) {
+        (Some(now), Some(golden)) => (now - golden).abs() / golden.abs().max(f64::MIN_POSITIVE),
+        _ => f64::INFINITY,
+    }
+}
+
+/// A verdict on drift: what was, what is, and by how much it differs.
+#[must_use]
+pub fn drift_line(v: &Verdict) -> String {
+    match (v.value, v.reference) {
+        (Some(now), Some(golden)) => format!(
+            "{}: golden {golden}, now {now}, difference {:.3e} where {} is allowed",
+            v.metric,
+            now - golden,
+            number(v.tolerance)
+        ),
+        _ => format!("{}: {}", v.metric, v.source),
+    }
+}
+
 /// What a verification found: failures first, then counts.
 #[must_use]
 pub fn verdict_summary(summary: &Summary) -> String {
     let mut t = String::new();
-    for (study, record, verdict) in summary.verdicts().filter(|(_, _, v)| v.failed()) {
+    for (study, record, verdict) in summary.verdicts().filter(|(_, _, v)| v.misses_the_truth()) {
         let run = record.map_or_else(String::new, |r| {
             format!("{} {} {} ", r.scheme(), r.level, r.set.join(" "))
         });
         let _ = writeln!(t, "{} {run}{}", study.case, verdict_line(verdict));
     }
     for record in summary.cases.iter().flat_map(|c| &c.records) {
+        let drifting: Vec<&Verdict> = record.verdicts.iter().filter(|v| v.drifts()).collect();
+        let worst = drifting
+            .iter()
+            .max_by(|a, b| relative_difference(a).total_cmp(&relative_difference(b)));
+        if let Some(worst) = worst {
+            let _ = writeln!(
+                t,
+                "FAIL [DRIFT] {} {}: {} compared with the golden differ, the most {}",
+                record.case,
+                record.folder(),
+                drifting.len(),
+                drift_line(worst)
+            );
+        }
         if let (Status::Failed, Some(e)) = (record.status, &record.error) {
             let _ = writeln!(
                 t,

@@ -258,13 +258,18 @@ fn verdict(v: &Verdict) -> Value {
         Some(false) => ("fail", "✗"),
         None => ("none", "–"),
     };
+    // A drift may lie beyond the digits that are shown elsewhere.
+    let shown = |x: Option<f64>| match (v.kind, x) {
+        (Kind::Drift, Some(x)) => x.to_string(),
+        _ => number(x),
+    };
     context! {
         outcome => context! { class, symbol, text => outcome(v) },
         kind => kind(v.kind),
         check => &v.check,
         metric => &v.metric,
-        value => number(v.value),
-        reference => number(v.reference),
+        value => shown(v.value),
+        reference => shown(v.reference),
         tolerance => number(v.tolerance),
         source => &v.source,
     }

@@ -79,8 +79,36 @@ fn failures(summary: &Summary, t: &mut String) {
         table(summary, t, Verdict::misses_the_truth);
     }
     if summary.counts.drifted > 0 {
-        let _ = writeln!(t, "\n## Drift\n");
-        table(summary, t, Verdict::drifts);
+        drift(summary, t);
+    }
+}
+
+/// What differs from the goldens, run by run.
+fn drift(summary: &Summary, t: &mut String) {
+    let _ = writeln!(
+        t,
+        "\n## Drift\n\n| run | quantity | golden | now | difference | allowed |\n|---|---|---|---|---|---|"
+    );
+    for record in summary.cases.iter().flat_map(|s| &s.records) {
+        for v in record.verdicts.iter().filter(|v| v.drifts()) {
+            let difference = v.value.zip(v.reference).map(|(now, golden)| now - golden);
+            let exact = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| x.to_string());
+            let what = if difference.is_some() {
+                v.metric.clone()
+            } else {
+                format!("{}: {}", v.metric, v.source.replace('|', "\\|"))
+            };
+            let _ = writeln!(
+                t,
+                "| {} {} | {what} | {} | {} | {} | {} |",
+                record.case,
+                record.folder(),
+                exact(v.reference),
+                exact(v.value),
+                difference.map_or_else(|| "–".to_owned(), |d| format!("{d:.3e}")),
+                number(v.tolerance)
+            );
+        }
     }
 }
 
