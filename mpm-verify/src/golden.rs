@@ -9,6 +9,7 @@ use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::files::{make_folder, read_versioned, write_json, write_whole};
 use crate::record::{Metric, Record, Status, Version};
+use crate::report::triptych::different_pixels;
 use crate::report::watched::draw_watched;
 use crate::table::Table;
 use image::RgbImage;
@@ -298,12 +299,7 @@ impl Golden {
     /// Whether the picture of the golden's own numbers is drawn as it was.
     fn compare_picture(&self, record: &Record) -> Result<Verdict, Error> {
         let drawn = draw_watched(&record.case, &self.series)?;
-        let different = if drawn.dimensions() == self.picture.dimensions() {
-            let pairs = drawn.pixels().zip(self.picture.pixels());
-            pairs.filter(|(a, b)| a != b).count()
-        } else {
-            drawn.pixels().len()
-        };
+        let different = different_pixels(&self.picture, &drawn);
         Ok(self.of_numbers(PIXELS, different as f64, 0.0, 0.0))
     }
 

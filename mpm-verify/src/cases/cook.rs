@@ -5,6 +5,7 @@
 mod checks;
 mod reference;
 mod simulation;
+mod sketch;
 
 use crate::case::{Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Tier};
 use crate::check::Verdict;
@@ -395,7 +396,7 @@ impl Case for Cook {
     }
 
     fn sketch(&self) -> Sketch {
-        simulation::sketch()
+        sketch::sketch()
     }
 
     fn plan(&self, tier: Tier) -> Vec<RunSpec> {

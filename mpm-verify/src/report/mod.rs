@@ -16,7 +16,7 @@ pub mod plot;
 mod sketch;
 mod style;
 mod summary;
-mod triptych;
+pub(crate) mod triptych;
 pub mod watched;
 
 use crate::cases;

@@ -11,7 +11,7 @@ const FADED: f64 = 0.25;
 
 /// Pixels that differ, counting those that only one picture has.
 #[must_use]
-pub(super) fn different_pixels(old: &RgbImage, new: &RgbImage) -> usize {
+pub(crate) fn different_pixels(old: &RgbImage, new: &RgbImage) -> usize {
     let (width, height) = joint_size(old, new);
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     places.filter(|&(x, y)| differ(old, new, x, y)).count()

@@ -9,7 +9,6 @@ use crate::parameter::Parameters;
 use crate::probe::{PointProbe, nearest};
 use crate::record::{Discretisation, Metric, WorkDone};
 use crate::scheme::{BasisName, RemedyName, Scheme};
-use crate::sketch::{Shape, Sketch};
 use crate::statistics::{Line, fit_line, rms};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{Law, NeoHookean};
@@ -23,9 +22,9 @@ use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation, Solver};
 use std::collections::BTreeMap;
 
 /// Corners: (0, 0), (48, 44), (48, 60), (0, 44) m.
-const LENGTH: f64 = 48.0;
-const LEFT_HEIGHT: f64 = 44.0;
-const RIGHT_HEIGHT: f64 = 16.0;
+pub(super) const LENGTH: f64 = 48.0;
+pub(super) const LEFT_HEIGHT: f64 = 44.0;
+pub(super) const RIGHT_HEIGHT: f64 = 16.0;
 /// Room of the grid beyond the membrane (m): right, below, above.
 const MARGIN: (f64, f64, f64) = (2.0, 2.0, 6.0);
 /// Particles on a side count as inside (m).
@@ -72,50 +71,6 @@ pub(super) struct Simulated {
     /// Largest gain and largest loss of energy that nothing accounts for (J/m).
     energy_defect: (f64, f64),
     work_residuals: Vec<f64>,
-}
-
-/// The membrane as it is drawn.
-pub(super) fn sketch() -> Sketch {
-    let tip = LEFT_HEIGHT + RIGHT_HEIGHT;
-    let length = |from, to, label: &str| Shape::Length {
-        from,
-        to,
-        label: label.to_owned(),
-    };
-    let probe = |at, label: &str| Shape::Probe {
-        at,
-        label: label.to_owned(),
-    };
-    let mut shapes = vec![
-        Shape::Body(vec![
-            [0.0, 0.0],
-            [LENGTH, LEFT_HEIGHT],
-            [LENGTH, tip],
-            [0.0, LEFT_HEIGHT],
-        ]),
-        Shape::Held([0.0, 0.0], [0.0, LEFT_HEIGHT]),
-        length([0.0, -6.0], [LENGTH, -6.0], "48 m"),
-        length([-8.0, 0.0], [-8.0, LEFT_HEIGHT], "44 m"),
-        length([58.0, LEFT_HEIGHT], [58.0, tip], "16 m"),
-        Shape::Note {
-            at: [52.0, 40.0],
-            text: "1 N/m".to_owned(),
-        },
-    ];
-    for k in 0..4 {
-        let y = LEFT_HEIGHT + 4.0 * f64::from(k);
-        shapes.push(Shape::Load([LENGTH + 2.0, y], [LENGTH + 2.0, y + 3.2]));
-    }
-    shapes.push(probe([LENGTH, tip], "tip"));
-    shapes.push(probe(
-        [LENGTH, LEFT_HEIGHT + 0.5 * RIGHT_HEIGHT],
-        "mid-edge",
-    ));
-    shapes.extend(stress_points().iter().map(|p| probe([p.x, p.y], "σ_m")));
-    Sketch {
-        shapes,
-        description: "A trapezoid 48 m long, 44 m high at its clamped left side and 16 m at its right side, which carries an upward load.",
-    }
 }
 
 /// What must hold of parameters together.
