@@ -1,11 +1,15 @@
 //! Convergence and work–precision of a case: every quantity of every scheme over the levels.
 
 use crate::case::{Case, Quantity};
+use crate::distinct;
 use crate::order::{Order, Richardson, extrapolate, fit_order};
 use crate::record::{Record, of_own_parameters};
 use crate::scheme::Scheme;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// Levels that show an order, at least.
+const LEAST_LEVELS: usize = 3;
 
 /// A quantity at one level, and what it cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,6 +31,9 @@ pub struct Point {
 /// A quantity of a scheme over the levels.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Convergence {
+    /// Parameters changed from the case's own, the same at all levels.
+    #[serde(default)]
+    pub set: Vec<String>,
     /// Scheme.
     pub scheme: Scheme,
     /// The metric.
@@ -43,16 +50,35 @@ pub struct Convergence {
     pub remark: Option<String>,
 }
 
-/// The convergence of every quantity of `case`, scheme by scheme, over records at its own parameters.
+/// The records of each scheme over the levels.
+type Ladders<'a> = BTreeMap<Scheme, Vec<&'a Record>>;
+
+/// The convergence of every quantity of `case`, scheme by scheme: over records at its own parameters,
+/// then over those at each set of others, in order of appearance, that a scheme has run at three levels.
 #[must_use]
 pub fn convergence(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
-    let mut ladders: BTreeMap<Scheme, Vec<&Record>> = BTreeMap::new();
-    for record in of_own_parameters(records) {
+    let mut all = over_levels(case, &[], &ladders(of_own_parameters(records).into_iter()));
+    let changed = records.iter().filter(|r| !r.is_default());
+    for set in distinct(changed.map(|r| &r.set[..])) {
+        let mut ladders = ladders(records.iter().filter(|r| r.set == set));
+        ladders.retain(|_, ladder| ladder.len() >= LEAST_LEVELS);
+        all.extend(over_levels(case, set, &ladders));
+    }
+    all
+}
+
+fn ladders<'a>(records: impl Iterator<Item = &'a Record>) -> Ladders<'a> {
+    let mut ladders = Ladders::new();
+    for record in records {
         ladders.entry(record.scheme()).or_default().push(record);
     }
+    ladders
+}
+
+fn over_levels(case: &dyn Case, set: &[String], ladders: &Ladders) -> Vec<Convergence> {
     let mut all = Vec::new();
     for quantity in case.quantities() {
-        for (scheme, ladder) in &ladders {
+        for (scheme, ladder) in ladders {
             let mut points: Vec<Point> = ladder
                 .iter()
                 .map(|r| Point {
@@ -67,18 +93,18 @@ pub fn convergence(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
                 .collect();
             points.sort_by(|a, b| b.h.total_cmp(&a.h));
             if !points.is_empty() {
-                all.push(study(*scheme, *quantity, points));
+                all.push(study(set, *scheme, *quantity, points));
             }
         }
     }
     all
 }
 
-fn study(scheme: Scheme, quantity: Quantity, points: Vec<Point>) -> Convergence {
+fn study(set: &[String], scheme: Scheme, quantity: Quantity, points: Vec<Point>) -> Convergence {
     let values: Vec<(f64, f64)> = points.iter().map(|p| (p.h, p.value)).collect();
     let (order, extrapolation, remark) = if quantity.is_error {
         let order = fit_order(&values);
-        let why = if values.len() < 3 {
+        let why = if values.len() < LEAST_LEVELS {
             "fewer than three levels"
         } else {
             "the error changes sign or vanishes: no power law"
@@ -92,6 +118,7 @@ fn study(scheme: Scheme, quantity: Quantity, points: Vec<Point>) -> Convergence 
         }
     };
     Convergence {
+        set: set.to_vec(),
         scheme,
         metric: quantity.metric.to_owned(),
         is_error: quantity.is_error,
@@ -99,5 +126,69 @@ fn study(scheme: Scheme, quantity: Quantity, points: Vec<Point>) -> Convergence 
         order,
         extrapolation,
         remark,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases;
+    use crate::record::Metric;
+    use crate::report::fixture::record;
+    use crate::scheme::RemedyName;
+
+    /// A run whose errors are those of second order.
+    fn run(level: &str, h: f64, set: &[&str]) -> Record {
+        let mut run = record(level, Vec::new());
+        run.set = set.iter().map(|s| (*s).to_owned()).collect();
+        run.discretisation.h = h;
+        let (value, unit) = (Some(h * h), "-".to_owned());
+        run.metrics
+            .insert("fem_edge_mean_error".to_owned(), Metric { value, unit });
+        run
+    }
+
+    fn of_sets(records: &[Record]) -> Vec<(String, usize)> {
+        let case = cases::find("cook").unwrap();
+        let entries = convergence(case, records);
+        let told = entries.iter().map(|c| (c.set.join(" "), c.points.len()));
+        told.collect()
+    }
+
+    const LEVELS: [(&str, f64); 3] = [("h2", 2.0), ("h1", 1.0), ("h0.5", 0.5)];
+
+    #[test]
+    fn every_set_of_parameters_has_a_ladder_of_its_own() {
+        let sets: [&[&str]; 3] = [&["poisson_ratio=0.3"], &[], &["load=2", "flip=0.9"]];
+        let mut records = Vec::new();
+        for set in sets {
+            records.extend(LEVELS.iter().rev().map(|(name, h)| run(name, *h, set)));
+        }
+        let expected = ["", "poisson_ratio=0.3", "load=2 flip=0.9"];
+        assert_eq!(of_sets(&records), expected.map(|s| (s.to_owned(), 3)));
+        let entries = convergence(cases::find("cook").unwrap(), &records);
+        for entry in entries {
+            assert_eq!(entry.points[0].level, "h2");
+            assert!((entry.order.unwrap().order - 2.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn fewer_than_three_levels_of_a_scheme_make_no_ladder() {
+        let set = &["poisson_ratio=0.3"][..];
+        let mut records: Vec<Record> = LEVELS.iter().map(|(n, h)| run(n, *h, set)).collect();
+        records[0].remedy = RemedyName::FbarTotal;
+        assert_eq!(of_sets(&records), []);
+        // At the case's own parameters, one level is shown.
+        records[0].set.clear();
+        assert_eq!(of_sets(&records), [(String::new(), 1)]);
+    }
+
+    #[test]
+    fn a_run_without_the_quantity_leaves_a_shorter_ladder() {
+        let set = &["poisson_ratio=0.3"][..];
+        let mut records: Vec<Record> = LEVELS.iter().map(|(n, h)| run(n, *h, set)).collect();
+        records[2].metrics.clear();
+        assert_eq!(of_sets(&records), [(set[0].to_owned(), 2)]);
     }
 }

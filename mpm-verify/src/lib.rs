@@ -27,3 +27,14 @@ pub mod statistics;
 pub mod study;
 pub mod table;
 pub mod vtu;
+
+/// Each value once, in order of appearance.
+pub(crate) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut seen = Vec::new();
+    for value in values {
+        if !seen.contains(&value) {
+            seen.push(value);
+        }
+    }
+    seen
+}

@@ -160,7 +160,9 @@ fn numbers(summary: &Summary) -> BTreeMap<String, Option<f64>> {
     for study in &summary.cases {
         for entry in &study.convergence {
             if let Some(order) = &entry.order {
-                let name = format!("{} {} order of {}", study.case, entry.scheme, entry.metric);
+                let run = [&[entry.scheme.to_string()], &entry.set[..]].concat();
+                let run = run.join(" ");
+                let name = format!("{} {run} order of {}", study.case, entry.metric);
                 numbers.insert(name, Some(order.order));
             }
         }

@@ -45,7 +45,8 @@ pub(super) fn summary() -> Summary {
     }
 }
 
-fn record(level: &str, verdicts: Vec<Verdict>) -> Record {
+/// A run of standard MPM with GIMP at the case's own parameters.
+pub(crate) fn record(level: &str, verdicts: Vec<Verdict>) -> Record {
     let record = serde_json::json!({
         "schema": 1, "case": "cook", "basis": "gimp", "remedy": "none", "transfer": "flip",
         "level": level, "set": [], "status": "ok", "error": null, "perturbed": false,

@@ -3,6 +3,7 @@
 use super::Picture;
 use super::plot::{Chart, Scale, draw_charts};
 use super::style::{Colour, series};
+use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::scheme::Scheme;
@@ -109,7 +110,9 @@ fn rows_of(study: &CaseStudy, night: &Night) -> Vec<Row> {
         value,
     };
     let mut rows = Vec::new();
-    for entry in study.convergence.iter().filter(|c| c.is_error) {
+    // Trends are of the case's own parameters.
+    let own = |c: &&Convergence| c.is_error && c.set.is_empty();
+    for entry in study.convergence.iter().filter(own) {
         let finest = entry.points.last();
         rows.extend(finest.map(|p| {
             let run = format!("{}/{}", entry.scheme, p.level);

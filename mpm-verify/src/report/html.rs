@@ -6,6 +6,7 @@ use crate::case::{Case, Quantity};
 use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
+use crate::distinct;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::{Record, Status};
@@ -401,17 +402,6 @@ fn anchor(record: &Record) -> String {
 
 fn link(study: &CaseStudy, record: &Record) -> String {
     format!("{}#{}", file_of(study), anchor(record))
-}
-
-/// Each value once, in order of appearance.
-fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
-    let mut seen = Vec::new();
-    for value in values {
-        if !seen.contains(&value) {
-            seen.push(value);
-        }
-    }
-    seen
 }
 
 /// A count with its digits in groups of three.

@@ -8,7 +8,7 @@ pub mod describe;
 pub mod diff;
 mod drift;
 #[cfg(test)]
-mod fixture;
+pub(crate) mod fixture;
 pub mod history;
 mod html;
 mod junit;
