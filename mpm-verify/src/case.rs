@@ -76,6 +76,19 @@ pub struct Quantity {
     pub is_error: bool,
 }
 
+/// A parameter over whose values the errors are drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Sweep {
+    /// The parameter, a number.
+    pub parameter: &'static str,
+    /// What is drawn of it, as an axis is labelled.
+    pub label: &'static str,
+    /// What is drawn of a value, such as its distance from a limit; positive if drawn by its logarithm.
+    pub abscissa: fn(f64) -> f64,
+    /// Whether it is drawn by its logarithm.
+    pub logarithmic: bool,
+}
+
 /// A column of the table of results.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Headline {
@@ -202,12 +215,16 @@ pub trait Case: Sync {
     fn headlines(&self) -> &'static [Headline];
     /// Quantities whose convergence is studied.
     fn quantities(&self) -> &'static [Quantity];
+    /// Parameters over whose values the errors are drawn.
+    fn sweeps(&self) -> &'static [Sweep];
     /// Columns of the time series, without units, that a reader should see first.
     fn watched(&self) -> &'static [&'static str];
     /// The geometry.
     fn sketch(&self) -> Sketch;
     /// The runs of a tier.
     fn plan(&self, tier: Tier) -> Vec<RunSpec>;
+    /// The largest tier whose runs carry goldens.
+    fn golden_tier(&self) -> Tier;
     /// Relative cost of a run, to start the longest first.
     fn cost(&self, spec: &RunSpec) -> f64;
     /// Begins a run.

@@ -5,6 +5,8 @@
 //! is ten times the measured response of its column to a last-bit perturbation of the starting
 //! positions; a column that did not respond must not change at all.
 
+use crate::case::{Case, RunSpec};
+use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::files::{make_folder, read_versioned, write_json, write_whole};
@@ -29,7 +31,7 @@ const ROWS: usize = 40;
 /// Tolerance over response.
 pub const MARGIN: f64 = 10.0;
 /// Runs of more particle steps than this (some minutes) have no golden: each would be run twice.
-pub const MOST_STEPS: u64 = 2_000_000_000;
+const MOST_STEPS: u64 = 2_000_000_000;
 /// The metric of the verdict on a golden's picture.
 pub const PIXELS: &str = "different pixels of the picture";
 /// Name of the check.
@@ -83,6 +85,22 @@ pub fn home(root: &Path, record: &Record) -> PathBuf {
     root.join(&record.case).join(record.folder())
 }
 
+/// Why no golden is kept of a run, if none is.
+#[must_use]
+pub fn why_none(case: &dyn Case, record: &Record) -> Option<String> {
+    let tier = case.golden_tier();
+    let carries = |spec: &RunSpec| spec.folder() == record.folder();
+    if record.work.particle_steps > MOST_STEPS {
+        Some(format!(
+            "no golden is kept of more than {MOST_STEPS:e} particle steps"
+        ))
+    } else if !case.plan(tier).iter().any(carries) {
+        Some(format!("goldens are kept of the runs of tier {tier} only"))
+    } else {
+        None
+    }
+}
+
 /// Verdicts on the drift of a run, whose outputs lie in `folder`, from its golden below `root`.
 ///
 /// # Errors
@@ -92,8 +110,9 @@ pub fn compare(root: &Path, record: &Record, folder: &Path) -> Result<Vec<Verdic
         let why = "the run broke down: nothing to compare";
         return Ok(vec![mismatch("run", why.to_owned())]);
     }
-    if record.work.particle_steps > MOST_STEPS && !home(root, record).exists() {
-        let why = format!("no golden is kept of more than {MOST_STEPS:e} particle steps");
+    if !home(root, record).exists()
+        && let Some(why) = why_none(cases::find(&record.case)?, record)
+    {
         let verdict = Verdict::not_applicable(CHECK, "run", why);
         return Ok(vec![Verdict {
             kind: Kind::Drift,
@@ -494,4 +513,24 @@ fn readable(folder: &Path) -> Result<(), Error> {
     fs::set_permissions(folder, std::os::unix::fs::PermissionsExt::from_mode(0o755))
         .map_err(|e| Error::file(folder, e))?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture::record;
+
+    #[test]
+    fn goldens_are_kept_of_runs_of_their_tier_that_are_not_too_long() {
+        let case = cases::find("cook").unwrap();
+        let mut run = record("h1", Vec::new());
+        assert_eq!(why_none(case, &run), None);
+        run.work.particle_steps = MOST_STEPS + 1;
+        assert!(why_none(case, &run).unwrap().contains("particle steps"));
+        run.work.particle_steps = MOST_STEPS;
+        run.set = vec!["load=2".to_owned()];
+        assert!(why_none(case, &run).unwrap().contains("tier nightly"));
+        let verdicts = compare(Path::new("no goldens"), &run, Path::new("")).unwrap();
+        assert!(verdicts[0].kind == Kind::Drift && verdicts[0].pass.is_none());
+    }
 }

@@ -5,7 +5,7 @@ use mpm_verify::case::{Case, RunSpec, Tier};
 use mpm_verify::cases;
 use mpm_verify::check::Kind;
 use mpm_verify::files::read_versioned;
-use mpm_verify::golden::{Golden, MARGIN, MOST_STEPS};
+use mpm_verify::golden::{Golden, MARGIN, why_none};
 use mpm_verify::record::Record;
 use mpm_verify::run::judge;
 use mpm_verify::study::{SCHEMA, Summary, has_truth};
@@ -26,11 +26,11 @@ fn last_night(case: &dyn Case) -> Vec<Record> {
     study.unwrap().records
 }
 
-/// Runs with a golden: neither of the tier that is run by hand, nor too long to be run twice.
+/// Runs with a golden: of the case's golden tier, and not too long to be run twice.
 fn gated(case: &dyn Case) -> BTreeSet<String> {
     let records = last_night(case);
-    let short = |r: &&Record| r.work.particle_steps <= MOST_STEPS;
-    records.iter().filter(short).map(Record::folder).collect()
+    let carries = |r: &&Record| why_none(case, r).is_none();
+    records.iter().filter(carries).map(Record::folder).collect()
 }
 
 #[test]

@@ -7,7 +7,9 @@ mod reference;
 mod simulation;
 mod sketch;
 
-use crate::case::{Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Tier};
+use crate::case::{
+    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier,
+};
 use crate::check::Verdict;
 use crate::error::Error;
 use crate::parameter::{Domain, Parameter, Parameters};
@@ -325,6 +327,13 @@ const QUANTITIES: &[Quantity] = &[
     },
 ];
 
+const SWEEPS: &[Sweep] = &[Sweep {
+    parameter: "poisson_ratio",
+    label: "0.5 − ν",
+    abscissa: |ratio| 0.5 - ratio,
+    logarithmic: true,
+}];
+
 const fn metric(name: &'static str, unit: &'static str, meaning: &'static str) -> MetricInfo {
     MetricInfo {
         name,
@@ -391,6 +400,10 @@ impl Case for Cook {
         QUANTITIES
     }
 
+    fn sweeps(&self) -> &'static [Sweep] {
+        SWEEPS
+    }
+
     fn watched(&self) -> &'static [&'static str] {
         &["tip_uy", "log_jacobian_gap_rms"]
     }
@@ -401,6 +414,10 @@ impl Case for Cook {
 
     fn plan(&self, tier: Tier) -> Vec<RunSpec> {
         plan(tier)
+    }
+
+    fn golden_tier(&self) -> Tier {
+        Tier::Nightly
     }
 
     fn cost(&self, spec: &RunSpec) -> f64 {
