@@ -1,11 +1,12 @@
 //! Convergence and work–precision of every case.
 
 use super::Picture;
-use super::plot::{Chart, Scale, SlopeTriangle, draw_charts};
-use super::style::{Colour, series};
+use super::plot::{Chart, Scale, SlopeTriangle};
+use super::style::{Panel, Panels};
 use crate::case::Quantity;
 use crate::cases;
 use crate::convergence::{Convergence, Point};
+use crate::distinct;
 use crate::error::Error;
 use crate::files::{write_csv, write_json};
 use crate::scheme::Scheme;
@@ -20,55 +21,65 @@ const CLEARANCE: f64 = 1.3;
 /// Width of a slope triangle, as a share of that of the curves.
 const SHARE: f64 = 0.22;
 
-/// Writes the numbers of the study and draws every error against cell size and against cost.
+/// Writes the numbers of the study and draws every error against cell size and, at the case's own
+/// parameters, against cost.
 pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error> {
     let folder = out.join(&study.case);
     write_json(&folder.join("study.json"), &study.convergence)?;
     write_points(&study.convergence, &folder.join("convergence.csv"))?;
 
-    let errors = Errors {
-        entries: study.convergence.iter().filter(|c| c.is_error).collect(),
-        quantities: cases::find(&study.case)?.quantities(),
-    };
-    let against_size = errors.charts("cell size h (m)", |p| p.h, true);
-    let cpu = errors.charts("CPU time (s)", |p| p.cpu_s, false);
-    let pairs = errors.charts(
-        "particle–node pairs",
-        |p| p.particle_node_pairs as f64,
-        false,
-    );
+    let errors = || study.convergence.iter().filter(|c| c.is_error);
     let mut pictures = Vec::new();
-    for (name, charts, caption) in [
-        (
-            "convergence.png",
-            against_size,
-            "Error against cell size, for every scheme, converging or not. Both axes are logarithmic; the triangle shows an order.",
-        ),
-        (
-            "work-precision.png",
-            pairs,
-            "Error against its cost in particle–node pairs visited, for every scheme, converging or not.",
-        ),
-        (
-            CPU_PICTURE,
-            cpu,
-            "Error against its cost in CPU time (one thread), for every scheme, converging or not.",
-        ),
-    ] {
-        if !charts.is_empty() {
+    for set in distinct(errors().map(|c| &c.set[..])) {
+        let errors = Errors {
+            entries: errors().filter(|c| c.set == set).collect(),
+            quantities: cases::find(&study.case)?.quantities(),
+        };
+        let mut draw = |name: &str, axis: &Axis, caption: String| {
             let file = format!("{}/{name}", study.case);
-            draw_charts(&out.join(&file), &charts, 2)?;
-            let caption = caption.to_owned();
-            pictures.push(Picture { file, caption });
+            if errors.draw(&out.join(&file), axis)? {
+                pictures.push(Picture { file, caption });
+            }
+            Ok::<(), Error>(())
+        };
+        if set.is_empty() {
+            draw(
+                "convergence.png",
+                &SIZE,
+                "Error against cell size, for every scheme, converging or not. Both axes are logarithmic; the triangle shows an order.".to_owned(),
+            )?;
+            draw(
+                "work-precision.png",
+                &PAIRS,
+                "Error against its cost in particle–node pairs visited, for every scheme, converging or not.".to_owned(),
+            )?;
+            draw(
+                CPU_PICTURE,
+                &TIME,
+                "Error against its cost in CPU time (one thread), for every scheme, converging or not.".to_owned(),
+            )?;
+        } else {
+            draw(
+                &format!("convergence-{}.png", slug(set)),
+                &SIZE,
+                format!("Error against cell size with {}, likewise.", set.join(", ")),
+            )?;
         }
     }
     Ok(pictures)
+}
+
+/// The changed parameters as part of a file's name.
+fn slug(set: &[String]) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "._+".contains(c);
+    set.join("+").replace(|c| !plain(c), "-")
 }
 
 fn write_points(convergence: &[Convergence], path: &Path) -> Result<(), Error> {
     let header = [
         "quantity",
         "scheme",
+        "changed",
         "level",
         "set",
         "h (m)",
@@ -81,6 +92,7 @@ fn write_points(convergence: &[Convergence], path: &Path) -> Result<(), Error> {
             vec![
                 c.metric.clone(),
                 c.scheme.to_string(),
+                c.set.join(" "),
                 p.level.clone(),
                 p.set.join(" "),
                 p.h.to_string(),
@@ -93,51 +105,83 @@ fn write_points(convergence: &[Convergence], path: &Path) -> Result<(), Error> {
     write_csv(path, &header.map(str::to_owned), rows)
 }
 
+/// What errors are drawn against.
+struct Axis {
+    label: &'static str,
+    of: fn(&Point) -> f64,
+    /// Whether a slope is an order, which a triangle shows.
+    order: bool,
+}
+
+const SIZE: Axis = Axis {
+    label: "cell size h (m)",
+    of: |p| p.h,
+    order: true,
+};
+const PAIRS: Axis = Axis {
+    label: "particle–node pairs",
+    of: |p| p.particle_node_pairs as f64,
+    order: false,
+};
+const TIME: Axis = Axis {
+    label: "CPU time (s)",
+    of: |p| p.cpu_s,
+    order: false,
+};
+
+/// The errors at one set of parameters.
 struct Errors<'a> {
     entries: Vec<&'a Convergence>,
     quantities: &'a [Quantity],
 }
 
 impl Errors<'_> {
-    /// One chart per error that has something to show, all with the same schemes and so one legend.
-    fn charts(&self, x_label: &str, abscissa: fn(&Point) -> f64, triangle: bool) -> Vec<Chart> {
+    /// Draws every error that has something to show; returns whether any has.
+    fn draw(&self, path: &Path, axis: &Axis) -> Result<bool, Error> {
         let schemes: BTreeSet<Scheme> = self.entries.iter().map(|c| c.scheme).collect();
-        let chart = |quantity: &Quantity| {
-            let of_quantity = || self.entries.iter().filter(|c| c.metric == quantity.metric);
-            let curve = |scheme: &Scheme| {
-                let points = of_quantity()
-                    .filter(|c| c.scheme == *scheme)
-                    .flat_map(|c| &c.points)
-                    .map(|p| (abscissa(p), p.value.abs()))
-                    // An error of zero has no logarithm.
-                    .filter(|(x, y)| *x > 0.0 && *y > 0.0);
-                series(*scheme, points.collect(), Colour::Basis)
-            };
-            let signed = of_quantity().any(|c| c.points.iter().any(|p| p.value < 0.0));
-            let series: Vec<_> = schemes.iter().map(curve).collect();
-            let orders = of_quantity().filter_map(|c| Some(c.order.as_ref()?.order));
-            let slope_triangle = typical_order(orders.collect())
-                .filter(|_| triangle)
-                .and_then(|slope| below_the_curves(slope, series.iter().map(|s| &s.points[..])));
-            Chart {
-                title: String::new(),
-                x_label: x_label.to_owned(),
-                y_label: if signed {
-                    format!("|{}|", quantity.label)
-                } else {
-                    quantity.label.to_owned()
-                },
-                x_scale: Scale::Log10,
-                y_scale: Scale::Log10,
-                series,
-                reference_lines: Vec::new(),
-                slope_triangle,
-                x_range: None,
-                y_range: None,
-            }
-        };
-        let shown = |c: &Chart| c.series.iter().any(|s| !s.points.is_empty());
-        self.quantities.iter().map(chart).filter(shown).collect()
+        let chart = |quantity: &&Quantity, panel: &Panel| self.chart(quantity, axis, panel);
+        Ok(Panels::new(&schemes).draw(path, self.quantities, chart)?)
+    }
+
+    fn chart(&self, quantity: &Quantity, axis: &Axis, panel: &Panel) -> Chart {
+        let of_quantity = || self.entries.iter().filter(|c| c.metric == quantity.metric);
+        let series = panel.curves(|scheme| {
+            of_quantity()
+                .filter(|c| c.scheme == scheme)
+                .flat_map(|c| &c.points)
+                .map(|p| ((axis.of)(p), p.value.abs()))
+                // An error of zero has no logarithm.
+                .filter(|(x, y)| *x > 0.0 && *y > 0.0)
+                .collect()
+        });
+        let orders = of_quantity()
+            .filter(|c| panel.schemes.contains(&c.scheme))
+            .filter_map(|c| Some(c.order.as_ref()?.order));
+        let slope_triangle = typical_order(orders.collect())
+            .filter(|_| axis.order)
+            .and_then(|slope| below_the_curves(slope, series.iter().map(|s| &s.points[..])));
+        let signed = of_quantity().any(|c| c.points.iter().any(|p| p.value < 0.0));
+        Chart {
+            title: panel.title.clone(),
+            x_label: axis.label.to_owned(),
+            y_label: error_label(quantity, signed),
+            x_scale: Scale::Log10,
+            y_scale: Scale::Log10,
+            series,
+            reference_lines: Vec::new(),
+            slope_triangle,
+            x_range: None,
+            y_range: None,
+        }
+    }
+}
+
+/// How the axis of an error is labelled on which its magnitude is drawn.
+pub(super) fn error_label(quantity: &Quantity, signed: bool) -> String {
+    if signed {
+        format!("|{}|", quantity.label)
+    } else {
+        quantity.label.to_owned()
     }
 }
 
@@ -186,6 +230,13 @@ fn below_the_curves<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn changed_parameters_make_a_plain_name_of_a_file() {
+        let slug = |set: &[&str]| slug(&set.iter().map(|s| (*s).to_owned()).collect::<Vec<_>>());
+        assert_eq!(slug(&["poisson_ratio=0.4999"]), "poisson_ratio-0.4999");
+        assert_eq!(slug(&["load=-2", "wall=a/b"]), "load--2+wall-a-b");
+    }
 
     #[test]
     fn the_triangle_lies_below_all_curves() {

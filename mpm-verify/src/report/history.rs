@@ -1,8 +1,8 @@
 //! Trends over nights: errors, orders and cost, kept in a table beside the report.
 
 use super::Picture;
-use super::plot::{Chart, Scale, draw_charts};
-use super::style::{Colour, series};
+use super::plot::{Chart, Scale};
+use super::style::{Panel, Panels};
 use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
@@ -153,49 +153,43 @@ fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, 
         return Ok(None);
     };
     let mut quantities: Vec<&str> = Vec::new();
-    let mut schemes = BTreeSet::new();
+    let mut points = Vec::new();
     for row in &own {
         if !quantities.contains(&row.quantity.as_str()) {
             quantities.push(&row.quantity);
         }
-        schemes.insert(row.scheme()?);
+        points.push((row.scheme()?, *row));
     }
     quantities.sort_by_key(|q| ([COST, PAIRS].contains(q), q.starts_with(ORDER)));
-    let mut charts = Vec::new();
-    for quantity in quantities {
+    let chart = |quantity: &&str, panel: &Panel| {
         let (y_label, y_scale) = axis(quantity);
-        let mut curves: BTreeMap<Scheme, Vec<(f64, f64)>> =
-            schemes.iter().map(|s| (*s, Vec::new())).collect();
-        for row in own.iter().filter(|r| r.quantity == quantity) {
-            let day = f64::from((row.night - first).get_days());
-            // An error of zero has no logarithm.
-            if y_scale == Scale::Linear || row.value > 0.0 {
-                curves
-                    .entry(row.scheme()?)
-                    .or_default()
-                    .push((day, row.value));
-            }
-        }
-        charts.push(Chart {
-            title: String::new(),
+        let series = panel.curves(|scheme| {
+            let of_curve = points
+                .iter()
+                .filter(|(s, r)| *s == scheme && r.quantity == *quantity);
+            of_curve
+                // An error of zero has no logarithm.
+                .filter(|(_, r)| y_scale == Scale::Linear || r.value > 0.0)
+                .map(|(_, r)| (f64::from((r.night - first).get_days()), r.value))
+                .collect()
+        });
+        Chart {
+            title: panel.title.clone(),
             x_label: format!("days since {first}"),
             y_label,
             x_scale: Scale::Linear,
             y_scale,
-            series: curves
-                .into_iter()
-                .map(|(scheme, points)| series(scheme, points, Colour::Basis))
-                .collect(),
+            series,
             reference_lines: Vec::new(),
             slope_triangle: None,
             x_range: None,
             y_range: None,
-        });
-    }
-    charts.retain(|c| c.series.iter().any(|s| !s.points.is_empty()));
+        }
+    };
+    let schemes: BTreeSet<Scheme> = points.iter().map(|(scheme, _)| *scheme).collect();
     let file = format!("{TRENDS}{}.png", study.case);
-    draw_charts(&out.join(&file), &charts, 2)?;
-    Ok(Some(Picture {
+    let drawn = Panels::new(&schemes).draw(&out.join(&file), quantities, chart)?;
+    Ok(drawn.then(|| Picture {
         file,
         caption: format!(
             "{}: errors, orders and cost, night by night (data: {FILE}).",

@@ -16,6 +16,7 @@ pub mod plot;
 mod sketch;
 mod style;
 mod summary;
+mod sweep;
 pub(crate) mod triptych;
 pub mod watched;
 
@@ -46,6 +47,7 @@ pub fn write_report(
             pictures.extend(cook::draw(study, gathered, out)?);
         }
         pictures.extend(convergence::draw(study, out)?);
+        pictures.extend(sweep::draw(study, out)?);
     }
     if let Some(night) = night {
         pictures.extend(history::add(summary, night, out)?);

@@ -200,6 +200,8 @@ pub struct FieldFigure {
 /// Margin of a picture, and distance of the charts in a grid, in pixels.
 const EDGE: f64 = 28.0;
 const CELL_GAP: f64 = 30.0;
+/// Size of the axes' box where three charts or more stand in a row.
+const LEAST: Point = (560.0, 430.0);
 /// Length of a legend's line, height of its entries and gap of its columns.
 const SAMPLE: f64 = 70.0;
 const ENTRY_HEIGHT: f64 = 40.0;
@@ -315,6 +317,13 @@ impl Chart {
 
     /// The axis, `length` pixels long, that shows everything or the given range.
     fn axis(&self, path: &Path, upright: bool, length: f64) -> Result<Axis, PlotError> {
+        let scale = if upright { self.y_scale } else { self.x_scale };
+        let range = self.range(path, upright, length)?;
+        Ok(Axis::new(range, scale == Scale::Log10, length, upright))
+    }
+
+    /// The range of that axis; of its logarithm, if it is logarithmic.
+    fn range(&self, path: &Path, upright: bool, length: f64) -> Result<Point, PlotError> {
         let (given, scale, label) = if upright {
             (self.y_range, self.y_scale, &self.y_label)
         } else {
@@ -325,7 +334,7 @@ impl Chart {
         let transform = |v: f64| if log { v.log10() } else { v };
         let all = self.series.iter().flat_map(|s| &s.points);
         let mut shown: Vec<f64> = all.filter(|p| finite(p)).map(pick).collect();
-        if shown.is_empty() {
+        if shown.is_empty() && given.is_none() {
             return Err(nothing(path, &self.title));
         }
         for line in self.reference_lines.iter().filter(|_| upright) {
@@ -355,8 +364,43 @@ impl Chart {
                 hi = hi.max(lo + (leg - lo) / (1.0 - room / length))
             }
         }
-        Ok(Axis::new((lo, hi), log, length, upright))
+        Ok((lo, hi))
     }
+
+    /// Whether there is a point to draw.
+    #[must_use]
+    pub fn shows_something(&self) -> bool {
+        self.series.iter().flat_map(|s| &s.points).any(finite)
+    }
+}
+
+/// Gives charts of the same scales the same ranges, which show everything in each of them.
+///
+/// # Errors
+///
+/// A non-positive value on a log axis; `path` is that of the picture they are for.
+pub fn share_ranges(path: &Path, charts: &mut [Chart]) -> Result<(), PlotError> {
+    for upright in [false, true] {
+        let length = if upright { LEAST.1 } else { LEAST.0 };
+        let shown = charts.iter().filter(|c| c.shows_something());
+        let ranges = shown.map(|c| c.range(path, upright, length));
+        let ranges = ranges.collect::<Result<Vec<_>, _>>()?;
+        let Some((lo, hi)) = extent(ranges.into_iter().flat_map(|(lo, hi)| [lo, hi])) else {
+            continue;
+        };
+        for chart in charts.iter_mut() {
+            let (range, scale) = if upright {
+                (&mut chart.y_range, chart.y_scale)
+            } else {
+                (&mut chart.x_range, chart.x_scale)
+            };
+            *range = Some(match scale {
+                Scale::Linear => (lo, hi),
+                Scale::Log10 => (10f64.powf(lo), 10f64.powf(hi)),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// A chart with its axes, title and legend.
@@ -436,15 +480,15 @@ impl<'a> Plan<'a> {
 /// Draws a grid of charts, `columns` in a row, as one PNG file.
 ///
 /// Charts with the same series share one legend; otherwise each has its own. It lies below the axes,
-/// or to the right if it is a single one of more than six entries.
+/// or to the right of at most two columns if it is a single one of more than six entries.
 ///
 /// # Errors
 ///
-/// A chart without finite points, a non-positive value on a log axis, or a file that cannot be
+/// A chart without finite points or given ranges, a non-positive value on a log axis, or a file that cannot be
 /// written.
 pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), PlotError> {
     let columns = columns.min(charts.len()).max(1);
-    let size = [(1180.0, 760.0), (760.0, 560.0), (560.0, 430.0)][columns.min(3) - 1];
+    let size = [(1180.0, 760.0), (760.0, 560.0), LEAST][columns.min(3) - 1];
     let plans = charts.iter().map(|c| Plan::new(path, c, size));
     let plans = plans.collect::<Result<Vec<_>, _>>()?;
     let first = plans.first();
@@ -457,7 +501,7 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
     let top = 16.0 + most(&|p| p.title.height());
     let bottom = most(&|p| p.axes.below());
     let shared = plans.iter().all(|p| p.entries == first.entries);
-    let beside = shared && first.entries.len() > 6;
+    let beside = shared && first.entries.len() > 6 && columns < 3;
 
     let (rows, natural) = (charts.len().div_ceil(columns), left + size.0 + right);
     let grid_width = |cell: f64| columns as f64 * (cell + CELL_GAP) - CELL_GAP;

@@ -1,7 +1,13 @@
-//! How the curve of a scheme looks, the same in every picture.
+//! How the curve of a scheme looks, and which schemes share their axes, the same in every picture.
 
-use super::plot::{Dash, Marker, Series};
-use crate::scheme::{BasisName, RemedyName, Scheme};
+use super::describe;
+use super::plot::{Chart, Dash, Marker, PlotError, Series, draw_charts, share_ranges};
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// More curves than this can't be told apart on one pair of axes.
+const MOST_CURVES: usize = 8;
 
 /// What the colour of a curve tells.
 #[derive(Clone, Copy)]
@@ -10,32 +16,193 @@ pub(super) enum Colour {
     Basis,
     /// The remedy, for curves of one basis with too many points for markers.
     Remedy,
+    /// The remedy, for curves of one basis; transfers, if there are several, differ in marker.
+    Marked {
+        /// Whether there are several transfers.
+        transfers: bool,
+    },
 }
 
 /// The curve of a scheme.
 pub(super) fn series(scheme: Scheme, points: Vec<(f64, f64)>, colour: Colour) -> Series {
     // Total and rate nearly coincide: the dashed line and the hollow marker let the other show.
-    let (marker, dash, of_remedy) = match scheme.remedy {
+    let (of_remedy, dash, by_remedy) = match scheme.remedy {
         RemedyName::None => (Marker::Cross, Dash::Dotted, 6),
         RemedyName::FbarRecursive => (Marker::Triangle, Dash::Solid, 1),
         RemedyName::FbarTotal => (Marker::Square, Dash::Solid, 2),
         RemedyName::FbarRate => (Marker::Circle, Dash::Dashed, 0),
     };
-    let of_basis = match scheme.basis {
+    let by_basis = match scheme.basis {
         BasisName::Gimp => 0,
         BasisName::Bspline2 => 1,
         BasisName::Bspline3 => 2,
         BasisName::Linear => 3,
     };
+    let of_transfer = match scheme.transfer {
+        TransferName::Flip => Marker::Circle,
+        TransferName::Apic => Marker::Square,
+        TransferName::Xpic2 => Marker::Triangle,
+        TransferName::Xpic3 => Marker::Diamond,
+    };
     let (colour, marker) = match colour {
-        Colour::Basis => (of_basis, marker),
-        Colour::Remedy => (of_remedy, Marker::None),
+        Colour::Basis => (by_basis, of_remedy),
+        Colour::Remedy => (by_remedy, Marker::None),
+        Colour::Marked { transfers: false } => (by_remedy, of_remedy),
+        Colour::Marked { transfers: true } => (by_remedy, of_transfer),
     };
     Series {
-        name: format!("{} {}", scheme.basis, scheme.remedy),
+        name: describe::scheme(scheme),
         points,
         colour,
         marker,
         dash,
+    }
+}
+
+/// Schemes whose curves share a pair of axes.
+pub(super) struct Panel {
+    /// What they have in common; may be empty.
+    pub(super) title: String,
+    pub(super) schemes: Vec<Scheme>,
+    colour: Colour,
+}
+
+impl Panel {
+    /// The curve of every scheme.
+    pub(super) fn curves(&self, points: impl Fn(Scheme) -> Vec<(f64, f64)>) -> Vec<Series> {
+        let curve = |scheme: &Scheme| {
+            let mut curve = series(*scheme, points(*scheme), self.colour);
+            // What the title says already would keep panels from sharing a legend.
+            let common = format!("{} ", self.title);
+            if let Some(rest) = curve.name.strip_prefix(&common) {
+                curve.name = rest.to_owned();
+            }
+            curve
+        };
+        self.schemes.iter().map(curve).collect()
+    }
+}
+
+/// Panels side by side.
+pub(super) struct Panels(Vec<Panel>);
+
+impl Panels {
+    /// All schemes in one panel while they can be told apart, else a panel for every basis.
+    pub(super) fn new(schemes: &BTreeSet<Scheme>) -> Self {
+        let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis).collect();
+        let others: BTreeSet<_> = schemes.iter().map(|s| (s.remedy, s.transfer)).collect();
+        let transfers: BTreeSet<_> = others.iter().map(|(_, transfer)| transfer).collect();
+        let transfers = transfers.len() > 1;
+        if schemes.len() <= MOST_CURVES && !transfers {
+            return Self(vec![Panel {
+                title: String::new(),
+                schemes: schemes.iter().copied().collect(),
+                colour: Colour::Basis,
+            }]);
+        }
+        // Each panel has the same curves, be they empty, and so all have one legend.
+        let of_basis = |basis: BasisName| Panel {
+            title: basis.to_string(),
+            schemes: others
+                .iter()
+                .map(|&(remedy, transfer)| Scheme {
+                    basis,
+                    remedy,
+                    transfer,
+                })
+                .collect(),
+            colour: Colour::Marked { transfers },
+        };
+        Self(bases.into_iter().map(of_basis).collect())
+    }
+
+    /// Draws a row of panels with common ranges for each of `items` that has something to show;
+    /// returns whether any has.
+    pub(super) fn draw<T>(
+        &self,
+        path: &Path,
+        items: impl IntoIterator<Item = T>,
+        chart: impl Fn(&T, &Panel) -> Chart,
+    ) -> Result<bool, PlotError> {
+        let mut charts = Vec::new();
+        for item in items {
+            let mut row: Vec<Chart> = self.0.iter().map(|p| chart(&item, p)).collect();
+            if row.iter().any(Chart::shows_something) {
+                if row.len() > 1 {
+                    share_ranges(path, &mut row)?;
+                }
+                charts.extend(row);
+            }
+        }
+        if !charts.is_empty() {
+            draw_charts(path, &charts, self.0.len().max(2))?;
+        }
+        Ok(!charts.is_empty())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn schemes(bases: &[BasisName], transfers: &[TransferName]) -> BTreeSet<Scheme> {
+        let remedies = [
+            RemedyName::None,
+            RemedyName::FbarRecursive,
+            RemedyName::FbarTotal,
+            RemedyName::FbarRate,
+        ];
+        let mut all = BTreeSet::new();
+        for &basis in bases {
+            for remedy in remedies {
+                all.extend(transfers.iter().map(|&transfer| Scheme {
+                    basis,
+                    remedy,
+                    transfer,
+                }));
+            }
+        }
+        all
+    }
+
+    /// How the curves of each panel look, without their points.
+    fn looks(schemes: &BTreeSet<Scheme>) -> Vec<Vec<Series>> {
+        let Panels(panels) = Panels::new(schemes);
+        panels.iter().map(|p| p.curves(|_| Vec::new())).collect()
+    }
+
+    #[test]
+    fn few_curves_share_their_axes_many_are_split_by_basis() {
+        use BasisName::{Bspline2, Bspline3, Gimp};
+        use TransferName::{Apic, Flip};
+        for (bases, transfers, panels) in [
+            (&[Gimp][..], &[Flip][..], 1),
+            (&[Gimp, Bspline2], &[Flip], 1),
+            (&[Gimp, Bspline2, Bspline3], &[Flip], 3),
+            (&[Bspline2], &[Flip, Apic], 1),
+            (&[Gimp, Bspline2], &[Flip, Apic], 2),
+        ] {
+            assert_eq!(looks(&schemes(bases, transfers)).len(), panels);
+        }
+    }
+
+    #[test]
+    fn panels_of_bases_have_one_legend_whose_curves_all_differ() {
+        let mut all = schemes(
+            &[BasisName::Gimp, BasisName::Bspline2],
+            &[
+                TransferName::Flip,
+                TransferName::Apic,
+                TransferName::Xpic2,
+                TransferName::Xpic3,
+            ],
+        );
+        all.pop_last();
+        let panels = looks(&all);
+        assert_eq!(panels[0], panels[1]);
+        let look = |s: &Series| (s.colour, format!("{:?} {:?}", s.marker, s.dash));
+        let looks: BTreeSet<_> = panels[0].iter().map(look).collect();
+        assert_eq!(looks.len(), 16);
+        assert_eq!(panels[0][1].name, "none apic");
     }
 }

@@ -1,0 +1,211 @@
+//! Errors over the values of a parameter.
+
+use super::Picture;
+use super::convergence::error_label;
+use super::plot::{Chart, Scale};
+use super::style::{Panel, Panels};
+use crate::case::{Case, Quantity, Sweep};
+use crate::cases;
+use crate::error::Error;
+use crate::files::write_csv;
+use crate::record::Record;
+use crate::scheme::Scheme;
+use crate::study::CaseStudy;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// Values of a parameter that make a sweep, at least.
+const LEAST_VALUES: usize = 3;
+
+/// Draws every error against each parameter that was swept, and writes what is drawn.
+pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error> {
+    let case = cases::find(&study.case)?;
+    let mut pictures = Vec::new();
+    for sweep in case.sweeps() {
+        let Some(runs) = Runs::select(case, sweep, &study.records) else {
+            continue;
+        };
+        let errors: Vec<&Quantity> = case.quantities().iter().filter(|q| q.is_error).collect();
+        let file = |extension| format!("{}/sweep-{}.{extension}", study.case, sweep.parameter);
+        runs.write(&errors, &out.join(file("csv")))?;
+        let schemes: BTreeSet<Scheme> = runs.of_scheme.keys().copied().collect();
+        let chart = |quantity: &&Quantity, panel: &Panel| runs.chart(quantity, panel);
+        if Panels::new(&schemes).draw(&out.join(file("png")), errors, chart)? {
+            pictures.push(Picture {
+                file: file("png"),
+                caption: format!(
+                    "Error at level {} over the values of {}, for every scheme that ran at least {LEAST_VALUES} of them.",
+                    runs.level, sweep.parameter
+                ),
+            });
+        }
+    }
+    Ok(pictures)
+}
+
+/// The runs of a sweep, all at one level.
+struct Runs<'a> {
+    sweep: &'a Sweep,
+    level: &'static str,
+    /// By rising value of the parameter.
+    of_scheme: BTreeMap<Scheme, Vec<(f64, &'a Record)>>,
+}
+
+impl<'a> Runs<'a> {
+    /// The runs that differ in the parameter alone, of the schemes that ran enough of its values at the
+    /// finest level at which any has; `None` if there is no such level.
+    fn select(case: &dyn Case, sweep: &'a Sweep, records: &'a [Record]) -> Option<Self> {
+        let at_level = |level: &'static str| {
+            let mut of_scheme: BTreeMap<Scheme, Vec<(f64, &Record)>> = BTreeMap::new();
+            for record in records.iter().filter(|r| r.level == level) {
+                if record.is_default() || record.changes_only(sweep.parameter) {
+                    let value = record.parameters.number(sweep.parameter);
+                    let runs = of_scheme.entry(record.scheme()).or_default();
+                    runs.push((value, record));
+                }
+            }
+            of_scheme.retain(|_, runs| {
+                runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+                runs.dedup_by_key(|run| run.0);
+                runs.len() >= LEAST_VALUES
+            });
+            (!of_scheme.is_empty()).then_some(Self {
+                sweep,
+                level,
+                of_scheme,
+            })
+        };
+        case.levels().iter().rev().find_map(|l| at_level(l.name))
+    }
+
+    fn write(&self, errors: &[&Quantity], path: &Path) -> Result<(), Error> {
+        let Sweep {
+            parameter, label, ..
+        } = self.sweep;
+        let header = ["quantity", "scheme", "level", parameter, label, "value"];
+        let mut rows = Vec::new();
+        for metric in errors.iter().map(|q| q.metric) {
+            for (scheme, runs) in &self.of_scheme {
+                let finite = runs.iter().filter(|(_, r)| r.metric(metric).is_finite());
+                rows.extend(finite.map(|(value, record)| {
+                    vec![
+                        metric.to_owned(),
+                        scheme.to_string(),
+                        self.level.to_owned(),
+                        value.to_string(),
+                        (self.sweep.abscissa)(*value).to_string(),
+                        record.metric(metric).to_string(),
+                    ]
+                }));
+            }
+        }
+        write_csv(path, &header.map(str::to_owned), rows)
+    }
+
+    fn chart(&self, quantity: &Quantity, panel: &Panel) -> Chart {
+        let Sweep {
+            label,
+            abscissa,
+            logarithmic,
+            ..
+        } = self.sweep;
+        let error = |record: &Record| record.metric(quantity.metric);
+        let series = panel.curves(|scheme| {
+            let runs = self.of_scheme.get(&scheme).into_iter().flatten();
+            runs.map(|(value, record)| (abscissa(*value), error(record).abs()))
+                // What is not positive has no logarithm.
+                .filter(|(x, y)| (*x > 0.0 || !logarithmic) && *y > 0.0)
+                .collect()
+        });
+        let mut records = self.of_scheme.values().flatten().map(|(_, record)| record);
+        Chart {
+            title: panel.title.clone(),
+            x_label: (*label).to_owned(),
+            y_label: error_label(quantity, records.any(|r| error(r) < 0.0)),
+            x_scale: if *logarithmic {
+                Scale::Log10
+            } else {
+                Scale::Linear
+            },
+            y_scale: Scale::Log10,
+            series,
+            reference_lines: Vec::new(),
+            slope_triangle: None,
+            x_range: None,
+            y_range: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameter::Parameters;
+    use crate::record::Metric;
+    use crate::report::fixture::record;
+    use crate::scheme::RemedyName;
+
+    fn cook() -> &'static dyn Case {
+        cases::find("cook").unwrap()
+    }
+
+    fn run(level: &str, remedy: RemedyName, set: &[&str]) -> Record {
+        let mut run = record(level, Vec::new());
+        run.remedy = remedy;
+        run.set = set.iter().map(|s| (*s).to_owned()).collect();
+        run.parameters = Parameters::new(cook().parameters(), &run.set).unwrap();
+        let (value, unit) = (Some(0.01), "-".to_owned());
+        run.metrics
+            .insert("fem_edge_mean_error".to_owned(), Metric { value, unit });
+        run
+    }
+
+    /// Two values at the finest level, three at the next, for one of two schemes.
+    fn records() -> Vec<Record> {
+        use RemedyName::{FbarRate, None};
+        vec![
+            run("h0.5", FbarRate, &[]),
+            run("h0.5", FbarRate, &["poisson_ratio=0.3"]),
+            run("h1", FbarRate, &["poisson_ratio=0.4999"]),
+            run("h1", FbarRate, &[]),
+            run("h1", FbarRate, &["poisson_ratio=0.499"]),
+            run("h1", FbarRate, &["poisson_ratio=0.3"]),
+            run("h1", FbarRate, &["poisson_ratio=0.45", "load=2"]),
+            run("h1", None, &[]),
+            run("h1", None, &["poisson_ratio=0.3"]),
+            run("h1", None, &["load=2"]),
+        ]
+    }
+
+    #[test]
+    fn a_sweep_changes_one_parameter_at_the_finest_level_with_three_values() {
+        let records = records();
+        let runs = Runs::select(cook(), &cook().sweeps()[0], &records).unwrap();
+        assert_eq!((runs.level, runs.of_scheme.len()), ("h1", 1));
+        let values = runs.of_scheme.values().flatten().map(|(value, _)| *value);
+        assert_eq!(values.collect::<Vec<_>>(), [0.3, 0.499, 0.4999]);
+        assert!(Runs::select(cook(), &cook().sweeps()[0], &records[..4]).is_none());
+    }
+
+    #[test]
+    fn what_is_drawn_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let study = CaseStudy {
+            case: "cook".to_owned(),
+            records: records(),
+            verdicts: Vec::new(),
+            convergence: Vec::new(),
+        };
+        let pictures = draw(&study, folder.path()).unwrap();
+        assert_eq!(pictures.len(), 1);
+        assert!(folder.path().join(&pictures[0].file).exists());
+        let csv = folder.path().join("cook/sweep-poisson_ratio.csv");
+        let text = std::fs::read_to_string(csv).unwrap();
+        let mut lines = text.lines();
+        let header = "quantity,scheme,level,poisson_ratio,0.5 − ν,value";
+        assert_eq!(lines.next(), Some(header));
+        let first = "fem_edge_mean_error,gimp-fbar-rate-flip,h1,0.3,0.2,0.01";
+        assert_eq!(lines.next(), Some(first));
+        assert_eq!(lines.count(), 2);
+    }
+}
