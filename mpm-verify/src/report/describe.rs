@@ -2,6 +2,7 @@
 
 use crate::case::{Case, Headline, Tier};
 use crate::check::{Kind, Verdict};
+use crate::convergence::Convergence;
 use crate::record::{Record, Status};
 use crate::scheme::{Scheme, TransferName};
 use crate::study::Summary;
@@ -154,6 +155,28 @@ pub fn scheme(scheme: Scheme) -> String {
         TransferName::Flip => format!("{basis} {remedy}"),
         _ => format!("{basis} {remedy} {transfer}"),
     }
+}
+
+/// The observed order, of an error with its uncertainty (95 %), or a dash.
+#[must_use]
+pub fn order(c: &Convergence) -> String {
+    match (&c.order, &c.extrapolation) {
+        (Some(o), _) => format!("{:.2} ± {:.2}", o.order, o.uncertainty),
+        (None, Some(r)) => format!("{:.2}", r.order),
+        (None, None) => number(None),
+    }
+}
+
+/// The orders of an error between successive levels, or a dash.
+#[must_use]
+pub fn local_orders(c: &Convergence) -> String {
+    c.order.as_ref().map_or_else(
+        || number(None),
+        |o| {
+            let orders: Vec<String> = o.local.iter().map(|p| format!("{p:.2}")).collect();
+            orders.join(", ")
+        },
+    )
 }
 
 /// A cell of the table of results, or a dash.

@@ -1,6 +1,6 @@
 //! The report as a site that needs no server and no script: an index and a page per case.
 
-use super::describe::{headline, kind, number, outcome};
+use super::describe::{headline, kind, local_orders, number, order, outcome};
 use super::{Picture, sketch};
 use crate::case::{Case, Quantity};
 use crate::cases;
@@ -183,10 +183,12 @@ fn case_page(case: &dyn Case, study: &CaseStudy, tier: &str, pictures: &[Picture
         metrics.map(|m| context! { name => m.name, unit => m.unit, meaning => m.meaning });
     let known_limits = case.checks().iter().filter(|c| c.kind == Kind::KnownLimit);
     let known_limits = known_limits.map(|c| context! { name => c.name, statement => c.statement });
-    let quantities = case
-        .quantities()
-        .iter()
-        .map(|q| quantity(q, &study.convergence));
+    let sets = distinct(study.convergence.iter().map(|c| &c.set[..]));
+    let ladders = sets.iter().map(|set| {
+        let of_set = || study.convergence.iter().filter(|c| c.set == *set);
+        let quantities = case.quantities().iter().map(|q| quantity(q, of_set()));
+        context! { set => set.join(" "), quantities => quantities.flatten().collect::<Vec<_>>() }
+    });
     context! {
         tier,
         name => case.name(),
@@ -201,7 +203,7 @@ fn case_page(case: &dyn Case, study: &CaseStudy, tier: &str, pictures: &[Picture
         pictures => pictures_in(pictures, Some(case.name())),
         headings => case.headlines().iter().map(|h| h.heading).collect::<Vec<_>>(),
         runs => study.records.iter().map(|r| run(case, r)).collect::<Vec<_>>(),
-        quantities => quantities.flatten().collect::<Vec<_>>(),
+        ladders => ladders.collect::<Vec<_>>(),
         checks => checks(case, study),
         together => study.verdicts.iter().map(verdict).collect::<Vec<_>>(),
         limits => case.limits().to_vec(),
@@ -341,36 +343,29 @@ fn checks(case: &dyn Case, study: &CaseStudy) -> Vec<Value> {
 }
 
 /// The convergence of a quantity, scheme by scheme, if there is any.
-fn quantity(quantity: &Quantity, convergence: &[Convergence]) -> Option<Value> {
-    let of_quantity = convergence.iter().filter(|c| c.metric == quantity.metric);
+fn quantity<'a>(
+    quantity: &Quantity,
+    convergence: impl Iterator<Item = &'a Convergence>,
+) -> Option<Value> {
+    let of_quantity = convergence.filter(|c| c.metric == quantity.metric);
     let schemes: Vec<Value> = of_quantity.map(row_of_convergence).collect();
     let shown = !schemes.is_empty();
     shown.then(|| context! { label => quantity.label, metric => quantity.metric, schemes })
 }
 
 fn row_of_convergence(c: &Convergence) -> Value {
-    let dash = || "–".to_owned();
-    let levels = c.points.iter().map(|p| match p.set.join(" ") {
-        set if set.is_empty() => p.level.clone(),
-        set => format!("{} ({set})", p.level),
-    });
-    let order = match (&c.order, &c.extrapolation) {
-        (Some(o), _) => format!("{:.2} ± {:.2}", o.order, o.uncertainty),
-        (None, Some(r)) => format!("{:.2}", r.order),
-        (None, None) => dash(),
-    };
-    let local = c.order.as_ref().map_or_else(dash, |o| {
-        let orders: Vec<String> = o.local.iter().map(|p| format!("{p:.2}")).collect();
-        orders.join(", ")
+    let levels = c.points.iter().map(|p| match p.set == c.set {
+        true => p.level.clone(),
+        false => format!("{} ({})", p.level, p.set.join(" ")),
     });
     let extrapolation = c.extrapolation.as_ref();
     context! {
         scheme => c.scheme.to_string(),
         levels => levels.collect::<Vec<_>>().join(", "),
-        order,
-        local,
+        order => order(c),
+        local => local_orders(c),
         extrapolated => number(extrapolation.map(|r| r.extrapolated)),
-        gci => extrapolation.map_or_else(dash, |r| format!("{:.2} %", 100.0 * r.gci)),
+        gci => extrapolation.map_or_else(|| number(None), |r| format!("{:.2} %", 100.0 * r.gci)),
         remark => c.remark.as_deref().unwrap_or_default(),
     }
 }
@@ -490,6 +485,28 @@ mod tests {
         }
         assert_eq!(case.matches("<details open=\"\">").count(), 2);
         assert_eq!(case.matches("<details>").count(), 1);
+    }
+
+    #[test]
+    fn each_set_of_parameters_has_its_own_orders_and_only_the_case_s_own_are_open() {
+        let entry = |set: &[&str]| Convergence {
+            set: set.iter().map(|s| (*s).to_owned()).collect(),
+            scheme: cases::find("cook").unwrap().schemes()[0],
+            metric: "tip_ux".to_owned(),
+            is_error: false,
+            points: Vec::new(),
+            order: None,
+            extrapolation: None,
+            remark: None,
+        };
+        let mut summary = summary();
+        let [_, before] = pages(&summary, &[]);
+        summary.cases[0].convergence = vec![entry(&[]), entry(&["load=2", NASTY])];
+        let [_, case] = pages(&summary, &[]);
+        let more = |tag: &str| case.matches(tag).count() - before.matches(tag).count();
+        assert_eq!((more("<details open=\"\">"), more("<details>")), (1, 1));
+        assert!(case.contains("load=2 &lt;"));
+        elements(&case);
     }
 
     #[test]

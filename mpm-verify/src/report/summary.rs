@@ -1,10 +1,11 @@
 //! The summary in Markdown.
 
 use super::Picture;
-use super::describe::{bless_commands, headline, kind, number, outcome};
+use super::describe::{self, bless_commands, headline, kind, local_orders, number, order, outcome};
 use crate::case::Headline;
 use crate::cases;
 use crate::check::{Kind, Verdict};
+use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::Record;
@@ -49,6 +50,7 @@ fn text(summary: &Summary, pictures: &[Picture]) -> Result<String, Error> {
             &study.records,
             &mut t,
         );
+        orders(&study.convergence, &mut t);
     }
     for picture in pictures {
         let _ = writeln!(
@@ -124,15 +126,44 @@ fn results(headlines: &[Headline], records: &[Record], t: &mut String) {
         let cells: Vec<String> = headlines.iter().map(|h| headline(r, h)).collect();
         let _ = writeln!(
             t,
-            "| {} {} | {} | {} | {} | {} | {} | {:.1} |",
-            r.basis,
-            r.remedy,
+            "| {} | {} | {} | {} | {} | {} | {:.1} |",
+            describe::scheme(r.scheme()),
             r.level,
             r.set.join(" "),
             r.work.particles,
             r.work.steps,
             cells.join(" | "),
             r.time.cpu_s
+        );
+    }
+}
+
+/// The order of every error, if there is one.
+fn orders(convergence: &[Convergence], t: &mut String) {
+    let mut errors = convergence.iter().filter(|c| c.is_error).peekable();
+    if errors.peek().is_none() {
+        return;
+    }
+    let _ = writeln!(
+        t,
+        "\n### Orders\n\n| quantity | scheme | changed | levels | value at the finest | order ± uncertainty (95 %) | local orders |\n|{}",
+        "---|".repeat(7)
+    );
+    for c in errors {
+        let levels = match &c.points[..] {
+            [] => String::new(),
+            [only] => only.level.clone(),
+            [coarsest, .., finest] => format!("{}–{}", coarsest.level, finest.level),
+        };
+        let _ = writeln!(
+            t,
+            "| {} | {} | {} | {levels} | {} | {} | {} |",
+            c.metric,
+            describe::scheme(c.scheme),
+            c.set.join(" "),
+            number(c.points.last().map(|p| p.value)),
+            order(c),
+            local_orders(c)
         );
     }
 }
@@ -150,7 +181,10 @@ fn table(summary: &Summary, t: &mut String, keep: impl Fn(&Verdict) -> bool) {
     for (study, record, v) in summary.verdicts().filter(|(_, _, v)| keep(v)) {
         let run = record.map_or_else(
             || study.case.clone(),
-            |r| format!("{} {} {} {}", r.basis, r.remedy, r.level, r.set.join(" ")),
+            |r| {
+                let scheme = describe::scheme(r.scheme());
+                format!("{scheme} {} {}", r.level, r.set.join(" "))
+            },
         );
         let _ = writeln!(
             t,
@@ -165,5 +199,42 @@ fn table(summary: &Summary, t: &mut String, keep: impl Fn(&Verdict) -> bool) {
             number(v.tolerance),
             v.source.replace('|', "\\|")
         );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::convergence::convergence;
+    use crate::record::Metric;
+    use crate::report::fixture::record;
+
+    #[test]
+    fn every_error_has_a_row_of_orders() {
+        let mut records = Vec::new();
+        for set in [&[][..], &["load=2".to_owned()]] {
+            for (level, h) in [("h2", 2.0), ("h1", 1.0), ("h0.5", 0.5)] {
+                let mut run = record(level, Vec::new());
+                run.set = set.to_vec();
+                run.discretisation.h = h;
+                for (name, value) in [("mean_stress_rms_error", -h * h), ("tip_ux", h)] {
+                    let (value, unit) = (Some(value), "-".to_owned());
+                    run.metrics.insert(name.to_owned(), Metric { value, unit });
+                }
+                records.push(run);
+            }
+        }
+        let mut t = String::new();
+        orders(&convergence(cases::find("cook").unwrap(), &records), &mut t);
+        let rows: Vec<&str> = t.lines().skip(5).collect();
+        let row = |changed: &str| {
+            format!(
+                "| mean_stress_rms_error | gimp none | {changed} | h2–h0.5 | -0.25 | 2.00 ± 0.00 | 2.00, 2.00 |"
+            )
+        };
+        assert_eq!(rows, [row(""), row("load=2")]);
+        let mut none = String::new();
+        orders(&[], &mut none);
+        assert!(none.is_empty());
     }
 }
