@@ -385,9 +385,11 @@ pub fn share_ranges(path: &Path, charts: &mut [Chart]) -> Result<(), PlotError> 
         let shown = charts.iter().filter(|c| c.shows_something());
         let ranges = shown.map(|c| c.range(path, upright, length));
         let ranges = ranges.collect::<Result<Vec<_>, _>>()?;
-        let Some((lo, hi)) = extent(ranges.into_iter().flat_map(|(lo, hi)| [lo, hi])) else {
+        let Some(all) = extent(ranges.into_iter().flat_map(|(lo, hi)| [lo, hi])) else {
             continue;
         };
+        // The margin of a chart with a short range is little of the common one.
+        let (lo, hi) = widen(all, 0.03);
         for chart in charts.iter_mut() {
             let (range, scale) = if upright {
                 (&mut chart.y_range, chart.y_scale)

@@ -25,7 +25,11 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         let Some(runs) = Runs::select(case, sweep, &study.records) else {
             continue;
         };
-        let errors: Vec<&Quantity> = case.quantities().iter().filter(|q| q.is_error).collect();
+        let shown = |q: &&Quantity| q.is_error && runs.measure(q);
+        let errors: Vec<&Quantity> = case.quantities().iter().filter(shown).collect();
+        if errors.is_empty() {
+            continue;
+        }
         let file = |extension| format!("{}/sweep-{}.{extension}", study.case, sweep.parameter);
         runs.write(&errors, &out.join(file("csv")))?;
         let schemes: BTreeSet<Scheme> = runs.of_scheme.keys().copied().collect();
@@ -76,6 +80,14 @@ impl<'a> Runs<'a> {
             })
         };
         case.levels().iter().rev().find_map(|l| at_level(l.name))
+    }
+
+    /// Whether some scheme has measured a quantity at enough values of the parameter.
+    fn measure(&self, quantity: &Quantity) -> bool {
+        self.of_scheme.values().any(|runs| {
+            let measured = |run: &&(f64, &Record)| run.1.metric(quantity.metric).is_finite();
+            runs.iter().filter(measured).count() >= LEAST_VALUES
+        })
     }
 
     fn write(&self, errors: &[&Quantity], path: &Path) -> Result<(), Error> {
@@ -185,6 +197,16 @@ mod tests {
         let values = runs.of_scheme.values().flatten().map(|(value, _)| *value);
         assert_eq!(values.collect::<Vec<_>>(), [0.3, 0.499, 0.4999]);
         assert!(Runs::select(cook(), &cook().sweeps()[0], &records[..4]).is_none());
+    }
+
+    #[test]
+    fn an_error_that_only_two_values_have_is_not_shown() {
+        let mut records = records();
+        records[3].metrics.clear();
+        records[4].metrics.clear();
+        let sweep = &cook().sweeps()[0];
+        let runs = Runs::select(cook(), sweep, &records).unwrap();
+        assert!(!cook().quantities().iter().any(|q| runs.measure(q)));
     }
 
     #[test]
