@@ -1,0 +1,345 @@
+//! What the averages do to waves: the closed forms and tables of `docs/modes.md`.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::material::NewtonianFluid;
+use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::solver::courant_time_step;
+use mpm_core::transfer::Flip;
+use mpm_core::{
+    Axis, Basis, Grid, Law, Particles, Remedy, Scene, Simulation, Solver, SymmetricTensor,
+};
+use nalgebra::{Complex, Matrix3};
+use std::f64::consts::TAU;
+
+type Wave = Vec<Complex<f64>>;
+
+const H: f64 = 0.5;
+const CELLS: usize = 16;
+const LENGTH: f64 = H * CELLS as f64;
+const DENSITY: f64 = 2.0;
+/// Identities between sums of a few weights.
+const ROUNDING: f64 = 1e-12;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    None,
+    Recursive,
+    Total,
+    Rate,
+    Consistent,
+}
+
+const KINDS: [Kind; 5] = [
+    Kind::None,
+    Kind::Recursive,
+    Kind::Total,
+    Kind::Rate,
+    Kind::Consistent,
+];
+
+impl Kind {
+    fn remedy<const D: usize>(self) -> Box<dyn Remedy<D>> {
+        match self {
+            Self::None => Box::new(Standard),
+            Self::Recursive => Box::new(FbarRecursive::default()),
+            Self::Total => Box::new(FbarTotal::default()),
+            Self::Rate => Box::new(FbarRate::default()),
+            Self::Consistent => Box::new(FbarConsistent::new(0.0)),
+        }
+    }
+}
+
+/// Linear elasticity under the mean stress `mean`: σ = mean + K (J̄ − 1).
+struct Prestressed {
+    bulk: NewtonianFluid,
+    mean: f64,
+}
+
+impl Law for Prestressed {
+    type State = f64;
+
+    fn initial_state(&self) -> f64 {
+        1.0
+    }
+
+    fn update(&self, delta_f: &Matrix3<f64>, dt: f64, state: &f64) -> (SymmetricTensor, f64) {
+        let (stress, state) = self.bulk.update(delta_f, dt, state);
+        (stress.scale_add_identity(1.0, self.mean), state)
+    }
+
+    fn energy(&self, state: &f64) -> f64 {
+        self.mean * (state - 1.0) + self.bulk.energy(state)
+    }
+
+    fn wave_speed(&self, density: f64) -> f64 {
+        self.bulk.wave_speed(density)
+    }
+}
+
+const FLUID: NewtonianFluid = NewtonianFluid {
+    bulk_modulus: 50.0,
+    viscosity: 0.0,
+};
+
+/// Wave speed of [`FLUID`] (m/s).
+const C: f64 = 5.0;
+
+/// `n` particles per cell and direction, at the middle of their shares, on a periodic grid.
+fn scene<const D: usize>(n: usize, kind: Kind, cfl: f64, mean: f64) -> Scene<D, Prestressed> {
+    let spacing = H / n as f64;
+    let count = CELLS * n;
+    let positions = (0..count.pow(D as u32))
+        .map(|k| {
+            std::array::from_fn(|a| ((k / count.pow(a as u32) % count) as f64 + 0.5) * spacing)
+        })
+        .collect();
+    let mut particles = Particles::new(
+        positions,
+        spacing.powi(D as i32),
+        DENSITY,
+        [0.5 * spacing; D],
+    )
+    .unwrap();
+    particles
+        .stress
+        .fill(SymmetricTensor::identity().scale_add_identity(mean, 0.0));
+    Scene {
+        dt: courant_time_step(cfl, H, C),
+        grid: Grid::new(H, [Axis::periodic(0.0, CELLS); D]).unwrap(),
+        wall: WallTreatment::OpenKnot,
+        law: Prestressed { bulk: FLUID, mean },
+        particles,
+        remedy: kind.remedy(),
+        loads: Vec::new(),
+        force_filters: Vec::new(),
+        constraints: Vec::new(),
+        particle_filters: Vec::new(),
+        transfer: Flip::default(),
+    }
+}
+
+/// Waves e^{iθx/h} on the nodes of a periodic axis with `n` particles per cell. What particles carry of
+/// them is given by the particles of one cell: those of the cell `c` carry e^{iθc} times as much.
+struct Axis1<const S: usize, B> {
+    basis: B,
+    nodes: Vec<f64>,
+    n: usize,
+    theta: f64,
+}
+
+impl<const S: usize, B: Basis<S>> Axis1<S, B> {
+    fn new(n: usize, theta: f64) -> Self {
+        let basis = B::new(&Axis::periodic(0.0, CELLS), H, WallTreatment::OpenKnot);
+        Self {
+            nodes: basis.nodes().position,
+            basis,
+            n,
+            theta,
+        }
+    }
+
+    /// The nodal wave φ and its gradient hψ as the particles of the first cell see them after all have
+    /// moved by `shift` (m).
+    fn seen(&self, shift: f64) -> (Wave, Wave) {
+        let see = |j| {
+            let x = (j as f64 + 0.5) * H / self.n as f64 + shift;
+            let at = self
+                .basis
+                .weights(x.rem_euclid(LENGTH), 0.5 * H / self.n as f64);
+            let mut sums = (Complex::ZERO, Complex::ZERO);
+            for k in 0..S {
+                let wave = Complex::cis(self.theta * self.nodes[at.first + k] / H);
+                sums.0 += wave * at.w[k];
+                sums.1 += wave * at.dw[k] * H;
+            }
+            sums
+        };
+        (0..self.n).map(see).unzip()
+    }
+
+    /// What the particle with the number `id` carries of `wave`.
+    fn carried(&self, wave: &Wave, id: usize) -> Complex<f64> {
+        Complex::cis(self.theta * (id / self.n) as f64) * wave[id % self.n]
+    }
+}
+
+fn product(a: &Wave, b: &Wave) -> Complex<f64> {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| a.conj() * b)
+        .sum::<Complex<f64>>()
+        / a.len() as f64
+}
+
+fn add(a: &mut Wave, factor: Complex<f64>, b: &Wave) {
+    for (a, b) in a.iter_mut().zip(b) {
+        *a += factor * b;
+    }
+}
+
+/// Deterministic noise.
+fn noise(n: usize, seed: usize) -> Wave {
+    (0..n)
+        .map(|j| Complex::cis((1 + seed + j) as f64 * 2.4) * (1.0 + (7.7 * j as f64).sin()))
+        .collect()
+}
+
+/// Wave numbers kh that fit the grid.
+fn theta(m: usize) -> f64 {
+    TAU * m as f64 / CELLS as f64
+}
+
+/// Π̂ as a polynomial in y = 1 − cos kh: the closed forms of `docs/modes.md`.
+fn hat(n: usize, y: f64) -> f64 {
+    let n2 = (n * n) as f64;
+    1.0 - (1.0 / 3.0 + 1.0 / (6.0 * n2)) * y
+}
+
+fn quadratic(n: usize, y: f64) -> f64 {
+    let n4 = (n as f64).powi(4);
+    1.0 - y / 2.0 + (1.0 / 30.0 + 7.0 / (240.0 * n4)) * y * y
+}
+
+fn cubic(n: usize, y: f64) -> f64 {
+    let (n4, n6) = ((n as f64).powi(4), (n as f64).powi(6));
+    let b = 1.0 / 10.0 - 7.0 / (720.0 * n4);
+    let d = 1.0 / 630.0 - 7.0 / (2160.0 * n4) + 31.0 / (6048.0 * n6);
+    1.0 - y * 2.0 / 3.0 + b * y * y - d * y.powi(3)
+}
+
+fn symbol_is<const S: usize, B: Basis<S> + 'static>(closed: fn(usize, f64) -> f64) {
+    for n in 1..=5 {
+        let solver = Solver::<2, S, B, _>::new(scene(n, Kind::None, 0.3, 0.0));
+        let mut solver = solver.unwrap();
+        let ids: Vec<usize> = solver
+            .particles()
+            .id
+            .iter()
+            .map(|id| *id as usize)
+            .collect();
+        for m in [[0, 0], [1, 0], [3, 2], [4, 7], [8, 0], [8, 8]] {
+            let axes = m.map(|m| Axis1::<S, B>::new(n, theta(m)));
+            let [x, y] = [0, 1].map(|a| axes[a].seen(0.0).0);
+            let expected: f64 = m.iter().map(|m| closed(n, 1.0 - theta(*m).cos())).product();
+            let count = CELLS * n;
+            let place = |id: usize| [id % count, id / count];
+            let on_particles = |factors: [&Wave; 2]| -> Vec<f64> {
+                let of = |id| {
+                    let k = place(id);
+                    let q = [0, 1].map(|a| axes[a].carried(factors[a], k[a]));
+                    // Neither part vanishes in general.
+                    (q[0] * q[1] * Complex::cis(0.3)).re
+                };
+                ids.iter().map(|id| of(*id)).collect()
+            };
+            let field = on_particles([&x, &y]);
+            let mut averaged = field.clone();
+            solver.average(&mut averaged);
+            for (a, q) in averaged.iter().zip(&field) {
+                assert!((a - expected * q).abs() < ROUNDING, "{n} {m:?}: {a} {q}");
+            }
+            // What is orthogonal to φ along one axis is lost, whatever it is along the other.
+            let mut null = noise(n, m[0]);
+            let norm = product(&x, &x).re;
+            if norm > ROUNDING {
+                let share = product(&x, &null) / norm;
+                add(&mut null, -share, &x);
+            }
+            let mut lost = on_particles([&null, &noise(n, m[1])]);
+            solver.average(&mut lost);
+            assert!(lost.iter().all(|a| a.abs() < ROUNDING), "{n} {m:?}");
+        }
+    }
+}
+
+#[test]
+fn the_average_has_the_symbol_and_the_null_space_that_are_stated() {
+    symbol_is::<2, Linear>(hat);
+    symbol_is::<3, Gimp>(hat);
+    symbol_is::<3, QuadraticBSpline>(quadratic);
+    symbol_is::<4, CubicBSpline>(cubic);
+}
+
+/// Trace and determinant of the two by two matrix that advances a wave by a step, without a mean stress.
+fn trace_and_determinant(kind: Kind, tau: f64, phi: &Wave, psi: &Wave) -> [f64; 2] {
+    let pi = product(phi, phi).re;
+    let omega = product(phi, psi).norm_sqr();
+    let g = tau
+        * tau
+        * match kind {
+            Kind::None => product(psi, psi).re,
+            Kind::Consistent => (2.0 - pi).powi(2) * pi * omega,
+            _ => omega,
+        };
+    match kind {
+        Kind::Recursive => [1.0 + pi - g, pi - g * (1.0 - pi)],
+        _ => [2.0 - g, 1.0 - g * (1.0 - pi)],
+    }
+}
+
+/// Three waves at once on 16 cells, with a velocity that no node sees on top: each follows its two by two
+/// matrix, the rest stays.
+fn waves_at_rest<const S: usize, B: Basis<S> + 'static>(n: usize) {
+    // Odd numbers: products of two are even, so that what is not linear stays apart.
+    let axes = [1, 3, 7].map(|m| Axis1::<S, B>::new(n, theta(m)));
+    let (tau, amplitude, steps) = (0.3, 1e-7 * C, 2000);
+    for kind in KINDS {
+        let mut scene = scene::<1>(n, kind, tau, 0.0);
+        let mut unseen = vec![0.0; scene.particles.len()];
+        for axis in &axes {
+            let (phi, _) = axis.seen(0.0);
+            let mut null = noise(n, 0);
+            let share = product(&phi, &null) / product(&phi, &phi).re;
+            add(&mut null, -share, &phi);
+            for (id, v) in scene.particles.velocity.iter_mut().enumerate() {
+                unseen[id] += amplitude * axis.carried(&null, id).re;
+                v[0] += amplitude * axis.carried(&phi, id).re;
+            }
+        }
+        for (v, unseen) in scene.particles.velocity.iter_mut().zip(&unseen) {
+            v[0] += unseen;
+        }
+        let mut solver = Solver::<1, S, B, _>::new(scene).unwrap();
+        for _ in 0..steps {
+            solver.step().unwrap();
+        }
+        let p = solver.particles();
+        let mut rest: Vec<f64> = (0..p.len())
+            .map(|k| p.velocity[k][0] - unseen[p.id[k] as usize])
+            .collect();
+        for axis in &axes {
+            let (phi, psi) = axis.seen(0.0);
+            let [trace, determinant] = trace_and_determinant(kind, tau, &phi, &psi);
+            assert!(determinant <= 1.0 && trace.abs() <= 1.0 + determinant);
+            // The first step finds no stress.
+            let (mut before, mut now) = (1.0, 1.0);
+            for _ in 1..steps {
+                (before, now) = (now, trace * now - determinant * before);
+            }
+            for (k, v) in rest.iter_mut().enumerate() {
+                *v -= now * amplitude * axis.carried(&phi, p.id[k] as usize).re;
+            }
+        }
+        for v in rest {
+            assert!(
+                v.abs() < 1e-5 * amplitude,
+                "{kind:?} {n}: {}",
+                v / amplitude
+            );
+        }
+    }
+}
+
+#[test]
+fn waves_at_rest_follow_their_two_by_two_matrices() {
+    waves_at_rest::<2, Linear>(3);
+    waves_at_rest::<3, Gimp>(2);
+    waves_at_rest::<3, QuadraticBSpline>(2);
+    waves_at_rest::<4, CubicBSpline>(3);
+}
