@@ -55,7 +55,7 @@ impl Kind {
     }
 }
 
-/// Linear elasticity under the mean stress `mean`: σ = mean + K (J̄ − 1).
+/// A fluid under the stress `mean` (Pa, tension positive): σ = mean + K (J̄ − 1).
 struct Prestressed {
     bulk: NewtonianFluid,
     mean: f64,
@@ -126,14 +126,14 @@ fn scene<const D: usize>(n: usize, kind: Kind, cfl: f64, mean: f64) -> Scene<D, 
 
 /// Waves e^{iθx/h} on the nodes of a periodic axis with `n` particles per cell. What particles carry of
 /// them is given by the particles of one cell: those of the cell `c` carry e^{iθc} times as much.
-struct Axis1<const S: usize, B> {
+struct Bloch<const S: usize, B> {
     basis: B,
     nodes: Vec<f64>,
     n: usize,
     theta: f64,
 }
 
-impl<const S: usize, B: Basis<S>> Axis1<S, B> {
+impl<const S: usize, B: Basis<S>> Bloch<S, B> {
     fn new(n: usize, theta: f64) -> Self {
         let basis = B::new(&Axis::periodic(0.0, CELLS), H, WallTreatment::OpenKnot);
         Self {
@@ -144,8 +144,8 @@ impl<const S: usize, B: Basis<S>> Axis1<S, B> {
         }
     }
 
-    /// The nodal wave φ and its gradient hψ as the particles of the first cell see them after all have
-    /// moved by `shift` (m).
+    /// The nodal wave, φ, and h times its gradient, ψ, as the particles of the first cell see them after
+    /// all have moved by `shift` (m).
     fn seen(&self, shift: f64) -> (Wave, Wave) {
         let see = |j| {
             let x = (j as f64 + 0.5) * H / self.n as f64 + shift;
@@ -169,6 +169,7 @@ impl<const S: usize, B: Basis<S>> Axis1<S, B> {
     }
 }
 
+/// (a, b) = (1/n) Σ a* b.
 fn product(a: &Wave, b: &Wave) -> Complex<f64> {
     a.iter()
         .zip(b)
@@ -177,6 +178,7 @@ fn product(a: &Wave, b: &Wave) -> Complex<f64> {
         / a.len() as f64
 }
 
+/// a ← a + factor b.
 fn add(a: &mut Wave, factor: Complex<f64>, b: &Wave) {
     for (a, b) in a.iter_mut().zip(b) {
         *a += factor * b;
@@ -190,7 +192,7 @@ fn noise(n: usize, seed: usize) -> Wave {
         .collect()
 }
 
-/// Wave numbers kh that fit the grid.
+/// The wave number kh of `m` waves on the grid.
 fn theta(m: usize) -> f64 {
     TAU * m as f64 / CELLS as f64
 }
@@ -224,7 +226,7 @@ fn symbol_is<const S: usize, B: Basis<S> + 'static>(closed: fn(usize, f64) -> f6
             .map(|id| *id as usize)
             .collect();
         for m in [[0, 0], [1, 0], [3, 2], [4, 7], [8, 0], [8, 8]] {
-            let axes = m.map(|m| Axis1::<S, B>::new(n, theta(m)));
+            let axes = m.map(|m| Bloch::<S, B>::new(n, theta(m)));
             let [x, y] = [0, 1].map(|a| axes[a].seen(0.0).0);
             let expected: f64 = m.iter().map(|m| closed(n, 1.0 - theta(*m).cos())).product();
             let count = CELLS * n;
@@ -287,7 +289,7 @@ fn trace_and_determinant(kind: Kind, tau: f64, phi: &Wave, psi: &Wave) -> [f64; 
 /// matrix, the rest stays.
 fn waves_at_rest<const S: usize, B: Basis<S> + 'static>(n: usize) {
     // Odd numbers: products of two are even, so that what is not linear stays apart.
-    let axes = [1, 3, 7].map(|m| Axis1::<S, B>::new(n, theta(m)));
+    let axes = [1, 3, 7].map(|m| Bloch::<S, B>::new(n, theta(m)));
     let (tau, amplitude, steps) = (0.3, 1e-7 * C, 2000);
     for kind in KINDS {
         let mut scene = scene::<1>(n, kind, tau, 0.0);
@@ -378,14 +380,14 @@ impl Moving {
     /// (m) from where they started.
     fn step<const S: usize, B: Basis<S>>(
         &mut self,
-        axis: &Axis1<S, B>,
+        axis: &Bloch<S, B>,
         kind: Kind,
         tau: f64,
         mean: f64,
         shift: f64,
     ) {
         let (phi, psi) = axis.seen(shift);
-        // The slope of ψ, exact for piecewise linear ones.
+        // The slope of ψ, exact for pieces of up to second degree.
         let small = 1e-6 * H;
         let (ahead, behind) = (axis.seen(shift + small).1, axis.seen(shift - small).1);
         let mut chi = ahead;
@@ -439,7 +441,7 @@ fn crossing_is_linear<const S: usize, B: Basis<S> + 'static>(n: usize, mean: f64
     let move_of_step = H / f64::from(steps_per_cell);
     // No edge of a GIMP domain stands on a node, where ψ has a kink.
     let start = 0.37 * move_of_step;
-    let axes = [1, 3, 7].map(|m| Axis1::<S, B>::new(n, theta(m)));
+    let axes = [1, 3, 7].map(|m| Bloch::<S, B>::new(n, theta(m)));
     for kind in KINDS {
         let mut scene = scene::<1>(n, kind, tau, mean * DENSITY * C * C);
         for x in &mut scene.particles.position {
@@ -488,7 +490,7 @@ fn particles_that_cross_cells_follow_the_linear_model() {
 /// The largest factor by which a wave grows while particles, two per cell, cross a cell.
 fn growth<const S: usize, B: Basis<S>>(kind: Kind, tau: f64, steps: usize, mean: f64) -> f64 {
     let of = |m| {
-        let axis = Axis1::<S, B>::new(2, theta(m));
+        let axis = Bloch::<S, B>::new(2, theta(m));
         let mut wave = Moving::new(noise(2, 3));
         let mut cross = |cells: usize| {
             for step in 0..cells * steps {
@@ -503,7 +505,7 @@ fn growth<const S: usize, B: Basis<S>>(kind: Kind, tau: f64, steps: usize, mean:
     (1..=CELLS / 2).map(of).fold(0.0, f64::max)
 }
 
-/// The first table of `docs/modes.md`: columns linear, uGIMP, quadratic, cubic.
+/// The multipliers of `docs/modes.md`: columns linear, uGIMP, quadratic, cubic.
 #[test]
 fn crossing_a_cell_feeds_waves_as_documented() {
     #[rustfmt::skip]
@@ -544,7 +546,7 @@ fn crossing_a_cell_feeds_waves_as_documented() {
 
 /// A pressure that Π can't see accelerates what Π can't see either, but for the consistent force.
 fn unseen_pressure_pushes<const S: usize, B: Basis<S> + 'static>() {
-    let axis = Axis1::<S, B>::new(2, theta(7));
+    let axis = Bloch::<S, B>::new(2, theta(7));
     let (phi, _) = axis.seen(0.0);
     let mut null = noise(2, 0);
     let share = product(&phi, &null) / product(&phi, &phi).re;
@@ -628,7 +630,7 @@ fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(
     mean: f64,
     geometric: f64,
 ) {
-    let axis = Axis1::<S, B>::new(n, theta(CELLS / 2));
+    let axis = Bloch::<S, B>::new(n, theta(CELLS / 2));
     let (mut phi, _) = axis.seen(0.0);
     let turn = phi[0].conj() / phi[0].norm();
     phi.iter_mut().for_each(|f| *f *= turn);
