@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// Where they lie, from this package's folder: all but what only draws and prints.
-const SOURCES: [&str; 17] = [
+const SOURCES: [&str; 19] = [
     "../.cargo/config.toml",
     "../Cargo.lock",
     "../Cargo.toml",
@@ -14,8 +14,10 @@ const SOURCES: [&str; 17] = [
     "../mpm-core/src",
     "Cargo.toml",
     "references",
+    "src/assemble.rs",
     "src/case.rs",
     "src/cases",
+    "src/exact",
     "src/parameter.rs",
     "src/probe.rs",
     "src/record.rs",

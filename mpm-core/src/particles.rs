@@ -38,7 +38,7 @@ pub struct Particles<const D: usize> {
     pub stress: Vec<SymmetricTensor>,
     /// External force (N).
     pub external_force: Vec<[f64; D]>,
-    /// Relative deformation gradient ΔF of the step, Eq. (16); after the remedy, ΔF̄.
+    /// Relative deformation gradient ΔF of the step, Eq. (16); after the remedy, ΔF̄. At the start, F.
     pub delta_f: Vec<SMatrix<f64, D, D>>,
     /// Displacement of the step (m).
     pub increment: Vec<[f64; D]>,
@@ -82,6 +82,18 @@ impl<const D: usize> Particles<D> {
             delta_f: vec![SMatrix::identity(); n],
             increment: vec![[0.0; D]; n],
         })
+    }
+
+    /// Starts from the deformed state `state`, which maps a reference position X (m) to the position x
+    /// (m) and the deformation gradient F there. The law then gives the stress, as after one step
+    /// without viscosity.
+    #[must_use]
+    pub fn deformed(mut self, state: impl Fn(&[f64; D]) -> ([f64; D], SMatrix<f64, D, D>)) -> Self {
+        let columns = self.position.iter_mut().zip(&mut self.delta_f);
+        for (reference, (position, delta_f)) in self.reference.iter().zip(columns) {
+            (*position, *delta_f) = state(reference);
+        }
+        self
     }
 
     /// Number of particles.

@@ -12,6 +12,7 @@ use crate::projection::{Average, NodalAverage, Projection};
 use crate::remedy::Remedy;
 use crate::space;
 use crate::stage::{Constraint, ForceFilter, Load, ParticleFilter, Prescribed};
+use crate::tensor::SymmetricTensor;
 use crate::transfer::{Flip, Given, NodalState, Transfer};
 use crate::work::Work;
 use nalgebra::SMatrix;
@@ -73,6 +74,9 @@ pub trait Simulation<const D: usize>: Send {
     fn work(&self) -> Work;
     /// Replaces `field` (one value per particle) by its average Π `field`.
     fn average(&mut self, field: &mut [f64]);
+    /// The stress of every particle (Pa) with which it enters the next forces: the law's, with the
+    /// remedy's share.
+    fn force_stress(&mut self) -> Vec<SymmetricTensor>;
 }
 
 /// Sums of one chunk of particles in a gather.
@@ -106,6 +110,26 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     transfer_pairs: u64,
 }
 
+impl<const D: usize, M: Law, T> Scene<D, M, T> {
+    /// The scene with another transfer.
+    #[must_use]
+    pub fn with_transfer<U>(self, transfer: U) -> Scene<D, M, U> {
+        Scene {
+            grid: self.grid,
+            wall: self.wall,
+            law: self.law,
+            transfer,
+            particles: self.particles,
+            remedy: self.remedy,
+            loads: self.loads,
+            force_filters: self.force_filters,
+            constraints: self.constraints,
+            particle_filters: self.particle_filters,
+            dt: self.dt,
+        }
+    }
+}
+
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// A solver of `scene` at time zero.
     ///
@@ -130,6 +154,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             .zip(&scene.particles.reference_volume)
             .map(|(m, v)| m / v)
             .fold(f64::INFINITY, f64::min);
+        for (j, f) in (scene.particles.jacobian.iter_mut()).zip(&scene.particles.delta_f) {
+            *j = space::determinant(f);
+        }
         scene.remedy.attach(&mut scene.particles);
         scene.transfer.attach(&mut scene.particles);
         let n = scene.particles.len();
@@ -156,6 +183,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             scene,
         };
         solver.check_positions()?;
+        // The initial F has been there for ever: no rate.
+        solver.update_stress(f64::INFINITY);
         solver.declare_constraints();
         solver.sort();
         Ok(solver)
@@ -380,8 +409,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     /// Stress, state and volume of the particles, Eqs. (15), (22).
-    fn update_stress(&mut self) {
-        let (law, dt) = (&self.scene.law, self.scene.dt);
+    fn update_stress(&mut self, dt: f64) {
+        let law = &self.scene.law;
         let p = &mut self.scene.particles;
         (
             self.states.par_chunks_mut(CHUNK),
@@ -460,6 +489,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         check_cfl(self.wave_speed * self.scene.dt, self.scene.grid.h)
             .map_err(|fault| self.breakdown(0, fault))?;
         for k in 0..self.scene.particles.len() {
+            check_jacobian(self.scene.particles.jacobian[k])
+                .map_err(|fault| self.breakdown(k, fault))?;
             let mut x = self.scene.particles.position[k];
             let placed = place_on_grid(&self.scene.grid, &mut x);
             placed.map_err(|fault| self.breakdown(k, fault))?;
@@ -549,7 +580,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.update_grid();
         self.grid_to_particles()?;
         self.average_volume_change();
-        self.update_stress();
+        self.update_stress(self.scene.dt);
         self.move_particles()?;
         self.filter_particles();
         self.time += self.scene.dt;
@@ -592,5 +623,12 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
             count: &mut uncounted,
         }
         .average(&self.scene.particles, field);
+    }
+
+    fn force_stress(&mut self) -> Vec<SymmetricTensor> {
+        let (law_stress, work) = (self.scene.particles.stress.clone(), self.work);
+        self.adjust_stress();
+        self.work = work;
+        std::mem::replace(&mut self.scene.particles.stress, law_stress)
     }
 }

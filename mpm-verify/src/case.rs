@@ -202,11 +202,11 @@ pub trait Case: Sync {
     /// What it does not show.
     fn limits(&self) -> &'static [&'static str];
     /// Parameters.
-    fn parameters(&self) -> &'static [Parameter];
+    fn parameters(&self) -> &[Parameter];
     /// Schemes that it compares.
     fn schemes(&self) -> Vec<Scheme>;
     /// Levels, coarsest first.
-    fn levels(&self) -> &'static [Level];
+    fn levels(&self) -> &[Level];
     /// Metrics.
     fn metrics(&self) -> &'static [MetricInfo];
     /// Checks.
@@ -232,6 +232,10 @@ pub trait Case: Sync {
     /// # Errors
     /// The parameters don't make a scene.
     fn start(&self, spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error>;
+    /// Why a run of this kind is known to break down before its end, if it is.
+    fn breaks_down(&self, _record: &Record) -> Option<&'static str> {
+        None
+    }
     /// Verdicts on one run.
     fn judge(&self, record: &Record) -> Vec<Verdict>;
     /// Verdicts on runs together.

@@ -10,7 +10,7 @@ use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::files::{make_folder, read_versioned, write_json, write_whole};
-use crate::record::{Metric, Record, Status, Version};
+use crate::record::{Metric, Record, Version};
 use crate::report::triptych::different_pixels;
 use crate::report::watched::draw_watched;
 use crate::table::Table;
@@ -94,6 +94,8 @@ pub fn why_none(case: &dyn Case, record: &Record) -> Option<String> {
         Some(format!(
             "no golden is kept of more than {MOST_STEPS:e} particle steps"
         ))
+    } else if case.breaks_down(record).is_some() {
+        Some("the run breaks down as it is known to: nothing to compare".to_owned())
     } else if !case.plan(tier).iter().any(carries) {
         Some(format!("goldens are kept of the runs of tier {tier} only"))
     } else {
@@ -106,7 +108,7 @@ pub fn why_none(case: &dyn Case, record: &Record) -> Option<String> {
 /// # Errors
 /// The run's own series can't be read, or a picture can't be drawn.
 pub fn compare(root: &Path, record: &Record, folder: &Path) -> Result<Vec<Verdict>, Error> {
-    if record.status == Status::Failed {
+    if record.broke_down() {
         let why = "the run broke down: nothing to compare";
         return Ok(vec![mismatch("run", why.to_owned())]);
     }

@@ -5,6 +5,7 @@
 //! runs many side by side; the report draws. Every hand-off is a plain file, so each later stage runs
 //! again without simulating.
 
+pub mod assemble;
 pub mod bless;
 pub mod case;
 pub mod cases;

@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 
 /// Version of the record's format.
 pub const SCHEMA: u32 = 1;
+/// Name of the check that a run breaks down as it is known to.
+pub const BREAKS_DOWN: &str = "breaks-down";
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -202,6 +204,13 @@ impl Record {
     #[must_use]
     pub fn folder(&self) -> String {
         run_folder(self.scheme(), &self.level, &self.set)
+    }
+
+    /// Whether the run broke down and was not known to.
+    #[must_use]
+    pub fn broke_down(&self) -> bool {
+        let known = |v: &Verdict| v.check == BREAKS_DOWN && v.pass == Some(true);
+        self.status == Status::Failed && !self.verdicts.iter().any(known)
     }
 
     /// A metric's value; NaN where there is none.

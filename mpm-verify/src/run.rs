@@ -1,11 +1,11 @@
 //! One run: a job driven to its end, its outputs and its record.
 
 use crate::case::{Case, Column, Job, RunSpec};
-use crate::check::Verdict;
+use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::files::{discard, require_writable, write_csv, write_json};
 use crate::parameter::Parameters;
-use crate::record::{Failure, Machine, Record, SCHEMA, Status, Timing, Version};
+use crate::record::{BREAKS_DOWN, Failure, Machine, Record, SCHEMA, Status, Timing, Version};
 use crate::vtu::write_vtu;
 use cpu_time::ProcessTime;
 use std::path::Path;
@@ -81,7 +81,10 @@ pub fn execute(
 
 /// All verdicts on one run.
 pub fn judge(case: &dyn Case, record: &Record) -> Vec<Verdict> {
-    let mut verdicts = vec![completes(record)];
+    let mut verdicts = vec![match case.breaks_down(record) {
+        None => completes(record),
+        Some(why) => breaks_down(record, why),
+    }];
     if record.status == Status::Ok {
         verdicts.extend(case.judge(record));
     }
@@ -97,6 +100,18 @@ fn completes(record: &Record) -> Verdict {
         1.0,
         0.0,
         "the equations have a solution",
+    )
+}
+
+/// Whether a run that is known to break down does.
+fn breaks_down(record: &Record, why: &str) -> Verdict {
+    Verdict::above(
+        BREAKS_DOWN,
+        Kind::KnownLimit,
+        "run",
+        f64::from(u8::from(record.status == Status::Failed)),
+        0.0,
+        why,
     )
 }
 

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use mpm_core::Remedy;
-use mpm_core::remedy::{FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -32,6 +32,8 @@ pub enum RemedyName {
     FbarTotal,
     /// The average of the increment.
     FbarRate,
+    /// The average of the increment, and of the pressure in the force.
+    FbarConsistent,
 }
 
 /// Transfers.
@@ -57,6 +59,7 @@ impl RemedyName {
             Self::FbarRecursive => Box::new(FbarRecursive::default()),
             Self::FbarTotal => Box::new(FbarTotal::default()),
             Self::FbarRate => Box::new(FbarRate::default()),
+            Self::FbarConsistent => Box::new(FbarConsistent::default()),
         }
     }
 }
@@ -95,7 +98,8 @@ plain_text!(BasisName, "basis", [
     Self::Bspline2 => "bspline2", Self::Bspline3 => "bspline3"]);
 plain_text!(RemedyName, "remedy", [
     Self::None => "none", Self::FbarRecursive => "fbar-recursive",
-    Self::FbarTotal => "fbar-total", Self::FbarRate => "fbar-rate"]);
+    Self::FbarTotal => "fbar-total", Self::FbarRate => "fbar-rate",
+    Self::FbarConsistent => "fbar-consistent"]);
 plain_text!(TransferName, "transfer", [
     Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2", Self::Xpic3 => "xpic3"]);
 

@@ -7,7 +7,7 @@ use crate::convergence::{Convergence, convergence};
 use crate::error::{Error, ExitCode};
 use crate::files::{discard, discard_folder, read_versioned, require_writable};
 use crate::plan::{Plan, PlannedRun};
-use crate::record::{self, Record, Status, Version};
+use crate::record::{self, BREAKS_DOWN, Record, Version};
 use crate::run::{execute, judge};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -356,7 +356,7 @@ fn count(summary: &Summary) -> Counts {
     for study in &summary.cases {
         for record in &study.records {
             counts.runs += 1;
-            counts.failed_runs += usize::from(record.status == Status::Failed);
+            counts.failed_runs += usize::from(record.broke_down());
             counts.runs_without_truth += usize::from(!has_truth(record));
         }
     }
@@ -372,13 +372,15 @@ fn count(summary: &Summary) -> Counts {
     counts
 }
 
-/// Whether at least one check against the truth, beyond completion, was applied to a run.
+/// Whether at least one check against the truth, beyond completion, was applied to a run, or it broke
+/// down as it is known to.
 #[must_use]
 pub fn has_truth(record: &Record) -> bool {
-    record
-        .verdicts
-        .iter()
-        .any(|v| v.kind == Kind::Truth && v.pass.is_some() && v.check != "completes")
+    record.verdicts.iter().any(|v| match v.kind {
+        Kind::Truth => v.pass.is_some() && v.check != "completes",
+        Kind::KnownLimit => v.check == BREAKS_DOWN,
+        Kind::Drift => false,
+    })
 }
 
 /// Runs tasks side by side, the longest first; the records come back in the order of the tasks.

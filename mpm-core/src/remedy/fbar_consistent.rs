@@ -24,7 +24,7 @@ pub struct FbarConsistent {
 }
 
 /// The relaxation β that serves every problem of the bench.
-const RELAXATION: f64 = 100.0;
+const RELAXATION: f64 = 10.0;
 
 impl Default for FbarConsistent {
     fn default() -> Self {

@@ -35,11 +35,12 @@ const LEVELS: [Level; 4] = [
 ];
 
 const BASES: [BasisName; 3] = [BasisName::Gimp, BasisName::Bspline2, BasisName::Bspline3];
-const REMEDIES: [RemedyName; 4] = [
+const REMEDIES: [RemedyName; 5] = [
     RemedyName::None,
     RemedyName::FbarRecursive,
     RemedyName::FbarTotal,
     RemedyName::FbarRate,
+    RemedyName::FbarConsistent,
 ];
 
 const PARAMETERS: [Parameter; 14] = [
@@ -369,7 +370,7 @@ impl Case for Cook {
         ]
     }
 
-    fn parameters(&self) -> &'static [Parameter] {
+    fn parameters(&self) -> &[Parameter] {
         &PARAMETERS
     }
 
@@ -380,7 +381,7 @@ impl Case for Cook {
             .collect()
     }
 
-    fn levels(&self) -> &'static [Level] {
+    fn levels(&self) -> &[Level] {
         &LEVELS
     }
 
@@ -425,6 +426,7 @@ impl Case for Cook {
             RemedyName::None => 1.0,
             RemedyName::FbarRecursive => 2.5,
             RemedyName::FbarTotal | RemedyName::FbarRate => 1.5,
+            RemedyName::FbarConsistent => 3.0,
         };
         sweep / spec.level.h.powi(3)
     }
@@ -444,7 +446,7 @@ impl Case for Cook {
 
 fn plan(tier: Tier) -> Vec<RunSpec> {
     use BasisName::{Bspline2, Bspline3, Gimp};
-    use RemedyName::{FbarRate, FbarRecursive, FbarTotal, None};
+    use RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, None};
     let [h2, h1, half, quarter] = LEVELS;
     let runs = |level: Level, bases: &[BasisName], remedies: &[RemedyName], set: &[&str]| {
         bases
@@ -527,6 +529,7 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
             runs(quarter, &BASES, &[FbarRecursive], &[]),
             runs(quarter, &[Gimp, Bspline2], &[FbarTotal], &large),
             runs(quarter, &[Bspline3], &[None, FbarTotal, FbarRate], &large),
+            runs(quarter, &BASES, &[FbarConsistent], &large),
         ]
         .concat(),
     }

@@ -1,6 +1,17 @@
 //! The problems, one file each.
 
+mod column;
 mod cook;
+mod manufactured;
+mod mms_axis;
+mod mms_double_shear;
+mod mms_swirl;
+mod mms_vortex_box;
+mod mms_vortex_pressure;
+mod mms_vortex_ring;
+mod mms_wall_pressure;
+mod standing_wave;
+mod vibrating_bar;
 
 use crate::case::Case;
 use crate::error::Error;
@@ -8,7 +19,19 @@ use crate::error::Error;
 /// All problems.
 #[must_use]
 pub fn all() -> Vec<&'static dyn Case> {
-    vec![&cook::Cook]
+    vec![
+        &cook::Cook,
+        &*mms_axis::CASE,
+        &*mms_wall_pressure::CASE,
+        &*mms_vortex_ring::CASE,
+        &*mms_vortex_box::CASE,
+        &*mms_vortex_pressure::CASE,
+        &*mms_double_shear::CASE,
+        &*mms_swirl::CASE,
+        &*vibrating_bar::CASE,
+        &*column::CASE,
+        &*standing_wave::CASE,
+    ]
 }
 
 /// The problem of a name.

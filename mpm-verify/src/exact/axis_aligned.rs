@@ -25,7 +25,7 @@ pub struct AxisAligned {
     pub angular_frequency: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "mms-axis",
     summary: "axis-aligned displacement, d = 1, 2, 3",
     parameters: &PARAMETERS,

@@ -25,7 +25,7 @@ pub struct DoubleShear {
     pub angular_frequency: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "mms-double-shear",
     summary: "two isochoric shears of the periodic unit cell",
     parameters: &PARAMETERS,

@@ -16,7 +16,7 @@ pub struct FreeFall {
     pub gravity: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "free-fall",
     summary: "free fall from rest, d = 1, 2, 3",
     parameters: &PARAMETERS,

@@ -29,7 +29,7 @@ pub struct Hydrostatic {
     pub height: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "hydrostatic",
     summary: "column of fluid at rest under its weight, finite compression",
     parameters: &PARAMETERS,

@@ -5,23 +5,23 @@
 //! undeformed, so that a simulation needs no more than the initial velocity, but for the column at
 //! rest.
 
-mod axis_aligned;
+pub(crate) mod axis_aligned;
 #[cfg(test)]
 mod check;
-mod double_shear;
+pub(crate) mod double_shear;
 mod free_fall;
-mod hydrostatic;
+pub(crate) mod hydrostatic;
 mod material;
 mod patch;
 mod rigid;
-mod standing_wave;
-mod swirl;
+pub(crate) mod standing_wave;
+pub(crate) mod swirl;
 mod twist;
-mod vibrating_bar;
-mod vortex_box;
-mod vortex_pressure;
-mod vortex_ring;
-mod wall_pressure;
+pub(crate) mod vibrating_bar;
+pub(crate) mod vortex_box;
+pub(crate) mod vortex_pressure;
+pub(crate) mod vortex_ring;
+pub(crate) mod wall_pressure;
 
 pub use axis_aligned::AxisAligned;
 pub use double_shear::DoubleShear;
@@ -87,6 +87,7 @@ pub trait Exact: fmt::Debug + Send + Sync {
 }
 
 /// A solution by name.
+#[derive(Clone, Copy)]
 pub struct Entry {
     /// Name.
     pub name: &'static str,

@@ -20,7 +20,7 @@ pub struct Patch {
     pub angular_frequency: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "patch",
     summary: "homogeneous finite deformation of the unit square",
     parameters: &PARAMETERS,

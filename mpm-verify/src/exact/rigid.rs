@@ -28,14 +28,14 @@ pub struct Rotation {
     pub centre: Vector3<f64>,
 }
 
-pub(super) const TRANSLATION: Entry = Entry {
+pub(crate) const TRANSLATION: Entry = Entry {
     name: "rigid-translation",
     summary: "translation of the unit square",
     parameters: &TRANSLATION_PARAMETERS,
     build: |p| Ok(Box::new(Translation::new(p)?)),
 };
 
-pub(super) const ROTATION: Entry = Entry {
+pub(crate) const ROTATION: Entry = Entry {
     name: "rigid-rotation",
     summary: "rotation of the unit square about a point, with the centripetal force",
     parameters: &ROTATION_PARAMETERS,

@@ -39,7 +39,7 @@ pub struct StandingWave {
     pub wave_number: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "standing-wave",
     summary: "linear standing gravity wave in a box",
     parameters: &PARAMETERS,

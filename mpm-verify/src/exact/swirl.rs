@@ -24,7 +24,7 @@ pub struct Swirl {
     pub angular_frequency: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "mms-swirl",
     summary: "isochoric swirl in the unit cube",
     parameters: &PARAMETERS,

@@ -28,7 +28,7 @@ pub struct VibratingBar {
     pub wave_number: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "vibrating-bar",
     summary: "standing wave of a linear elastic bar between fixed ends or with one free",
     parameters: &PARAMETERS,

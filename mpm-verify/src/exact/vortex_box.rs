@@ -24,7 +24,7 @@ pub struct VortexBox {
     pub angular_frequency: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "mms-vortex-box",
     summary: "isochoric vortex in the unit square",
     parameters: &PARAMETERS,

@@ -26,7 +26,7 @@ pub struct VortexPressure {
     pub pressure: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "mms-vortex-pressure",
     summary: "vortex in the unit square with a pressure that stays bounded as ν → ½",
     parameters: &PARAMETERS,

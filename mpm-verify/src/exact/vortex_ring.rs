@@ -25,7 +25,7 @@ pub struct VortexRing {
     pub angular_frequency: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "mms-vortex-ring",
     summary: "isochoric vortex in a ring, material at rest around it",
     parameters: &PARAMETERS,

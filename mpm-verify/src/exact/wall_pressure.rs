@@ -34,7 +34,7 @@ pub struct WallPressure {
     pub angular_frequency: f64,
 }
 
-pub(super) const ENTRY: Entry = Entry {
+pub(crate) const ENTRY: Entry = Entry {
     name: "mms-wall-pressure",
     summary: "axis-aligned displacement with a pressure gradient normal to the walls, d = 1, 2, 3",
     parameters: &PARAMETERS,

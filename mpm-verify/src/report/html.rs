@@ -9,7 +9,7 @@ use crate::convergence::Convergence;
 use crate::distinct;
 use crate::error::Error;
 use crate::files::write_whole;
-use crate::record::{Record, Status};
+use crate::record::Record;
 use crate::scheme::Scheme;
 use crate::study::{CaseStudy, Summary};
 use minijinja::syntax::SyntaxConfig;
@@ -83,7 +83,7 @@ fn index(summary: &Summary, pictures: &[Picture]) -> Result<Value, Error> {
     });
     let broken = summary.cases.iter().flat_map(|study| {
         study.records.iter().filter_map(|r| {
-            let message = &r.error.as_ref()?.message;
+            let message = &r.error.as_ref().filter(|_| r.broke_down())?.message;
             Some(context! { href => link(study, r), name => name(r), message })
         })
     });
@@ -244,7 +244,7 @@ fn run(case: &dyn Case, r: &Record) -> Value {
         level => &r.level,
         set => r.set.join(" "),
         outcome => outcome_of_run(r),
-        open => r.status == Status::Failed || r.verdicts.iter().any(Verdict::failed),
+        open => r.broke_down() || r.verdicts.iter().any(Verdict::failed),
         error => r.error.as_ref().map(|e| &*e.message),
         headlines => case.headlines().iter().map(|h| headline(r, h)).collect::<Vec<_>>(),
         cpu => format!("{:.1}", r.time.cpu_s),
@@ -306,10 +306,7 @@ fn outcome_of(verdicts: &[Verdict], broken: usize) -> Value {
 }
 
 fn outcome_of_run(record: &Record) -> Value {
-    outcome_of(
-        &record.verdicts,
-        usize::from(record.status == Status::Failed),
-    )
+    outcome_of(&record.verdicts, usize::from(record.broke_down()))
 }
 
 /// Every check with its outcomes: those that the case declares, then those that every case has.

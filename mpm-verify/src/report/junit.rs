@@ -44,7 +44,7 @@ fn of_run(record: &Record) -> Vec<TestCase> {
         class.push_str(assignment);
     }
     let test = |(k, verdict): (usize, &Verdict)| {
-        let status = match &record.error {
+        let status = match record.error.as_ref().filter(|_| record.broke_down()) {
             Some(failure) if verdict.failed() => broke_down(failure),
             _ => status(verdict),
         };

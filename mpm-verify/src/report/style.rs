@@ -31,6 +31,7 @@ pub(super) fn series(scheme: Scheme, points: Vec<(f64, f64)>, colour: Colour) ->
         RemedyName::FbarRecursive => (Marker::Triangle, Dash::Solid, 1),
         RemedyName::FbarTotal => (Marker::Square, Dash::Solid, 2),
         RemedyName::FbarRate => (Marker::Circle, Dash::Dashed, 0),
+        RemedyName::FbarConsistent => (Marker::Diamond, Dash::Solid, 3),
     };
     let by_basis = match scheme.basis {
         BasisName::Gimp => 0,

@@ -65,7 +65,7 @@ fn text(summary: &Summary, pictures: &[Picture]) -> Result<String, Error> {
 
 fn failures(summary: &Summary, t: &mut String) {
     for record in summary.cases.iter().flat_map(|s| &s.records) {
-        if let Some(error) = &record.error {
+        if let Some(error) = record.error.as_ref().filter(|_| record.broke_down()) {
             let _ = writeln!(
                 t,
                 "\n**Broke down**: {} {} {}: {}",

@@ -3,14 +3,15 @@
 use super::METRICS;
 use super::checks::CREEP;
 use super::reference::{Field, solution, stress_points, stress_scale};
+use crate::assemble::with_basis;
 use crate::case::{Column, Job, RunSpec};
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::probe::{PointProbe, nearest};
 use crate::record::{Discretisation, Metric, WorkDone};
-use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::scheme::RemedyName;
 use crate::statistics::{Line, fit_line, rms};
-use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
+use mpm_core::basis::WallTreatment;
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{
@@ -18,7 +19,7 @@ use mpm_core::stage::{
     RestCriterion, Wall, WallKind,
 };
 use mpm_core::transfer::Flip;
-use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation, Solver};
+use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
 use std::collections::BTreeMap;
 
 /// Corners: (0, 0), (48, 44), (48, 60), (0, 44) m.
@@ -113,21 +114,6 @@ fn seed(spacing: f64) -> Vec<[f64; 2]> {
     positions
 }
 
-fn solver(scheme: Scheme, scene: Scene<2, NeoHookean>) -> Result<Box<dyn Simulation<2>>, Error> {
-    Ok(match scheme.basis {
-        BasisName::Gimp => Box::new(Solver::<2, 3, Gimp, _>::new(scene)?),
-        BasisName::Bspline2 => Box::new(Solver::<2, 3, QuadraticBSpline, _>::new(scene)?),
-        BasisName::Bspline3 => Box::new(Solver::<2, 4, CubicBSpline, _>::new(scene)?),
-        BasisName::Linear => {
-            return Err(Error::unknown(
-                "scheme",
-                &scheme.to_string(),
-                ["those that `explain` lists"],
-            ));
-        }
-    })
-}
-
 impl Simulated {
     pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
         check_together(parameters)?;
@@ -171,8 +157,8 @@ impl Simulated {
             particle_filters.push(Box::new(KineticDamping::default()));
         }
         let loads = loads(parameters, period, spacing, &particles);
-        let simulation = solver(
-            spec.scheme,
+        let simulation = with_basis(
+            spec.scheme.basis,
             Scene {
                 grid,
                 wall,
@@ -265,20 +251,13 @@ impl Simulated {
             .all(|v| *v == 0.0)
     }
 
-    /// Mean normal stress and its average Π, in seeding order.
+    /// Mean normal stress as it enters the forces and its average Π, in seeding order.
     fn mean_stress(&mut self) -> (Vec<f64>, Vec<f64>) {
-        let mut averaged: Vec<f64> = self
-            .simulation
-            .particles()
-            .stress
-            .iter()
-            .map(|s| s.mean())
-            .collect();
+        let stress = self.simulation.force_stress();
+        let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
+        let mut averaged = mean.clone();
         self.simulation.average(&mut averaged);
-        (
-            self.seeded(|p, k| p.stress[k].mean()),
-            self.seeded(|_, k| averaged[k]),
-        )
+        (self.seeded(|_, k| mean[k]), self.seeded(|_, k| averaged[k]))
     }
 
     /// The growth of rms ln(J/J̄) over the second half of the run so far.

@@ -1,0 +1,40 @@
+//! From the names of a scheme to a solver.
+
+use crate::error::Error;
+use crate::scheme::{BasisName, Scheme, TransferName};
+use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use mpm_core::transfer::{Apic, Flip, Xpic};
+use mpm_core::{Law, Scene, Simulation, Solver, Transfer};
+
+/// A solver of `scene` with the basis and the transfer of `scheme`; `scene` brings the transfer that
+/// stands for `flip`.
+///
+/// # Errors
+/// The solver refuses the scene.
+pub fn with_any_transfer<const D: usize, M: Law + 'static>(
+    scheme: Scheme,
+    scene: Scene<D, M, Flip>,
+) -> Result<Box<dyn Simulation<D>>, Error> {
+    match scheme.transfer {
+        TransferName::Flip => with_basis(scheme.basis, scene),
+        TransferName::Apic => with_basis(scheme.basis, scene.with_transfer(Apic)),
+        TransferName::Xpic2 => with_basis(scheme.basis, scene.with_transfer(Xpic::new(2)?)),
+        TransferName::Xpic3 => with_basis(scheme.basis, scene.with_transfer(Xpic::new(3)?)),
+    }
+}
+
+/// A solver of `scene` with a basis.
+///
+/// # Errors
+/// The solver refuses the scene.
+pub fn with_basis<const D: usize, M: Law + 'static, T: Transfer<D> + 'static>(
+    basis: BasisName,
+    scene: Scene<D, M, T>,
+) -> Result<Box<dyn Simulation<D>>, Error> {
+    Ok(match basis {
+        BasisName::Linear => Box::new(Solver::<D, 2, Linear, M, T>::new(scene)?),
+        BasisName::Gimp => Box::new(Solver::<D, 3, Gimp, M, T>::new(scene)?),
+        BasisName::Bspline2 => Box::new(Solver::<D, 3, QuadraticBSpline, M, T>::new(scene)?),
+        BasisName::Bspline3 => Box::new(Solver::<D, 4, CubicBSpline, M, T>::new(scene)?),
+    })
+}

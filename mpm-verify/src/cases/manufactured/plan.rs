@@ -1,0 +1,93 @@
+//! Plans of runs, and what a run costs.
+
+use super::{Manufactured, simulation::Timing};
+use crate::case::{Level, RunSpec};
+use crate::parameter::Parameters;
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+
+/// Every basis.
+pub(in crate::cases) const BASES: [BasisName; 4] = [
+    BasisName::Linear,
+    BasisName::Gimp,
+    BasisName::Bspline2,
+    BasisName::Bspline3,
+];
+
+/// Every remedy.
+pub(in crate::cases) const REMEDIES: [RemedyName; 5] = [
+    RemedyName::None,
+    RemedyName::FbarRecursive,
+    RemedyName::FbarTotal,
+    RemedyName::FbarRate,
+    RemedyName::FbarConsistent,
+];
+
+/// Every pair of a basis and a remedy, with FLIP.
+pub(in crate::cases) fn pairs(bases: &[BasisName], remedies: &[RemedyName]) -> Vec<Scheme> {
+    bases
+        .iter()
+        .flat_map(|&basis| remedies.iter().map(move |&r| Scheme::flip(basis, r)))
+        .collect()
+}
+
+/// The schemes with other transfers.
+pub(in crate::cases) fn with_transfers(
+    schemes: &[Scheme],
+    transfers: &[TransferName],
+) -> Vec<Scheme> {
+    let with = |&transfer: &TransferName| schemes.iter().map(move |s| Scheme { transfer, ..*s });
+    transfers.iter().flat_map(with).collect()
+}
+
+/// The levels of `n` cells per side of length `side` (m).
+pub(in crate::cases) fn levels<const N: usize>(
+    side: f64,
+    names: [(&'static str, f64); N],
+) -> Vec<Level> {
+    let level = |(name, n)| Level { name, h: side / n };
+    names.into_iter().map(level).collect()
+}
+
+/// Every scheme at every level with the parameters `set`.
+pub(in crate::cases) fn ladder(levels: &[Level], schemes: &[Scheme], set: &[&str]) -> Vec<RunSpec> {
+    levels
+        .iter()
+        .flat_map(|&level| schemes.iter().map(move |&scheme| (level, scheme)))
+        .map(|(level, scheme)| RunSpec {
+            scheme,
+            level,
+            set: set.iter().map(|s| (*s).to_owned()).collect(),
+            perturbed: false,
+        })
+        .collect()
+}
+
+/// The runs of all `parts`, each once.
+pub(in crate::cases) fn union(parts: impl IntoIterator<Item = Vec<RunSpec>>) -> Vec<RunSpec> {
+    let mut seen = std::collections::BTreeSet::new();
+    let all = parts.into_iter().flatten();
+    all.filter(|spec| seen.insert(spec.folder())).collect()
+}
+
+/// Particle steps per unit of cost, without a remedy.
+const STEPS_PER_COST: f64 = 5e7;
+
+/// Cost of a run, by its particle steps.
+pub(super) fn cost(case: &Manufactured, spec: &RunSpec) -> f64 {
+    let known = || {
+        let p = Parameters::new(&case.parameters, &spec.set).ok()?;
+        let solution = (case.solution)(&p).ok()?;
+        let timing = Timing::new(case, spec.level, &p, solution.as_ref()).ok()?;
+        let per_cell = p.number("ppc_per_direction");
+        let extent = solution.extent();
+        let along = |a: usize| (extent[a][1] - extent[a][0]) / spec.level.h * per_cell;
+        let particles: f64 = (0..solution.dimension()).map(along).product();
+        Some(particles * timing.steps)
+    };
+    let remedy = match spec.scheme.remedy {
+        RemedyName::None => 1.0,
+        RemedyName::FbarConsistent => 3.0,
+        _ => 1.5,
+    };
+    known().unwrap_or(0.0) * remedy / STEPS_PER_COST
+}
