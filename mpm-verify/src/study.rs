@@ -398,10 +398,12 @@ pub fn run_all(
     order.sort_by(|&a, &b| cost(a).total_cmp(&cost(b)));
     let queue = Mutex::new(order);
     let results = Mutex::new(Vec::new());
+    // The lock must be gone before the run begins, or there is one run at a time.
+    let next = || unpoisoned(queue.lock()).pop();
     std::thread::scope(|scope| {
         for _ in 0..workers.min(tasks.len()) {
             scope.spawn(|| {
-                while let Some(k) = unpoisoned(queue.lock()).pop() {
+                while let Some(k) = next() {
                     let task = &tasks[k];
                     let result = match task.made().filter(|_| resume) {
                         Some(record) => Ok(record),

@@ -479,14 +479,16 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
         Tier::Pr => [
             runs(h2, &BASES, &REMEDIES, &[]),
             runs(h2, &[Gimp], &[FbarRecursive], &halved),
-            runs(h1, &BASES, &REMEDIES, &[]),
+            runs(h1, &BASES, &REMEDIES[..4], &[]),
+            runs(h1, &[Gimp, Bspline2], &[FbarConsistent], &[]),
             standard(half),
             runs(half, &[Gimp, Bspline2], &[FbarRate], &large),
         ]
         .concat(),
         Tier::Nightly => {
             let mut all = plan(Tier::Pr);
-            all.extend(runs(half, &BASES, &REMEDIES, &[]));
+            all.extend(runs(h1, &[Bspline3], &[FbarConsistent], &[]));
+            all.extend(runs(half, &BASES, &REMEDIES[..4], &[]));
             all.extend(runs(h2, &BASES, &[FbarRecursive], &halved));
             all.extend(standard(quarter));
             all.extend(runs(quarter, &[Gimp, Bspline2], &[FbarRate], &[]));
@@ -529,6 +531,7 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
             runs(quarter, &BASES, &[FbarRecursive], &[]),
             runs(quarter, &[Gimp, Bspline2], &[FbarTotal], &large),
             runs(quarter, &[Bspline3], &[None, FbarTotal, FbarRate], &large),
+            runs(half, &BASES, &[FbarConsistent], &[]),
             runs(quarter, &BASES, &[FbarConsistent], &large),
         ]
         .concat(),

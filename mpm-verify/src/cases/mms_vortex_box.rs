@@ -25,6 +25,8 @@ pub(super) const WAVE: Wave = Wave {
     number: 6.5,
     shear: true,
 };
+/// Below this cell size (m) the motion crosses so many cells that errors have a floor.
+const FLOOR: f64 = 0.01;
 /// How errors are drawn over Poisson's ratio.
 pub(super) const LOCKING_CURVE: &[Sweep] = &[Sweep {
     parameter: "poisson_ratio",
@@ -46,6 +48,11 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
     judge: |record| checks::of_run(record, &claim(record), &WAVE),
     judge_study,
     sweeps: LOCKING_CURVE,
+    breaks_down: |r| {
+        (r.level == "n128" && r.basis == Bspline2 && r.remedy == FbarRate).then_some(
+            "an unseen pressure feeds the null space as particles pass each other (docs/modes.md)",
+        )
+    },
     ..Manufactured::solid(
         [
             "mms-vortex-box",
@@ -95,7 +102,11 @@ pub(super) fn claim(r: &Record) -> Claim {
     if r.basis == Linear {
         return Claim::Open("the gradient of a linear basis jumps where particles cross cells");
     }
-    if is_sound(r.remedy) {
+    if r.discretisation.h < FLOOR {
+        Claim::Open(
+            "particles cross twenty cells: the quadrature error of two per direction is a floor",
+        )
+    } else if is_sound(r.remedy) {
         Claim::Observed(
             [1.0, 2.6],
             "second order until the quadrature error of sheared particles shows",

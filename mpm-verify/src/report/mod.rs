@@ -2,6 +2,7 @@
 //!
 //! Everything here is made from records and CSV files on disk, never from a running simulation.
 
+mod column;
 mod convergence;
 mod cook;
 pub mod describe;
@@ -13,6 +14,7 @@ pub mod history;
 mod html;
 mod junit;
 pub mod plot;
+mod remedies;
 mod sketch;
 mod style;
 mod summary;
@@ -43,8 +45,10 @@ pub fn write_report(
     discard_report(out)?;
     let mut pictures = drift::draw(gathered, summary, golden, out)?;
     for study in &summary.cases {
-        if study.case == "cook" {
-            pictures.extend(cook::draw(study, gathered, out)?);
+        match study.case.as_str() {
+            "column" => pictures.extend(column::draw(study, gathered, out)?),
+            "cook" => pictures.extend(cook::draw(study, gathered, out)?),
+            _ => {}
         }
         pictures.extend(convergence::draw(study, out)?);
         pictures.extend(sweep::draw(study, out)?);

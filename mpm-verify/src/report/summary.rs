@@ -1,7 +1,7 @@
 //! The summary in Markdown.
 
-use super::Picture;
 use super::describe::{self, bless_commands, headline, kind, local_orders, number, order, outcome};
+use super::{Picture, remedies};
 use crate::case::Headline;
 use crate::cases;
 use crate::check::{Kind, Verdict};
@@ -43,6 +43,9 @@ fn text(summary: &Summary, pictures: &[Picture]) -> Result<String, Error> {
         );
     }
     failures(summary, &mut t);
+    if let Some(table) = remedies::table(summary) {
+        let _ = writeln!(t, "\n## Remedies against criteria\n{table}");
+    }
     for study in &summary.cases {
         let _ = writeln!(t, "\n## {}\n", study.case);
         results(

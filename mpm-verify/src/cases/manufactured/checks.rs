@@ -385,3 +385,128 @@ pub(in crate::cases) fn locking(records: &[Record]) -> Vec<Verdict> {
     }
     verdicts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameter::{Domain, Parameter, Parameters};
+    use crate::record::Metric;
+    use crate::report::fixture::record;
+
+    /// A run at cell size 1/n with an error.
+    fn run(n: f64, metric: &str, value: f64) -> Record {
+        let mut r = record(&format!("n{n}"), Vec::new());
+        r.discretisation.h = 1.0 / n;
+        let unit = "m".to_owned();
+        let value = value.is_finite().then_some(value);
+        r.metrics.insert(metric.to_owned(), Metric { value, unit });
+        r
+    }
+
+    /// Runs with errors h^p.
+    fn of_order(p: f64) -> Vec<Record> {
+        let error = |n: f64| run(n, "displacement_l2", n.powf(-p));
+        [8.0, 16.0, 32.0, 64.0].map(error).to_vec()
+    }
+
+    fn outcomes(records: &[Record], claim: fn(&Record) -> Claim) -> Vec<(String, Option<bool>)> {
+        let verdicts = orders_of(records, "displacement_l2", claim);
+        verdicts.into_iter().map(|v| (v.check, v.pass)).collect()
+    }
+
+    #[test]
+    fn an_order_below_the_formal_one_is_red_and_no_order_is_too() {
+        let gate = |records: &[Record]| outcomes(records, |_| Claim::Second);
+        let named = |pass, falls| {
+            vec![
+                (ORDER.name.to_owned(), Some(pass)),
+                (FALLS.name.to_owned(), Some(falls)),
+            ]
+        };
+        assert_eq!(gate(&of_order(1.9)), named(true, true));
+        assert_eq!(gate(&of_order(1.8)), named(false, true));
+        assert_eq!(gate(&of_order(-0.1)), named(false, false));
+        let mut broken = of_order(2.0);
+        broken[2] = run(32.0, "displacement_l2", f64::NAN);
+        assert_eq!(gate(&broken), named(false, false));
+        assert!(
+            gate(&of_order(2.0)[..2]).is_empty(),
+            "two levels have no order"
+        );
+    }
+
+    #[test]
+    fn a_known_stall_that_vanishes_is_red() {
+        let stalls = |records: &[Record]| outcomes(records, |_| Claim::Stalls(0.5, ""));
+        assert_eq!(stalls(&of_order(0.1))[0].1, Some(true));
+        assert_eq!(stalls(&of_order(1.0))[0].1, Some(false));
+        let band = |records: &[Record]| outcomes(records, |_| Claim::Observed([1.0, 1.5], ""));
+        assert_eq!(band(&of_order(1.2))[0].1, Some(true));
+        assert_eq!(band(&of_order(2.0))[0].1, Some(false));
+        assert_eq!(outcomes(&of_order(0.0), |_| Claim::Open(""))[0].1, None);
+    }
+
+    /// A run with a Poisson's ratio.
+    fn at_ratio(remedy: RemedyName, ratio: &str, error: f64) -> Record {
+        const RATIO: Parameter = Parameter {
+            name: "poisson_ratio",
+            unit: "-",
+            default: "0.3",
+            domain: Domain::Number {
+                least: 0.0,
+                most: 0.5,
+                below: true,
+            },
+            meaning: "",
+        };
+        let mut r = run(8.0, "displacement_l2", error);
+        r.remedy = remedy;
+        r.set = vec![format!("poisson_ratio={ratio}")];
+        r.parameters = Parameters::new(&[RATIO], &r.set).unwrap();
+        r
+    }
+
+    #[test]
+    fn locking_is_the_error_over_that_of_the_compressible_body() {
+        let judged = |remedy, factor| {
+            let pair = [
+                at_ratio(remedy, "0.3", 1.0),
+                at_ratio(remedy, "0.4999", factor),
+            ];
+            let verdicts = locking(&pair);
+            verdicts
+                .into_iter()
+                .map(|v| (v.check, v.pass))
+                .collect::<Vec<_>>()
+        };
+        let free = LOCKING.name.to_owned();
+        let locks = LOCKS.name.to_owned();
+        assert_eq!(
+            judged(RemedyName::FbarConsistent, 1.1),
+            [(free.clone(), Some(true))]
+        );
+        assert_eq!(
+            judged(RemedyName::FbarConsistent, 1.3),
+            [(free, Some(false))]
+        );
+        assert_eq!(judged(RemedyName::None, 8.0), [(locks.clone(), Some(true))]);
+        assert_eq!(judged(RemedyName::None, 1.0), [(locks, Some(false))]);
+    }
+
+    #[test]
+    fn the_order_in_time_comes_from_successive_differences() {
+        let at = |cfl: f64, order: i32| {
+            let mut r = run(16.0, "displacement_ratio", 1.0 + 0.1 * cfl.powi(order));
+            r.discretisation.dt = cfl;
+            r.set = vec![format!("cfl={cfl}")];
+            r
+        };
+        for (order, pass) in [(1, true), (2, true)] {
+            let verdicts = time_orders(&[0.4, 0.2, 0.1].map(|cfl| at(cfl, order)));
+            assert_eq!(verdicts[0].pass, Some(pass));
+            assert!((verdicts[0].value.unwrap() - f64::from(order)).abs() < 1e-9);
+        }
+        let stuck = [0.4, 0.2, 0.1].map(|cfl| at(cfl, 0));
+        assert!(time_orders(&stuck)[0].failed());
+    }
+}

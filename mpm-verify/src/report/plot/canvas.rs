@@ -6,7 +6,8 @@ use std::io::Cursor;
 use std::path::Path;
 use std::sync::Once;
 
-use image::{ImageFormat, RgbImage, imageops};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{RgbImage, imageops};
 use plotters::backend::{BitMapBackend, DrawingBackend};
 use plotters::prelude::{Color, FontDesc, FontFamily, FontStyle, RGBColor, TextStyle};
 use plotters::style::{FontTransform, register_font};
@@ -290,8 +291,10 @@ impl Canvas {
         }
         let [width, height] = [self.image.width(), self.image.height()].map(|s| s / FINE as u32);
         let mut png = Cursor::new(Vec::new());
+        let smallest =
+            PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
         imageops::thumbnail(&self.image, width, height)
-            .write_to(&mut png, ImageFormat::Png)
+            .write_with_encoder(smallest)
             .map_err(|e| failed(&e))?;
         write_whole(path, png.get_ref()).map_err(|e| failed(&e))
     }

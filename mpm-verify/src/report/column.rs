@@ -1,0 +1,64 @@
+//! The picture of the hydrostatic column: who creeps.
+
+use super::Picture;
+use super::plot::{Chart, Scale, draw_charts};
+use super::style::{Colour, series};
+use crate::error::Error;
+use crate::record::{Record, Status};
+use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::study::{CaseStudy, Gathered};
+use crate::table::Table;
+use std::path::Path;
+
+/// A chart per basis of the longest runs at the coarsest level: how far particles are from rest, over
+/// the steps.
+pub(super) fn draw(
+    study: &CaseStudy,
+    gathered: &Gathered,
+    out: &Path,
+) -> Result<Vec<Picture>, Error> {
+    let mut charts = Vec::new();
+    for basis in [BasisName::Gimp, BasisName::Bspline2] {
+        let of_basis = |r: &&Record| {
+            r.basis == basis && r.status == Status::Ok && r.transfer == TransferName::Flip
+        };
+        let runs = || study.records.iter().filter(of_basis);
+        let longest = runs().map(|r| r.work.steps).max().unwrap_or(0);
+        let mut curves = Vec::new();
+        for record in runs().filter(|r| r.work.steps == longest) {
+            let table = Table::read(&gathered.folder(record)?.join("series.csv"))?;
+            let steps = |t: f64| t / record.discretisation.dt / 1e5;
+            let points = table.points("time", "displacement_l2").into_iter();
+            // The start itself has no logarithm.
+            let points = points.filter(|(t, u)| *t > 0.0 && *u > 0.0);
+            let points = points.map(|(t, u)| (steps(t), u)).collect();
+            curves.push(series(record.scheme(), points, Colour::Remedy));
+        }
+        if !curves.is_empty() {
+            charts.push(Chart {
+                title: String::new(),
+                x_label: "steps (10⁵)".to_owned(),
+                y_label: "rms distance from rest (m)".to_owned(),
+                x_scale: Scale::Linear,
+                y_scale: Scale::Log10,
+                series: curves,
+                reference_lines: Vec::new(),
+                slope_triangle: None,
+                x_range: None,
+                y_range: None,
+            });
+        }
+    }
+    if charts.is_empty() {
+        return Ok(Vec::new());
+    }
+    let file = format!("{}/creep.png", study.case);
+    draw_charts(&out.join(&file), &charts, 2)?;
+    Ok(vec![Picture {
+        file,
+        caption: format!(
+            "Distance of the particles from their places at rest: {} creeps, the others oscillate about a place.",
+            RemedyName::FbarRecursive
+        ),
+    }])
+}
