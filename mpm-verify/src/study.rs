@@ -395,25 +395,40 @@ pub fn run_all(
 ) -> Result<Vec<Record>, Error> {
     let mut order: Vec<usize> = (0..tasks.len()).collect();
     let cost = |k: usize| tasks[k].case.cost(&tasks[k].spec);
-    order.sort_by(|&a, &b| cost(a).total_cmp(&cost(b)));
-    let queue = Mutex::new(order);
+    order.sort_by(|&a, &b| cost(b).total_cmp(&cost(a)));
+    let results = side_by_side(order, workers, |k| {
+        let task = &tasks[k];
+        let result = match task.made().filter(|_| resume) {
+            Some(record) => Ok(record),
+            None => execute(task.case, &task.spec, Some(&task.folder), 1, &|share| {
+                listener.progress(k, share);
+            }),
+        };
+        if let Ok(record) = &result {
+            listener.ended(k, record);
+        }
+        result
+    });
+    results.into_iter().collect()
+}
+
+/// Does `work` for every number of `order`, begun in that order, at most `workers` at a time; the results
+/// come back by rising number.
+fn side_by_side<T: Send>(
+    order: Vec<usize>,
+    workers: usize,
+    work: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    let workers = workers.min(order.len());
+    let queue = Mutex::new(order.into_iter());
     let results = Mutex::new(Vec::new());
-    // The lock must be gone before the run begins, or there is one run at a time.
-    let next = || unpoisoned(queue.lock()).pop();
+    // The lock must be gone before the work begins, or there is one at a time.
+    let next = || unpoisoned(queue.lock()).next();
     std::thread::scope(|scope| {
-        for _ in 0..workers.min(tasks.len()) {
+        for _ in 0..workers {
             scope.spawn(|| {
                 while let Some(k) = next() {
-                    let task = &tasks[k];
-                    let result = match task.made().filter(|_| resume) {
-                        Some(record) => Ok(record),
-                        None => execute(task.case, &task.spec, Some(&task.folder), 1, &|share| {
-                            listener.progress(k, share);
-                        }),
-                    };
-                    if let Ok(record) = &result {
-                        listener.ended(k, record);
-                    }
+                    let result = work(k);
                     unpoisoned(results.lock()).push((k, result));
                 }
             });
@@ -427,4 +442,30 @@ pub fn run_all(
 /// What a lock guards, whole even if another thread has panicked: queue and results change in one go.
 fn unpoisoned<T>(guarded: Result<T, PoisonError<T>>) -> T {
     guarded.unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    #[test]
+    fn two_workers_work_at_a_time() {
+        let (to_first, of_first) = channel();
+        let (to_second, of_second) = channel();
+        let ends = [(to_second, of_first), (to_first, of_second)].map(Mutex::new);
+        let met = side_by_side(vec![1, 0], 2, |k| {
+            let (mine, theirs) = &*unpoisoned(ends[k].lock());
+            mine.send(()).unwrap();
+            theirs.recv_timeout(Duration::from_secs(20)).is_ok()
+        });
+        assert_eq!(met, [true, true]);
+    }
+
+    #[test]
+    fn results_come_back_by_number_whatever_the_order() {
+        assert_eq!(side_by_side(vec![2, 0, 1], 1, |k| 10 * k), [0, 10, 20]);
+        assert!(side_by_side(Vec::new(), 4, |k| k).is_empty());
+    }
 }
