@@ -345,16 +345,18 @@ fn every_seeded_fault_turns_a_named_check_red() {
     fs::write(core, switched).unwrap();
     let mutant = Mutant::build(copy);
 
-    let mut survivors = mutant.complaints();
+    let mut complaints = mutant.complaints();
     // A shift of rounding is no fault: what is sound holds against the goldens, in a build of its own.
     let verify = [
         "verify", "cook", "--tier", "quick", "--golden", "golden", "--out", "report",
     ];
     let (code, text) = mutant.call(None, &verify);
-    assert_eq!(code, 0, "the sound program must hold: {text}");
+    if code != 0 {
+        complaints.push(format!("the sound program has drifted:\n{text}"));
+    }
     let (code, text) = mutant.call(Some(&DRIFT), &verify);
     if code != 3 || !text.contains("[DRIFT]") {
-        survivors.push(format!("{} (exit code {code}, not 3):\n{text}", DRIFT.name));
+        complaints.push(format!("{} (exit code {code}, not 3):\n{text}", DRIFT.name));
     }
-    assert!(survivors.is_empty(), "{}", survivors.join("\n"));
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
