@@ -170,6 +170,22 @@ pub(super) fn claim(r: &Record) -> Claim {
             "what a transfer takes from the velocity per step is part of the error; see the page",
         );
     }
+    if r.parameters.number("dimension") == 1.0 {
+        match (r.basis, r.remedy) {
+            (Gimp, RemedyName::None) => {
+                return Claim::Observed(
+                    [1.4, 2.6],
+                    "within a cell GIMP's weights are hats: displaced particles shift its quadrature, a floor of about A² k",
+                );
+            }
+            (Bspline3, remedy) if checks::is_sound(remedy) => {
+                return Claim::Open(
+                    "in one dimension F̄ averages all of the stress, next to walls where cubics lack an order",
+                );
+            }
+            _ => {}
+        }
+    }
     match r.basis {
         Linear => Claim::Open(
             "displaced particles shift a linear basis's quadrature of mass and body force by u, a floor of about A² k",
