@@ -124,7 +124,8 @@ pub(super) fn claim(r: &Record) -> Claim {
         );
     }
     if feeds_null_space(r) {
-        let clear = matches!(r.basis, Gimp | Bspline2) && r.parameters.number("pressure").is_nan();
+        let shears_only = r.parameters.number("pressure").is_nan();
+        let clear = shears_only && r.remedy == FbarRate && matches!(r.basis, Gimp | Bspline2);
         return if clear {
             Claim::Stalls(1.0, NULL_SPACE)
         } else {

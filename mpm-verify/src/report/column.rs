@@ -57,7 +57,7 @@ pub(super) fn draw(
     Ok(vec![Picture {
         file,
         caption: format!(
-            "Distance of the particles from their places at rest: {} creeps, the others oscillate about a place.",
+            "Distance of the particles from their places at rest: {} creeps; with GIMP a mode that no average sees grows from rounding with every F̄.",
             RemedyName::FbarRecursive
         ),
     }])
