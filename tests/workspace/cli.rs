@@ -108,8 +108,8 @@ fn values_that_cannot_go_together_are_refused() {
         refused(&["run", "cook", "--set", set], &needles);
     }
     refused(
-        &["verify", "--tier", "quick", "--shard", "1/9"],
-        &["tier quick has 5 runs for 9 shards"],
+        &["verify", "--tier", "quick", "--shard", "1/90"],
+        &["tier quick has 14 runs for 90 shards"],
     );
     refused(
         &["verify", "--tier", "quick", "--shard", "3/2"],
@@ -151,7 +151,7 @@ fn list_and_explain_name_everything() {
     let listed = mpm_verify(&["list", "--format", "json", "--tier", "pr"]);
     let cases: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
     assert_eq!(cases[0]["case"], "cook");
-    assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 12);
+    assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 15);
     assert_eq!(cases[0]["tier"], "pr");
 
     let text = stdout(&mpm_verify(&["explain", "cook"]));

@@ -120,7 +120,7 @@ pub(super) fn claim(r: &Record) -> Claim {
     }
     if r.discretisation.h < FLOOR {
         return Claim::Open(
-            "particles cross twenty cells: the quadrature error of two per direction is a floor",
+            "particles cross ten cells: the quadrature error of two per direction is a floor",
         );
     }
     if feeds_null_space(r) {
