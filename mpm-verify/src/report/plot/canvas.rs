@@ -291,10 +291,10 @@ impl Canvas {
         }
         let [width, height] = [self.image.width(), self.image.height()].map(|s| s / FINE as u32);
         let mut png = Cursor::new(Vec::new());
-        let smallest =
-            PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
+        let encoder =
+            PngEncoder::new_with_quality(&mut png, CompressionType::Fast, FilterType::Adaptive);
         imageops::thumbnail(&self.image, width, height)
-            .write_with_encoder(smallest)
+            .write_with_encoder(encoder)
             .map_err(|e| failed(&e))?;
         write_whole(path, png.get_ref()).map_err(|e| failed(&e))
     }
