@@ -152,7 +152,7 @@ const FAULTS: [Fault; 13] = [
     Fault {
         name: "the consistent average lacks its second term",
         file: "remedy/fbar_consistent.rs",
-        sound: "*field += seen",
+        sound: "*field += (1.0 - UNSEEN) * seen",
         broken: "*field += 0.0 * seen",
         seen_by: &[(BAR_CONSISTENT, "averaging-softens")],
     },

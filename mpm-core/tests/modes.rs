@@ -23,6 +23,8 @@ const H: f64 = 0.5;
 const CELLS: usize = 16;
 const LENGTH: f64 = H * CELLS as f64;
 const DENSITY: f64 = 2.0;
+/// ε of the consistent average.
+const UNSEEN: f64 = 0.01;
 /// Identities between sums of a few weights.
 const ROUNDING: f64 = 1e-12;
 
@@ -271,12 +273,14 @@ fn the_average_has_the_symbol_and_the_null_space_that_are_stated() {
 /// Trace and determinant of the two by two matrix that advances a wave by a step, without a mean stress.
 fn trace_and_determinant(kind: Kind, tau: f64, phi: &Wave, psi: &Wave) -> [f64; 2] {
     let pi = product(phi, phi).re;
+    let gamma = product(psi, psi).re;
     let omega = product(phi, psi).norm_sqr();
+    let seen = 1.0 - (1.0 - UNSEEN) * (1.0 - pi).powi(2);
     let g = tau
         * tau
         * match kind {
-            Kind::None => product(psi, psi).re,
-            Kind::Consistent => (2.0 - pi).powi(2) * pi * omega,
+            Kind::None => gamma,
+            Kind::Consistent => UNSEEN * UNSEEN * (gamma - omega / pi) + seen * seen * omega / pi,
             _ => omega,
         };
     match kind {
@@ -399,10 +403,12 @@ impl Moving {
             phi.iter().map(|f| f * share).collect()
         };
         let sharp = |q: &Wave| -> Wave {
-            let mut out = project(q);
-            let again = project(&out);
-            out.iter_mut().for_each(|o| *o *= 2.0);
-            add(&mut out, -Complex::ONE, &again);
+            let seen = project(q);
+            let mut rough = q.clone();
+            add(&mut rough, -Complex::ONE, &seen);
+            let mut out = seen;
+            add(&mut out, (1.0 - UNSEEN).into(), &project(&rough));
+            add(&mut out, UNSEEN.into(), &rough);
             out
         };
 
@@ -514,17 +520,17 @@ fn crossing_a_cell_feeds_waves_as_documented() {
         (0.0, Kind::Recursive, [1.00, 1.00, 1.00, 1.00]),
         (0.0, Kind::Total, [2.59, 2.62, 1.37, 1.07]),
         (0.0, Kind::Rate, [2.73, 2.68, 1.38, 1.08]),
-        (0.0, Kind::Consistent, [1.04, 1.00, 1.00, 1.00]),
+        (0.0, Kind::Consistent, [1.03, 1.00, 1.00, 1.00]),
         (-0.01, Kind::None, [1.01, 1.01, 1.00, 1.00]),
         (-0.01, Kind::Recursive, [1.71, 1.07, 1.04, 1.01]),
         (-0.01, Kind::Total, [2.82, 2.62, 1.37, 1.07]),
         (-0.01, Kind::Rate, [2.97, 2.67, 1.38, 1.08]),
-        (-0.01, Kind::Consistent, [1.68, 1.07, 1.04, 1.01]),
+        (-0.01, Kind::Consistent, [1.67, 1.03, 1.02, 1.00]),
         (0.01, Kind::None, [1.01, 1.01, 1.00, 1.00]),
         (0.01, Kind::Recursive, [1.00, 1.10, 1.05, 1.01]),
         (0.01, Kind::Total, [2.36, 2.62, 1.37, 1.07]),
         (0.01, Kind::Rate, [2.50, 2.69, 1.38, 1.08]),
-        (0.01, Kind::Consistent, [1.02, 1.11, 1.05, 1.01]),
+        (0.01, Kind::Consistent, [1.04, 1.11, 1.06, 1.01]),
     ];
     for (mean, kind, factors) in documented {
         let (tau, steps) = (0.3, 33);
@@ -544,36 +550,40 @@ fn crossing_a_cell_feeds_waves_as_documented() {
     }
 }
 
-/// A pressure that Π can't see accelerates what Π can't see either, but for the consistent force.
+/// A pressure that Π can't see accelerates what Π can't see either; the consistent force lets the share ε of
+/// it through.
 fn unseen_pressure_pushes<const S: usize, B: Basis<S> + 'static>() {
     let axis = Bloch::<S, B>::new(2, theta(7));
     let (phi, _) = axis.seen(0.0);
     let mut null = noise(2, 0);
     let share = product(&phi, &null) / product(&phi, &phi).re;
     add(&mut null, -share, &phi);
-    for kind in KINDS {
+    // Small: volumes and gradients are those of the lattice to first order.
+    let strain = 1e-6;
+    let push = |kind| -> f64 {
         let mut scene = scene::<1>(2, kind, 0.3, 0.0);
-        for (id, stress) in scene.particles.stress.iter_mut().enumerate() {
-            *stress = stress.scale_add_identity(0.0, axis.carried(&null, id).re);
+        let particles = &mut scene.particles;
+        for (id, delta_f) in particles.delta_f.iter_mut().enumerate() {
+            delta_f[(0, 0)] += strain * axis.carried(&null, id).re;
+            particles.jacobian[id] = delta_f[(0, 0)];
         }
         let mut solver = Solver::<1, S, B, _>::new(scene).unwrap();
         solver.step().unwrap();
-        let fastest = solver
-            .particles()
-            .velocity
-            .iter()
-            .fold(0.0_f64, |most, v| most.max(v[0].abs()));
-        // A stress of order one over ρc is 0.1 m/s.
-        if kind == Kind::Consistent {
-            assert!(fastest < ROUNDING, "{fastest}");
-        } else {
-            assert!(fastest > 1e-3, "{kind:?}: {fastest}");
-        }
+        let speeds = solver.particles().velocity.iter().map(|v| v[0].abs());
+        speeds.fold(0.0, f64::max)
+    };
+    let full = push(Kind::None);
+    assert!(full > 1e-2 * strain * C, "{full}");
+    for kind in [Kind::Recursive, Kind::Total, Kind::Rate] {
+        let share = push(kind) / full;
+        assert!((share - 1.0).abs() < 1e-3, "{kind:?}: {share}");
     }
+    let share = push(Kind::Consistent) / full;
+    assert!((share - UNSEEN).abs() < 1e-3 * UNSEEN, "{share}");
 }
 
 #[test]
-fn a_pressure_that_is_not_seen_pushes_unless_the_force_is_consistent() {
+fn a_pressure_that_is_not_seen_hardly_pushes_if_the_force_is_consistent() {
     unseen_pressure_pushes::<2, Linear>();
     unseen_pressure_pushes::<3, Gimp>();
     unseen_pressure_pushes::<3, QuadraticBSpline>();
@@ -612,8 +622,8 @@ fn growth_of_noise<const S: usize, B: Basis<S> + 'static>(
 fn noise_grows_as_documented() {
     let gimp = [
         (0.0, 0.1, 396, [0.76, 0.96, 153.0, 84.3, 0.93]),
-        (-0.01, 0.1, 396, [0.76, 149.0, 207.0, 170.0, 117.0]),
-        (-0.01, 0.0, 300, [0.88, 27.2, 23.2, 23.2, 23.2]),
+        (-0.01, 0.1, 396, [0.76, 149.0, 207.0, 170.0, 98.3]),
+        (-0.01, 0.0, 300, [0.88, 27.2, 23.2, 23.2, 20.6]),
     ];
     for (mean, speed, steps, factors) in gimp {
         for (kind, factor) in KINDS.into_iter().zip(factors) {
@@ -638,7 +648,7 @@ fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(
     geometric: f64,
 ) {
     let axis = Bloch::<S, B>::new(n, theta(CELLS / 2));
-    let (mut phi, _) = axis.seen(0.0);
+    let (mut phi, psi) = axis.seen(0.0);
     let turn = phi[0].conj() / phi[0].norm();
     phi.iter_mut().for_each(|f| *f *= turn);
     let (tau, amplitude, steps) = (0.3, 1e-8 * C, 200);
@@ -651,7 +661,14 @@ fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(
         for _ in 0..steps {
             solver.step().unwrap();
         }
-        let g = tau * tau * mean * geometric;
+        // J̄ takes the share ε of the strain, and the force that of the stress (J̄/J) σ.
+        let held = if kind == Kind::Consistent {
+            let square = UNSEEN * UNSEEN;
+            product(&psi, &psi).re * (square + mean * (square - UNSEEN))
+        } else {
+            0.0
+        };
+        let g = tau * tau * (mean * geometric + held);
         let determinant = 1.0 - g * (1.0 - product(&phi, &phi).re);
         let (mut before, mut now) = (1.0, 1.0);
         for _ in 1..steps {

@@ -85,7 +85,7 @@ const HEADLINES: &[Headline] = &[
     },
     Headline {
         metric: "kinetic_growth",
-        heading: "kinetic energy, last / first third (–)",
+        heading: "kinetic energy, last / middle third (–)",
         factor: 1.0,
         decimals: 3,
     },
@@ -113,12 +113,12 @@ const CHECKS: &[CheckInfo] = &[
     CheckInfo {
         name: "no-growth",
         kind: Kind::Truth,
-        statement: "likewise, but where null-mode-grows: the largest kinetic energy of the last third of the run does not exceed that of the first, nor what last bits can walk to",
+        statement: "likewise, but where null-mode-grows: the largest kinetic energy of the last third of the run does not exceed that of the middle third, when the start has rung down, but for what last bits can walk to",
     },
     CheckInfo {
         name: "null-mode-grows",
         kind: Kind::KnownLimit,
-        statement: "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: the kinetic energy of the last third is more than 100 times that of the first",
+        statement: "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: the kinetic energy of the last third is more than 100 times that of the middle third",
     },
     CheckInfo {
         name: "base-pressure",

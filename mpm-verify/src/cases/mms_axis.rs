@@ -88,6 +88,12 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
                 &pairs(&[Gimp], &[FbarRecursive, FbarConsistent]),
                 &["step_scaling=h2"],
             ),
+            // Only so large a motion tells where a body force is evaluated; no particle crosses yet.
+            ladder(
+                &levels[..3],
+                &pairs(&[Gimp, Bspline2], &[RemedyName::None]),
+                &["amplitude=0.005"],
+            ),
         ]),
         Tier::Nightly => {
             let pair = pairs(&[Gimp, Bspline2], &REMEDIES);

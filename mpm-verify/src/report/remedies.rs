@@ -35,11 +35,14 @@ const CRITERIA: [Criterion; 13] = [
                 .metric("true_j_drift_per_1e5_steps"),
         ))
     }),
-    ("… kinetic energy, last third over first", |s, b, r| {
-        Some(short(
-            of(s, "column", b, r, "h0.25", &["duration=5.04"])?.metric("kinetic_growth"),
-        ))
-    }),
+    (
+        "… kinetic energy, last third over middle third",
+        |s, b, r| {
+            Some(short(
+                of(s, "column", b, r, "h0.25", &["duration=5.04"])?.metric("kinetic_growth"),
+            ))
+        },
+    ),
     ("order, mms-axis, Δt ∝ h", |s, b, r| {
         order(s, "mms-axis", b, r, &[])
     }),

@@ -294,7 +294,7 @@ pub(super) const METRICS: &[MetricInfo] = &[
     metric(
         "kinetic_growth",
         "-",
-        "largest kinetic energy in the last third of the run over that in the first",
+        "largest kinetic energy in the last third of the run over that in the middle third",
     ),
     metric(
         "base_pressure",

@@ -493,7 +493,7 @@ impl<const D: usize> Simulated<D> {
     }
 
     /// Of a body at rest: largest drift of the cells' means of J̄ and J per 10⁵ steps, largest kinetic
-    /// energy of the last third over that of the first, and the pressure at the base.
+    /// energy of the last third over that of the middle third, and the pressure at the base.
     fn rest(&mut self) -> Option<[f64; 4]> {
         let start = self.at_start.clone()?;
         let per = 1e5 / self.steps as f64;
@@ -507,7 +507,8 @@ impl<const D: usize> Simulated<D> {
         };
         let third = self.rows.len() / 3;
         let peak = |rows: &[Row]| rows.iter().map(|r| r.kinetic).fold(0.0, f64::max);
-        let growth = peak(&self.rows[self.rows.len() - third..]) / peak(&self.rows[..third]);
+        let (earlier, last) = self.rows.split_at(self.rows.len() - third);
+        let growth = peak(last) / peak(&earlier[earlier.len() - third..]);
         let stress = self.simulation.force_stress();
         let height = self.solution.extent()[D - 1];
         let below = |y: f64| y < 0.5 * (height[0] + height[1]);
