@@ -5,7 +5,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
-use mpm_core::material::{Law, NeoHookean};
+use mpm_core::material::{HenckyJ2, Law, NeoHookean, Strength};
 use mpm_core::particles::cell_order;
 use mpm_core::projection::{Average, NodalAverage, Projection};
 use mpm_core::space::embed;
@@ -106,26 +106,55 @@ fn passes<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
     group.finish();
 }
 
-fn law(c: &mut Criterion) {
-    let law = NeoHookean {
-        lambda: 1e4,
-        mu: 20.0,
-    };
+fn law<M: Law>(c: &mut Criterion, name: &str, law: &M, delta_f: &Matrix2<f64>) {
     let n = 4096;
     let mut states = vec![law.initial_state(); n];
-    let delta_f = Matrix2::new(1.0, 1e-6, -1e-6, 1.0);
     let mut group = c.benchmark_group("law");
     group.throughput(Throughput::Elements(n as u64));
-    group.bench_function("neo-hookean", |b| {
+    group.bench_function(name, |b| {
         b.iter(|| {
             for state in &mut states {
-                let (stress, next) = law.update(&embed(black_box(&delta_f)), 1e-3, state);
+                let (stress, next) = law.update(&embed(black_box(delta_f)), 1e-3, state);
                 black_box(stress);
                 *state = next;
             }
         });
     });
     group.finish();
+}
+
+fn laws(c: &mut Criterion) {
+    let solid = NeoHookean {
+        lambda: 1e4,
+        mu: 20.0,
+    };
+    law(
+        c,
+        "neo-hookean",
+        &solid,
+        &Matrix2::new(1.0, 1e-6, -1e-6, 1.0),
+    );
+    let strengths = [
+        ("hencky-j2 elastic", Strength::perfect(1e9)),
+        ("hencky-j2 perfect", Strength::undrained(100.0)),
+        (
+            "hencky-j2 softening",
+            Strength::softening(40.82e3, 2.45e3, 5.0),
+        ),
+    ];
+    for (name, strength) in strengths {
+        if let Ok(strength) = strength
+            && let Ok(soil) = HenckyJ2::new(1e6, 0.49, strength)
+        {
+            // Small enough that elastic strains stay small, and the plastic ones flow in every step.
+            let shear = if name.ends_with("elastic") {
+                1e-9
+            } else {
+                1e-5
+            };
+            law(c, name, &soil, &Matrix2::new(1.0, shear, 0.0, 1.0));
+        }
+    }
 }
 
 fn kernels(c: &mut Criterion) {
@@ -139,7 +168,7 @@ fn kernels(c: &mut Criterion) {
     passes::<3, Gimp>(c, "gimp");
     passes::<3, QuadraticBSpline>(c, "bspline2");
     passes::<4, CubicBSpline>(c, "bspline3");
-    law(c);
+    laws(c);
 }
 
 criterion_group! {

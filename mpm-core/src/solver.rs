@@ -70,6 +70,9 @@ pub trait Simulation<const D: usize>: Send {
     fn totals(&self) -> Totals;
     /// Out-of-balance and held forces of the last step.
     fn residual(&self) -> Residual;
+    /// The force of the body on the constraint with this place in the scene's list in the last step (N):
+    /// the nodal forces at the components that it holds. NaN of a constraint that there isn't.
+    fn force_on(&self, constraint: usize) -> [f64; 3];
     /// What the run did so far.
     fn work(&self) -> Work;
     /// Replaces `field` (one value per particle) by its average Π `field`.
@@ -89,6 +92,14 @@ struct ChunkSums {
     fault: Option<(usize, Fault)>,
 }
 
+/// A constraint in a step.
+#[derive(Debug, Clone, Copy, Default)]
+struct Held {
+    amplitude: f64,
+    /// Force of the body on it (N).
+    force: [f64; 3],
+}
+
 /// The explicit solver for one body.
 pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     scene: Scene<D, M, T>,
@@ -98,6 +109,7 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     nodes: Vec<NodalState>,
     average_nodes: Vec<NodalAverage>,
     prescribed: Vec<Prescribed>,
+    held: Vec<Held>,
     chunk_sums: Vec<ChunkSums>,
     /// Largest distance (m) that a particle can have moved since the particles were sorted.
     drift: f64,
@@ -171,6 +183,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             nodes: vec![NodalState::default(); lattice.len()],
             average_nodes: vec![NodalAverage::default(); lattice.len()],
             prescribed: Vec::new(),
+            held: vec![Held::default(); scene.constraints.len()],
             chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
             drift: 0.0,
             wave_speed: scene.law.wave_speed(density),
@@ -196,19 +209,36 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         lattice.for_each_node(|node, index| {
             let position = lattice.position(index);
             for axis in 0..D {
-                let velocity = scene
-                    .constraints
-                    .iter()
-                    .find_map(|c| c.prescribe(&scene.grid, &position, axis));
-                if let Some(velocity) = velocity {
+                let held = scene.constraints.iter().enumerate().find_map(|(by, c)| {
+                    let full_velocity = c.prescribe(&scene.grid, &position, axis)?;
+                    Some((by, full_velocity))
+                });
+                if let Some((by, full_velocity)) = held {
                     prescribed.push(Prescribed {
                         node,
                         axis,
-                        velocity,
+                        velocity: full_velocity,
+                        full_velocity,
+                        by,
                     });
                 }
             }
         });
+    }
+
+    /// Sets the prescribed velocities to those in the middle of the step.
+    fn move_constraints(&mut self) {
+        let middle = self.time + 0.5 * self.scene.dt;
+        let now = self.scene.constraints.iter().map(|c| c.amplitude(middle));
+        for (held, amplitude) in self.held.iter_mut().zip(now) {
+            *held = Held {
+                amplitude,
+                force: [0.0; 3],
+            };
+        }
+        for p in &mut self.prescribed {
+            p.velocity = self.held[p.by].amplitude * p.full_velocity;
+        }
     }
 
     /// Sorts the particles by cell when one of them may have left its cell's neighbours.
@@ -306,6 +336,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             let force = mass * *change / dt;
             residual.free_force -= force.abs();
             residual.held_force[c.axis] += force;
+            self.held[c.by].force[c.axis] += force;
             let (free, held) = (*velocity, c.velocity);
             let before = free - *change;
             self.accumulated.constraint_loss +=
@@ -577,6 +608,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.apply_loads();
         self.adjust_stress();
         self.particles_to_grid();
+        self.move_constraints();
         self.update_grid();
         self.grid_to_particles()?;
         self.average_volume_change();
@@ -608,6 +640,10 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
 
     fn residual(&self) -> Residual {
         self.residual
+    }
+
+    fn force_on(&self, constraint: usize) -> [f64; 3] {
+        self.held.get(constraint).map_or([f64::NAN; 3], |h| h.force)
     }
 
     fn work(&self) -> Work {

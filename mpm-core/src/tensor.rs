@@ -1,5 +1,7 @@
 //! Symmetric second-order tensors in three dimensions, stored without their mirror components.
 
+mod function;
+
 use nalgebra::Matrix3;
 
 /// A symmetric 3×3 tensor (a stress in Pa, a left Cauchy–Green tensor).
@@ -87,6 +89,22 @@ impl SymmetricTensor {
         self.xx * (self.yy * self.zz - self.yz * self.yz)
             - self.xy * (self.xy * self.zz - self.yz * self.xz)
             + self.xz * (self.xy * self.yz - self.yy * self.xz)
+    }
+
+    /// The deviator: without its mean.
+    #[must_use]
+    #[inline]
+    pub fn deviator(&self) -> Self {
+        self.scale_add_identity(1.0, -self.mean())
+    }
+
+    /// Frobenius norm √(a : a).
+    #[must_use]
+    #[inline]
+    pub fn norm(&self) -> f64 {
+        let normal = self.xx * self.xx + self.yy * self.yy + self.zz * self.zz;
+        let shear = self.xy * self.xy + self.yz * self.yz + self.xz * self.xz;
+        (normal + 2.0 * shear).sqrt()
     }
 
     /// `a self + b I`.

@@ -1,8 +1,10 @@
 //! Constitutive laws: pure functions (ΔF̄, Δt, state) → (σ, state′) in three dimensions.
 
+mod hencky_j2;
 mod neo_hookean;
 mod newtonian_fluid;
 
+pub use hencky_j2::{ElastoplasticState, HenckyJ2, Strength};
 pub use neo_hookean::NeoHookean;
 pub use newtonian_fluid::NewtonianFluid;
 

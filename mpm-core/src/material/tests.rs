@@ -129,6 +129,12 @@ every_law_must!(
     NeoHookean::new(70.0, 0.499).unwrap()
 );
 
+// Flow is not elastic: what it does is tested beside the law.
+every_law_must!(
+    strong_hencky_solid,
+    HenckyJ2::new(70.0, 0.4, Strength::perfect(1e9).unwrap()).unwrap()
+);
+
 // Viscosity is not elastic: what it adds is tested below.
 every_law_must!(inviscid_fluid, NewtonianFluid::new(5.0, 0.0).unwrap());
 

@@ -1,6 +1,6 @@
 //! Body forces and dead forces.
 
-use super::Load;
+use super::{Load, smooth_rise};
 use crate::particles::Particles;
 
 /// A field of body force per unit mass (N/kg) as a function of the reference position (m) and time (s).
@@ -64,12 +64,7 @@ impl<const D: usize> DeadForce<D> {
 
 impl<const D: usize> Load<D> for DeadForce<D> {
     fn add(&self, time: f64, particles: &mut Particles<D>) {
-        let share = if time < self.ramp {
-            let s = time / self.ramp;
-            s * s * (3.0 - 2.0 * s)
-        } else {
-            1.0
-        };
+        let share = smooth_rise(time, self.ramp);
         for (force, id) in particles.external_force.iter_mut().zip(&particles.id) {
             if self.loaded[*id as usize] {
                 for (f, add) in force.iter_mut().zip(self.force) {

@@ -11,12 +11,14 @@ mod kinetic_damping;
 mod load;
 mod local_damping;
 mod rest;
+mod rigid_nodes;
 mod wall;
 
 pub use kinetic_damping::KineticDamping;
 pub use load::{BodyForce, DeadForce, ForceField};
 pub use local_damping::LocalDamping;
 pub use rest::{Observation, RestCriterion};
+pub use rigid_nodes::RigidNodes;
 pub use wall::{End, Wall, WallKind};
 
 use crate::particles::Particles;
@@ -42,15 +44,24 @@ pub struct Prescribed {
     pub node: usize,
     /// Component.
     pub axis: usize,
-    /// Velocity (m/s).
+    /// Velocity (m/s) in the present step.
     pub velocity: f64,
+    /// Velocity (m/s) at the amplitude one.
+    pub full_velocity: f64,
+    /// Place of the constraint in the scene's list.
+    pub by: usize,
 }
 
 /// A constraint on the motion of nodes. An explicit solver overwrites, an implicit one eliminates.
 pub trait Constraint<const D: usize>: Send {
     /// Whether the node at `position` (m), of a lattice on `grid`, is constrained along `axis`, and
-    /// to which velocity (m/s).
+    /// to which velocity (m/s) when the amplitude is one.
     fn prescribe(&self, grid: &crate::Grid<D>, position: &[f64; D], axis: usize) -> Option<f64>;
+
+    /// The factor of all its velocities at `time` (s).
+    fn amplitude(&self, _time: f64) -> f64 {
+        1.0
+    }
 }
 
 /// A filter of the particles at the end of a step.
@@ -58,4 +69,14 @@ pub trait ParticleFilter<const D: usize>: Send {
     /// Changes the particles, knowing the kinetic energy (J) of the nodes in the step; returns the
     /// energy (J) that it takes from the particles.
     fn filter(&mut self, nodal_kinetic_energy: f64, particles: &mut Particles<D>) -> f64;
+}
+
+/// Rises from zero at time zero to one at `ramp` (s) as 3 s² − 2 s³, s = time/ramp; one after it.
+#[must_use]
+pub fn smooth_rise(time: f64, ramp: f64) -> f64 {
+    if time >= ramp {
+        return 1.0;
+    }
+    let s = time / ramp;
+    s * s * (3.0 - 2.0 * s)
 }

@@ -1,0 +1,34 @@
+//! A rigid body as prescribed velocities of the nodes that it covers.
+
+use super::{Constraint, smooth_rise};
+use crate::grid::Grid;
+
+/// The nodes in a box move with a rigid body; the velocity starts smoothly. The box stays where it is: this is
+/// contact for strokes that are small against a cell. Material that it touches sticks to it along the axes
+/// that it holds, and can't leave it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidNodes<const D: usize> {
+    /// Lower and upper end along every axis (m), infinite ones allowed. A node counts as within up to a
+    /// billionth of a cell.
+    pub extent: [[f64; 2]; D],
+    /// Velocity (m/s) of the axes that are held: of a rough body all, of a smooth one its normal.
+    pub velocity: [Option<f64>; D],
+    /// Time (s) in which the velocity rises from zero.
+    pub ramp: f64,
+}
+
+/// A node this fraction of a cell outside still counts as within.
+const MARGIN: f64 = 1e-9;
+
+impl<const D: usize> Constraint<D> for RigidNodes<D> {
+    fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {
+        let margin = MARGIN * grid.h;
+        let mut ends = position.iter().zip(&self.extent);
+        let within = ends.all(|(x, [lo, hi])| *x >= lo - margin && *x <= hi + margin);
+        self.velocity[axis].filter(|_| within)
+    }
+
+    fn amplitude(&self, time: f64) -> f64 {
+        smooth_rise(time, self.ramp)
+    }
+}

@@ -1,0 +1,177 @@
+//! A body pressed by nodes that move with a rigid one.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use mpm_core::basis::{Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::material::{Law, NeoHookean};
+use mpm_core::remedy::Standard;
+use mpm_core::solver::courant_time_step;
+use mpm_core::stage::{Constraint, End, RigidNodes, Wall, WallKind};
+use mpm_core::transfer::Flip;
+use mpm_core::{Axis, Basis, Grid, Particles, Scene, Side, Simulation, Solver};
+
+const H: f64 = 0.5;
+const CELLS: usize = 8;
+const HEIGHT: f64 = 6.0 * H;
+const DENSITY: f64 = 2.0;
+/// Speed of the press (m/s), a hundred-thousandth of that of sound.
+const SPEED: f64 = 1e-4;
+/// Time (s) in which it starts.
+const RAMP: f64 = 6.0;
+
+fn law() -> NeoHookean {
+    NeoHookean::new(100.0, 0.3).unwrap()
+}
+
+/// A block six cells high and eight wide, on rollers at the sides, on a roller or fixed at the base, under
+/// `press`.
+fn pressed<const S: usize, B: Basis<S> + 'static>(
+    base: WallKind,
+    press: RigidNodes<2>,
+) -> Solver<2, S, B, NeoHookean> {
+    let spacing = 0.5 * H;
+    let positions = (0..2 * CELLS * 12)
+        .map(|k| {
+            let (i, j) = (k / 12, k % 12);
+            [(i as f64 + 0.5) * spacing, (j as f64 + 0.5) * spacing]
+        })
+        .collect();
+    let particles =
+        Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
+    let upright = Axis::bounded(0.0, CELLS, (Side::Wall, Side::Open));
+    let wall = |axis, end, kind| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
+    let law = law();
+    let scene = Scene {
+        dt: courant_time_step(0.3, H, law.wave_speed(DENSITY)),
+        grid: Grid::new(H, [Axis::walls(0.0, CELLS), upright]).unwrap(),
+        wall: WallTreatment::OpenKnot,
+        law,
+        particles,
+        remedy: Box::new(Standard),
+        loads: Vec::new(),
+        force_filters: Vec::new(),
+        constraints: vec![
+            wall(1, End::Lo, base),
+            wall(0, End::Lo, WallKind::Roller),
+            wall(0, End::Hi, WallKind::Roller),
+            Box::new(press),
+        ],
+        particle_filters: Vec::new(),
+        transfer: Flip::default(),
+    };
+    Solver::new(scene).unwrap()
+}
+
+/// A press on the whole top, from half a cell below it for splines, whose functions there are not
+/// interpolatory.
+fn press(velocity: [Option<f64>; 2]) -> RigidNodes<2> {
+    RigidNodes {
+        extent: [
+            [f64::NEG_INFINITY, f64::INFINITY],
+            [HEIGHT - 0.5 * H, f64::INFINITY],
+        ],
+        velocity,
+        ramp: RAMP,
+    }
+}
+
+/// Force on the press over that of the law in uniaxial compression by the stroke, and on the base over it.
+fn force_over_that_of_the_law<const S: usize, B: Basis<S> + 'static>() -> [f64; 2] {
+    let mut solver = pressed::<S, B>(WallKind::Roller, press([None, Some(-SPEED)]));
+    let (end, mut sums, mut count) = (60.0, [0.0; 2], 0.0);
+    while solver.time() < end {
+        solver.step().unwrap();
+        if solver.time() > 0.8 * end {
+            sums[0] += solver.force_on(3)[1];
+            sums[1] -= solver.force_on(0)[1];
+            count += 1.0;
+        }
+    }
+    let stretch = 1.0 - SPEED * (0.9 * end - 0.5 * RAMP) / HEIGHT;
+    let law = law();
+    let stress = (law.mu * (stretch * stretch - 1.0) + law.lambda * stretch.ln()) / stretch;
+    sums.map(|sum| sum / count / (-stress * CELLS as f64 * H))
+}
+
+/// The waves of the start, a ramp of four periods, leave less than half a percent; the stroke is a thousandth of a
+/// cell's strain. Splines whose functions around the surface move as one are rigid down to somewhere in the last half
+/// cell.
+#[test]
+fn a_press_meets_the_force_of_the_law() {
+    for ratios in [
+        force_over_that_of_the_law::<2, Linear>(),
+        force_over_that_of_the_law::<3, Gimp>(),
+    ] {
+        assert!(ratios.iter().all(|r| (r - 1.0).abs() < 0.005), "{ratios:?}");
+    }
+    let ratios = force_over_that_of_the_law::<3, QuadraticBSpline>();
+    let stiffest = HEIGHT / (HEIGHT - 0.5 * H);
+    assert!(
+        ratios.iter().all(|r| (1.0..stiffest).contains(r)),
+        "{ratios:?}"
+    );
+}
+
+#[test]
+fn a_constraint_that_does_not_exist_has_no_force() {
+    let solver = pressed::<3, Gimp>(WallKind::Roller, press([None, Some(-SPEED)]));
+    assert!(solver.force_on(9)[0].is_nan());
+}
+
+/// A narrow press on a fixed body: a rough one holds the material under it, a smooth one doesn't; nodes beside it
+/// are free.
+#[test]
+fn a_rough_press_holds_and_a_smooth_one_lets_slide() {
+    let narrow = |across| RigidNodes {
+        extent: [[0.0, 2.0 * H], [HEIGHT, f64::INFINITY]],
+        ..press([across, Some(-SPEED)])
+    };
+    let slipped = |across| {
+        let mut solver = pressed::<3, Gimp>(WallKind::Fixed, narrow(across));
+        while solver.time() < 30.0 {
+            solver.step().unwrap();
+        }
+        let p = solver.particles();
+        let under: Vec<usize> = (0..p.len())
+            .filter(|&k| p.reference[k][1] > HEIGHT - 0.5 * H && p.reference[k][0] < 1.5 * H)
+            .collect();
+        let most = |f: &dyn Fn(usize) -> f64| under.iter().map(|&k| f(k).abs()).fold(0.0, f64::max);
+        let stroke = SPEED * (30.0 - 0.5 * RAMP);
+        let down = most(&|k| p.position[k][1] - p.reference[k][1]) / stroke;
+        assert!((0.9..1.05).contains(&down), "{down}");
+        let beside = (0..p.len()).filter(|&k| p.reference[k][0] > 6.0 * H);
+        let sunk = beside
+            .map(|k| p.reference[k][1] - p.position[k][1])
+            .fold(0.0, f64::max);
+        assert!(sunk < 0.5 * stroke, "{sunk}");
+        most(&|k| p.position[k][0] - p.reference[k][0]) / stroke
+    };
+    let (rough, smooth) = (slipped(Some(0.0)), slipped(None));
+    assert!(rough < 0.5 * smooth, "{rough} {smooth}");
+}
+
+/// The stroke is the integral of the ramp, to the order of the midpoint rule.
+#[test]
+fn the_ramp_is_followed() {
+    let mut solver = pressed::<3, Gimp>(WallKind::Roller, press([None, Some(-SPEED)]));
+    let mut highest = Vec::new();
+    for _ in 0..2 {
+        for _ in 0..700 {
+            solver.step().unwrap();
+        }
+        let top = solver.particles().position.iter().map(|x| x[1]);
+        highest.push((solver.time(), top.fold(0.0, f64::max)));
+    }
+    // After the ramp, half of which is lost, the top follows the press: the particle a quarter cell below it is
+    // moved by the strain there, a fiftieth of the stroke.
+    let [(before, a), (after, b)] = highest[..] else {
+        panic!("two observations");
+    };
+    assert!(before > RAMP);
+    let speed = (a - b) / (after - before);
+    assert!((speed / SPEED - 1.0).abs() < 0.1, "{speed}");
+}
