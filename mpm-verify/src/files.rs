@@ -109,6 +109,16 @@ pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Erro
     write_whole(path, text.as_bytes())
 }
 
+/// Writes JSON without indentation, for documents of many megabytes.
+///
+/// # Errors
+/// The file can't be written.
+pub fn write_dense_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
+    let mut text = serde_json::to_string(value).map_err(|e| Error::file(path, e))?;
+    text.push('\n');
+    write_whole(path, text.as_bytes())
+}
+
 /// Reads a JSON document that names its schema.
 ///
 /// # Errors

@@ -87,7 +87,12 @@ const CHECKS: &[CheckInfo] = &[
     CheckInfo {
         name: "frequency",
         kind: Kind::Truth,
-        statement: "relative error of the frequency at most ½ (kh)², but for fbar-recursive",
+        statement: "relative error of the frequency at most ½ (kh)², but for fbar-recursive and for waves of cubic splines with F̄ of which less than a twentieth is left",
+    },
+    CheckInfo {
+        name: "cubic-walls-damp",
+        kind: Kind::KnownLimit,
+        statement: "cubic splines with F̄ but fbar-recursive: less than half of the amplitude is left after a hundred periods",
     },
     CheckInfo {
         name: "no-energy-gain",
@@ -105,6 +110,10 @@ const CHECKS: &[CheckInfo] = &[
         statement: "fbar-recursive: nine tenths of the energy are gone after a hundred periods",
     },
 ];
+
+/// Shares of the amplitude: half of it, and what counts as gone.
+const HALF: f64 = 0.5;
+const GONE: f64 = 0.05;
 
 /// ω of the wave (rad/s); NaN of parameters that make none.
 fn frequency(p: &Parameters) -> f64 {
@@ -157,8 +166,22 @@ fn judge(r: &Record) -> Vec<Verdict> {
         ];
     }
     let mut verdicts = vec![checks::mass(r)];
+    let cubic = r.basis == BasisName::Bspline3 && checks::is_sound(r.remedy);
+    if cubic && !feeds_null_space(r) {
+        verdicts.push(Verdict::at_most(
+            "cubic-walls-damp",
+            Kind::KnownLimit,
+            "amplitude_ratio",
+            r.metric("amplitude_ratio"),
+            HALF,
+            "the lumped mass of cubics next to a wall has its centre off the node",
+        ));
+    }
     verdicts.push(if feeds_null_space(r) {
         Verdict::not_applicable("frequency", "frequency_error", NULL_SPACE)
+    } else if cubic && r.metric("amplitude_ratio") < GONE {
+        let why = "less than a twentieth of the wave is left: its late zeros are those of what rings beside it";
+        Verdict::not_applicable("frequency", "frequency_error", why)
     } else {
         Verdict::at_most(
             "frequency",

@@ -24,7 +24,7 @@ pub mod watched;
 
 use crate::cases;
 use crate::error::Error;
-use crate::files::{discard, discard_all, discard_folder, write_json};
+use crate::files::{discard, discard_all, discard_folder, write_dense_json};
 use crate::study::{Gathered, Summary};
 use history::Night;
 use std::path::Path;
@@ -60,7 +60,7 @@ pub fn write_report(
     junit::write(summary, out)?;
     html::write(summary, &pictures, out)?;
     // The sign that the report is whole.
-    write_json(&out.join("summary.json"), summary)
+    write_dense_json(&out.join("summary.json"), summary)
 }
 
 /// Removes an earlier report from `out`; runs, plan and history stay.
