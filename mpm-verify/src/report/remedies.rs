@@ -96,10 +96,14 @@ const CRITERIA: [Criterion; 13] = [
         let run = of(s, "standing-wave", b, r, "n8", &["duration=24"])?;
         Some(match &run.error {
             Some(e) => format!("breaks down at {:.1} s", e.time),
+            None if run.metric("log_jacobian_gap") > DISORDER => "in disorder".to_owned(),
             None => format!("frequency × {:.2}", run.metric("frequency_ratio")),
         })
     }),
 ];
+
+/// rms ln(J/J̄) beyond which particles have lost their order.
+const DISORDER: f64 = 0.1;
 
 fn short(x: f64) -> String {
     match x.abs() {

@@ -292,7 +292,7 @@ impl Canvas {
         let [width, height] = [self.image.width(), self.image.height()].map(|s| s / FINE as u32);
         let mut png = Cursor::new(Vec::new());
         let encoder =
-            PngEncoder::new_with_quality(&mut png, CompressionType::Fast, FilterType::Adaptive);
+            PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive);
         imageops::thumbnail(&self.image, width, height)
             .write_with_encoder(encoder)
             .map_err(|e| failed(&e))?;
