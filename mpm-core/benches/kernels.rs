@@ -146,7 +146,7 @@ fn laws(c: &mut Criterion) {
         if let Ok(strength) = strength
             && let Ok(soil) = HenckyJ2::new(1e6, 0.49, strength)
         {
-            // Small enough that elastic strains stay small, and the plastic ones flow in every step.
+            // Small enough that elastic strains stay small; once yielding, every step flows.
             let shear = if name.ends_with("elastic") {
                 1e-9
             } else {

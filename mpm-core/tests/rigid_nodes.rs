@@ -97,9 +97,9 @@ fn force_over_that_of_the_law<const S: usize, B: Basis<S> + 'static>() -> [f64; 
     sums.map(|sum| sum / count / (-stress * CELLS as f64 * H))
 }
 
-/// The waves of the start, a ramp of four periods, leave less than half a percent; the stroke is a thousandth of a
-/// cell's strain. Splines whose functions around the surface move as one are rigid down to somewhere in the last half
-/// cell.
+/// The waves of the start, a ramp of eight periods, leave less than half a percent; the stroke is a hundredth of a
+/// cell, a strain of two per mille. Splines whose functions around the surface move as one are rigid down to
+/// somewhere in the last half cell.
 #[test]
 fn a_press_meets_the_force_of_the_law() {
     for ratios in [
@@ -154,24 +154,21 @@ fn a_rough_press_holds_and_a_smooth_one_lets_slide() {
     assert!(rough < 0.5 * smooth, "{rough} {smooth}");
 }
 
-/// The stroke is the integral of the ramp, to the order of the midpoint rule.
+/// The stroke is the integral of the ramp: the uppermost particles, 0.125 m below the top of 3 m,
+/// have made 23/24 of it. A press that started at once would be 30 % ahead after twice the ramp.
 #[test]
 fn the_ramp_is_followed() {
     let mut solver = pressed::<3, Gimp>(WallKind::Roller, press([None, Some(-SPEED)]));
-    let mut highest = Vec::new();
-    for _ in 0..2 {
-        for _ in 0..700 {
-            solver.step().unwrap();
-        }
-        let top = solver.particles().position.iter().map(|x| x[1]);
-        highest.push((solver.time(), top.fold(0.0, f64::max)));
+    while solver.time() < 2.0 * RAMP {
+        solver.step().unwrap();
     }
-    // After the ramp, half of which is lost, the top follows the press: the particle a quarter cell below it is
-    // moved by the strain there, a fiftieth of the stroke.
-    let [(before, a), (after, b)] = highest[..] else {
-        panic!("two observations");
-    };
-    assert!(before > RAMP);
-    let speed = (a - b) / (after - before);
-    assert!((speed / SPEED - 1.0).abs() < 0.1, "{speed}");
+    let p = solver.particles();
+    let sunk = (0..p.len())
+        .filter(|&k| p.reference[k][1] > HEIGHT - 0.4 * H)
+        .map(|k| p.reference[k][1] - p.position[k][1]);
+    let stroke = SPEED * (solver.time() - 0.5 * RAMP);
+    for sunk in sunk {
+        let share = sunk / stroke * 24.0 / 23.0;
+        assert!((share - 1.0).abs() < 0.03, "{share}");
+    }
 }

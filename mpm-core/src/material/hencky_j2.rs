@@ -96,7 +96,7 @@ impl HenckyJ2 {
     ///
     /// # Errors
     /// A modulus that is not positive and finite; a ratio outside (−1, 0.5); a strength that softens faster
-    /// than the elastic stress can fall, √(2/3) η (κ_p − κ_r) ≥ 2μ, so that no return exists.
+    /// than the elastic stress can fall, √(2/3) η (κ_p − κ_r) ≥ 2μ, so that the stress would jump at yield.
     pub fn new(young_modulus: f64, poisson_ratio: f64, strength: Strength) -> Result<Self, Error> {
         let NeoHookean { lambda, mu } = NeoHookean::new(young_modulus, poisson_ratio)?;
         let slope = -(2.0_f64 / 3.0).sqrt() * strength.at(0.0).1;

@@ -9,7 +9,7 @@
 //! | [`FbarRecursive`] | Π(J̄ⁿ ΔJ) | Algorithm 1 as printed, Eq. (26) |
 //! | [`FbarTotal`] | Π(Jⁿ⁺¹) | Eqs. (18)–(21), nothing accumulates |
 //! | [`FbarRate`] | J̄ⁿ Π(ΔJ) | only the increment is averaged |
-//! | [`FbarConsistent`] | J̄ⁿ A(ΔJ), relaxed | the force averages as the rate does: A = 2Π − Π² |
+//! | [`FbarConsistent`] | J̄ⁿ A(ΔJ), relaxed | the force averages as the rate does: A = I − (1 − ε)(I − Π)² |
 
 mod fbar_consistent;
 mod fbar_rate;

@@ -10,7 +10,7 @@ use nalgebra::Matrix3;
 /// Largest square of the norm at which the series are used: with it the first term left out is below
 /// 10⁻¹⁵ of the first one.
 const NEAR: f64 = 0.01;
-/// Odd powers of the logarithm's series: z¹⁵/15 is below 10⁻¹⁶ of z at ‖z‖ = 0.1.
+/// Odd powers of the logarithm's series: z¹⁵/15 is below 10⁻¹⁵ of z at ‖z‖ = 0.1.
 const LOGARITHM_TERMS: u32 = 7;
 /// Powers of the exponential's series: 0.1¹¹/11! is below 10⁻¹⁸.
 const EXPONENTIAL_TERMS: u32 = 10;

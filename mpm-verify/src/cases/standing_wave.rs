@@ -118,7 +118,7 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
         let early = r.basis == Gimp && r.level == "n16" && r.remedy != RemedyName::FbarRate;
         let long = r.parameters.number("duration") > TWO_PERIODS && !survives(r);
         (averaged && (early || long)).then_some(
-            "what Π can't see has no stiffness: particles lose their order, then J or the walls (docs/modes.md)",
+            "what Π can't see has next to no stiffness: particles lose their order, then J or the walls (docs/modes.md)",
         )
     },
     ..Manufactured::solid(
