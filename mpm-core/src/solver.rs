@@ -80,6 +80,8 @@ pub trait Simulation<const D: usize>: Send {
     /// The stress of every particle (Pa) with which it enters the next forces: the law's, with the
     /// remedy's share.
     fn force_stress(&mut self) -> Vec<SymmetricTensor>;
+    /// The equivalent plastic strain of every particle.
+    fn plastic_strain(&self) -> Vec<f64>;
 }
 
 /// Sums of one chunk of particles in a gather.
@@ -666,5 +668,10 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.adjust_stress();
         self.work = work;
         std::mem::replace(&mut self.scene.particles.stress, law_stress)
+    }
+
+    fn plastic_strain(&self) -> Vec<f64> {
+        let law = &self.scene.law;
+        self.states.iter().map(|s| law.plastic_strain(s)).collect()
     }
 }

@@ -168,6 +168,10 @@ impl Law for HenckyJ2 {
         (stress, state)
     }
 
+    fn plastic_strain(&self, state: &ElastoplasticState) -> f64 {
+        state.plastic_strain
+    }
+
     fn energy(&self, state: &ElastoplasticState) -> f64 {
         let log_jacobian = 0.5 * state.elastic.determinant().ln();
         let deviator = 0.5 * state.elastic.ln().deviator().norm();

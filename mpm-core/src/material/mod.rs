@@ -27,6 +27,11 @@ pub trait Law: Send + Sync {
         state: &Self::State,
     ) -> (SymmetricTensor, Self::State);
 
+    /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that doesn't flow.
+    fn plastic_strain(&self, _state: &Self::State) -> f64 {
+        0.0
+    }
+
     /// Stored energy per reference volume (J/m³).
     fn energy(&self, state: &Self::State) -> f64;
 

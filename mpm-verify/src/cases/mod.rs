@@ -2,6 +2,7 @@
 
 mod column;
 mod cook;
+mod footing;
 mod manufactured;
 mod mms_axis;
 mod mms_double_shear;
@@ -21,6 +22,7 @@ use crate::error::Error;
 pub fn all() -> Vec<&'static dyn Case> {
     vec![
         &cook::Cook,
+        &footing::Footing,
         &*mms_axis::CASE,
         &*mms_wall_pressure::CASE,
         &*mms_vortex_ring::CASE,

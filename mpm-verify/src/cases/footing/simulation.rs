@@ -1,0 +1,434 @@
+//! The simulation of the strip footing: ground, footing, observation.
+
+use super::METRICS;
+use super::reference::{CURVE, EXACT};
+use crate::assemble::with_basis;
+use crate::case::{Column, Job, RunSpec};
+use crate::error::Error;
+use crate::parameter::Parameters;
+use crate::record::{Discretisation, Metric, WorkDone};
+use crate::scheme::BasisName;
+use crate::statistics::{fit_line, rms};
+use mpm_core::basis::WallTreatment;
+use mpm_core::material::{HenckyJ2, Law, Strength};
+use mpm_core::solver::courant_time_step;
+use mpm_core::stage::{Constraint, End, ForceFilter, LocalDamping, RigidNodes, Wall, WallKind};
+use mpm_core::transfer::Flip;
+use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
+use std::collections::BTreeMap;
+
+/// Width B of the footing (m); its right half is simulated.
+pub(super) const WIDTH: f64 = 1.0;
+/// Cells of the grid above the surface.
+const ROOM: usize = 3;
+/// Penetration over B between two rows of the series.
+const ROW: f64 = 1e-5;
+/// The last share of the penetration, over which the plateau and the mechanism are observed.
+const PLATEAU: f64 = 0.25;
+/// Half of the window of penetration over B in which the curve is averaged.
+const WINDOW: f64 = 5e-5;
+/// Places of constraints in the scene's list.
+const BASE: usize = 0;
+const FOOTING: usize = 3;
+
+/// One observation: means over the steps since the one before.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    /// Penetration over B.
+    penetration: f64,
+    /// Force of the ground on the footing per metre of depth, upward (N/m).
+    force: f64,
+    /// Force of the ground on its base, downward (N/m).
+    base: f64,
+}
+
+/// A running simulation.
+pub(super) struct Simulated {
+    simulation: Box<dyn Simulation<2>>,
+    discretisation: Discretisation,
+    parameters: Parameters,
+    effective_width: f64,
+    steps_per_row: u64,
+    end: f64,
+    rows: Vec<Row>,
+    /// Positions (m), in seeding order, where the observation of the plateau begins.
+    before_plateau: Vec<[f64; 2]>,
+}
+
+/// Cells of size `h` (m) in a domain of `widths` footings.
+fn cells(widths: f64, h: f64) -> usize {
+    (widths * WIDTH / h).round() as usize
+}
+
+/// The width (m) that a footing of held nodes acts with: up to the middle between the last held node and the
+/// first free one. Quadratic splines have their nodes in the middle of cells, the others on grid lines.
+pub(super) fn effective_width(basis: BasisName, h: f64) -> f64 {
+    match basis {
+        BasisName::Bspline2 => WIDTH,
+        BasisName::Linear | BasisName::Gimp | BasisName::Bspline3 => WIDTH + h,
+    }
+}
+
+impl Simulated {
+    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
+        let h = spec.level.h;
+        let number = |name| parameters.number(name);
+        let strength = Strength::undrained(number("undrained_strength"))?;
+        let law = HenckyJ2::new(number("young_modulus"), number("poisson_ratio"), strength)?;
+        let density = number("density");
+        let dt = courant_time_step(number("cfl"), h, law.wave_speed(density));
+        let (across, down) = (
+            cells(number("domain_width"), h),
+            cells(number("domain_depth"), h),
+        );
+        let grid = Grid::new(
+            h,
+            [
+                Axis::walls(0.0, across),
+                Axis::bounded(-(down as f64) * h, down + ROOM, (Side::Wall, Side::Open)),
+            ],
+        )?;
+        let per_direction = number("ppc_per_direction");
+        let spacing = h / per_direction;
+        let particles = Particles::new(
+            spec.start_at(seed(across, down, per_direction as usize, spacing)),
+            spacing * spacing,
+            density,
+            [0.5 * spacing; 2],
+        )?;
+        let rate = number("penetration_rate");
+        let simulation = with_basis(
+            spec.scheme.basis,
+            Scene {
+                grid,
+                wall: if parameters.is("wall", "wall-line") {
+                    WallTreatment::WallLine
+                } else {
+                    WallTreatment::OpenKnot
+                },
+                law,
+                particles,
+                remedy: spec.scheme.remedy.build(),
+                loads: Vec::new(),
+                force_filters: filters(number("damping"))?,
+                constraints: constraints(parameters, h),
+                particle_filters: Vec::new(),
+                transfer: Flip::new(number("flip"))?,
+                dt,
+            },
+        )?;
+        Ok(Self {
+            simulation,
+            discretisation: Discretisation {
+                dim: 2,
+                h,
+                ppc: (per_direction * per_direction) as u32,
+                dt,
+                wall: parameters.text("wall"),
+            },
+            parameters: parameters.clone(),
+            effective_width: effective_width(spec.scheme.basis, h),
+            steps_per_row: ((ROW * WIDTH / rate / dt).round() as u64).max(1),
+            end: number("penetration"),
+            rows: Vec::new(),
+            before_plateau: Vec::new(),
+        })
+    }
+
+    /// Penetration over B at `time` (s): the integral of the footing's velocity.
+    fn penetration(&self, time: f64) -> f64 {
+        let (rate, ramp) = (
+            self.parameters.number("penetration_rate"),
+            self.parameters.number("ramp"),
+        );
+        let s = (time / ramp).min(1.0);
+        let during = ramp * s * s * s * (1.0 - 0.5 * s);
+        rate * (during + (time - ramp).max(0.0)) / WIDTH
+    }
+
+    fn strength(&self) -> f64 {
+        self.parameters.number("undrained_strength")
+    }
+
+    /// Pressure over the undrained strength of a force (N/m) on half of a footing of `width` (m).
+    fn bearing_factor(&self, force: f64, width: f64) -> f64 {
+        force / (0.5 * width) / self.strength()
+    }
+
+    /// A particle quantity in seeding order.
+    fn seeded<T: Copy + Default>(&self, f: impl Fn(&Particles<2>, usize) -> T) -> Vec<T> {
+        let p = self.simulation.particles();
+        let mut values = vec![T::default(); p.len()];
+        for (k, id) in p.id.iter().enumerate() {
+            values[*id as usize] = f(p, k);
+        }
+        values
+    }
+
+    fn on_plateau(&self) -> impl Iterator<Item = &Row> {
+        let first = (1.0 - PLATEAU) * self.end;
+        self.rows.iter().filter(move |r| r.penetration > first)
+    }
+
+    /// Mean of a quantity of the rows of which `keep` holds; NaN if there are none.
+    fn mean(&self, keep: impl Fn(&Row) -> bool, f: impl Fn(&Row) -> f64) -> f64 {
+        let kept: Vec<f64> = self.rows.iter().filter(|r| keep(r)).map(f).collect();
+        kept.iter().sum::<f64>() / kept.len() as f64
+    }
+
+    /// Relative growth of the load per 10⁻³ of penetration over B on the plateau.
+    fn rise(&self, mean_force: f64) -> f64 {
+        let points: Vec<(f64, f64)> = self
+            .on_plateau()
+            .map(|r| (r.penetration, r.force / mean_force))
+            .collect();
+        fit_line(&points).map_or(f64::NAN, |line| 1e-3 * line.slope)
+    }
+
+    /// d(q/s_u)/d(s/B), fitted after the start over all rows.
+    fn slope(&self) -> f64 {
+        let begun = 2.0 * self.penetration(self.parameters.number("ramp"));
+        let points: Vec<(f64, f64)> = self
+            .rows
+            .iter()
+            .filter(|r| r.penetration > begun)
+            .map(|r| (r.penetration, self.bearing_factor(r.force, WIDTH)))
+            .collect();
+        fit_line(&points).map_or(f64::NAN, |line| line.slope)
+    }
+
+    /// Displacement (m) of every particle over the plateau, in seeding order.
+    fn flow(&self) -> Vec<[f64; 2]> {
+        let now = self.seeded(|p, k| p.position[k]);
+        let before = self.before_plateau.iter();
+        now.iter()
+            .zip(before)
+            .map(|(x, b)| [x[0] - b[0], x[1] - b[1]])
+            .collect()
+    }
+
+    /// Half the width (in B) of the ground that rises while the footing sinks over the plateau: the outermost
+    /// place where the surface rises by half of the most that it does.
+    fn mechanism_width(&self) -> f64 {
+        let spacing = self.discretisation.h / f64::from(self.discretisation.ppc).sqrt();
+        let reference = self.seeded(|p, k| p.reference[k]);
+        let on_surface = |x: &[f64; 2]| x[1] > -0.75 * spacing;
+        let mut surface: Vec<(f64, f64)> = (reference.iter().zip(self.flow()))
+            .filter(|(x, _)| on_surface(x))
+            .map(|(x, u)| (x[0], u[1]))
+            .collect();
+        surface.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let half = 0.5 * surface.iter().map(|(_, u)| *u).fold(0.0, f64::max);
+        surface
+            .windows(2)
+            .rev()
+            .find(|pair| pair[0].1 >= half && pair[1].1 < half)
+            .map_or(f64::NAN, |pair| {
+                let share = (pair[0].1 - half) / (pair[0].1 - pair[1].1);
+                (pair[0].0 + share * (pair[1].0 - pair[0].0)) / WIDTH
+            })
+    }
+
+    /// Mean normal stress as it enters the forces and its average Π, in seeding order.
+    fn mean_stress(&mut self) -> (Vec<f64>, Vec<f64>) {
+        let stress = self.simulation.force_stress();
+        let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
+        let mut averaged = mean.clone();
+        self.simulation.average(&mut averaged);
+        (self.seeded(|_, k| mean[k]), self.seeded(|_, k| averaged[k]))
+    }
+}
+
+/// Particles row by row from the surface down, in columns from the axis of symmetry.
+fn seed(across: usize, down: usize, per_direction: usize, spacing: f64) -> Vec<[f64; 2]> {
+    let coordinate = |k: usize| (k as f64 + 0.5) * spacing;
+    (0..across * per_direction)
+        .flat_map(|i| (0..down * per_direction).map(move |j| [coordinate(i), -coordinate(j)]))
+        .collect()
+}
+
+fn filters(damping: f64) -> Result<Vec<Box<dyn ForceFilter>>, Error> {
+    Ok(if damping > 0.0 {
+        vec![Box::new(LocalDamping::new(damping)?)]
+    } else {
+        Vec::new()
+    })
+}
+
+/// The fixed base, rollers at the sides, and the footing: the nodes on and above the surface, and those of the
+/// splines with nodes at half cells that lie half a cell below, without which the surface would not be rigid.
+fn constraints(parameters: &Parameters, h: f64) -> Vec<Box<dyn Constraint<2>>> {
+    let wall = |axis, end, kind| Box::new(Wall { axis, end, kind });
+    vec![
+        wall(1, End::Lo, WallKind::Fixed),
+        wall(0, End::Lo, WallKind::Roller),
+        wall(0, End::Hi, WallKind::Roller),
+        Box::new(RigidNodes {
+            extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * h, f64::INFINITY]],
+            velocity: [
+                parameters.boolean("rough").then_some(0.0),
+                Some(-parameters.number("penetration_rate")),
+            ],
+            ramp: parameters.number("ramp"),
+        }),
+    ]
+}
+
+impl Job for Simulated {
+    fn discretisation(&self) -> Discretisation {
+        self.discretisation.clone()
+    }
+
+    fn series_columns(&self) -> Vec<&'static str> {
+        vec![
+            "time (s)",
+            "penetration (-)",
+            "footing_force (N/m)",
+            "base_force (N/m)",
+            "pressure_over_strength (-)",
+            "kinetic_energy (J/m)",
+            "stored_energy (J/m)",
+            "stress_work (J/m)",
+            "jacobian_min (-)",
+            "jacobian_max (-)",
+            "log_jacobian_gap_rms (-)",
+        ]
+    }
+
+    fn advance(&mut self) -> Result<Vec<f64>, mpm_core::Error> {
+        let (mut force, mut base, mut time) = (0.0, 0.0, 0.0);
+        for _ in 0..self.steps_per_row {
+            time += self.simulation.time();
+            self.simulation.step()?;
+            force += self.simulation.force_on(FOOTING)[1];
+            base -= self.simulation.force_on(BASE)[1];
+        }
+        let steps = self.steps_per_row as f64;
+        // Forces are those at the start of a step.
+        let row = Row {
+            penetration: self.penetration(time / steps),
+            force: force / steps,
+            base: base / steps,
+        };
+        self.rows.push(row);
+        let reached = self.penetration(self.simulation.time());
+        if self.before_plateau.is_empty() && reached >= (1.0 - PLATEAU) * self.end {
+            self.before_plateau = self.seeded(|p, k| p.position[k]);
+        }
+        let totals = self.simulation.totals();
+        Ok(vec![
+            time / steps,
+            row.penetration,
+            row.force,
+            row.base,
+            self.bearing_factor(row.force, WIDTH),
+            totals.kinetic_energy,
+            totals.stored_energy,
+            totals.accumulated.stress_work,
+            totals.jacobian.0,
+            totals.jacobian.1,
+            totals.log_jacobian_gap_rms,
+        ])
+    }
+
+    fn finished(&self) -> bool {
+        self.progress() >= 1.0
+    }
+
+    fn progress(&self) -> f64 {
+        (self.penetration(self.simulation.time()) / self.end).min(1.0)
+    }
+
+    fn particles(&mut self) -> Vec<Column> {
+        let column = |name, unit, values| Column { name, unit, values };
+        let (mean_stress, averaged) = self.mean_stress();
+        let plastic_strain = self.simulation.plastic_strain();
+        let flow = self.flow();
+        let of = |axis: usize| flow.iter().map(|u| u[axis]).collect();
+        vec![
+            column("x", "m", self.seeded(|p, k| p.position[k][0])),
+            column("y", "m", self.seeded(|p, k| p.position[k][1])),
+            column("reference_x", "m", self.seeded(|p, k| p.reference[k][0])),
+            column("reference_y", "m", self.seeded(|p, k| p.reference[k][1])),
+            column("plateau_ux", "m", of(0)),
+            column("plateau_uy", "m", of(1)),
+            column("mean_stress", "Pa", mean_stress),
+            column("averaged_mean_stress", "Pa", averaged),
+            column(
+                "plastic_strain",
+                "-",
+                self.seeded(|_, k| plastic_strain[k]),
+            ),
+            column("jacobian", "-", self.seeded(|p, k| p.jacobian[k])),
+        ]
+    }
+
+    fn metrics(&mut self) -> BTreeMap<String, Metric> {
+        let (mean_stress, averaged) = self.mean_stress();
+        let totals = self.simulation.totals();
+        let first = (1.0 - PLATEAU) * self.end;
+        let force = self.mean(|r| r.penetration > first, |r| r.force);
+        let base = self.mean(|r| r.penetration > first, |r| r.base);
+        let most = self.rows.iter().map(|r| r.force).fold(0.0, f64::max);
+        let h = self.discretisation.h;
+        let effective = self.bearing_factor(force, self.effective_width);
+        let stress_rms = rms(mean_stress.iter().copied());
+        let board = rms(mean_stress.iter().zip(&averaged).map(|(s, a)| s - a));
+        let mut values = vec![
+            ("nc_b".to_owned(), self.bearing_factor(force, WIDTH)),
+            (
+                "nc_b_plus_h".to_owned(),
+                self.bearing_factor(force, WIDTH + h),
+            ),
+            ("nc_effective".to_owned(), effective),
+            (
+                "prandtl_error".to_owned(),
+                self.bearing_factor(force, WIDTH) / EXACT - 1.0,
+            ),
+            ("nc_peak".to_owned(), self.bearing_factor(most, WIDTH)),
+            ("plateau_rise".to_owned(), self.rise(force)),
+            ("elastic_slope".to_owned(), self.slope()),
+            ("force_imbalance".to_owned(), base / force - 1.0),
+            ("mechanism_width".to_owned(), self.mechanism_width()),
+            ("mean_stress_rms".to_owned(), stress_rms),
+            ("checkerboard_rms".to_owned(), board),
+            ("checkerboard_ratio".to_owned(), board / stress_rms),
+            (
+                "plastic_strain_max".to_owned(),
+                self.simulation
+                    .plastic_strain()
+                    .into_iter()
+                    .fold(0.0, f64::max),
+            ),
+            ("log_jacobian_gap".to_owned(), totals.log_jacobian_gap_rms),
+            ("mass".to_owned(), totals.mass),
+        ];
+        for (name, penetration) in CURVE {
+            let near = |r: &Row| (r.penetration - penetration).abs() <= WINDOW;
+            let force = if penetration + WINDOW <= self.end {
+                self.mean(near, |r| r.force)
+            } else {
+                f64::NAN
+            };
+            values.push(((*name).to_owned(), self.bearing_factor(force, WIDTH)));
+        }
+        values
+            .into_iter()
+            .map(|(name, value)| {
+                let unit = METRICS
+                    .iter()
+                    .find(|m| m.name == name)
+                    .map_or("-", |m| m.unit);
+                let metric = Metric {
+                    value: value.is_finite().then_some(value),
+                    unit: unit.to_owned(),
+                };
+                (name, metric)
+            })
+            .collect()
+    }
+
+    fn work(&self) -> WorkDone {
+        self.simulation.work().into()
+    }
+}
