@@ -125,6 +125,10 @@ impl SymmetricTensor {
     #[must_use]
     #[inline]
     pub fn push_forward(&self, f: &Matrix3<f64>) -> Self {
+        let out_of_plane = [f[(0, 2)], f[(1, 2)], f[(2, 0)], f[(2, 1)]];
+        if self.is_planar() && out_of_plane == [0.0; 4] {
+            return self.push_forward_in_plane(f);
+        }
         let dot = |i: usize, b: [f64; 3]| {
             f[(i, 2)].mul_add(b[2], f[(i, 1)].mul_add(b[1], f[(i, 0)] * b[0]))
         };
@@ -144,6 +148,21 @@ impl SymmetricTensor {
             xy: entry(0, 1),
             yz: entry(1, 2),
             xz: entry(0, 2),
+        }
+    }
+
+    /// The same in plane strain, bit for bit.
+    #[inline]
+    fn push_forward_in_plane(&self, f: &Matrix3<f64>) -> Self {
+        let dot = |i: usize, b: [f64; 2]| f[(i, 1)].mul_add(b[1], f[(i, 0)] * b[0]);
+        let half = |i: usize| [dot(i, [self.xx, self.xy]), dot(i, [self.xy, self.yy])];
+        let (first, second) = (half(0), half(1));
+        Self {
+            xx: dot(0, first),
+            yy: dot(1, second),
+            zz: f[(2, 2)] * (f[(2, 2)] * self.zz),
+            xy: dot(1, first),
+            ..Self::default()
         }
     }
 }

@@ -68,7 +68,12 @@ impl Strength {
 
     /// κ (Pa) at an equivalent plastic strain, and its slope (Pa).
     #[must_use]
+    #[inline]
     pub fn at(&self, plastic_strain: f64) -> (f64, f64) {
+        // Without softening an exponential would be the dearest part of the law.
+        if self.softening == 0.0 {
+            return (self.peak, 0.0);
+        }
         let excess = (self.peak - self.residual) * (-self.softening * plastic_strain).exp();
         (self.residual + excess, -self.softening * excess)
     }
@@ -150,8 +155,9 @@ impl Law for HenckyJ2 {
         let mut state = *state;
         state.elastic = state.elastic.push_forward(delta_f);
         // Flow keeps the volume: the elastic Jacobian is the whole one.
-        let squared_jacobian = state.elastic.determinant();
-        let direction = state.elastic.ln().deviator();
+        let inverse_jacobian = 1.0 / state.elastic.determinant().sqrt();
+        let logarithm = state.elastic.ln();
+        let direction = logarithm.deviator();
         let (norm, mut shear) = (direction.norm(), self.shear_modulus);
         let trial = shear * norm;
         if trial > self.strength.at(state.plastic_strain).0 {
@@ -161,8 +167,7 @@ impl Law for HenckyJ2 {
             state.plastic_strain += (2.0_f64 / 3.0).sqrt() * flow;
             shear -= 2.0 * self.shear_modulus * flow / norm;
         }
-        let inverse_jacobian = 1.0 / squared_jacobian.sqrt();
-        let pressure_part = self.bulk_modulus * 0.5 * squared_jacobian.ln();
+        let pressure_part = 0.5 * self.bulk_modulus * logarithm.trace();
         let stress = direction
             .scale_add_identity(shear * inverse_jacobian, pressure_part * inverse_jacobian);
         (stress, state)
