@@ -18,6 +18,8 @@ use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::sketch::Sketch;
 use simulation::Simulated;
 
+pub(crate) use reference::footing_limit;
+
 /// The strip footing.
 pub(super) struct Footing;
 

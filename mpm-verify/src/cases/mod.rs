@@ -14,6 +14,8 @@ mod mms_wall_pressure;
 mod standing_wave;
 mod vibrating_bar;
 
+pub(crate) use footing::footing_limit;
+
 use crate::case::Case;
 use crate::error::Error;
 

@@ -10,6 +10,7 @@ pub mod diff;
 mod drift;
 #[cfg(test)]
 pub(crate) mod fixture;
+mod footing;
 pub mod history;
 mod html;
 mod junit;
@@ -48,6 +49,7 @@ pub fn write_report(
         match study.case.as_str() {
             "column" => pictures.extend(column::draw(study, gathered, out)?),
             "cook" => pictures.extend(cook::draw(study, gathered, out)?),
+            "footing" => pictures.extend(footing::draw(study, gathered, out)?),
             _ => {}
         }
         pictures.extend(convergence::draw(study, out)?);

@@ -1,15 +1,445 @@
 //! Verdicts on the strip footing. The tolerances are derived in `docs/footing.md`.
 
+use super::reference::{CURVE, EXACT, curve, strength_ratio};
+use super::simulation::effective_width;
 use crate::case::CheckInfo;
-use crate::check::Verdict;
+use crate::check::{Kind, Verdict};
+use crate::order::fit_order;
 use crate::record::Record;
+use crate::scheme::{BasisName, RemedyName};
 
-pub(super) const CHECKS: &[CheckInfo] = &[];
+/// Relative tolerance of the limit load against Prandtl's, by the width that the footing acts with.
+const PRANDTL: f64 = 0.01;
+/// Relative tolerance against finite elements.
+const FEM: f64 = 0.02;
+/// Largest relative growth of a limit load per 10⁻³ of s/B.
+const FLAT: f64 = 0.01;
+/// Largest relative difference of the forces on base and footing.
+const INERTIA: f64 = 0.005;
+/// Largest relative change of the limit load when the rate is halved.
+const RATE: f64 = 0.005;
+/// Least relative excess of a locked load over Prandtl's.
+const LOCKED: f64 = 0.1;
+/// Largest oscillation of a locking-free pressure, rms(σ_m − Πσ_m) / rms σ_m; least one of a locked pressure.
+const BOARD: (f64, f64) = (0.2, 0.5);
+/// Distance (in B, of half the footing's width over which it acts) to which Prandtl's mechanism reaches.
+const MECHANISM: f64 = 1.5;
+/// The order of the contact pressure's error: of its leading part, the width of the footing, less how the
+/// elements' own error lowers it.
+const ORDER: (f64, f64) = (0.85, 1.1);
+/// Penetration over B at which the ground is fully plastic, over s_u/E.
+const PLASTIC: f64 = 20.0;
+/// Largest penetration over B at which the ground has kept its shape.
+const SMALL: f64 = 0.01;
+/// Strength over Young's modulus and penetration beyond which nothing yields.
+const ELASTIC: f64 = 10.0;
 
-pub(super) fn judge(_record: &Record) -> Vec<Verdict> {
-    Vec::new()
+const fn check(name: &'static str, kind: Kind, statement: &'static str) -> CheckInfo {
+    CheckInfo {
+        name,
+        kind,
+        statement,
+    }
 }
 
-pub(super) fn judge_study(_records: &[Record]) -> Vec<Verdict> {
-    Vec::new()
+pub(super) const CHECKS: &[CheckInfo] = &[
+    check(
+        "particle-count",
+        Kind::Truth,
+        "57,600 · (h/(B/20))⁻² particles at two per direction, four times as many at four: the paper's 230,400 at B/20",
+    ),
+    check(
+        "quasi-static",
+        Kind::Truth,
+        "all: the force on the base is that on the footing within 0.5 %, mean over the last quarter of the penetration (linear momentum)",
+    ),
+    check(
+        "prandtl",
+        Kind::Truth,
+        "fbar-rate, fbar-consistent: the limit load by the width that the footing acts with is 2 + π within 1 %",
+    ),
+    check(
+        "fem-plateau",
+        Kind::Truth,
+        "fbar-rate, fbar-consistent: the limit load by B is that of the finite elements within 2 %",
+    ),
+    check(
+        "curve",
+        Kind::Truth,
+        "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B is that of the finite elements within 2 %",
+    ),
+    check(
+        "limit-load",
+        Kind::Truth,
+        "fbar-rate, fbar-consistent: the load grows by less than 1 % per 10⁻³ of s/B over the last quarter of the penetration",
+    ),
+    check(
+        "mechanism",
+        Kind::Truth,
+        "fbar-rate, fbar-consistent: the surface rises out to 1.5 times the width that the footing acts with, within 2h",
+    ),
+    check(
+        "smooth-pressure",
+        Kind::Truth,
+        "fbar-rate, fbar-consistent: rms(σ_m − Πσ_m) below 0.2 rms σ_m",
+    ),
+    check(
+        "elastic-slope",
+        Kind::Truth,
+        "all, of a strength beyond reach: d(q/s_u)/d(s/B) is that of the finite elements within 2 %",
+    ),
+    check(
+        "no-limit-load",
+        Kind::KnownLimit,
+        "none: the load still grows by more than 1 % per 10⁻³ of s/B at the end",
+    ),
+    check(
+        "locked",
+        Kind::KnownLimit,
+        "none: the load exceeds 2 + π by more than a tenth",
+    ),
+    check(
+        "checkerboard",
+        Kind::KnownLimit,
+        "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m",
+    ),
+    check(
+        "rate-independent",
+        Kind::Truth,
+        "fbar-consistent: the limit load changes by less than 0.5 % when the rate is halved",
+    ),
+    check(
+        "rate-dependent",
+        Kind::KnownLimit,
+        "fbar-recursive: the load changes by more than 0.5 % when the rate is halved",
+    ),
+    check(
+        "pressure-order",
+        Kind::Truth,
+        "fbar-rate, fbar-consistent with nodes on grid lines, over three levels: the error of the contact pressure by B falls with an order of 0.85 to 1.1 (the paper's Figure 9: slightly below one)",
+    ),
+];
+
+fn is_free_of_locking(record: &Record) -> bool {
+    matches!(
+        record.remedy,
+        RemedyName::FbarRate | RemedyName::FbarConsistent
+    )
+}
+
+/// Why there is no limit load to compare with, if there is none.
+fn why_no_limit(record: &Record) -> Option<String> {
+    let number = |name| record.parameters.number(name);
+    let ratio = number("undrained_strength") / number("young_modulus");
+    let penetration = number("penetration");
+    if 0.75 * penetration < PLASTIC * ratio {
+        Some(format!(
+            "the ground is fully plastic from s/B = {PLASTIC} s_u/E = {} on only",
+            PLASTIC * ratio
+        ))
+    } else if penetration > SMALL {
+        Some(format!("beyond s/B = {SMALL} the ground changes its shape"))
+    } else {
+        None
+    }
+}
+
+fn is_elastic(record: &Record) -> bool {
+    let number = |name| record.parameters.number(name);
+    number("undrained_strength") > ELASTIC * number("penetration") * number("young_modulus")
+}
+
+pub(super) fn judge(record: &Record) -> Vec<Verdict> {
+    let mut verdicts = Vec::new();
+    count(record, &mut verdicts);
+    slope(record, &mut verdicts);
+    let imbalance = record.metric("force_imbalance");
+    verdicts.push(Verdict::at_most(
+        "quasi-static",
+        Kind::Truth,
+        "force_imbalance",
+        imbalance.abs(),
+        INERTIA,
+        "linear momentum of a body that is pressed slowly",
+    ));
+    match record.remedy {
+        RemedyName::None => locked(record, &mut verdicts),
+        _ if is_free_of_locking(record) => limit(record, &mut verdicts),
+        _ => {}
+    }
+    verdicts
+}
+
+fn count(record: &Record, verdicts: &mut Vec<Verdict>) {
+    let number = |name| record.parameters.number(name);
+    let own = number("domain_width") == 6.0 && number("domain_depth") == 6.0;
+    let per_cell = f64::from(record.discretisation.ppc);
+    let cells = 6.0 / record.discretisation.h;
+    verdicts.push(if own && [4.0, 16.0].contains(&per_cell) {
+        Verdict::close(
+            "particle-count",
+            "particles",
+            record.work.particles as f64,
+            (per_cell * cells * cells).round(),
+            0.0,
+            "Zhao et al. 2022, section 4.2: 230,400 at B/20 with 4 × 4; 57,600 with 2 × 2",
+        )
+    } else {
+        Verdict::not_applicable(
+            "particle-count",
+            "particles",
+            "counted for two or four particles per direction in a domain of 6B × 6B only",
+        )
+    });
+}
+
+fn slope(record: &Record, verdicts: &mut Vec<Verdict>) {
+    let not_applicable =
+        |why: String| Verdict::not_applicable("elastic-slope", "elastic_slope", why);
+    verdicts.push(if !is_elastic(record) {
+        not_applicable("the ground yields: see the runs of great strength".to_owned())
+    } else {
+        match curve(record) {
+            Err(why) => not_applicable(why),
+            Ok(reference) => {
+                let number = |name| record.parameters.number(name);
+                let ratio = number("undrained_strength") / number("young_modulus");
+                let expected = reference.slope * strength_ratio() / ratio;
+                Verdict::close(
+                    "elastic-slope",
+                    "elastic_slope",
+                    record.metric("elastic_slope"),
+                    expected,
+                    FEM * expected,
+                    reference.name,
+                )
+            }
+        }
+    });
+}
+
+fn locked(record: &Record, verdicts: &mut Vec<Verdict>) {
+    if is_elastic(record) {
+        return;
+    }
+    let why = "standard MPM locks: Zhao et al. 2022, Figure 8";
+    if let Some(why) = why_no_limit(record) {
+        verdicts.push(Verdict::not_applicable("locked", "nc_effective", why));
+        return;
+    }
+    let limit = |name, metric: &str, bound| {
+        Verdict::above(
+            name,
+            Kind::KnownLimit,
+            metric,
+            record.metric(metric),
+            bound,
+            why,
+        )
+    };
+    verdicts.push(limit("no-limit-load", "plateau_rise", FLAT));
+    verdicts.push(limit("locked", "nc_effective", (1.0 + LOCKED) * EXACT));
+    if record.basis == BasisName::Gimp {
+        verdicts.push(limit("checkerboard", "checkerboard_ratio", BOARD.1));
+    }
+}
+
+fn limit(record: &Record, verdicts: &mut Vec<Verdict>) {
+    if is_elastic(record) {
+        return;
+    }
+    if let Some(why) = why_no_limit(record) {
+        for (name, metric) in [
+            ("prandtl", "nc_effective"),
+            ("fem-plateau", "nc_b"),
+            ("limit-load", "plateau_rise"),
+            ("mechanism", "mechanism_width"),
+        ] {
+            verdicts.push(Verdict::not_applicable(name, metric, why.clone()));
+        }
+        return;
+    }
+    verdicts.push(Verdict::close(
+        "prandtl",
+        "nc_effective",
+        record.metric("nc_effective"),
+        EXACT,
+        PRANDTL * EXACT,
+        "Prandtl 1920",
+    ));
+    verdicts.push(Verdict::at_most(
+        "limit-load",
+        Kind::Truth,
+        "plateau_rise",
+        record.metric("plateau_rise"),
+        FLAT,
+        "a perfectly plastic body has a limit load",
+    ));
+    verdicts.push(Verdict::at_most(
+        "smooth-pressure",
+        Kind::Truth,
+        "checkerboard_ratio",
+        record.metric("checkerboard_ratio"),
+        BOARD.0,
+        "a pressure that is resolved is close to its average",
+    ));
+    mechanism(record, verdicts);
+    against_elements(record, verdicts);
+}
+
+fn mechanism(record: &Record, verdicts: &mut Vec<Verdict>) {
+    if !record.parameters.boolean("rough") {
+        verdicts.push(Verdict::not_applicable(
+            "mechanism",
+            "mechanism_width",
+            "under a smooth footing Hill's mechanism is another with the same limit load",
+        ));
+        return;
+    }
+    let h = record.discretisation.h;
+    verdicts.push(Verdict::close(
+        "mechanism",
+        "mechanism_width",
+        record.metric("mechanism_width"),
+        MECHANISM * effective_width(record.basis, h),
+        2.0 * h,
+        "Prandtl's mechanism; a jump of velocity is smeared over a cell on either side",
+    ));
+}
+
+fn against_elements(record: &Record, verdicts: &mut Vec<Verdict>) {
+    match curve(record) {
+        Err(why) => {
+            verdicts.push(Verdict::not_applicable("fem-plateau", "nc_b", why.clone()));
+            verdicts.push(Verdict::not_applicable("curve", "nc_0.001", why));
+        }
+        Ok(reference) => {
+            verdicts.push(Verdict::close(
+                "fem-plateau",
+                "nc_b",
+                record.metric("nc_b"),
+                reference.limit,
+                FEM * reference.limit,
+                reference.name.clone(),
+            ));
+            let number = |name| record.parameters.number(name);
+            let ratio = number("undrained_strength") / number("young_modulus");
+            if (ratio / strength_ratio() - 1.0).abs() > 1e-9 {
+                verdicts.push(Verdict::not_applicable(
+                    "curve",
+                    "nc_0.001",
+                    format!("the curve is for s_u/E = {}", strength_ratio()),
+                ));
+                return;
+            }
+            for (metric, penetration) in CURVE {
+                let Some(expected) = reference.at(*penetration) else {
+                    continue;
+                };
+                let value = record.metric(metric);
+                verdicts.push(if value.is_nan() {
+                    Verdict::not_applicable("curve", metric, "the run ends before")
+                } else {
+                    Verdict::close(
+                        "curve",
+                        metric,
+                        value,
+                        expected,
+                        FEM * expected,
+                        reference.name.clone(),
+                    )
+                });
+            }
+        }
+    }
+}
+
+pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
+    let mut verdicts = rates(records);
+    verdicts.extend(orders(records));
+    verdicts
+}
+
+/// The same run at half the rate.
+fn halved<'a>(records: &'a [Record], run: &Record) -> Option<&'a Record> {
+    let rate = |r: &Record| r.parameters.number("penetration_rate");
+    records.iter().find(|r| {
+        let others = |r: &Record| {
+            let mut set = r.set.clone();
+            set.retain(|s| !s.starts_with("penetration_rate="));
+            set
+        };
+        r.scheme() == run.scheme()
+            && r.level == run.level
+            && others(r) == others(run)
+            && (rate(r) / rate(run) - 0.5).abs() < 1e-9
+    })
+}
+
+/// What halving the rate does to the limit load.
+fn rates(records: &[Record]) -> Vec<Verdict> {
+    let mut verdicts = Vec::new();
+    for run in records.iter().filter(|r| !is_elastic(r)) {
+        let Some(slower) = halved(records, run) else {
+            continue;
+        };
+        let change = (slower.metric("nc_b") / run.metric("nc_b") - 1.0).abs();
+        let rate = run.parameters.number("penetration_rate");
+        let what = format!(
+            "{} {} from {rate} m/s to half of it",
+            run.scheme(),
+            run.level
+        );
+        match run.remedy {
+            // Faster ones ring: they are there to show it.
+            RemedyName::FbarConsistent if run.is_default() => verdicts.push(Verdict::at_most(
+                "rate-independent",
+                Kind::Truth,
+                "nc_b",
+                change,
+                RATE,
+                format!("a rate-independent law, pressed slowly: {what}"),
+            )),
+            RemedyName::FbarRecursive if run.is_default() => verdicts.push(Verdict::above(
+                "rate-dependent",
+                Kind::KnownLimit,
+                "nc_b",
+                change,
+                RATE,
+                format!("Eq. (26) averages the average and so diffuses J̄ in time: {what}"),
+            )),
+            _ => {}
+        }
+    }
+    verdicts
+}
+
+/// The order of the contact pressure's error by B, over runs of the case's own parameters.
+fn orders(records: &[Record]) -> Vec<Verdict> {
+    let mut verdicts = Vec::new();
+    let schemes = crate::distinct(records.iter().map(Record::scheme));
+    for scheme in schemes {
+        let mut points: Vec<(f64, f64)> = records
+            .iter()
+            .filter(|r| r.scheme() == scheme && r.is_default() && is_free_of_locking(r))
+            .filter(|r| effective_width(r.basis, r.discretisation.h) > 1.0)
+            .map(|r| (r.discretisation.h, r.metric("prandtl_error")))
+            .collect();
+        points.sort_by(|a, b| b.0.total_cmp(&a.0));
+        if points.len() < 3 {
+            continue;
+        }
+        let (least, most) = ORDER;
+        let middle = 0.5 * (least + most);
+        let order = fit_order(&points).map_or(f64::NAN, |o| o.order);
+        verdicts.push(Verdict::close(
+            "pressure-order",
+            "prandtl_error",
+            order,
+            middle,
+            0.5 * (most - least),
+            format!("{scheme}: the error is the footing's excess width h/B, to first order"),
+        ));
+    }
+    verdicts
 }

@@ -1,0 +1,330 @@
+//! The pictures of the strip footing: the paper's Figures 8 and 10, and Prandtl's mechanism.
+
+use super::Picture;
+use super::plot::{
+    Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Scale, Series, draw_charts,
+    draw_fields, share_ranges,
+};
+use super::style::{Colour, series};
+use crate::cases::footing_limit;
+use crate::error::Error;
+use crate::files::write_csv;
+use crate::record::{Record, Status};
+use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::study::{CaseStudy, Gathered};
+use crate::table::Table;
+use std::path::Path;
+
+const BASES: [(BasisName, &str); 2] = [
+    (BasisName::Gimp, "GIMP"),
+    (BasisName::Bspline2, "quadratic B-splines"),
+];
+const REMEDIES: [RemedyName; 4] = [
+    RemedyName::None,
+    RemedyName::FbarRecursive,
+    RemedyName::FbarRate,
+    RemedyName::FbarConsistent,
+];
+/// Finest first.
+const LEVELS: [&str; 4] = ["b80", "b40", "b20", "b10"];
+/// Largest pressure over strength drawn.
+const MOST: f64 = 12.0;
+/// What is drawn of the ground (m): so far to the right and down.
+const NEAR: (f64, f64) = (2.5, 2.0);
+/// The mean normal stress (kPa) is drawn from this to zero.
+const LEAST_STRESS: f64 = -0.6;
+/// Decimal logarithm of the plastic strains drawn.
+const STRAINS: (f64, f64) = (-5.0, -2.0);
+/// The footing (m).
+const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.08), (0.0, 0.08)];
+
+struct Runs<'a> {
+    records: Vec<&'a Record>,
+    gathered: &'a Gathered,
+    out: &'a Path,
+    pictures: Vec<Picture>,
+}
+
+/// Draws everything there are runs for.
+pub(super) fn draw(
+    study: &CaseStudy,
+    gathered: &Gathered,
+    out: &Path,
+) -> Result<Vec<Picture>, Error> {
+    let mut runs = Runs {
+        records: study
+            .records
+            .iter()
+            .filter(|r| r.status == Status::Ok && r.is_default())
+            .collect(),
+        gathered,
+        out,
+        pictures: Vec::new(),
+    };
+    runs.curves()?;
+    for (basis, title) in BASES {
+        runs.mean_stress(basis, title)?;
+        runs.mechanism(basis, title)?;
+    }
+    Ok(runs.pictures)
+}
+
+impl Runs<'_> {
+    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
+        self.records
+            .iter()
+            .find(|r| r.basis == basis && r.remedy == remedy && r.level == level)
+            .copied()
+    }
+
+    /// The finest level that all `remedies` have run with.
+    fn finest(&self, basis: BasisName, remedies: &[RemedyName]) -> Option<&'static str> {
+        let there = |level: &&str| {
+            let run = |&remedy: &RemedyName| self.find(basis, remedy, level).is_some();
+            remedies.iter().all(run)
+        };
+        LEVELS.into_iter().find(there)
+    }
+
+    fn table(&self, record: &Record, file: &str) -> Result<Table, Error> {
+        Table::read(&self.gathered.folder(record)?.join(file))
+    }
+
+    fn curve(&self, record: &Record) -> Result<Vec<(f64, f64)>, Error> {
+        let table = self.table(record, "series.csv")?;
+        let points = table.points("penetration", "pressure_over_strength");
+        // What rings at the start is inertia, and would hide the elastic branch.
+        Ok(points
+            .into_iter()
+            .map(|(s, q)| (1e3 * s, q))
+            .filter(|(_, q)| *q <= MOST)
+            .collect())
+    }
+
+    /// Above: standard and consistent at all levels. Below: all remedies at one.
+    fn curves(&mut self) -> Result<(), Error> {
+        let (mut all_levels, mut all_remedies) = (Vec::new(), Vec::new());
+        for (basis, title) in BASES {
+            let mut curves = Vec::new();
+            for (colour, level) in LEVELS.into_iter().enumerate() {
+                for (remedy, dash) in [
+                    (RemedyName::None, Dash::Dotted),
+                    (RemedyName::FbarConsistent, Dash::Solid),
+                ] {
+                    let points = match self.find(basis, remedy, level) {
+                        Some(record) => self.curve(record)?,
+                        None => Vec::new(),
+                    };
+                    curves.push(Series {
+                        name: format!("{remedy} B/{}", &level[1..]),
+                        points,
+                        colour,
+                        marker: Marker::None,
+                        dash,
+                    });
+                }
+            }
+            all_levels.push(self.chart(title.to_owned(), curves));
+            let Some(level) = self.finest(basis, &REMEDIES) else {
+                continue;
+            };
+            let mut curves = Vec::new();
+            for remedy in REMEDIES {
+                if let Some(record) = self.find(basis, remedy, level) {
+                    let points = self.curve(record)?;
+                    let mut curve = series(Scheme::flip(basis, remedy), points, Colour::Remedy);
+                    curve.name = remedy.to_string();
+                    curves.push(curve);
+                }
+            }
+            let title = format!("{title}, h = B/{}", &level[1..]);
+            all_remedies.push(self.chart(title, curves));
+        }
+        let mut charts = all_levels;
+        // A curve that no basis has needs no entry in the legend.
+        for k in (0..2 * LEVELS.len()).rev() {
+            if charts.iter().all(|c| c.series[k].points.is_empty()) {
+                for chart in &mut charts {
+                    chart.series.remove(k);
+                }
+            }
+        }
+        charts.extend(all_remedies);
+        charts.retain(Chart::shows_something);
+        if charts.is_empty() {
+            return Ok(());
+        }
+        let path = self.out.join("footing/load-settlement.png");
+        share_ranges(&path, &mut charts)?;
+        self.write_curves(&charts)?;
+        draw_charts(&path, &charts, 2)?;
+        self.picture(
+            "load-settlement",
+            "Pressure over undrained strength against penetration over the footing's width: above, standard MPM (dotted) and fbar-consistent (full) at all levels; below, all remedies at one level; with Prandtl's limit load and the finite elements of vanishing size. The paper's Figure 8.",
+        );
+        Ok(())
+    }
+
+    fn chart(&self, title: String, mut curves: Vec<Series>) -> Chart {
+        curves.push(Series {
+            name: "finite elements, h → 0".to_owned(),
+            points: (footing_limit().into_iter())
+                .map(|(s, q)| (1e3 * s, q))
+                .filter(|(s, _)| *s <= 4.0)
+                .collect(),
+            colour: 7,
+            marker: Marker::Circle,
+            dash: Dash::Dashed,
+        });
+        Chart {
+            title,
+            x_label: "s/B (10⁻³)".to_owned(),
+            y_label: "q / s_u".to_owned(),
+            x_scale: Scale::Linear,
+            y_scale: Scale::Linear,
+            series: curves,
+            reference_lines: vec![ReferenceLine {
+                name: "2 + π".to_owned(),
+                value: 2.0 + std::f64::consts::PI,
+                band: None,
+            }],
+            slope_triangle: None,
+            x_range: None,
+            y_range: Some((0.0, MOST)),
+        }
+    }
+
+    fn write_curves(&self, charts: &[Chart]) -> Result<(), Error> {
+        let rows = charts.iter().flat_map(|chart| {
+            chart.series.iter().flat_map(move |s| {
+                s.points.iter().map(move |(x, y)| {
+                    let cells = [chart.title.clone(), s.name.clone()];
+                    let numbers = [format!("{x:.6}"), format!("{y:.6}")];
+                    [cells, numbers].concat()
+                })
+            })
+        });
+        let header = ["chart", "series", "s/B (1e-3)", "q/s_u (-)"].map(str::to_owned);
+        write_csv(
+            &self.out.join("footing/load-settlement.csv"),
+            &header,
+            rows,
+        )
+    }
+
+    fn picture(&mut self, name: &str, caption: &str) {
+        self.pictures.push(Picture {
+            file: format!("footing/{name}.png"),
+            caption: caption.to_owned(),
+        });
+    }
+
+    fn panel(
+        &self,
+        record: &Record,
+        title: String,
+        value: impl Fn(&Table, usize) -> f64,
+    ) -> Result<FieldPanel, Error> {
+        let table = self.table(record, "particles.csv")?;
+        let near = |(x, y): &(f64, f64)| *x <= NEAR.0 && *y >= -NEAR.1;
+        let kept: Vec<(usize, (f64, f64))> = (table.points("reference_x", "reference_y"))
+            .into_iter()
+            .enumerate()
+            .filter(|(_, x)| near(x))
+            .collect();
+        Ok(FieldPanel {
+            title,
+            values: kept.iter().map(|(k, _)| value(&table, *k)).collect(),
+            points: kept.into_iter().map(|(_, x)| x).collect(),
+            size: record.discretisation.h / f64::from(record.discretisation.ppc).sqrt(),
+            outline: OUTLINE.to_vec(),
+        })
+    }
+
+    fn fields(
+        &mut self,
+        name: &str,
+        (title, caption): (String, &str),
+        panels: Vec<FieldPanel>,
+        (range, label): ((f64, f64), &str),
+    ) -> Result<(), Error> {
+        draw_fields(
+            &self.out.join(format!("footing/{name}.png")),
+            &FieldFigure {
+                title,
+                panels,
+                columns: 2,
+                range,
+                label: label.to_owned(),
+                x_label: "x (m)".to_owned(),
+                y_label: "y (m)".to_owned(),
+            },
+        )?;
+        self.picture(name, caption);
+        Ok(())
+    }
+
+    fn mean_stress(&mut self, basis: BasisName, of: &str) -> Result<(), Error> {
+        let remedies = [RemedyName::None, RemedyName::FbarConsistent];
+        let Some(level) = self.finest(basis, &remedies) else {
+            return Ok(());
+        };
+        let mut panels = Vec::new();
+        for remedy in remedies {
+            if let Some(record) = self.find(basis, remedy, level) {
+                let title = match remedy {
+                    RemedyName::None => "standard".to_owned(),
+                    _ => remedy.to_string(),
+                };
+                panels.push(self.panel(record, title, |table, k| {
+                    1e-3 * table.column("mean_stress")[k]
+                })?);
+            }
+        }
+        self.fields(
+            &format!("mean-stress-{basis}"),
+            (
+                format!("{of}, h = B/{}", &level[1..]),
+                &format!("Mean normal stress at the end with {of}: standard MPM against F̄. The paper's Figure 10 (data: particles.csv of each run)."),
+            ),
+            panels,
+            ((LEAST_STRESS, 0.0), "mean normal stress (kPa)"),
+        )
+    }
+
+    /// Velocity while the load stands still, and plastic strain.
+    fn mechanism(&mut self, basis: BasisName, of: &str) -> Result<(), Error> {
+        let remedy = RemedyName::FbarConsistent;
+        let Some(level) = self.finest(basis, &[remedy]) else {
+            return Ok(());
+        };
+        let Some(record) = self.find(basis, remedy, level) else {
+            return Ok(());
+        };
+        let stroke = 0.25 * record.parameters.number("penetration");
+        let speed = |table: &Table, k: usize| {
+            table.column("plateau_ux")[k].hypot(table.column("plateau_uy")[k]) / stroke
+        };
+        let strain = |table: &Table, k: usize| table.column("plastic_strain")[k].log10();
+        let velocity = self.panel(record, format!("{of}, h = B/{}", &level[1..]), speed)?;
+        let plastic = self.panel(record, format!("{of}, h = B/{}", &level[1..]), strain)?;
+        self.fields(
+            &format!("velocity-{basis}"),
+            (
+                "Prandtl's mechanism".to_owned(),
+                &format!("Displacement over the last quarter of the penetration over that of the footing, {remedy}, {of}: a wedge that sinks with the footing, a fan, a wedge that is pushed up, and ground at rest."),
+            ),
+            vec![velocity],
+            ((0.0, 1.5), "|u| / |u of the footing|"),
+        )?;
+        self.fields(
+            &format!("plastic-strain-{basis}"),
+            (
+                "Where the ground has yielded".to_owned(),
+                &format!("Equivalent plastic strain at the end, {remedy}, {of}: the bands along which Prandtl's wedges slide."),
+            ),
+            vec![plastic],
+            (STRAINS, "log₁₀ of the equivalent plastic strain"),
+        )
+    }
+}
