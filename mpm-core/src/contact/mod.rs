@@ -134,3 +134,64 @@ impl<const D: usize> RigidContact<D> {
 fn difference<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D] {
     std::array::from_fn(|k| a[k] - b[k])
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+    use crate::stage::End;
+
+    /// Two particles at gaps of 0.5 and 0.9 from a floor of reach 1, which have moved along it by 0.1 and 0.2.
+    fn touching() -> (RigidContact<2>, Particles<2>) {
+        let face = RigidFace::half_space(1, End::Lo, 0.0).unwrap();
+        let barrier = Barrier::new(7.0, 1.0).unwrap();
+        let mut contact =
+            RigidContact::new(face, barrier).with_friction(Friction::rough(10.0).unwrap());
+        let positions = vec![[0.0, 0.5], [1.0, 0.9]];
+        let mut particles = Particles::new(positions, 1.0, 1.0, [0.1; 2]).unwrap();
+        particles.increment = vec![[0.1, 9.0], [0.2, 9.0]];
+        contact.attach(2);
+        (contact, particles)
+    }
+
+    fn forces(contact: &mut RigidContact<2>, particles: &mut Particles<2>) -> Vec<[f64; 2]> {
+        particles.external_force.fill([0.0; 2]);
+        contact.add(0.0, 0.1, particles);
+        particles.external_force.clone()
+    }
+
+    #[test]
+    fn sticks_remember_their_particle_when_particles_are_sorted() {
+        let (mut contact, mut particles) = touching();
+        let before = forces(&mut contact, &mut particles);
+        assert_eq!((before[0][0], before[1][0]), (-1.0, -2.0));
+        particles.permute(&[1, 0]);
+        particles.increment.fill([0.0; 2]);
+        let after = forces(&mut contact, &mut particles);
+        assert_eq!((after[0], after[1]), (before[1], before[0]));
+    }
+
+    #[test]
+    fn an_open_gap_forgets_the_stick() {
+        let (mut contact, mut particles) = touching();
+        forces(&mut contact, &mut particles);
+        particles.position[0][1] = 1.0;
+        assert_eq!(forces(&mut contact, &mut particles)[0], [0.0; 2]);
+        particles.position[0][1] = 0.5;
+        particles.increment.fill([0.0; 2]);
+        let after = forces(&mut contact, &mut particles);
+        assert_eq!((after[0][0], after[1][0]), (0.0, -4.0));
+    }
+
+    #[test]
+    fn the_stiffest_is_named_with_what_it_feels() {
+        let (mut contact, mut particles) = touching();
+        let stiffest = contact.add(0.0, 0.1, &mut particles);
+        assert_eq!(stiffest.particle, 0);
+        assert_eq!(stiffest.ratio, contact.barrier.stiffness(0.5));
+        particles.mass[1] = 1e-3;
+        let stiffest = contact.add(0.0, 0.1, &mut particles);
+        assert_eq!(stiffest.particle, 1);
+        assert_eq!(stiffest.ratio, 10.0 / 1e-3);
+    }
+}
