@@ -31,11 +31,14 @@ pub enum Fault {
     /// The time step exceeds what the wave and particle speeds allow.
     #[error("time step is unstable: CFL number {cfl} exceeds {limit}")]
     UnstableTimeStep {
-        /// (c + |v|) Δt / h of the particle.
+        /// (c + |v|) Δt / h of the particle; where a contact is too stiff, [`crate::solver::contact_cfl`].
         cfl: f64,
         /// The largest admissible value.
         limit: f64,
     },
+    /// The particle would enter a rigid body: its gap (m) is no longer positive.
+    #[error("gap to a rigid body closes: {0} m")]
+    GapClosed(f64),
 }
 
 impl Fault {
@@ -47,6 +50,7 @@ impl Fault {
             Self::NonPositiveJacobian(_) => "non-positive-jacobian",
             Self::OffGrid { .. } => "off-grid",
             Self::UnstableTimeStep { .. } => "unstable-time-step",
+            Self::GapClosed(_) => "gap-closed",
         }
     }
 
@@ -56,6 +60,7 @@ impl Fault {
         match *self {
             Self::NotFinite { value, .. } | Self::OffGrid { value, .. } => value,
             Self::NonPositiveJacobian(j) => j,
+            Self::GapClosed(gap) => gap,
             Self::UnstableTimeStep { cfl, .. } => cfl,
         }
     }

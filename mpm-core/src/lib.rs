@@ -10,12 +10,14 @@
 //! * [`material`]: constitutive laws, pure functions in three dimensions;
 //! * [`remedy`]: how the averaged Jacobian J̄ is formed;
 //! * [`stage`]: loads, force filters, constraints and particle filters that a scene may have;
+//! * [`contact`]: barrier contact with rigid bodies, with friction;
 //! * [`monitor`]: mass, momentum, the energy budget, J and ln(J/J̄).
 //!
 //! All quantities are in SI units. The dimension is a const generic: 1 (uniaxial strain),
 //! 2 (plane strain) or 3.
 
 pub mod basis;
+pub mod contact;
 pub mod error;
 pub mod grid;
 pub mod lattice;

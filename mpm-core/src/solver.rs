@@ -1,6 +1,11 @@
 //! The explicit step (update stress last), Sections 2.2 and 3.3 of the paper.
 
+mod contact;
+
+pub use contact::contact_cfl;
+
 use crate::basis::{Basis, WallTreatment};
+use crate::contact::RigidContact;
 use crate::error::{Error, Fault, require};
 use crate::grid::Grid;
 use crate::lattice::Lattice;
@@ -38,6 +43,8 @@ pub struct Scene<const D: usize, M: Law, T = Flip> {
     pub remedy: Box<dyn Remedy<D>>,
     /// Loads.
     pub loads: Vec<Box<dyn Load<D>>>,
+    /// Contacts with rigid bodies.
+    pub contacts: Vec<RigidContact<D>>,
     /// Filters of nodal forces.
     pub force_filters: Vec<Box<dyn ForceFilter>>,
     /// Constraints.
@@ -73,6 +80,9 @@ pub trait Simulation<const D: usize>: Send {
     /// The force of the body on the constraint with this place in the scene's list in the last step (N):
     /// the nodal forces at the components that it holds. NaN of a constraint that there isn't.
     fn force_on(&self, constraint: usize) -> [f64; 3];
+    /// The force of the body on the rigid body of the contact with this place in the scene's list in the last step
+    /// (N). NaN of a contact that there isn't.
+    fn reaction(&self, contact: usize) -> [f64; 3];
     /// What the run did so far.
     fn work(&self) -> Work;
     /// Replaces `field` (one value per particle) by its average Π `field`.
@@ -136,6 +146,7 @@ impl<const D: usize, M: Law, T> Scene<D, M, T> {
             particles: self.particles,
             remedy: self.remedy,
             loads: self.loads,
+            contacts: self.contacts,
             force_filters: self.force_filters,
             constraints: self.constraints,
             particle_filters: self.particle_filters,
@@ -149,7 +160,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     ///
     /// # Errors
     /// A time step or particle of the scene that is not allowed; a particle off the grid; a
-    /// time step beyond the CFL limit.
+    /// time step beyond the CFL limit; a particle in a rigid body.
     pub fn new(mut scene: Scene<D, M, T>) -> Result<Self, Error> {
         require(scene.dt > 0.0, "time step", scene.dt, "positive (s)")?;
         for l in scene.particles.half_size.iter().flatten() {
@@ -198,6 +209,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             scene,
         };
         solver.check_positions()?;
+        solver.attach_contacts()?;
         // The initial F has been there for ever: no rate.
         solver.update_stress(f64::INFINITY);
         solver.declare_constraints();
@@ -260,7 +272,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn apply_loads(&mut self) {
-        if self.scene.loads.is_empty() {
+        if self.scene.loads.is_empty() && self.scene.contacts.is_empty() {
             return;
         }
         self.scene.particles.external_force.fill([0.0; D]);
@@ -608,6 +620,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
 {
     fn step(&mut self) -> Result<(), Error> {
         self.apply_loads();
+        self.apply_contacts()?;
         self.adjust_stress();
         self.particles_to_grid();
         self.move_constraints();
@@ -615,6 +628,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.grid_to_particles()?;
         self.average_volume_change();
         self.update_stress(self.scene.dt);
+        self.keep_gaps_open(self.time + self.scene.dt)?;
         self.move_particles()?;
         self.filter_particles();
         self.time += self.scene.dt;
@@ -646,6 +660,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
 
     fn force_on(&self, constraint: usize) -> [f64; 3] {
         self.held.get(constraint).map_or([f64::NAN; 3], |h| h.force)
+    }
+
+    fn reaction(&self, contact: usize) -> [f64; 3] {
+        let contact = self.scene.contacts.get(contact);
+        contact.map_or([f64::NAN; 3], RigidContact::reaction)
     }
 
     fn work(&self) -> Work {

@@ -53,6 +53,7 @@ fn pressed<const S: usize, B: Basis<S> + 'static>(
         particles,
         remedy: Box::new(Standard),
         loads: Vec::new(),
+        contacts: Vec::new(),
         force_filters: Vec::new(),
         constraints: vec![
             wall(1, End::Lo, base),

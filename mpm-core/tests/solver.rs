@@ -70,6 +70,7 @@ fn scene_with<const D: usize, T>(
         particles,
         remedy: Box::new(Standard),
         loads: Vec::new(),
+        contacts: Vec::new(),
         force_filters: Vec::new(),
         constraints: Vec::new(),
         particle_filters: Vec::new(),

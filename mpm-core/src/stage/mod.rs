@@ -71,6 +71,20 @@ pub trait ParticleFilter<const D: usize>: Send {
     fn filter(&mut self, nodal_kinetic_energy: f64, particles: &mut Particles<D>) -> f64;
 }
 
+/// The integral of [`smooth_rise`] since time zero (s): `ramp` (s³ − s⁴/2), s = time/ramp, then `time − ramp/2`; zero
+/// before.
+#[must_use]
+pub fn smooth_stroke(time: f64, ramp: f64) -> f64 {
+    if time <= 0.0 {
+        return 0.0;
+    }
+    if time >= ramp {
+        return time - 0.5 * ramp;
+    }
+    let s = time / ramp;
+    ramp * s * s * s * (1.0 - 0.5 * s)
+}
+
 /// Rises from zero at time zero to one at `ramp` (s) as 3 s² − 2 s³, s = time/ramp; one after it.
 #[must_use]
 pub fn smooth_rise(time: f64, ramp: f64) -> f64 {

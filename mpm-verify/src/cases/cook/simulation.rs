@@ -166,6 +166,7 @@ impl Simulated {
                 particles,
                 remedy: spec.scheme.remedy.build(),
                 loads,
+                contacts: Vec::new(),
                 force_filters,
                 constraints: vec![Box::new(Wall {
                     axis: 0,

@@ -196,6 +196,7 @@ impl<const D: usize> Setting<D> {
             particles: self.particles,
             remedy: self.remedy,
             loads: self.loads,
+            contacts: Vec::new(),
             force_filters: Vec::new(),
             constraints: self.constraints,
             particle_filters: Vec::new(),

@@ -1,0 +1,214 @@
+//! The barrier between a particle and a rigid body.
+
+use crate::error::{Error, require};
+
+/// The barrier energy B(d) = −κ (d − d̂)² ln(d/d̂) of a particle at the gap d < d̂ from a body, zero beyond d̂
+/// (Li et al. 2020, doi 10.1145/3386569.3392425): twice continuously differentiable, and without bound as the gap
+/// closes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Barrier {
+    stiffness: f64,
+    distance: f64,
+}
+
+/// Steps of Newton's method that no force needs: they double the digits once the gap is near.
+const NEWTON_STEPS: usize = 64;
+
+impl Barrier {
+    /// The barrier of stiffness κ = `stiffness` (N/m; per metre of depth in plane strain) that begins at the gap
+    /// d̂ = `distance` (m).
+    ///
+    /// # Errors
+    /// A stiffness or distance that is not positive and finite.
+    pub fn new(stiffness: f64, distance: f64) -> Result<Self, Error> {
+        require(
+            stiffness > 0.0,
+            "barrier stiffness",
+            stiffness,
+            "positive (N/m)",
+        )?;
+        require(distance > 0.0, "barrier distance", distance, "positive (m)")?;
+        Ok(Self {
+            stiffness,
+            distance,
+        })
+    }
+
+    /// The barrier that carries `force` (N) at half of its `distance` d̂ (m).
+    ///
+    /// # Errors
+    /// A force or distance that is not positive and finite.
+    pub fn carrying(force: f64, distance: f64) -> Result<Self, Error> {
+        Self::carrying_at(force, 0.5 * distance, distance)
+    }
+
+    /// The barrier that carries `force` (N) at the gap `gap` (m) of its `distance` d̂ (m): it gives way by
+    /// `distance − gap` under that force.
+    ///
+    /// # Errors
+    /// A force or distance that is not positive and finite, a gap outside (0, d̂).
+    pub fn carrying_at(force: f64, gap: f64, distance: f64) -> Result<Self, Error> {
+        require(force > 0.0, "force on a barrier", force, "positive (N)")?;
+        require(
+            gap > 0.0 && gap < distance,
+            "gap of a barrier",
+            gap,
+            "positive and less than the barrier's distance (m)",
+        )?;
+        Self::new(force / Self::new(1.0, distance)?.force(gap), distance)
+    }
+
+    /// Gap d̂ (m) at which the barrier begins.
+    #[must_use]
+    pub fn distance(&self) -> f64 {
+        self.distance
+    }
+
+    /// Energy B (J) at the gap `gap` (m); infinite at a closed one.
+    #[must_use]
+    pub fn energy(&self, gap: f64) -> f64 {
+        self.within(gap, |x| {
+            let d = self.distance * (1.0 - x);
+            -self.stiffness * d * d * x.ln()
+        })
+    }
+
+    /// Force −B′ (N) that pushes the particle away, at the gap `gap` (m); infinite at a closed one.
+    #[must_use]
+    pub fn force(&self, gap: f64) -> f64 {
+        self.within(gap, |x| self.stiffness * self.distance * scaled_force(x))
+    }
+
+    /// Stiffness B″ (N/m) at the gap `gap` (m); infinite at a closed one.
+    #[must_use]
+    pub fn stiffness(&self, gap: f64) -> f64 {
+        self.within(gap, |x| self.stiffness * scaled_stiffness(x))
+    }
+
+    /// The gap (m) at which the barrier carries `force` (N), the inverse of [`Self::force`]; d̂ for none.
+    #[must_use]
+    pub fn gap(&self, force: f64) -> f64 {
+        let sought = force / (self.stiffness * self.distance);
+        if sought <= 0.0 {
+            return self.distance;
+        }
+        // The force falls and is convex, so from a smaller gap Newton's steps only grow towards the root. Both
+        // starts are smaller: φ ≥ 3 (1 − x)² and φ ≥ 1/x − 2.
+        let mut x = (1.0 - (sought / 3.0).sqrt()).max(1.0 / (sought + 2.0));
+        for _ in 0..NEWTON_STEPS {
+            let step = (scaled_force(x) - sought) / scaled_stiffness(x);
+            if step <= f64::EPSILON * x {
+                break;
+            }
+            x += step;
+        }
+        self.distance * x
+    }
+
+    /// `value` of x = d/d̂ in (0, 1); infinity at a closed gap and zero beyond d̂.
+    fn within(&self, gap: f64, value: impl Fn(f64) -> f64) -> f64 {
+        if gap <= 0.0 {
+            f64::INFINITY
+        } else if gap < self.distance {
+            value(gap / self.distance)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// φ(x) = −B′/(κ d̂).
+fn scaled_force(x: f64) -> f64 {
+    let closed = 1.0 - x;
+    closed * (closed / x - 2.0 * x.ln())
+}
+
+/// −φ′(x) = B″/κ.
+fn scaled_stiffness(x: f64) -> f64 {
+    (1.0 - x) * (1.0 + 3.0 * x) / (x * x) - 2.0 * x.ln()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+
+    const DISTANCE: f64 = 0.0125;
+
+    fn barrier() -> Barrier {
+        Barrier::new(900.0, DISTANCE).unwrap()
+    }
+
+    /// Central differences of step s: truncation s²/6 times the third derivative, here below 3e-7 of the value for
+    /// gaps from a tenth of d̂; rounding ε/s is less.
+    #[test]
+    fn force_and_stiffness_are_derivatives_of_the_energy() {
+        let (b, s) = (barrier(), 1e-5 * DISTANCE);
+        for k in 1..100 {
+            let d = DISTANCE * (0.1 + 0.009 * f64::from(k));
+            let slope = |f: &dyn Fn(f64) -> f64| (f(d + s) - f(d - s)) / (2.0 * s);
+            let (force, stiffness) = (-slope(&|d| b.energy(d)), -slope(&|d| b.force(d)));
+            assert!((force / b.force(d) - 1.0).abs() < 1e-6, "{d}");
+            assert!((stiffness / b.stiffness(d) - 1.0).abs() < 1e-6, "{d}");
+        }
+    }
+
+    /// Near d̂, with c = 1 − d/d̂: B ≈ κ d̂² c³, −B′ ≈ 3 κ d̂ c², B″ ≈ 6 κ c.
+    #[test]
+    fn it_begins_smoothly_at_its_distance() {
+        let b = barrier();
+        for d in [DISTANCE, 1.1 * DISTANCE, f64::INFINITY] {
+            assert_eq!((b.energy(d), b.force(d), b.stiffness(d)), (0.0, 0.0, 0.0));
+        }
+        let closed = 1e-6;
+        let d = DISTANCE * (1.0 - closed);
+        let near = |value: f64, limit: f64| (value / limit - 1.0).abs() < 1e-5;
+        assert!(near(b.energy(d), 900.0 * DISTANCE.powi(2) * closed.powi(3)));
+        assert!(near(b.force(d), 2700.0 * DISTANCE * closed.powi(2)));
+        assert!(near(b.stiffness(d), 5400.0 * closed));
+    }
+
+    #[test]
+    fn it_has_no_bound_at_a_closed_gap() {
+        let b = barrier();
+        for d in [0.0, -1.0] {
+            assert_eq!(b.energy(d), f64::INFINITY);
+            assert_eq!(b.force(d), f64::INFINITY);
+            assert_eq!(b.stiffness(d), f64::INFINITY);
+        }
+        assert!(b.force(1e-300) > 1e290);
+    }
+
+    /// The gap is found to a rounding of itself, so the force to that times its logarithmic slope d B″/(−B′),
+    /// 2/c near d̂.
+    #[test]
+    fn the_gap_is_where_the_force_is_carried() {
+        let b = barrier();
+        assert_eq!(b.gap(0.0), DISTANCE);
+        for k in -12..12 {
+            let force = 10.0_f64.powi(k);
+            let d = b.gap(force);
+            let slope = d * b.stiffness(d) / b.force(d);
+            let error = (b.force(d) / force - 1.0).abs();
+            assert!(
+                error < 8.0 * f64::EPSILON * (1.0 + slope),
+                "{force}: {error}"
+            );
+        }
+        for share in [0.1, 0.5, 0.99] {
+            let b = Barrier::carrying_at(14.0, share * DISTANCE, DISTANCE).unwrap();
+            assert!((b.force(share * DISTANCE) / 14.0 - 1.0).abs() < 1e-14);
+        }
+        let half = Barrier::carrying(14.0, DISTANCE).unwrap();
+        assert!((half.gap(14.0) / (0.5 * DISTANCE) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        assert!(Barrier::new(0.0, 1.0).is_err());
+        assert!(Barrier::new(1.0, f64::NAN).is_err());
+        assert!(Barrier::carrying(-1.0, 1.0).is_err());
+        assert!(Barrier::carrying_at(1.0, 1.0, 1.0).is_err());
+        assert!(Barrier::carrying_at(1.0, 0.0, 1.0).is_err());
+    }
+}

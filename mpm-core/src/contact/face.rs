@@ -1,0 +1,193 @@
+//! The face of a rigid body that moves as it is told.
+
+use crate::error::{Error, require};
+use crate::particles::Particles;
+use crate::stage::{End, smooth_rise, smooth_stroke};
+
+/// The plane face of a rigid body, which may be limited across its normal (a footing) and may move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidFace<const D: usize> {
+    axis: usize,
+    /// Of the outward normal along `axis`.
+    sign: f64,
+    position: f64,
+    extent: [[f64; 2]; D],
+    velocity: [f64; D],
+    ramp: f64,
+}
+
+impl<const D: usize> RigidFace<D> {
+    /// A rigid body at rest beyond `position` (m) of an axis, towards its `end`: at `Lo` the floor of what lies
+    /// above, at `Hi` what presses from above.
+    ///
+    /// # Errors
+    /// An axis that there isn't, a position that is not finite.
+    pub fn half_space(axis: usize, end: End, position: f64) -> Result<Self, Error> {
+        require(
+            axis < D,
+            "axis of a rigid face",
+            axis as f64,
+            "less than the dimension",
+        )?;
+        require(true, "position of a rigid face", position, "finite (m)")?;
+        let sign = match end {
+            End::Lo => 1.0,
+            End::Hi => -1.0,
+        };
+        Ok(Self {
+            axis,
+            sign,
+            position,
+            extent: [[f64::NEG_INFINITY, f64::INFINITY]; D],
+            velocity: [0.0; D],
+            ramp: 0.0,
+        })
+    }
+
+    /// Limits the face to `extent`, lower and upper end along every axis (m) at time zero; that along the normal
+    /// has no meaning. Particles beside the face don't feel it.
+    #[must_use]
+    pub fn within(self, extent: [[f64; 2]; D]) -> Self {
+        Self { extent, ..self }
+    }
+
+    /// Moves the face with `velocity` (m/s), which rises smoothly from zero over `ramp` (s).
+    ///
+    /// # Errors
+    /// A velocity that is not finite, a ramp that is negative or not finite.
+    pub fn moving(self, velocity: [f64; D], ramp: f64) -> Result<Self, Error> {
+        for v in velocity {
+            require(true, "velocity of a rigid face", v, "finite (m/s)")?;
+        }
+        require(
+            ramp >= 0.0,
+            "ramp of a rigid face",
+            ramp,
+            "not negative (s)",
+        )?;
+        Ok(Self {
+            velocity,
+            ramp,
+            ..self
+        })
+    }
+
+    /// Puts the face, at time zero, at the gap `gap` (m) from the nearest of the particles before it: at the
+    /// distance d̂ of a barrier it just touches. With no particle before it, it stays.
+    #[must_use]
+    pub fn touching(self, particles: &Particles<D>, gap: f64) -> Self {
+        let gaps = particles.position.iter().filter_map(|x| self.gap(x));
+        let nearest = gaps.fold(f64::INFINITY, f64::min);
+        if !nearest.is_finite() {
+            return self;
+        }
+        Self {
+            position: self.position + self.sign * (nearest - gap),
+            ..self
+        }
+    }
+
+    /// Axis of the normal.
+    #[must_use]
+    pub fn axis(&self) -> usize {
+        self.axis
+    }
+
+    /// Component of the outward unit normal along [`Self::axis`].
+    #[must_use]
+    pub fn sign(&self) -> f64 {
+        self.sign
+    }
+
+    /// Displacement (m) since time zero: the exact integral of [`Self::velocity`].
+    #[must_use]
+    pub fn displacement(&self, time: f64) -> [f64; D] {
+        let stroke = smooth_stroke(time, self.ramp);
+        self.velocity.map(|v| v * stroke)
+    }
+
+    /// Velocity (m/s) at `time` (s), not negative.
+    #[must_use]
+    pub fn velocity(&self, time: f64) -> [f64; D] {
+        let rise = smooth_rise(time, self.ramp);
+        self.velocity.map(|v| v * rise)
+    }
+
+    /// Gap (m) between the face at time zero and what lies at `x` (m), less the face's displacement: negative
+    /// inside the body, `None` beside the face.
+    #[must_use]
+    pub fn gap(&self, x: &[f64; D]) -> Option<f64> {
+        let mut ends = x.iter().zip(&self.extent).enumerate();
+        let before = ends.all(|(a, (x, [lo, hi]))| a == self.axis || (x >= lo && x <= hi));
+        before.then(|| self.sign * (x[self.axis] - self.position))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gaps_are_those_before_the_face() {
+        let floor = RigidFace::<2>::half_space(1, End::Lo, 1.0).unwrap();
+        assert_eq!(floor.gap(&[7.0, 1.5]), Some(0.5));
+        assert_eq!(floor.gap(&[7.0, 0.5]), Some(-0.5));
+        let press = RigidFace::half_space(1, End::Hi, 1.0)
+            .unwrap()
+            .within([[0.0, 2.0], [5.0, 6.0]]);
+        assert_eq!(press.gap(&[2.0, 0.75]), Some(0.25));
+        assert_eq!(press.gap(&[2.1, 0.75]), None);
+        assert_eq!((press.axis(), press.sign()), (1, -1.0));
+    }
+
+    /// Central differences of step s of a cubic's integral: truncation s²/6 of the second derivative of the rise,
+    /// at most 6/ramp².
+    #[test]
+    fn its_place_is_the_integral_of_its_velocity() {
+        let face = RigidFace::<2>::half_space(1, End::Hi, 0.0)
+            .unwrap()
+            .moving([2.0, -3.0], 0.5)
+            .unwrap();
+        let s = 1e-4;
+        for k in 1..100 {
+            let t = 0.01 * f64::from(k);
+            let (before, after) = (face.displacement(t - s), face.displacement(t + s));
+            for a in 0..2 {
+                let slope = (after[a] - before[a]) / (2.0 * s);
+                assert!((slope - face.velocity(t)[a]).abs() < 3.0 * s * s / 0.25 + 1e-11);
+            }
+        }
+        assert_eq!(face.displacement(-1.0), [0.0; 2]);
+        assert_eq!(face.displacement(1.5), [2.0 * 1.25, -3.0 * 1.25]);
+        let at_once = face.moving([1.0; 2], 0.0).unwrap();
+        assert_eq!(at_once.displacement(-1.0), [0.0; 2]);
+        assert_eq!(at_once.displacement(2.0), [2.0; 2]);
+    }
+
+    #[test]
+    fn it_is_put_on_the_nearest_particle_before_it() {
+        let particles =
+            Particles::new(vec![[0.5, 1.0], [1.5, 2.0], [5.0, 3.0]], 1.0, 1.0, [0.5; 2]).unwrap();
+        for (end, nearest) in [(End::Hi, 2.0), (End::Lo, 1.0)] {
+            let face = RigidFace::half_space(1, end, 17.0)
+                .unwrap()
+                .within([[0.0, 2.0], [0.0; 2]])
+                .touching(&particles, 0.25);
+            assert_eq!(face.gap(&[1.0, nearest]), Some(0.25));
+        }
+        let beside = RigidFace::half_space(1, End::Hi, 17.0)
+            .unwrap()
+            .within([[9.0, 10.0], [0.0; 2]]);
+        assert_eq!(beside.touching(&particles, 0.25), beside);
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        assert!(RigidFace::<2>::half_space(2, End::Lo, 0.0).is_err());
+        assert!(RigidFace::<2>::half_space(1, End::Lo, f64::INFINITY).is_err());
+        let face = RigidFace::<2>::half_space(1, End::Lo, 0.0).unwrap();
+        assert!(face.moving([0.0, f64::NAN], 1.0).is_err());
+        assert!(face.moving([0.0; 2], -1.0).is_err());
+    }
+}

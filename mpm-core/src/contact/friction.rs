@@ -1,0 +1,110 @@
+//! Coulomb's law with an elastic stick.
+
+use crate::error::{Error, require};
+
+/// Friction between a particle and a rigid body: a spring of tangential stiffness k_t holds the particle to the
+/// body, up to μ times the normal force, beyond which its foot slides (Coulomb's law with the return of plasticity,
+/// Simo & Laursen 1992, doi 10.1016/0045-7949(92)90540-G). A stick is elastic: it doesn't creep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    mu: f64,
+    stiffness: f64,
+}
+
+impl Friction {
+    /// The coefficient μ = `mu` with a stick of k_t = `stiffness` (N/m per particle; per metre of depth in plane
+    /// strain).
+    ///
+    /// # Errors
+    /// A coefficient that is negative or not finite, a stiffness that is not positive and finite.
+    pub fn new(mu: f64, stiffness: f64) -> Result<Self, Error> {
+        require(mu >= 0.0, "friction coefficient", mu, "not negative")?;
+        Ok(Self {
+            mu,
+            ..Self::rough(stiffness)?
+        })
+    }
+
+    /// A stick of k_t = `stiffness` (N/m per particle) that never slips while the bodies touch: μ is infinite.
+    ///
+    /// # Errors
+    /// A stiffness that is not positive and finite.
+    pub fn rough(stiffness: f64) -> Result<Self, Error> {
+        require(
+            stiffness > 0.0,
+            "stiffness of a stick",
+            stiffness,
+            "positive (N/m)",
+        )?;
+        Ok(Self {
+            mu: f64::INFINITY,
+            stiffness,
+        })
+    }
+
+    /// Stiffness k_t (N/m) of the stick.
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    /// Force (N) on a particle whose stick is stretched by `stretch` (m), under the normal force `normal` (N,
+    /// positive). What the stick can't hold, it gives up.
+    #[must_use]
+    pub fn force<const D: usize>(&self, stretch: &mut [f64; D], normal: f64) -> [f64; D] {
+        let length = stretch.iter().map(|u| u * u).sum::<f64>().sqrt();
+        let longest = self.mu * normal / self.stiffness;
+        if length > longest {
+            *stretch = stretch.map(|u| u * (longest / length));
+        }
+        stretch.map(|u| -self.stiffness * u)
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stick_is_a_spring() {
+        let friction = Friction::new(0.5, 100.0).unwrap();
+        let mut stretch = [0.03, 0.0, -0.04];
+        assert_eq!(friction.force(&mut stretch, 10.1), [-3.0, 0.0, 4.0]);
+        assert_eq!(stretch, [0.03, 0.0, -0.04]);
+    }
+
+    #[test]
+    fn a_slip_returns_along_a_radius_to_coulombs_cone() {
+        let friction = Friction::new(0.5, 100.0).unwrap();
+        let mut stretch = [0.3, 0.0, -0.4];
+        let force = friction.force(&mut stretch, 2.0);
+        for (f, sought) in force.iter().zip([-0.6, 0.0, 0.8]) {
+            assert!((f - sought).abs() < 1e-15);
+        }
+        assert!((stretch[0] - 0.006).abs() < 1e-17 && (stretch[2] + 0.008).abs() < 1e-17);
+        // What was given up doesn't come back.
+        assert_eq!(friction.force(&mut stretch, 20.0), force);
+    }
+
+    #[test]
+    fn smooth_bodies_slide_and_rough_ones_hold() {
+        let mut stretch = [0.3, 0.0];
+        assert_eq!(
+            Friction::rough(10.0).unwrap().force(&mut stretch, 1e-9),
+            [-3.0, -0.0]
+        );
+        let smooth = Friction::new(0.0, 10.0).unwrap();
+        assert_eq!(smooth.force(&mut stretch, 1e9), [0.0; 2]);
+        assert_eq!(stretch, [0.0; 2]);
+        assert_eq!(smooth.force(&mut stretch, 1e9), [0.0; 2]);
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        assert!(Friction::new(-0.1, 1.0).is_err());
+        assert!(Friction::new(f64::INFINITY, 1.0).is_err());
+        assert!(Friction::new(0.1, 0.0).is_err());
+        assert!(Friction::rough(f64::NAN).is_err());
+    }
+}

@@ -1,0 +1,197 @@
+//! Contact of the particles with rigid bodies: barrier, friction, and what they ask of the time step.
+//!
+//! Formulas, choices and limits: `docs/contact.md`.
+
+mod barrier;
+mod face;
+mod friction;
+
+pub use barrier::Barrier;
+pub use face::RigidFace;
+pub use friction::Friction;
+
+use crate::error::Fault;
+use crate::particles::Particles;
+
+/// The contact of all particles with one rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidContact<const D: usize> {
+    face: RigidFace<D>,
+    barrier: Barrier,
+    friction: Option<Friction>,
+    /// Stretch of the stick of every particle (m), by id; empty without friction.
+    stretch: Vec<[f64; D]>,
+    /// Force of the particles on the body (N).
+    reaction: [f64; 3],
+}
+
+/// The particle with the greatest ratio of contact stiffness to mass.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Stiffest {
+    /// Its place among the particles.
+    pub(crate) particle: usize,
+    /// Stiffness over mass (1/s²).
+    pub(crate) ratio: f64,
+}
+
+impl<const D: usize> RigidContact<D> {
+    /// The smooth contact with `face` through `barrier`.
+    #[must_use]
+    pub fn new(face: RigidFace<D>, barrier: Barrier) -> Self {
+        Self {
+            face,
+            barrier,
+            friction: None,
+            stretch: Vec::new(),
+            reaction: [0.0; 3],
+        }
+    }
+
+    /// The contact with `friction`.
+    #[must_use]
+    pub fn with_friction(self, friction: Friction) -> Self {
+        Self {
+            friction: Some(friction),
+            ..self
+        }
+    }
+
+    /// The face.
+    #[must_use]
+    pub fn face(&self) -> &RigidFace<D> {
+        &self.face
+    }
+
+    /// Force of the particles on the rigid body in the last step (N).
+    #[must_use]
+    pub fn reaction(&self) -> [f64; 3] {
+        self.reaction
+    }
+
+    /// Makes room for the sticks of `particles` particles.
+    pub(crate) fn attach(&mut self, particles: usize) {
+        if self.friction.is_some() {
+            self.stretch.resize(particles, [0.0; D]);
+        }
+    }
+
+    /// Adds the contact forces at `time` (s), the end of a step of `dt` (s), to the particles' external forces.
+    pub(crate) fn add(&mut self, time: f64, dt: f64, particles: &mut Particles<D>) -> Stiffest {
+        let moved = self.face.displacement(time);
+        let carried = difference(&moved, &self.face.displacement(time - dt));
+        let (axis, sign) = (self.face.axis(), self.face.sign());
+        let mut stiffest = Stiffest::default();
+        self.reaction = [0.0; 3];
+        for k in 0..particles.len() {
+            let stretch = self.stretch.get_mut(particles.id[k] as usize);
+            let gap = self.face.gap(&difference(&particles.position[k], &moved));
+            let Some(gap) = gap.filter(|&gap| gap < self.barrier.distance()) else {
+                stretch.into_iter().for_each(|u| *u = [0.0; D]);
+                continue;
+            };
+            let normal = self.barrier.force(gap);
+            let mut stiffness = self.barrier.stiffness(gap);
+            let mut force = [0.0; D];
+            if let (Some(friction), Some(stretch)) = (&self.friction, stretch) {
+                let slid = difference(&particles.increment[k], &carried);
+                for a in (0..D).filter(|&a| a != axis) {
+                    stretch[a] += slid[a];
+                }
+                force = friction.force(stretch, normal);
+                stiffness = stiffness.max(friction.stiffness());
+            }
+            force[axis] = sign * normal;
+            for a in 0..D {
+                particles.external_force[k][a] += force[a];
+                self.reaction[a] -= force[a];
+            }
+            let ratio = stiffness / particles.mass[k];
+            if ratio > stiffest.ratio {
+                stiffest = Stiffest { particle: k, ratio };
+            }
+        }
+        stiffest
+    }
+
+    /// The first particle whose gap the displacement of the present step would close, at its end at `time` (s).
+    pub(crate) fn closed_gap(
+        &self,
+        time: f64,
+        particles: &Particles<D>,
+    ) -> Result<(), (usize, Fault)> {
+        let moved = self.face.displacement(time);
+        let columns = particles.position.iter().zip(&particles.increment);
+        for (k, (x, increment)) in columns.enumerate() {
+            let next = std::array::from_fn(|a| x[a] + increment[a] - moved[a]);
+            if let Some(gap) = self.face.gap(&next).filter(|&gap| gap <= 0.0) {
+                return Err((k, Fault::GapClosed(gap)));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn difference<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+    use crate::stage::End;
+
+    /// Two particles at gaps of 0.5 and 0.9 from a floor of reach 1, which have moved along it by 0.1 and 0.2.
+    fn touching() -> (RigidContact<2>, Particles<2>) {
+        let face = RigidFace::half_space(1, End::Lo, 0.0).unwrap();
+        let barrier = Barrier::new(7.0, 1.0).unwrap();
+        let mut contact =
+            RigidContact::new(face, barrier).with_friction(Friction::rough(10.0).unwrap());
+        let positions = vec![[0.0, 0.5], [1.0, 0.9]];
+        let mut particles = Particles::new(positions, 1.0, 1.0, [0.1; 2]).unwrap();
+        particles.increment = vec![[0.1, 9.0], [0.2, 9.0]];
+        contact.attach(2);
+        (contact, particles)
+    }
+
+    fn forces(contact: &mut RigidContact<2>, particles: &mut Particles<2>) -> Vec<[f64; 2]> {
+        particles.external_force.fill([0.0; 2]);
+        contact.add(0.0, 0.1, particles);
+        particles.external_force.clone()
+    }
+
+    #[test]
+    fn sticks_remember_their_particle_when_particles_are_sorted() {
+        let (mut contact, mut particles) = touching();
+        let before = forces(&mut contact, &mut particles);
+        assert_eq!((before[0][0], before[1][0]), (-1.0, -2.0));
+        particles.permute(&[1, 0]);
+        particles.increment.fill([0.0; 2]);
+        let after = forces(&mut contact, &mut particles);
+        assert_eq!((after[0], after[1]), (before[1], before[0]));
+    }
+
+    #[test]
+    fn an_open_gap_forgets_the_stick() {
+        let (mut contact, mut particles) = touching();
+        forces(&mut contact, &mut particles);
+        particles.position[0][1] = 1.0;
+        assert_eq!(forces(&mut contact, &mut particles)[0], [0.0; 2]);
+        particles.position[0][1] = 0.5;
+        particles.increment.fill([0.0; 2]);
+        let after = forces(&mut contact, &mut particles);
+        assert_eq!((after[0][0], after[1][0]), (0.0, -4.0));
+    }
+
+    #[test]
+    fn the_stiffest_is_named_with_what_it_feels() {
+        let (mut contact, mut particles) = touching();
+        let stiffest = contact.add(0.0, 0.1, &mut particles);
+        assert_eq!(stiffest.particle, 0);
+        assert_eq!(stiffest.ratio, contact.barrier.stiffness(0.5));
+        particles.mass[1] = 1e-3;
+        let stiffest = contact.add(0.0, 0.1, &mut particles);
+        assert_eq!(stiffest.particle, 1);
+        assert_eq!(stiffest.ratio, 10.0 / 1e-3);
+    }
+}
