@@ -70,7 +70,7 @@ const fn parameter(
     }
 }
 
-const PARAMETERS: [Parameter; 15] = [
+const PARAMETERS: [Parameter; 16] = [
     parameter(
         "young_modulus",
         "Pa",
@@ -116,7 +116,7 @@ const PARAMETERS: [Parameter; 15] = [
     parameter(
         "penetration_rate",
         "m/s",
-        "1e-3",
+        "2e-3",
         number(1e-6, 1.0, false),
         "speed of the footing after its start",
     ),
@@ -130,7 +130,7 @@ const PARAMETERS: [Parameter; 15] = [
     parameter(
         "ramp",
         "s",
-        "0.3",
+        "0.8",
         number(1e-6, 1e3, false),
         "time over which the footing's speed rises from zero",
     ),
@@ -161,6 +161,13 @@ const PARAMETERS: [Parameter; 15] = [
         "open-knot",
         Domain::Choice(&["open-knot", "wall-line"]),
         "how B-splines meet the sides and the base",
+    ),
+    parameter(
+        "contact",
+        "-",
+        "rigid-nodes",
+        Domain::Choice(&["rigid-nodes", "barrier"]),
+        "how the footing presses: nodes that move with it, or a barrier on particles that come near it",
     ),
     parameter(
         "rough",
@@ -234,6 +241,15 @@ const METRICS: &[MetricInfo] = &[
     metric("nc_0.0015", "-", "likewise at 0.0015"),
     metric("nc_0.002", "-", "likewise at 0.002"),
     metric("nc_0.003", "-", "likewise at 0.003"),
+    metric(
+        "mean_stress_0.25_0.25",
+        "-",
+        "mean normal stress over s_u at the end at the material point 0.25 B from the axis and 0.25 B deep, by a linear fit over the particles within 2h",
+    ),
+    metric("mean_stress_0.25_0.5", "-", "likewise at 0.25 B, 0.5 B"),
+    metric("mean_stress_0.75_0.25", "-", "likewise at 0.75 B, 0.25 B"),
+    metric("mean_stress_1_0.25", "-", "likewise at B, 0.25 B"),
+    metric("mean_stress_0.25_1", "-", "likewise at 0.25 B, B"),
     metric(
         "mean_stress_rms",
         "Pa",
@@ -403,7 +419,69 @@ impl Case for Footing {
     }
 }
 
+/// Ground just large enough for the limit load, and a penetration just long enough.
+const SMALL: &[&str] = &["domain_width=4", "domain_depth=4", "penetration=0.003"];
+/// A strength beyond reach: the ground stays elastic.
+const ELASTIC: &[&str] = &["undrained_strength=1e6"];
+
+fn runs(level: Level, bases: &[BasisName], remedies: &[RemedyName], set: &[&str]) -> Vec<RunSpec> {
+    let schemes = bases
+        .iter()
+        .flat_map(|&basis| remedies.iter().map(move |&r| Scheme::flip(basis, r)));
+    let spec = |scheme| RunSpec {
+        scheme,
+        level,
+        set: set.iter().map(|s| (*s).to_owned()).collect(),
+        perturbed: false,
+    };
+    schemes.map(spec).collect()
+}
+
 fn plan(tier: Tier) -> Vec<RunSpec> {
-    let _ = tier;
-    Vec::new()
+    use BasisName::{Bspline3, Gimp};
+    use RemedyName::{FbarConsistent, FbarRate, FbarRecursive, None};
+    let [b10, b20, b40, b80] = LEVELS;
+    let three = [None, FbarRecursive, FbarConsistent];
+    let cubic = |level| runs(level, &[Bspline3], &[FbarConsistent], &[]);
+    match tier {
+        Tier::Quick => Vec::new(),
+        Tier::Pr => [
+            runs(b10, &BASES, &[None, FbarConsistent], &[]),
+            runs(b20, &BASES, &[None, FbarConsistent], SMALL),
+        ]
+        .concat(),
+        Tier::Nightly => {
+            let rates = |rate| runs(b10, &BASES, &[FbarRecursive, FbarConsistent], &[rate]);
+            [
+                plan(Tier::Pr),
+                runs(b10, &BASES, &[FbarRecursive, FbarRate], &[]),
+                runs(b20, &BASES, &REMEDIES, &[]),
+                cubic(b20),
+                runs(b20, &BASES, &REMEDIES, &["ppc_per_direction=4"]),
+                runs(b20, &BASES, &three, &["contact=barrier"]),
+                runs(b40, &BASES, &three, &[]),
+                rates("penetration_rate=4e-3"),
+                rates("penetration_rate=1e-3"),
+                runs(b10, &BASES, &[None, FbarRate, FbarConsistent], ELASTIC),
+                runs(b20, &BASES, &[FbarConsistent], ELASTIC),
+                runs(b10, &[Gimp], &[FbarRate, FbarConsistent], &["rough=false"]),
+            ]
+            .concat()
+        }
+        Tier::Long => [
+            runs(
+                b40,
+                &BASES,
+                &[FbarConsistent],
+                &["ppc_per_direction=4", "penetration=0.003"],
+            ),
+            runs(b80, &BASES, &[FbarConsistent], &["penetration=0.003"]),
+            runs(b40, &BASES, &[FbarRate], &[]),
+            runs(b80, &BASES, &REMEDIES, &[]),
+            cubic(b10),
+            cubic(b40),
+            cubic(b80),
+        ]
+        .concat(),
+    }
 }

@@ -205,11 +205,7 @@ impl Runs<'_> {
             })
         });
         let header = ["chart", "series", "s/B (1e-3)", "q/s_u (-)"].map(str::to_owned);
-        write_csv(
-            &self.out.join("footing/load-settlement.csv"),
-            &header,
-            rows,
-        )
+        write_csv(&self.out.join("footing/load-settlement.csv"), &header, rows)
     }
 
     fn picture(&mut self, name: &str, caption: &str) {

@@ -24,11 +24,13 @@ pub(super) const CURVE: &[(&str, f64)] = &[
 #[derive(Debug, Deserialize)]
 struct Document {
     method: String,
-    strength_over_young_modulus: f64,
+    young_modulus: f64,
     poisson_ratio: f64,
+    strength: f64,
     domain: f64,
     settlements: Vec<f64>,
-    solutions: Vec<Solution>,
+    meshes: Vec<Solution>,
+    slopes: Vec<Slopes>,
     extrapolated: Extrapolated,
 }
 
@@ -39,9 +41,24 @@ struct Solution {
     mesh: String,
     formulation: String,
     contact: String,
-    slope: f64,
     limit: Option<f64>,
+    slope: f64,
     pressures: Vec<f64>,
+}
+
+/// Slopes of the curve at its start, of a rough footing, for one Poisson's ratio and domain.
+#[derive(Debug, Deserialize)]
+struct Slopes {
+    poisson_ratio: f64,
+    domain: f64,
+    meshes: Vec<Slope>,
+    slope: f64,
+}
+
+#[derive(Debug, Deserialize)]
+struct Slope {
+    cells: f64,
+    slope: f64,
 }
 
 /// The limit of vanishing elements.
@@ -52,6 +69,7 @@ struct Extrapolated {
     limit: f64,
     limit_uncertainty: f64,
     curve: Vec<Pressure>,
+    mean_stress: Vec<MeanStress>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -60,15 +78,29 @@ struct Pressure {
     pressure: f64,
 }
 
+/// Mean normal stress over the strength at the limit load, at a material point (in B, the surface at zero).
+#[derive(Debug, Deserialize)]
+pub(super) struct MeanStress {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) value: f64,
+    pub(super) uncertainty: f64,
+}
+
+impl MeanStress {
+    /// Name of the metric that measures it.
+    pub(super) fn metric(&self) -> String {
+        format!("mean_stress_{}_{}", self.x, -self.y)
+    }
+}
+
 /// What a run is held against: pressures over the strength for F/(B/2).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curve {
-    /// d(q/s_u)/d(s/B) at the start, at the strength of the reference.
-    pub(super) slope: f64,
     /// Limit load.
     pub(super) limit: f64,
     /// (s/B, q/s_u).
-    pub(super) points: Vec<(f64, f64)>,
+    points: Vec<(f64, f64)>,
     /// What it is.
     pub(super) name: String,
 }
@@ -77,10 +109,8 @@ impl Curve {
     /// q/s_u at a tabulated penetration over B.
     pub(super) fn at(&self, penetration: f64) -> Option<f64> {
         let near = |s: f64| (s - penetration).abs() < 1e-9;
-        self.points
-            .iter()
-            .find(|(s, _)| near(*s))
-            .map(|(_, pressure)| *pressure)
+        let mut points = self.points.iter();
+        points.find(|(s, _)| near(*s)).map(|(_, q)| *q)
     }
 }
 
@@ -100,50 +130,63 @@ pub(crate) fn footing_limit() -> Vec<(f64, f64)> {
 
 /// Strength over Young's modulus of the reference.
 pub(super) fn strength_ratio() -> f64 {
-    document().map_or(f64::NAN, |d| d.strength_over_young_modulus)
+    document().map_or(f64::NAN, |d| d.strength / d.young_modulus)
+}
+
+/// Where mean stresses are known.
+pub(super) fn mean_stresses() -> &'static [MeanStress] {
+    document().map_or(&[], |d| &d.extrapolated.mean_stress)
 }
 
 fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * b.abs()
 }
 
-/// The finite-element curve for a run: of elements as large as the cells, whose footing acts as wide as that of
-/// a scheme with nodes on grid lines; for one that acts as wide as it is, the limit of vanishing elements. The
-/// strength is not asked for.
+/// Whether a scheme's footing is as wide as it acts: then the limit of vanishing elements is its reference, else
+/// elements as large as the cells, whose footing acts as wide as the scheme's.
+fn is_as_wide_as_it_acts(record: &Record) -> bool {
+    effective_width(record.basis, record.discretisation.h) == WIDTH
+}
+
+/// The least domain (in B) that leaves Prandtl's mechanism room.
+const ROOM: f64 = 3.0;
+
+/// The finite-element curve for a run; that of other parameters has the same limit load.
 pub(super) fn curve(record: &Record) -> Result<Curve, String> {
     let Some(document) = document() else {
         return Err("the stored reference can't be read".to_owned());
     };
-    covers(document, &record.parameters)?;
+    for name in ["domain_width", "domain_depth"] {
+        if record.parameters.number(name) < ROOM {
+            return Err(format!("the ground is less than {ROOM} B wide or deep"));
+        }
+    }
     let h = record.discretisation.h;
     let rough = record.parameters.boolean("rough");
-    if effective_width(record.basis, h) == WIDTH {
+    if is_as_wide_as_it_acts(record) {
         if !rough {
             return Err("the extrapolated reference is that of a rough footing".to_owned());
         }
         let limit = &document.extrapolated;
         return Ok(Curve {
-            slope: limit.slope,
             limit: limit.limit,
             points: (limit.curve.iter())
                 .map(|p| (p.settlement, p.pressure))
                 .collect(),
-            name: "finite elements, extrapolated to vanishing size".to_owned(),
+            name: "finite elements of vanishing size".to_owned(),
         });
     }
     let contact = if rough { "rough" } else { "smooth" };
-    let found = document.solutions.iter().find(|s| {
-        close(s.cells * h, WIDTH)
-            && s.formulation == "mean_dilatation"
-            && s.contact == contact
-            && s.limit.is_some()
+    let found = document.meshes.iter().find_map(|s| {
+        let same =
+            close(s.cells * h, WIDTH) && s.formulation == "mean_dilatation" && s.contact == contact;
+        s.limit.filter(|_| same).map(|limit| (s, limit))
     });
-    let Some(solution) = found else {
+    let Some((solution, limit)) = found else {
         return Err(format!("no {contact} reference with elements of {h} m"));
     };
     Ok(Curve {
-        slope: solution.slope,
-        limit: solution.limit.unwrap_or(f64::NAN),
+        limit,
         points: (document.settlements.iter().copied())
             .zip(solution.pressures.iter().copied())
             .collect(),
@@ -154,19 +197,61 @@ pub(super) fn curve(record: &Record) -> Result<Curve, String> {
     })
 }
 
-fn covers(document: &Document, parameters: &Parameters) -> Result<(), String> {
+/// Whether the whole curve of the reference, not its limit load alone, is that of the run's parameters.
+pub(super) fn has_the_curve_of(parameters: &Parameters) -> Result<(), String> {
+    let Some(document) = document() else {
+        return Err("the stored reference can't be read".to_owned());
+    };
+    let number = |name| parameters.number(name);
     let wanted = [
         ("poisson_ratio", document.poisson_ratio),
         ("domain_width", document.domain),
         ("domain_depth", document.domain),
     ];
     for (name, value) in wanted {
-        let own = parameters.number(name);
-        if !close(own, value) {
-            return Err(format!("the reference is for {name} = {value}, not {own}"));
+        if !close(number(name), value) {
+            let own = number(name);
+            return Err(format!("the curve is for {name} = {value}, not {own}"));
         }
     }
-    Ok(())
+    let ratio = number("undrained_strength") / number("young_modulus");
+    if close(ratio, strength_ratio()) {
+        Ok(())
+    } else {
+        Err(format!(
+            "the curve is for s_u/E = {}, not {ratio}",
+            strength_ratio()
+        ))
+    }
+}
+
+/// d(q/E)/d(s/B) of an elastic ground for a run.
+pub(super) fn elastic_slope(record: &Record) -> Result<f64, String> {
+    let Some(document) = document() else {
+        return Err("the stored reference can't be read".to_owned());
+    };
+    let number = |name| record.parameters.number(name);
+    if !record.parameters.boolean("rough") {
+        return Err("the slopes are those of a rough footing".to_owned());
+    }
+    let (ratio, width) = (number("poisson_ratio"), number("domain_width"));
+    let found = document.slopes.iter().find(|s| {
+        close(s.poisson_ratio, ratio)
+            && close(s.domain, width)
+            && close(s.domain, number("domain_depth"))
+    });
+    let Some(slopes) = found else {
+        return Err(format!("no slope for ν = {ratio} and this domain"));
+    };
+    let h = record.discretisation.h;
+    let slope = if is_as_wide_as_it_acts(record) {
+        slopes.slope
+    } else {
+        let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
+        same.ok_or_else(|| format!("no slope with elements of {h} m"))?
+            .slope
+    };
+    Ok(slope * strength_ratio())
 }
 
 /// The references in words.
@@ -178,13 +263,15 @@ pub(super) fn describe() -> Vec<String> {
         return lines;
     };
     lines.push(document.method.clone());
-    let uniform = document.solutions.iter().filter(|s| {
-        s.formulation == "mean_dilatation" && s.contact == "rough" && s.mesh == "uniform"
-    });
-    lines.extend(uniform.filter_map(|s| {
+    let rough = document
+        .meshes
+        .iter()
+        .filter(|s| s.formulation == "mean_dilatation" && s.contact == "rough");
+    lines.extend(rough.filter_map(|s| {
         Some(format!(
-            "B/{}: limit load {:.4} s_u by B, {:.4} by B + h; slope {:.0}",
+            "B/{}, {} mesh: limit load {:.4} s_u by B, {:.4} by B + h; slope {:.0}",
             s.cells,
+            s.mesh,
             s.limit?,
             s.limit? / (1.0 + 1.0 / s.cells),
             s.slope

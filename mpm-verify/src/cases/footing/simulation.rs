@@ -1,18 +1,22 @@
 //! The simulation of the strip footing: ground, footing, observation.
 
 use super::METRICS;
-use super::reference::{CURVE, EXACT};
+use super::reference::{CURVE, EXACT, mean_stresses};
 use crate::assemble::with_basis;
 use crate::case::{Column, Job, RunSpec};
 use crate::error::Error;
 use crate::parameter::Parameters;
+use crate::probe::PointProbe;
 use crate::record::{Discretisation, Metric, WorkDone};
 use crate::scheme::BasisName;
 use crate::statistics::{fit_line, rms};
 use mpm_core::basis::WallTreatment;
+use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::material::{HenckyJ2, Law, Strength};
 use mpm_core::solver::courant_time_step;
-use mpm_core::stage::{Constraint, End, ForceFilter, LocalDamping, RigidNodes, Wall, WallKind};
+use mpm_core::stage::{
+    Constraint, End, ForceFilter, LocalDamping, RigidNodes, Wall, WallKind, smooth_stroke,
+};
 use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
 use std::collections::BTreeMap;
@@ -30,11 +34,23 @@ const WINDOW: f64 = 5e-5;
 /// Places of constraints in the scene's list.
 const BASE: usize = 0;
 const FOOTING: usize = 3;
+/// Reach d̂ of the barrier over the cell size.
+const REACH: f64 = 0.25;
+/// Share of its reach by which the barrier gives way under Prandtl's pressure.
+const GIVES_WAY: f64 = 0.002;
+
+/// What presses on the ground.
+enum Press {
+    /// Held nodes.
+    RigidNodes,
+    /// A barrier on so many particles.
+    Barrier(Barrier, f64),
+}
 
 /// One observation: means over the steps since the one before.
 #[derive(Debug, Clone, Copy)]
 struct Row {
-    /// Penetration over B.
+    /// Penetration over B; through a barrier, less how much that gives way in the mean.
     penetration: f64,
     /// Force of the ground on the footing per metre of depth, upward (N/m).
     force: f64,
@@ -45,6 +61,7 @@ struct Row {
 /// A running simulation.
 pub(super) struct Simulated {
     simulation: Box<dyn Simulation<2>>,
+    press: Press,
     discretisation: Discretisation,
     parameters: Parameters,
     effective_width: f64,
@@ -97,6 +114,27 @@ impl Simulated {
             [0.5 * spacing; 2],
         )?;
         let rate = number("penetration_rate");
+        let mut constraints = walls();
+        let mut contacts = Vec::new();
+        let press = if parameters.is("contact", "barrier") {
+            let force = EXACT * number("undrained_strength") * spacing;
+            let reach = REACH * h;
+            let gap = (1.0 - GIVES_WAY) * reach;
+            let barrier = Barrier::carrying_at(force, gap, reach)?;
+            let face = RigidFace::half_space(1, End::Hi, 0.0)?
+                .within([[f64::NEG_INFINITY, 0.5 * WIDTH], [0.0; 2]])
+                .touching(&particles, reach)
+                .moving([0.0, -rate], number("ramp"))?;
+            let mut contact = RigidContact::new(face, barrier);
+            if parameters.boolean("rough") {
+                contact = contact.with_friction(Friction::rough(barrier.stiffness(gap))?);
+            }
+            contacts.push(contact);
+            Press::Barrier(barrier, (0.5 * WIDTH / spacing).round())
+        } else {
+            constraints.push(footing(parameters, h));
+            Press::RigidNodes
+        };
         let simulation = with_basis(
             spec.scheme.basis,
             Scene {
@@ -110,8 +148,9 @@ impl Simulated {
                 particles,
                 remedy: spec.scheme.remedy.build(),
                 loads: Vec::new(),
+                contacts,
                 force_filters: filters(number("damping"))?,
-                constraints: constraints(parameters, h),
+                constraints,
                 particle_filters: Vec::new(),
                 transfer: Flip::new(number("flip"))?,
                 dt,
@@ -119,6 +158,7 @@ impl Simulated {
         )?;
         Ok(Self {
             simulation,
+            press,
             discretisation: Discretisation {
                 dim: 2,
                 h,
@@ -135,15 +175,28 @@ impl Simulated {
         })
     }
 
-    /// Penetration over B at `time` (s): the integral of the footing's velocity.
-    fn penetration(&self, time: f64) -> f64 {
-        let (rate, ramp) = (
-            self.parameters.number("penetration_rate"),
-            self.parameters.number("ramp"),
-        );
-        let s = (time / ramp).min(1.0);
-        let during = ramp * s * s * s * (1.0 - 0.5 * s);
-        rate * (during + (time - ramp).max(0.0)) / WIDTH
+    /// Penetration of the footing over B at `time` (s): the integral of its velocity.
+    fn stroke(&self, time: f64) -> f64 {
+        let number = |name| self.parameters.number(name);
+        number("penetration_rate") * smooth_stroke(time, number("ramp")) / WIDTH
+    }
+
+    /// By how much of B the footing is ahead of the ground under a force (N/m).
+    fn lost(&self, force: f64) -> f64 {
+        match &self.press {
+            Press::RigidNodes => 0.0,
+            Press::Barrier(barrier, particles) => {
+                (barrier.distance() - barrier.gap(force.max(0.0) / particles)) / WIDTH
+            }
+        }
+    }
+
+    /// Force of the ground on the footing in the last step, upward (N/m).
+    fn force_on_footing(&self) -> f64 {
+        match self.press {
+            Press::RigidNodes => self.simulation.force_on(FOOTING)[1],
+            Press::Barrier(..) => self.simulation.reaction(0)[1],
+        }
     }
 
     fn strength(&self) -> f64 {
@@ -187,7 +240,7 @@ impl Simulated {
 
     /// d(q/s_u)/d(s/B), fitted after the start over all rows.
     fn slope(&self) -> f64 {
-        let begun = 2.0 * self.penetration(self.parameters.number("ramp"));
+        let begun = 2.0 * self.stroke(self.parameters.number("ramp"));
         let points: Vec<(f64, f64)> = self
             .rows
             .iter()
@@ -255,23 +308,27 @@ fn filters(damping: f64) -> Result<Vec<Box<dyn ForceFilter>>, Error> {
     })
 }
 
-/// The fixed base, rollers at the sides, and the footing: the nodes on and above the surface, and those of the
-/// splines with nodes at half cells that lie half a cell below, without which the surface would not be rigid.
-fn constraints(parameters: &Parameters, h: f64) -> Vec<Box<dyn Constraint<2>>> {
-    let wall = |axis, end, kind| Box::new(Wall { axis, end, kind });
+/// The fixed base and rollers at the sides.
+fn walls() -> Vec<Box<dyn Constraint<2>>> {
+    let wall = |axis, end, kind| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
     vec![
         wall(1, End::Lo, WallKind::Fixed),
         wall(0, End::Lo, WallKind::Roller),
         wall(0, End::Hi, WallKind::Roller),
-        Box::new(RigidNodes {
-            extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * h, f64::INFINITY]],
-            velocity: [
-                parameters.boolean("rough").then_some(0.0),
-                Some(-parameters.number("penetration_rate")),
-            ],
-            ramp: parameters.number("ramp"),
-        }),
     ]
+}
+
+/// The footing as held nodes: those on and above the surface, and those of the splines with nodes in the middle of
+/// cells that lie half a cell below, without which the surface would not be rigid.
+fn footing(parameters: &Parameters, h: f64) -> Box<dyn Constraint<2>> {
+    Box::new(RigidNodes {
+        extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * h, f64::INFINITY]],
+        velocity: [
+            parameters.boolean("rough").then_some(0.0),
+            Some(-parameters.number("penetration_rate")),
+        ],
+        ramp: parameters.number("ramp"),
+    })
 }
 
 impl Job for Simulated {
@@ -300,18 +357,18 @@ impl Job for Simulated {
         for _ in 0..self.steps_per_row {
             time += self.simulation.time();
             self.simulation.step()?;
-            force += self.simulation.force_on(FOOTING)[1];
+            force += self.force_on_footing();
             base -= self.simulation.force_on(BASE)[1];
         }
         let steps = self.steps_per_row as f64;
         // Forces are those at the start of a step.
         let row = Row {
-            penetration: self.penetration(time / steps),
+            penetration: self.stroke(time / steps) - self.lost(force / steps),
             force: force / steps,
             base: base / steps,
         };
         self.rows.push(row);
-        let reached = self.penetration(self.simulation.time());
+        let reached = self.stroke(self.simulation.time());
         if self.before_plateau.is_empty() && reached >= (1.0 - PLATEAU) * self.end {
             self.before_plateau = self.seeded(|p, k| p.position[k]);
         }
@@ -336,7 +393,7 @@ impl Job for Simulated {
     }
 
     fn progress(&self) -> f64 {
-        (self.penetration(self.simulation.time()) / self.end).min(1.0)
+        (self.stroke(self.simulation.time()) / self.end).min(1.0)
     }
 
     fn particles(&mut self) -> Vec<Column> {
@@ -354,11 +411,7 @@ impl Job for Simulated {
             column("plateau_uy", "m", of(1)),
             column("mean_stress", "Pa", mean_stress),
             column("averaged_mean_stress", "Pa", averaged),
-            column(
-                "plastic_strain",
-                "-",
-                self.seeded(|_, k| plastic_strain[k]),
-            ),
+            column("plastic_strain", "-", self.seeded(|_, k| plastic_strain[k])),
             column("jacobian", "-", self.seeded(|p, k| p.jacobian[k])),
         ]
     }
@@ -403,6 +456,12 @@ impl Job for Simulated {
             ("log_jacobian_gap".to_owned(), totals.log_jacobian_gap_rms),
             ("mass".to_owned(), totals.mass),
         ];
+        let references = self.seeded(|p, k| p.reference[k]);
+        for point in mean_stresses() {
+            let probe = PointProbe::new(&references, [point.x, point.y], 2.0 * h);
+            let value = probe.map_or(f64::NAN, |p| p.value(&mean_stress));
+            values.push((point.metric(), value / self.strength()));
+        }
         for (name, penetration) in CURVE {
             let near = |r: &Row| (r.penetration - penetration).abs() <= WINDOW;
             let force = if penetration + WINDOW <= self.end {
