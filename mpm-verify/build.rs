@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// Where they lie, from this package's folder: all but what only draws and prints.
-const SOURCES: [&str; 19] = [
+const SOURCES: [&str; 21] = [
     "../.cargo/config.toml",
     "../Cargo.lock",
     "../Cargo.toml",
@@ -17,12 +17,14 @@ const SOURCES: [&str; 19] = [
     "src/assemble.rs",
     "src/case.rs",
     "src/cases",
+    "src/checkpoint.rs",
     "src/exact",
     "src/parameter.rs",
     "src/probe.rs",
     "src/record.rs",
     "src/run.rs",
     "src/scheme.rs",
+    "src/series.rs",
     "src/sketch.rs",
     "src/statistics.rs",
     "src/study.rs",

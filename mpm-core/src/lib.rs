@@ -11,7 +11,8 @@
 //! * [`remedy`]: how the averaged Jacobian J̄ is formed;
 //! * [`stage`]: loads, force filters, constraints and particle filters that a scene may have;
 //! * [`contact`]: barrier contact with rigid bodies, with friction;
-//! * [`monitor`]: mass, momentum, the energy budget, J and ln(J/J̄).
+//! * [`monitor`]: mass, momentum, the energy budget, J and ln(J/J̄);
+//! * [`memory`]: how a run is stopped and goes on as if it had not been.
 //!
 //! All quantities are in SI units. The dimension is a const generic: 1 (uniaxial strain),
 //! 2 (plane strain) or 3.
@@ -22,6 +23,7 @@ pub mod error;
 pub mod grid;
 pub mod lattice;
 pub mod material;
+pub mod memory;
 pub mod monitor;
 pub mod parallel;
 pub mod particles;
@@ -39,6 +41,7 @@ pub use error::{Error, Fault};
 pub use grid::{Axis, Grid, Side};
 pub use lattice::Lattice;
 pub use material::Law;
+pub use memory::{Memory, MemoryError, Memoryless, Saved};
 pub use monitor::Totals;
 pub use particles::Particles;
 pub use remedy::Remedy;

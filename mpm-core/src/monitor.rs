@@ -2,9 +2,10 @@
 
 use crate::material::Law;
 use crate::particles::Particles;
+use serde::{Deserialize, Serialize};
 
 /// Work done and energy moved since the start (J; per metre of depth in plane strain).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Accumulated {
     /// Stress work Σ V σ : ∇v Δt.
     pub stress_work: f64,
@@ -20,7 +21,7 @@ pub struct Accumulated {
 }
 
 /// The state of the last step on the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Residual {
     /// Σ|f_i| over the components that no constraint holds, damping included (N).
     pub free_force: f64,

@@ -2,22 +2,28 @@
 
 use crate::error::{Error, require};
 use crate::grid::Grid;
+use crate::memory::{MemoryError, rows};
 use crate::parallel::SLAB;
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Columns of one body. All have one entry per particle, but `j_bar` and `affine`, which are empty
 /// where no remedy or transfer needs them.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Particles<const D: usize> {
     /// Place in the seeding order.
     pub id: Vec<u32>,
     /// Reference position X (m).
+    #[serde(with = "rows")]
     pub reference: Vec<[f64; D]>,
     /// Current position x (m).
+    #[serde(with = "rows")]
     pub position: Vec<[f64; D]>,
     /// Velocity v (m/s).
+    #[serde(with = "rows")]
     pub velocity: Vec<[f64; D]>,
     /// Moment B of the nodal velocities around the particle (m²/s), row by component of velocity. At
     /// the start it is zero unless given: C D for a velocity gradient C.
@@ -29,6 +35,7 @@ pub struct Particles<const D: usize> {
     /// Volume that weights stresses and averages, V (m³), Eq. (15).
     pub volume: Vec<f64>,
     /// Half the size of the particle's domain along each axis (m).
+    #[serde(with = "rows")]
     pub half_size: Vec<[f64; D]>,
     /// Jacobian J = det F.
     pub jacobian: Vec<f64>,
@@ -37,10 +44,12 @@ pub struct Particles<const D: usize> {
     /// Cauchy stress that enters the force (Pa).
     pub stress: Vec<SymmetricTensor>,
     /// External force (N).
+    #[serde(with = "rows")]
     pub external_force: Vec<[f64; D]>,
     /// Relative deformation gradient ΔF of the step, Eq. (16); after the remedy, ΔF̄. At the start, F.
     pub delta_f: Vec<SMatrix<f64, D, D>>,
     /// Displacement of the step (m).
+    #[serde(with = "rows")]
     pub increment: Vec<[f64; D]>,
 }
 
@@ -120,6 +129,48 @@ impl<const D: usize> Particles<D> {
             .zip(squares)
             .map(|(m, v2)| 0.5 * m * v2)
             .sum()
+    }
+
+    /// The lengths of the columns, by name.
+    fn lengths(&self) -> [(&'static str, usize); 15] {
+        [
+            ("id", self.id.len()),
+            ("reference", self.reference.len()),
+            ("position", self.position.len()),
+            ("velocity", self.velocity.len()),
+            ("affine", self.affine.len()),
+            ("mass", self.mass.len()),
+            ("reference_volume", self.reference_volume.len()),
+            ("volume", self.volume.len()),
+            ("half_size", self.half_size.len()),
+            ("jacobian", self.jacobian.len()),
+            ("j_bar", self.j_bar.len()),
+            ("stress", self.stress.len()),
+            ("external_force", self.external_force.len()),
+            ("delta_f", self.delta_f.len()),
+            ("increment", self.increment.len()),
+        ]
+    }
+
+    /// Checks that these could be the particles of `scene`, later: columns as long, the same identities.
+    pub(crate) fn check_against(&self, scene: &Self) -> Result<(), MemoryError> {
+        for ((what, saved), (_, expected)) in self.lengths().into_iter().zip(scene.lengths()) {
+            MemoryError::unless_equal(what, saved, expected)?;
+        }
+        let mut seen = vec![false; self.len()];
+        for id in &self.id {
+            match seen.get_mut(*id as usize) {
+                Some(seen) if !*seen => *seen = true,
+                _ => {
+                    return Err(MemoryError::Value {
+                        what: "id of a particle",
+                        value: f64::from(*id),
+                        allowed: "each number below that of particles once",
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`.

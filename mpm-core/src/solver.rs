@@ -1,6 +1,7 @@
 //! The explicit step (update stress last), Sections 2.2 and 3.3 of the paper.
 
 mod contact;
+mod memory;
 
 pub use contact::contact_cfl;
 
@@ -10,6 +11,7 @@ use crate::error::{Error, Fault, require};
 use crate::grid::Grid;
 use crate::lattice::Lattice;
 use crate::material::Law;
+use crate::memory::Memory;
 use crate::monitor::{Accumulated, Residual, Totals};
 use crate::parallel::{CHUNK, chunks_if_present, scatter};
 use crate::particles::{Particles, cell_order, permute};
@@ -22,6 +24,7 @@ use crate::transfer::{Flip, Given, NodalState, Transfer};
 use crate::work::Work;
 use nalgebra::SMatrix;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Largest (c + |v|) Δt / h: beyond it a wave or a particle crosses more than a cell in a step.
@@ -62,7 +65,7 @@ pub fn courant_time_step(cfl: f64, h: f64, c: f64) -> f64 {
 }
 
 /// A run, whatever its basis and law.
-pub trait Simulation<const D: usize>: Send {
+pub trait Simulation<const D: usize>: Memory + Send {
     /// Advances by one step.
     ///
     /// # Errors
@@ -105,7 +108,7 @@ struct ChunkSums {
 }
 
 /// A constraint in a step.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 struct Held {
     amplitude: f64,
     /// Force of the body on it (N).

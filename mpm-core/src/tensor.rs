@@ -3,9 +3,10 @@
 mod function;
 
 use nalgebra::Matrix3;
+use serde::{Deserialize, Serialize};
 
 /// A symmetric 3×3 tensor (a stress in Pa, a left Cauchy–Green tensor).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SymmetricTensor {
     /// Component 11.
     pub xx: f64,

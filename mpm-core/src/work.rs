@@ -1,7 +1,9 @@
 //! Exact work counters: what a run did, independent of the machine.
 
+use serde::{Deserialize, Serialize};
+
 /// Counts of a run since it began.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Work {
     /// Particles.
     pub particles: u64,

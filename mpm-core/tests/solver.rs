@@ -16,8 +16,8 @@ use mpm_core::stage::{
 };
 use mpm_core::transfer::{Apic, Flip, Xpic};
 use mpm_core::{
-    Axis, Basis, Error, Fault, Grid, Particles, Remedy, Scene, Side, Simulation, Solver,
-    SymmetricTensor, Transfer,
+    Axis, Basis, Error, Fault, Grid, Memoryless, Particles, Remedy, Scene, Side, Simulation,
+    Solver, SymmetricTensor, Transfer,
 };
 use nalgebra::SMatrix;
 use std::f64::consts::PI;
@@ -568,6 +568,8 @@ fn bad_input_is_refused_with_its_range() {
 
 /// A remedy whose projected pressure enters the force: here the force sees no mean stress at all.
 struct WithoutPressure;
+
+impl Memoryless for WithoutPressure {}
 
 impl Remedy<2> for WithoutPressure {
     fn adjust_stress(&mut self, particles: &mut Particles<2>, average: &mut dyn Average<2>) {

@@ -1,6 +1,7 @@
 //! Accepting drift.
 
 use crate::check::Verdict;
+use crate::checkpoint::Saving;
 use crate::error::Error;
 use crate::golden::{Golden, home};
 use crate::plan::PlannedRun;
@@ -127,7 +128,7 @@ impl<'a> Candidates<'a> {
                 folder: gathered.folder(record)?.join("twin"),
             });
         }
-        let twins = run_all(&tasks, true, workers, listener)?;
+        let twins = run_all(&tasks, Saving::resuming(), workers, listener)?;
         let mut goldens = Vec::new();
         for ((record, twin), task) in measured.iter().zip(&twins).zip(&tasks) {
             if let (Status::Failed, Some(error)) = (twin.status, &twin.error) {

@@ -6,6 +6,7 @@ use crate::parameter::{Parameter, Parameters};
 use crate::record::{Discretisation, Metric, Record, WorkDone};
 use crate::scheme::Scheme;
 use crate::sketch::Sketch;
+use mpm_core::Memory;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -166,8 +167,9 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-/// A running simulation of a case.
-pub trait Job: Send {
+/// A running simulation of a case. Its memory is all that it gathers from row to row, with that of what it
+/// simulates: a run goes on from a checkpoint by it.
+pub trait Job: Memory + Send {
     /// The discretisation.
     fn discretisation(&self) -> Discretisation;
     /// Names (with units) of the columns of the time series.

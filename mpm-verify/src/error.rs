@@ -31,6 +31,14 @@ pub enum Error {
     /// A picture could not be drawn.
     #[error(transparent)]
     Plot(#[from] crate::report::plot::PlotError),
+    /// A checkpoint is not one that this run can go on from.
+    #[error("{}: {refusal}", path.display())]
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        refusal: crate::checkpoint::Refusal,
+    },
     /// A file or folder could not be read or written.
     #[error("{}: {cause}", path.display())]
     File {

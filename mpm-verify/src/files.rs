@@ -79,6 +79,27 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
+/// Writes a file so that it is there whole or not at all even if the machine fails: by way of `draft`, in the
+/// same folder, which one that was killed leaves behind for the next to overwrite.
+///
+/// # Errors
+/// The file can't be written.
+pub fn write_durable(path: &Path, draft: &Path, parts: &[&[u8]]) -> Result<(), Error> {
+    let write = || {
+        let mut file = fs::File::create(draft)?;
+        for part in parts {
+            file.write_all(part)?;
+        }
+        file.sync_all()?;
+        fs::rename(draft, path)?;
+        // The new name is in the folder; elsewhere than on Unix a folder can't be opened.
+        #[cfg(unix)]
+        fs::File::open(path.parent().unwrap_or(Path::new(".")))?.sync_all()?;
+        Ok(())
+    };
+    write().map_err(|e: std::io::Error| Error::file(path, e))
+}
+
 /// A temporary file with the permissions of an ordinary one.
 fn readable_draft(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();

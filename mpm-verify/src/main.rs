@@ -6,10 +6,13 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use mpm_verify::bless::Candidates;
 use mpm_verify::case::{Case, RunSpec, Tier, find_level};
+use mpm_verify::checkpoint::{self, Identity, Saving};
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::exact;
+use mpm_verify::files::read_versioned;
+use mpm_verify::parameter::Parameters;
 use mpm_verify::plan::{Plan, Shard};
-use mpm_verify::record::{Record, Status};
+use mpm_verify::record::{self, Record, Status};
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::history::Night;
 use mpm_verify::report::{describe, discard_report, write_report};
@@ -18,6 +21,7 @@ use mpm_verify::study::{Gathered, has_truth, make_runs};
 use mpm_verify::{cases, golden, run};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Verification bench of the locking-free material point method.
 #[derive(Debug, Parser)]
@@ -66,8 +70,15 @@ enum Command {
         #[arg(long)]
         perturb: bool,
         /// Folder for record, series, particles and VTU
-        #[arg(long)]
+        #[arg(long, group = "folder")]
         out: Option<PathBuf>,
+        /// In place of --out: go on in this folder from the checkpoint that the same run has left there,
+        /// with the same results to the last bit; begin if there is none
+        #[arg(long, value_name = "DIR", group = "folder")]
+        resume: Option<PathBuf>,
+        /// Write a checkpoint so often, by the clock; 0: after every row of the series
+        #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
+        checkpoint_every: u64,
         /// Threads (all cores if not given)
         #[arg(long)]
         threads: Option<usize>,
@@ -82,9 +93,13 @@ enum Command {
         /// Make only the i-th of n shares of the runs; `report` puts the shares together
         #[arg(long, value_name = "I/N")]
         shard: Option<String>,
-        /// Keep the runs that are there already, if this very program made them
+        /// Keep the runs that are there already, if this very program made them, and go on with those that
+        /// it has left a checkpoint of
         #[arg(long)]
         resume: bool,
+        /// Write a checkpoint of every run so often, by the clock; 0: after every row of its series
+        #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S)]
+        checkpoint_every: u64,
         /// Folder of the report
         #[arg(long, default_value = "reports/latest")]
         out: PathBuf,
@@ -235,6 +250,8 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             set,
             perturb,
             out,
+            resume,
+            checkpoint_every,
             threads,
         } => {
             let case = cases::find(&case)?;
@@ -253,13 +270,17 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 set,
                 perturbed: perturb,
             };
-            run_one(case, &spec, out.as_deref(), parse_threads(threads)?)
+            let saving = saving(checkpoint_every, resume.is_some());
+            let folder = resume.or(out);
+            let place = folder.as_deref().map(|folder| (folder, saving));
+            run_one(case, &spec, place, parse_threads(threads)?)
         }
         Command::Verify {
             cases: names,
             tier,
             shard,
             resume,
+            checkpoint_every,
             out,
             golden,
             threads,
@@ -269,7 +290,8 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 None => Shard::WHOLE,
             };
             let plan = Plan::new(&chosen(names)?, parse_tier(&tier)?, shard)?;
-            verify(&plan, resume, &out, &golden, parse_threads(threads)?)
+            let saving = saving(checkpoint_every, resume);
+            verify(&plan, saving, &out, &golden, parse_threads(threads)?)
         }
         Command::Report {
             folders,
@@ -350,7 +372,7 @@ fn list(tier: Option<&str>, format: &str) -> Result<ExitCode, Error> {
 fn run_one(
     case: &'static dyn Case,
     spec: &RunSpec,
-    out: Option<&Path>,
+    place: Option<(&Path, Saving)>,
     threads: usize,
 ) -> Result<ExitCode, Error> {
     let offered = case.schemes();
@@ -362,8 +384,22 @@ fn run_one(
             names.iter().map(String::as_str),
         ));
     }
+    if let Some((folder, Saving { resume: true, .. })) = place {
+        if let Some(record) = ended(case, spec, folder)? {
+            checkpoint::discard(folder)?;
+            say(&describe::record(&record))?;
+            say("This run has ended before; there is nothing to resume.\n")?;
+            return Ok(exit_code(&record));
+        }
+        if !folder.join(checkpoint::FILE).exists() {
+            say(&format!(
+                "{}: no checkpoint; the run begins.\n",
+                folder.display()
+            ))?;
+        }
+    }
     let bar = progress::single(&format!("{} {}", case.name(), spec.folder()));
-    let record = run::execute(case, spec, out, threads, &|share| {
+    let record = run::execute(case, spec, place, threads, &|share| {
         bar.set_position((share * progress::SCALE) as u64);
     })?;
     bar.finish_and_clear();
@@ -372,6 +408,27 @@ fn run_one(
         say("No check against the truth applies to this run.\n")?;
     }
     Ok(exit_code(&record))
+}
+
+fn saving(seconds: u64, resume: bool) -> Saving {
+    Saving {
+        every: Duration::from_secs(seconds),
+        resume,
+    }
+}
+
+/// The record of this very run in a folder, or `None` if it has not ended there.
+fn ended(case: &dyn Case, spec: &RunSpec, folder: &Path) -> Result<Option<Record>, Error> {
+    let path = folder.join("record.json");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let record: Record = read_versioned(&path, record::SCHEMA)?;
+    let asked = Identity::of(case, spec, &Parameters::new(case.parameters(), &spec.set)?);
+    asked
+        .require(&Identity::of_record(&record))
+        .map_err(|refusal| refusal.of(&path))?;
+    Ok(Some(record))
 }
 
 fn exit_code(record: &Record) -> ExitCode {
@@ -386,7 +443,7 @@ fn exit_code(record: &Record) -> ExitCode {
 
 fn verify(
     plan: &Plan,
-    resume: bool,
+    saving: Saving,
     out: &Path,
     golden: &Path,
     workers: usize,
@@ -394,7 +451,7 @@ fn verify(
     let names = plan.own().map(|run| run.folder().display().to_string());
     let listener = progress::Runs::new(names.collect());
     discard_report(out)?;
-    let records = make_runs(plan, out, resume, workers, &listener)?;
+    let records = make_runs(plan, out, saving, workers, &listener)?;
     listener.finish();
     if plan.shard == Shard::WHOLE {
         return report_on(&[out.to_path_buf()], out, golden, None);

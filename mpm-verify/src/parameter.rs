@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 /// The value of a parameter.
@@ -151,6 +151,18 @@ impl Parameters {
             values.insert(name.to_owned(), p.parse(text)?);
         }
         Ok(Self(values))
+    }
+
+    /// Where these differ from `other`: the name and both values.
+    #[must_use]
+    pub fn differences(&self, other: &Self) -> Vec<(String, String, String)> {
+        let names: BTreeSet<&String> = self.0.keys().chain(other.0.keys()).collect();
+        let differing = names
+            .into_iter()
+            .filter(|n| self.0.get(*n) != other.0.get(*n));
+        differing
+            .map(|n| (n.clone(), self.text(n), other.text(n)))
+            .collect()
     }
 
     /// A numeric parameter; NaN if the case has none of this name.

@@ -1,6 +1,7 @@
 //! Progress: bars on a terminal, plain lines otherwise.
 
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mpm_verify::error::Error;
 use mpm_verify::record::{Record, Status};
 use mpm_verify::study::Listener;
 use std::io::{self, IsTerminal, Write};
@@ -50,6 +51,14 @@ impl Runs {
         // A terminal that can't be cleared is no reason to fail.
         let _ = self.bars.clear();
     }
+
+    fn say(&self, line: &str) {
+        if self.terminal {
+            let _ = self.bars.println(line);
+        } else {
+            let _ = writeln!(io::stderr(), "{line}");
+        }
+    }
 }
 
 impl Listener for Runs {
@@ -58,6 +67,10 @@ impl Listener for Runs {
             let bar = running[run].get_or_insert_with(|| self.bars.add(single(&self.names[run])));
             bar.set_position((share * SCALE) as u64);
         }
+    }
+
+    fn begins_again(&self, run: usize, why: &Error) {
+        self.say(&format!("{}  begins again: {why}", self.names[run]));
     }
 
     fn ended(&self, run: usize, record: &Record) {
@@ -82,10 +95,6 @@ impl Listener for Runs {
         if let Some(bar) = bar {
             bar.finish_and_clear();
         }
-        if self.terminal {
-            let _ = self.bars.println(line);
-        } else {
-            let _ = writeln!(io::stderr(), "{line}");
-        }
+        self.say(&line);
     }
 }

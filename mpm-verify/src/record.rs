@@ -106,8 +106,8 @@ impl From<mpm_core::Work> for WorkDone {
     }
 }
 
-/// Time taken.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// Time taken, over all pieces of a run that was resumed.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Timing {
     /// By the clock (s).
     pub wall_s: f64,

@@ -2,25 +2,28 @@
 
 use crate::case::{Case, Column, Job, RunSpec};
 use crate::check::{Kind, Verdict};
+use crate::checkpoint::{self, Checkpoint, Identity, Keeper, Refusal, Saving};
 use crate::error::Error;
 use crate::files::{discard, require_writable, write_csv, write_json};
 use crate::parameter::Parameters;
 use crate::record::{BREAKS_DOWN, Failure, Machine, Record, SCHEMA, Status, Timing, Version};
+use crate::series::Series;
 use crate::vtu::write_vtu;
 use cpu_time::ProcessTime;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Runs `spec` of `case` on `threads` threads. With a folder, the series is written there row by row
-/// and, at the end, particles and record; a run that breaks down keeps what it has written and its
-/// record says why.
+/// Runs `spec` of `case` on `threads` threads. With a folder, the series is written there row by row,
+/// checkpoints now and then and, at the end, particles and record; a run that breaks down keeps what it
+/// has written and its record says why.
 ///
 /// # Errors
-/// The scene can't be built or a file can't be written. A numerical breakdown is not an error here.
+/// The scene can't be built, a file can't be written, or the checkpoint to go on from is refused
+/// ([`Error::Checkpoint`], and nothing in the folder has changed). A numerical breakdown is not an error here.
 pub fn execute(
     case: &dyn Case,
     spec: &RunSpec,
-    folder: Option<&Path>,
+    place: Option<(&Path, Saving)>,
     threads: usize,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Record, Error> {
@@ -30,14 +33,17 @@ pub fn execute(
         .num_threads(threads)
         .build()
         .map_err(|e| Error::Input(format!("{threads} threads can't be started: {e}")))?;
+    let mut journal = None;
+    let mut before = Timing::default();
+    if let Some((folder, saving)) = place {
+        let identity = Identity::of(case, spec, &parameters);
+        let (begun, taken) = Journal::open(folder, saving, identity, job.as_mut())?;
+        (journal, before) = (Some(begun), taken);
+    }
     pool.install(|| {
-        let begun = Instant::now();
-        let clock = CpuClock::start(threads);
-        let failure = drive(job.as_mut(), folder, progress)?;
-        let time = Timing {
-            wall_s: begun.elapsed().as_secs_f64(),
-            cpu_s: clock.seconds(),
-        };
+        let clock = Clock::start(threads, before);
+        let failure = drive(job.as_mut(), journal.as_mut(), &clock, progress)?;
+        let time = clock.time();
         let mut record = Record {
             schema: SCHEMA,
             case: case.name().to_owned(),
@@ -71,9 +77,10 @@ pub fn execute(
             record.metrics = job.metrics();
         }
         record.verdicts = judge(case, &record);
-        if let Some(folder) = folder {
-            write_particles(folder, &job.particles())?;
-            write_json(&folder.join("record.json"), &record)?;
+        if let Some(journal) = journal {
+            write_particles(&journal.folder, &job.particles())?;
+            write_json(&journal.folder.join("record.json"), &record)?;
+            journal.keeper.end()?;
         }
         Ok(record)
     })
@@ -139,36 +146,112 @@ impl CpuClock {
     }
 }
 
+/// The time that a run takes, from what it took before it was resumed.
+struct Clock {
+    before: Timing,
+    begun: Instant,
+    processor: CpuClock,
+}
+
+impl Clock {
+    fn start(threads: usize, before: Timing) -> Self {
+        Self {
+            before,
+            begun: Instant::now(),
+            processor: CpuClock::start(threads),
+        }
+    }
+
+    fn time(&self) -> Timing {
+        Timing {
+            wall_s: self.before.wall_s + self.begun.elapsed().as_secs_f64(),
+            cpu_s: self.before.cpu_s + self.processor.seconds(),
+        }
+    }
+}
+
+/// What a run writes while it goes on.
+struct Journal {
+    folder: PathBuf,
+    series: Series,
+    keeper: Keeper,
+}
+
+impl Journal {
+    /// Goes on from the checkpoint, if there is one and it is asked for, or begins; and the time taken before.
+    fn open(
+        folder: &Path,
+        saving: Saving,
+        identity: Identity,
+        job: &mut dyn Job,
+    ) -> Result<(Self, Timing), Error> {
+        require_writable(folder)?;
+        let found = match saving.resume {
+            true => Checkpoint::read(folder, &identity)?,
+            false => None,
+        };
+        let resumed = match found {
+            None => None,
+            Some(checkpoint) => {
+                let refused = |refusal: Refusal| refusal.of(&folder.join(checkpoint::FILE));
+                job.restore(&checkpoint.memory)
+                    .map_err(|e| refused(e.into()))?;
+                let series = Series::resume(folder, checkpoint.series)?;
+                let series = series.ok_or_else(|| refused(Refusal::Series))?;
+                Some((series, checkpoint.time))
+            }
+        };
+        for file in ["record.json", "particles.csv", "particles.vtu"] {
+            discard(&folder.join(file))?;
+        }
+        let (series, before) = match resumed {
+            Some(resumed) => resumed,
+            None => {
+                checkpoint::discard(folder)?;
+                let series = Series::begin(folder, &job.series_columns())?;
+                (series, Timing::default())
+            }
+        };
+        let journal = Self {
+            folder: folder.to_path_buf(),
+            series,
+            keeper: Keeper::new(folder, identity, saving.every),
+        };
+        Ok((journal, before))
+    }
+
+    /// Writes a checkpoint if it is time.
+    fn keep(&mut self, job: &dyn Job, clock: &Clock) -> Result<(), Error> {
+        if !self.keeper.due() {
+            return Ok(());
+        }
+        let memory = job.save();
+        let memory =
+            memory.map_err(|e| Refusal::from(e).of(&self.folder.join(checkpoint::FILE)))?;
+        self.keeper.keep(&Checkpoint {
+            series: self.series.secure()?,
+            time: clock.time(),
+            memory,
+        })
+    }
+}
+
 fn drive(
     job: &mut dyn Job,
-    folder: Option<&Path>,
+    mut journal: Option<&mut Journal>,
+    clock: &Clock,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Option<Failure>, Error> {
-    let mut series = match folder {
-        Some(folder) => {
-            require_writable(folder)?;
-            for file in ["record.json", "particles.csv", "particles.vtu"] {
-                discard(&folder.join(file))?;
-            }
-            let path = folder.join("series.csv");
-            let mut writer = csv::Writer::from_path(&path).map_err(|e| Error::file(&path, e))?;
-            writer
-                .write_record(job.series_columns())
-                .map_err(|e| Error::file(&path, e))?;
-            Some((path, writer))
-        }
-        None => None,
-    };
     while !job.finished() {
+        if let Some(journal) = &mut journal {
+            journal.keep(job, clock)?;
+        }
         let row = match job.advance() {
             Ok(row) => row,
             Err(error) => return Ok(Some(failure(&error))),
         };
-        if let Some((path, writer)) = &mut series {
-            writer
-                .write_record(row.iter().map(f64::to_string))
-                .map_err(|e| Error::file(path, e))?;
-            writer.flush().map_err(|e| Error::file(path, e))?;
+        if let Some(journal) = &mut journal {
+            journal.series.add(&row)?;
         }
         progress(job.progress());
     }

@@ -3,6 +3,7 @@
 use crate::case::{Case, RunSpec, run_folder};
 use crate::cases;
 use crate::check::{Kind, Verdict};
+use crate::checkpoint::{self, Saving};
 use crate::convergence::{Convergence, convergence};
 use crate::error::{Error, ExitCode};
 use crate::files::{discard, discard_folder, read_versioned, require_writable};
@@ -22,6 +23,8 @@ pub const SCHEMA: u32 = 2;
 pub trait Listener: Sync {
     /// A share of a run is done (0 to 1).
     fn progress(&self, run: usize, share: f64);
+    /// A run can't go on from its checkpoint and begins again.
+    fn begins_again(&self, run: usize, why: &Error);
     /// A run has ended.
     fn ended(&self, run: usize, record: &Record);
 }
@@ -286,19 +289,20 @@ fn read_record(folder: &Path, run: &PlannedRun) -> Result<Option<Record>, Error>
 }
 
 /// Makes the runs of a plan's own shard below `out`, as many side by side as there are `workers`, one
-/// thread each, the longest first. With `resume`, a run that has a record of this very program is kept.
+/// thread each, the longest first. To resume is to keep a run that has a record of this very program and to go
+/// on with one that has a checkpoint of it.
 ///
 /// # Errors
-/// The folder can't be written or, with `resume`, holds another plan; or a scene can't be built.
+/// The folder can't be written or, to be resumed, holds another plan; or a scene can't be built.
 pub fn make_runs(
     plan: &Plan,
     out: &Path,
-    resume: bool,
+    saving: Saving,
     workers: usize,
     listener: &dyn Listener,
 ) -> Result<Vec<Record>, Error> {
     require_writable(out)?;
-    if resume && out.join("plan.json").exists() {
+    if saving.resume && out.join("plan.json").exists() {
         let begun = Plan::read(out)?;
         if begun != *plan {
             return Err(Error::Input(format!(
@@ -312,18 +316,16 @@ pub fn make_runs(
     let mut tasks = Vec::new();
     for run in plan.own() {
         let (case, spec) = run.resolve()?;
-        tasks.push(Task {
-            case,
-            spec,
-            folder: out.join(run.folder()),
-        });
-        if !resume {
-            discard(&out.join(run.folder()).join("record.json"))?;
-            discard_folder(&out.join(run.folder()).join("twin"))?;
+        let folder = out.join(run.folder());
+        if !saving.resume {
+            discard(&folder.join("record.json"))?;
+            checkpoint::discard(&folder)?;
+            discard_folder(&folder.join("twin"))?;
         }
+        tasks.push(Task { case, spec, folder });
     }
     plan.write(out)?;
-    run_all(&tasks, resume, workers, listener)
+    run_all(&tasks, saving, workers, listener)
 }
 
 /// A run to be made in a folder.
@@ -389,7 +391,7 @@ pub fn has_truth(record: &Record) -> bool {
 /// A folder can't be written, or a scene can't be built.
 pub fn run_all(
     tasks: &[Task],
-    resume: bool,
+    saving: Saving,
     workers: usize,
     listener: &dyn Listener,
 ) -> Result<Vec<Record>, Error> {
@@ -398,11 +400,22 @@ pub fn run_all(
     order.sort_by(|&a, &b| cost(b).total_cmp(&cost(a)));
     let results = side_by_side(order, workers, |k| {
         let task = &tasks[k];
-        let result = match task.made().filter(|_| resume) {
-            Some(record) => Ok(record),
-            None => execute(task.case, &task.spec, Some(&task.folder), 1, &|share| {
+        let made = |saving| {
+            let place = Some((task.folder.as_path(), saving));
+            execute(task.case, &task.spec, place, 1, &|share| {
                 listener.progress(k, share);
-            }),
+            })
+        };
+        let result = match task.made().filter(|_| saving.resume) {
+            Some(record) => Ok(record),
+            None => match made(saving) {
+                Err(why @ Error::Checkpoint { .. }) => {
+                    listener.begins_again(k, &why);
+                    let resume = false;
+                    made(Saving { resume, ..saving })
+                }
+                other => other,
+            },
         };
         if let Ok(record) = &result {
             listener.ended(k, record);

@@ -8,6 +8,7 @@
 )]
 
 mod browser;
+mod checkpoint;
 mod cli;
 mod completeness;
 mod exact;

@@ -11,6 +11,7 @@ pub use face::RigidFace;
 pub use friction::Friction;
 
 use crate::error::Fault;
+use crate::memory::{Memory, MemoryError, Saved};
 use crate::particles::Particles;
 
 /// The contact of all particles with one rigid body.
@@ -127,6 +128,22 @@ impl<const D: usize> RigidContact<D> {
                 return Err((k, Fault::GapClosed(gap)));
             }
         }
+        Ok(())
+    }
+}
+
+/// Moduli and place follow from the scene; what it remembers are the sticks, and the reaction as it can be read.
+impl<const D: usize> Memory for RigidContact<D> {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        Saved::of(&(self.stretch.as_flattened(), self.reaction))
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        let (stretch, reaction): (Vec<f64>, [f64; 3]) = saved.read("a contact")?;
+        MemoryError::unless_equal("sticks", stretch.len(), D * self.stretch.len())?;
+        let (rows, _) = stretch.as_chunks();
+        self.stretch.copy_from_slice(rows);
+        self.reaction = reaction;
         Ok(())
     }
 }

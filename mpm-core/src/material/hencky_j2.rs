@@ -14,6 +14,7 @@ use super::{Law, NeoHookean};
 use crate::error::{Error, require};
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
+use serde::{Deserialize, Serialize};
 
 /// Newton steps for the flow: at most this many. The function is concave, so that from the second on the
 /// iterates fall towards the root.
@@ -88,7 +89,7 @@ pub struct HenckyJ2 {
 }
 
 /// What a particle of a [`HenckyJ2`] remembers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ElastoplasticState {
     /// Elastic left Cauchy–Green tensor b_e.
     pub elastic: SymmetricTensor,

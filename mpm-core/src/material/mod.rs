@@ -10,11 +10,13 @@ pub use newtonian_fluid::NewtonianFluid;
 
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// A constitutive law.
 pub trait Law: Send + Sync {
     /// What a particle remembers; nothing more than the law needs.
-    type State: Copy + Send + Sync + PartialEq + std::fmt::Debug;
+    type State: Copy + Send + Sync + PartialEq + std::fmt::Debug + Serialize + DeserializeOwned;
 
     /// The state of undeformed material.
     fn initial_state(&self) -> Self::State;

@@ -1,6 +1,7 @@
 //! Energy-consistent F̄: one average A in the rate of volume and in the pressure of the force.
 
 use super::{Remedy, assume, fill};
+use crate::memory::Memoryless;
 use crate::parallel::CHUNK;
 use crate::particles::Particles;
 use crate::projection::Average;
@@ -92,6 +93,8 @@ fn shear<const D: usize>(delta_f: &SMatrix<f64, D, D>) -> f64 {
     }
     (2.0 * squares).sqrt()
 }
+
+impl Memoryless for FbarConsistent {}
 
 impl<const D: usize> Remedy<D> for FbarConsistent {
     fn attach(&mut self, particles: &mut Particles<D>) {

@@ -1,6 +1,7 @@
 //! Rate F̄: J̄ⁿ⁺¹ = J̄ⁿ Π(ΔJ).
 
 use super::{Remedy, assume, fill};
+use crate::memory::Memoryless;
 use crate::particles::Particles;
 use crate::projection::Average;
 use crate::space::determinant;
@@ -10,6 +11,8 @@ use crate::space::determinant;
 pub struct FbarRate {
     next: Vec<f64>,
 }
+
+impl Memoryless for FbarRate {}
 
 impl<const D: usize> Remedy<D> for FbarRate {
     fn attach(&mut self, particles: &mut Particles<D>) {

@@ -1,6 +1,7 @@
 //! Recursive F̄: J̄ⁿ⁺¹ = Π(J̄ⁿ ΔJ), Eq. (26).
 
 use super::{Remedy, assume, fill};
+use crate::memory::Memoryless;
 use crate::particles::Particles;
 use crate::projection::Average;
 use crate::space::determinant;
@@ -11,6 +12,8 @@ use crate::space::determinant;
 pub struct FbarRecursive {
     next: Vec<f64>,
 }
+
+impl Memoryless for FbarRecursive {}
 
 impl<const D: usize> Remedy<D> for FbarRecursive {
     fn attach(&mut self, particles: &mut Particles<D>) {

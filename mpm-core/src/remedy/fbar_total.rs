@@ -1,6 +1,7 @@
 //! Total F̄: J̄ⁿ⁺¹ = Π(Jⁿ⁺¹), Eqs. (18)–(21).
 
 use super::{Remedy, assume, fill};
+use crate::memory::Memoryless;
 use crate::particles::Particles;
 use crate::projection::Average;
 
@@ -9,6 +10,8 @@ use crate::projection::Average;
 pub struct FbarTotal {
     next: Vec<f64>,
 }
+
+impl Memoryless for FbarTotal {}
 
 impl<const D: usize> Remedy<D> for FbarTotal {
     fn attach(&mut self, particles: &mut Particles<D>) {

@@ -23,14 +23,15 @@ pub use fbar_recursive::FbarRecursive;
 pub use fbar_total::FbarTotal;
 pub use standard::Standard;
 
+use crate::memory::Memory;
 use crate::parallel::CHUNK;
 use crate::particles::Particles;
 use crate::projection::Average;
 use crate::space::{determinant, stretch_of_volume};
 use rayon::prelude::*;
 
-/// A locking remedy of a body.
-pub trait Remedy<const D: usize>: Send {
+/// A locking remedy of a body. What it remembers of a particle, J̄, is a column of the particles.
+pub trait Remedy<const D: usize>: Memory + Send {
     /// Gives the particles the columns that the remedy needs.
     fn attach(&mut self, _particles: &mut Particles<D>) {}
 

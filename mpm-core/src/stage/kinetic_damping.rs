@@ -1,6 +1,7 @@
 //! Kinetic damping: dynamic relaxation towards equilibrium.
 
 use super::ParticleFilter;
+use crate::memory::{Memory, MemoryError, Saved};
 use crate::particles::Particles;
 use nalgebra::SMatrix;
 
@@ -12,6 +13,17 @@ use nalgebra::SMatrix;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct KineticDamping {
     previous: f64,
+}
+
+impl Memory for KineticDamping {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        Saved::of(&self.previous)
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        self.previous = saved.read("kinetic damping")?;
+        Ok(())
+    }
 }
 
 impl<const D: usize> ParticleFilter<D> for KineticDamping {

@@ -1,6 +1,7 @@
 //! Body forces and dead forces.
 
 use super::{Load, smooth_rise};
+use crate::memory::Memoryless;
 use crate::particles::Particles;
 
 /// A field of body force per unit mass (N/kg) as a function of the reference position (m) and time (s).
@@ -8,6 +9,8 @@ pub type ForceField<const D: usize> = Box<dyn Fn(&[f64; D], f64) -> [f64; D] + S
 
 /// A body force per unit mass, evaluated at the particles' reference positions.
 pub struct BodyForce<const D: usize>(pub ForceField<D>);
+
+impl<const D: usize> Memoryless for BodyForce<D> {}
 
 impl<const D: usize> Load<D> for BodyForce<D> {
     fn add(&self, time: f64, particles: &mut Particles<D>) {
@@ -61,6 +64,8 @@ impl<const D: usize> DeadForce<D> {
         self.loaded.iter().filter(|&&l| l).count()
     }
 }
+
+impl<const D: usize> Memoryless for DeadForce<D> {}
 
 impl<const D: usize> Load<D> for DeadForce<D> {
     fn add(&self, time: f64, particles: &mut Particles<D>) {

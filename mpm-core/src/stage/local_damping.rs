@@ -2,6 +2,7 @@
 
 use super::ForceFilter;
 use crate::error::{Error, require};
+use crate::memory::Memoryless;
 use crate::transfer::NodalState;
 
 /// Opposes every component of a nodal velocity by the fraction `alpha` of that component's
@@ -27,6 +28,8 @@ impl LocalDamping {
         Ok(Self { alpha })
     }
 }
+
+impl Memoryless for LocalDamping {}
 
 impl ForceFilter for LocalDamping {
     fn filter(&self, node: &mut NodalState) -> f64 {

@@ -6,6 +6,9 @@
 //! * a [`ForceFilter`] changes nodal forces, knowing the nodal velocities (damping);
 //! * a [`Constraint`] declares nodes, axes and prescribed velocities;
 //! * a [`ParticleFilter`] acts on the particles after the step (kinetic damping).
+//!
+//! A stage that carries something from one step to the next says so in its [`Memory`]; the others are
+//! [`Memoryless`](crate::Memoryless).
 
 mod kinetic_damping;
 mod load;
@@ -21,17 +24,18 @@ pub use rest::{Observation, RestCriterion};
 pub use rigid_nodes::RigidNodes;
 pub use wall::{End, Wall, WallKind};
 
+use crate::memory::Memory;
 use crate::particles::Particles;
 use crate::transfer::NodalState;
 
 /// A load on the particles.
-pub trait Load<const D: usize>: Send {
+pub trait Load<const D: usize>: Memory + Send {
     /// Adds the load at `time` (s) to the particles' external force (N).
     fn add(&self, time: f64, particles: &mut Particles<D>);
 }
 
 /// A filter of nodal forces.
-pub trait ForceFilter: Send {
+pub trait ForceFilter: Memory + Send {
     /// Changes the force (N, in `change`) of a node whose `motion` is its velocity (m/s) before the
     /// update; returns the power (W) that it takes from the motion.
     fn filter(&self, node: &mut NodalState) -> f64;
@@ -53,7 +57,7 @@ pub struct Prescribed {
 }
 
 /// A constraint on the motion of nodes. An explicit solver overwrites, an implicit one eliminates.
-pub trait Constraint<const D: usize>: Send {
+pub trait Constraint<const D: usize>: Memory + Send {
     /// Whether the node at `position` (m), of a lattice on `grid`, is constrained along `axis`, and
     /// to which velocity (m/s) when the amplitude is one.
     fn prescribe(&self, grid: &crate::Grid<D>, position: &[f64; D], axis: usize) -> Option<f64>;
@@ -65,7 +69,7 @@ pub trait Constraint<const D: usize>: Send {
 }
 
 /// A filter of the particles at the end of a step.
-pub trait ParticleFilter<const D: usize>: Send {
+pub trait ParticleFilter<const D: usize>: Memory + Send {
     /// Changes the particles, knowing the kinetic energy (J) of the nodes in the step; returns the
     /// energy (J) that it takes from the particles.
     fn filter(&mut self, nodal_kinetic_energy: f64, particles: &mut Particles<D>) -> f64;

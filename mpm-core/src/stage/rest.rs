@@ -1,9 +1,11 @@
 //! When a relaxed motion counts as at rest.
 
+use crate::memory::{Memory, MemoryError, Saved};
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// What is observed of a motion at one time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
     /// Time (s).
     pub time: f64,
@@ -66,6 +68,17 @@ impl RestCriterion {
                 && o.energy_ratio <= self.energy_ratio
                 && (o.displacement - now.displacement).abs() <= still
         })
+    }
+}
+
+impl Memory for RestCriterion {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        Saved::of(&self.history)
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        self.history = saved.read("criterion of rest")?;
+        Ok(())
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Constraint, smooth_rise};
 use crate::grid::Grid;
+use crate::memory::Memoryless;
 
 /// The nodes in a box move with a rigid body; the velocity starts smoothly. The box stays where it is: this is
 /// contact for strokes that are small against a cell. Material that it touches sticks to it along the axes
@@ -19,6 +20,8 @@ pub struct RigidNodes<const D: usize> {
 
 /// A node this fraction of a cell outside still counts as within.
 const MARGIN: f64 = 1e-9;
+
+impl<const D: usize> Memoryless for RigidNodes<D> {}
 
 impl<const D: usize> Constraint<D> for RigidNodes<D> {
     fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {

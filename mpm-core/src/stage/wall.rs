@@ -2,6 +2,7 @@
 
 use super::Constraint;
 use crate::grid::Grid;
+use crate::memory::Memoryless;
 
 /// Which end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,6 +35,8 @@ pub struct Wall {
 
 /// A node this fraction of a cell inside still counts as on the wall.
 const ON_WALL: f64 = 1e-9;
+
+impl Memoryless for Wall {}
 
 impl<const D: usize> Constraint<D> for Wall {
     fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {

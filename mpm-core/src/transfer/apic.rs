@@ -23,6 +23,7 @@ use super::kernel::{Given, Received, gather, spread};
 use super::{NodalState, Node, Transfer};
 use crate::basis::Basis;
 use crate::lattice::{Arms, Lattice, Stencil};
+use crate::memory::Memoryless;
 use crate::particles::Particles;
 use nalgebra::SMatrix;
 
@@ -45,6 +46,8 @@ pub fn second_moment<const D: usize, const S: usize>(
         terms.map(|(w, arm)| w * arm * arm).sum()
     })
 }
+
+impl Memoryless for Apic {}
 
 impl<const D: usize> Transfer<D> for Apic {
     fn attach(&self, particles: &mut Particles<D>) {

@@ -8,6 +8,7 @@ use super::{NodalState, Transfer};
 use crate::basis::Basis;
 use crate::error::{Error, require};
 use crate::lattice::{Lattice, Stencil};
+use crate::memory::Memoryless;
 use nalgebra::SMatrix;
 
 /// The blend η FLIP + (1 − η) PIC of Eq. (13); FLIP by default.
@@ -40,6 +41,8 @@ impl Default for Flip {
         Self { eta: 1.0 }
     }
 }
+
+impl Memoryless for Flip {}
 
 impl<const D: usize> Transfer<D> for Flip {
     #[inline(always)]

@@ -24,6 +24,7 @@ pub use xpic::Xpic;
 
 use crate::basis::Basis;
 use crate::lattice::{Lattice, Stencil};
+use crate::memory::Memory;
 use crate::particles::Particles;
 use crate::stage::Prescribed;
 use nalgebra::SMatrix;
@@ -32,7 +33,7 @@ use wide::f64x4;
 
 /// A particle–grid transfer. Its methods stand inside the loop over particles and nodes, so it is a
 /// type parameter of the solver.
-pub trait Transfer<const D: usize>: Send + Sync {
+pub trait Transfer<const D: usize>: Memory + Send + Sync {
     /// Gives the particles the columns that the transfer needs; a column that is there is kept.
     fn attach(&self, _particles: &mut Particles<D>) {}
 

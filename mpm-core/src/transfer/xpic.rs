@@ -23,6 +23,7 @@ use super::{Flip, NodalState, Node, Transfer};
 use crate::basis::Basis;
 use crate::error::{Error, require};
 use crate::lattice::{Lattice, Stencil};
+use crate::memory::Memoryless;
 use crate::parallel::scatter;
 use crate::particles::Particles;
 use crate::stage::Prescribed;
@@ -102,6 +103,8 @@ impl Xpic {
         lattice.fold(&mut self.mapped);
     }
 }
+
+impl Memoryless for Xpic {}
 
 impl<const D: usize> Transfer<D> for Xpic {
     #[inline(always)]

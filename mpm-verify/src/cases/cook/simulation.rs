@@ -19,7 +19,7 @@ use mpm_core::stage::{
     RestCriterion, Wall, WallKind,
 };
 use mpm_core::transfer::Flip;
-use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
+use mpm_core::{Axis, Grid, Memory, MemoryError, Particles, Saved, Scene, Side, Simulation};
 use std::collections::BTreeMap;
 
 /// Corners: (0, 0), (48, 44), (48, 60), (0, 44) m.
@@ -351,6 +351,34 @@ impl Probes {
 
     fn edge_mean(&self, uy: &[f64]) -> f64 {
         self.edge.iter().map(|p| p.value(uy)).sum::<f64>() / EDGE_POINTS as f64
+    }
+}
+
+impl Memory for Simulated {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        Saved::of(&(
+            self.simulation.save()?,
+            self.rest.save()?,
+            self.at_rest,
+            &self.gaps,
+            self.energy_defect,
+            &self.work_residuals,
+        ))
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        let simulation: Saved;
+        let rest: Saved;
+        (
+            simulation,
+            rest,
+            self.at_rest,
+            self.gaps,
+            self.energy_defect,
+            self.work_residuals,
+        ) = saved.read("Cook's membrane")?;
+        self.simulation.restore(&simulation)?;
+        self.rest.restore(&rest)
     }
 }
 

@@ -13,12 +13,14 @@ use crate::statistics::{fit_line, rms};
 use mpm_core::basis::WallTreatment;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::material::{HenckyJ2, Law, Strength};
+use mpm_core::memory::{Memory, MemoryError, Saved};
 use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{
     Constraint, End, ForceFilter, LocalDamping, RigidNodes, Wall, WallKind, smooth_stroke,
 };
 use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Width B of the footing (m); its right half is simulated.
@@ -48,7 +50,7 @@ enum Press {
 }
 
 /// One observation: means over the steps since the one before.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Row {
     /// Penetration over B; through a barrier, less how much that gives way in the mean.
     penetration: f64,
@@ -329,6 +331,18 @@ fn footing(parameters: &Parameters, h: f64) -> Box<dyn Constraint<2>> {
         ],
         ramp: parameters.number("ramp"),
     })
+}
+
+impl Memory for Simulated {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        Saved::of(&(self.simulation.save()?, &self.rows, &self.before_plateau))
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        let simulation: Saved;
+        (simulation, self.rows, self.before_plateau) = saved.read("the strip footing")?;
+        self.simulation.restore(&simulation)
+    }
 }
 
 impl Job for Simulated {

@@ -15,8 +15,11 @@ use mpm_core::remedy::FbarConsistent;
 use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{BodyForce, Constraint, End, Load, Wall, WallKind};
 use mpm_core::transfer::Flip;
-use mpm_core::{Axis, Grid, Particles, Remedy, Scene, Side, Simulation};
+use mpm_core::{
+    Axis, Grid, Memory, MemoryError, Particles, Remedy, Saved, Scene, Side, Simulation,
+};
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -45,7 +48,7 @@ pub(super) struct Simulated<const D: usize> {
 }
 
 /// What is kept of a row of the series.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 struct Row {
     time: f64,
     kinetic: f64,
@@ -522,6 +525,18 @@ impl<const D: usize> Simulated<D> {
             .collect();
         let base = fit_line(&profile).map_or(f64::NAN, |line| line.intercept);
         Some([drift(0), drift(1), growth, base])
+    }
+}
+
+impl<const D: usize> Memory for Simulated<D> {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        Saved::of(&(self.simulation.save()?, &self.rows))
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        let simulation: Saved;
+        (simulation, self.rows) = saved.read("a motion known in closed form")?;
+        self.simulation.restore(&simulation)
     }
 }
 

@@ -1,0 +1,188 @@
+//! What a run remembers: all that the next step needs and the scene doesn't say.
+//!
+//! A run that is saved, built anew from its scene and restored goes on as if it had never stopped, bit
+//! for bit. So every part of a run says what it carries from one step to the next: by [`Memory`], or,
+//! if that is nothing, by [`Memoryless`]. What a part was built from is no memory (moduli, limits, walls),
+//! nor is what each step begins by overwriting (work arrays).
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// The memory of a part, as bytes; what they mean only that part knows.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Saved(#[serde(with = "serde_bytes")] Vec<u8>);
+
+/// Why a memory can't be saved or restored.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MemoryError {
+    /// A value that can't be written as bytes.
+    #[error("memory can't be written: {0}")]
+    Write(postcard::Error),
+    /// Bytes that are not the memory of this part.
+    #[error("not the memory of {part}: {cause}")]
+    Read {
+        /// The part.
+        part: &'static str,
+        /// What is wrong with the bytes.
+        cause: postcard::Error,
+    },
+    /// More bytes than this part's memory has.
+    #[error("not the memory of {part}: {surplus} bytes too many")]
+    Surplus {
+        /// The part.
+        part: &'static str,
+        /// How many are left.
+        surplus: usize,
+    },
+    /// A size that is not that of the scene.
+    #[error("{what}: {saved} in the memory, {expected} in the scene")]
+    Size {
+        /// What is counted.
+        what: &'static str,
+        /// The memory's.
+        saved: usize,
+        /// The scene's.
+        expected: usize,
+    },
+    /// A value that the scene doesn't allow.
+    #[error("{what} = {value} in the memory is not allowed: {allowed}")]
+    Value {
+        /// The field.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The allowed range, in words.
+        allowed: &'static str,
+    },
+}
+
+impl MemoryError {
+    /// Checks that a size in the memory is that of the scene.
+    ///
+    /// # Errors
+    /// [`MemoryError::Size`] if it is not.
+    pub fn unless_equal(what: &'static str, saved: usize, expected: usize) -> Result<(), Self> {
+        if saved == expected {
+            return Ok(());
+        }
+        Err(Self::Size {
+            what,
+            saved,
+            expected,
+        })
+    }
+}
+
+impl Saved {
+    /// The bytes of `value`, often a tuple of references to what is remembered.
+    ///
+    /// # Errors
+    /// A value that has no bytes, such as a sequence of unknown length.
+    pub fn of(value: &impl Serialize) -> Result<Self, MemoryError> {
+        postcard::to_stdvec(value)
+            .map(Self)
+            .map_err(MemoryError::Write)
+    }
+
+    /// From bytes that were [saved](Self::bytes).
+    #[must_use]
+    pub fn from_bytes(bytes: Vec<u8>) -> Self {
+        Self(bytes)
+    }
+
+    /// The bytes.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.0
+    }
+
+    /// The value whose bytes these are; `part` names it in errors.
+    ///
+    /// # Errors
+    /// The bytes are not those of one such value.
+    pub fn read<T: DeserializeOwned>(&self, part: &'static str) -> Result<T, MemoryError> {
+        let (value, rest) = postcard::take_from_bytes(&self.0)
+            .map_err(|cause| MemoryError::Read { part, cause })?;
+        if rest.is_empty() {
+            return Ok(value);
+        }
+        Err(MemoryError::Surplus {
+            part,
+            surplus: rest.len(),
+        })
+    }
+}
+
+/// Something that remembers from one step to the next.
+pub trait Memory {
+    /// What it remembers now.
+    ///
+    /// # Errors
+    /// A value that has no bytes.
+    fn save(&self) -> Result<Saved, MemoryError>;
+
+    /// Remembers what was saved of its like, built in the same way.
+    ///
+    /// # Errors
+    /// The memory of something else. Part of it may have been taken then: not to be used any more.
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError>;
+}
+
+/// Something that remembers nothing: how it acts depends on how it was built and on what it is given.
+pub trait Memoryless {}
+
+impl<T: Memoryless + ?Sized> Memory for T {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        Ok(Saved::default())
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        saved.read("a part that remembers nothing")
+    }
+}
+
+/// What each of a list remembers.
+///
+/// # Errors
+/// A value that has no bytes.
+pub fn save_all<T: Memory + ?Sized>(parts: &[Box<T>]) -> Result<Vec<Saved>, MemoryError> {
+    parts.iter().map(|part| part.save()).collect()
+}
+
+/// Gives each of a list its memory back; `what` names the list in errors.
+///
+/// # Errors
+/// A list of another length, or the memory of something else.
+pub fn restore_all<T: Memory + ?Sized>(
+    what: &'static str,
+    parts: &mut [Box<T>],
+    saved: &[Saved],
+) -> Result<(), MemoryError> {
+    MemoryError::unless_equal(what, saved.len(), parts.len())?;
+    let mut pairs = parts.iter_mut().zip(saved);
+    pairs.try_for_each(|(part, saved)| part.restore(saved))
+}
+
+/// Columns of vectors, which serde knows for no general `D`: as one run of numbers.
+pub(crate) mod rows {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    pub(crate) fn serialize<const D: usize, S: Serializer>(
+        column: &[[f64; D]],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        column.as_flattened().serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, const D: usize, R: Deserializer<'de>>(
+        deserializer: R,
+    ) -> Result<Vec<[f64; D]>, R::Error> {
+        let numbers = Vec::<f64>::deserialize(deserializer)?;
+        match numbers.as_chunks() {
+            (rows, []) => Ok(rows.to_vec()),
+            _ => Err(R::Error::invalid_length(numbers.len(), &"whole vectors")),
+        }
+    }
+}

@@ -1,0 +1,350 @@
+//! Checkpoints: a run on disk, from which it goes on as if it had never stopped.
+//!
+//! | bytes | content |
+//! |---|---|
+//! | 8 | `MPMCHECK` |
+//! | 4 | version of the format |
+//! | 8 | number of bytes after the checksum |
+//! | 4 | their checksum, CRC-32 |
+//! | … | whose checkpoint it is (JSON); the mark of the series and the time taken; the memory of the job |
+//!
+//! Numbers are little-endian; what follows the checksum is written by serde in the format of `postcard`.
+
+use crate::case::{Case, RunSpec};
+use crate::error::Error;
+use crate::files;
+use crate::parameter::Parameters;
+use crate::record::{Record, Timing, Version};
+use crate::series::Mark;
+use crc32fast::Hasher;
+use mpm_core::{MemoryError, Saved};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use std::{fs, io};
+use thiserror::Error;
+
+/// Name of its file.
+pub const FILE: &str = "checkpoint.bin";
+/// Name while it is being written.
+const DRAFT: &str = "checkpoint.part";
+/// Seconds between checkpoints, if nothing else is asked for.
+pub const EVERY_S: u64 = 60;
+/// How the file begins.
+const MAGIC: [u8; 8] = *b"MPMCHECK";
+/// Version of the format.
+const FORMAT: u32 = 1;
+
+/// When a run is saved, and whether it goes on from what was saved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Saving {
+    /// Time by the clock from one checkpoint to the next, which comes with the next row of the series.
+    pub every: Duration,
+    /// Whether to go on from the checkpoint in the run's folder, if there is one.
+    pub resume: bool,
+}
+
+impl Saving {
+    /// At the default interval, going on from what there is.
+    #[must_use]
+    pub fn resuming() -> Self {
+        Self {
+            every: Duration::from_secs(EVERY_S),
+            resume: true,
+        }
+    }
+}
+
+/// Why a run can't go on from what is in its folder.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Refusal {
+    /// The file begins with something else.
+    #[error("not a checkpoint")]
+    NotACheckpoint,
+    /// Another version of the format.
+    #[error("a checkpoint of format {0} where {FORMAT} is expected")]
+    Format(u32),
+    /// The end is missing.
+    #[error("truncated: {found} bytes where {expected} are expected")]
+    Truncated {
+        /// Bytes there are.
+        found: u64,
+        /// Bytes there should be.
+        expected: u64,
+    },
+    /// Some bytes have changed.
+    #[error("damaged: checksum {found:08x} where {expected:08x} is expected")]
+    Damaged {
+        /// Checksum of what is there.
+        found: u32,
+        /// Checksum of what was written.
+        expected: u32,
+    },
+    /// Sound bytes that mean nothing.
+    #[error("can't be read: {0}")]
+    Content(String),
+    /// Of another case, scheme, level or twin.
+    #[error("of another run: {found}, not {asked}")]
+    Run {
+        /// The run there.
+        found: String,
+        /// The run asked for.
+        asked: String,
+    },
+    /// Of the same run at another value of a parameter.
+    #[error("of other parameters: {name} = {found}, not {asked}")]
+    Parameter {
+        /// The parameter.
+        name: String,
+        /// Its value there.
+        found: String,
+        /// Its value asked for.
+        asked: String,
+    },
+    /// Of other sources.
+    #[error("of another program: source {found}, not {here}")]
+    Program {
+        /// Fingerprint there.
+        found: String,
+        /// Fingerprint of this program.
+        here: String,
+    },
+    /// The series is not the one that the checkpoint was written beside.
+    #[error("{} is not the series that it was written with", crate::series::FILE)]
+    Series,
+    /// The job is not one of this memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
+}
+
+impl Refusal {
+    /// As an error about a file.
+    #[must_use]
+    pub fn of(self, path: &Path) -> Error {
+        Error::Checkpoint {
+            path: path.to_path_buf(),
+            refusal: self,
+        }
+    }
+}
+
+/// Whose results a file holds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Identity {
+    program: Version,
+    /// Case, scheme, level, and whether it is the perturbed twin.
+    run: String,
+    parameters: Parameters,
+}
+
+impl Identity {
+    /// Of a run by this program.
+    #[must_use]
+    pub fn of(case: &dyn Case, spec: &RunSpec, parameters: &Parameters) -> Self {
+        Self {
+            program: Version::current(),
+            run: run(case.name(), spec.scheme, spec.level.name, spec.perturbed),
+            parameters: parameters.clone(),
+        }
+    }
+
+    /// Of the run that left a record.
+    #[must_use]
+    pub fn of_record(record: &Record) -> Self {
+        Self {
+            program: record.version.clone(),
+            run: run(
+                &record.case,
+                record.scheme(),
+                &record.level,
+                record.perturbed,
+            ),
+            parameters: record.parameters.clone(),
+        }
+    }
+
+    /// Checks that what was found is of this run.
+    ///
+    /// # Errors
+    /// What it differs in first: run, parameters, program.
+    pub fn require(&self, found: &Self) -> Result<(), Refusal> {
+        if found.run != self.run {
+            return Err(Refusal::Run {
+                found: found.run.clone(),
+                asked: self.run.clone(),
+            });
+        }
+        let differences = found.parameters.differences(&self.parameters);
+        if let Some((name, found, asked)) = differences.into_iter().next() {
+            return Err(Refusal::Parameter { name, found, asked });
+        }
+        if found.program != self.program {
+            return Err(Refusal::Program {
+                found: found.program.source.clone(),
+                here: self.program.source.clone(),
+            });
+        }
+        Ok(())
+    }
+}
+
+fn run(case: &str, scheme: crate::scheme::Scheme, level: &str, perturbed: bool) -> String {
+    let twin = if perturbed { " (perturbed)" } else { "" };
+    format!("{case} {scheme}/{level}{twin}")
+}
+
+/// A run as it was after a row of its series.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Checkpoint {
+    /// How far the series had come.
+    pub series: Mark,
+    /// Time taken.
+    pub time: Timing,
+    /// What the job remembers.
+    pub memory: Saved,
+}
+
+impl Checkpoint {
+    /// Reads the checkpoint in a folder; `None` if there is none.
+    ///
+    /// # Errors
+    /// It is truncated, damaged, of another format, run or program, of other parameters, or can't be read.
+    pub fn read(folder: &Path, identity: &Identity) -> Result<Option<Self>, Error> {
+        let path = folder.join(FILE);
+        let bytes = match fs::read(&path) {
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
+            other => other.map_err(|e| Error::file(&path, e))?,
+        };
+        match Self::decode(&bytes, identity) {
+            Ok(checkpoint) => Ok(Some(checkpoint)),
+            Err(refusal) => Err(refusal.of(&path)),
+        }
+    }
+
+    fn decode(bytes: &[u8], identity: &Identity) -> Result<Self, Refusal> {
+        let content = sound_content(bytes)?;
+        let unreadable = |e: &dyn ToString| Refusal::Content(e.to_string());
+        let (json, rest) =
+            postcard::take_from_bytes::<&str>(content).map_err(|e| unreadable(&e))?;
+        let found = serde_json::from_str(json).map_err(|e| unreadable(&e))?;
+        identity.require(&found)?;
+        let ((series, time), memory) =
+            postcard::take_from_bytes(rest).map_err(|e| unreadable(&e))?;
+        Ok(Self {
+            series,
+            time,
+            memory: Saved::from_bytes(memory.to_vec()),
+        })
+    }
+
+    /// Writes it, whole or not at all.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    fn write(&self, folder: &Path, identity: &Identity) -> Result<(), Error> {
+        let path = folder.join(FILE);
+        let json = serde_json::to_string(identity).map_err(|e| Error::file(&path, e))?;
+        let about = postcard::to_stdvec(&(json, (self.series, self.time)))
+            .map_err(|e| Error::file(&path, e))?;
+        let memory = self.memory.bytes();
+        let mut checksum = Hasher::new();
+        checksum.update(&about);
+        checksum.update(memory);
+        let length = (about.len() + memory.len()) as u64;
+        let parts = [
+            &MAGIC[..],
+            &FORMAT.to_le_bytes(),
+            &length.to_le_bytes(),
+            &checksum.finalize().to_le_bytes(),
+            &about,
+            memory,
+        ];
+        files::write_durable(&path, &folder.join(DRAFT), &parts)
+    }
+}
+
+/// What follows the checksum, if that is right.
+fn sound_content(bytes: &[u8]) -> Result<&[u8], Refusal> {
+    let Some(rest) = bytes.strip_prefix(&MAGIC) else {
+        return Err(Refusal::NotACheckpoint);
+    };
+    let missing = |expected| Refusal::Truncated {
+        found: bytes.len() as u64,
+        expected,
+    };
+    let head = |size: usize| missing((MAGIC.len() + size) as u64);
+    let (format, rest) = rest.split_first_chunk().ok_or_else(|| head(4))?;
+    if u32::from_le_bytes(*format) != FORMAT {
+        return Err(Refusal::Format(u32::from_le_bytes(*format)));
+    }
+    let (length, rest) = rest.split_first_chunk().ok_or_else(|| head(12))?;
+    let (checksum, content) = rest.split_first_chunk().ok_or_else(|| head(16))?;
+    let length = u64::from_le_bytes(*length);
+    let found = content.len() as u64;
+    if found < length {
+        return Err(missing((bytes.len() as u64 - found).saturating_add(length)));
+    }
+    let checksum = u32::from_le_bytes(*checksum);
+    match crc32fast::hash(content) {
+        found if found == checksum => Ok(content),
+        found => Err(Refusal::Damaged {
+            found,
+            expected: checksum,
+        }),
+    }
+}
+
+/// Removes the checkpoint of a folder, if there is one.
+///
+/// # Errors
+/// It is there and can't be removed.
+pub fn discard(folder: &Path) -> Result<(), Error> {
+    files::discard(&folder.join(FILE))?;
+    files::discard(&folder.join(DRAFT))
+}
+
+/// Keeps the checkpoint of a run up to date.
+#[derive(Debug)]
+pub struct Keeper {
+    folder: PathBuf,
+    identity: Identity,
+    every: Duration,
+    last: Instant,
+}
+
+impl Keeper {
+    /// Of a run in `folder` that begins, or goes on, now.
+    #[must_use]
+    pub fn new(folder: &Path, identity: Identity, every: Duration) -> Self {
+        Self {
+            folder: folder.to_path_buf(),
+            identity,
+            every,
+            last: Instant::now(),
+        }
+    }
+
+    /// Whether it is time for the next checkpoint.
+    #[must_use]
+    pub fn due(&self) -> bool {
+        self.last.elapsed() >= self.every
+    }
+
+    /// Writes a checkpoint in place of the last.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn keep(&mut self, checkpoint: &Checkpoint) -> Result<(), Error> {
+        checkpoint.write(&self.folder, &self.identity)?;
+        self.last = Instant::now();
+        Ok(())
+    }
+
+    /// Ends: a run that has its record needs no checkpoint.
+    ///
+    /// # Errors
+    /// The file can't be removed.
+    pub fn end(self) -> Result<(), Error> {
+        discard(&self.folder)
+    }
+}

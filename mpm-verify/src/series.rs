@@ -1,0 +1,160 @@
+//! The time series of a run: a table that grows by a row at a time.
+
+use crate::error::Error;
+use crc32fast::Hasher;
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// Name of its file.
+pub const FILE: &str = "series.csv";
+
+/// How far a series has come: its size, and the checksum of what stands there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Mark {
+    /// Bytes.
+    pub bytes: u64,
+    /// Their CRC-32.
+    pub checksum: u32,
+}
+
+/// A series that is being written.
+pub struct Series {
+    path: PathBuf,
+    writer: csv::Writer<Tallied>,
+}
+
+/// A file, and the tally of what went into it.
+struct Tallied {
+    file: File,
+    bytes: u64,
+    checksum: Hasher,
+}
+
+impl Write for Tallied {
+    fn write(&mut self, content: &[u8]) -> io::Result<usize> {
+        let written = self.file.write(content)?;
+        self.bytes += written as u64;
+        self.checksum.update(&content[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Series {
+    /// Begins a series of these columns in `folder`, in place of what is there.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn begin(folder: &Path, columns: &[&str]) -> Result<Self, Error> {
+        let path = folder.join(FILE);
+        let file = File::create(&path).map_err(|e| Error::file(&path, e))?;
+        let mut series = Self::on(path, file, 0, Hasher::new());
+        series.write(|writer| writer.write_record(columns))?;
+        Ok(series)
+    }
+
+    /// Goes on with the series in `folder` from `mark`, cutting off what comes after it; `None` if it does
+    /// not begin with what the mark knows.
+    ///
+    /// # Errors
+    /// The file can't be read or written.
+    pub fn resume(folder: &Path, mark: Mark) -> Result<Option<Self>, Error> {
+        let path = folder.join(FILE);
+        let reopen = || -> io::Result<Option<(File, Hasher)>> {
+            let options = File::options().read(true).write(true).open(&path);
+            let mut file = match options {
+                Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
+                other => other?,
+            };
+            let mut known = Vec::new();
+            (&mut file).take(mark.bytes).read_to_end(&mut known)?;
+            let mut checksum = Hasher::new();
+            checksum.update(&known);
+            if known.len() as u64 != mark.bytes || checksum.clone().finalize() != mark.checksum {
+                return Ok(None);
+            }
+            file.set_len(mark.bytes)?;
+            file.seek(SeekFrom::End(0))?;
+            Ok(Some((file, checksum)))
+        };
+        let reopened = reopen().map_err(|e| Error::file(&path, e))?;
+        Ok(reopened.map(|(file, checksum)| Self::on(path, file, mark.bytes, checksum)))
+    }
+
+    fn on(path: PathBuf, file: File, bytes: u64, checksum: Hasher) -> Self {
+        let tallied = Tallied {
+            file,
+            bytes,
+            checksum,
+        };
+        let writer = csv::Writer::from_writer(tallied);
+        Self { path, writer }
+    }
+
+    fn write(
+        &mut self,
+        write: impl FnOnce(&mut csv::Writer<Tallied>) -> csv::Result<()>,
+    ) -> Result<(), Error> {
+        write(&mut self.writer)
+            .and_then(|()| Ok(self.writer.flush()?))
+            .map_err(|e| Error::file(&self.path, e))
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn add(&mut self, row: &[f64]) -> Result<(), Error> {
+        self.write(|writer| writer.write_record(row.iter().map(f64::to_string)))
+    }
+
+    /// How far the series has come; what stands there stays even if the machine fails.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn secure(&self) -> Result<Mark, Error> {
+        let tallied = self.writer.get_ref();
+        tallied
+            .file
+            .sync_data()
+            .map_err(|e| Error::file(&self.path, e))?;
+        Ok(Mark {
+            bytes: tallied.bytes,
+            checksum: tallied.checksum.clone().finalize(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_series_goes_on_from_its_mark_and_from_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(FILE);
+        let mut series = Series::begin(folder.path(), &["a", "b"]).unwrap();
+        series.add(&[1.0, 2.5]).unwrap();
+        let mark = series.secure().unwrap();
+        series.add(&[3.0, 4.0]).unwrap();
+        drop(series);
+        std::fs::write(&path, "a,b\n1,2.5\n3,4\n5,").unwrap();
+        let mut series = Series::resume(folder.path(), mark).unwrap().unwrap();
+        series.add(&[6.0, 7.0]).unwrap();
+        let further = series.secure().unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "a,b\n1,2.5\n6,7\n");
+        assert!(Series::resume(folder.path(), further).unwrap().is_some());
+        for other in ["a,b\n1,2.", "a,b\n1,2.6\n6,7\n"] {
+            std::fs::write(&path, other).unwrap();
+            assert!(Series::resume(folder.path(), mark).unwrap().is_none());
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), other);
+        }
+        std::fs::remove_file(&path).unwrap();
+        assert!(Series::resume(folder.path(), mark).unwrap().is_none());
+    }
+}
