@@ -82,9 +82,7 @@ fn scene<M: Law, T>(
             }))),
             Box::new(pull),
         ],
-        contacts: vec![
-            RigidContact::new(lid, Barrier::new(0.2, 0.3).unwrap()).with_friction(drag),
-        ],
+        contacts: vec![RigidContact::new(lid, Barrier::new(0.2, 0.3).unwrap()).with_friction(drag)],
         force_filters: vec![Box::new(LocalDamping::new(0.1).unwrap())],
         constraints: vec![
             Box::new(Wall {

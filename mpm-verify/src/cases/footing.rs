@@ -207,7 +207,7 @@ const METRICS: &[MetricInfo] = &[
     metric(
         "nc_effective",
         "-",
-        "likewise with the width that the held nodes of the scheme act with: B for quadratic splines, whose nodes lie in the middle of cells, B + h for the others",
+        "likewise with the width that the held nodes of the scheme act with: B for quadratic splines, whose nodes lie in the middle of cells, B + h for GIMP, B + h/2 for cubic ones",
     ),
     metric(
         "prandtl_error",
@@ -334,7 +334,7 @@ impl Case for Footing {
 
     fn limits(&self) -> &'static [&'static str] {
         &[
-            "A footing of held nodes acts as wide as up to the middle between its last node and the first free one: B + h, or B with quadratic splines.",
+            "A footing of held nodes acts as wide as up to the middle between its last node and the first free one: B + h, with quadratic splines B.",
             "The footing's nodes stay where they are: strokes are small against a cell.",
             "The inertia of the start shows below s/B = 0.0003; the elastic slope is measured in runs of great strength.",
         ]
@@ -420,7 +420,7 @@ impl Case for Footing {
 }
 
 /// Ground just large enough for the limit load, and a penetration just long enough.
-const SMALL: &[&str] = &["domain_width=4", "domain_depth=4", "penetration=0.003"];
+const SMALL: &[&str] = &["domain_width=3", "domain_depth=3", "penetration=0.0025"];
 /// A strength beyond reach: the ground stays elastic.
 const ELASTIC: &[&str] = &["undrained_strength=1e6"];
 

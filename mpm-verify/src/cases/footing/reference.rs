@@ -142,10 +142,24 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * b.abs()
 }
 
-/// Whether a scheme's footing is as wide as it acts: then the limit of vanishing elements is its reference, else
-/// elements as large as the cells, whose footing acts as wide as the scheme's.
-fn is_as_wide_as_it_acts(record: &Record) -> bool {
-    effective_width(record.basis, record.discretisation.h) == WIDTH
+/// Which elements have a footing that acts as wide as that of a scheme.
+enum Elements {
+    /// Of vanishing size.
+    Vanishing,
+    /// As large as the cells.
+    OfCells,
+}
+
+fn elements(record: &Record) -> Result<Elements, String> {
+    let h = record.discretisation.h;
+    if record.parameters.is("contact", "barrier") {
+        return Err("no elements press through a barrier: see contacts-agree".to_owned());
+    }
+    match effective_width(record.basis, h).0 {
+        width if width == WIDTH => Ok(Elements::Vanishing),
+        width if width == WIDTH + h => Ok(Elements::OfCells),
+        _ => Err("no elements act as wide as cubic splines".to_owned()),
+    }
 }
 
 /// The least domain (in B) that leaves Prandtl's mechanism room.
@@ -163,7 +177,7 @@ pub(super) fn curve(record: &Record) -> Result<Curve, String> {
     }
     let h = record.discretisation.h;
     let rough = record.parameters.boolean("rough");
-    if is_as_wide_as_it_acts(record) {
+    if let Elements::Vanishing = elements(record)? {
         if !rough {
             return Err("the extrapolated reference is that of a rough footing".to_owned());
         }
@@ -244,12 +258,13 @@ pub(super) fn elastic_slope(record: &Record) -> Result<f64, String> {
         return Err(format!("no slope for ν = {ratio} and this domain"));
     };
     let h = record.discretisation.h;
-    let slope = if is_as_wide_as_it_acts(record) {
-        slopes.slope
-    } else {
-        let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
-        same.ok_or_else(|| format!("no slope with elements of {h} m"))?
-            .slope
+    let slope = match elements(record)? {
+        Elements::Vanishing => slopes.slope,
+        Elements::OfCells => {
+            let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
+            same.ok_or_else(|| format!("no slope with elements of {h} m"))?
+                .slope
+        }
     };
     Ok(slope * strength_ratio())
 }

@@ -79,12 +79,15 @@ fn cells(widths: f64, h: f64) -> usize {
     (widths * WIDTH / h).round() as usize
 }
 
-/// The width (m) that a footing of held nodes acts with: up to the middle between the last held node and the
-/// first free one. Quadratic splines have their nodes in the middle of cells, the others on grid lines.
-pub(super) fn effective_width(basis: BasisName, h: f64) -> f64 {
+/// The width (m) that a footing of held nodes acts with, and how well it is known: up to the middle between the last
+/// held node and the first free one. Quadratic splines have their nodes in the middle of cells, the others on grid
+/// lines. Between cubic splines the velocity falls from that of the footing a cell inside of its edge to that of the
+/// free ground two cells outside: the place is known to half a cell at either end.
+pub(super) fn effective_width(basis: BasisName, h: f64) -> (f64, f64) {
     match basis {
-        BasisName::Bspline2 => WIDTH,
-        BasisName::Linear | BasisName::Gimp | BasisName::Bspline3 => WIDTH + h,
+        BasisName::Bspline2 => (WIDTH, 0.0),
+        BasisName::Linear | BasisName::Gimp => (WIDTH + h, 0.0),
+        BasisName::Bspline3 => (WIDTH + 0.5 * h, 0.5 * h),
     }
 }
 
@@ -169,7 +172,7 @@ impl Simulated {
                 wall: parameters.text("wall"),
             },
             parameters: parameters.clone(),
-            effective_width: effective_width(spec.scheme.basis, h),
+            effective_width: effective_width(spec.scheme.basis, h).0,
             steps_per_row: ((ROW * WIDTH / rate / dt).round() as u64).max(1),
             end: number("penetration"),
             rows: Vec::new(),
