@@ -14,6 +14,7 @@ mod exact;
 mod gate;
 mod readme;
 mod shards;
+mod update;
 mod verify;
 
 use std::fs;
