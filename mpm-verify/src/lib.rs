@@ -16,6 +16,7 @@ pub mod error;
 pub mod exact;
 pub mod files;
 pub mod golden;
+pub mod night;
 pub mod order;
 pub mod parameter;
 pub mod plan;

@@ -10,12 +10,12 @@ use mpm_verify::checkpoint::{self, Identity, Saving};
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::exact;
 use mpm_verify::files::read_versioned;
+use mpm_verify::night::Night;
 use mpm_verify::parameter::Parameters;
 use mpm_verify::plan::{Plan, Shard};
 use mpm_verify::record::{self, Record, Status};
 use mpm_verify::report::diff::Difference;
-use mpm_verify::report::history::Night;
-use mpm_verify::report::{describe, discard_report, write_report};
+use mpm_verify::report::{describe, discard_report, update_report, write_report};
 use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use mpm_verify::study::{Gathered, has_truth, make_runs};
 use mpm_verify::{cases, golden, run};
@@ -118,6 +118,9 @@ enum Command {
         /// Folder of the report (that of the runs if there is one only)
         #[arg(long)]
         out: Option<PathBuf>,
+        /// Keep what the report there says of the cases that the folders do not hold
+        #[arg(long, requires = "out")]
+        update: bool,
         /// Folder of the goldens
         #[arg(long, default_value = "golden")]
         golden: PathBuf,
@@ -296,6 +299,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
         Command::Report {
             folders,
             out,
+            update,
             golden,
             night,
             commit,
@@ -313,7 +317,8 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 Some((date, commit)) => Some(Night::new(&date, &commit)?),
                 None => None,
             };
-            report_on(&folders, &out, &golden, night.as_ref())
+            let how = if update { How::Update } else { How::Whole };
+            report_on(&folders, &out, how, &golden, night.as_ref())
         }
         Command::Bless {
             case,
@@ -454,7 +459,7 @@ fn verify(
     let records = make_runs(plan, out, saving, workers, &listener)?;
     listener.finish();
     if plan.shard == Shard::WHOLE {
-        return report_on(&[out.to_path_buf()], out, golden, None);
+        return report_on(&[out.to_path_buf()], out, How::Whole, golden, None);
     }
     let failed = records.iter().filter(|r| exit_code(r) != ExitCode::Good);
     for record in failed {
@@ -474,16 +479,32 @@ fn verify(
         .unwrap_or(ExitCode::Good))
 }
 
+/// What a report is made of.
+enum How {
+    /// Of the given folders alone.
+    Whole,
+    /// Of these and, for all other cases, of what it says already.
+    Update,
+}
+
 fn report_on(
     folders: &[PathBuf],
     out: &Path,
+    how: How,
     golden: &Path,
     night: Option<&Night>,
 ) -> Result<ExitCode, Error> {
-    discard_report(out)?;
+    let write = match how {
+        How::Whole => {
+            discard_report(out)?;
+            write_report
+        }
+        // What it says is kept until the new report is whole.
+        How::Update => update_report,
+    };
     let gathered = Gathered::read(folders)?;
-    let summary = gathered.judge(|r| golden::compare(golden, r, gathered.folder(r)?))?;
-    write_report(&gathered, &summary, golden, night, out)?;
+    let judged = gathered.judge(|r| golden::compare(golden, r, gathered.folder(r)?))?;
+    let summary = write(&gathered, judged, golden, night, out)?;
     say(&describe::verdict_summary(&summary))?;
     say(&format!("Report: {}\n", out.join("index.html").display()))?;
     Ok(summary.exit_code())

@@ -7,6 +7,7 @@ use crate::checkpoint::{self, Saving};
 use crate::convergence::{Convergence, convergence};
 use crate::error::{Error, ExitCode};
 use crate::files::{discard, discard_folder, read_versioned, require_writable};
+use crate::night::Night;
 use crate::plan::{Plan, PlannedRun};
 use crate::record::{self, BREAKS_DOWN, Record, Version};
 use crate::run::{execute, judge};
@@ -17,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Version of the summary's format.
-pub const SCHEMA: u32 = 2;
+pub const SCHEMA: u32 = 3;
 
 /// Hears of the progress of runs. `run` is the run's place in the plan.
 pub trait Listener: Sync {
@@ -40,6 +41,40 @@ pub struct CaseStudy {
     pub verdicts: Vec<Verdict>,
     /// Convergence of the case's quantities.
     pub convergence: Vec<Convergence>,
+    /// The night that made the runs, if it is known.
+    pub night: Option<Night>,
+    /// Pictures of the case, in the order they are shown.
+    pub pictures: Vec<Picture>,
+}
+
+impl CaseStudy {
+    /// Records of which nothing is said yet.
+    #[must_use]
+    pub fn new(case: &str, records: Vec<Record>) -> Self {
+        Self {
+            case: case.to_owned(),
+            records,
+            verdicts: Vec::new(),
+            convergence: Vec::new(),
+            night: None,
+            pictures: Vec::new(),
+        }
+    }
+
+    /// The program that made the runs; one made them all.
+    #[must_use]
+    pub fn program(&self) -> Option<&Version> {
+        self.records.first().map(|r| &r.version)
+    }
+}
+
+/// A picture of a report.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Picture {
+    /// File below the report's folder.
+    pub file: String,
+    /// What it shows.
+    pub caption: String,
 }
 
 /// Counts over all verdicts.
@@ -77,6 +112,20 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Of cases that are judged, in the order of [`cases::all`].
+    #[must_use]
+    pub fn new(tier: &str, mut cases: Vec<CaseStudy>) -> Self {
+        cases.sort_by_key(|study| cases::place(&study.case));
+        let mut summary = Self {
+            schema: SCHEMA,
+            tier: tier.to_owned(),
+            counts: Counts::default(),
+            cases,
+        };
+        summary.counts = count(&summary);
+        summary
+    }
+
     /// How the program should end.
     #[must_use]
     pub fn exit_code(&self) -> ExitCode {
@@ -137,12 +186,9 @@ impl Gathered {
             gathered.folders.insert(place, folder);
             match gathered.studies.last_mut() {
                 Some(study) if study.case == run.case => study.records.push(record),
-                _ => gathered.studies.push(CaseStudy {
-                    case: run.case.clone(),
-                    records: vec![record],
-                    verdicts: Vec::new(),
-                    convergence: Vec::new(),
-                }),
+                _ => gathered
+                    .studies
+                    .push(CaseStudy::new(&run.case, vec![record])),
             }
         }
         if let Some((shard, run)) = missing.first() {
@@ -154,27 +200,14 @@ impl Gathered {
                 run.folder().display()
             )));
         }
-        gathered.of_one_program()?;
+        of_one_program(gathered.records())?;
         Ok(gathered)
     }
 
-    fn of_one_program(&self) -> Result<(), Error> {
-        let mut records = self.studies.iter().flat_map(|s| &s.records);
-        let Some(first) = records.next() else {
-            return Ok(());
-        };
-        match records.find(|r| r.version != first.version) {
-            None => Ok(()),
-            Some(other) => Err(Error::Input(format!(
-                "records of two programs: {} {} is of source {}, {} {} of {}",
-                first.case,
-                first.folder(),
-                first.version.source,
-                other.case,
-                other.folder(),
-                other.version.source
-            ))),
-        }
+    /// Whether runs of a case are among those gathered.
+    #[must_use]
+    pub fn has(&self, case: &str) -> bool {
+        self.studies.iter().any(|s| s.case == case)
     }
 
     /// Where the raw outputs of a run lie.
@@ -213,14 +246,29 @@ impl Gathered {
             study.verdicts = case.judge_study(&study.records);
             study.convergence = convergence(case, &study.records);
         }
-        let mut summary = Summary {
-            schema: SCHEMA,
-            tier: self.tier.clone(),
-            counts: Counts::default(),
-            cases,
-        };
-        summary.counts = count(&summary);
-        Ok(summary)
+        Ok(Summary::new(&self.tier, cases))
+    }
+}
+
+/// Whether one program made all records.
+///
+/// # Errors
+/// Two did; the error names a record of each.
+pub fn of_one_program<'a>(mut records: impl Iterator<Item = &'a Record>) -> Result<(), Error> {
+    let Some(first) = records.next() else {
+        return Ok(());
+    };
+    match records.find(|r| r.version != first.version) {
+        None => Ok(()),
+        Some(other) => Err(Error::Input(format!(
+            "records of two programs: {} {} is of source {}, {} {} of {}",
+            first.case,
+            first.folder(),
+            first.version.source,
+            other.case,
+            other.folder(),
+            other.version.source
+        ))),
     }
 }
 

@@ -15,6 +15,7 @@ mod exact;
 mod gate;
 mod readme;
 mod shards;
+mod update;
 mod verify;
 
 use std::fs;

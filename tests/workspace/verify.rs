@@ -259,7 +259,7 @@ fn the_quick_tier_verifies_and_reports() {
     assert_eq!(code(output), 0, "{}{}", stdout(output), stderr(output));
     copy_tree(made, out);
     let summary = json(&out.join("summary.json"));
-    assert_eq!(summary["schema"], 2);
+    assert_eq!(summary["schema"], 3);
     assert_eq!(summary["tier"], "quick");
     assert_eq!(summary["counts"]["failed"], 0);
     assert_eq!(summary["counts"]["drifted"], 0);

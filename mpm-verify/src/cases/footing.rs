@@ -457,9 +457,7 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
                 runs(b10, &BASES, &[FbarRecursive, FbarRate], &[]),
                 runs(b20, &BASES, &REMEDIES, &[]),
                 cubic(b20),
-                runs(b20, &BASES, &REMEDIES, &["ppc_per_direction=4"]),
                 runs(b20, &BASES, &three, &["contact=barrier"]),
-                runs(b40, &BASES, &three, &[]),
                 rates("penetration_rate=4e-3"),
                 rates("penetration_rate=1e-3"),
                 runs(b10, &BASES, &[None, FbarRate, FbarConsistent], ELASTIC),
@@ -469,6 +467,8 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
             .concat()
         }
         Tier::Long => [
+            runs(b20, &BASES, &REMEDIES, &["ppc_per_direction=4"]),
+            runs(b40, &BASES, &three, &[]),
             runs(
                 b40,
                 &BASES,

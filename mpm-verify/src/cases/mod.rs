@@ -38,6 +38,14 @@ pub fn all() -> Vec<&'static dyn Case> {
     ]
 }
 
+/// The place of a case among all; behind them if it is not known.
+#[must_use]
+pub fn place(name: &str) -> usize {
+    let cases = all();
+    let known = cases.iter().position(|c| c.name() == name);
+    known.unwrap_or(cases.len())
+}
+
 /// The problem of a name.
 ///
 /// # Errors

@@ -185,10 +185,10 @@ pub(super) fn error_label(quantity: &Quantity, signed: bool) -> String {
     }
 }
 
-/// The median of observed orders as a whole number, at least one.
+/// The median of observed orders as a whole number, at least one; none where errors grow with refinement.
 fn typical_order(mut orders: Vec<f64>) -> Option<f64> {
     orders.sort_by(f64::total_cmp);
-    let median = orders.get(orders.len() / 2)?;
+    let median = orders.get(orders.len() / 2).filter(|m| **m > 0.0)?;
     Some(median.round().max(1.0))
 }
 
@@ -257,6 +257,8 @@ mod tests {
         assert_eq!(below_the_curves(1.0, [&[(1.0, 0.1)][..]].into_iter()), None);
         assert_eq!(typical_order(Vec::new()), None);
         assert_eq!(typical_order(vec![0.2]), Some(1.0));
+        assert_eq!(typical_order(vec![-0.2]), None);
+        assert_eq!(typical_order(vec![-1.8, -0.3, 2.0]), None);
         assert_eq!(typical_order(vec![1.8, 2.3, -1.0]), Some(2.0));
     }
 }

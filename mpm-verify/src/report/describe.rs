@@ -5,9 +5,24 @@ use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::record::{Record, Status};
 use crate::scheme::{Scheme, TransferName};
-use crate::study::Summary;
+use crate::study::{CaseStudy, Summary};
 use serde_json::{Value, json};
 use std::fmt::Write;
+
+/// What made the runs of a case: the program, the night and the commit, as far as they are known.
+#[must_use]
+pub fn made_by(study: &CaseStudy) -> [String; 3] {
+    let program = study
+        .program()
+        .map(|v| format!("mpm-verify {}, source {}", v.mpm_verify, v.source));
+    let night = study.night.as_ref();
+    [
+        program,
+        night.map(|n| n.date.to_string()),
+        night.map(|n| n.commit.clone()),
+    ]
+    .map(|known| known.unwrap_or_else(|| "–".to_owned()))
+}
 
 /// The cases as text, with the runs of a tier if one is given.
 #[must_use]

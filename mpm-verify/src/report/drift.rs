@@ -6,18 +6,18 @@ use crate::check::Verdict;
 use crate::error::Error;
 use crate::files::write_picture;
 use crate::golden::{Golden, home};
-use crate::study::{Gathered, Summary};
+use crate::study::{CaseStudy, Gathered};
 use std::path::Path;
 
-/// Draws, for each run that has drifted from a golden, its watched series beside the golden's.
+/// Draws, for each run of a case that has drifted from its golden, its watched series beside the golden's.
 pub(super) fn draw(
+    study: &CaseStudy,
     gathered: &Gathered,
-    summary: &Summary,
     root: &Path,
     out: &Path,
 ) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
-    for record in summary.cases.iter().flat_map(|s| &s.records) {
+    for record in &study.records {
         if !record.verdicts.iter().any(Verdict::drifts) {
             continue;
         }

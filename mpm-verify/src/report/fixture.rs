@@ -1,6 +1,7 @@
 //! A small summary with every outcome, and texts that break what does not escape them.
 
 use crate::check::{Kind, Verdict};
+use crate::night::Night;
 use crate::record::{Failure, Record, Status};
 use crate::study::{CaseStudy, Counts, Summary};
 
@@ -37,10 +38,15 @@ pub(super) fn summary() -> Summary {
             ..Counts::default()
         },
         cases: vec![CaseStudy {
-            case: "cook".to_owned(),
-            records: vec![record("h1", vec![pass.clone(), skipped]), failed, broken],
-            verdicts: vec![pass],
-            convergence: Vec::new(),
+            verdicts: vec![pass.clone()],
+            night: Some(Night {
+                date: jiff::civil::date(2026, 1, 2),
+                commit: NASTY.to_owned(),
+            }),
+            ..CaseStudy::new(
+                "cook",
+                vec![record("h1", vec![pass, skipped]), failed, broken],
+            )
         }],
     }
 }

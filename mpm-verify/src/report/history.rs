@@ -3,11 +3,13 @@
 use super::Picture;
 use super::plot::{Chart, Scale};
 use super::style::{Panel, Panels};
+use crate::cases;
 use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
+use crate::night::Night;
 use crate::scheme::Scheme;
-use crate::study::{CaseStudy, Summary};
+use crate::study::CaseStudy;
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,31 +21,6 @@ pub(super) const TRENDS: &str = "trends-";
 const COST: &str = "cpu_s";
 const PAIRS: &str = "particle_node_pairs";
 const ORDER: &str = "order of ";
-
-/// A night and the commit that ran.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Night {
-    date: Date,
-    commit: String,
-}
-
-impl Night {
-    /// From a date of the form YYYY-MM-DD and a commit.
-    ///
-    /// # Errors
-    /// The date is not of that form, or the commit is empty.
-    pub fn new(date: &str, commit: &str) -> Result<Self, Error> {
-        let refuse = |what: String| Err(Error::Input(what));
-        match date.parse() {
-            Err(e) => refuse(format!("--night \"{date}\": {e}; allowed: YYYY-MM-DD")),
-            Ok(_) if commit.trim().is_empty() => refuse("--commit is empty".to_owned()),
-            Ok(date) => Ok(Self {
-                date,
-                commit: commit.to_owned(),
-            }),
-        }
-    }
-}
 
 /// A number of a night.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -63,31 +40,24 @@ impl Row {
     }
 }
 
-/// Adds a night to the history in `out` (replacing it if it is there already) and draws the trends of
-/// every case.
+/// Adds a night of a case to the history in `out` (replacing that case's rows if the night is there
+/// already) and draws the case's trends.
 ///
 /// # Errors
 /// The history is damaged, or a file can't be written.
-pub(super) fn add(summary: &Summary, night: &Night, out: &Path) -> Result<Vec<Picture>, Error> {
+pub(super) fn add(study: &CaseStudy, night: &Night, out: &Path) -> Result<Option<Picture>, Error> {
     let path = out.join(FILE);
     let mut rows = read(&path)?;
-    let told = |row: &Row| summary.cases.iter().any(|s| s.case == row.case);
-    rows.retain(|row| row.night != night.date || !told(row));
-    for study in &summary.cases {
-        rows.extend(rows_of(study, night));
-    }
-    rows.sort_by_key(|row| row.night);
+    rows.retain(|row| row.night != night.date || row.case != study.case);
+    rows.extend(rows_of(study, night));
+    rows.sort_by_key(|row| (row.night, cases::place(&row.case)));
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in &rows {
         writer.serialize(row).map_err(|e| Error::file(&path, e))?;
     }
     let bytes = writer.into_inner().map_err(|e| Error::file(&path, e))?;
     write_whole(&path, &bytes)?;
-    let mut pictures = Vec::new();
-    for study in &summary.cases {
-        pictures.extend(draw(study, &rows, out)?);
-    }
-    Ok(pictures)
+    draw(study, &rows, out)
 }
 
 fn read(path: &Path) -> Result<Vec<Row>, Error> {
@@ -196,4 +166,38 @@ fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, 
             study.case
         ),
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture::record;
+
+    #[test]
+    fn a_night_of_one_case_leaves_the_rows_of_the_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let add = |case: &str, date: &str, commit: &str| {
+            let mut run = record("h2", Vec::new());
+            run.case = case.to_owned();
+            let study = CaseStudy::new(case, vec![run]);
+            let night = Night::new(date, commit).unwrap();
+            let picture = add(&study, &night, folder.path()).unwrap().unwrap();
+            assert_eq!(picture.file, format!("trends-{case}.png"));
+        };
+        add("column", "2026-01-02", "a");
+        add("cook", "2026-01-02", "a");
+        add("cook", "2026-01-01", "b");
+        add("cook", "2026-01-02", "c");
+        let rows = read(&folder.path().join(FILE)).unwrap();
+        let told = rows
+            .iter()
+            .map(|r| format!("{} {} {}", r.night, r.commit, r.case));
+        // In the order of time and cases; the time taken and the pairs visited are one row each.
+        let expected = [
+            "2026-01-01 b cook",
+            "2026-01-02 c cook",
+            "2026-01-02 a column",
+        ];
+        assert_eq!(told.collect::<Vec<_>>(), expected.map(|t| [t, t]).concat());
+    }
 }

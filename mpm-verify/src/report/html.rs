@@ -1,7 +1,7 @@
 //! The report as a site that needs no server and no script: an index and a page per case.
 
-use super::describe::{headline, kind, local_orders, number, order, outcome};
-use super::{Picture, sketch};
+use super::describe::{headline, kind, local_orders, made_by, number, order, outcome};
+use super::sketch;
 use crate::case::{Case, Quantity};
 use crate::cases;
 use crate::check::{Kind, Verdict};
@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::Record;
 use crate::scheme::Scheme;
-use crate::study::{CaseStudy, Summary};
+use crate::study::{CaseStudy, Picture, Summary};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{Environment, UndefinedBehavior, Value, context};
 use std::path::Path;
@@ -25,15 +25,15 @@ const TEMPLATES: [(&str, &str); 5] = [
 ];
 
 /// Writes `index.html` and the page of every case into `out`.
-pub(super) fn write(summary: &Summary, pictures: &[Picture], out: &Path) -> Result<(), Error> {
+pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
     let page = |file: &str, template: &str, context: Value| {
         let path = out.join(file);
         let text = render(template, context).map_err(|e| Error::file(&path, e))?;
         write_whole(&path, text.as_bytes())
     };
-    page("index.html", "index.html", index(summary, pictures)?)?;
+    page("index.html", "index.html", index(summary)?)?;
     for study in &summary.cases {
-        let context = case_page(cases::find(&study.case)?, study, &summary.tier, pictures);
+        let context = case_page(cases::find(&study.case)?, study, &summary.tier);
         page(&file_of(study), "case.html", context)?;
     }
     Ok(())
@@ -58,23 +58,17 @@ fn file_of(study: &CaseStudy) -> String {
     format!("{}.html", study.case)
 }
 
-/// Pictures whose file lies in `folder`, or, without one, in none.
-fn pictures_in(pictures: &[Picture], folder: Option<&str>) -> Vec<Value> {
+/// Pictures of some cases whose file lies in `folder`, or, without one, in none.
+fn pictures_in(studies: &[CaseStudy], folder: Option<&str>) -> Vec<Value> {
     let lies = |p: &&Picture| p.file.split_once('/').map(|(first, _)| first) == folder;
     let value = |p: &Picture| context! { file => &p.file, caption => &p.caption };
-    pictures.iter().filter(lies).map(value).collect()
+    let pictures = studies.iter().flat_map(|s| &s.pictures);
+    pictures.filter(lies).map(value).collect()
 }
 
-fn index(summary: &Summary, pictures: &[Picture]) -> Result<Value, Error> {
-    let records = || summary.cases.iter().flat_map(|s| &s.records);
-    let programs = records().map(|r| {
-        let version = &r.version;
-        format!(
-            "mpm-verify {}, source {}",
-            version.mpm_verify, version.source
-        )
-    });
-    let machines = records().map(|r| {
+fn index(summary: &Summary) -> Result<Value, Error> {
+    let records = summary.cases.iter().flat_map(|s| &s.records);
+    let machines = records.map(|r| {
         let m = &r.machine;
         format!(
             "{} {}, {} cores, threads per run: {}",
@@ -118,12 +112,11 @@ fn index(summary: &Summary, pictures: &[Picture]) -> Result<Value, Error> {
             undrifted => c.undrifted,
             drifted => c.drifted,
         },
-        programs => distinct(programs),
         machines => distinct(machines),
         broken => broken.collect::<Vec<_>>(),
         failures => failures.collect::<Vec<_>>(),
         cases => cases?,
-        pictures => pictures_in(pictures, None),
+        pictures => pictures_in(&summary.cases, None),
     })
 }
 
@@ -141,6 +134,8 @@ fn overview(study: &CaseStudy) -> Result<Value, Error> {
         name => case.name(),
         title => case.title(),
         page => file_of(study),
+        runs => study.records.len(),
+        made_by => made_by(study).to_vec(),
         own => matrix(study, &all, own),
         changed => matrix(study, &schemes, columns),
         together => (!study.verdicts.is_empty()).then(|| outcome_of(&study.verdicts, 0)),
@@ -166,7 +161,7 @@ fn matrix(study: &CaseStudy, schemes: &[Scheme], columns: Vec<(&str, &[String])>
     }
 }
 
-fn case_page(case: &dyn Case, study: &CaseStudy, tier: &str, pictures: &[Picture]) -> Value {
+fn case_page(case: &dyn Case, study: &CaseStudy, tier: &str) -> Value {
     let sketch = case.sketch();
     let parameters = case.parameters().iter().map(|p| {
         context! {
@@ -200,7 +195,8 @@ fn case_page(case: &dyn Case, study: &CaseStudy, tier: &str, pictures: &[Picture
         schemes => case.schemes().iter().map(ToString::to_string).collect::<Vec<_>>(),
         levels => levels.collect::<Vec<_>>(),
         references => case.references(),
-        pictures => pictures_in(pictures, Some(case.name())),
+        made_by => made_by(study).to_vec(),
+        pictures => pictures_in(std::slice::from_ref(study), Some(case.name())),
         headings => case.headlines().iter().map(|h| h.heading).collect::<Vec<_>>(),
         runs => study.records.iter().map(|r| run(case, r)).collect::<Vec<_>>(),
         ladders => ladders.collect::<Vec<_>>(),
@@ -416,9 +412,9 @@ mod tests {
     use quick_xml::escape::unescape;
     use quick_xml::events::Event;
 
-    fn pages(summary: &Summary, pictures: &[Picture]) -> [String; 2] {
+    fn pages(summary: &Summary) -> [String; 2] {
         let folder = tempfile::tempdir().unwrap();
-        write(summary, pictures, folder.path()).unwrap();
+        write(summary, folder.path()).unwrap();
         ["index.html", "cook.html"]
             .map(|file| std::fs::read_to_string(folder.path().join(file)).unwrap())
     }
@@ -449,11 +445,12 @@ mod tests {
 
     #[test]
     fn no_text_breaks_a_page() {
-        let picture = Picture {
+        let mut summary = summary();
+        summary.cases[0].pictures = vec![Picture {
             file: "trends.png".to_owned(),
             caption: NASTY.to_owned(),
-        };
-        for page in pages(&summary(), &[picture]) {
+        }];
+        for page in pages(&summary) {
             assert!(page.contains("&lt;script&gt;"));
             let (names, ..) = elements(&page);
             assert!(!names.iter().any(|n| n == "script"));
@@ -462,7 +459,7 @@ mod tests {
 
     #[test]
     fn every_link_to_a_run_has_its_target_once() {
-        let [index, case] = pages(&summary(), &[]);
+        let [index, case] = pages(&summary());
         let ((_, _, targets), (_, ids, own)) = (elements(&index), elements(&case));
         let anchors = targets.iter().filter_map(|t| t.strip_prefix("cook.html#"));
         let anchors: Vec<&str> = anchors
@@ -476,7 +473,7 @@ mod tests {
 
     #[test]
     fn the_matrix_tells_what_broke_what_failed_and_what_was_not_run() {
-        let [index, case] = pages(&summary(), &[]);
+        let [index, case] = pages(&summary());
         for word in ["⚠ broke down", "✗ 1 failed", "not run"] {
             assert!(index.contains(word), "{word}");
         }
@@ -497,9 +494,9 @@ mod tests {
             remark: None,
         };
         let mut summary = summary();
-        let [_, before] = pages(&summary, &[]);
+        let [_, before] = pages(&summary);
         summary.cases[0].convergence = vec![entry(&[]), entry(&["load=2", NASTY])];
-        let [_, case] = pages(&summary, &[]);
+        let [_, case] = pages(&summary);
         let more = |tag: &str| case.matches(tag).count() - before.matches(tag).count();
         assert_eq!((more("<details open=\"\">"), more("<details>")), (1, 1));
         assert!(case.contains("load=2 &lt;"));
@@ -512,10 +509,23 @@ mod tests {
             file: file.to_owned(),
             caption: String::new(),
         };
-        let pictures = [picture("trends.png"), picture("cook/rest.png")];
-        let [index, case] = pages(&summary(), &pictures);
+        let mut summary = summary();
+        summary.cases[0].pictures = vec![picture("trends.png"), picture("cook/rest.png")];
+        let [index, case] = pages(&summary);
         assert!(index.contains("trends.png") && !index.contains("rest.png"));
         assert!(case.contains("rest.png") && !case.contains("trends.png"));
+    }
+
+    #[test]
+    fn both_pages_tell_what_made_a_case() {
+        for page in pages(&summary()) {
+            assert!(page.contains("source 0123456789ab") && page.contains("2026-01-02"));
+        }
+        let mut summary = summary();
+        summary.cases[0].night = None;
+        for page in pages(&summary) {
+            assert!(page.contains("source 0123456789ab") && !page.contains("2026-01-02"));
+        }
     }
 
     #[test]

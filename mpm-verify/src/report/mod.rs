@@ -21,14 +21,17 @@ mod style;
 mod summary;
 mod sweep;
 pub(crate) mod triptych;
+mod update;
 pub mod watched;
 
 use crate::cases;
 use crate::error::Error;
 use crate::files::{discard, discard_all, discard_folder, write_dense_json};
-use crate::study::{Gathered, Summary};
-use history::Night;
+use crate::night::Night;
+use crate::study::{CaseStudy, Gathered, Picture, Summary};
 use std::path::Path;
+
+const SUMMARY: &str = "summary.json";
 
 /// Writes the pictures of every case, the CSV of everything plotted, `summary.json`, `summary.md`,
 /// `junit.xml` and the pages: `index.html` and one per case; what has drifted from its golden below
@@ -38,31 +41,86 @@ use std::path::Path;
 /// A record's files can't be read, or a picture can't be written.
 pub fn write_report(
     gathered: &Gathered,
-    summary: &Summary,
+    judged: Summary,
     golden: &Path,
     night: Option<&Night>,
     out: &Path,
-) -> Result<(), Error> {
+) -> Result<Summary, Error> {
     discard_report(out)?;
-    let mut pictures = drift::draw(gathered, summary, golden, out)?;
-    for study in &summary.cases {
-        match study.case.as_str() {
-            "column" => pictures.extend(column::draw(study, gathered, out)?),
-            "cook" => pictures.extend(cook::draw(study, gathered, out)?),
-            "footing" => pictures.extend(footing::draw(study, gathered, out)?),
-            _ => {}
+    write(gathered, judged, golden, night, out)
+}
+
+/// Brings the report in `out` up to date, likewise: the cases that are gathered are drawn anew, the others
+/// keep what it says of them, and those that are known no more are gone.
+///
+/// # Errors
+/// `out` holds no report of this tier, or as [`write_report`].
+pub fn update_report(
+    gathered: &Gathered,
+    judged: Summary,
+    golden: &Path,
+    night: Option<&Night>,
+    out: &Path,
+) -> Result<Summary, Error> {
+    let former = update::read(out, &judged.tier)?;
+    let both = former.cases.iter().chain(&judged.cases);
+    let mut stale: Vec<String> = both.map(|study| study.case.clone()).collect();
+    let summary = update::merge(former, judged);
+    let kept = |study: &CaseStudy| !gathered.has(&study.case);
+    stale.retain(|case| !summary.cases.iter().any(|s| s.case == *case && kept(s)));
+    for case in &stale {
+        discard_case(case, out)?;
+    }
+    write(gathered, summary, golden, night, out)
+}
+
+/// Draws the cases that are gathered and writes what tells of all.
+fn write(
+    gathered: &Gathered,
+    mut summary: Summary,
+    golden: &Path,
+    night: Option<&Night>,
+    out: &Path,
+) -> Result<Summary, Error> {
+    for study in &mut summary.cases {
+        if gathered.has(&study.case) {
+            study.night = night.cloned();
+            study.pictures = draw(study, gathered, golden, out)?;
         }
-        pictures.extend(convergence::draw(study, out)?);
-        pictures.extend(sweep::draw(study, out)?);
     }
-    if let Some(night) = night {
-        pictures.extend(history::add(summary, night, out)?);
-    }
-    summary::write(summary, &pictures, out)?;
-    junit::write(summary, out)?;
-    html::write(summary, &pictures, out)?;
+    summary::write(&summary, out)?;
+    junit::write(&summary, out)?;
+    html::write(&summary, out)?;
     // The sign that the report is whole.
-    write_dense_json(&out.join("summary.json"), summary)
+    write_dense_json(&out.join(SUMMARY), &summary)?;
+    Ok(summary)
+}
+
+/// Draws all pictures of a case.
+fn draw(
+    study: &CaseStudy,
+    gathered: &Gathered,
+    golden: &Path,
+    out: &Path,
+) -> Result<Vec<Picture>, Error> {
+    let mut pictures = drift::draw(study, gathered, golden, out)?;
+    pictures.extend(draw_own(study, gathered, out)?);
+    pictures.extend(convergence::draw(study, out)?);
+    pictures.extend(sweep::draw(study, out)?);
+    if let Some(night) = &study.night {
+        pictures.extend(history::add(study, night, out)?);
+    }
+    Ok(pictures)
+}
+
+/// Draws what only one case has.
+fn draw_own(study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Picture>, Error> {
+    match study.case.as_str() {
+        "column" => column::draw(study, gathered, out),
+        "cook" => cook::draw(study, gathered, out),
+        "footing" => footing::draw(study, gathered, out),
+        _ => Ok(Vec::new()),
+    }
 }
 
 /// Removes an earlier report from `out`; runs, plan and history stay.
@@ -70,25 +128,21 @@ pub fn write_report(
 /// # Errors
 /// A file is there and can't be removed.
 pub fn discard_report(out: &Path) -> Result<(), Error> {
-    for file in ["summary.json", "summary.md", "junit.xml", "index.html"] {
+    for file in [SUMMARY, "summary.md", "junit.xml", "index.html"] {
         discard(&out.join(file))?;
     }
     for case in cases::all() {
-        let name = case.name();
-        discard(&out.join(format!("{name}.html")))?;
-        discard(&out.join(format!("{}{name}.png", history::TRENDS)))?;
-        let folder = out.join(name);
-        discard_folder(&folder.join("drift"))?;
-        discard(&folder.join("study.json"))?;
-        discard_all(&folder, &["png", "csv"])?;
+        discard_case(case.name(), out)?;
     }
     Ok(())
 }
 
-/// A picture of the report.
-struct Picture {
-    /// File below the report's folder.
-    file: String,
-    /// What it shows.
-    caption: String,
+/// Removes from `out` what an earlier report has drawn and written of a case alone.
+fn discard_case(name: &str, out: &Path) -> Result<(), Error> {
+    discard(&out.join(format!("{name}.html")))?;
+    discard(&out.join(format!("{}{name}.png", history::TRENDS)))?;
+    let folder = out.join(name);
+    discard_folder(&folder.join("drift"))?;
+    discard(&folder.join("study.json"))?;
+    discard_all(&folder, &["png", "csv"])
 }

@@ -1,7 +1,7 @@
 //! The summary in Markdown.
 
 use super::describe::{self, bless_commands, headline, kind, local_orders, number, order, outcome};
-use super::{Picture, remedies};
+use super::remedies;
 use crate::case::Headline;
 use crate::cases;
 use crate::check::{Kind, Verdict};
@@ -14,12 +14,12 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// Writes `summary.md` into `out`.
-pub(super) fn write(summary: &Summary, pictures: &[Picture], out: &Path) -> Result<(), Error> {
+pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
     let path = out.join("summary.md");
-    write_whole(&path, text(summary, pictures)?.as_bytes())
+    write_whole(&path, text(summary)?.as_bytes())
 }
 
-fn text(summary: &Summary, pictures: &[Picture]) -> Result<String, Error> {
+fn text(summary: &Summary) -> Result<String, Error> {
     let c = summary.counts;
     let mut t = format!(
         "# Verification, tier {}\n\n{} runs, {} broke down. Against the truth: {} checks passed, {} failed, {} not applicable. Against goldens: {} hold, {} drift.\n",
@@ -42,6 +42,7 @@ fn text(summary: &Summary, pictures: &[Picture]) -> Result<String, Error> {
             c.runs_without_truth
         );
     }
+    programs(summary, &mut t);
     failures(summary, &mut t);
     if let Some(table) = remedies::table(summary) {
         let _ = writeln!(t, "\n## Remedies against criteria\n{table}");
@@ -55,7 +56,7 @@ fn text(summary: &Summary, pictures: &[Picture]) -> Result<String, Error> {
         );
         orders(&study.convergence, &mut t);
     }
-    for picture in pictures {
+    for picture in summary.cases.iter().flat_map(|s| &s.pictures) {
         let _ = writeln!(
             t,
             "\n![{}]({})\n\n{}",
@@ -64,6 +65,19 @@ fn text(summary: &Summary, pictures: &[Picture]) -> Result<String, Error> {
     }
     verdicts(summary, &mut t);
     Ok(t)
+}
+
+/// What made the runs, case by case.
+fn programs(summary: &Summary, t: &mut String) {
+    let _ = writeln!(
+        t,
+        "\n| case | runs | program | night | commit |\n|---|---|---|---|---|"
+    );
+    for study in &summary.cases {
+        let made_by = describe::made_by(study).join(" | ");
+        let runs = study.records.len();
+        let _ = writeln!(t, "| {} | {runs} | {made_by} |", study.case);
+    }
 }
 
 fn failures(summary: &Summary, t: &mut String) {

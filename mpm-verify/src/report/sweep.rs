@@ -212,12 +212,7 @@ mod tests {
     #[test]
     fn what_is_drawn_is_written() {
         let folder = tempfile::tempdir().unwrap();
-        let study = CaseStudy {
-            case: "cook".to_owned(),
-            records: records(),
-            verdicts: Vec::new(),
-            convergence: Vec::new(),
-        };
+        let study = CaseStudy::new("cook", records());
         let pictures = draw(&study, folder.path()).unwrap();
         assert_eq!(pictures.len(), 1);
         assert!(folder.path().join(&pictures[0].file).exists());
