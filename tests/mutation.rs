@@ -69,7 +69,14 @@ const BAR_CONSISTENT: Runs = &[
     "vibrating-bar --remedy fbar-consistent --level n8",
 ];
 
-const FAULTS: [Fault; 13] = [
+const FOOTING: Runs = &[
+    "footing --remedy fbar-rate --level b10 --set domain_width=3 --set domain_depth=3 --set penetration=0.0025",
+];
+const BARRIER: Runs = &[
+    "footing --remedy fbar-rate --level b10 --set domain_width=3 --set domain_depth=3 --set penetration=0.0025 --set contact=barrier",
+];
+
+const FAULTS: [Fault; 17] = [
     Fault {
         name: "P2G drops the stress along the last axis",
         file: "transfer/kernel.rs",
@@ -169,6 +176,34 @@ const FAULTS: [Fault; 13] = [
         sound: "x <= ends.lo + ON_WALL * grid.h",
         broken: "x <= ends.lo + grid.h",
         seen_by: &[(WALL, "order-displacement")],
+    },
+    Fault {
+        name: "the strength is taken for that of the norm √(3/2)‖s‖",
+        file: "material/hencky_j2.rs",
+        sound: "std::f64::consts::SQRT_2 * shear_strength",
+        broken: "3.0_f64.sqrt() * shear_strength",
+        seen_by: &[(FOOTING, "prandtl")],
+    },
+    Fault {
+        name: "the strength in tension is taken for Tresca's",
+        file: "material/hencky_j2.rs",
+        sound: "std::f64::consts::SQRT_2 * shear_strength",
+        broken: "(8.0_f64 / 3.0).sqrt() * shear_strength",
+        seen_by: &[(FOOTING, "prandtl")],
+    },
+    Fault {
+        name: "the flow doesn't keep the volume",
+        file: "material/hencky_j2.rs",
+        sound: "direction.scale_add_identity(-2.0 * flow / norm, 0.0)",
+        broken: "direction.scale_add_identity(-2.0 * flow / norm, -0.1 * flow)",
+        seen_by: &[(FOOTING, "prandtl")],
+    },
+    Fault {
+        name: "the barrier presses back with half the force",
+        file: "contact/mod.rs",
+        sound: "self.reaction[a] -= force[a]",
+        broken: "self.reaction[a] -= 0.5 * force[a]",
+        seen_by: &[(BARRIER, "quasi-static")],
     },
 ];
 

@@ -73,6 +73,23 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         }
     }
 
+    /// Row `r` of a stencil, of which only the weights are kept: its first node and the product of the outer
+    /// axes' weights.
+    #[inline(always)]
+    #[must_use]
+    pub fn row(&self, weights: &Weights<D, S>, r: usize) -> (usize, f64) {
+        let (node, w) = (weights.first, &weights.w);
+        match D {
+            1 => (node, 1.0),
+            2 => (node + r * self.strides[0], w[0][r]),
+            _ => {
+                let (i, j) = (r / S, r % S);
+                let node = node + i * self.strides[0] + j * self.strides[1];
+                (node, w[0][i] * w[1][j])
+            }
+        }
+    }
+
     /// Distances x_i − `x` (m) from a particle at `x` (m) to the nodes of its stencil, axis by axis.
     #[inline(always)]
     #[must_use]
@@ -152,6 +169,34 @@ pub struct Stencil<const D: usize, const S: usize> {
     strides: [usize; D],
 }
 
+/// The weights of a stencil, without their gradients.
+#[derive(Debug, Clone, Copy)]
+pub struct Weights<const D: usize, const S: usize> {
+    first: usize,
+    w: [[f64; S]; D],
+}
+
+impl<const D: usize, const S: usize> Default for Weights<D, S> {
+    fn default() -> Self {
+        Self {
+            first: 0,
+            w: [[0.0; S]; D],
+        }
+    }
+}
+
+impl<const D: usize, const S: usize> Weights<D, S> {
+    /// Rows of a stencil.
+    pub const ROWS: usize = Stencil::<D, S>::ROWS;
+
+    /// The weights along the last axis.
+    #[inline(always)]
+    #[must_use]
+    pub fn last(&self) -> &[f64; S] {
+        &self.w[D - 1]
+    }
+}
+
 /// A run of `S` consecutive nodes along the last axis.
 #[derive(Debug, Clone, Copy)]
 pub struct Row<const D: usize> {
@@ -211,6 +256,20 @@ impl<const D: usize, const S: usize> Stencil<D, S> {
         }
         row.gradient[D - 1] = row.w;
         row
+    }
+
+    /// The weights alone.
+    #[inline(always)]
+    #[must_use]
+    pub fn weights(&self) -> Weights<D, S> {
+        let mut w = [[0.0; S]; D];
+        for (w, axis) in w.iter_mut().zip(&self.axis) {
+            *w = axis.w;
+        }
+        Weights {
+            first: self.row(0).node,
+            w,
+        }
     }
 
     /// The weights along the last axis.

@@ -15,7 +15,7 @@ use crate::memory::Memory;
 use crate::monitor::{Accumulated, Residual, Totals};
 use crate::parallel::{CHUNK, chunks_if_present, scatter};
 use crate::particles::{Particles, cell_order, permute};
-use crate::projection::{Average, NodalAverage, Projection};
+use crate::projection::{Average, Averaging, Projection};
 use crate::remedy::Remedy;
 use crate::space;
 use crate::stage::{Constraint, ForceFilter, Load, ParticleFilter, Prescribed};
@@ -122,7 +122,7 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     states: Vec<M::State>,
     slabs: Vec<Range<usize>>,
     nodes: Vec<NodalState>,
-    average_nodes: Vec<NodalAverage>,
+    averaging: Averaging<D, S>,
     prescribed: Vec<Prescribed>,
     held: Vec<Held>,
     chunk_sums: Vec<ChunkSums>,
@@ -197,7 +197,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             states: vec![scene.law.initial_state(); n],
             slabs: Vec::new(),
             nodes: vec![NodalState::default(); lattice.len()],
-            average_nodes: vec![NodalAverage::default(); lattice.len()],
+            averaging: Averaging::new(lattice.len()),
             prescribed: Vec::new(),
             held: vec![Held::default(); scene.constraints.len()],
             chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
@@ -444,7 +444,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let mut projection = Projection {
             lattice: &self.lattice,
             slabs: &self.slabs,
-            nodes: &mut self.average_nodes,
+            averaging: &mut self.averaging,
             count: &mut self.work.projections,
         };
         act(
@@ -458,6 +458,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 
     /// Stress, state and volume of the particles, Eqs. (15), (22).
     fn update_stress(&mut self, dt: f64) {
+        self.averaging.expire();
         let law = &self.scene.law;
         let p = &mut self.scene.particles;
         (
@@ -522,6 +523,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         }
         self.drift += if wrapped { f64::INFINITY } else { largest };
         let outcome = self.first_fault();
+        self.averaging.expire();
         self.sort_if_needed();
         outcome
     }
@@ -679,7 +681,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         Projection {
             lattice: &self.lattice,
             slabs: &self.slabs,
-            nodes: &mut self.average_nodes,
+            averaging: &mut self.averaging,
             count: &mut uncounted,
         }
         .average(&self.scene.particles, field);

@@ -4,7 +4,7 @@ use crate::grid::{Axis, Grid};
 use crate::lattice::Lattice;
 use crate::material::{Law, NeoHookean};
 use crate::particles::cell_order;
-use crate::projection::{NodalAverage, Projection};
+use crate::projection::{Averaging, Projection};
 use crate::space::embed;
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
@@ -35,7 +35,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
         Projection {
             lattice: &self.lattice,
             slabs: &self.slabs,
-            nodes: &mut vec![NodalAverage::default(); self.lattice.len()],
+            averaging: &mut Averaging::new(self.lattice.len()),
             count: &mut 0,
         }
         .average(&self.particles, &mut out);
@@ -166,12 +166,12 @@ fn small_body(remedy: &mut dyn Remedy<2>, steps: usize) -> (Vec<f64>, Bench<2, 3
             particles.jacobian[p] *= determinant(&particles.delta_f[p]);
         }
         scaled = particles.delta_f.clone();
-        let mut nodes = vec![NodalAverage::default(); bench.lattice.len()];
+        let mut averaging = Averaging::new(bench.lattice.len());
         let mut count = 0;
         let mut projection = Projection {
             lattice: &bench.lattice,
             slabs: &bench.slabs,
-            nodes: &mut nodes,
+            averaging: &mut averaging,
             count: &mut count,
         };
         remedy.adjust_delta_f(&mut particles, &mut projection);
@@ -273,11 +273,11 @@ fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
     let law = NeoHookean::new(70.0, 0.49).unwrap();
     let (bench, states, gradients) = strained::<S, B>(&law, places, carried);
     let act = |particles: &mut Particles<2>, remedy: &mut FbarConsistent, force: bool| {
-        let mut nodes = vec![NodalAverage::default(); bench.lattice.len()];
+        let mut averaging = Averaging::new(bench.lattice.len());
         let mut average = Projection {
             lattice: &bench.lattice,
             slabs: &bench.slabs,
-            nodes: &mut nodes,
+            averaging: &mut averaging,
             count: &mut 0,
         };
         if force {
@@ -352,7 +352,7 @@ proptest! {
             let mut average = Projection {
                 lattice: &bench.lattice,
                 slabs: &bench.slabs,
-                nodes: &mut vec![NodalAverage::default(); bench.lattice.len()],
+                averaging: &mut Averaging::new(bench.lattice.len()),
                 count: &mut 0,
             };
             FbarConsistent::new(100.0).adjust_delta_f(&mut particles, &mut average);

@@ -82,6 +82,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
         scene.particles = particles;
         self.states = states;
         self.slabs = slabs;
+        self.averaging.expire();
         self.time = time;
         self.drift = drift;
         self.accumulated = accumulated;

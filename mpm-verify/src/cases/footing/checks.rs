@@ -12,6 +12,9 @@ use crate::scheme::{BasisName, RemedyName};
 const PRANDTL: f64 = 0.01;
 /// Relative tolerance against finite elements at h ≤ B/20.
 const FEM: f64 = 0.02;
+/// d ln slope / d ln width of an elastic footing: the elements' 10,430 at B/10, where they act 1.1 B wide, over the
+/// 10,290 of vanishing ones.
+const WIDTH_TO_SLOPE: f64 = 0.142;
 /// The cell size (m) that resolves the footing: on coarser cells both grow with h.
 const RESOLVED: f64 = 0.05;
 /// Largest relative change of a limit load per 10⁻³ of s/B; least growth of one that there isn't.
@@ -29,11 +32,14 @@ const MECHANISM: f64 = 1.5;
 /// Largest gradient of the mean normal stress (s_u/B) between the points where it is known: from 4.14 s_u under the
 /// footing to 1.02 s_u beside it, half a width away.
 const GRADIENT: f64 = 6.24;
+/// Cells within which the end of the mechanism is seen.
+const SMEARED: f64 = 3.0;
 /// The order of the contact pressure's error: of its leading part, the width of the footing, less how the
 /// elements' own error lowers it.
 const ORDER: (f64, f64) = (0.85, 1.1);
-/// Penetration over B at which the ground is fully plastic, over s_u/E.
-const PLASTIC: f64 = 20.0;
+/// Penetration over B, over s_u/E, from which on the load of the finite elements is within ½ % of its limit on a
+/// ground of 6B × 6B; a smaller one is stiffer and gets there sooner.
+const PLASTIC: f64 = 18.5;
 /// Largest penetration over B at which the ground has kept its shape.
 const SMALL: f64 = 0.01;
 /// Strength over Young's modulus and penetration beyond which nothing yields.
@@ -81,7 +87,7 @@ pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "mechanism",
         Kind::Truth,
-        "fbar-rate, fbar-consistent: the surface rises out to 1.5 times the width that the footing acts with, within 2h",
+        "fbar-rate, fbar-consistent with GIMP and quadratic splines: the surface rises out to 1.5 times the width that the footing acts with, within 3h",
     ),
     check(
         "mean-stress",
@@ -229,12 +235,23 @@ fn slope(record: &Record, verdicts: &mut Vec<Verdict>) {
                     "elastic_slope",
                     record.metric("elastic_slope"),
                     expected,
-                    FEM * coarseness(record) * expected,
+                    (FEM * coarseness(record) + soft_edge(record)) * expected,
                     "finite elements that act as wide",
                 )
             }
         }
     });
+}
+
+/// By how much (relative) an elastic footing may be softer than one of its width. Splines are exactly rigid up to a cell
+/// inside of its edge only. To a plastic jump of velocity that matters little, but elastic pressures peak at the edge.
+fn soft_edge(record: &Record) -> f64 {
+    match record.basis {
+        BasisName::Linear | BasisName::Gimp => 0.0,
+        BasisName::Bspline2 | BasisName::Bspline3 => {
+            WIDTH_TO_SLOPE * 2.0 * record.discretisation.h / WIDTH
+        }
+    }
 }
 
 fn locked(record: &Record, verdicts: &mut Vec<Verdict>) {
@@ -330,19 +347,35 @@ fn prandtl(record: &Record, verdicts: &mut Vec<Verdict>) {
         (PRANDTL * coarseness(record) + uncertainty / width) * EXACT,
         "Prandtl 1920",
     ));
-    verdicts.push(Verdict::close(
-        "mechanism",
-        "mechanism_width",
-        record.metric("mechanism_width"),
-        MECHANISM * width,
-        2.0 * h + MECHANISM * uncertainty,
-        "Prandtl's mechanism; a jump of velocity is smeared over a cell on either side",
-    ));
+    verdicts.push(if record.basis == BasisName::Bspline3 {
+        Verdict::not_applicable(
+            "mechanism",
+            "mechanism_width",
+            "between cubic splines the ground beside the footing rises twice as much as the wedge: half of the most is there",
+        )
+    } else {
+        Verdict::close(
+            "mechanism",
+            "mechanism_width",
+            record.metric("mechanism_width"),
+            MECHANISM * width,
+            SMEARED * h,
+            "Prandtl's mechanism; a jump of velocity is smeared over a cell on either side, and half of the most, which is at the edge, lies up to a cell before half of the wedge's",
+        )
+    });
 }
 
 fn mean_stress(record: &Record, verdicts: &mut Vec<Verdict>) {
-    if !record.parameters.boolean("rough") {
-        let why = "the reference is that of a rough footing";
+    let why = if !record.parameters.boolean("rough") {
+        Some("the reference is that of a rough footing")
+    } else if record.parameters.is("contact", "barrier") {
+        Some(
+            "how wide a footing acts through a barrier is not known beforehand: see contacts-agree",
+        )
+    } else {
+        None
+    };
+    if let Some(why) = why {
         verdicts.push(Verdict::not_applicable(
             "mean-stress",
             "mean_stress_0.25_0.25",
