@@ -28,7 +28,7 @@ const REMEDIES: [RemedyName; 4] = [
 /// Finest first.
 const LEVELS: [&str; 4] = ["b80", "b40", "b20", "b10"];
 /// Largest pressure over strength drawn.
-const MOST: f64 = 12.0;
+const MOST: f64 = 10.0;
 /// What is drawn of the ground (m): so far to the right and down.
 const NEAR: (f64, f64) = (2.5, 2.0);
 /// The mean normal stress (kPa) is drawn from this to zero.
@@ -311,7 +311,7 @@ impl Runs<'_> {
                 &format!("Displacement over the last quarter of the penetration over that of the footing, {remedy}, {of}: a wedge that sinks with the footing, a fan, a wedge that is pushed up, and ground at rest."),
             ),
             vec![velocity],
-            ((0.0, 1.5), "|u| / |u of the footing|"),
+            ((0.0, 1.0), "|u| / |u of the footing|"),
         )?;
         self.fields(
             &format!("plastic-strain-{basis}"),
