@@ -196,7 +196,7 @@ const FAULTS: [Fault; 17] = [
         file: "material/hencky_j2.rs",
         sound: "direction.scale_add_identity(-2.0 * flow / norm, 0.0)",
         broken: "direction.scale_add_identity(-2.0 * flow / norm, -0.1 * flow)",
-        seen_by: &[(FOOTING, "prandtl")],
+        seen_by: &[(FOOTING, "completes")],
     },
     Fault {
         name: "the barrier presses back with half the force",

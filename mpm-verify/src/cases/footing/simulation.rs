@@ -255,13 +255,16 @@ impl Simulated {
         fit_line(&points).map_or(f64::NAN, |line| line.slope)
     }
 
-    /// Displacement (m) of every particle over the plateau, in seeding order.
+    /// Displacement (m) of every particle over the plateau, in seeding order; none before it begins.
     fn flow(&self) -> Vec<[f64; 2]> {
         let now = self.seeded(|p, k| p.position[k]);
-        let before = self.before_plateau.iter();
+        let displacement = |k: usize, x: &[f64; 2]| {
+            let before = self.before_plateau.get(k).unwrap_or(x);
+            [x[0] - before[0], x[1] - before[1]]
+        };
         now.iter()
-            .zip(before)
-            .map(|(x, b)| [x[0] - b[0], x[1] - b[1]])
+            .enumerate()
+            .map(|(k, x)| displacement(k, x))
             .collect()
     }
 
