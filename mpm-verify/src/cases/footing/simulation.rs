@@ -25,6 +25,8 @@ use std::collections::BTreeMap;
 
 /// Width B of the footing (m); its right half is simulated.
 pub(super) const WIDTH: f64 = 1.0;
+/// The part of the surface (m from the axis) that is well inside of what Prandtl's mechanism pushes up.
+const BESIDE: (f64, f64) = (0.75 * WIDTH, 1.25 * WIDTH);
 /// Cells of the grid above the surface.
 const ROOM: usize = 3;
 /// Penetration over B between two rows of the series.
@@ -89,6 +91,12 @@ pub(super) fn effective_width(basis: BasisName, h: f64) -> (f64, f64) {
         BasisName::Linear | BasisName::Gimp => (WIDTH + h, 0.0),
         BasisName::Bspline3 => (WIDTH + 0.5 * h, 0.5 * h),
     }
+}
+
+/// How far (m) from the axis of a footing of [`WIDTH`] the ground rises at the limit load: Prandtl's mechanism under a
+/// rough one, Hill's, half as large, under a smooth one.
+pub(super) fn mechanism_extent(rough: bool) -> f64 {
+    WIDTH * if rough { 1.5 } else { 1.0 }
 }
 
 impl Simulated {
@@ -268,9 +276,8 @@ impl Simulated {
             .collect()
     }
 
-    /// Half the width (in B) of the ground that rises while the footing sinks over the plateau: the outermost
-    /// place where the surface rises by half of the most that it does.
-    fn mechanism_width(&self) -> f64 {
+    /// Places (m) from the axis and rises (m) of the particles at the surface over the plateau, from the axis outward.
+    fn surface(&self) -> Vec<(f64, f64)> {
         let spacing = self.discretisation.h / f64::from(self.discretisation.ppc).sqrt();
         let reference = self.seeded(|p, k| p.reference[k]);
         let on_surface = |x: &[f64; 2]| x[1] > -0.75 * spacing;
@@ -279,7 +286,17 @@ impl Simulated {
             .map(|(x, u)| (x[0], u[1]))
             .collect();
         surface.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let half = 0.5 * surface.iter().map(|(_, u)| *u).fold(0.0, f64::max);
+        surface
+    }
+
+    /// Half the width (in B) of the ground that rises while the footing sinks over the plateau: the outermost
+    /// place where the surface rises by half of what it does in the mechanism of the limit load.
+    fn mechanism_width(&self) -> f64 {
+        let surface = self.surface();
+        // The ground does not change its volume: as much rises beside the footing as sinks under it.
+        let beside = mechanism_extent(self.parameters.boolean("rough")) - 0.5 * WIDTH;
+        let sinking = surface.first().map_or(f64::NAN, |(_, rise)| -rise);
+        let half = 0.5 * sinking * 0.5 * WIDTH / beside;
         surface
             .windows(2)
             .rev()
@@ -288,6 +305,17 @@ impl Simulated {
                 let share = (pair[0].1 - half) / (pair[0].1 - pair[1].1);
                 (pair[0].0 + share * (pair[1].0 - pair[0].0)) / WIDTH
             })
+    }
+
+    /// Mean rise of the surface within [`BESIDE`] over the plateau, over what the footing sinks.
+    fn heave(&self) -> f64 {
+        let surface = self.surface();
+        let sinking = surface.first().map_or(f64::NAN, |(_, rise)| -rise);
+        let rises: Vec<f64> = (surface.iter())
+            .filter(|(x, _)| (BESIDE.0..BESIDE.1).contains(x))
+            .map(|(_, rise)| *rise)
+            .collect();
+        rises.iter().sum::<f64>() / rises.len() as f64 / sinking
     }
 
     /// Mean normal stress as it enters the forces and its average Π, in seeding order.
@@ -463,6 +491,7 @@ impl Job for Simulated {
             ("elastic_slope".to_owned(), self.slope()),
             ("force_imbalance".to_owned(), base / force - 1.0),
             ("mechanism_width".to_owned(), self.mechanism_width()),
+            ("heave".to_owned(), self.heave()),
             ("mean_stress_rms".to_owned(), stress_rms),
             ("checkerboard_rms".to_owned(), board),
             ("checkerboard_ratio".to_owned(), board / stress_rms),
