@@ -1,5 +1,6 @@
 //! Typed errors of the solver.
 
+use crate::memory::MemoryError;
 use thiserror::Error;
 
 /// What went wrong in a step, with the offending value.
@@ -91,6 +92,9 @@ pub enum Error {
         /// What broke.
         fault: Fault,
     },
+    /// A body that was handed over is not one of the scene.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
 }
 
 /// Checks that `value` is finite and satisfies `ok`.

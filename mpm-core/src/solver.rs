@@ -11,7 +11,7 @@ use crate::error::{Error, Fault, require};
 use crate::grid::Grid;
 use crate::lattice::Lattice;
 use crate::material::Law;
-use crate::memory::Memory;
+use crate::memory::{Memory, Saved};
 use crate::monitor::{Accumulated, Residual, Totals};
 use crate::parallel::{CHUNK, chunks_if_present, scatter};
 use crate::particles::{Particles, cell_order, permute};
@@ -83,6 +83,10 @@ pub trait Simulation<const D: usize>: Memory + Send {
     /// The force of the body on the constraint with this place in the scene's list in the last step (N):
     /// the nodal forces at the components that it holds. NaN of a constraint that there isn't.
     fn force_on(&self, constraint: usize) -> [f64; 3];
+    /// The impulse of the body on the constraint with this place in the scene's list since time zero (N s): the
+    /// momentum that it took. Beside the nodal forces it has what the particles brought to the held nodes. NaN of a
+    /// constraint that there isn't.
+    fn impulse_on(&self, constraint: usize) -> [f64; 3];
     /// The force of the body on the rigid body of the contact with this place in the scene's list in the last step
     /// (N). NaN of a contact that there isn't.
     fn reaction(&self, contact: usize) -> [f64; 3];
@@ -95,6 +99,17 @@ pub trait Simulation<const D: usize>: Memory + Send {
     fn force_stress(&mut self) -> Vec<SymmetricTensor>;
     /// The equivalent plastic strain of every particle.
     fn plastic_strain(&self) -> Vec<f64>;
+    /// The body, particles with their states, as bytes.
+    ///
+    /// # Errors
+    /// [`Error::Memory`], as [`Memory::save`].
+    fn body(&self) -> Result<Saved, Error>;
+    /// Goes on with the [`body`](Self::body) of another run of the same particles, basis, remedy, transfer and kind of
+    /// law: under the stages and with the constants of this one, whose time and sums stay as they are.
+    ///
+    /// # Errors
+    /// [`Error::Memory`], as [`Memory::restore`]; the run then stays as it was.
+    fn take_over(&mut self, body: &Saved) -> Result<(), Error>;
 }
 
 /// Sums of one chunk of particles in a gather.
@@ -113,6 +128,8 @@ struct Held {
     amplitude: f64,
     /// Force of the body on it (N).
     force: [f64; 3],
+    /// Impulse of the body on it since time zero (N s).
+    impulse: [f64; 3],
 }
 
 /// The explicit solver for one body.
@@ -226,19 +243,18 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         lattice.for_each_node(|node, index| {
             let position = lattice.position(index);
             for axis in 0..D {
-                let held = scene.constraints.iter().enumerate().find_map(|(by, c)| {
+                let first = scene.constraints.iter().enumerate().find_map(|(by, c)| {
                     let full_velocity = c.prescribe(&scene.grid, &position, axis)?;
-                    Some((by, full_velocity))
-                });
-                if let Some((by, full_velocity)) = held {
-                    prescribed.push(Prescribed {
+                    Some(Prescribed {
                         node,
                         axis,
                         velocity: full_velocity,
                         full_velocity,
+                        bound: c.bound(),
                         by,
-                    });
-                }
+                    })
+                });
+                prescribed.extend(first);
             }
         });
     }
@@ -248,10 +264,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let middle = self.time + 0.5 * self.scene.dt;
         let now = self.scene.constraints.iter().map(|c| c.amplitude(middle));
         for (held, amplitude) in self.held.iter_mut().zip(now) {
-            *held = Held {
-                amplitude,
-                force: [0.0; 3],
-            };
+            held.amplitude = amplitude;
+            held.force = [0.0; 3];
         }
         for p in &mut self.prescribed {
             p.velocity = self.held[p.by].amplitude * p.full_velocity;
@@ -347,6 +361,10 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         for c in &self.prescribed {
             let node = &mut self.nodes[c.node];
             let mass = node.mass();
+            let free = node.motion.as_array()[c.axis];
+            let Some(held) = c.held(free) else {
+                continue;
+            };
             residual.kinetic_energy -= node.kinetic_energy();
             let change = &mut node.change.as_mut_array()[c.axis];
             let velocity = &mut node.motion.as_mut_array()[c.axis];
@@ -354,7 +372,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             residual.free_force -= force.abs();
             residual.held_force[c.axis] += force;
             self.held[c.by].force[c.axis] += force;
-            let (free, held) = (*velocity, c.velocity);
+            self.held[c.by].impulse[c.axis] += mass * (free - held);
             let before = free - *change;
             self.accumulated.constraint_loss +=
                 mass * (0.5 * (before * before - held * held) + (free - before) * held);
@@ -667,6 +685,12 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.held.get(constraint).map_or([f64::NAN; 3], |h| h.force)
     }
 
+    fn impulse_on(&self, constraint: usize) -> [f64; 3] {
+        self.held
+            .get(constraint)
+            .map_or([f64::NAN; 3], |h| h.impulse)
+    }
+
     fn reaction(&self, contact: usize) -> [f64; 3] {
         let contact = self.scene.contacts.get(contact);
         contact.map_or([f64::NAN; 3], RigidContact::reaction)
@@ -697,5 +721,13 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
     fn plastic_strain(&self) -> Vec<f64> {
         let law = &self.scene.law;
         self.states.iter().map(|s| law.plastic_strain(s)).collect()
+    }
+
+    fn body(&self) -> Result<Saved, Error> {
+        Ok(self.save_body()?)
+    }
+
+    fn take_over(&mut self, body: &Saved) -> Result<(), Error> {
+        Ok(self.restore_body(body)?)
     }
 }

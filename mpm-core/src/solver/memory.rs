@@ -14,7 +14,7 @@ use crate::work::Work;
 use std::ops::Range;
 
 /// Sums and forces: what is neither of a particle nor of a stage.
-type Sums = (f64, f64, Accumulated, Residual, Work, Vec<Held>);
+type Sums = (f64, Accumulated, Residual, Work, Vec<Held>);
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
     for Solver<D, S, B, M, T>
@@ -23,7 +23,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
         let scene = &self.scene;
         let sums = (
             self.time,
-            self.drift,
             self.accumulated,
             self.residual,
             self.work,
@@ -37,9 +36,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
         );
         let contacts: Result<Vec<Saved>, _> = scene.contacts.iter().map(Memory::save).collect();
         Saved::of(&(
-            &scene.particles,
-            &self.states,
-            &self.slabs,
+            self.save_body()?,
             sums,
             scene.transfer.save()?,
             scene.remedy.save()?,
@@ -50,25 +47,13 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
         type Stages = (Vec<Saved>, Vec<Saved>, Vec<Saved>, Vec<Saved>);
-        type All<const D: usize, State> = (
-            Particles<D>,
-            Vec<State>,
-            Vec<Range<usize>>,
-            Sums,
-            Saved,
-            Saved,
-            Stages,
-            Vec<Saved>,
-        );
-        let (particles, states, slabs, sums, transfer, remedy, stages, contacts): All<D, M::State> =
-            saved.read("a solver")?;
-        let (time, drift, accumulated, residual, work, held) = sums;
-        let scene = &mut self.scene;
-        particles.check_against(&scene.particles)?;
-        MemoryError::unless_equal("states", states.len(), self.states.len())?;
+        type All = (Saved, Sums, Saved, Saved, Stages, Vec<Saved>);
+        let (body, sums, transfer, remedy, stages, contacts): All = saved.read("a solver")?;
+        let (time, accumulated, residual, work, held) = sums;
         MemoryError::unless_equal("constraints", held.len(), self.held.len())?;
         MemoryError::unless_equal("nodes", work.nodes as usize, self.nodes.len())?;
-        check_places(&scene.grid, &particles, &slabs, self.slabs.len())?;
+        self.restore_body(&body)?;
+        let scene = &mut self.scene;
         restore_all("loads", &mut scene.loads, &stages.0)?;
         restore_all("force filters", &mut scene.force_filters, &stages.1)?;
         restore_all("constraints", &mut scene.constraints, &stages.2)?;
@@ -79,16 +64,33 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
         }
         scene.transfer.restore(&transfer)?;
         scene.remedy.restore(&remedy)?;
-        scene.particles = particles;
-        self.states = states;
-        self.slabs = slabs;
-        self.averaging.expire();
         self.time = time;
-        self.drift = drift;
         self.accumulated = accumulated;
         self.residual = residual;
         self.work = work;
         self.held = held;
+        Ok(())
+    }
+}
+
+impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
+    /// The particles, their states and how they are sorted.
+    pub(super) fn save_body(&self) -> Result<Saved, MemoryError> {
+        Saved::of(&(&self.scene.particles, &self.states, &self.slabs, self.drift))
+    }
+
+    /// Replaces the body by one that was saved.
+    pub(super) fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        type Body<const D: usize, State> = (Particles<D>, Vec<State>, Vec<Range<usize>>, f64);
+        let (particles, states, slabs, drift): Body<D, M::State> = saved.read("a body")?;
+        particles.check_against(&self.scene.particles)?;
+        MemoryError::unless_equal("states", states.len(), self.states.len())?;
+        check_places(&self.scene.grid, &particles, &slabs, self.slabs.len())?;
+        self.scene.particles = particles;
+        self.states = states;
+        self.slabs = slabs;
+        self.drift = drift;
+        self.averaging.expire();
         Ok(())
     }
 }

@@ -52,8 +52,34 @@ pub struct Prescribed {
     pub velocity: f64,
     /// Velocity (m/s) at the amplitude one.
     pub full_velocity: f64,
+    /// How it relates to the node's.
+    pub bound: Bound,
     /// Place of the constraint in the scene's list.
     pub by: usize,
+}
+
+impl Prescribed {
+    /// The velocity (m/s) of the node, which would be `free` without the constraint, where that acts.
+    #[must_use]
+    pub fn held(&self, free: f64) -> Option<f64> {
+        let acts = match self.bound {
+            Bound::Equal => true,
+            Bound::AtLeast => free < self.velocity,
+            Bound::AtMost => free > self.velocity,
+        };
+        acts.then_some(self.velocity)
+    }
+}
+
+/// How a nodal velocity relates to a prescribed one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bound {
+    /// It is that velocity.
+    Equal,
+    /// It is no lower.
+    AtLeast,
+    /// It is no higher.
+    AtMost,
 }
 
 /// A constraint on the motion of nodes. An explicit solver overwrites, an implicit one eliminates.
@@ -61,6 +87,11 @@ pub trait Constraint<const D: usize>: Memory + Send {
     /// Whether the node at `position` (m), of a lattice on `grid`, is constrained along `axis`, and
     /// to which velocity (m/s) when the amplitude is one.
     fn prescribe(&self, grid: &crate::Grid<D>, position: &[f64; D], axis: usize) -> Option<f64>;
+
+    /// How the nodes' velocities relate to those prescribed.
+    fn bound(&self) -> Bound {
+        Bound::Equal
+    }
 
     /// The factor of all its velocities at `time` (s).
     fn amplitude(&self, _time: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! Walls on the ends of an axis.
 
-use super::Constraint;
+use super::{Bound, Constraint};
 use crate::grid::Grid;
 use crate::memory::Memoryless;
 
@@ -18,8 +18,10 @@ pub enum End {
 pub enum WallKind {
     /// All components.
     Fixed,
-    /// The normal component; material slides freely.
+    /// The normal component; material slides freely and sticks to the wall.
     Roller,
+    /// Likewise, but one-sided: the wall bears no tension and material comes off it freely.
+    Separable,
 }
 
 /// A wall at one end of an axis: the nodes on it and beyond it are held.
@@ -48,5 +50,13 @@ impl<const D: usize> Constraint<D> for Wall {
         };
         let held = self.kind == WallKind::Fixed || axis == self.axis;
         (behind && held).then_some(0.0)
+    }
+
+    fn bound(&self) -> Bound {
+        match (self.kind, self.end) {
+            (WallKind::Fixed | WallKind::Roller, _) => Bound::Equal,
+            (WallKind::Separable, End::Lo) => Bound::AtLeast,
+            (WallKind::Separable, End::Hi) => Bound::AtMost,
+        }
     }
 }

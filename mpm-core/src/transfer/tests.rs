@@ -4,7 +4,7 @@ use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::parallel::scatter;
 use crate::particles::cell_order;
-use crate::stage::Prescribed;
+use crate::stage::{Bound, Prescribed};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -405,6 +405,7 @@ fn xpic_moves_a_particle_with_the_mean_of_its_velocities_and_not_through_a_wall(
         axis: 0,
         velocity: 0.0,
         full_velocity: 0.0,
+        bound: Bound::Equal,
         by: 0,
     }];
     let mut xpic = Xpic::new(1).unwrap();

@@ -151,7 +151,8 @@ impl<const D: usize> Transfer<D> for Xpic {
             own.motion += node.change;
         }
         for c in held {
-            self.nodes[c.node].change.as_mut_array()[c.axis] = c.velocity;
+            let velocity = &mut self.nodes[c.node].change.as_mut_array()[c.axis];
+            *velocity = c.held(*velocity).unwrap_or(*velocity);
         }
         lattice.unfold(&mut self.nodes);
         u64::from(self.order - 1)

@@ -1,0 +1,152 @@
+//! Walls that hold on to what touches them and walls that let go; a body handed from run to run.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
+use mpm_core::material::{Law, NeoHookean};
+use mpm_core::remedy::FbarRate;
+use mpm_core::solver::courant_time_step;
+use mpm_core::stage::{Constraint, End, Wall, WallKind};
+use mpm_core::transfer::{Apic, Flip};
+use mpm_core::{Axis, Basis, Grid, Particles, Scene, Simulation, Solver, Transfer};
+
+const H: f64 = 0.5;
+const DENSITY: f64 = 2.0;
+/// Speed (m/s) of the block, a hundredth of that of sound.
+const SPEED: f64 = 0.1;
+/// Left, lower, upper.
+const WALLS: [(usize, End); 3] = [(0, End::Lo), (1, End::Lo), (1, End::Hi)];
+
+/// A block of four by four cells, `gap` cells off the left wall and between walls above and below that it touches.
+fn block(gap: usize, velocity: [f64; 2]) -> Particles<2> {
+    let spacing = 0.5 * H;
+    let positions = (0..64)
+        .map(|k| {
+            let (i, j) = (k / 8, k % 8);
+            let x = gap as f64 * H + (i as f64 + 0.5) * spacing;
+            [x, (j as f64 + 0.5) * spacing]
+        })
+        .collect();
+    let mut particles =
+        Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
+    particles.velocity.fill(velocity);
+    particles
+}
+
+fn scene<T>(particles: Particles<2>, kind: WallKind, transfer: T) -> Scene<2, NeoHookean, T> {
+    let law = NeoHookean::new(100.0, 0.3).unwrap();
+    let wall = |(axis, end)| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
+    Scene {
+        dt: courant_time_step(0.3, H, law.wave_speed(DENSITY)),
+        grid: Grid::new(H, [Axis::walls(0.0, 10), Axis::walls(0.0, 4)]).unwrap(),
+        wall: WallTreatment::OpenKnot,
+        law,
+        particles,
+        remedy: Box::<FbarRate>::default(),
+        loads: Vec::new(),
+        contacts: Vec::new(),
+        force_filters: Vec::new(),
+        constraints: WALLS.map(wall).into(),
+        particle_filters: Vec::new(),
+        transfer,
+    }
+}
+
+/// Runs a block between walls that it meets at the left. In every step its momentum is that of the start less the
+/// impulses on the walls, and its energy has not grown.
+fn run<const S: usize, B: Basis<S>, T: Transfer<2>>(
+    block: Particles<2>,
+    kind: WallKind,
+    transfer: T,
+) -> Solver<2, S, B, NeoHookean, T> {
+    let mut solver: Solver<2, S, B, _, T> = Solver::new(scene(block, kind, transfer)).unwrap();
+    let start = solver.totals();
+    let size = start.momentum[0].abs();
+    let mut energy = start.kinetic_energy;
+    for _ in 0..400 {
+        solver.step().unwrap();
+        let now = solver.totals();
+        for axis in 0..2 {
+            let given: f64 = (0..WALLS.len()).map(|w| solver.impulse_on(w)[axis]).sum();
+            let lost = now.momentum[axis] + given - start.momentum[axis];
+            assert!(lost.abs() < 1e-12 * size, "{kind:?}: {lost}");
+        }
+        let left = now.kinetic_energy + now.accumulated.stress_work;
+        assert!(left <= energy * (1.0 + 1e-12), "{kind:?}: {left} {energy}");
+        energy = left;
+    }
+    solver
+}
+
+fn leftmost(solver: &impl Simulation<2>) -> f64 {
+    let x = solver.particles().position.iter().map(|x| x[0]);
+    x.fold(f64::INFINITY, f64::min)
+}
+
+/// A block that is pulled off the wall (0.8 N s) leaves it, if that is separable, as if it weren't there, but for what
+/// the corner's rounding pushes; one that is thrown at the wall comes back.
+fn separates<const S: usize, B: Basis<S>, T: Transfer<2> + Copy>(transfer: T) {
+    let pulled = || block(0, [SPEED, 0.3 * SPEED]);
+    let free = run::<S, B, T>(pulled(), WallKind::Separable, transfer);
+    let push = free.impulse_on(0)[0];
+    assert!((-1e-5..=0.0).contains(&push), "{push}");
+    assert!(leftmost(&free) > H, "{}", leftmost(&free));
+    let held = run::<S, B, T>(pulled(), WallKind::Roller, transfer);
+    assert!(held.impulse_on(0)[0] > 0.0);
+    assert!(leftmost(&held) < H, "{}", leftmost(&held));
+    let thrown = block(1, [-SPEED, 0.3 * SPEED]);
+    let back = run::<S, B, T>(thrown, WallKind::Separable, transfer);
+    assert!(back.impulse_on(0)[0] < 0.0 && back.totals().momentum[0] > 0.0);
+}
+
+#[test]
+fn separable_walls_bear_no_tension_and_momentum_balances() {
+    separates::<3, Gimp, _>(Flip::default());
+    separates::<3, QuadraticBSpline, _>(Flip::default());
+    separates::<3, QuadraticBSpline, _>(Apic);
+    separates::<4, CubicBSpline, _>(Flip::default());
+}
+
+#[test]
+fn a_body_goes_on_in_another_run_bit_for_bit() {
+    let start = || {
+        scene(
+            block(1, [-SPEED, 0.0]),
+            WallKind::Separable,
+            Flip::default(),
+        )
+    };
+    let mut first: Solver<2, 3, Gimp, _> = Solver::new(start()).unwrap();
+    for _ in 0..150 {
+        first.step().unwrap();
+    }
+    let mut second: Solver<2, 3, Gimp, _> = Solver::new(start()).unwrap();
+    second.take_over(&first.body().unwrap()).unwrap();
+    assert_eq!((second.time(), second.work().steps), (0.0, 0));
+    for _ in 0..50 {
+        first.step().unwrap();
+        second.step().unwrap();
+    }
+    assert_eq!(first.body().unwrap(), second.body().unwrap());
+}
+
+#[test]
+fn a_body_of_other_particles_is_refused() {
+    let with = |particles| scene(particles, WallKind::Separable, Flip::default());
+    let mut few = block(0, [0.0; 2]);
+    few.position.truncate(60);
+    let few = Particles::new(few.position, 0.0625, DENSITY, [0.125; 2]).unwrap();
+    let few: Solver<2, 3, Gimp, _> = Solver::new(with(few)).unwrap();
+    let mut solver: Solver<2, 3, Gimp, _> = Solver::new(with(block(0, [0.0; 2]))).unwrap();
+    let before = solver.body().unwrap();
+    let error = solver.take_over(&few.body().unwrap()).unwrap_err();
+    assert!(
+        error.to_string().contains("60 in the memory, 64"),
+        "{error}"
+    );
+    assert_eq!(solver.body().unwrap(), before);
+}
