@@ -103,6 +103,52 @@ pub struct Headline {
     pub decimals: usize,
 }
 
+/// A metric by name, unit and meaning.
+pub(crate) const fn metric(
+    name: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+) -> MetricInfo {
+    MetricInfo {
+        name,
+        unit,
+        meaning,
+    }
+}
+
+/// A check by name, kind and statement.
+pub(crate) const fn check(name: &'static str, kind: Kind, statement: &'static str) -> CheckInfo {
+    CheckInfo {
+        name,
+        kind,
+        statement,
+    }
+}
+
+/// An error whose convergence is studied, by metric and label.
+pub(crate) const fn error(metric: &'static str, label: &'static str) -> Quantity {
+    Quantity {
+        metric,
+        label,
+        is_error: true,
+    }
+}
+
+/// A column of the table of results by metric, heading, factor to the heading's unit and decimals.
+pub(crate) const fn headline(
+    metric: &'static str,
+    heading: &'static str,
+    factor: f64,
+    decimals: usize,
+) -> Headline {
+    Headline {
+        metric,
+        heading,
+        factor,
+        decimals,
+    }
+}
+
 /// One run of a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunSpec {
@@ -167,6 +213,15 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+/// The particles at one time, as columns in seeding order: positions first (x, y, …).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Time (s).
+    pub time: f64,
+    /// What is kept of them.
+    pub columns: Vec<Column>,
+}
+
 /// A running simulation of a case. Its memory is all that it gathers from row to row, with that of what it
 /// simulates: a run goes on from a checkpoint by it.
 pub trait Job: Memory + Send {
@@ -183,6 +238,10 @@ pub trait Job: Memory + Send {
     fn finished(&self) -> bool;
     /// Share of the longest possible run that is done, 0 to 1.
     fn progress(&self) -> f64;
+    /// What is kept of the state after the last row, if it is time to keep something.
+    fn snapshot(&mut self) -> Option<Snapshot> {
+        None
+    }
     /// The particles as columns in seeding order: positions first (x, y, …).
     fn particles(&mut self) -> Vec<Column>;
     /// The metrics at the end.

@@ -80,6 +80,28 @@ pub struct Parameter {
     pub meaning: &'static str,
 }
 
+/// A number from `least` to `most`; with `below` the upper end is excluded.
+pub(crate) const fn number(least: f64, most: f64, below: bool) -> Domain {
+    Domain::Number { least, most, below }
+}
+
+/// A parameter by name, unit, default, domain and meaning.
+pub(crate) const fn parameter(
+    name: &'static str,
+    unit: &'static str,
+    default: &'static str,
+    domain: Domain,
+    meaning: &'static str,
+) -> Parameter {
+    Parameter {
+        name,
+        unit,
+        default,
+        domain,
+        meaning,
+    }
+}
+
 impl Parameter {
     /// Reads a value.
     ///

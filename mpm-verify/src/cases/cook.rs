@@ -8,7 +8,8 @@ mod simulation;
 mod sketch;
 
 use crate::case::{
-    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier,
+    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
+    headline, metric,
 };
 use crate::check::Verdict;
 use crate::error::Error;
@@ -296,31 +297,9 @@ const HEADLINES: &[Headline] = &[
     headline("log_jacobian_gap", "ln(J/J̄) at the end (10⁻⁴)", 1e4, 2),
 ];
 
-const fn headline(
-    metric: &'static str,
-    heading: &'static str,
-    factor: f64,
-    decimals: usize,
-) -> Headline {
-    Headline {
-        metric,
-        heading,
-        factor,
-        decimals,
-    }
-}
-
 const QUANTITIES: &[Quantity] = &[
-    Quantity {
-        metric: "fem_edge_mean_error",
-        label: "relative error of edge-mean u_y",
-        is_error: true,
-    },
-    Quantity {
-        metric: "mean_stress_rms_error",
-        label: "rms error of σ_m (Pa)",
-        is_error: true,
-    },
+    error("fem_edge_mean_error", "relative error of edge-mean u_y"),
+    error("mean_stress_rms_error", "rms error of σ_m (Pa)"),
     Quantity {
         metric: "tip_ux",
         label: "tip u_x (m)",
@@ -334,14 +313,6 @@ const SWEEPS: &[Sweep] = &[Sweep {
     abscissa: |ratio| 0.5 - ratio,
     logarithmic: true,
 }];
-
-const fn metric(name: &'static str, unit: &'static str, meaning: &'static str) -> MetricInfo {
-    MetricInfo {
-        name,
-        unit,
-        meaning,
-    }
-}
 
 impl Case for Cook {
     fn name(&self) -> &'static str {

@@ -8,11 +8,12 @@ mod simulation;
 mod sketch;
 
 use crate::case::{
-    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier,
+    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
+    headline, metric,
 };
 use crate::check::Verdict;
 use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters};
+use crate::parameter::{Domain, Parameter, Parameters, number, parameter};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::sketch::Sketch;
@@ -49,26 +50,6 @@ const REMEDIES: [RemedyName; 4] = [
     RemedyName::FbarRate,
     RemedyName::FbarConsistent,
 ];
-
-const fn number(least: f64, most: f64, below: bool) -> Domain {
-    Domain::Number { least, most, below }
-}
-
-const fn parameter(
-    name: &'static str,
-    unit: &'static str,
-    default: &'static str,
-    domain: Domain,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter {
-        name,
-        unit,
-        default,
-        domain,
-        meaning,
-    }
-}
 
 const PARAMETERS: [Parameter; 16] = [
     parameter(
@@ -185,14 +166,6 @@ const PARAMETERS: [Parameter; 16] = [
     ),
 ];
 
-const fn metric(name: &'static str, unit: &'static str, meaning: &'static str) -> MetricInfo {
-    MetricInfo {
-        name,
-        unit,
-        meaning,
-    }
-}
-
 const METRICS: &[MetricInfo] = &[
     metric(
         "nc_b",
@@ -279,20 +252,6 @@ const METRICS: &[MetricInfo] = &[
     metric("mass", "kg/m", "mass of the particles"),
 ];
 
-const fn headline(
-    metric: &'static str,
-    heading: &'static str,
-    factor: f64,
-    decimals: usize,
-) -> Headline {
-    Headline {
-        metric,
-        heading,
-        factor,
-        decimals,
-    }
-}
-
 const HEADLINES: &[Headline] = &[
     headline("nc_b", "N_c by B (–)", 1.0, 3),
     headline("nc_b_plus_h", "N_c by B + h (–)", 1.0, 3),
@@ -305,11 +264,10 @@ const HEADLINES: &[Headline] = &[
     headline("log_jacobian_gap", "ln(J/J̄) (10⁻⁶)", 1e6, 2),
 ];
 
-const QUANTITIES: &[Quantity] = &[Quantity {
-    metric: "prandtl_error",
-    label: "relative error of the contact pressure",
-    is_error: true,
-}];
+const QUANTITIES: &[Quantity] = &[error(
+    "prandtl_error",
+    "relative error of the contact pressure",
+)];
 
 const SWEEPS: &[Sweep] = &[Sweep {
     parameter: "penetration_rate",

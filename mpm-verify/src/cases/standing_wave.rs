@@ -4,7 +4,8 @@
 
 use super::manufactured::checks;
 use super::manufactured::plan::{REMEDIES, ladder, levels, pairs, union};
-use super::manufactured::{Boundary, Manufactured, headline, numerical, parameters};
+use super::manufactured::{Boundary, Manufactured, numerical, parameters};
+use crate::case::headline;
 use crate::case::{CheckInfo, Headline, RunSpec, Tier};
 use crate::check::{Kind, Verdict};
 use crate::error::Error;
@@ -148,12 +149,17 @@ const TWO_PERIODS: f64 = 2.4;
 const TWENTY_PERIODS: &str = "duration=24";
 
 const HEADLINES: &[Headline] = &[
-    headline("frequency_ratio", "frequency / exact (–)", 4),
-    headline("amplitude_ratio", "amplitude, last / first period (–)", 3),
-    headline("energy_gain", "energy gain (–)", 5),
-    headline("energy_loss", "energy loss (–)", 4),
-    headline("displacement_l2", "u rms error (m)", 5),
-    headline("log_jacobian_gap", "ln(J/J̄) (–)", 4),
+    headline("frequency_ratio", "frequency / exact (–)", 1.0, 4),
+    headline(
+        "amplitude_ratio",
+        "amplitude, last / first period (–)",
+        1.0,
+        3,
+    ),
+    headline("energy_gain", "energy gain (–)", 1.0, 5),
+    headline("energy_loss", "energy loss (–)", 1.0, 4),
+    headline("displacement_l2", "u rms error (m)", 1.0, 5),
+    headline("log_jacobian_gap", "ln(J/J̄) (–)", 1.0, 4),
 ];
 
 const CHECKS: &[CheckInfo] = &[

@@ -6,7 +6,7 @@ use super::manufactured::checks::{self, Claim};
 use super::manufactured::plan::{ladder, levels, union};
 use super::manufactured::{Manufactured, numerical, parameters};
 use super::mms_vortex_box::{NULL_SPACE, feeds_null_space};
-use crate::case::{CheckInfo, Headline, Quantity, RunSpec, Tier};
+use crate::case::{CheckInfo, Headline, Quantity, RunSpec, Tier, error};
 use crate::check::{Kind, Verdict};
 use crate::exact::vibrating_bar::{ENTRY, VibratingBar};
 use crate::parameter::Parameters;
@@ -14,6 +14,11 @@ use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
+
+const QUANTITIES: &[Quantity] = &[
+    error("frequency_error", "relative error of the frequency"),
+    error("damping", "−ln of the amplitude's ratio"),
+];
 
 pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
     references: &[
@@ -34,18 +39,7 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
     judge,
     judge_study,
     headlines: HEADLINES,
-    quantities: &[
-        Quantity {
-            metric: "frequency_error",
-            label: "relative error of the frequency",
-            is_error: true,
-        },
-        Quantity {
-            metric: "damping",
-            label: "−ln of the amplitude's ratio",
-            is_error: true,
-        },
-    ],
+    quantities: QUANTITIES,
     ..Manufactured::solid(
         [
             "vibrating-bar",

@@ -3,7 +3,7 @@
 use super::reference::{
     Field, LoadShift, Solution, StressPoint, load_shift, solution, stress_scale,
 };
-use crate::case::CheckInfo;
+use crate::case::{CheckInfo, check};
 use crate::check::{Kind, Verdict};
 use crate::record::{Record, of_own_parameters};
 use crate::scheme::{BasisName, RemedyName};
@@ -45,14 +45,6 @@ const COUNTS: [(f64, f64); 4] = [
     (0.5, 23_072.0),
     (0.25, 92_224.0),
 ];
-
-const fn check(name: &'static str, kind: Kind, statement: &'static str) -> CheckInfo {
-    CheckInfo {
-        name,
-        kind,
-        statement,
-    }
-}
 
 pub(super) const CHECKS: &[CheckInfo] = &[
     check(

@@ -2,7 +2,7 @@
 
 use super::reference::{CURVE, EXACT, curve, elastic_slope, has_the_curve_of, mean_stresses};
 use super::simulation::{WIDTH, effective_width, mechanism_extent};
-use crate::case::CheckInfo;
+use crate::case::{CheckInfo, check};
 use crate::check::{Kind, Verdict};
 use crate::order::fit_order;
 use crate::record::Record;
@@ -47,14 +47,6 @@ const ELASTIC: f64 = 10.0;
 
 const UNKNOWN_WIDTH: &str =
     "how wide a footing acts through a barrier is not known beforehand: see contacts-agree";
-
-const fn check(name: &'static str, kind: Kind, statement: &'static str) -> CheckInfo {
-    CheckInfo {
-        name,
-        kind,
-        statement,
-    }
-}
 
 pub(super) const CHECKS: &[CheckInfo] = &[
     check(

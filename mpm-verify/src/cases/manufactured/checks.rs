@@ -1,6 +1,6 @@
 //! Gates on errors whose exact value is known. The tolerances are derived in `docs/manufactured.md`.
 
-use crate::case::CheckInfo;
+use crate::case::{CheckInfo, check};
 use crate::check::{Kind, Verdict};
 use crate::order::{fit_order, richardson};
 use crate::record::Record;
@@ -27,14 +27,6 @@ const LOCKING_FREE: f64 = 1.2;
 const LOCKED: f64 = 1.5;
 /// Poisson's ratio that locking is measured against.
 const COMPRESSIBLE: f64 = 0.3;
-
-const fn check(name: &'static str, kind: Kind, statement: &'static str) -> CheckInfo {
-    CheckInfo {
-        name,
-        kind,
-        statement,
-    }
-}
 
 pub(in crate::cases) const ERROR_BOUND: CheckInfo = check(
     "error-bound",

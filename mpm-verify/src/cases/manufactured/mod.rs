@@ -8,7 +8,8 @@ mod simulation;
 mod sketch;
 
 use crate::case::{
-    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier,
+    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
+    headline, metric,
 };
 use crate::check::Verdict;
 use crate::error::Error;
@@ -206,14 +207,6 @@ pub(super) fn parameters(
     all
 }
 
-const fn metric(name: &'static str, unit: &'static str, meaning: &'static str) -> MetricInfo {
-    MetricInfo {
-        name,
-        unit,
-        meaning,
-    }
-}
-
 pub(super) const METRICS: &[MetricInfo] = &[
     metric(
         "displacement_l2",
@@ -303,45 +296,24 @@ pub(super) const METRICS: &[MetricInfo] = &[
     ),
 ];
 
-const fn quantity(metric: &'static str, label: &'static str) -> Quantity {
-    Quantity {
-        metric,
-        label,
-        is_error: true,
-    }
-}
-
-pub(super) const fn headline(
-    metric: &'static str,
-    heading: &'static str,
-    decimals: usize,
-) -> Headline {
-    Headline {
-        metric,
-        heading,
-        factor: 1.0,
-        decimals,
-    }
-}
-
 /// What the table of results shows.
 const HEADLINES: &[Headline] = &[
-    headline("displacement_l2", "u rms error (m)", 8),
-    headline("velocity_l2", "v rms error (m/s)", 6),
-    headline("stress_l2", "σ rms error (Pa)", 2),
-    headline("mean_stress_l2", "σ_m rms error (Pa)", 2),
-    headline("energy_gain", "energy gain (–)", 5),
-    headline("energy_loss", "energy loss (–)", 5),
-    headline("log_jacobian_gap", "ln(J/J̄) (–)", 6),
+    headline("displacement_l2", "u rms error (m)", 1.0, 8),
+    headline("velocity_l2", "v rms error (m/s)", 1.0, 6),
+    headline("stress_l2", "σ rms error (Pa)", 1.0, 2),
+    headline("mean_stress_l2", "σ_m rms error (Pa)", 1.0, 2),
+    headline("energy_gain", "energy gain (–)", 1.0, 5),
+    headline("energy_loss", "energy loss (–)", 1.0, 5),
+    headline("log_jacobian_gap", "ln(J/J̄) (–)", 1.0, 6),
 ];
 
 /// The errors whose convergence is studied.
 pub(super) const ERRORS: &[Quantity] = &[
-    quantity("displacement_l2", "rms error of u (m)"),
-    quantity("displacement_linf", "largest error of u (m)"),
-    quantity("velocity_l2", "rms error of v (m/s)"),
-    quantity("stress_l2", "rms error of σ (Pa)"),
-    quantity("mean_stress_l2", "rms error of σ_m (Pa)"),
+    error("displacement_l2", "rms error of u (m)"),
+    error("displacement_linf", "largest error of u (m)"),
+    error("velocity_l2", "rms error of v (m/s)"),
+    error("stress_l2", "rms error of σ (Pa)"),
+    error("mean_stress_l2", "rms error of σ_m (Pa)"),
 ];
 
 impl Case for Manufactured {
