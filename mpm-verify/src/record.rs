@@ -64,7 +64,7 @@ pub struct Metric {
 }
 
 /// Exact counts of what was done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names are those of mpm_core::Work")]
 pub struct WorkDone {
     pub particles: u64,
@@ -77,6 +77,20 @@ pub struct WorkDone {
 }
 
 impl WorkDone {
+    /// The work of a body, this after `earlier`.
+    #[must_use]
+    pub fn after(self, earlier: Self) -> Self {
+        Self {
+            particles: self.particles,
+            nodes: self.nodes,
+            steps: self.steps + earlier.steps,
+            particle_steps: self.particle_steps + earlier.particle_steps,
+            particle_node_pairs: self.particle_node_pairs + earlier.particle_node_pairs,
+            projections: self.projections + earlier.projections,
+            sorts: self.sorts + earlier.sorts,
+        }
+    }
+
     /// The counts by name.
     #[must_use]
     pub fn counts(&self) -> [(&'static str, u64); 7] {

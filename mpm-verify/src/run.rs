@@ -1,10 +1,10 @@
 //! One run: a job driven to its end, its outputs and its record.
 
-use crate::case::{Case, Column, Job, RunSpec};
+use crate::case::{Case, Column, Job, RunSpec, Snapshot};
 use crate::check::{Kind, Verdict};
 use crate::checkpoint::{self, Checkpoint, Identity, Keeper, Refusal, Saving};
 use crate::error::Error;
-use crate::files::{discard, require_writable, write_csv, write_json};
+use crate::files::{discard, discard_folder, require_writable, write_csv, write_json};
 use crate::parameter::Parameters;
 use crate::record::{BREAKS_DOWN, Failure, Machine, Record, SCHEMA, Status, Timing, Version};
 use crate::series::Series;
@@ -208,6 +208,7 @@ impl Journal {
             Some(resumed) => resumed,
             None => {
                 checkpoint::discard(folder)?;
+                discard_folder(&folder.join(SNAPSHOTS))?;
                 let series = Series::begin(folder, &job.series_columns())?;
                 (series, Timing::default())
             }
@@ -252,6 +253,9 @@ fn drive(
         };
         if let Some(journal) = &mut journal {
             journal.series.add(&row)?;
+            if let Some(snapshot) = job.snapshot() {
+                write_snapshot(&journal.folder, &snapshot)?;
+            }
         }
         progress(job.progress());
     }
@@ -260,6 +264,15 @@ fn drive(
 
 fn failure(error: &mpm_core::Error) -> Failure {
     let message = error.to_string();
+    let before_any_step = |kind: &str, value: Option<f64>| Failure {
+        kind: kind.to_owned(),
+        time: 0.0,
+        step: 0,
+        particle: 0,
+        value,
+        message: message.clone(),
+    };
+    let finite = |value: f64| Some(value).filter(|v| v.is_finite());
     match *error {
         mpm_core::Error::Breakdown {
             time,
@@ -271,30 +284,42 @@ fn failure(error: &mpm_core::Error) -> Failure {
             time,
             step,
             particle,
-            value: Some(fault.value()).filter(|v| v.is_finite()),
+            value: finite(fault.value()),
             message,
         },
-        mpm_core::Error::Input { value, .. } => Failure {
-            kind: "input".to_owned(),
-            time: 0.0,
-            step: 0,
-            particle: 0,
-            value: Some(value).filter(|v| v.is_finite()),
-            message,
-        },
+        mpm_core::Error::Input { value, .. } => before_any_step("input", finite(value)),
+        mpm_core::Error::Memory(_) => before_any_step("memory", None),
     }
 }
 
 fn write_particles(folder: &Path, columns: &[Column]) -> Result<(), Error> {
+    write_columns(&folder.join("particles.csv"), columns)?;
+    write_vtu(&folder.join("particles.vtu"), columns)
+}
+
+/// Folder of the snapshots of a run.
+const SNAPSHOTS: &str = "snapshots";
+
+/// File of the snapshot at `time` (s) of the run in `folder`.
+#[must_use]
+pub fn snapshot_file(folder: &Path, time: f64) -> PathBuf {
+    folder.join(SNAPSHOTS).join(format!("{time:07.3}.csv"))
+}
+
+fn write_snapshot(folder: &Path, snapshot: &Snapshot) -> Result<(), Error> {
+    let file = snapshot_file(folder, snapshot.time);
+    write_columns(&file, &snapshot.columns)
+}
+
+fn write_columns(file: &Path, columns: &[Column]) -> Result<(), Error> {
     let header: Vec<String> = columns
         .iter()
         .map(|c| format!("{} ({})", c.name, c.unit))
         .collect();
     let rows = columns.first().map_or(0, |c| c.values.len());
     write_csv(
-        &folder.join("particles.csv"),
+        file,
         &header,
         (0..rows).map(|k| columns.iter().map(|c| c.values[k].to_string()).collect()),
-    )?;
-    write_vtu(&folder.join("particles.vtu"), columns)
+    )
 }
