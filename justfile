@@ -34,6 +34,10 @@ night-of case:
     cargo run --release -- verify {{case}} --tier nightly --resume --out reports/night-{{case}}
     cargo run --release -- report reports/night-{{case}} --out reports/nightly --update --night "$(date -u +%F)" --commit "$(git rev-parse HEAD)"
 
+# Fill the tables of results of the pages in docs/ from the committed report.
+tables:
+    python3 scripts/tables.py
+
 # Break the solver on purpose and see named checks go red.
 mutants:
     cargo test --release -p mpm-verify --test mutation

@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""Fills the tables of results of the pages in docs/ from a report: `just tables`.
+
+A table stands between `<!-- table NAME -->` and `<!-- end -->`; NAME is a function of this file.
+Standard library only.
+"""
+
+import json
+import math
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+REMEDIES = ["none", "fbar-recursive", "fbar-total", "fbar-rate", "fbar-consistent"]
+BASES = ["gimp", "bspline2", "bspline3"]
+EXACT = 2 + math.pi
+
+
+class Runs:
+    """The runs of a case, ordered by scheme, level and what they change."""
+
+    def __init__(self, summary, case):
+        found = [c for c in summary["cases"] if c["case"] == case]
+        self.records = found[0]["records"] if found else []
+        self.records.sort(
+            key=lambda r: (
+                BASES.index(r["basis"]),
+                REMEDIES.index(r["remedy"]),
+                r["transfer"],
+                -r["discretisation"]["h"],
+                r["set"],
+            )
+        )
+
+    def where(self, **wanted):
+        def agrees(record):
+            return all(record[key] == value for key, value in wanted.items())
+
+        return [r for r in self.records if agrees(r)]
+
+    def one(self, **wanted):
+        found = self.where(**wanted)
+        return found[0] if found else None
+
+
+def metric(record, name):
+    value = record and record["metrics"].get(name, {}).get("value")
+    return math.nan if value is None else value
+
+
+def number(value, form="{:.3f}"):
+    if value is None or math.isnan(value):
+        return "–"
+    return form.format(value).replace("-", "−")
+
+
+def percent(value, decimals=1):
+    return number(100 * value, f"{{:+.{decimals}f}} %")
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def cell(level):
+    return f"B/{level[1:]}"
+
+
+def changes(record):
+    words = {
+        "contact=barrier": "barrier",
+        "ppc_per_direction=4": "4 × 4",
+        "rough=false": "smooth",
+        "domain_width=3": "3B × 3B",
+        "domain_depth=3": "",
+        "penetration=0.0025": "to 0.0025",
+    }
+    return ", ".join(w for w in (words.get(s, s) for s in record["set"]) if w)
+
+
+def scheme(record):
+    transfer = "" if record["transfer"] == "flip" else f" {record['transfer']}"
+    return f"{record['basis']} {record['remedy']}{transfer}"
+
+
+def footing_results(summary):
+    rows = []
+    for r in Runs(summary, "footing").records:
+        skipped = any(s.startswith(("penetration_rate", "undrained")) for s in r["set"])
+        if skipped or r["status"] != "ok":
+            continue
+        own = "barrier" not in changes(r)
+        effective = metric(r, "nc_effective") if own else math.nan
+        rows.append(
+            [
+                scheme(r),
+                cell(r["level"]),
+                changes(r),
+                number(metric(r, "nc_b")),
+                number(metric(r, "nc_b_plus_h")),
+                number(effective),
+                percent(effective / EXACT - 1),
+                percent(metric(r, "plateau_rise")),
+                number(metric(r, "mechanism_width"), "{:.2f}"),
+                number(metric(r, "heave"), "{:.2f}"),
+                number(metric(r, "checkerboard_ratio"), "{:.2f}"),
+                number(1e4 * (metric(r, "log_jacobian_gap") or math.nan), "{:.1f}"),
+                number(r["time"]["cpu_s"], "{:.0f}"),
+            ]
+        )
+    head = "scheme, h, changed, N_c by B, by B + h, by its own width, from 2 + π, rise per 10⁻³, mechanism (B), heave, checkerboard, ln(J/J̄) rms (10⁻⁴), CPU (s)"
+    return table(head.split(", "), rows)
+
+
+def footing_mean_stress(summary):
+    runs = Runs(summary, "footing")
+    points = ["0.25_0.25", "0.25_0.5", "0.75_0.25", "1_0.25", "0.25_1"]
+    known = json.loads((ROOT / "mpm-verify/references/footing.json").read_text())
+    reference = {f"{p['x']:g}_{-p['y']:g}": p for p in known["extrapolated"]["mean_stress"]}
+
+    def elements(point):
+        return f"{number(reference[point]['value'], '{:.2f}')} ± {reference[point]['uncertainty']:.2f}"
+
+    rows = [["finite elements", ""] + [elements(p) for p in points]]
+    for level in ["b20", "b40"]:
+        for r in runs.where(level=level, set=[]):
+            values = [number(metric(r, f"mean_stress_{p}"), "{:.2f}") for p in points]
+            rows.append([scheme(r), cell(level)] + values)
+    head = ["scheme", "h"] + [f"({p.replace('_', ', ')}) B" for p in points]
+    return table(head, rows)
+
+
+def footing_rates(summary):
+    runs = Runs(summary, "footing")
+    sets = [["penetration_rate=4e-3"], [], ["penetration_rate=1e-3"]]
+    rows = []
+    for basis in BASES[:2]:
+        for remedy in ["fbar-recursive", "fbar-consistent"]:
+            three = [runs.one(basis=basis, remedy=remedy, level="b10", set=s) for s in sets]
+            loads = [number(metric(r, "nc_b")) for r in three]
+            off = ", ".join(percent(metric(r, "force_imbalance")) for r in three)
+            rows.append([f"{basis} {remedy}"] + loads + [off])
+    head = "scheme, B/10; 4·10⁻³ m/s; 2·10⁻³ m/s; 1·10⁻³ m/s; imbalance of forces at 4, 2, 1·10⁻³"
+    return table(head.split("; "), rows)
+
+
+def footing_slopes(summary):
+    rows = []
+    for r in Runs(summary, "footing").where(set=["undrained_strength=1e6"]):
+        check = [v for v in r["verdicts"] if v["check"] == "elastic-slope"]
+        found, expected = (metric(r, "elastic_slope"), check[0]["reference"])
+        # The finite elements' slope is that of E/s_u = 10⁴.
+        scale = 1e4 * r["parameters"]["undrained_strength"] / r["parameters"]["young_modulus"]
+        rows.append(
+            [
+                scheme(r),
+                cell(r["level"]),
+                number(found * scale, "{:.0f}"),
+                number(expected * scale, "{:.0f}"),
+                percent(found / expected - 1),
+            ]
+        )
+    head = "scheme, h, slope d(q/s_u)/d(s/B), finite elements that act as wide, difference"
+    return table(head.split(", "), rows)
+
+
+def footing_orders(summary):
+    found = [c for c in summary["cases"] if c["case"] == "footing"][0]
+    rows = []
+    runs = Runs(summary, "footing")
+    orders = {v["source"].split(":")[0]: v for v in found["verdicts"] if v["check"] == "pressure-order"}
+    for basis in BASES[:2]:
+        for remedy in REMEDIES[1:]:
+            name = f"{basis}-{remedy}-flip"
+            levels = [runs.one(basis=basis, remedy=remedy, level=l, set=[]) for l in ["b10", "b20", "b40"]]
+            if levels[0] is None:
+                continue
+            errors = [percent(metric(r, "prandtl_error")) for r in levels]
+            verdict = orders.get(name)
+            rows.append([f"{basis} {remedy}"] + errors + [number(verdict["value"], "{:.2f}") if verdict else "–"])
+    return table(["scheme", "B/10", "B/20", "B/40", "order"], rows)
+
+
+def fill(page, summary):
+    text = page.read_text()
+
+    def one(found):
+        made = globals()[found[1].replace("-", "_")](summary)
+        return f"<!-- table {found[1]} -->\n{made}\n<!-- end -->"
+
+    filled = re.sub(r"<!-- table ([\w-]+) -->\n.*?<!-- end -->", one, text, flags=re.S)
+    if filled != text:
+        page.write_text(filled)
+        print(page.relative_to(ROOT))
+
+
+def main():
+    report = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "reports/nightly"
+    summary = json.loads((report / "summary.json").read_text())
+    for page in sorted((ROOT / "docs").glob("*.md")):
+        fill(page, summary)
+
+
+if __name__ == "__main__":
+    main()
