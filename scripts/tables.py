@@ -183,6 +183,76 @@ def footing_orders(summary):
     return table(["scheme", "B/10", "B/20", "B/40", "order"], rows)
 
 
+def dam_break_flow(summary):
+    rows = []
+    for r in Runs(summary, "dam-break").records:
+        if any(not s.startswith("cfl=") for s in r["set"]):
+            continue
+        if r["status"] != "ok":
+            rows.append([scheme(r), f"{r['level'][1:]} m", f"breaks down at {r['error']['time']:.2f} s"] + [""] * 9)
+            continue
+        rows.append(
+            [
+                scheme(r),
+                f"{r['level'][1:]} m",
+                number(metric(r, "front_x_0.4s"), "{:.2f}"),
+                number(metric(r, "front_rms_error"), "{:.2f}"),
+                number(1e3 * metric(r, "arrival_error"), "{:.0f}"),
+                number(1e-3 * metric(r, "pressure_rms"), "{:.1f}"),
+                number(1e-3 * metric(r, "checkerboard_rms"), "{:.1f}"),
+                number(100 * metric(r, "tension_share"), "{:.0f} %"),
+                number(metric(r, "motion_ratio_2s"), "{:.3f}"),
+                number(metric(r, "energy_ratio_2s"), "{:.3f}"),
+                f"{number(metric(r, 'jacobian_min'), '{:.2f}')} … {number(metric(r, 'jacobian_max'), '{:.2f}')}",
+                number(r["time"]["cpu_s"], "{:.0f}"),
+            ]
+        )
+    head = "scheme, h, front at 0.4 s (m), rms error (m), arrival off by (ms), p rms (kPa), p − Πp (kPa), in tension, K + P at 2 s, with stress work, J, CPU (s)"
+    return table(head.split(", "), rows)
+
+
+def dam_break_sums(summary):
+    rows = []
+    for r in Runs(summary, "dam-break").records:
+        if r["status"] != "ok" or metric(r, "wall_impulse") != metric(r, "wall_impulse"):
+            continue
+        changed = ", ".join(s.replace("_", " ") for s in r["set"])
+        rows.append(
+            [
+                scheme(r),
+                f"{r['level'][1:]} m",
+                changed,
+                number(1e-3 * metric(r, "wall_impulse"), "{:.2f}"),
+                number(metric(r, "centre_x_mean")),
+                number(metric(r, "centre_y_mean")),
+                number(metric(r, "motion_ratio_2s")),
+            ]
+        )
+    head = "scheme, h, changed, impulse on the wall (kN s/m), mean x (m), mean y (m), K + P at 2 s"
+    return table(head.split(", "), rows)
+
+
+def dam_break_start(summary):
+    rows = []
+    for r in Runs(summary, "dam-break").records:
+        sets = [[], ["start=gravity-stage"], ["cfl=0.3"]]
+        if r["status"] != "ok" or r["transfer"] != "flip" or r["set"] not in sets:
+            continue
+        rows.append(
+            [
+                scheme(r),
+                f"{r['level'][1:]} m",
+                "gravity stage" if r["set"] == sets[1] else "exact",
+                percent(metric(r, "base_reaction_ratio") - 1, 2),
+                percent(metric(r, "gate_force") / 19570.95 - 1, 2),
+                percent(metric(r, "base_pressure") / 19570.95 - 1, 2),
+                percent(metric(r, "pressure_profile_error"), 2),
+            ]
+        )
+    head = "scheme, h, start, force on the floor, on the gate, pressure at the floor, profile rms"
+    return table(head.split(", "), rows)
+
+
 def fill(page, summary):
     text = page.read_text()
 

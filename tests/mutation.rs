@@ -76,7 +76,14 @@ const BARRIER: Runs = &[
     "footing --remedy fbar-rate --level b10 --set domain_width=3 --set domain_depth=3 --set penetration=0.0025 --set contact=barrier",
 ];
 
-const FAULTS: [Fault; 17] = [
+/// Until the front is at the wall.
+const DAM: Runs =
+    &["dam-break --remedy fbar-recursive --level h0.5 --set duration=0.45 --set cfl=0.3"];
+
+/// Water behind the gate, and hardly longer.
+const RESTING: Runs = &["dam-break --remedy none --level h0.5 --set duration=0.1 --set cfl=0.3"];
+
+const FAULTS: [Fault; 21] = [
     Fault {
         name: "P2G drops the stress along the last axis",
         file: "transfer/kernel.rs",
@@ -204,6 +211,34 @@ const FAULTS: [Fault; 17] = [
         sound: "self.reaction[a] -= force[a]",
         broken: "self.reaction[a] -= 0.5 * force[a]",
         seen_by: &[(BARRIER, "quasi-static")],
+    },
+    Fault {
+        name: "a separable wall lets through and does not let go",
+        file: "stage/wall.rs",
+        sound: "Bound::AtLeast",
+        broken: "Bound::AtMost",
+        seen_by: &[(DAM, "completes")],
+    },
+    Fault {
+        name: "a wall throws back twice what it stops",
+        file: "solver.rs",
+        sound: "*change += held - free",
+        broken: "*change += 3.0 * (held - free)",
+        seen_by: &[(DAM, "energy-not-gained")],
+    },
+    Fault {
+        name: "the water's pressure is a tenth too low",
+        file: "material/newtonian_fluid.rs",
+        sound: "self.bulk_modulus * (j - 1.0) - viscous * rate.mean()",
+        broken: "0.9 * self.bulk_modulus * (j - 1.0) - viscous * rate.mean()",
+        seen_by: &[(RESTING, "pressure-profile")],
+    },
+    Fault {
+        name: "the water is as viscous as tar",
+        file: "material/newtonian_fluid.rs",
+        sound: "2.0 * self.viscosity",
+        broken: "2e7 * self.viscosity",
+        seen_by: &[(DAM, "front")],
     },
 ];
 

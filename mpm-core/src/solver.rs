@@ -251,6 +251,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                         velocity: full_velocity,
                         full_velocity,
                         bound: c.bound(),
+                        force: 0.0,
                         by,
                     })
                 });
@@ -259,7 +260,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         });
     }
 
-    /// Sets the prescribed velocities to those in the middle of the step.
+    /// Sets the prescribed velocities to those in the middle of the step, and notes the forces on what they hold.
     fn move_constraints(&mut self) {
         let middle = self.time + 0.5 * self.scene.dt;
         let now = self.scene.constraints.iter().map(|c| c.amplitude(middle));
@@ -269,6 +270,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         }
         for p in &mut self.prescribed {
             p.velocity = self.held[p.by].amplitude * p.full_velocity;
+            p.force = self.nodes[p.node].change.as_array()[p.axis];
         }
     }
 
@@ -368,12 +370,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             residual.kinetic_energy -= node.kinetic_energy();
             let change = &mut node.change.as_mut_array()[c.axis];
             let velocity = &mut node.motion.as_mut_array()[c.axis];
-            let force = mass * *change / dt;
-            residual.free_force -= force.abs();
-            residual.held_force[c.axis] += force;
-            self.held[c.by].force[c.axis] += force;
-            self.held[c.by].impulse[c.axis] += mass * (free - held);
             let before = free - *change;
+            residual.free_force -= (mass * *change / dt).abs();
+            residual.held_force[c.axis] += c.force;
+            self.held[c.by].force[c.axis] += c.force;
+            self.held[c.by].impulse[c.axis] += mass * (before - held) + dt * c.force;
             self.accumulated.constraint_loss +=
                 mass * (0.5 * (before * before - held * held) + (free - before) * held);
             *change += held - free;

@@ -10,7 +10,7 @@ use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::remedy::FbarRate;
 use mpm_core::solver::courant_time_step;
-use mpm_core::stage::{Constraint, End, Wall, WallKind};
+use mpm_core::stage::{BodyForce, Constraint, End, LocalDamping, Wall, WallKind};
 use mpm_core::transfer::{Apic, Flip};
 use mpm_core::{Axis, Basis, Grid, Particles, Scene, Simulation, Solver, Transfer};
 
@@ -109,6 +109,30 @@ fn separable_walls_bear_no_tension_and_momentum_balances() {
     separates::<3, QuadraticBSpline, _>(Flip::default());
     separates::<3, QuadraticBSpline, _>(Apic);
     separates::<4, CubicBSpline, _>(Flip::default());
+}
+
+/// Damping opposes velocities by a share of the force; at a held node that is the reaction itself.
+#[test]
+fn damping_leaves_reactions_what_they_are() {
+    let mut still = scene(block(0, [0.0; 2]), WallKind::Roller, Flip::default());
+    let (weight, dt) = (1.0, still.dt);
+    still
+        .loads
+        .push(Box::new(BodyForce(Box::new(move |_, _| [-weight, 0.0]))));
+    still
+        .force_filters
+        .push(Box::new(LocalDamping::new(0.3).unwrap()));
+    let mass: f64 = still.particles.mass.iter().sum();
+    let mut solver: Solver<2, 3, Gimp, _> = Solver::new(still).unwrap();
+    for _ in 0..1000 {
+        solver.step().unwrap();
+    }
+    let before = solver.impulse_on(0)[0];
+    solver.step().unwrap();
+    let impulse = solver.impulse_on(0)[0] - before;
+    let expected = -weight * mass;
+    assert!((solver.force_on(0)[0] / expected - 1.0).abs() < 1e-3);
+    assert!((impulse / dt / expected - 1.0).abs() < 1e-3);
 }
 
 #[test]

@@ -54,6 +54,8 @@ pub struct Prescribed {
     pub full_velocity: f64,
     /// How it relates to the node's.
     pub bound: Bound,
+    /// Force on the node (N) in the present step, before filters: what damping opposes at a held node is no imbalance.
+    pub force: f64,
     /// Place of the constraint in the scene's list.
     pub by: usize,
 }

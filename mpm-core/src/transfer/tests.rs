@@ -406,6 +406,7 @@ fn xpic_moves_a_particle_with_the_mean_of_its_velocities_and_not_through_a_wall(
         velocity: 0.0,
         full_velocity: 0.0,
         bound: Bound::Equal,
+        force: 0.0,
         by: 0,
     }];
     let mut xpic = Xpic::new(1).unwrap();

@@ -2,6 +2,7 @@
 
 mod column;
 mod cook;
+mod dam_break;
 mod footing;
 mod manufactured;
 mod mms_axis;
@@ -14,6 +15,7 @@ mod mms_wall_pressure;
 mod standing_wave;
 mod vibrating_bar;
 
+pub(crate) use dam_break::dam_break_front;
 pub(crate) use footing::footing_limit;
 
 use crate::case::Case;
@@ -25,6 +27,7 @@ pub fn all() -> Vec<&'static dyn Case> {
     vec![
         &cook::Cook,
         &footing::Footing,
+        &dam_break::DamBreak,
         &*mms_axis::CASE,
         &*mms_wall_pressure::CASE,
         &*mms_vortex_ring::CASE,

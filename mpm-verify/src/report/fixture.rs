@@ -2,7 +2,9 @@
 
 use crate::check::{Kind, Verdict};
 use crate::night::Night;
-use crate::record::{Failure, Record, Status};
+use crate::parameter::{Parameter, Parameters};
+use crate::record::{Failure, Metric, Record, Status};
+use crate::scheme::{BasisName, RemedyName};
 use crate::study::{CaseStudy, Counts, Summary};
 
 /// Markup, if it is not escaped.
@@ -67,4 +69,33 @@ pub(crate) fn record(level: &str, verdicts: Vec<Verdict>) -> Record {
         "version": {"mpm_verify": "0.1.0", "source": "0123456789ab"},
     });
     serde_json::from_value(record).unwrap()
+}
+
+/// A run of a case with FLIP, on cells of size `h` (m), with parameters changed and metrics.
+pub(crate) fn run(
+    parameters: &[Parameter],
+    (basis, remedy): (BasisName, RemedyName),
+    (level, h): (&str, f64),
+    set: &[&str],
+    metrics: &[(&str, f64)],
+) -> Record {
+    let mut record = record(level, Vec::new());
+    (record.basis, record.remedy) = (basis, remedy);
+    record.discretisation.h = h;
+    record.set = set.iter().map(|s| (*s).to_owned()).collect();
+    record.parameters = Parameters::new(parameters, &record.set).unwrap();
+    for (name, value) in metrics {
+        let metric = Metric {
+            value: Some(*value),
+            unit: "-".to_owned(),
+        };
+        record.metrics.insert((*name).to_owned(), metric);
+    }
+    record
+}
+
+/// The outcomes of a check, in their order.
+pub(crate) fn outcomes(verdicts: &[Verdict], check: &str) -> Vec<Option<bool>> {
+    let of_check = verdicts.iter().filter(|v| v.check == check);
+    of_check.map(|v| v.pass).collect()
 }

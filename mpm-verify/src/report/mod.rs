@@ -5,6 +5,7 @@
 mod column;
 mod convergence;
 mod cook;
+mod dam_break;
 pub mod describe;
 pub mod diff;
 mod drift;
@@ -118,6 +119,7 @@ fn draw_own(study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Pi
     match study.case.as_str() {
         "column" => column::draw(study, gathered, out),
         "cook" => cook::draw(study, gathered, out),
+        "dam-break" => dam_break::draw(study, gathered, out),
         "footing" => footing::draw(study, gathered, out),
         _ => Ok(Vec::new()),
     }

@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 
 use axes::{Axes, Axis, TICK, extent, widen};
 use canvas::{Block, Canvas, Frame, HEADING, INK, LABEL, LINE, PALETTE, Point, Rgb, SMALL, TITLE};
-use canvas::{between, colour_of, largest};
+use canvas::{between, colour_of, largest, save_animation};
+use rayon::prelude::*;
 
 /// Why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -577,6 +578,21 @@ fn draw_bar(canvas: &mut Canvas, scale: &Axis, beyond: [bool; 2], (x, bottom): P
 /// A figure without finite points or range, a panel whose points and values differ in number, or a
 /// file that cannot be written.
 pub fn draw_fields(path: &Path, figure: &FieldFigure) -> Result<(), PlotError> {
+    compose_fields(path, figure)?.save(path)
+}
+
+/// Draws figures one after the other as an animated PNG at half the size, each shown for a `delay` of hundredths of a
+/// second. Their panels should be the same but for the particles.
+///
+/// # Errors
+/// As [`draw_fields`]; or there are no figures.
+pub fn animate_fields(path: &Path, figures: &[FieldFigure], delay: u16) -> Result<(), PlotError> {
+    let frame = |figure: &FieldFigure| compose_fields(path, figure)?.pixels(path, 2);
+    let frames: Result<Vec<_>, PlotError> = figures.par_iter().map(frame).collect();
+    save_animation(path, &frames?, delay)
+}
+
+fn compose_fields(path: &Path, figure: &FieldFigure) -> Result<Canvas, PlotError> {
     let panels = &figure.panels;
     if let Some(panel) = panels.iter().find(|p| p.points.len() != p.values.len()) {
         return Err(PlotError::Lengths {
@@ -671,7 +687,7 @@ pub fn draw_fields(path: &Path, figure: &FieldFigure) -> Result<(), PlotError> {
     let corner = (bar_left.round(), (middle + bar_length / 2.0).round());
     draw_bar(&mut canvas, &bar, beyond, corner);
     canvas.block(&bar_label, (bar_label_left, middle), true);
-    canvas.save(path)
+    Ok(canvas)
 }
 
 #[cfg(test)]

@@ -556,3 +556,6 @@ fn orders(records: &[Record]) -> Vec<Verdict> {
     }
     verdicts
 }
+
+#[cfg(test)]
+mod tests;

@@ -282,22 +282,60 @@ impl Canvas {
 
     /// Writes the picture beside its final place and then moves it there.
     pub(super) fn save(self, path: &Path) -> Result<(), PlotError> {
-        let failed = |cause: &dyn Display| PlotError::Write {
-            path: path.into(),
-            cause: cause.to_string(),
-        };
-        if let Some(error) = &self.error {
-            return Err(failed(error));
-        }
-        let [width, height] = [self.image.width(), self.image.height()].map(|s| s / FINE as u32);
         let mut png = Cursor::new(Vec::new());
         let encoder =
             PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive);
-        imageops::thumbnail(&self.image, width, height)
+        self.pixels(path, 1)?
             .write_with_encoder(encoder)
-            .map_err(|e| failed(&e))?;
-        write_whole(path, png.get_ref()).map_err(|e| failed(&e))
+            .map_err(|e| failed(path, &e))?;
+        write_whole(path, png.get_ref()).map_err(|e| failed(path, &e))
     }
+
+    /// The picture, averaged down, and again by `coarser`; `path` names it in errors.
+    pub(super) fn pixels(&self, path: &Path, coarser: u32) -> Result<RgbImage, PlotError> {
+        if let Some(error) = &self.error {
+            return Err(failed(path, error));
+        }
+        let sides = [self.image.width(), self.image.height()];
+        let [width, height] = sides.map(|side| side / (FINE as u32 * coarser));
+        Ok(imageops::thumbnail(&self.image, width, height))
+    }
+}
+
+fn failed(path: &Path, cause: &dyn Display) -> PlotError {
+    PlotError::Write {
+        path: path.into(),
+        cause: cause.to_string(),
+    }
+}
+
+/// Writes pictures of one size as an animated PNG that repeats for ever, each shown for a `delay` of hundredths of a
+/// second.
+pub(super) fn save_animation(
+    path: &Path,
+    frames: &[RgbImage],
+    delay: u16,
+) -> Result<(), PlotError> {
+    let Some(first) = frames.first() else {
+        return Err(failed(path, &"no pictures"));
+    };
+    let mut bytes = Vec::new();
+    let write = |bytes: &mut Vec<u8>| -> Result<(), png::EncodingError> {
+        let mut encoder = png::Encoder::new(bytes, first.width(), first.height());
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::High);
+        encoder.set_filter(png::Filter::Adaptive);
+        encoder.set_animated(frames.len() as u32, 0)?;
+        encoder.set_frame_delay(delay, 100)?;
+        let mut writer = encoder.write_header()?;
+        for frame in frames {
+            writer.write_image_data(frame)?;
+        }
+        writer.finish()
+    };
+    write(&mut bytes).map_err(|e| failed(path, &e))?;
+    write_whole(path, &bytes).map_err(|e| failed(path, &e))
 }
 
 /// The library's nearest coordinates.

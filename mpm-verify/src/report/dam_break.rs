@@ -1,0 +1,320 @@
+//! The pictures of the dam break: the paper's Figure 12, the flow against time, an animation.
+
+use super::Picture;
+use super::plot::{
+    Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, animate_fields, draw_charts,
+    draw_fields, share_ranges,
+};
+use super::style::{Colour, series};
+use crate::cases::dam_break_front;
+use crate::error::Error;
+use crate::files::write_csv;
+use crate::record::{Record, Status};
+use crate::run::snapshot_file;
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use crate::study::{CaseStudy, Gathered};
+use crate::table::Table;
+use std::path::Path;
+
+const BASES: [(BasisName, &str); 2] = [
+    (BasisName::Gimp, "GIMP"),
+    (BasisName::Bspline2, "quadratic B-splines"),
+];
+/// From above: standard, the paper's, ours.
+const SHOWN: [RemedyName; 3] = [
+    RemedyName::None,
+    RemedyName::FbarRecursive,
+    RemedyName::FbarConsistent,
+];
+const REMEDIES: [RemedyName; 4] = [
+    RemedyName::None,
+    RemedyName::FbarRecursive,
+    RemedyName::FbarTotal,
+    RemedyName::FbarConsistent,
+];
+/// The paper's level and times (s).
+const LEVEL: &str = "h0.25";
+const TIMES: [f64; 4] = [0.4, 1.0, 1.5, 2.0];
+/// Times (s) between frames of the animation, and between showing them (hundredths of a second).
+const FRAME: f64 = 0.025;
+const DELAY: u16 = 8;
+/// Height (m) of what is drawn of the tank, and its outline (m).
+const HEIGHT: f64 = 3.2;
+const TANK: [(f64, f64); 4] = [(0.0, HEIGHT), (0.0, 0.0), (6.0, 0.0), (6.0, HEIGHT)];
+/// Pressures (kPa) of the colour scale.
+const PRESSURES: (f64, f64) = (0.0, 20.0);
+/// Scales of time (s) and length (m).
+const TIME_SCALE: f64 = 0.451_523_6;
+const LEVELS: [&str; 4] = ["h0.0625", "h0.125", "h0.25", "h0.5"];
+
+struct Runs<'a> {
+    records: Vec<&'a Record>,
+    gathered: &'a Gathered,
+    out: &'a Path,
+    pictures: Vec<Picture>,
+}
+
+/// Draws everything there are runs for.
+pub(super) fn draw(
+    study: &CaseStudy,
+    gathered: &Gathered,
+    out: &Path,
+) -> Result<Vec<Picture>, Error> {
+    let own = |r: &&Record| r.is_default() || r.changes_only("cfl") || r.changes_only("duration");
+    let mut runs = Runs {
+        records: study
+            .records
+            .iter()
+            .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
+            .filter(own)
+            .collect(),
+        gathered,
+        out,
+        pictures: Vec::new(),
+    };
+    runs.records.sort_by_key(|r| r.set.len());
+    for (basis, title) in BASES {
+        runs.snapshots(basis, title)?;
+        runs.flow(basis, title)?;
+    }
+    runs.animation()?;
+    Ok(runs.pictures)
+}
+
+impl Runs<'_> {
+    /// Of several the one that changes least.
+    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
+        self.records
+            .iter()
+            .find(|r| r.basis == basis && r.remedy == remedy && r.level == level)
+            .copied()
+    }
+
+    fn picture(&mut self, name: &str, caption: String) {
+        self.pictures.push(Picture {
+            file: format!("dam-break/{name}.png"),
+            caption,
+        });
+    }
+
+    /// The water at `time` (s) in colours of its pressure, if the run has kept it.
+    fn panel(
+        &self,
+        record: &Record,
+        time: f64,
+        title: String,
+    ) -> Result<Option<FieldPanel>, Error> {
+        let file = snapshot_file(self.gathered.folder(record)?, time);
+        if !file.exists() {
+            return Ok(None);
+        }
+        let table = Table::read(&file)?;
+        let visible = |(_, y): &(f64, f64)| *y <= HEIGHT;
+        let kept: Vec<(usize, (f64, f64))> = (table.points("x", "y").into_iter())
+            .enumerate()
+            .filter(|(_, x)| visible(x))
+            .collect();
+        let pressure = table.column("pressure");
+        Ok(Some(FieldPanel {
+            title,
+            values: kept.iter().map(|(k, _)| 1e-3 * pressure[*k]).collect(),
+            points: kept.into_iter().map(|(_, x)| x).collect(),
+            size: record.discretisation.h / f64::from(record.discretisation.ppc).sqrt(),
+            outline: TANK.to_vec(),
+        }))
+    }
+
+    /// A column of panels, one for each of the remedies, if all have kept this time.
+    fn column(&self, basis: BasisName, time: f64) -> Result<Vec<FieldPanel>, Error> {
+        let mut panels = Vec::new();
+        for remedy in SHOWN {
+            let name = match remedy {
+                RemedyName::None => "standard".to_owned(),
+                _ => remedy.to_string(),
+            };
+            let panel = match self.find(basis, remedy, LEVEL) {
+                Some(record) => self.panel(record, time, format!("{name}, {time:.1} s"))?,
+                None => None,
+            };
+            match panel {
+                Some(panel) => panels.push(panel),
+                None => return Ok(Vec::new()),
+            }
+        }
+        Ok(panels)
+    }
+
+    fn figure(title: String, panels: Vec<FieldPanel>, columns: usize) -> FieldFigure {
+        FieldFigure {
+            title,
+            panels,
+            columns,
+            range: PRESSURES,
+            label: "pressure (kPa)".to_owned(),
+            x_label: "x (m)".to_owned(),
+            y_label: "y (m)".to_owned(),
+        }
+    }
+
+    fn snapshots(&mut self, basis: BasisName, of: &str) -> Result<(), Error> {
+        let mut columns = Vec::new();
+        for time in TIMES {
+            let column = self.column(basis, time)?;
+            if !column.is_empty() {
+                columns.push(column);
+            }
+        }
+        if columns.is_empty() {
+            return Ok(());
+        }
+        let count = columns.len();
+        let panels = (0..SHOWN.len() * count)
+            .map(|k| columns[k % count][k / count].clone())
+            .collect();
+        let name = format!("snapshots-{basis}");
+        let figure = Self::figure(format!("{of}, h = 0.25 m"), panels, count);
+        draw_fields(&self.out.join(format!("dam-break/{name}.png")), &figure)?;
+        self.picture(
+            &name,
+            format!("The water with {of} in colours of its pressure: standard MPM, the paper's F̄, ours. The paper's Figure 12 (data: snapshots of each run; jets above {HEIGHT} m are cut off)."),
+        );
+        Ok(())
+    }
+
+    fn animation(&mut self) -> Result<(), Error> {
+        let mut frames = Vec::new();
+        for k in 1.. {
+            let column = self.column(BasisName::Gimp, f64::from(k) * FRAME)?;
+            if column.is_empty() {
+                break;
+            }
+            frames.push(Self::figure(String::new(), column, SHOWN.len()));
+        }
+        if frames.is_empty() {
+            return Ok(());
+        }
+        animate_fields(&self.out.join("dam-break/flow.png"), &frames, DELAY)?;
+        self.picture(
+            "flow",
+            "The flow with GIMP at h = 0.25 m, a third of its speed: standard MPM, the paper's F̄, ours.".to_owned(),
+        );
+        Ok(())
+    }
+
+    /// A column of the series of a run against time (s).
+    fn history(
+        &self,
+        record: &Record,
+        column: &str,
+        factor: f64,
+    ) -> Result<Vec<(f64, f64)>, Error> {
+        let table = Table::read(&self.gathered.folder(record)?.join("series.csv"))?;
+        let points = table.points("time", column);
+        Ok(points.into_iter().map(|(t, v)| (t, factor * v)).collect())
+    }
+
+    /// Front, energy and forces against time: remedies at the paper's level, ours at all levels.
+    fn flow(&mut self, basis: BasisName, of: &str) -> Result<(), Error> {
+        let quantities = [
+            ("front", 1.0, "front x (m)"),
+            ("energy", 1e-3, "energy (kJ/m)"),
+            ("front_force", 1e-3, "force on the front wall (kN/m)"),
+        ];
+        let (mut by_remedy, mut by_level) = (Vec::new(), Vec::new());
+        for (column, factor, label) in quantities {
+            let mut curves = Vec::new();
+            for remedy in REMEDIES {
+                if let Some(record) = self.find(basis, remedy, LEVEL) {
+                    let points = self.history(record, column, factor)?;
+                    let mut curve = series(Scheme::flip(basis, remedy), points, Colour::Remedy);
+                    curve.name = remedy.to_string();
+                    curves.push(curve);
+                }
+            }
+            by_remedy.push(chart("h = 0.25 m", label, column, curves));
+            let mut curves = Vec::new();
+            for (colour, level) in LEVELS.into_iter().enumerate() {
+                if let Some(record) = self.find(basis, RemedyName::FbarConsistent, level) {
+                    curves.push(Series {
+                        name: format!("h = {} m", &level[1..]),
+                        points: self.history(record, column, factor)?,
+                        colour,
+                        marker: Marker::None,
+                        dash: Dash::Solid,
+                    });
+                }
+            }
+            by_level.push(chart("fbar-consistent", label, column, curves));
+        }
+        let mut charts = [by_remedy, by_level].concat();
+        if charts
+            .iter()
+            .all(|c| c.series.iter().all(|s| s.points.is_empty()))
+        {
+            return Ok(());
+        }
+        let name = format!("flow-{basis}");
+        let path = self.out.join(format!("dam-break/{name}.png"));
+        charts.retain(Chart::shows_something);
+        let columns = quantities.len();
+        for k in 0..columns {
+            let mut pair: Vec<Chart> = charts.iter().skip(k).step_by(columns).cloned().collect();
+            share_ranges(&path, &mut pair)?;
+            for (chart, ranged) in charts.iter_mut().skip(k).step_by(columns).zip(pair) {
+                *chart = ranged;
+            }
+        }
+        self.write_curves(&name, &charts)?;
+        draw_charts(&path, &charts, columns)?;
+        self.picture(
+            &name,
+            format!("Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at h = 0.25 m; below, fbar-consistent at all levels. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m."),
+        );
+        Ok(())
+    }
+
+    fn write_curves(&self, name: &str, charts: &[Chart]) -> Result<(), Error> {
+        let rows = charts.iter().flat_map(|chart| {
+            chart.series.iter().flat_map(move |s| {
+                s.points.iter().map(move |(x, y)| {
+                    let cells = [chart.title.clone(), chart.y_label.clone(), s.name.clone()];
+                    let numbers = [format!("{x:.6}"), format!("{y:.6}")];
+                    [&cells[..], &numbers[..]].concat()
+                })
+            })
+        });
+        let header = ["chart", "quantity", "series", "time (s)", "value"].map(str::to_owned);
+        write_csv(
+            &self.out.join(format!("dam-break/{name}.csv")),
+            &header,
+            rows,
+        )
+    }
+}
+
+fn chart(title: &str, label: &str, column: &str, mut curves: Vec<Series>) -> Chart {
+    if column == "front" {
+        curves.push(Series {
+            name: "inviscid".to_owned(),
+            points: dam_break_front()
+                .into_iter()
+                .filter(|(t, _)| *t <= 1.05 * TIME_SCALE)
+                .collect(),
+            colour: 7,
+            marker: Marker::Circle,
+            dash: Dash::Dashed,
+        });
+    }
+    Chart {
+        title: title.to_owned(),
+        x_label: "time (s)".to_owned(),
+        y_label: label.to_owned(),
+        x_scale: Scale::Linear,
+        y_scale: Scale::Linear,
+        series: curves,
+        reference_lines: Vec::new(),
+        slope_triangle: None,
+        x_range: None,
+        y_range: None,
+    }
+}
