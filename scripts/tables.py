@@ -27,6 +27,7 @@ class Runs:
             key=lambda r: (
                 BASES.index(r["basis"]),
                 REMEDIES.index(r["remedy"]),
+                r["transfer"] != "flip",
                 r["transfer"],
                 -r["discretisation"]["h"],
                 r["set"],

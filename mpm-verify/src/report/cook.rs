@@ -160,6 +160,7 @@ impl Runs<'_> {
                 label: "mean normal stress (Pa)".to_owned(),
                 x_label: "x (m)".to_owned(),
                 y_label: "y (m)".to_owned(),
+                window: None,
             },
         )?;
         self.picture(

@@ -32,8 +32,9 @@ const REMEDIES: [RemedyName; 4] = [
     RemedyName::FbarTotal,
     RemedyName::FbarConsistent,
 ];
-/// The paper's level and times (s).
-const LEVEL: &str = "h0.25";
+/// The paper's level, or else the one that a short tier has.
+const PREFERRED: [&str; 2] = ["h0.25", "h0.5"];
+/// The paper's times (s).
 const TIMES: [f64; 4] = [0.4, 1.0, 1.5, 2.0];
 /// Times (s) between frames of the animation, and between showing them (hundredths of a second).
 const FRAME: f64 = 0.025;
@@ -41,6 +42,7 @@ const DELAY: u16 = 8;
 /// Height (m) of what is drawn of the tank, and its outline (m).
 const HEIGHT: f64 = 3.2;
 const TANK: [(f64, f64); 4] = [(0.0, HEIGHT), (0.0, 0.0), (6.0, 0.0), (6.0, HEIGHT)];
+const WINDOW: ((f64, f64), (f64, f64)) = ((0.0, 6.0), (0.0, HEIGHT));
 /// Pressures (kPa) of the colour scale.
 const PRESSURES: (f64, f64) = (0.0, 20.0);
 /// Scales of time (s) and length (m).
@@ -90,6 +92,15 @@ impl Runs<'_> {
             .copied()
     }
 
+    /// The level at which the remedies are compared, if there is one that has all.
+    fn level(&self, basis: BasisName) -> Option<&'static str> {
+        let has_all = |level: &&str| {
+            let has = |&remedy: &RemedyName| self.find(basis, remedy, level).is_some();
+            SHOWN.iter().all(has)
+        };
+        PREFERRED.into_iter().find(has_all)
+    }
+
     fn picture(&mut self, name: &str, caption: String) {
         self.pictures.push(Picture {
             file: format!("dam-break/{name}.png"),
@@ -125,14 +136,18 @@ impl Runs<'_> {
     }
 
     /// A column of panels, one for each of the remedies, if all have kept this time.
-    fn column(&self, basis: BasisName, time: f64) -> Result<Vec<FieldPanel>, Error> {
+    fn column(
+        &self,
+        (basis, level): (BasisName, &str),
+        time: f64,
+    ) -> Result<Vec<FieldPanel>, Error> {
         let mut panels = Vec::new();
         for remedy in SHOWN {
             let name = match remedy {
                 RemedyName::None => "standard".to_owned(),
                 _ => remedy.to_string(),
             };
-            let panel = match self.find(basis, remedy, LEVEL) {
+            let panel = match self.find(basis, remedy, level) {
                 Some(record) => self.panel(record, time, format!("{name}, {time:.1} s"))?,
                 None => None,
             };
@@ -153,13 +168,17 @@ impl Runs<'_> {
             label: "pressure (kPa)".to_owned(),
             x_label: "x (m)".to_owned(),
             y_label: "y (m)".to_owned(),
+            window: Some(WINDOW),
         }
     }
 
     fn snapshots(&mut self, basis: BasisName, of: &str) -> Result<(), Error> {
+        let Some(level) = self.level(basis) else {
+            return Ok(());
+        };
         let mut columns = Vec::new();
         for time in TIMES {
-            let column = self.column(basis, time)?;
+            let column = self.column((basis, level), time)?;
             if !column.is_empty() {
                 columns.push(column);
             }
@@ -172,7 +191,7 @@ impl Runs<'_> {
             .map(|k| columns[k % count][k / count].clone())
             .collect();
         let name = format!("snapshots-{basis}");
-        let figure = Self::figure(format!("{of}, h = 0.25 m"), panels, count);
+        let figure = Self::figure(format!("{of}, h = {} m", &level[1..]), panels, count);
         draw_fields(&self.out.join(format!("dam-break/{name}.png")), &figure)?;
         self.picture(
             &name,
@@ -182,9 +201,12 @@ impl Runs<'_> {
     }
 
     fn animation(&mut self) -> Result<(), Error> {
+        let Some(level) = self.level(BasisName::Gimp) else {
+            return Ok(());
+        };
         let mut frames = Vec::new();
         for k in 1.. {
-            let column = self.column(BasisName::Gimp, f64::from(k) * FRAME)?;
+            let column = self.column((BasisName::Gimp, level), f64::from(k) * FRAME)?;
             if column.is_empty() {
                 break;
             }
@@ -196,7 +218,10 @@ impl Runs<'_> {
         animate_fields(&self.out.join("dam-break/flow.png"), &frames, DELAY)?;
         self.picture(
             "flow",
-            "The flow with GIMP at h = 0.25 m, a third of its speed: standard MPM, the paper's F̄, ours.".to_owned(),
+            format!(
+                "The flow with GIMP at h = {} m, a third of its speed: standard MPM, the paper's F̄, ours.",
+                &level[1..]
+            ),
         );
         Ok(())
     }
@@ -220,18 +245,22 @@ impl Runs<'_> {
             ("energy", 1e-3, "energy (kJ/m)"),
             ("front_force", 1e-3, "force on the front wall (kN/m)"),
         ];
+        let Some(shared) = self.level(basis) else {
+            return Ok(());
+        };
         let (mut by_remedy, mut by_level) = (Vec::new(), Vec::new());
         for (column, factor, label) in quantities {
             let mut curves = Vec::new();
             for remedy in REMEDIES {
-                if let Some(record) = self.find(basis, remedy, LEVEL) {
+                if let Some(record) = self.find(basis, remedy, shared) {
                     let points = self.history(record, column, factor)?;
                     let mut curve = series(Scheme::flip(basis, remedy), points, Colour::Remedy);
                     curve.name = remedy.to_string();
                     curves.push(curve);
                 }
             }
-            by_remedy.push(chart("h = 0.25 m", label, column, curves));
+            let title = format!("h = {} m", &shared[1..]);
+            by_remedy.push(chart(&title, label, column, curves));
             let mut curves = Vec::new();
             for (colour, level) in LEVELS.into_iter().enumerate() {
                 if let Some(record) = self.find(basis, RemedyName::FbarConsistent, level) {
@@ -268,7 +297,7 @@ impl Runs<'_> {
         draw_charts(&path, &charts, columns)?;
         self.picture(
             &name,
-            format!("Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at h = 0.25 m; below, fbar-consistent at all levels. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m."),
+            format!("Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at h = {} m; below, fbar-consistent at all levels. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m.", &shared[1..]),
         );
         Ok(())
     }

@@ -254,6 +254,7 @@ impl Runs<'_> {
                 label: label.to_owned(),
                 x_label: "x (m)".to_owned(),
                 y_label: "y (m)".to_owned(),
+                window: None,
             },
         )?;
         self.picture(name, caption);

@@ -196,6 +196,8 @@ pub struct FieldFigure {
     pub x_label: String,
     /// Label of the ordinate.
     pub y_label: String,
+    /// Ranges of abscissa and ordinate that are shown; without, all particles and outlines are.
+    pub window: Option<((f64, f64), (f64, f64))>,
 }
 
 /// Margin of a picture, and distance of the charts in a grid, in pixels.
@@ -614,6 +616,7 @@ fn compose_fields(path: &Path, figure: &FieldFigure) -> Result<Canvas, PlotError
     let (Some(xs), Some(ys), Some(values)) = (range(|p| p.0), range(|p| p.1), values) else {
         return Err(nothing(path, &figure.title));
     };
+    let (xs, ys) = figure.window.unwrap_or((xs, ys));
 
     // The axes: one scale of pixels for both directions, and a margin about the particles.
     let columns = figure.columns.min(panels.len()).max(1);
@@ -738,6 +741,7 @@ mod tests {
             label: "stress (Pa)".into(),
             x_label: "x (m)".into(),
             y_label: "y (m)".into(),
+            window: None,
         }
     }
 

@@ -5,7 +5,7 @@ use super::reference::{
 };
 use crate::case::{CheckInfo, check};
 use crate::check::{Kind, Verdict};
-use crate::record::Record;
+use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, TransferName};
 
 /// Relative tolerance of the forces at rest: of the exact start, and after the gravity stage.
@@ -407,10 +407,12 @@ fn front(record: &Record, verdicts: &mut Vec<Verdict>) {
 }
 
 pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
-    let mut verdicts = levels(records);
-    verdicts.extend(against_standard(records));
-    verdicts.extend(starts(records));
-    verdicts.extend(time_steps(records));
+    let finished = |r: &&Record| r.status == Status::Ok;
+    let records: Vec<Record> = records.iter().filter(finished).cloned().collect();
+    let mut verdicts = levels(&records);
+    verdicts.extend(against_standard(&records));
+    verdicts.extend(starts(&records));
+    verdicts.extend(time_steps(&records));
     verdicts
 }
 
