@@ -6,17 +6,21 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{HenckyJ2, Law, NeoHookean, Strength};
-use mpm_core::particles::cell_order;
+use mpm_core::order::stencil_order;
 use mpm_core::projection::{Average, Averaging, Projection};
+use mpm_core::reach::Reach;
 use mpm_core::space::embed;
 use mpm_core::transfer::{Apic, Flip, Given, NodalState, Xpic};
-use mpm_core::{Axis, Basis, Grid, Lattice, Particles, Transfer};
+use mpm_core::{Axis, Basis, Grid, Lattice, Particles, SymmetricTensor, Transfer};
 use nalgebra::Matrix2;
 use std::hint::black_box;
 
 const CELLS: usize = 40;
 
-fn body() -> (Grid<2>, Particles<2>, Vec<std::ops::Range<usize>>) {
+/// A lattice, particles and their slabs.
+type Body<const S: usize, B> = (Lattice<2, S, B>, Particles<2>, Vec<std::ops::Range<usize>>);
+
+fn body<const S: usize, B: Basis<S>>() -> Body<S, B> {
     let grid = Grid::new(1.0, [Axis::open(0.0, CELLS); 2]);
     let n = 2 * (CELLS - 8);
     let positions = (0..n * n)
@@ -26,9 +30,10 @@ fn body() -> (Grid<2>, Particles<2>, Vec<std::ops::Range<usize>>) {
     let (Ok(grid), Ok(mut particles)) = (grid, particles) else {
         unreachable!("the scene is fixed and valid")
     };
-    let (order, slabs) = cell_order(&grid, &particles.position);
+    let lattice = Lattice::new(grid, WallTreatment::OpenKnot);
+    let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
     particles.permute(&order);
-    (grid, particles, slabs)
+    (lattice, particles, slabs)
 }
 
 fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
@@ -36,9 +41,8 @@ fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
     name: &str,
     mut transfer: T,
 ) {
-    let (grid, mut p, slabs) = body();
+    let (lattice, mut p, slabs) = body::<S, B>();
     transfer.attach(&mut p);
-    let lattice = Lattice::<2, S, B>::new(grid, WallTreatment::OpenKnot);
     let mut nodes = vec![NodalState::default(); lattice.len()];
     let mut group = c.benchmark_group(name);
     group.throughput(Throughput::Elements(p.len() as u64));
@@ -78,18 +82,22 @@ fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
 }
 
 fn passes<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
-    let (grid, p, slabs) = body();
-    let lattice = Lattice::<2, S, B>::new(grid, WallTreatment::OpenKnot);
+    let (lattice, p, slabs) = body::<S, B>();
     let mut group = c.benchmark_group(name);
     group.throughput(Throughput::Elements(p.len() as u64));
     group.bench_function("stencil", |b| {
         b.iter(|| {
             for k in 0..p.len() {
-                black_box(lattice.stencil(&p.position[k], &p.half_size[k]).row(S - 1));
+                black_box(
+                    lattice
+                        .stencil(&p.position[k], &p.half_size[k])
+                        .row(0, S - 1),
+                );
             }
         });
     });
     let mut field = vec![1.0; p.len()];
+    let reach = Reach::of(&lattice, &p.position, &p.half_size);
     let mut averaging = Averaging::new(lattice.len());
     let mut count = 0;
     let mut average = |again: bool, averaging: &mut Averaging<2, S>| {
@@ -99,6 +107,7 @@ fn passes<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
         let mut projection = Projection {
             lattice: &lattice,
             slabs: &slabs,
+            reach: &reach,
             averaging,
             count: &mut count,
         };
@@ -125,6 +134,17 @@ fn law<M: Law>(c: &mut Criterion, name: &str, law: &M, delta_f: &Matrix2<f64>) {
                 black_box(stress);
                 *state = next;
             }
+        });
+    });
+    let mut stresses = vec![SymmetricTensor::default(); n];
+    group.bench_function(format!("{name}, side by side"), |b| {
+        b.iter(|| {
+            law.update_all(
+                |_| embed(black_box(delta_f)),
+                1e-3,
+                &mut states,
+                &mut stresses,
+            );
         });
     });
     group.finish();

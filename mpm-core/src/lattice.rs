@@ -6,6 +6,7 @@
 
 use crate::basis::{AxisNodes, AxisWeights, Basis, WallTreatment};
 use crate::grid::Grid;
+use crate::number::{EIGHT, Eight, Real};
 use crate::parallel::PLANES_BEFORE;
 use std::ops::AddAssign;
 
@@ -59,6 +60,18 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         self.strides[0]
     }
 
+    /// Nodes in a row along the last axis; in one dimension that is a plane.
+    #[must_use]
+    pub fn row_length(&self) -> usize {
+        if D == 1 { 1 } else { self.strides[D - 2] }
+    }
+
+    /// Whether nodes have periodic images.
+    #[must_use]
+    pub fn has_images(&self) -> bool {
+        !self.images.is_empty()
+    }
+
     /// The basis functions that see a particle at `x` (m) with half sizes `half_size` (m).
     #[inline(always)]
     #[must_use]
@@ -73,21 +86,40 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         }
     }
 
-    /// Row `r` of a stencil, of which only the weights are kept: its first node and the product of the outer
-    /// axes' weights.
+    /// Calls `visit(k, stencil)` for the `k`-th of the particles at `x` (m) with half sizes `half_size` (m), in
+    /// their order: eight stencils are computed side by side.
     #[inline(always)]
-    #[must_use]
-    pub fn row(&self, weights: &Weights<D, S>, r: usize) -> (usize, f64) {
-        let (node, w) = (weights.first, &weights.w);
-        match D {
-            1 => (node, 1.0),
-            2 => (node + r * self.strides[0], w[0][r]),
-            _ => {
-                let (i, j) = (r / S, r % S);
-                let node = node + i * self.strides[0] + j * self.strides[1];
-                (node, w[0][i] * w[1][j])
+    pub fn for_each_stencil(
+        &self,
+        x: &[[f64; D]],
+        half_size: &[[f64; D]],
+        mut visit: impl FnMut(usize, &Stencil<D, S>),
+    ) {
+        for begin in (0..x.len()).step_by(EIGHT) {
+            // Beyond the last particle the last one once more.
+            let last = (x.len() - 1).min(begin + EIGHT - 1);
+            let eight: [_; D] = std::array::from_fn(|a| {
+                self.bases[a].weights_of_eight(
+                    Eight::pack(|k| x[last.min(begin + k)][a]),
+                    Eight::pack(|k| half_size[last.min(begin + k)][a]),
+                )
+            });
+            for k in begin..=last {
+                let stencil = Stencil {
+                    axis: std::array::from_fn(|a| eight[a].part(k - begin)),
+                    strides: self.strides,
+                };
+                visit(k, &stencil);
             }
         }
+    }
+
+    /// How many nodes after a stencil's first one the row at the places `slow` and `fast` begins: see
+    /// [`Stencil::OUTER`].
+    #[inline(always)]
+    #[must_use]
+    pub fn row_offset(&self, slow: usize, fast: usize) -> usize {
+        row_offset(&self.strides, slow, fast)
     }
 
     /// Distances x_i − `x` (m) from a particle at `x` (m) to the nodes of its stencil, axis by axis.
@@ -158,6 +190,16 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
     }
 }
 
+/// How many nodes after a stencil's first one the row at these places begins.
+#[inline(always)]
+fn row_offset<const D: usize>(strides: &[usize; D], slow: usize, fast: usize) -> usize {
+    match D {
+        1 => 0,
+        2 => fast * strides[0],
+        _ => slow * strides[0] + fast * strides[1],
+    }
+}
+
 /// Per axis, the distances (m) from a particle to the `S` nodes that see it.
 pub type Arms<const D: usize, const S: usize> = [[f64; S]; D];
 
@@ -186,8 +228,19 @@ impl<const D: usize, const S: usize> Default for Weights<D, S> {
 }
 
 impl<const D: usize, const S: usize> Weights<D, S> {
-    /// Rows of a stencil.
-    pub const ROWS: usize = Stencil::<D, S>::ROWS;
+    /// The first node of the stencil.
+    #[inline(always)]
+    #[must_use]
+    pub fn first(&self) -> usize {
+        self.first
+    }
+
+    /// The weights along an axis.
+    #[inline(always)]
+    #[must_use]
+    pub fn axis(&self, axis: usize) -> &[f64; S] {
+        &self.w[axis]
+    }
 
     /// The weights along the last axis.
     #[inline(always)]
@@ -209,53 +262,49 @@ pub struct Row<const D: usize> {
 }
 
 impl<const D: usize, const S: usize> Stencil<D, S> {
-    /// Rows of a stencil.
-    pub const ROWS: usize = S.pow(D as u32 - 1);
+    /// Places of a row along the outer axes, which are at most two: how many along the slow one and along the
+    /// fast one. In two dimensions there is one outer axis, the fast one; in one there is none.
+    pub const OUTER: (usize, usize) = match D {
+        1 => (1, 1),
+        2 => (1, S),
+        _ => (S, S),
+    };
 
-    /// Place of row `r` along each axis but the last, counted from the stencil's first node.
-    #[inline(always)]
-    #[must_use]
-    pub fn outer(r: usize) -> [usize; D] {
-        let mut outer = [0; D];
-        if D == 2 {
-            outer[0] = r;
-        }
-        if D == 3 {
-            outer[0] = r / S;
-            outer[1] = r % S;
-        }
-        outer
-    }
-
-    /// Row `r` of the stencil, weights factorised: on it the weight of node `k` is
+    /// The row at the places `slow` and `fast`, weights factorised: on it the weight of node `k` is
     /// `row.w * last.w[k]` and its gradient `row.gradient[a] * last.w[k]`, with `last.dw[k]` instead
     /// of `last.w[k]` in the last direction.
     #[inline(always)]
     #[must_use]
-    pub fn row(&self, r: usize) -> Row<D> {
-        let begin = self.last().first + PLANES_BEFORE * self.strides[0];
+    pub fn row(&self, slow: usize, fast: usize) -> Row<D> {
         let mut row = Row {
-            node: begin,
+            node: self.first() + row_offset(&self.strides, slow, fast),
             w: 1.0,
             gradient: [1.0; D],
         };
         if D == 2 {
             let outer = &self.axis[0];
-            row.node = begin + (outer.first + r) * self.strides[0];
-            row.w = outer.w[r];
-            row.gradient[0] = outer.dw[r];
+            row.w = outer.w[fast];
+            row.gradient[0] = outer.dw[fast];
         }
         if D == 3 {
             let (outer, middle) = (&self.axis[0], &self.axis[1]);
-            let (i, j) = (r / S, r % S);
-            row.node =
-                begin + (outer.first + i) * self.strides[0] + (middle.first + j) * self.strides[1];
-            row.w = outer.w[i] * middle.w[j];
-            row.gradient[0] = outer.dw[i] * middle.w[j];
-            row.gradient[1] = outer.w[i] * middle.dw[j];
+            row.w = outer.w[slow] * middle.w[fast];
+            row.gradient[0] = outer.dw[slow] * middle.w[fast];
+            row.gradient[1] = outer.w[slow] * middle.dw[fast];
         }
         row.gradient[D - 1] = row.w;
         row
+    }
+
+    /// The first node.
+    #[inline(always)]
+    #[must_use]
+    pub fn first(&self) -> usize {
+        let mut first = PLANES_BEFORE * self.strides[0];
+        for a in 0..D {
+            first += self.axis[a].first * self.strides[a];
+        }
+        first
     }
 
     /// The weights alone.
@@ -267,7 +316,7 @@ impl<const D: usize, const S: usize> Stencil<D, S> {
             *w = axis.w;
         }
         Weights {
-            first: self.row(0).node,
+            first: self.first(),
             w,
         }
     }
@@ -307,8 +356,9 @@ mod tests {
         let mut unity = 0.0;
         let mut place = [0.0; D];
         let mut gradient = [[0.0; D]; D];
-        for r in 0..Stencil::<D, S>::ROWS {
-            let row = stencil.row(r);
+        let (lines, rows) = Stencil::<D, S>::OUTER;
+        for r in 0..lines * rows {
+            let row = stencil.row(r / rows, r % rows);
             for k in 0..S {
                 let position = lattice.position(&index_of[row.node + k]);
                 unity += row.w * last.w[k];

@@ -3,7 +3,7 @@
 //! *Gathers* write to particles only: they run over chunks of [`CHUNK`] particles, and sums are
 //! formed per chunk and added in the order of the chunks.
 //!
-//! *Scatters* write to nodes. Particles are sorted by cell, and slabs of [`SLAB`] cells along the
+//! *Scatters* write to nodes. Particles are sorted by place, and slabs of [`SLAB`] cells along the
 //! first axis hold contiguous runs of them. A slab's particles reach fewer than `2 SLAB` planes of
 //! nodes, so slabs of even number can run side by side, each on its own run of planes, and then
 //! those of odd number. A node thus receives its contributions in an order that the number of

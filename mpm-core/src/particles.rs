@@ -1,13 +1,10 @@
-//! The particles of a body, as columns, and their order.
+//! The particles of a body, as columns.
 
 use crate::error::{Error, require};
-use crate::grid::Grid;
 use crate::memory::{MemoryError, rows};
-use crate::parallel::SLAB;
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
 
 /// Columns of one body. All have one entry per particle, but `j_bar` and `affine`, which are empty
 /// where no remedy or transfer needs them.
@@ -117,6 +114,16 @@ impl<const D: usize> Particles<D> {
         self.position.is_empty()
     }
 
+    /// What `f` gives of every particle, by its place in the columns, in seeding order.
+    #[must_use]
+    pub fn seeded<T: Copy + Default>(&self, f: impl Fn(usize) -> T) -> Vec<T> {
+        let mut values = vec![T::default(); self.len()];
+        for (k, id) in self.id.iter().enumerate() {
+            values[*id as usize] = f(k);
+        }
+        values
+    }
+
     /// Kinetic energy Σ ½ m v² (J); that of affine parts is left out.
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
@@ -198,41 +205,4 @@ pub(crate) fn permute<T: Copy>(column: &mut Vec<T>, order: &[u32]) {
     if !column.is_empty() {
         *column = order.iter().map(|&p| column[p as usize]).collect();
     }
-}
-
-/// The order of particles by cell (stable: of one cell in their present order), and the range of
-/// every slab of [`SLAB`] cells along the first axis.
-#[must_use]
-pub fn cell_order<const D: usize>(
-    grid: &Grid<D>,
-    positions: &[[f64; D]],
-) -> (Vec<u32>, Vec<Range<usize>>) {
-    let cell = |x: &[f64; D]| {
-        (0..D).fold(0, |index, a| {
-            index * grid.axes[a].cells + grid.cell(a, x[a])
-        })
-    };
-    let cells: usize = grid.axes.iter().map(|a| a.cells).product();
-    let mut begin = vec![0usize; cells + 1];
-    for x in positions {
-        begin[cell(x) + 1] += 1;
-    }
-    for c in 0..cells {
-        begin[c + 1] += begin[c];
-    }
-    let per_column = cells / grid.axes[0].cells;
-    let slabs = (0..grid.axes[0].cells)
-        .step_by(SLAB)
-        .map(|first| {
-            let last = (first + SLAB).min(grid.axes[0].cells);
-            begin[first * per_column]..begin[last * per_column]
-        })
-        .collect();
-    let mut order = vec![0u32; positions.len()];
-    for (p, x) in positions.iter().enumerate() {
-        let slot = &mut begin[cell(x)];
-        order[*slot] = p as u32;
-        *slot += 1;
-    }
-    (order, slabs)
 }

@@ -3,10 +3,14 @@
 //! (Πq)_p = Σ_i w_ip q_i with q_i = Σ_p w_ip V_p q_p / V_i and V_i = Σ_p w_ip V_p. It reproduces
 //! constants, V Π is symmetric, and its eigenvalues lie in \[0, 1\].
 
+mod patch;
+
 use crate::basis::Basis;
 use crate::lattice::{Lattice, Weights};
 use crate::parallel::{CHUNK, scatter};
 use crate::particles::Particles;
+use crate::reach::Reach;
+use patch::{Patch, ROW};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -23,7 +27,7 @@ pub trait Average<const D: usize> {
 pub struct Averaging<const D: usize, const S: usize> {
     /// Of every particle.
     weights: Vec<Weights<D, S>>,
-    /// V_i of every node.
+    /// V_i of every node. These two arrays are longer than the lattice by the padding of the last row.
     volumes: Vec<f64>,
     /// Σ w V q, then q_i of every node.
     values: Vec<f64>,
@@ -37,10 +41,17 @@ impl<const D: usize, const S: usize> Averaging<D, S> {
     pub fn new(nodes: usize) -> Self {
         Self {
             weights: Vec::new(),
-            volumes: vec![0.0; nodes],
-            values: vec![0.0; nodes],
+            volumes: vec![0.0; nodes + ROW],
+            values: vec![0.0; nodes + ROW],
             current: false,
         }
+    }
+
+    /// To be told when nodes that had been in reach may no longer be.
+    pub fn clear(&mut self) {
+        self.volumes.fill(0.0);
+        self.values.fill(0.0);
+        self.current = false;
     }
 
     /// To be told when particles have moved, changed their volumes or been put in another order.
@@ -55,35 +66,60 @@ pub struct Projection<'a, const D: usize, const S: usize, B> {
     pub lattice: &'a Lattice<D, S, B>,
     /// Ranges of particles by slab.
     pub slabs: &'a [Range<usize>],
+    /// The nodes within the particles' reach.
+    pub reach: &'a Reach,
     /// What it works with.
     pub averaging: &'a mut Averaging<D, S>,
     /// Counts the applications.
     pub count: &'a mut u64,
 }
 
-/// Scatters to `nodes`, one value per node, what `weighted` gives for a particle's place and the weight of a row.
-fn scatter_rows<const D: usize, const S: usize, B: Basis<S>>(
+/// Scatters to `nodes`, one value per node, what `given` holds for a particle.
+fn scatter_values<const D: usize, const S: usize, B: Basis<S>>(
     lattice: &Lattice<D, S, B>,
     slabs: &[Range<usize>],
     weights: &[Weights<D, S>],
+    reach: &Reach,
     nodes: &mut [f64],
-    weighted: impl Fn(usize, f64) -> f64 + Sync,
+    given: impl Fn(usize) -> f64 + Sync,
 ) {
-    nodes.fill(0.0);
+    reach.clear(nodes);
     scatter(nodes, lattice.plane(), slabs, |slab, nodes, origin| {
-        for p in slab {
-            let weights = &weights[p];
-            for r in 0..Weights::<D, S>::ROWS {
-                let (node, w) = lattice.row(weights, r);
-                let value = weighted(p, w);
-                let begin = node - origin;
-                for (node, w) in nodes[begin..begin + S].iter_mut().zip(weights.last()) {
-                    *node = w.mul_add(value, *node);
-                }
+        let mut p = slab.start;
+        while p < slab.end {
+            let first = weights[p].first();
+            let mut patch = Patch::zero();
+            while p < slab.end && weights[p].first() == first {
+                patch.add(&weights[p], given(p));
+                p += 1;
             }
+            patch.add_to(lattice, first - origin, nodes);
         }
     });
     lattice.fold(nodes);
+}
+
+/// Gathers from `nodes`, one value per node, to `field`.
+fn gather_values<const D: usize, const S: usize, B: Basis<S>>(
+    lattice: &Lattice<D, S, B>,
+    weights: &[Weights<D, S>],
+    nodes: &[f64],
+    field: &mut [f64],
+) {
+    field
+        .par_chunks_mut(CHUNK)
+        .zip(weights.par_chunks(CHUNK))
+        .for_each(|(field, weights)| {
+            let mut p = 0;
+            while p < field.len() {
+                let first = weights[p].first();
+                let patch = Patch::of(lattice, first, nodes);
+                while p < field.len() && weights[p].first() == first {
+                    field[p] = patch.sum(&weights[p]);
+                    p += 1;
+                }
+            }
+        });
 }
 
 impl<const D: usize, const S: usize, B: Basis<S>> Projection<'_, D, S, B> {
@@ -99,13 +135,13 @@ impl<const D: usize, const S: usize, B: Basis<S>> Projection<'_, D, S, B> {
             .zip(particles.position.par_chunks(CHUNK))
             .zip(particles.half_size.par_chunks(CHUNK))
             .for_each(|((weights, x), l)| {
-                for ((weights, x), l) in weights.iter_mut().zip(x).zip(l) {
-                    *weights = lattice.stencil(x, l).weights();
-                }
+                lattice.for_each_stencil(x, l, |k, stencil| weights[k] = stencil.weights());
             });
         let volume = &particles.volume;
         let (weights, volumes) = (&averaging.weights, &mut averaging.volumes);
-        scatter_rows(lattice, self.slabs, weights, volumes, |p, w| w * volume[p]);
+        scatter_values(lattice, self.slabs, weights, self.reach, volumes, |p| {
+            volume[p]
+        });
         averaging.current = true;
     }
 }
@@ -118,33 +154,22 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, 
         let (lattice, averaging) = (self.lattice, &mut *self.averaging);
         let (weights, values) = (&averaging.weights, &mut averaging.values);
         let (volume, given): (&[f64], &[f64]) = (&particles.volume, field);
-        scatter_rows(lattice, self.slabs, weights, values, |p, w| {
-            w * volume[p] * given[p]
+        scatter_values(lattice, self.slabs, weights, self.reach, values, |p| {
+            volume[p] * given[p]
         });
-        for (value, volume) in values.iter_mut().zip(&averaging.volumes) {
-            if *volume > 0.0 {
-                *value /= volume;
+        let parts = self
+            .reach
+            .parts(values)
+            .zip(self.reach.parts(&mut averaging.volumes));
+        for (values, volumes) in parts {
+            for (value, volume) in values.iter_mut().zip(volumes) {
+                if *volume > 0.0 {
+                    *value /= *volume;
+                }
             }
         }
         lattice.unfold(values);
-        let values: &[f64] = values;
-        field
-            .par_chunks_mut(CHUNK)
-            .zip(weights.par_chunks(CHUNK))
-            .for_each(|(field, weights)| {
-                for (q, weights) in field.iter_mut().zip(weights) {
-                    let mut sum = 0.0;
-                    for r in 0..Weights::<D, S>::ROWS {
-                        let (node, w) = lattice.row(weights, r);
-                        let mut row_sum = 0.0;
-                        for (value, w) in values[node..node + S].iter().zip(weights.last()) {
-                            row_sum = w.mul_add(*value, row_sum);
-                        }
-                        sum = w.mul_add(row_sum, sum);
-                    }
-                    *q = sum;
-                }
-            });
+        gather_values(lattice, weights, values, field);
         *self.count += 1;
     }
 }

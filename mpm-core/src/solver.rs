@@ -13,9 +13,11 @@ use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::memory::{Memory, Saved};
 use crate::monitor::{Accumulated, Residual, Totals};
+use crate::order::stencil_order;
 use crate::parallel::{CHUNK, chunks_if_present, scatter};
-use crate::particles::{Particles, cell_order, permute};
+use crate::particles::{Particles, permute};
 use crate::projection::{Average, Averaging, Projection};
+use crate::reach::Reach;
 use crate::remedy::Remedy;
 use crate::space;
 use crate::stage::{Constraint, ForceFilter, Load, ParticleFilter, Prescribed};
@@ -74,7 +76,7 @@ pub trait Simulation<const D: usize>: Memory + Send {
     fn step(&mut self) -> Result<(), Error>;
     /// Time (s).
     fn time(&self) -> f64;
-    /// The particles, sorted by cell.
+    /// The particles, sorted by place.
     fn particles(&self) -> &Particles<D>;
     /// Mass, momentum, energies, J.
     fn totals(&self) -> Totals;
@@ -140,6 +142,10 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     slabs: Vec<Range<usize>>,
     nodes: Vec<NodalState>,
     averaging: Averaging<D, S>,
+    /// The nodes that particles see until they are sorted again; all others are zero.
+    reach: Reach,
+    /// All prescribed velocities, and those of nodes within reach.
+    declared: Vec<Prescribed>,
     prescribed: Vec<Prescribed>,
     held: Vec<Held>,
     chunk_sums: Vec<ChunkSums>,
@@ -215,6 +221,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             slabs: Vec::new(),
             nodes: vec![NodalState::default(); lattice.len()],
             averaging: Averaging::new(lattice.len()),
+            reach: Reach::everything(&lattice),
+            declared: Vec::new(),
             prescribed: Vec::new(),
             held: vec![Held::default(); scene.constraints.len()],
             chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
@@ -239,7 +247,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 
     fn declare_constraints(&mut self) {
         let (lattice, scene) = (&self.lattice, &self.scene);
-        let prescribed = &mut self.prescribed;
+        let declared = &mut self.declared;
         lattice.for_each_node(|node, index| {
             let position = lattice.position(index);
             for axis in 0..D {
@@ -255,7 +263,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                         by,
                     })
                 });
-                prescribed.extend(first);
+                declared.extend(first);
             }
         });
     }
@@ -274,7 +282,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         }
     }
 
-    /// Sorts the particles by cell when one of them may have left its cell's neighbours.
+    /// Sorts the particles when one of them may have left the neighbours of the cell where it was.
     fn sort_if_needed(&mut self) {
         if self.drift > self.scene.grid.h {
             self.sort();
@@ -282,12 +290,25 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn sort(&mut self) {
-        let (order, slabs) = cell_order(&self.scene.grid, &self.scene.particles.position);
+        let p = &self.scene.particles;
+        let (order, slabs) = stencil_order(&self.lattice, &p.position, &p.half_size);
         self.scene.particles.permute(&order);
         permute(&mut self.states, &order);
         self.slabs = slabs;
         self.drift = 0.0;
         self.work.sorts += 1;
+        self.find_reach();
+    }
+
+    /// Finds the nodes that the particles see until they are sorted again.
+    fn find_reach(&mut self) {
+        let p = &self.scene.particles;
+        self.reach = Reach::of(&self.lattice, &p.position, &p.half_size);
+        self.nodes.fill(NodalState::default());
+        self.averaging.clear();
+        let within = self.declared.iter().filter(|c| self.reach.contains(c.node));
+        self.prescribed.clear();
+        self.prescribed.extend(within);
     }
 
     fn apply_loads(&mut self) {
@@ -304,7 +325,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     fn particles_to_grid(&mut self) {
         let lattice = &self.lattice;
         let (transfer, p) = (&self.scene.transfer, &self.scene.particles);
-        self.nodes.fill(NodalState::default());
+        self.reach.clear(&mut self.nodes);
         scatter(
             &mut self.nodes,
             lattice.plane(),
@@ -315,7 +336,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                 let affine = p.affine.get(slab.clone()).unwrap_or_default();
                 let (volume, stress) = (&p.volume[slab.clone()], &p.stress[slab.clone()]);
                 let external_force = &p.external_force[slab];
-                for k in 0..x.len() {
+                lattice.for_each_stencil(x, l, |k, stencil| {
                     let given = Given {
                         position: &x[k],
                         mass: mass[k],
@@ -325,9 +346,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                         stress: &stress[k],
                         external_force: &external_force[k],
                     };
-                    let stencil = lattice.stencil(&x[k], &l[k]);
-                    transfer.particle_to_grid(lattice, &stencil, &given, nodes, origin);
-                }
+                    transfer.particle_to_grid(lattice, stencil, &given, nodes, origin);
+                });
             },
         );
         lattice.fold(&mut self.nodes);
@@ -338,7 +358,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let dt = self.scene.dt;
         let mut residual = Residual::default();
         let mut damping = 0.0;
-        for node in self.nodes.iter_mut() {
+        for node in self.reach.parts(&mut self.nodes).flatten() {
             let mass = node.mass();
             if mass <= 0.0 {
                 *node = NodalState::default();
@@ -410,11 +430,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             .for_each(
                 |(c, (sums, v, affine, increment, delta_f, j, x, l, volume, stress, force))| {
                     let mut chunk = ChunkSums::default();
-                    for k in 0..x.len() {
+                    lattice.for_each_stencil(x, l, |k, stencil| {
                         let (stress, volume, force) = (stress[k], volume[k], force[k]);
-                        let (stencil, b) = (lattice.stencil(&x[k], &l[k]), affine.get_mut(k));
-                        let got = transfer
-                            .grid_to_particle(lattice, &stencil, &x[k], nodes, &mut v[k], b);
+                        let b = affine.get_mut(k);
+                        let got =
+                            transfer.grid_to_particle(lattice, stencil, &x[k], nodes, &mut v[k], b);
                         let gradient = SMatrix::<f64, D, D>::from_fn(|a, b| got.gradient[a][b]);
                         delta_f[k] = SMatrix::identity() + gradient * dt;
                         j[k] *= space::determinant(&delta_f[k]);
@@ -433,7 +453,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                         }
                         chunk.load_power += load_power;
                         chunk.stress_power += volume * stress_power;
-                    }
+                    });
                     *sums = chunk;
                 },
             );
@@ -463,6 +483,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let mut projection = Projection {
             lattice: &self.lattice,
             slabs: &self.slabs,
+            reach: &self.reach,
             averaging: &mut self.averaging,
             count: &mut self.work.projections,
         };
@@ -490,9 +511,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         )
             .into_par_iter()
             .for_each(|(states, stress, volume, delta_f, j, reference_volume)| {
-                for k in 0..states.len() {
-                    (stress[k], states[k]) = law.update(&space::embed(&delta_f[k]), dt, &states[k]);
-                    volume[k] = j[k] * reference_volume[k];
+                law.update_all(|k| space::embed(&delta_f[k]), dt, states, stress);
+                for (volume, (j, reference)) in
+                    volume.iter_mut().zip(j.iter().zip(reference_volume))
+                {
+                    *volume = j * reference;
                 }
             });
     }
@@ -506,10 +529,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             self.chunk_sums.par_iter_mut(),
             p.position.par_chunks_mut(CHUNK),
             p.increment.par_chunks(CHUNK),
+            p.half_size.par_chunks(CHUNK),
         )
             .into_par_iter()
             .enumerate()
-            .for_each(|(c, (sums, x, increment))| {
+            .for_each(|(c, (sums, x, increment, half_size))| {
                 let mut largest = 0.0_f64;
                 for k in 0..x.len() {
                     let mut next = x[k];
@@ -519,8 +543,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                         distance = distance.max(increment[k][a].abs());
                     }
                     // A particle that breaks down stays where it is, so the state can be inspected.
-                    let checked = check_cfl(distance + wave_distance, grid.h)
-                        .and_then(|()| place_on_grid(grid, &mut next));
+                    let checked = check_cfl(distance + wave_distance, grid.h).and_then(|()| {
+                        place_on_grid(grid, &mut next, &half_size[k].map(B::beyond_wall))
+                    });
                     match checked {
                         Ok(wrapped) => {
                             x[k] = next;
@@ -561,7 +586,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             check_jacobian(self.scene.particles.jacobian[k])
                 .map_err(|fault| self.breakdown(k, fault))?;
             let mut x = self.scene.particles.position[k];
-            let placed = place_on_grid(&self.scene.grid, &mut x);
+            let beyond = self.scene.particles.half_size[k].map(B::beyond_wall);
+            let placed = place_on_grid(&self.scene.grid, &mut x, &beyond);
             placed.map_err(|fault| self.breakdown(k, fault))?;
             self.scene.particles.position[k] = x;
         }
@@ -610,11 +636,17 @@ fn check_cfl(distance: f64, h: f64) -> Result<(), Fault> {
 }
 
 /// Brings a position on a periodic axis back between its ends (true when it had left) and checks the
-/// others.
-fn place_on_grid<const D: usize>(grid: &Grid<D>, x: &mut [f64; D]) -> Result<bool, Fault> {
+/// others, which a position may be `beyond` (m, axis by axis) if they are walls.
+fn place_on_grid<const D: usize>(
+    grid: &Grid<D>,
+    x: &mut [f64; D],
+    beyond: &[f64; D],
+) -> Result<bool, Fault> {
     let mut wrapped = false;
     for (axis, (x, ends)) in x.iter_mut().zip(&grid.axes).enumerate() {
-        let (lo, hi) = (ends.lo, ends.hi(grid.h));
+        let (wall_lo, wall_hi) = ends.wall_ends();
+        let give = |wall: bool| if wall { beyond[axis] } else { 0.0 };
+        let (lo, hi) = (ends.lo - give(wall_lo), ends.hi(grid.h) + give(wall_hi));
         if *x >= lo && *x < hi {
             continue;
         }
@@ -706,6 +738,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         Projection {
             lattice: &self.lattice,
             slabs: &self.slabs,
+            reach: &self.reach,
             averaging: &mut self.averaging,
             count: &mut uncounted,
         }

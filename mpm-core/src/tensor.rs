@@ -2,40 +2,31 @@
 
 mod function;
 
+use crate::number::Real;
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
-/// A symmetric 3×3 tensor (a stress in Pa, a left Cauchy–Green tensor).
+/// A symmetric 3×3 tensor (a stress in Pa, a left Cauchy–Green tensor), or eight of them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct SymmetricTensor {
+pub struct SymmetricTensor<T = f64> {
     /// Component 11.
-    pub xx: f64,
+    pub xx: T,
     /// Component 22.
-    pub yy: f64,
+    pub yy: T,
     /// Component 33.
-    pub zz: f64,
+    pub zz: T,
     /// Component 12.
-    pub xy: f64,
+    pub xy: T,
     /// Component 23.
-    pub yz: f64,
+    pub yz: T,
     /// Component 13.
-    pub xz: f64,
+    pub xz: T,
 }
 
 impl SymmetricTensor {
-    /// The identity.
-    #[must_use]
-    pub fn identity() -> Self {
-        Self {
-            xx: 1.0,
-            yy: 1.0,
-            zz: 1.0,
-            ..Self::default()
-        }
-    }
-
     /// The symmetric part of `m`.
     #[must_use]
+    #[inline]
     pub fn symmetric_part(m: &Matrix3<f64>) -> Self {
         Self {
             xx: m[(0, 0)],
@@ -54,11 +45,52 @@ impl SymmetricTensor {
             self.xx, self.xy, self.xz, self.xy, self.yy, self.yz, self.xz, self.yz, self.zz,
         )
     }
+}
+
+impl<T: Real> SymmetricTensor<T> {
+    /// The tensors `of(0)`, `of(1)`, ….
+    #[inline(always)]
+    #[must_use]
+    pub fn pack(of: impl Fn(usize) -> SymmetricTensor) -> Self {
+        Self {
+            xx: T::pack(|k| of(k).xx),
+            yy: T::pack(|k| of(k).yy),
+            zz: T::pack(|k| of(k).zz),
+            xy: T::pack(|k| of(k).xy),
+            yz: T::pack(|k| of(k).yz),
+            xz: T::pack(|k| of(k).xz),
+        }
+    }
+
+    /// The `k`-th of the tensors.
+    #[inline(always)]
+    #[must_use]
+    pub fn part(&self, k: usize) -> SymmetricTensor {
+        SymmetricTensor {
+            xx: self.xx.part(k),
+            yy: self.yy.part(k),
+            zz: self.zz.part(k),
+            xy: self.xy.part(k),
+            yz: self.yz.part(k),
+            xz: self.xz.part(k),
+        }
+    }
+
+    /// The identity.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self {
+            xx: T::splat(1.0),
+            yy: T::splat(1.0),
+            zz: T::splat(1.0),
+            ..Self::default()
+        }
+    }
 
     /// Component (`i`, `j`), counted from zero and below three.
     #[must_use]
     #[inline]
-    pub fn get(&self, i: usize, j: usize) -> f64 {
+    pub fn get(&self, i: usize, j: usize) -> T {
         match (i.min(j), i.max(j)) {
             (0, 0) => self.xx,
             (1, 1) => self.yy,
@@ -72,21 +104,21 @@ impl SymmetricTensor {
     /// Trace.
     #[must_use]
     #[inline]
-    pub fn trace(&self) -> f64 {
+    pub fn trace(&self) -> T {
         self.xx + self.yy + self.zz
     }
 
     /// A third of the trace: for a Cauchy stress the mean normal stress (Pa, tension positive).
     #[must_use]
     #[inline]
-    pub fn mean(&self) -> f64 {
-        self.trace() / 3.0
+    pub fn mean(&self) -> T {
+        self.trace() / T::splat(3.0)
     }
 
     /// Determinant.
     #[must_use]
     #[inline]
-    pub fn determinant(&self) -> f64 {
+    pub fn determinant(&self) -> T {
         self.xx * (self.yy * self.zz - self.yz * self.yz)
             - self.xy * (self.xy * self.zz - self.yz * self.xz)
             + self.xz * (self.xy * self.yz - self.yy * self.xz)
@@ -96,22 +128,22 @@ impl SymmetricTensor {
     #[must_use]
     #[inline]
     pub fn deviator(&self) -> Self {
-        self.scale_add_identity(1.0, -self.mean())
+        self.scale_add_identity(T::splat(1.0), -self.mean())
     }
 
     /// Frobenius norm √(a : a).
     #[must_use]
     #[inline]
-    pub fn norm(&self) -> f64 {
+    pub fn norm(&self) -> T {
         let normal = self.xx * self.xx + self.yy * self.yy + self.zz * self.zz;
         let shear = self.xy * self.xy + self.yz * self.yz + self.xz * self.xz;
-        (normal + 2.0 * shear).sqrt()
+        (normal + (shear + shear)).sqrt()
     }
 
     /// `a self + b I`.
     #[must_use]
     #[inline]
-    pub fn scale_add_identity(&self, a: f64, b: f64) -> Self {
+    pub fn scale_add_identity(&self, a: T, b: T) -> Self {
         Self {
             xx: a * self.xx + b,
             yy: a * self.yy + b,
@@ -125,12 +157,12 @@ impl SymmetricTensor {
     /// `f self fᵀ`: the push-forward of a left Cauchy–Green tensor by a relative deformation gradient.
     #[must_use]
     #[inline]
-    pub fn push_forward(&self, f: &Matrix3<f64>) -> Self {
+    pub fn push_forward(&self, f: &Matrix3<T>) -> Self {
         let out_of_plane = [f[(0, 2)], f[(1, 2)], f[(2, 0)], f[(2, 1)]];
-        if self.is_planar() && out_of_plane == [0.0; 4] {
+        if self.is_planar() && out_of_plane == [T::default(); 4] {
             return self.push_forward_in_plane(f);
         }
-        let dot = |i: usize, b: [f64; 3]| {
+        let dot = |i: usize, b: [T; 3]| {
             f[(i, 2)].mul_add(b[2], f[(i, 1)].mul_add(b[1], f[(i, 0)] * b[0]))
         };
         let half = |i: usize| {
@@ -154,8 +186,8 @@ impl SymmetricTensor {
 
     /// The same in plane strain, bit for bit.
     #[inline]
-    fn push_forward_in_plane(&self, f: &Matrix3<f64>) -> Self {
-        let dot = |i: usize, b: [f64; 2]| f[(i, 1)].mul_add(b[1], f[(i, 0)] * b[0]);
+    fn push_forward_in_plane(&self, f: &Matrix3<T>) -> Self {
+        let dot = |i: usize, b: [T; 2]| f[(i, 1)].mul_add(b[1], f[(i, 0)] * b[0]);
         let half = |i: usize| [dot(i, [self.xx, self.xy]), dot(i, [self.xy, self.yy])];
         let (first, second) = (half(0), half(1));
         Self {

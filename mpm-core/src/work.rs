@@ -17,6 +17,6 @@ pub struct Work {
     pub particle_node_pairs: u64,
     /// Applications of the volume average Π.
     pub projections: u64,
-    /// Times the particles were sorted by cell.
+    /// Times the particles were sorted by place.
     pub sorts: u64,
 }

@@ -12,7 +12,7 @@ use mpm_core::remedy::FbarRate;
 use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{BodyForce, Constraint, End, LocalDamping, Wall, WallKind};
 use mpm_core::transfer::{Apic, Flip};
-use mpm_core::{Axis, Basis, Grid, Particles, Scene, Simulation, Solver, Transfer};
+use mpm_core::{Axis, Basis, Error, Grid, Particles, Scene, Simulation, Solver, Transfer};
 
 const H: f64 = 0.5;
 const DENSITY: f64 = 2.0;
@@ -173,4 +173,36 @@ fn a_body_of_other_particles_is_refused() {
         "{error}"
     );
     assert_eq!(solver.body().unwrap(), before);
+}
+
+/// A grain that hardly resists at `x` (cells from the left wall), which an `acceleration` (m/s²) pushes at the wall.
+fn grain<B: Basis<3>>(
+    x: f64,
+    acceleration: f64,
+) -> Result<Solver<2, 3, B, NeoHookean, Flip>, Error> {
+    let place = vec![[x * H, 2.0 * H]];
+    let particle = Particles::new(place, H * H / 4.0, DENSITY, [0.25 * H; 2]).unwrap();
+    let mut scene = scene(particle, WallKind::Separable, Flip::default());
+    scene.law = NeoHookean::new(1e-6, 0.0).unwrap();
+    scene.loads = vec![Box::new(BodyForce(Box::new(move |_, _| {
+        [-acceleration, 0.0]
+    })))];
+    Solver::new(scene)
+}
+
+#[test]
+fn gimp_may_pass_a_wall_by_half_a_particle_and_comes_to_rest_there() {
+    let reach = 0.25;
+    let mut solver = grain::<Gimp>(0.1, 1.0).unwrap();
+    let mut passed: f64 = 0.0;
+    for _ in 0..20_000 {
+        solver.step().unwrap();
+        passed = passed.min(solver.particles().position[0][0] / H);
+    }
+    assert!((-reach..-0.5 * reach).contains(&passed), "{passed}");
+    assert!(grain::<Gimp>(-0.99 * reach, 1.0).is_ok());
+    assert!(grain::<Gimp>(-1.01 * reach, 1.0).is_err());
+    // Functions that vanish at the wall hold what touches it.
+    assert!(grain::<QuadraticBSpline>(0.0, 1.0).is_ok());
+    assert!(grain::<QuadraticBSpline>(-0.01, 1.0).is_err());
 }

@@ -5,8 +5,9 @@
 //! `S − 1` in the local coordinate; their coefficients are made once, by the Cox–de Boor recursion,
 //! for each distinct knot pattern.
 
-use super::{AxisNodes, AxisWeights, Basis};
+use super::{AxisNodes, AxisWeights, Basis, EightAxisWeights};
 use crate::grid::Axis;
+use crate::number::{EIGHT, Eight, Real, indices};
 
 /// How B-splines meet a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -104,25 +105,59 @@ impl<const S: usize> Basis<S> for BSpline<S> {
 
     #[inline(always)]
     fn weights(&self, x: f64, _half_size: f64) -> AxisWeights<S> {
-        let distance = (x - self.origin) * self.inverse_h;
-        let first = (distance as usize).min(self.pattern.len() - 1);
-        let t = distance - first as f64;
-        let c = &self.polynomials[self.pattern[first]];
-        let mut weights = AxisWeights {
-            first,
-            w: c[S - 1],
-            dw: [0.0; S],
+        let (first, t) = self.place(x);
+        let c = &self.polynomials[self.pattern[first as usize]];
+        let (w, dw) = self.functions(t, |k, s| c[k][s]);
+        AxisWeights {
+            first: first as usize,
+            w,
+            dw,
+        }
+    }
+
+    #[inline(always)]
+    fn weights_of_eight(&self, x: Eight, _half_size: Eight) -> EightAxisWeights<S> {
+        let (first, t) = self.place(x);
+        let first = indices(first);
+        let pattern = first.map(|first| self.pattern[first]);
+        // Away from walls all have one pattern.
+        let (w, dw) = if pattern == [pattern[0]; EIGHT] {
+            let c = &self.polynomials[pattern[0]];
+            self.functions(t, |k, s| Eight::splat(c[k][s]))
+        } else {
+            self.functions(t, |k, s| {
+                Eight::pack(|p| self.polynomials[pattern[p]][k][s])
+            })
         };
+        EightAxisWeights { first, w, dw }
+    }
+}
+
+impl<const S: usize> BSpline<S> {
+    /// The knot interval of a place, and the local coordinate in it: of one particle, or of eight.
+    #[inline(always)]
+    fn place<T: Real>(&self, x: T) -> (T, T) {
+        let distance = (x - T::splat(self.origin)) * T::splat(self.inverse_h);
+        let last = (self.pattern.len() - 1) as f64;
+        let first = distance.floor().at_least(0.0).at_most(last);
+        (first, distance - first)
+    }
+
+    /// Values and derivatives at the local coordinate `t`, from the coefficients `c(power, function)`.
+    #[inline(always)]
+    fn functions<T: Real>(&self, t: T, c: impl Fn(usize, usize) -> T) -> ([T; S], [T; S]) {
+        let mut w = std::array::from_fn(|s| c(S - 1, s));
+        let mut dw = [T::default(); S];
         for k in (0..S - 1).rev() {
             for s in 0..S {
-                weights.dw[s] = weights.dw[s] * t + weights.w[s];
-                weights.w[s] = weights.w[s] * t + c[k][s];
+                dw[s] = dw[s] * t + w[s];
+                w[s] = w[s] * t + c(k, s);
             }
         }
-        for d in &mut weights.dw {
-            *d *= self.inverse_h;
+        for d in &mut dw {
+            *d *= T::splat(self.inverse_h);
         }
-        weights
+        (w, dw)
     }
 }
 

@@ -3,8 +3,9 @@
 //! Bardenhagen & Kober (2004): hat functions averaged over the particle's domain of fixed size,
 //! w_i(x) = 1/(2l) ∫_{x−l}^{x+l} N_i dx. Zhao et al. 2022, section 4, use this form.
 
-use super::{AxisNodes, AxisWeights, Basis, WallTreatment};
+use super::{AxisNodes, AxisWeights, Basis, EightAxisWeights, WallTreatment};
 use crate::grid::Axis;
+use crate::number::{Eight, Real, indices};
 
 /// Nodes before the first vertex, for a particle domain that reaches over the end of the axis.
 const GHOSTS: usize = 1;
@@ -16,6 +17,29 @@ pub struct Gimp {
     h: f64,
     origin: f64,
     inverse_h: f64,
+}
+
+impl Gimp {
+    /// Index of the first function, values and derivatives: of one particle, or of eight.
+    #[inline(always)]
+    fn functions<T: Real>(&self, x: T, half_size: T) -> (T, [T; 3], [T; 3]) {
+        let (one, inverse_h) = (T::splat(1.0), T::splat(self.inverse_h));
+        let length = (half_size + half_size) * inverse_h;
+        let begin = (x - half_size - T::splat(self.origin)) * inverse_h;
+        let first = begin.floor();
+        // The domain [a, b] in units of cells from the first node; past `1` it lies in the next cell.
+        let a = begin - first;
+        let b = a + length;
+        let inside = b.at_most(1.0);
+        let over = b - inside;
+        let scale = one / length;
+        let half_scale = T::splat(0.5) * scale;
+        let w0 = half_scale * ((one - a) * (one - a) - (one - inside) * (one - inside));
+        let w2 = half_scale * over * over;
+        let dw0 = -scale * inverse_h * (inside - a);
+        let dw2 = scale * inverse_h * over;
+        (first, [w0, one - w0 - w2, w2], [dw0, -dw0 - dw2, dw2])
+    }
 }
 
 impl Basis<3> for Gimp {
@@ -43,25 +67,28 @@ impl Basis<3> for Gimp {
         }
     }
 
+    /// A mean over the domain does not vanish where the domain's centre meets the wall; it has when all of it is beyond.
+    fn beyond_wall(half_size: f64) -> f64 {
+        half_size
+    }
+
     #[inline(always)]
     fn weights(&self, x: f64, half_size: f64) -> AxisWeights<3> {
-        let length = 2.0 * half_size * self.inverse_h;
-        let begin = (x - half_size - self.origin) * self.inverse_h;
-        let first = begin as usize;
-        // The domain [a, b] in units of cells from the first node; past `1` it lies in the next cell.
-        let a = begin - first as f64;
-        let b = a + length;
-        let inside = b.min(1.0);
-        let over = b - inside;
-        let scale = 1.0 / length;
-        let w0 = 0.5 * scale * ((1.0 - a) * (1.0 - a) - (1.0 - inside) * (1.0 - inside));
-        let w2 = 0.5 * scale * over * over;
-        let dw0 = -scale * self.inverse_h * (inside - a);
-        let dw2 = scale * self.inverse_h * over;
+        let (first, w, dw) = self.functions(x, half_size);
         AxisWeights {
-            first,
-            w: [w0, 1.0 - w0 - w2, w2],
-            dw: [dw0, -dw0 - dw2, dw2],
+            first: first as usize,
+            w,
+            dw,
+        }
+    }
+
+    #[inline(always)]
+    fn weights_of_eight(&self, x: Eight, half_size: Eight) -> EightAxisWeights<3> {
+        let (first, w, dw) = self.functions(x, half_size);
+        EightAxisWeights {
+            first: indices(first),
+            w,
+            dw,
         }
     }
 }

@@ -13,6 +13,7 @@ pub use gimp::Gimp;
 pub use linear::Linear;
 
 use crate::grid::Axis;
+use crate::number::{EIGHT, Eight, Real};
 
 /// The non-zero functions of one axis at a point: `first`, `first + 1`, …, with their values and
 /// derivatives (1/m).
@@ -35,6 +36,34 @@ impl<const S: usize> AxisWeights<S> {
     };
 }
 
+/// The non-zero functions of one axis at eight points.
+#[derive(Debug, Clone, Copy)]
+pub struct EightAxisWeights<const S: usize> {
+    /// Index of the first function at each point.
+    pub first: [usize; EIGHT],
+    /// Values.
+    pub w: [Eight; S],
+    /// Derivatives (1/m).
+    pub dw: [Eight; S],
+}
+
+impl<const S: usize> EightAxisWeights<S> {
+    /// Those at the `k`-th point.
+    #[inline(always)]
+    #[must_use]
+    pub fn part(&self, k: usize) -> AxisWeights<S> {
+        let mut part = AxisWeights {
+            first: self.first[k],
+            ..AxisWeights::NONE
+        };
+        for s in 0..S {
+            part.w[s] = self.w[s].part(k);
+            part.dw[s] = self.dw[s].part(k);
+        }
+        part
+    }
+}
+
 /// The nodes of a basis along one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisNodes {
@@ -52,9 +81,27 @@ pub trait Basis<const S: usize>: Send + Sync + Sized {
     /// Its nodes.
     fn nodes(&self) -> AxisNodes;
 
-    /// Values and derivatives at `x` (m), which lies on the axis, for a particle that reaches
-    /// `half_size` (m, at most half a cell) to either side.
+    /// How far (m) a particle that reaches `half_size` (m) to either side may pass a wall: so far do functions inside
+    /// see it and move it.
+    #[must_use]
+    fn beyond_wall(_half_size: f64) -> f64 {
+        0.0
+    }
+
+    /// Values and derivatives at `x` (m), which lies on the axis or no further beyond a wall than it may, for a particle
+    /// that reaches `half_size` (m, at most half a cell) to either side.
     fn weights(&self, x: f64, half_size: f64) -> AxisWeights<S>;
+
+    /// The same for eight particles. A basis for which it pays computes them side by side.
+    #[inline(always)]
+    fn weights_of_eight(&self, x: Eight, half_size: Eight) -> EightAxisWeights<S> {
+        let each: [_; EIGHT] = std::array::from_fn(|k| self.weights(x.part(k), half_size.part(k)));
+        EightAxisWeights {
+            first: std::array::from_fn(|k| each[k].first),
+            w: std::array::from_fn(|s| Eight::pack(|k| each[k].w[s])),
+            dw: std::array::from_fn(|s| Eight::pack(|k| each[k].dw[s])),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -37,6 +37,14 @@ fn check<const S: usize, B: Basis<S>>(
     let at = basis.weights(x, half_size);
     assert!(at.first + S <= nodes.position.len(), "{axis:?} {x}");
 
+    // Eight side by side have the bits of one after the other, wherever the others are.
+    let beside = |k: usize| axis.lo + (place + 0.123 * k as f64).fract() * length;
+    let places: [f64; EIGHT] = std::array::from_fn(|k| if k == 5 { x } else { beside(k) });
+    let eight = basis.weights_of_eight(Eight::pack(|k| places[k]), Eight::splat(half_size));
+    for (k, x) in places.into_iter().enumerate() {
+        assert_eq!(eight.part(k), basis.weights(x, half_size), "{x}");
+    }
+
     let unity: f64 = at.w.iter().sum();
     let slope: f64 = at.dw.iter().sum();
     assert!(

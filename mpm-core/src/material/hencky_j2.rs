@@ -12,6 +12,7 @@
 
 use super::{Law, NeoHookean};
 use crate::error::{Error, require};
+use crate::number::{EIGHT, Eight, Real};
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
@@ -21,6 +22,8 @@ use serde::{Deserialize, Serialize};
 const MOST_STEPS: usize = 50;
 /// Relative accuracy of ‖s‖ = κ.
 const ACCURACY: f64 = 1e-14;
+/// √(2/3): equivalent plastic strain per flow.
+const PER_FLOW: f64 = 0.816_496_580_927_726;
 
 /// The strength κ of J2 plasticity as a function of the equivalent plastic strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,13 +73,28 @@ impl Strength {
     /// κ (Pa) at an equivalent plastic strain, and its slope (Pa).
     #[must_use]
     #[inline]
-    pub fn at(&self, plastic_strain: f64) -> (f64, f64) {
+    pub fn at<T: Real>(&self, plastic_strain: T) -> (T, T) {
         // Without softening an exponential would be the dearest part of the law.
         if self.softening == 0.0 {
-            return (self.peak, 0.0);
+            return (T::splat(self.peak), T::default());
         }
-        let excess = (self.peak - self.residual) * (-self.softening * plastic_strain).exp();
-        (self.residual + excess, -self.softening * excess)
+        let excess = T::splat(self.peak - self.residual)
+            * (T::splat(-self.softening) * plastic_strain).exp();
+        (
+            T::splat(self.residual) + excess,
+            T::splat(-self.softening) * excess,
+        )
+    }
+
+    /// What flow up to an equivalent plastic strain dissipates per reference volume (J/m³): ∫ √(3/2) κ dε.
+    #[must_use]
+    pub fn plastic_work(&self, plastic_strain: f64) -> f64 {
+        let softened = if self.softening == 0.0 {
+            plastic_strain
+        } else {
+            -(-self.softening * plastic_strain).exp_m1() / self.softening
+        };
+        1.5_f64.sqrt() * (self.residual * plastic_strain + (self.peak - self.residual) * softened)
     }
 }
 
@@ -105,7 +123,7 @@ impl HenckyJ2 {
     /// than the elastic stress can fall, √(2/3) η (κ_p − κ_r) ≥ 2μ, so that the stress would jump at yield.
     pub fn new(young_modulus: f64, poisson_ratio: f64, strength: Strength) -> Result<Self, Error> {
         let NeoHookean { lambda, mu } = NeoHookean::new(young_modulus, poisson_ratio)?;
-        let slope = -(2.0_f64 / 3.0).sqrt() * strength.at(0.0).1;
+        let slope = -PER_FLOW * strength.at(0.0).1;
         require(
             slope < 2.0 * mu,
             "slope of softening √(2/3) η (κ_p − κ_r)",
@@ -120,19 +138,57 @@ impl HenckyJ2 {
     }
 
     /// The flow γ that takes a trial stress of norm `trial` (Pa) back to the surface:
-    /// `trial` − 2μ γ = κ(ε + √(2/3) γ).
-    fn flow(&self, trial: f64, plastic_strain: f64) -> f64 {
-        let per_flow = (2.0_f64 / 3.0).sqrt();
-        let mut flow = 0.0;
+    /// `trial` − 2μ γ = κ(ε + √(2/3) γ). Zero of a stress within it.
+    #[inline(always)]
+    fn flow<T: Real>(&self, trial: T, plastic_strain: T) -> T {
+        let per_flow = T::splat(PER_FLOW);
+        let stiffness = T::splat(2.0 * self.shear_modulus);
+        let (mut kappa, mut slope) = self.strength.at(plastic_strain);
+        let excess = (trial - kappa).at_least(0.0);
+        let mut flow = T::default();
+        if !excess.any_positive() {
+            return flow;
+        }
+        // Where nothing flows every excess below is made zero by this.
+        let flows = T::pack(|k| f64::from(u8::from(excess.part(k) > 0.0)));
+        let mut excess = excess;
         for _ in 0..MOST_STEPS {
-            let (kappa, slope) = self.strength.at(plastic_strain + per_flow * flow);
-            let excess = trial - 2.0 * self.shear_modulus * flow - kappa;
-            if excess.abs() <= ACCURACY * kappa {
+            if !(excess.abs() - T::splat(ACCURACY) * kappa).any_positive() {
                 break;
             }
-            flow += excess / (2.0 * self.shear_modulus + per_flow * slope);
+            flow += excess / (stiffness + per_flow * slope);
+            (kappa, slope) = self.strength.at(plastic_strain + per_flow * flow);
+            excess = flows * (trial - stiffness * flow - kappa);
         }
         flow
+    }
+
+    /// Stress, elastic left Cauchy–Green tensor and equivalent plastic strain after a relative deformation: of one
+    /// particle, or of eight.
+    #[inline(always)]
+    fn advance<T: Real>(
+        &self,
+        delta_f: &Matrix3<T>,
+        elastic: &SymmetricTensor<T>,
+        plastic_strain: T,
+    ) -> (SymmetricTensor<T>, SymmetricTensor<T>, T) {
+        let mut elastic = elastic.push_forward(delta_f);
+        // Flow keeps the volume: the elastic Jacobian is the whole one.
+        let inverse_jacobian = T::splat(1.0) / elastic.determinant().sqrt();
+        let logarithm = elastic.ln();
+        let direction = logarithm.deviator();
+        let (norm, mut shear) = (direction.norm(), T::splat(self.shear_modulus));
+        let flow = self.flow(shear * norm, plastic_strain);
+        if flow.any_positive() {
+            let share = T::splat(2.0) * flow / norm.at_least(f64::MIN_POSITIVE);
+            let back = direction.scale_add_identity(-share, T::default());
+            elastic = elastic.times_commuting(&back.exp());
+            shear -= shear * share;
+        }
+        let pressure_part = T::splat(0.5 * self.bulk_modulus) * logarithm.trace();
+        let stress = direction
+            .scale_add_identity(shear * inverse_jacobian, pressure_part * inverse_jacobian);
+        (stress, elastic, plastic_strain + T::splat(PER_FLOW) * flow)
     }
 }
 
@@ -153,25 +209,58 @@ impl Law for HenckyJ2 {
         _dt: f64,
         state: &ElastoplasticState,
     ) -> (SymmetricTensor, ElastoplasticState) {
-        let mut state = *state;
-        state.elastic = state.elastic.push_forward(delta_f);
-        // Flow keeps the volume: the elastic Jacobian is the whole one.
-        let inverse_jacobian = 1.0 / state.elastic.determinant().sqrt();
-        let logarithm = state.elastic.ln();
-        let direction = logarithm.deviator();
-        let (norm, mut shear) = (direction.norm(), self.shear_modulus);
-        let trial = shear * norm;
-        if trial > self.strength.at(state.plastic_strain).0 {
-            let flow = self.flow(trial, state.plastic_strain);
-            let back = direction.scale_add_identity(-2.0 * flow / norm, 0.0);
-            state.elastic = state.elastic.times_commuting(&back.exp());
-            state.plastic_strain += (2.0_f64 / 3.0).sqrt() * flow;
-            shear -= 2.0 * self.shear_modulus * flow / norm;
+        let (stress, elastic, plastic_strain) =
+            self.advance(delta_f, &state.elastic, state.plastic_strain);
+        (
+            stress,
+            ElastoplasticState {
+                elastic,
+                plastic_strain,
+            },
+        )
+    }
+
+    #[inline]
+    fn update_all(
+        &self,
+        delta_f: impl Fn(usize) -> Matrix3<f64>,
+        dt: f64,
+        states: &mut [ElastoplasticState],
+        stresses: &mut [SymmetricTensor],
+    ) {
+        let (blocks, rest) = states.as_chunks_mut::<EIGHT>();
+        let (of_blocks, of_rest) = stresses.as_chunks_mut::<EIGHT>();
+        let first_of_rest = blocks.len() * EIGHT;
+        for (block, (states, stresses)) in blocks.iter_mut().zip(of_blocks).enumerate() {
+            let each: [_; EIGHT] = std::array::from_fn(|k| delta_f(block * EIGHT + k));
+            let packed = |i: usize, j: usize| Eight::pack(|k| each[k][(i, j)]);
+            let deformation = Matrix3::new(
+                packed(0, 0),
+                packed(0, 1),
+                packed(0, 2),
+                packed(1, 0),
+                packed(1, 1),
+                packed(1, 2),
+                packed(2, 0),
+                packed(2, 1),
+                packed(2, 2),
+            );
+            let (stress, elastic, plastic_strain) = self.advance(
+                &deformation,
+                &SymmetricTensor::pack(|k| states[k].elastic),
+                Eight::pack(|k| states[k].plastic_strain),
+            );
+            for k in 0..EIGHT {
+                stresses[k] = stress.part(k);
+                states[k] = ElastoplasticState {
+                    elastic: elastic.part(k),
+                    plastic_strain: plastic_strain.part(k),
+                };
+            }
         }
-        let pressure_part = 0.5 * self.bulk_modulus * logarithm.trace();
-        let stress = direction
-            .scale_add_identity(shear * inverse_jacobian, pressure_part * inverse_jacobian);
-        (stress, state)
+        for (k, (state, stress)) in rest.iter_mut().zip(of_rest).enumerate() {
+            (*stress, *state) = self.update(&delta_f(first_of_rest + k), dt, state);
+        }
     }
 
     fn plastic_strain(&self, state: &ElastoplasticState) -> f64 {

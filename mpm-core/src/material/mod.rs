@@ -29,6 +29,21 @@ pub trait Law: Send + Sync {
         state: &Self::State,
     ) -> (SymmetricTensor, Self::State);
 
+    /// The same of many particles, the `k`-th of which deforms by `delta_f(k)`. A law for which it pays computes
+    /// [`EIGHT`](crate::number::EIGHT) of them side by side.
+    #[inline]
+    fn update_all(
+        &self,
+        delta_f: impl Fn(usize) -> Matrix3<f64>,
+        dt: f64,
+        states: &mut [Self::State],
+        stresses: &mut [SymmetricTensor],
+    ) {
+        for (k, (state, stress)) in states.iter_mut().zip(stresses).enumerate() {
+            (*stress, *state) = self.update(&delta_f(k), dt, state);
+        }
+    }
+
     /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that doesn't flow.
     fn plastic_strain(&self, _state: &Self::State) -> f64 {
         0.0

@@ -1,6 +1,7 @@
 //! The properties that every law must have.
 
 use super::*;
+use crate::number::EIGHT;
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 
@@ -64,6 +65,27 @@ fn increments_compose<M: Law>(law: &M, first: &Matrix3<f64>, second: &Matrix3<f6
     assert!((stress - expected).abs().max() < 1e-11 * modulus(law));
 }
 
+/// Eight side by side are as one after the other, over two steps.
+fn eight_are_as_one<M: Law>(
+    law: &M,
+    first: &[Matrix3<f64>; EIGHT],
+    second: &[Matrix3<f64>; EIGHT],
+) {
+    let mut states = [law.initial_state(); EIGHT];
+    for step in [first, second] {
+        let before = states;
+        let mut together = [SymmetricTensor::default(); EIGHT];
+        law.update_all(|k| step[k], 1e-3, &mut states, &mut together);
+        for k in 0..EIGHT {
+            let (alone, state) = law.update(&step[k], 1e-3, &before[k]);
+            let apart = (together[k].to_matrix() - alone.to_matrix()).abs().max();
+            assert!(apart < 1e-13 * modulus(law), "{k}: {apart}");
+            let (energy, expected) = (law.energy(&states[k]), law.energy(&state));
+            assert!((energy - expected).abs() < 1e-13 * modulus(law));
+        }
+    }
+}
+
 /// ρ c² is the slope of axial stress in uniaxial strain.
 fn waves_run_at_the_stated_speed<M: Law>(law: &M) {
     let d = 1e-6;
@@ -101,6 +123,14 @@ macro_rules! every_law_must {
                 #[test]
                 fn rest_without_stress(q in rotations()) {
                     rest_is_free_of_stress(&$law, &q);
+                }
+
+                #[test]
+                fn treat_eight_as_one(
+                    f in prop::array::uniform8(deformations()),
+                    g in prop::array::uniform8(deformations()),
+                ) {
+                    eight_are_as_one(&$law, &f, &g);
                 }
 
                 #[test]

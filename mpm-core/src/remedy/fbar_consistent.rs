@@ -52,32 +52,44 @@ impl FbarConsistent {
     fn average<const D: usize>(&mut self, particles: &Particles<D>, average: &mut dyn Average<D>) {
         self.rest.clone_from(&self.field);
         average.average(particles, &mut self.rest);
-        for (field, smooth) in self.field.iter_mut().zip(&mut self.rest) {
+        for_each_pair(&mut self.field, &mut self.rest, |_, field, smooth| {
             let rough = *field - *smooth;
             *field = *smooth + UNSEEN * rough;
             *smooth = rough;
-        }
+        });
         average.average(particles, &mut self.rest);
-        for (field, seen) in self.field.iter_mut().zip(&self.rest) {
-            *field += (1.0 - UNSEEN) * seen;
-        }
+        for_each_pair(&mut self.field, &mut self.rest, |_, field, seen| {
+            *field += (1.0 - UNSEEN) * *seen;
+        });
     }
 
     /// Takes (I − Π) θ (I − Π) `field` off `field`.
     fn relax<const D: usize>(&mut self, particles: &Particles<D>, average: &mut dyn Average<D>) {
         self.rest.clone_from(&self.field);
         average.average(particles, &mut self.rest);
-        let columns = self.rest.iter_mut().zip(&mut self.field);
-        for ((rest, field), delta_f) in columns.zip(&particles.delta_f) {
-            let theta = (self.relaxation * shear(delta_f)).min(1.0);
+        let relaxation = self.relaxation;
+        for_each_pair(&mut self.field, &mut self.rest, |p, field, rest| {
+            let theta = (relaxation * shear(&particles.delta_f[p])).min(1.0);
             *rest = theta * (*field - *rest);
             *field -= *rest;
-        }
+        });
         average.average(particles, &mut self.rest);
-        for (field, smooth) in self.field.iter_mut().zip(&self.rest) {
-            *field += smooth;
-        }
+        for_each_pair(&mut self.field, &mut self.rest, |_, field, smooth| {
+            *field += *smooth;
+        });
     }
+}
+
+/// `change(p, a, b)` for the entries of two fields at every particle p, in parallel.
+fn for_each_pair(a: &mut [f64], b: &mut [f64], change: impl Fn(usize, &mut f64, &mut f64) + Sync) {
+    a.par_chunks_mut(CHUNK)
+        .zip(b.par_chunks_mut(CHUNK))
+        .enumerate()
+        .for_each(|(c, (a, b))| {
+            for (k, (a, b)) in a.iter_mut().zip(b).enumerate() {
+                change(c * CHUNK + k, a, b);
+            }
+        });
 }
 
 /// √2 ‖dev sym(ΔF − I)‖, the shear strain of a step; the deviator is that of the motion's own dimensions.
@@ -134,9 +146,14 @@ impl<const D: usize> Remedy<D> for FbarConsistent {
             determinant(&particles.delta_f[p])
         });
         self.average(particles, average);
-        for (next, j_bar) in self.field.iter_mut().zip(&particles.j_bar) {
-            *next *= j_bar;
-        }
+        self.field
+            .par_chunks_mut(CHUNK)
+            .zip(particles.j_bar.par_chunks(CHUNK))
+            .for_each(|(field, j_bar)| {
+                for (next, j_bar) in field.iter_mut().zip(j_bar) {
+                    *next *= j_bar;
+                }
+            });
         if self.relaxation > 0.0 {
             self.relax(particles, average);
         }

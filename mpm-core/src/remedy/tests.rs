@@ -3,8 +3,9 @@ use crate::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTrea
 use crate::grid::{Axis, Grid};
 use crate::lattice::Lattice;
 use crate::material::{Law, NeoHookean};
-use crate::particles::cell_order;
+use crate::order::stencil_order;
 use crate::projection::{Averaging, Projection};
+use crate::reach::Reach;
 use crate::space::embed;
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
@@ -17,14 +18,17 @@ struct Bench<const D: usize, const S: usize, B> {
     lattice: Lattice<D, S, B>,
     particles: Particles<D>,
     slabs: Vec<std::ops::Range<usize>>,
+    reach: Reach,
 }
 
 impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
     fn new(grid: Grid<D>, mut particles: Particles<D>) -> Self {
-        let (order, slabs) = cell_order(&grid, &particles.position);
+        let lattice = Lattice::new(grid, WallTreatment::OpenKnot);
+        let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
         particles.permute(&order);
         Self {
-            lattice: Lattice::new(grid, WallTreatment::OpenKnot),
+            reach: Reach::of(&lattice, &particles.position, &particles.half_size),
+            lattice,
             particles,
             slabs,
         }
@@ -35,6 +39,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
         Projection {
             lattice: &self.lattice,
             slabs: &self.slabs,
+            reach: &self.reach,
             averaging: &mut Averaging::new(self.lattice.len()),
             count: &mut 0,
         }
@@ -171,6 +176,7 @@ fn small_body(remedy: &mut dyn Remedy<2>, steps: usize) -> (Vec<f64>, Bench<2, 3
         let mut projection = Projection {
             lattice: &bench.lattice,
             slabs: &bench.slabs,
+            reach: &bench.reach,
             averaging: &mut averaging,
             count: &mut count,
         };
@@ -277,6 +283,7 @@ fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
         let mut average = Projection {
             lattice: &bench.lattice,
             slabs: &bench.slabs,
+            reach: &bench.reach,
             averaging: &mut averaging,
             count: &mut 0,
         };
@@ -352,6 +359,7 @@ proptest! {
             let mut average = Projection {
                 lattice: &bench.lattice,
                 slabs: &bench.slabs,
+                reach: &bench.reach,
                 averaging: &mut Averaging::new(bench.lattice.len()),
                 count: &mut 0,
             };

@@ -90,7 +90,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         self.states = states;
         self.slabs = slabs;
         self.drift = drift;
-        self.averaging.expire();
+        self.find_reach();
         Ok(())
     }
 }

@@ -5,6 +5,7 @@
 //! numbers and no eigenvectors are needed. Farther away eigenvalues take over.
 
 use super::SymmetricTensor;
+use crate::number::{EIGHT, Real};
 use nalgebra::Matrix3;
 
 /// Largest square of the norm at which the series are used: with it the first term left out is below
@@ -20,15 +21,16 @@ const EXPONENTIAL_TERMS: (u32, u32) = (5, 10);
 
 /// A z² + B z + C I.
 #[derive(Clone, Copy, Default)]
-struct Quadratic {
-    square: f64,
-    linear: f64,
-    constant: f64,
+struct Quadratic<T> {
+    square: T,
+    linear: T,
+    constant: T,
 }
 
-impl Quadratic {
+impl<T: Real> Quadratic<T> {
     #[inline]
     fn add(&mut self, factor: f64, other: Self) {
+        let factor = T::splat(factor);
         self.square += factor * other.square;
         self.linear += factor * other.linear;
         self.constant += factor * other.constant;
@@ -36,24 +38,24 @@ impl Quadratic {
 }
 
 /// The powers of a tensor, one after the other, by z³ = I₁ z² − I₂ z + I₃ I.
-struct Powers {
-    first: f64,
-    second: f64,
-    third: f64,
-    now: Quadratic,
+struct Powers<T> {
+    first: T,
+    second: T,
+    third: T,
+    now: Quadratic<T>,
 }
 
-impl Powers {
+impl<T: Real> Powers<T> {
     /// At the first power of `z`, whose square is `square`.
     #[inline]
-    fn new(z: &SymmetricTensor, square: &SymmetricTensor) -> Self {
+    fn new(z: &SymmetricTensor<T>, square: &SymmetricTensor<T>) -> Self {
         let first = z.trace();
         Self {
             first,
-            second: 0.5 * (first * first - square.trace()),
+            second: T::splat(0.5) * (first * first - square.trace()),
             third: z.determinant(),
             now: Quadratic {
-                linear: 1.0,
+                linear: T::splat(1.0),
                 ..Quadratic::default()
             },
         }
@@ -76,46 +78,51 @@ impl Powers {
 
 /// The number of terms for a tensor of this squared norm.
 #[inline]
-fn terms(size: f64, (very_near, near): (u32, u32)) -> u32 {
-    if size < VERY_NEAR { very_near } else { near }
+fn terms<T: Real>(size: T, (very_near, near): (u32, u32)) -> u32 {
+    if size.all_below(VERY_NEAR) {
+        very_near
+    } else {
+        near
+    }
 }
 
 /// `linear` z + `constant` I in a plane, where z² = tr z z − det z I, and in its normal direction.
 #[derive(Clone, Copy)]
-struct Planar {
-    linear: f64,
-    constant: f64,
-    normal: f64,
+struct Planar<T> {
+    linear: T,
+    constant: T,
+    normal: T,
 }
 
 /// The same of a power of z in a plane.
-struct PlanarPowers {
-    trace: f64,
-    determinant: f64,
-    normal: f64,
-    now: Planar,
+struct PlanarPowers<T> {
+    trace: T,
+    determinant: T,
+    normal: T,
+    now: Planar<T>,
 }
 
-impl Planar {
+impl<T: Real> Planar<T> {
     #[inline]
     fn add(&mut self, factor: f64, other: Self) {
+        let factor = T::splat(factor);
         self.linear = factor.mul_add(other.linear, self.linear);
         self.constant = factor.mul_add(other.constant, self.constant);
         self.normal = factor.mul_add(other.normal, self.normal);
     }
 }
 
-impl PlanarPowers {
+impl<T: Real> PlanarPowers<T> {
     /// At the first power of `z`.
     #[inline]
-    fn new(z: &SymmetricTensor) -> Self {
+    fn new(z: &SymmetricTensor<T>) -> Self {
         Self {
             trace: z.xx + z.yy,
             determinant: z.xx * z.yy - z.xy * z.xy,
             normal: z.zz,
             now: Planar {
-                linear: 1.0,
-                constant: 0.0,
+                linear: T::splat(1.0),
+                constant: T::default(),
                 normal: z.zz,
             },
         }
@@ -136,16 +143,17 @@ impl PlanarPowers {
     }
 }
 
-impl SymmetricTensor {
+impl<T: Real> SymmetricTensor<T> {
     /// Whether the third axis is a principal one, as in plane strain: everything is then cheaper.
     #[inline]
     pub(super) fn is_planar(&self) -> bool {
-        self.xz == 0.0 && self.yz == 0.0
+        self.xz == T::default() && self.yz == T::default()
     }
 
     /// `factor` (`linear` z + `constant` I) of this planar z.
     #[inline]
-    fn combine_planar(&self, factor: f64, by: Planar) -> Self {
+    fn combine_planar(&self, factor: f64, by: Planar<T>) -> Self {
+        let factor = T::splat(factor);
         let (linear, constant) = (factor * by.linear, factor * by.constant);
         Self {
             xx: linear.mul_add(self.xx, constant),
@@ -159,23 +167,27 @@ impl SymmetricTensor {
     /// (b − I)(b + I)⁻¹ of this planar b.
     #[inline]
     fn cayley_planar(&self) -> Self {
-        let (xx, yy, xy) = (self.xx + 1.0, self.yy + 1.0, self.xy);
+        let one = T::splat(1.0);
+        let (xx, yy, xy) = (self.xx + one, self.yy + one, self.xy);
         // I − 2 (b + I)⁻¹ would lose the digits of small strains.
-        let (ex, ey) = (self.xx - 1.0, self.yy - 1.0);
-        let inverse = 1.0 / (xx * yy - xy * xy);
+        let (ex, ey) = (self.xx - one, self.yy - one);
+        let inverse = one / (xx * yy - xy * xy);
         Self {
             xx: inverse * (ex * yy - xy * xy),
             yy: inverse * (ey * xx - xy * xy),
-            zz: (self.zz - 1.0) / (self.zz + 1.0),
-            xy: inverse * 2.0 * xy,
+            zz: (self.zz - one) / (self.zz + one),
+            xy: inverse * (xy + xy),
             ..Self::default()
         }
     }
 
     /// The square of the norm of this planar tensor.
     #[inline]
-    fn planar_size(&self) -> f64 {
-        self.xx * self.xx + self.yy * self.yy + self.zz * self.zz + 2.0 * self.xy * self.xy
+    fn planar_size(&self) -> T {
+        self.xx * self.xx
+            + self.yy * self.yy
+            + self.zz * self.zz
+            + T::splat(2.0) * self.xy * self.xy
     }
 
     /// The natural logarithm of a positive definite tensor, such as twice Hencky's strain of a left
@@ -186,7 +198,7 @@ impl SymmetricTensor {
         if self.is_planar() {
             let z = self.cayley_planar();
             let size = z.planar_size();
-            if size < NEAR {
+            if size.all_below(NEAR) {
                 let mut powers = PlanarPowers::new(&z);
                 let mut sum = powers.now;
                 for k in 1..terms(size, LOGARITHM_TERMS) {
@@ -197,12 +209,16 @@ impl SymmetricTensor {
                 return z.combine_planar(2.0, sum);
             }
         }
-        let excess = self.scale_add_identity(1.0, -1.0);
-        let z = excess.times_commuting(&excess.scale_add_identity(1.0, 2.0).inverse());
+        let excess = self.scale_add_identity(T::splat(1.0), T::splat(-1.0));
+        let z = excess.times_commuting(
+            &excess
+                .scale_add_identity(T::splat(1.0), T::splat(2.0))
+                .inverse(),
+        );
         let square = z.times_commuting(&z);
         let size = square.trace();
         // Not below for a tensor that isn't finite.
-        if size < NEAR {
+        if size.all_below(NEAR) {
             let mut powers = Powers::new(&z, &square);
             let mut sum = powers.now;
             for k in 1..terms(size, LOGARITHM_TERMS) {
@@ -222,11 +238,11 @@ impl SymmetricTensor {
     pub fn exp(&self) -> Self {
         if self.is_planar() {
             let size = self.planar_size();
-            if size < NEAR {
+            if size.all_below(NEAR) {
                 let mut powers = PlanarPowers::new(self);
                 let mut sum = powers.now;
-                sum.constant += 1.0;
-                sum.normal += 1.0;
+                sum.constant += T::splat(1.0);
+                sum.normal += T::splat(1.0);
                 let mut factor = 1.0;
                 for k in 2..=terms(size, EXPONENTIAL_TERMS) {
                     powers.advance();
@@ -238,10 +254,10 @@ impl SymmetricTensor {
         }
         let square = self.times_commuting(self);
         let size = square.trace();
-        if size < NEAR {
+        if size.all_below(NEAR) {
             let mut powers = Powers::new(self, &square);
             let mut sum = powers.now;
-            sum.constant += 1.0;
+            sum.constant += T::splat(1.0);
             let mut factor = 1.0;
             for k in 2..=terms(size, EXPONENTIAL_TERMS) {
                 powers.advance();
@@ -282,12 +298,13 @@ impl SymmetricTensor {
             xz: self.xy * self.yz - self.xz * self.yy,
         };
         let determinant = self.xx * cofactors.xx + self.xy * cofactors.xy + self.xz * cofactors.xz;
-        cofactors.scale_add_identity(1.0 / determinant, 0.0)
+        cofactors.scale_add_identity(T::splat(1.0) / determinant, T::default())
     }
 
     /// `factor` (A z² + B z + C I) with the square of this tensor z.
     #[inline]
-    fn combine(&self, square: &Self, factor: f64, by: Quadratic) -> Self {
+    fn combine(&self, square: &Self, factor: f64, by: Quadratic<T>) -> Self {
+        let factor = T::splat(factor);
         let (a, b) = (factor * by.square, factor * by.linear);
         let sum = Self {
             xx: a * square.xx + b * self.xx,
@@ -297,14 +314,19 @@ impl SymmetricTensor {
             yz: a * square.yz + b * self.yz,
             xz: a * square.xz + b * self.xz,
         };
-        sum.scale_add_identity(1.0, factor * by.constant)
+        sum.scale_add_identity(T::splat(1.0), factor * by.constant)
     }
 
     /// The tensor with the same principal axes and mapped eigenvalues.
     fn map_eigenvalues(&self, f: fn(f64) -> f64) -> Self {
-        let eigen = self.to_matrix().symmetric_eigen();
-        let mapped = Matrix3::from_diagonal(&eigen.eigenvalues.map(f));
-        Self::symmetric_part(&(eigen.eigenvectors * mapped * eigen.eigenvectors.transpose()))
+        let mut mapped = [SymmetricTensor::default(); EIGHT];
+        for (k, mapped) in mapped[..T::COUNT].iter_mut().enumerate() {
+            let eigen = self.part(k).to_matrix().symmetric_eigen();
+            let values = Matrix3::from_diagonal(&eigen.eigenvalues.map(f));
+            let turned = eigen.eigenvectors * values * eigen.eigenvectors.transpose();
+            *mapped = SymmetricTensor::symmetric_part(&turned);
+        }
+        Self::pack(|k| mapped[k])
     }
 }
 

@@ -35,6 +35,20 @@ pub struct Apic;
 /// What it then leaves out is at most this share of what it gives.
 const SINGULAR: f64 = 1e-12;
 
+/// The places of a row along the outer axes, axis by axis.
+#[inline(always)]
+fn outer<const D: usize>(slow: usize, fast: usize) -> [usize; D] {
+    let mut outer = [0; D];
+    if D == 2 {
+        outer[0] = fast;
+    }
+    if D == 3 {
+        outer[0] = slow;
+        outer[1] = fast;
+    }
+    outer
+}
+
 /// The diagonal of D_p (m²).
 #[inline(always)]
 pub fn second_moment<const D: usize, const S: usize>(
@@ -83,8 +97,8 @@ impl<const D: usize> Transfer<D> for Apic {
         }
         let momentum = given.momentum();
         let along = &arms[D - 1];
-        let carried = |r: usize, w: f64| {
-            let outer = Stencil::<D, S>::outer(r);
+        let carried = |slow: usize, fast: usize, w: f64| {
+            let outer = outer::<D>(slow, fast);
             let mut middle = momentum;
             for a in 0..D - 1 {
                 middle = slope[a].mul_add(Node::splat(arms[a][outer[a]]), middle);
@@ -123,19 +137,22 @@ fn moment_of_velocities<const D: usize, const S: usize>(
 ) -> SMatrix<f64, D, D> {
     let mut columns = [Node::ZERO; D];
     let last = stencil.last();
-    for r in 0..Stencil::<D, S>::ROWS {
-        let (row, outer) = (stencil.row(r), Stencil::<D, S>::outer(r));
-        let nodes = &nodes[row.node..row.node + S];
-        let (mut value, mut moment) = (Node::ZERO, Node::ZERO);
-        for k in 0..S {
-            let weighted = nodes[k].motion * last.w[k];
-            value += weighted;
-            moment = weighted.mul_add(Node::splat(arms[D - 1][k]), moment);
+    let (lines, rows) = Stencil::<D, S>::OUTER;
+    for slow in 0..lines {
+        for fast in 0..rows {
+            let (row, outer) = (stencil.row(slow, fast), outer::<D>(slow, fast));
+            let nodes = &nodes[row.node..row.node + S];
+            let (mut value, mut moment) = (Node::ZERO, Node::ZERO);
+            for k in 0..S {
+                let weighted = nodes[k].motion * last.w[k];
+                value += weighted;
+                moment = weighted.mul_add(Node::splat(arms[D - 1][k]), moment);
+            }
+            for a in 0..D - 1 {
+                columns[a] = value.mul_add(Node::splat(row.w * arms[a][outer[a]]), columns[a]);
+            }
+            columns[D - 1] = moment.mul_add(Node::splat(row.w), columns[D - 1]);
         }
-        for a in 0..D - 1 {
-            columns[a] = value.mul_add(Node::splat(row.w * arms[a][outer[a]]), columns[a]);
-        }
-        columns[D - 1] = moment.mul_add(Node::splat(row.w), columns[D - 1]);
     }
     let columns = columns.map(Node::to_array);
     SMatrix::from_fn(|a, b| columns[b][a])

@@ -55,7 +55,7 @@ impl<const D: usize> Transfer<D> for Flip {
         origin: usize,
     ) {
         let momentum = given.momentum();
-        let carried = |_, w: f64| {
+        let carried = |_, _, w: f64| {
             let row = momentum * w;
             move |_| row
         };

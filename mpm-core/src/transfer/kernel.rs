@@ -40,13 +40,13 @@ impl<const D: usize> Given<'_, D> {
 /// Adds a particle's momentum and mass, Eqs. (7) and (8), and its forces, −V_p σ_p ∇w_ip + w_ip f_p,
 /// Eq. (10), to `nodes`, which begins at node `origin`.
 ///
-/// `carried(row, w)` gives, for a row of the stencil of weight `w`, the momentum and mass that node
-/// `k` of the row receives but for the weight along the row.
+/// `carried(slow, fast, w)` gives, for the row of the stencil at these places and of weight `w`, the momentum and
+/// mass that node `k` of the row receives but for the weight along the row.
 #[inline(always)]
 pub fn spread<const D: usize, const S: usize, R: Fn(usize) -> Node>(
     stencil: &Stencil<D, S>,
     given: &Given<'_, D>,
-    carried: impl Fn(usize, f64) -> R,
+    carried: impl Fn(usize, usize, f64) -> R,
     nodes: &mut [NodalState],
     origin: usize,
 ) {
@@ -60,22 +60,25 @@ pub fn spread<const D: usize, const S: usize, R: Fn(usize) -> Node>(
     }
     let external = Node::from(external);
     let last = stencil.last();
-    for r in 0..Stencil::<D, S>::ROWS {
-        let row = stencil.row(r);
-        // On a row the force is `across` w + `along` w′ of the last axis.
-        let row_carried = carried(r, row.w);
-        let mut across = external * row.w;
-        for a in 0..D - 1 {
-            across = Node::from(flux[a]).mul_add(Node::splat(row.gradient[a]), across);
-        }
-        let along = Node::from(flux[D - 1]) * row.gradient[D - 1];
+    let (lines, rows) = Stencil::<D, S>::OUTER;
+    for slow in 0..lines {
+        for fast in 0..rows {
+            let row = stencil.row(slow, fast);
+            // On a row the force is `across` w + `along` w′ of the last axis.
+            let row_carried = carried(slow, fast, row.w);
+            let mut across = external * row.w;
+            for a in 0..D - 1 {
+                across = Node::from(flux[a]).mul_add(Node::splat(row.gradient[a]), across);
+            }
+            let along = Node::from(flux[D - 1]) * row.gradient[D - 1];
 
-        let begin = row.node - origin;
-        let nodes = &mut nodes[begin..begin + S];
-        for k in 0..S {
-            let (w, dw) = (Node::splat(last.w[k]), Node::splat(last.dw[k]));
-            nodes[k].motion = row_carried(k).mul_add(w, nodes[k].motion);
-            nodes[k].change = across.mul_add(w, along.mul_add(dw, nodes[k].change));
+            let begin = row.node - origin;
+            let nodes = &mut nodes[begin..begin + S];
+            for k in 0..S {
+                let (w, dw) = (Node::splat(last.w[k]), Node::splat(last.dw[k]));
+                nodes[k].motion = row_carried(k).mul_add(w, nodes[k].motion);
+                nodes[k].change = across.mul_add(w, along.mul_add(dw, nodes[k].change));
+            }
         }
     }
 }
@@ -103,23 +106,26 @@ pub fn gather<const D: usize, const S: usize>(
     let (mut v, mut dv) = (Node::ZERO, Node::ZERO);
     let mut columns = [Node::ZERO; D];
     let last = stencil.last();
-    for r in 0..Stencil::<D, S>::ROWS {
-        let row = stencil.row(r);
-        let nodes = &nodes[row.node..row.node + S];
-        let (mut value, mut slope, mut change) = (Node::ZERO, Node::ZERO, Node::ZERO);
-        for k in 0..S {
-            let (w, dw) = (Node::splat(last.w[k]), Node::splat(last.dw[k]));
-            value = nodes[k].motion.mul_add(w, value);
-            slope = nodes[k].motion.mul_add(dw, slope);
-            change = nodes[k].change.mul_add(w, change);
+    let (lines, rows) = Stencil::<D, S>::OUTER;
+    for slow in 0..lines {
+        for fast in 0..rows {
+            let row = stencil.row(slow, fast);
+            let nodes = &nodes[row.node..row.node + S];
+            let (mut value, mut slope, mut change) = (Node::ZERO, Node::ZERO, Node::ZERO);
+            for k in 0..S {
+                let (w, dw) = (Node::splat(last.w[k]), Node::splat(last.dw[k]));
+                value = nodes[k].motion.mul_add(w, value);
+                slope = nodes[k].motion.mul_add(dw, slope);
+                change = nodes[k].change.mul_add(w, change);
+            }
+            let w = Node::splat(row.w);
+            v = value.mul_add(w, v);
+            dv = change.mul_add(w, dv);
+            for a in 0..D - 1 {
+                columns[a] = value.mul_add(Node::splat(row.gradient[a]), columns[a]);
+            }
+            columns[D - 1] = slope.mul_add(w, columns[D - 1]);
         }
-        let w = Node::splat(row.w);
-        v = value.mul_add(w, v);
-        dv = change.mul_add(w, dv);
-        for a in 0..D - 1 {
-            columns[a] = value.mul_add(Node::splat(row.gradient[a]), columns[a]);
-        }
-        columns[D - 1] = slope.mul_add(w, columns[D - 1]);
     }
     let (v, dv) = (v.to_array(), dv.to_array());
     let columns = columns.map(Node::to_array);

@@ -2,8 +2,8 @@ use super::*;
 use crate::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
+use crate::order::stencil_order;
 use crate::parallel::scatter;
-use crate::particles::cell_order;
 use crate::stage::{Bound, Prescribed};
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -23,9 +23,9 @@ struct Frozen<const D: usize, const S: usize, B> {
 impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
     fn new(grid: Grid<D>, wall: WallTreatment, positions: Vec<[f64; D]>) -> Self {
         let mut particles = Particles::new(positions, 0.1, 1.0, [0.25 * H; D]).unwrap();
-        let (order, slabs) = cell_order(&grid, &particles.position);
-        particles.permute(&order);
         let lattice = Lattice::new(grid, wall);
+        let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
+        particles.permute(&order);
         Self {
             nodes: vec![NodalState::default(); lattice.len()],
             lattice,
@@ -318,7 +318,7 @@ fn factor<const S: usize, B: Basis<S>>(n: usize, k: f64, transfer: &mut impl Tra
     for p in 0..cells * n {
         let particles = &mut frozen.particles;
         let stencil = lattice.stencil(&particles.position[p], &particles.half_size[p]);
-        let begin = stencil.row(0).node;
+        let begin = stencil.first();
         let sum = wave[begin..begin + S].iter().zip(stencil.last().w);
         particles.velocity[p] = [sum.map(|(u, w)| u * w).sum()];
     }
@@ -396,7 +396,7 @@ fn xpic_moves_a_particle_with_the_mean_of_its_velocities_and_not_through_a_wall(
     frozen.particles.velocity[0] = [-1.0];
     let lattice = &frozen.lattice;
     let stencil = lattice.stencil(&[0.0], &[0.25 * H]);
-    let wall = stencil.row(0).node;
+    let wall = stencil.first();
     // The node on the wall as mapped, −1, then held: velocity 0, change 1.
     frozen.nodes[wall].motion = Node::from([0.0, 0.0, 0.0, 0.1]);
     frozen.nodes[wall].change = Node::from([1.0, 0.0, 0.0, 0.0]);

@@ -77,12 +77,14 @@ impl Xpic {
             lattice.plane(),
             slabs,
             |slab, mapped, origin| {
-                for p in slab {
-                    let stencil = lattice.stencil(&x[p], &l[p]);
+                let (x, l) = (&x[slab.clone()], &l[slab.clone()]);
+                let mass = &mass[slab];
+                lattice.for_each_stencil(x, l, |p, stencil| {
+                    let (lines, rows) = Stencil::<D, S>::OUTER;
                     let weights = stencil.last().w.map(Node::splat);
                     let mut sum = Node::ZERO;
-                    for r in 0..Stencil::<D, S>::ROWS {
-                        let row = stencil.row(r);
+                    for r in 0..lines * rows {
+                        let row = stencil.row(r / rows, r % rows);
                         let mut row_sum = Node::ZERO;
                         for (node, w) in nodes[row.node..row.node + S].iter().zip(weights) {
                             row_sum = node.motion.mul_add(w, row_sum);
@@ -90,14 +92,14 @@ impl Xpic {
                         sum = row_sum.mul_add(Node::splat(row.w), sum);
                     }
                     sum *= mass[p];
-                    for r in 0..Stencil::<D, S>::ROWS {
-                        let row = stencil.row(r);
+                    for r in 0..lines * rows {
+                        let row = stencil.row(r / rows, r % rows);
                         let (begin, row_sum) = (row.node - origin, sum * row.w);
                         for (node, w) in mapped[begin..begin + S].iter_mut().zip(weights) {
                             *node = row_sum.mul_add(w, *node);
                         }
                     }
-                }
+                });
             },
         );
         lattice.fold(&mut self.mapped);

@@ -80,6 +80,40 @@ proptest! {
         }
     }
 
+    /// Eight particles side by side, some of which flow, some of which have far strains and some of which do
+    /// neither, are as one after the other: stress to rounding of the strain's identity, flow likewise.
+    #[test]
+    fn eight_are_as_one(
+        path in prop::collection::vec(prop::array::uniform8(prop::array::uniform9(-1.0..1.0_f64)), 1..6),
+        size in prop::array::uniform8(-6.0..-0.7_f64),
+        planar in prop::bool::ANY,
+    ) {
+        for law in [perfect(), softening()] {
+            let mut states = [law.initial_state(); EIGHT];
+            for step in &path {
+                let increment: [_; EIGHT] = std::array::from_fn(|k| {
+                    let mut gradient = Matrix3::from_row_slice(&step[k]);
+                    if planar {
+                        gradient.row_mut(2).fill(0.0);
+                        gradient.column_mut(2).fill(0.0);
+                    }
+                    Matrix3::identity() + gradient * 10.0_f64.powf(size[k])
+                });
+                let before = states;
+                let mut together = [SymmetricTensor::default(); EIGHT];
+                law.update_all(|k| increment[k], 1.0, &mut states, &mut together);
+                for k in 0..EIGHT {
+                    let (stress, state) = law.update(&increment[k], 1.0, &before[k]);
+                    let apart = (together[k].to_matrix() - stress.to_matrix()).norm();
+                    prop_assert!(apart < 1e-13 * YOUNG, "{apart}");
+                    let apart = (states[k].elastic.to_matrix() - state.elastic.to_matrix()).norm();
+                    prop_assert!(apart < 1e-13 * state.elastic.norm(), "{apart}");
+                    prop_assert!((states[k].plastic_strain - state.plastic_strain).abs() < 1e-14);
+                }
+            }
+        }
+    }
+
     /// A turned path gives turned stresses, wherever on the path the turning happens.
     #[test]
     fn rotations_turn_the_stress_and_nothing_else(path in increments(), q in rotations()) {
@@ -222,6 +256,22 @@ fn softening_under_turning_flow_is_of_first_order() {
     }
     // What is left at a step: the next difference, and the geometric series after it.
     assert!(2.0 * differences[1].abs() < 1e-5 * KAPPA, "{differences:?}");
+}
+
+#[test]
+fn flow_dissipates_its_strength() {
+    for law in [perfect(), softening()] {
+        let strength = law.strength;
+        assert_eq!(strength.plastic_work(0.0), 0.0);
+        for strain in [0.01, 0.3, 2.0] {
+            let step = 1e-5;
+            let ends = [strain + step, strain - step].map(|e| strength.plastic_work(e));
+            let slope = (ends[0] - ends[1]) / (2.0 * step);
+            let kappa = strength.at(strain).0;
+            // ‖s‖ times the rate of flow √(3/2) ε̇.
+            assert!((slope / (1.5_f64.sqrt() * kappa) - 1.0).abs() < 1e-8);
+        }
+    }
 }
 
 #[test]

@@ -1,0 +1,211 @@
+//! Numbers: one, or eight side by side.
+//!
+//! A formula that is written for any [`Real`] serves one particle and, in one go, eight of them. It must not
+//! branch on a value, but may do less where *all* of its numbers allow it.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use wide::f64x8;
+
+/// Eight numbers.
+pub type Eight = f64x8;
+/// How many.
+pub const EIGHT: usize = 8;
+
+/// Integers that are stored as numbers, as indices.
+#[inline(always)]
+#[must_use]
+pub fn indices(of: Eight) -> [usize; EIGHT] {
+    of.fast_trunc_int().to_array().map(|index| index as usize)
+}
+
+/// One number or several.
+pub trait Real:
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Add<Output = Self>
+    + AddAssign
+    + Sub<Output = Self>
+    + SubAssign
+    + Mul<Output = Self>
+    + MulAssign
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + 'static
+{
+    /// How many.
+    const COUNT: usize;
+
+    /// `x`, so often.
+    fn splat(x: f64) -> Self;
+
+    /// The numbers `of(0)`, `of(1)`, ….
+    fn pack(of: impl FnMut(usize) -> f64) -> Self;
+
+    /// The `k`-th of the numbers.
+    fn part(&self, k: usize) -> f64;
+
+    /// `self` `a` + `b`, rounded once where the processor can.
+    #[must_use]
+    fn mul_add(self, a: Self, b: Self) -> Self;
+
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// Exponential.
+    #[must_use]
+    fn exp(self) -> Self;
+
+    /// Absolute value.
+    #[must_use]
+    fn abs(self) -> Self;
+
+    /// The greatest integer that is not above.
+    #[must_use]
+    fn floor(self) -> Self;
+
+    /// The greater one; `limit` for what is not a number.
+    #[must_use]
+    fn at_least(self, limit: f64) -> Self;
+
+    /// The smaller one; `limit` for what is not a number.
+    #[must_use]
+    fn at_most(self, limit: f64) -> Self;
+
+    /// Whether all are below `limit`; what is not a number isn't.
+    fn all_below(self, limit: f64) -> bool;
+
+    /// Whether one is above zero.
+    fn any_positive(self) -> bool;
+}
+
+impl Real for f64 {
+    const COUNT: usize = 1;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn pack(mut of: impl FnMut(usize) -> f64) -> Self {
+        of(0)
+    }
+
+    #[inline(always)]
+    fn part(&self, _k: usize) -> f64 {
+        *self
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        f64::mul_add(self, a, b)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        f64::exp(self)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn floor(self) -> Self {
+        f64::floor(self)
+    }
+
+    #[inline(always)]
+    fn at_least(self, limit: f64) -> Self {
+        self.max(limit)
+    }
+
+    #[inline(always)]
+    fn at_most(self, limit: f64) -> Self {
+        self.min(limit)
+    }
+
+    #[inline(always)]
+    fn all_below(self, limit: f64) -> bool {
+        self < limit
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        self > 0.0
+    }
+}
+
+impl Real for Eight {
+    const COUNT: usize = EIGHT;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        f64x8::splat(x)
+    }
+
+    #[inline(always)]
+    fn pack(of: impl FnMut(usize) -> f64) -> Self {
+        f64x8::new(std::array::from_fn(of))
+    }
+
+    #[inline(always)]
+    fn part(&self, k: usize) -> f64 {
+        self.as_array()[k]
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        f64x8::mul_add(self, a, b)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64x8::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        f64x8::exp(self)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64x8::abs(self)
+    }
+
+    #[inline(always)]
+    fn floor(self) -> Self {
+        f64x8::floor(self)
+    }
+
+    #[inline(always)]
+    fn at_least(self, limit: f64) -> Self {
+        self.max(f64x8::splat(limit))
+    }
+
+    #[inline(always)]
+    fn at_most(self, limit: f64) -> Self {
+        self.min(f64x8::splat(limit))
+    }
+
+    #[inline(always)]
+    fn all_below(self, limit: f64) -> bool {
+        self.simd_lt(f64x8::splat(limit)).all()
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        self.simd_gt(f64x8::ZERO).any()
+    }
+}

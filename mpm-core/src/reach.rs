@@ -1,0 +1,170 @@
+//! The nodes that particles can reach before they are sorted again.
+//!
+//! Grids are mostly empty: a slide leaves most of a slope bare, a tank is higher than its water. What is done for
+//! nodes is done for runs of nodes that a particle sees or may come to see; all other nodes hold zeros. Particles are
+//! sorted, and the runs found anew, before one has moved farther than a cell.
+
+use crate::basis::Basis;
+use crate::lattice::Lattice;
+use std::ops::Range;
+
+/// Runs of consecutive nodes, in their order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reach {
+    runs: Vec<Range<usize>>,
+}
+
+/// Places of the first nodes of stencils on one row of nodes along the last axis; empty where there are none.
+type Places = Range<usize>;
+
+impl Reach {
+    /// What particles at `positions` (m) with `half_sizes` (m) reach if each moves by a cell at most.
+    #[must_use]
+    pub fn of<const D: usize, const S: usize, B: Basis<S>>(
+        lattice: &Lattice<D, S, B>,
+        positions: &[[f64; D]],
+        half_sizes: &[[f64; D]],
+    ) -> Self {
+        if D == 1 || lattice.has_images() {
+            // An image's original is somewhere else.
+            return Self::everything(lattice);
+        }
+        let length = lattice.row_length();
+        let mut rows: Vec<Places> = vec![0..0; lattice.len() / length];
+        lattice.for_each_stencil(positions, half_sizes, |_, stencil| {
+            let (row, place) = (stencil.first() / length, stencil.first() % length);
+            rows[row] = union(&rows[row], &(place..place + 1));
+        });
+        if D == 3 {
+            // Runs over into the next plane, which costs a little and does no harm.
+            rows = widened::<S>(&rows, 1);
+        }
+        rows = widened::<S>(&rows, lattice.plane() / length);
+        let runs = rows
+            .iter()
+            .enumerate()
+            .filter(|(_, places)| !places.is_empty())
+            .map(|(row, places)| {
+                let begin = places.start.saturating_sub(1);
+                let end = (places.end + S).min(length);
+                row * length + begin..row * length + end
+            })
+            .collect();
+        Self { runs }
+    }
+
+    /// All nodes of a lattice.
+    #[must_use]
+    pub fn everything<const D: usize, const S: usize, B: Basis<S>>(
+        lattice: &Lattice<D, S, B>,
+    ) -> Self {
+        Self {
+            runs: std::iter::once(0..lattice.len()).collect(),
+        }
+    }
+
+    /// Whether `node` is one of them.
+    #[must_use]
+    pub fn contains(&self, node: usize) -> bool {
+        let after = self.runs.partition_point(|run| run.start <= node);
+        after > 0 && self.runs[after - 1].contains(&node)
+    }
+
+    /// The values of a nodal field in every run.
+    pub fn parts<'a, T>(&'a self, field: &'a mut [T]) -> impl Iterator<Item = &'a mut [T]> {
+        let mut rest = field;
+        let mut begin = 0;
+        self.runs.iter().map(move |run| {
+            let (_, from_run) = std::mem::take(&mut rest).split_at_mut(run.start - begin);
+            let (part, after) = from_run.split_at_mut(run.len());
+            rest = after;
+            begin = run.end;
+            part
+        })
+    }
+
+    /// Sets a nodal field to zero.
+    pub fn clear<T: Copy + Default>(&self, field: &mut [T]) {
+        for part in self.parts(field) {
+            part.fill(T::default());
+        }
+    }
+}
+
+/// The smallest range that holds both.
+fn union(a: &Places, b: &Places) -> Places {
+    match (a.is_empty(), b.is_empty()) {
+        (true, _) => b.clone(),
+        (_, true) => a.clone(),
+        _ => a.start.min(b.start)..a.end.max(b.end),
+    }
+}
+
+/// For every row the union of those whose stencils touch it, also after a cell's motion to either side, along the
+/// axis on which rows are `stride` apart.
+fn widened<const S: usize>(rows: &[Places], stride: usize) -> Vec<Places> {
+    let mut wide = vec![0..0; rows.len()];
+    for (row, places) in rows.iter().enumerate() {
+        if places.is_empty() {
+            continue;
+        }
+        let first = row.saturating_sub(stride);
+        for touched in (first..rows.len()).step_by(stride).take(S + 2) {
+            wide[touched] = union(&wide[touched], places);
+        }
+    }
+    wide
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+    use crate::grid::{Axis, Grid};
+    use proptest::prelude::*;
+
+    const H: f64 = 0.5;
+
+    /// Every node that the particles see, now and after any motion by at most a cell, is within reach.
+    fn covers<const D: usize, const S: usize, B: Basis<S>>(places: &[[f64; 6]]) {
+        let grid = Grid::new(H, [Axis::walls(-1.0, 12); D]).unwrap();
+        let lattice = Lattice::<D, S, B>::new(grid, WallTreatment::WallLine);
+        let end = grid.axes[0].hi(H);
+        let at = |place: &[f64; 6]| std::array::from_fn(|a| -1.0 + 6.0 * place[a]);
+        let positions: Vec<[f64; D]> = places.iter().map(at).collect();
+        let half_sizes = vec![[0.25 * H; D]; positions.len()];
+        let reach = Reach::of(&lattice, &positions, &half_sizes);
+        assert!(D == 1 || !reach.contains(0));
+        let mut field = vec![1; lattice.len()];
+        reach.clear(&mut field);
+        for (node, value) in field.iter().enumerate() {
+            assert_eq!(reach.contains(node), *value == 0);
+        }
+        for (x, place) in positions.iter().zip(places) {
+            let moved =
+                std::array::from_fn(|a| (x[a] + H * (2.0 * place[3 + a] - 1.0)).clamp(-1.0, end));
+            for x in [*x, moved] {
+                let stencil = lattice.stencil(&x, &[0.25 * H; D]);
+                let (lines, rows) = crate::lattice::Stencil::<D, S>::OUTER;
+                for r in 0..lines * rows {
+                    let row = stencil.row(r / rows, r % rows).node;
+                    assert!((row..row + S).all(|node| reach.contains(node)));
+                }
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn particles_find_their_nodes_within_reach(
+            places in prop::collection::vec(prop::array::uniform6(0.0..=1.0_f64), 1..8)
+        ) {
+            covers::<1, 3, Gimp>(&places);
+            covers::<2, 3, Gimp>(&places);
+            covers::<3, 3, Gimp>(&places);
+            covers::<2, 2, Linear>(&places);
+            covers::<3, 3, QuadraticBSpline>(&places);
+            covers::<3, 4, CubicBSpline>(&places);
+        }
+    }
+}
