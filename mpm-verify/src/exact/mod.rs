@@ -3,7 +3,7 @@
 //! The manufactured ones (`mms-…`) hold for the neo-Hookean solid and need a body force; the others
 //! are solutions in their own right. One file each; `docs/exact.md` lists them. All motions start
 //! undeformed, so that a simulation needs no more than the initial velocity, but for the column at
-//! rest.
+//! rest. [`slope`] is no motion but a limit load.
 
 pub(crate) mod axis_aligned;
 #[cfg(test)]
@@ -14,6 +14,7 @@ pub(crate) mod hydrostatic;
 mod material;
 mod patch;
 mod rigid;
+pub mod slope;
 pub(crate) mod standing_wave;
 pub(crate) mod swirl;
 mod twist;
@@ -30,6 +31,7 @@ pub use hydrostatic::Hydrostatic;
 pub use material::Material;
 pub use patch::Patch;
 pub use rigid::{Rotation, Translation};
+pub use slope::Slope;
 pub use standing_wave::StandingWave;
 pub use swirl::Swirl;
 pub use vibrating_bar::VibratingBar;
