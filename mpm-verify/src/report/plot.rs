@@ -5,6 +5,9 @@
 
 mod axes;
 mod canvas;
+mod solid;
+
+pub use solid::{Camera, SolidFigure, SolidPanel, Up, animate_solids, draw_solids};
 
 use std::path::{Path, PathBuf};
 
@@ -550,20 +553,28 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
     canvas.save(path)
 }
 
+/// Colour of a value on the scale of a range.
+type Colouring = fn(f64, Point) -> Rgb;
+
 /// Draws the colour bar, triangular at an end that values exceed, with its ticks.
-fn draw_bar(canvas: &mut Canvas, scale: &Axis, beyond: [bool; 2], (x, bottom): Point) {
+fn draw_bar(
+    canvas: &mut Canvas,
+    (scale, colouring): (&Axis, Colouring),
+    beyond: [bool; 2],
+    (x, bottom): Point,
+) {
     let (lo, hi) = scale.range;
     let (top, tip, right) = (bottom - scale.length, x + BAR / 2.0, x + BAR);
     for k in 0..scale.length as usize {
         let (y, part) = (bottom - k as f64, (k as f64 + 0.5) / scale.length);
-        let colour = colour_of(lo + part * (hi - lo), scale.range);
+        let colour = colouring(lo + part * (hi - lo), scale.range);
         canvas.rectangle([x, y - 1.0, right, y], colour, 1.0);
     }
     let peak = |end: usize| if beyond[end] { BAR_TIP } else { 0.0 };
     let lower = [(right, bottom), (tip, bottom + peak(0)), (x, bottom)];
     let upper = [(x, top), (tip, top - peak(1)), (right, top)];
     for (end, corners) in [(lo, lower), (hi, upper)] {
-        canvas.polygon(&corners, colour_of(end, scale.range));
+        canvas.polygon(&corners, colouring(end, scale.range));
     }
     let outline = [lower, upper].concat();
     canvas.stroke(&[&outline[..], &outline[..1]].concat(), 2.0, INK, SOLID);
@@ -688,7 +699,7 @@ fn compose_fields(path: &Path, figure: &FieldFigure) -> Result<Canvas, PlotError
     ];
     let middle = head + top + ((height - top) / 2.0).max(bar_length / 2.0 + BAR_TIP);
     let corner = (bar_left.round(), (middle + bar_length / 2.0).round());
-    draw_bar(&mut canvas, &bar, beyond, corner);
+    draw_bar(&mut canvas, (&bar, colour_of), beyond, corner);
     canvas.block(&bar_label, (bar_label_left, middle), true);
     Ok(canvas)
 }

@@ -32,6 +32,11 @@ const SEQUENTIAL: [Rgb; 11] = [
     0x440154, 0x482475, 0x414487, 0x355F8D, 0x2A788E, 0x21918C, 0x22A884, 0x44BF70, 0x7AD151,
     0xBDDF26, 0xFDE725,
 ];
+/// Stone to purple through orange, of falling lightness: its light end shows the shadows of a body.
+const STONE: [Rgb; 11] = [
+    0xE8E2D4, 0xEFD9AE, 0xF4CB8A, 0xF4B86B, 0xF0A256, 0xE78A4A, 0xD97145, 0xC55846, 0xAB434B,
+    0x8C3250, 0x692653,
+];
 /// Blue to red through grey, of CIE lightness 22, 38, 54, 69, 83, 94 and back.
 const DIVERGING: [Rgb; 11] = [
     0x133463, 0x0F5AA3, 0x2D86CD, 0x6AAFE4, 0xAFD4EE, 0xEEEEEE, 0xF2C6AD, 0xEA926F, 0xD25D43,
@@ -39,7 +44,7 @@ const DIVERGING: [Rgb; 11] = [
 ];
 
 /// Pixels drawn for one of the picture, along each side.
-const FINE: f64 = 3.0;
+pub(super) const FINE: f64 = 3.0;
 /// Width of a curve.
 pub(super) const LINE: f64 = 11.0 / 3.0;
 
@@ -138,6 +143,12 @@ impl Canvas {
         let (x, y) = fine((left, top));
         imageops::replace(&mut self.image, &part.image, x.into(), y.into());
         self.error = self.error.take().or(part.error);
+    }
+
+    /// Puts an image of the library's pixels, as many as [`FINE`] says, at a place.
+    pub(super) fn picture(&mut self, image: &RgbImage, at: Point) {
+        let (x, y) = fine(at);
+        imageops::replace(&mut self.image, image, x.into(), y.into());
     }
 
     fn draw<E: Display>(&mut self, act: impl FnOnce(&mut BitMapBackend) -> Result<(), E>) {
@@ -349,12 +360,21 @@ fn rgb(colour: Rgb) -> RGBColor {
 }
 
 /// Colour of a value on the scale of a range; beyond its ends the colour of the end.
-pub(super) fn colour_of(value: f64, (lo, hi): (f64, f64)) -> Rgb {
+pub(super) fn colour_of(value: f64, range: (f64, f64)) -> Rgb {
+    on_scale(value, range, &SEQUENTIAL)
+}
+
+/// The same for a surface in light.
+pub(super) fn stone_of(value: f64, range: (f64, f64)) -> Rgb {
+    on_scale(value, range, &STONE)
+}
+
+fn on_scale(value: f64, (lo, hi): (f64, f64), sequential: &[Rgb; 11]) -> Rgb {
     let (small, large) = (lo.abs().min(hi.abs()), lo.abs().max(hi.abs()));
     let (table, t) = if lo < 0.0 && hi > 0.0 && small >= 0.2 * large {
         (&DIVERGING, 0.5 + 0.5 * value.clamp(lo, hi) / large)
     } else {
-        (&SEQUENTIAL, (value.clamp(lo, hi) - lo) / (hi - lo))
+        (sequential, (value.clamp(lo, hi) - lo) / (hi - lo))
     };
     let place = t * (table.len() - 1) as f64;
     let index = (place as usize).min(table.len() - 2);
@@ -388,6 +408,9 @@ mod tests {
         assert_eq!(colour_of(3.0, (0.0, 2.0)), SEQUENTIAL[10]);
         let of = |k: i32, range| lightness(colour_of(f64::from(k) / 50.0, range));
         assert!((0..50).all(|k| of(k, (0.0, 1.0)) < of(k + 1, (0.0, 1.0))));
+        let stone = |k: i32| lightness(stone_of(f64::from(k) / 50.0, (0.0, 1.0)));
+        assert!((0..50).all(|k| stone(k) > stone(k + 1)));
+        assert_eq!(stone_of(0.0, (-2.0, 2.0)), DIVERGING[5]);
         assert_eq!(colour_of(0.0, (-2.0, 2.0)), DIVERGING[5]);
         assert_eq!(colour_of(0.0, (-1.0, 3.0)), DIVERGING[5]);
         assert!((0..50).all(|k| of(k, (-1.0, 1.0)) > of(k + 1, (-1.0, 1.0))));

@@ -1,0 +1,241 @@
+use super::*;
+
+/// A slope 5 m high with a face of 45° and a crest 10 m long, `wide` (m) across (along z), of particles a tenth of a
+/// metre apart; slid by a share `slid` of a slide that is made up: slices that move one after the other along bands of
+/// strain.
+fn slope(wide: f64, slid: f64) -> SolidPanel {
+    let size = 0.1;
+    let mut panel = SolidPanel {
+        title: format!("slid by {slid}"),
+        points: Vec::new(),
+        values: Vec::new(),
+        size,
+    };
+    let places = |length: f64| {
+        let count = (length / size).round() as usize;
+        (0..count).map(move |k| (k as f64 + 0.5) * size)
+    };
+    for x in places(15.0) {
+        for y in places(5.0) {
+            for z in places(wide) {
+                if x + y < 15.0 {
+                    let (point, value) = slide([x, y, z], slid);
+                    panel.points.push(point);
+                    panel.values.push(value);
+                }
+            }
+        }
+    }
+    panel
+}
+
+/// Where a particle has slid, and its strain.
+fn slide([x, y, z]: [f64; 3], slid: f64) -> ([f64; 3], f64) {
+    let toes = [13.5, 11.8, 10.2, 8.8];
+    let wave = 0.25 * (1.3 * z).sin() + 0.12 * (3.1 * z + 1.0).sin();
+    let (mut place, mut strain) = ([x, y, z], 0.0);
+    for (k, toe) in toes.into_iter().enumerate() {
+        let begun = (slid * 4.0 - k as f64).clamp(0.0, 4.0 - k as f64);
+        // Distance behind a curved surface of rupture.
+        let behind = x - (toe + wave - 0.55 * y - 0.05 * y * y);
+        let beyond = 1.0 / (1.0 + (-behind / 0.12).exp());
+        strain += 1.4 * begun.min(1.0) * (-(behind / 0.22).powi(2)).exp();
+        let (dx, dy) = (
+            1.1 * begun * (1.0 + 0.25 * (x - toe).max(0.0)),
+            0.16 * begun,
+        );
+        place[0] += beyond * dx;
+        place[1] -= beyond * dy * y / (1.0 + 0.1 * y);
+    }
+    let foot = (-(y / 0.25).powi(2)).exp() * (place[0] - x) / 2.0;
+    place[1] = place[1].max(0.05);
+    (place, strain + 0.3 * foot.min(3.0))
+}
+
+fn figure(panels: Vec<SolidPanel>, columns: usize) -> SolidFigure {
+    SolidFigure {
+        title: "A slope".into(),
+        panels,
+        columns,
+        range: (0.0, 2.0),
+        label: "equivalent plastic strain (-)".into(),
+        camera: Camera {
+            azimuth: 35.0,
+            elevation: 28.0,
+            up: Up::Y,
+        },
+        axes: ["x (m)", "y (m)", "z (m)"].map(str::to_owned),
+        window: Some([(0.0, 30.0), (0.0, 5.0), (0.0, 5.0)]),
+    }
+}
+
+/// A block of cells' particles on the ground, all of one value.
+fn block(count: [usize; 3], value: f64) -> SolidPanel {
+    let [nx, ny, nz] = count;
+    let place = |n: usize| [n / (ny * nz), n / nz % ny, n % nz].map(|k| k as f64 + 0.5);
+    SolidPanel {
+        title: "block".into(),
+        points: (0..nx * ny * nz).map(place).collect(),
+        values: vec![value; nx * ny * nz],
+        size: 1.0,
+    }
+}
+
+/// The image of particles from the front, ten pixels to a metre, with x from -5 m and y up to 25 m.
+fn from_the_front(points: &[[f64; 3]], colours: &[Rgb], size: f64) -> image::RgbImage {
+    let camera = Camera {
+        azimuth: 0.0,
+        elevation: 0.0,
+        up: Up::Y,
+    };
+    let screen = Screen {
+        view: View::new(camera),
+        corner: (-5.0, 25.0),
+        scale: 10.0,
+        size: (400, 300),
+    };
+    let cloud = Cloud {
+        points,
+        colours,
+        size,
+    };
+    surface::draw(&cloud, &screen, None)
+}
+
+/// The hue and saturation of a colour: its channels over the largest.
+fn hue([r, g, b]: [u8; 3]) -> [f64; 3] {
+    let most = f64::from(r.max(g).max(b));
+    [r, g, b].map(|c| f64::from(c) / most)
+}
+
+fn same_hue(pixel: &image::Rgb<u8>, colour: Rgb) -> bool {
+    let [_, r, g, b] = colour.to_be_bytes();
+    let pairs = hue(pixel.0).into_iter().zip(hue([r, g, b]));
+    pairs.into_iter().all(|(a, b)| (a - b).abs() < 0.02)
+}
+
+#[test]
+fn a_nearer_particle_hides_a_farther_one() {
+    let (near, far) = ([10.0, 10.0, 3.0], [10.5, 10.0, 0.0]);
+    let (red, blue) = (0xC04020, 0x2040C0);
+    for (points, colours) in [([near, far], [red, blue]), ([far, near], [blue, red])] {
+        let image = from_the_front(&points, &colours, 1.0);
+        // Each about its own middle, and the nearer where both are.
+        assert!(same_hue(image.get_pixel(150, 150), red));
+        assert!(same_hue(image.get_pixel(156, 150), red));
+        assert!(same_hue(image.get_pixel(163, 150), blue));
+        assert_eq!(image.get_pixel(150, 100).0, [255; 3]);
+        assert_eq!(image.get_pixel(170, 150).0, [255; 3]);
+    }
+}
+
+#[test]
+fn a_plane_is_lit_evenly_in_the_colour_of_its_value() {
+    let panel = block([30, 20, 8], 0.5);
+    let colour = stone_of(0.5, (0.0, 2.0));
+    let colours = vec![colour; panel.points.len()];
+    let image = from_the_front(&panel.points, &colours, 1.0);
+    // From x = 5 m to 25 m and y = 5 m to 15 m.
+    let inner = image::imageops::crop_imm(&image, 100, 100, 200, 100).to_image();
+    let levels = inner.pixels().map(|p| p.0[0]);
+    let (least, most) = levels.fold((255, 0), |(lo, hi), v| (v.min(lo), v.max(hi)));
+    assert!(most - least <= 3, "{least} to {most}");
+    assert!(inner.pixels().all(|p| same_hue(p, colour)));
+}
+
+#[test]
+fn pixels_follow_from_the_input_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut small = figure(vec![block([6, 2, 3], 1.0), block([3, 1, 2], f64::NAN)], 2);
+    small.window = Some([(0.0, 30.0), (0.0, 2.0), (0.0, 3.0)]);
+    let draw = |threads: usize| {
+        let path = folder.path().join(format!("{threads}.png"));
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| draw_solids(&path, &small)).unwrap();
+        std::fs::read(path).unwrap()
+    };
+    assert!(draw(1) == draw(3));
+    let frames = [small.clone(), small.clone()];
+    animate_solids(&folder.path().join("moving.png"), &frames, 8).unwrap();
+}
+
+#[test]
+fn what_is_not_there_to_be_drawn_is_an_error() {
+    let path = Path::new("no such folder/picture.png");
+    let none = |figure: &SolidFigure, name: &str| {
+        let error = draw_solids(path, figure).unwrap_err();
+        assert!(matches!(error, PlotError::NoFiniteData { .. }), "{error}");
+        assert!(error.to_string().contains(name), "{error}");
+    };
+    none(&figure(Vec::new(), 1), "A slope");
+    let mut empty = block([1, 1, 1], 0.0);
+    empty.points[0][2] = f64::NAN;
+    none(&figure(vec![empty.clone()], 1), "block");
+    let mut windowless = figure(vec![empty], 1);
+    windowless.window = None;
+    none(&windowless, "A slope");
+    let mut beyond = figure(vec![block([2, 2, 2], 0.0)], 1);
+    beyond.window = Some([(10.0, 20.0), (0.0, 5.0), (0.0, 5.0)]);
+    none(&beyond, "block");
+    for spoil in [
+        |f: &mut SolidFigure| f.range = (f64::NAN, f64::NAN),
+        |f: &mut SolidFigure| f.camera.azimuth = f64::NAN,
+        |f: &mut SolidFigure| f.window = Some([(0.0, 1.0), (1.0, 1.0), (0.0, 1.0)]),
+    ] {
+        let mut spoilt = figure(vec![block([2, 2, 2], 0.0)], 1);
+        spoil(&mut spoilt);
+        none(&spoilt, "A slope");
+    }
+    let mut short = block([2, 2, 2], 0.0);
+    short.values.pop();
+    let error = draw_solids(path, &figure(vec![short], 1)).unwrap_err();
+    assert!(matches!(
+        error,
+        PlotError::Lengths {
+            points: 8,
+            values: 7,
+            ..
+        }
+    ));
+}
+
+#[test]
+#[ignore = "to look at: writes pictures and a grid for ParaView into the folder for temporary files"]
+fn look() {
+    let folder = std::env::temp_dir().join("solids");
+    let one = figure(vec![slope(5.0, 1.0)], 1);
+    let (clock, processor) = (std::time::Instant::now(), cpu_time::ProcessTime::now());
+    draw_solids(&folder.join("one.png"), &one).unwrap();
+    let particles = one.panels[0].points.len();
+    let times = [clock.elapsed(), processor.elapsed()];
+    let times = format!("{particles} particles: {times:?} by the clock and of the processors");
+    std::fs::write(folder.join("times.txt"), times).unwrap();
+    let slid = &one.panels[0];
+    let column = |name, unit, values| crate::case::Column { name, unit, values };
+    let axis = |k: usize| slid.points.iter().map(|p| p[k]).collect();
+    let columns = [
+        column("x", "m", axis(0)),
+        column("y", "m", axis(1)),
+        column("z", "m", axis(2)),
+        column("strain", "-", slid.values.clone()),
+    ];
+    crate::vtu::write_vtu(&folder.join("one.vtu"), &columns).unwrap();
+    let several = [0.0, 0.5, 1.0, 0.25, 0.75, 1.0].map(|s| slope(5.0, s));
+    draw_solids(&folder.join("several.png"), &figure(several.into(), 2)).unwrap();
+    let mut thin = figure(vec![slope(0.4, 0.0), slope(0.4, 1.0)], 1);
+    thin.window = Some([(0.0, 30.0), (0.0, 5.0), (0.0, 0.4)]);
+    draw_solids(&folder.join("thin.png"), &thin).unwrap();
+    let mut front = figure(vec![slope(0.4, 0.5)], 1);
+    front.window = thin.window;
+    (front.camera.azimuth, front.camera.elevation) = (0.0, 12.0);
+    draw_solids(&folder.join("front.png"), &front).unwrap();
+    let mut stress = figure(vec![slope(5.0, 0.0), slope(5.0, 0.75)], 1);
+    for panel in &mut stress.panels {
+        let depths = panel.points.iter().map(|p| 18.0 * (p[1] - 5.0) + 20.0);
+        panel.values = depths.collect();
+    }
+    (stress.range, stress.label) = ((-80.0, 40.0), "mean stress (kPa)".into());
+    stress.camera.azimuth = 60.0;
+    draw_solids(&folder.join("stress.png"), &stress).unwrap();
+}
