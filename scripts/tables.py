@@ -187,7 +187,9 @@ def footing_orders(summary):
 def dam_break_flow(summary):
     rows = []
     for r in Runs(summary, "dam-break").records:
-        if any(not s.startswith("cfl=") for s in r["set"]):
+        # The fine levels have no runs but those with the larger step.
+        fine = r["level"] in ("h0.125", "h0.0625")
+        if r["set"] != (["cfl=0.3"] if fine else []):
             continue
         if r["status"] != "ok":
             rows.append([scheme(r), f"{r['level'][1:]} m", f"breaks down at {r['error']['time']:.2f} s"] + [""] * 9)
@@ -252,6 +254,103 @@ def dam_break_start(summary):
         )
     head = "scheme, h, start, force on the floor, on the gate, pressure at the floor, profile rms"
     return table(head.split(", "), rows)
+
+
+def lost(r):
+    fallen = metric(r, "fallen_energy")
+    if not metric(r, "failed_share_end") > 0.1:
+        return "–"
+    return number(-100 * metric(r, "unaccounted_energy") / fallen, "{:.0f} %")
+
+
+def landslide_2d(summary):
+    rows = []
+    for r in Runs(summary, "landslide-2d").where(set=[], status="ok"):
+        rows.append(
+            [
+                scheme(r),
+                f"{r['level'][1:]} m",
+                number(metric(r, "runout_2.5s"), "{:.2f}"),
+                number(metric(r, "runout_end"), "{:.2f}"),
+                number(metric(r, "bulk_runout_end"), "{:.2f}"),
+                number(metric(r, "settlement_end"), "{:.2f}"),
+                number(100 * metric(r, "failed_share_end"), "{:.0f} %"),
+                number(metric(r, "failure_time"), "{:.2f}"),
+                number(metric(r, "retrogression_end"), "{:.1f}"),
+                number(metric(r, "shear_bands_end"), "{:.0f}"),
+                number(metric(r, "checkerboard_at_rest")),
+                lost(r),
+                number(r["time"]["cpu_s"], "{:.0f}"),
+            ]
+        )
+    head = "scheme; h; run-out at 2.5 s (m); at 5.5 s (m); of the bulk (m); settlement (m); failed; fails at (s); retrogression (m); bands; σ_m − Πσ_m at rest (γH); lost; CPU (s)"
+    return table(head.split("; "), rows)
+
+
+def landslide_studies(summary):
+    runs = Runs(summary, "landslide-2d")
+    sets = [["reduction=1", "duration=2.5"], [], ["cfl=0.175"], ["damping=0.7"], ["reduction=1.8"], ["reduction=2"]]
+
+    def cell(r):
+        if r is None or r["status"] != "ok":
+            return "breaks down" if r else ""
+        time = metric(r, "failure_time")
+        if math.isnan(time):
+            return "–"
+        return f"{number(metric(r, 'runout_2.5s'), '{:.2f}')} ({time:.2f} s)"
+
+    rows = []
+    for basis in BASES[:2]:
+        for remedy in ["none", "fbar-recursive", "fbar-consistent"]:
+            for level in ["h0.4", "h0.2", "h0.1", "h0.05"]:
+                found = [runs.one(basis=basis, remedy=remedy, level=level, set=s) for s in sets]
+                if any(found):
+                    rows.append([f"{basis} {remedy}", f"{level[1:]} m"] + [cell(r) for r in found])
+    head = "scheme; h; no reduction; 1.65; half the step; damped; 1.8; 2"
+    return table(head.split("; "), rows)
+
+
+def landslide_3d(summary):
+    rows = []
+    for r in Runs(summary, "landslide").where(status="ok"):
+        changed = ", ".join(r["set"])
+        rows.append(
+            [
+                scheme(r),
+                r["level"].replace("h", " ").replace("slice- ", "slice, ") + " m",
+                changed,
+                f"{r['work']['particles']:,}",
+                number(metric(r, "runout_2.5s"), "{:.2f}"),
+                number(metric(r, "runout_end"), "{:.2f}"),
+                number(metric(r, "off_plane_strain_end"), "{:+.2f}"),
+                percent(metric(r, "off_plane_strain_at_rest"), 3),
+                number(metric(r, "width_spread_at_rest"), "{:.0e}"),
+                number(metric(r, "width_spread_0.5s"), "{:.0e}"),
+                number(metric(r, "width_spread_end"), "{:.0e}"),
+                number(r["time"]["cpu_s"], "{:.0f}"),
+            ]
+        )
+    head = "scheme; level; changed; particles; run-out at 2.5 s (m); at the end (m); against plane strain (m); off plane strain at rest; spread at rest; at 0.5 s; at the end; CPU (s)"
+    return table(head.split("; "), rows)
+
+
+def slope_stability(summary):
+    runs = Runs(summary, "slope-stability")
+    rows = []
+    for basis in BASES[:2]:
+        for remedy in ["none", "fbar-recursive", "fbar-consistent"]:
+            cells = []
+            for level in ["h0.4", "h0.2", "h0.1"]:
+                r = runs.one(basis=basis, remedy=remedy, level=level, set=[])
+                if r is None:
+                    cells.append("")
+                elif math.isnan(metric(r, "fails_at")):
+                    cells.append(f"stands at {metric(r, 'stands_at'):.0f}")
+                else:
+                    bounds = f"{metric(r, 'stands_at'):.3f} … {metric(r, 'fails_at'):.3f}"
+                    cells.append(f"{metric(r, 'strength_reduction_factor'):.3f} ({bounds})")
+            rows.append([f"{basis} {remedy}"] + cells)
+    return table(["scheme", "h = 0.4 m", "0.2 m", "0.1 m"], rows)
 
 
 def fill(page, summary):

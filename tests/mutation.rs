@@ -83,7 +83,11 @@ const DAM: Runs =
 /// Water behind the gate, and hardly longer.
 const RESTING: Runs = &["dam-break --remedy none --level h0.5 --set duration=0.1 --set cfl=0.3"];
 
-const FAULTS: [Fault; 21] = [
+/// A slide far beyond its limit.
+const SLIDE: Runs =
+    &["landslide-2d --remedy fbar-consistent --level h0.4 --set reduction=2 --set duration=1.5"];
+
+const FAULTS: [Fault; 22] = [
     Fault {
         name: "P2G drops the stress along the last axis",
         file: "transfer/kernel.rs",
@@ -115,8 +119,8 @@ const FAULTS: [Fault; 21] = [
     Fault {
         name: "the gradient has the wrong sign",
         file: "basis/bspline.rs",
-        sound: "*d *= self.inverse_h",
-        broken: "*d *= -self.inverse_h",
+        sound: "*d *= T::splat(self.inverse_h)",
+        broken: "*d *= T::splat(-self.inverse_h)",
         // In force and strain the two signs cancel: displacements stay right, stresses turn over.
         seen_by: &[(RATE, "mean-stress-probe")],
     },
@@ -152,8 +156,8 @@ const FAULTS: [Fault; 21] = [
     Fault {
         name: "the gradient is a hundredth too large",
         file: "basis/bspline.rs",
-        sound: "*d *= self.inverse_h",
-        broken: "*d *= 1.01 * self.inverse_h",
+        sound: "*d *= T::splat(self.inverse_h)",
+        broken: "*d *= T::splat(1.01 * self.inverse_h)",
         seen_by: &[(AXIS_SPLINES, "order-displacement")],
     },
     Fault {
@@ -166,8 +170,8 @@ const FAULTS: [Fault; 21] = [
     Fault {
         name: "the consistent average lacks its second term",
         file: "remedy/fbar_consistent.rs",
-        sound: "*field += (1.0 - UNSEEN) * seen",
-        broken: "*field += 0.0 * seen",
+        sound: "*field += (1.0 - UNSEEN) * *seen",
+        broken: "*field += 0.0 * *seen",
         seen_by: &[(BAR_CONSISTENT, "averaging-softens")],
     },
     Fault {
@@ -201,9 +205,16 @@ const FAULTS: [Fault; 21] = [
     Fault {
         name: "the flow doesn't keep the volume",
         file: "material/hencky_j2.rs",
-        sound: "direction.scale_add_identity(-2.0 * flow / norm, 0.0)",
-        broken: "direction.scale_add_identity(-2.0 * flow / norm, -0.1 * flow)",
+        sound: "direction.scale_add_identity(-share, T::default())",
+        broken: "direction.scale_add_identity(-share, T::splat(-0.1) * flow)",
         seen_by: &[(FOOTING, "completes")],
+    },
+    Fault {
+        name: "softening is forgotten",
+        file: "material/hencky_j2.rs",
+        sound: "(T::splat(-self.softening) * plastic_strain).exp()",
+        broken: "(T::splat(0.0 * self.softening) * plastic_strain).exp()",
+        seen_by: &[(SLIDE, "energy-closure")],
     },
     Fault {
         name: "the barrier presses back with half the force",

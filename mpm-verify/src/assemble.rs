@@ -1,10 +1,9 @@
 //! From the names of a scheme to a solver.
 
-use crate::error::Error;
 use crate::scheme::{BasisName, Scheme, TransferName};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::transfer::{Apic, Flip, Xpic};
-use mpm_core::{Law, Scene, Simulation, Solver, Transfer};
+use mpm_core::{Error, Law, Scene, Simulation, Solver, Transfer};
 
 /// A solver of `scene` with the basis and the transfer of `scheme`; `scene` brings the transfer that
 /// stands for `flip`.

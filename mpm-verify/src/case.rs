@@ -116,6 +116,26 @@ pub(crate) const fn metric(
     }
 }
 
+/// What a run has measured, by name, with the units of `known`; what is not finite has no value.
+pub(crate) fn observed<N: Into<String>>(
+    known: &[MetricInfo],
+    values: Vec<(N, f64)>,
+) -> BTreeMap<String, Metric> {
+    let metric = |(name, value): (N, f64)| {
+        let name = name.into();
+        let unit = known
+            .iter()
+            .find(|m| m.name == name)
+            .map_or("-", |m| m.unit);
+        let metric = Metric {
+            value: value.is_finite().then_some(value),
+            unit: unit.to_owned(),
+        };
+        (name, metric)
+    };
+    values.into_iter().map(metric).collect()
+}
+
 /// A check by name, kind and statement.
 pub(crate) const fn check(name: &'static str, kind: Kind, statement: &'static str) -> CheckInfo {
     CheckInfo {
@@ -189,6 +209,17 @@ impl RunSpec {
         }
         positions
     }
+}
+
+/// Runs of schemes at a level with the same parameters changed, `name=value` each.
+pub(crate) fn runs(level: Level, schemes: &[Scheme], set: &[&str]) -> Vec<RunSpec> {
+    let spec = |&scheme: &Scheme| RunSpec {
+        scheme,
+        level,
+        set: set.iter().map(|s| (*s).to_owned()).collect(),
+        perturbed: false,
+    };
+    schemes.iter().map(spec).collect()
 }
 
 /// Name of a run, which is also its folder below that of its case.

@@ -8,7 +8,7 @@ use crate::files::{discard, discard_folder, require_writable, write_csv, write_j
 use crate::parameter::Parameters;
 use crate::record::{BREAKS_DOWN, Failure, Machine, Record, SCHEMA, Status, Timing, Version};
 use crate::series::Series;
-use crate::vtu::write_vtu;
+use crate::vtu::{write_pvd, write_vtu};
 use cpu_time::ProcessTime;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -209,6 +209,7 @@ impl Journal {
             None => {
                 checkpoint::discard(folder)?;
                 discard_folder(&folder.join(SNAPSHOTS))?;
+                discard(&folder.join(COLLECTION))?;
                 let series = Series::begin(folder, &job.series_columns())?;
                 (series, Timing::default())
             }
@@ -297,8 +298,9 @@ fn write_particles(folder: &Path, columns: &[Column]) -> Result<(), Error> {
     write_vtu(&folder.join("particles.vtu"), columns)
 }
 
-/// Folder of the snapshots of a run.
+/// Folder of the snapshots of a run, and the file that names those for ParaView with their times.
 const SNAPSHOTS: &str = "snapshots";
+const COLLECTION: &str = "snapshots.pvd";
 
 /// File of the snapshot at `time` (s) of the run in `folder`.
 #[must_use]
@@ -306,9 +308,29 @@ pub fn snapshot_file(folder: &Path, time: f64) -> PathBuf {
     folder.join(SNAPSHOTS).join(format!("{time:07.3}.csv"))
 }
 
+/// Writes a snapshot as CSV and for ParaView, and then the collection with it.
 fn write_snapshot(folder: &Path, snapshot: &Snapshot) -> Result<(), Error> {
     let file = snapshot_file(folder, snapshot.time);
-    write_columns(&file, &snapshot.columns)
+    write_columns(&file, &snapshot.columns)?;
+    write_vtu(&file.with_extension("vtu"), &snapshot.columns)?;
+    write_pvd(&folder.join(COLLECTION), &snapshots_for_paraview(folder)?)
+}
+
+/// The snapshots that a run has kept so far, also before it was resumed: time (s) and path from its folder, in order
+/// of time. What is there tells, so that a run goes on without remembering them.
+fn snapshots_for_paraview(folder: &Path) -> Result<Vec<(f64, String)>, Error> {
+    let place = folder.join(SNAPSHOTS);
+    let entries = std::fs::read_dir(&place).map_err(|e| Error::file(&place, e))?;
+    let mut found = Vec::new();
+    for entry in entries {
+        let name = entry.map_err(|e| Error::file(&place, e))?.file_name();
+        let name = name.to_string_lossy();
+        if let Some(Ok(time)) = name.strip_suffix(".vtu").map(str::parse::<f64>) {
+            found.push((time, format!("{SNAPSHOTS}/{name}")));
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(found)
 }
 
 fn write_columns(file: &Path, columns: &[Column]) -> Result<(), Error> {

@@ -284,6 +284,52 @@ fn without_resume_a_run_begins_anew_and_removes_the_checkpoint() {
     assert_same(out, fresh.path());
 }
 
+/// The files that a run's collection of snapshots names, with their times.
+fn collected(folder: &Path) -> Vec<(String, String)> {
+    let text = fs::read_to_string(folder.join("snapshots.pvd")).unwrap();
+    let value = |line: &str, name: &str| {
+        let (_, rest) = line.split_once(&format!(" {name}=\"")).unwrap();
+        rest.split_once('"').unwrap().0.to_owned()
+    };
+    let sets = text.lines().filter(|line| line.contains("<DataSet "));
+    sets.map(|line| (value(line, "timestep"), value(line, "file")))
+        .collect()
+}
+
+#[test]
+fn a_run_with_snapshots_that_is_killed_has_them_all_in_its_collection() {
+    let run = ["run", "dam-break", "--set", "duration=0.06"];
+    let folder = tempfile::tempdir().unwrap();
+    let [straight, pieces] = ["straight", "pieces"].map(|name| folder.path().join(name));
+    let output = mpm_verify(&[&run[..], &["--out", text(&straight)]].concat());
+    let ends = code(&output);
+    let saving = ["--resume", text(&pieces), "--checkpoint-every", "0"];
+    let child = start(&[&run[..], &saving].concat());
+    let first = pieces.join("snapshots.pvd");
+    assert!(
+        kill_when(child, Duration::ZERO, || first.exists()),
+        "too fast"
+    );
+    let snapshot = |time: &str| (time.to_owned(), format!("snapshots/{time:0>7}.vtu"));
+    let early = snapshot("0.025");
+    assert_eq!(collected(&pieces).first(), Some(&early));
+
+    let output = mpm_verify(&[&run[..], &saving].concat());
+    assert_eq!(code(&output), ends, "{}", stderr(&output));
+    assert_same(&pieces, &straight);
+    let late = ("0.05".to_owned(), snapshot("0.050").1);
+    assert_eq!(collected(&pieces), [early, late]);
+    for (_, file) in collected(&pieces) {
+        assert!(fs::read(pieces.join(file)).unwrap().starts_with(b"<?xml"));
+    }
+
+    // A run that begins anew has none of an earlier one.
+    fs::write(pieces.join("snapshots/009.000.vtu"), "").unwrap();
+    let short = ["run", "dam-break", "--set", "duration=0.02"];
+    mpm_verify(&[&short[..], &["--out", text(&pieces)]].concat());
+    assert!(!first.exists() && !pieces.join("snapshots").exists());
+}
+
 /// What was taken by the checkpointed piece of a run, from a checkpoint set back by a million seconds.
 fn set_back(path: &Path) {
     type About = (String, ((u64, u32), (f64, f64)));

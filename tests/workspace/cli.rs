@@ -190,6 +190,7 @@ fn brief(name: &str) -> Option<&'static str> {
     match name {
         "max_periods" => Some("0.01"),
         "rest_window" | "load_ramp" => Some("0.005"),
+        "duration" => Some("0.01"),
         _ => None,
     }
 }

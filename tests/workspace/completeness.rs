@@ -82,6 +82,10 @@ fn every_gated_run_has_a_golden_and_every_golden_a_run() {
             }
         }
         let mut kept = BTreeSet::new();
+        if gated.is_empty() {
+            assert!(!root.exists());
+            continue;
+        }
         for scheme in std::fs::read_dir(&root).unwrap() {
             let scheme: PathBuf = scheme.unwrap().path();
             for level in std::fs::read_dir(&scheme).unwrap() {
@@ -145,7 +149,7 @@ fn every_case_has_a_page_that_names_what_it_checks() {
 fn the_nightly_report_is_small_and_holds_no_particles() {
     let all = super::files(&workspace().join("reports/nightly"));
     let bytes: usize = all.values().map(Vec::len).sum();
-    assert!(bytes <= 60_000_000, "{bytes} bytes");
+    assert!(bytes <= 70_000_000, "{bytes} bytes");
     assert!(
         all.keys()
             .all(|name| name.extension().is_none_or(|e| e != "vtu"))

@@ -10,7 +10,7 @@ mod sketch;
 
 use crate::case::{
     Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
-    headline, metric,
+    headline, metric, runs,
 };
 use crate::check::Verdict;
 use crate::error::Error;
@@ -407,16 +407,6 @@ impl Case for DamBreak {
     }
 }
 
-fn runs(level: Level, schemes: &[Scheme], set: &[&str]) -> Vec<RunSpec> {
-    let spec = |&scheme: &Scheme| RunSpec {
-        scheme,
-        level,
-        set: set.iter().map(|s| (*s).to_owned()).collect(),
-        perturbed: false,
-    };
-    schemes.iter().map(spec).collect()
-}
-
 fn plan(tier: Tier) -> Vec<RunSpec> {
     use RemedyName::{FbarConsistent, FbarRecursive, None};
     let [h50, h25, h12, h06] = LEVELS;
@@ -427,25 +417,33 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
     let three = flip(&[None, FbarRecursive, FbarConsistent]);
     let ours = flip(&[FbarConsistent]);
     let all = DamBreak.schemes();
+    let finest = flip(&[FbarRecursive, FbarConsistent]);
+    let studies = |sets: &[&str]| -> Vec<RunSpec> {
+        let of = |set: &&str| runs(h25, &ours, &[*set]);
+        sets.iter().flat_map(of).collect()
+    };
     match tier {
         Tier::Quick => Vec::new(),
-        Tier::Pr => runs(h50, &three, &["duration=0.6"]),
-        Tier::Nightly => [plan(Tier::Pr), runs(h50, &all, &[])].concat(),
+        Tier::Pr => [h50, h25]
+            .iter()
+            .flat_map(|&level| runs(level, &three, &["duration=0.6"]))
+            .collect(),
+        Tier::Nightly => [
+            plan(Tier::Pr),
+            runs(h50, &all, &[]),
+            runs(h25, &all, &[]),
+            runs(h12, &all, &["cfl=0.3"]),
+            runs(h06, &finest, &["cfl=0.3"]),
+            studies(&["cfl=0.15", "cfl=0.3", "start=gravity-stage"]),
+            studies(&["pic_rate=0.1", "pic_rate=1", "pic_rate=10", "pic_rate=100"]),
+            studies(&["wall_contact=sticky", "seed=1", "seed=2", "seed=3"]),
+        ]
+        .concat(),
         Tier::Long => {
-            let studies = |sets: &[&str]| -> Vec<RunSpec> {
-                let of = |set: &&str| runs(h25, &ours, &[*set]);
-                sets.iter().flat_map(of).collect()
-            };
-            [
-                runs(h25, &three, &["duration=0.6"]),
-                runs(h25, &all, &[]),
-                runs(h12, &all, &["cfl=0.3"]),
-                runs(h06, &all, &["cfl=0.3"]),
-                studies(&["cfl=0.15", "cfl=0.3", "start=gravity-stage"]),
-                studies(&["pic_rate=0.1", "pic_rate=1", "pic_rate=10", "pic_rate=100"]),
-                studies(&["wall_contact=sticky", "seed=1", "seed=2", "seed=3"]),
-            ]
-            .concat()
+            let others: Vec<Scheme> = (all.into_iter())
+                .filter(|scheme| !finest.contains(scheme))
+                .collect();
+            runs(h06, &others, &["cfl=0.3"])
         }
     }
 }

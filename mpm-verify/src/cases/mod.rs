@@ -4,6 +4,7 @@ mod column;
 mod cook;
 mod dam_break;
 mod footing;
+mod landslide;
 mod manufactured;
 mod mms_axis;
 mod mms_double_shear;
@@ -12,6 +13,7 @@ mod mms_vortex_box;
 mod mms_vortex_pressure;
 mod mms_vortex_ring;
 mod mms_wall_pressure;
+mod slope_stability;
 mod standing_wave;
 mod vibrating_bar;
 
@@ -28,6 +30,9 @@ pub fn all() -> Vec<&'static dyn Case> {
         &cook::Cook,
         &footing::Footing,
         &dam_break::DamBreak,
+        &landslide::Landslide,
+        &landslide::Landslide2d,
+        &slope_stability::SlopeStability,
         &*mms_axis::CASE,
         &*mms_wall_pressure::CASE,
         &*mms_vortex_ring::CASE,

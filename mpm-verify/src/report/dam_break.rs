@@ -1,6 +1,7 @@
 //! The pictures of the dam break: the paper's Figure 12, the flow against time, an animation.
 
 use super::Picture;
+use super::curves::write_curves;
 use super::plot::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, animate_fields, draw_charts,
     draw_fields, share_ranges,
@@ -8,7 +9,6 @@ use super::plot::{
 use super::style::{Colour, series};
 use crate::cases::dam_break_front;
 use crate::error::Error;
-use crate::files::write_csv;
 use crate::record::{Record, Status};
 use crate::run::snapshot_file;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
@@ -37,8 +37,8 @@ const PREFERRED: [&str; 2] = ["h0.25", "h0.5"];
 /// The paper's times (s).
 const TIMES: [f64; 4] = [0.4, 1.0, 1.5, 2.0];
 /// Times (s) between frames of the animation, and between showing them (hundredths of a second).
-const FRAME: f64 = 0.025;
-const DELAY: u16 = 8;
+const FRAME: f64 = 0.05;
+const DELAY: u16 = 15;
 /// Height (m) of what is drawn of the tank, and its outline (m).
 const HEIGHT: f64 = 3.2;
 const TANK: [(f64, f64); 4] = [(0.0, HEIGHT), (0.0, 0.0), (6.0, 0.0), (6.0, HEIGHT)];
@@ -293,31 +293,13 @@ impl Runs<'_> {
                 *chart = ranged;
             }
         }
-        self.write_curves(&name, &charts)?;
+        write_curves(&path.with_extension("csv"), &charts)?;
         draw_charts(&path, &charts, columns)?;
         self.picture(
             &name,
             format!("Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at h = {} m; below, fbar-consistent at all levels. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m.", &shared[1..]),
         );
         Ok(())
-    }
-
-    fn write_curves(&self, name: &str, charts: &[Chart]) -> Result<(), Error> {
-        let rows = charts.iter().flat_map(|chart| {
-            chart.series.iter().flat_map(move |s| {
-                s.points.iter().map(move |(x, y)| {
-                    let cells = [chart.title.clone(), chart.y_label.clone(), s.name.clone()];
-                    let numbers = [format!("{x:.6}"), format!("{y:.6}")];
-                    [&cells[..], &numbers[..]].concat()
-                })
-            })
-        });
-        let header = ["chart", "quantity", "series", "time (s)", "value"].map(str::to_owned);
-        write_csv(
-            &self.out.join(format!("dam-break/{name}.csv")),
-            &header,
-            rows,
-        )
     }
 }
 

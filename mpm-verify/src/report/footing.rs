@@ -1,6 +1,7 @@
 //! The pictures of the strip footing: the paper's Figures 8 and 10, and Prandtl's mechanism.
 
 use super::Picture;
+use super::curves::write_curves;
 use super::plot::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Scale, Series, draw_charts,
     draw_fields, share_ranges,
@@ -8,7 +9,6 @@ use super::plot::{
 use super::style::{Colour, series};
 use crate::cases::footing_limit;
 use crate::error::Error;
-use crate::files::write_csv;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::study::{CaseStudy, Gathered};
@@ -156,7 +156,7 @@ impl Runs<'_> {
         }
         let path = self.out.join("footing/load-settlement.png");
         share_ranges(&path, &mut charts)?;
-        self.write_curves(&charts)?;
+        write_curves(&self.out.join("footing/load-settlement.csv"), &charts)?;
         draw_charts(&path, &charts, 2)?;
         self.picture(
             "load-settlement",
@@ -192,20 +192,6 @@ impl Runs<'_> {
             x_range: None,
             y_range: Some((0.0, MOST)),
         }
-    }
-
-    fn write_curves(&self, charts: &[Chart]) -> Result<(), Error> {
-        let rows = charts.iter().flat_map(|chart| {
-            chart.series.iter().flat_map(move |s| {
-                s.points.iter().map(move |(x, y)| {
-                    let cells = [chart.title.clone(), s.name.clone()];
-                    let numbers = [format!("{x:.6}"), format!("{y:.6}")];
-                    [cells, numbers].concat()
-                })
-            })
-        });
-        let header = ["chart", "series", "s/B (1e-3)", "q/s_u (-)"].map(str::to_owned);
-        write_csv(&self.out.join("footing/load-settlement.csv"), &header, rows)
     }
 
     fn picture(&mut self, name: &str, caption: &str) {

@@ -5,6 +5,7 @@
 mod column;
 mod convergence;
 mod cook;
+mod curves;
 mod dam_break;
 pub mod describe;
 pub mod diff;
@@ -15,6 +16,7 @@ mod footing;
 pub mod history;
 mod html;
 mod junit;
+mod landslide;
 pub mod plot;
 mod remedies;
 mod sketch;
@@ -121,6 +123,7 @@ fn draw_own(study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Pi
         "cook" => cook::draw(study, gathered, out),
         "dam-break" => dam_break::draw(study, gathered, out),
         "footing" => footing::draw(study, gathered, out),
+        "landslide" | "landslide-2d" => landslide::draw(study, gathered, out),
         _ => Ok(Vec::new()),
     }
 }

@@ -4,7 +4,7 @@ use super::METRICS;
 use super::checks::CREEP;
 use super::reference::{Field, solution, stress_points, stress_scale};
 use crate::assemble::with_basis;
-use crate::case::{Column, Job, RunSpec};
+use crate::case::{Column, Job, RunSpec, observed};
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::probe::{PointProbe, nearest};
@@ -210,24 +210,16 @@ impl Simulated {
         })
     }
 
-    /// A particle quantity in seeding order.
-    fn seeded(&self, f: impl Fn(&Particles<2>, usize) -> f64) -> Vec<f64> {
-        let p = self.simulation.particles();
-        let mut values = vec![0.0; p.len()];
-        for (k, id) in p.id.iter().enumerate() {
-            values[*id as usize] = f(p, k);
-        }
-        values
-    }
-
     fn displacement(&self, axis: usize) -> Vec<f64> {
-        self.seeded(|p, k| p.position[k][axis] - p.reference[k][axis])
+        let p = self.simulation.particles();
+        p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
     }
 
     /// One step, and the out-of-balance virtual work in it: Σ m a·u over Σ f·u of the load. In a
     /// linear body this is the relative error of the displacement under the load (Betti).
     fn step_and_weigh(&mut self) -> Result<f64, mpm_core::Error> {
-        let before = [0, 1].map(|a| self.seeded(|p, k| p.velocity[k][a]));
+        let p = self.simulation.particles();
+        let before = [0, 1].map(|a| p.seeded(|k| p.velocity[k][a]));
         self.simulation.step()?;
         let dt = self.discretisation.dt;
         let p = self.simulation.particles();
@@ -258,7 +250,8 @@ impl Simulated {
         let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
         let mut averaged = mean.clone();
         self.simulation.average(&mut averaged);
-        (self.seeded(|_, k| mean[k]), self.seeded(|_, k| averaged[k]))
+        let p = self.simulation.particles();
+        (p.seeded(|k| mean[k]), p.seeded(|k| averaged[k]))
     }
 
     /// The growth of rms ln(J/J̄) over the second half of the run so far.
@@ -473,20 +466,21 @@ impl Job for Simulated {
     fn particles(&mut self) -> Vec<Column> {
         let column = |name, unit, values| Column { name, unit, values };
         let (mean_stress, averaged) = self.mean_stress();
+        let p = self.simulation.particles();
         vec![
-            column("x", "m", self.seeded(|p, k| p.position[k][0])),
-            column("y", "m", self.seeded(|p, k| p.position[k][1])),
-            column("reference_x", "m", self.seeded(|p, k| p.reference[k][0])),
-            column("reference_y", "m", self.seeded(|p, k| p.reference[k][1])),
+            column("x", "m", p.seeded(|k| p.position[k][0])),
+            column("y", "m", p.seeded(|k| p.position[k][1])),
+            column("reference_x", "m", p.seeded(|k| p.reference[k][0])),
+            column("reference_y", "m", p.seeded(|k| p.reference[k][1])),
             column("ux", "m", self.displacement(0)),
             column("uy", "m", self.displacement(1)),
             column("mean_stress", "Pa", mean_stress),
             column("averaged_mean_stress", "Pa", averaged),
-            column("jacobian", "-", self.seeded(|p, k| p.jacobian[k])),
+            column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
             column(
                 "averaged_jacobian",
                 "-",
-                self.seeded(|p, k| p.j_bar.get(k).copied().unwrap_or(p.jacobian[k])),
+                p.seeded(|k| p.j_bar.get(k).copied().unwrap_or(p.jacobian[k])),
             ),
         ]
     }
@@ -560,20 +554,7 @@ impl Job for Simulated {
                 values.push((name.to_owned(), value / exact - 1.0));
             }
         }
-        values
-            .into_iter()
-            .map(|(name, value)| {
-                let unit = METRICS
-                    .iter()
-                    .find(|m| m.name == name)
-                    .map_or("-", |m| m.unit);
-                let metric = Metric {
-                    value: value.is_finite().then_some(value),
-                    unit: unit.to_owned(),
-                };
-                (name, metric)
-            })
-            .collect()
+        observed(METRICS, values)
     }
 
     fn work(&self) -> WorkDone {

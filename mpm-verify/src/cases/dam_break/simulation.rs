@@ -4,7 +4,7 @@ use super::METRICS;
 use super::flow::{Flow, Row, Start};
 use super::reference::{DEPTH, GRAVITY, LENGTH, TANK};
 use crate::assemble::with_any_transfer;
-use crate::case::{Column, Job, RunSpec, Snapshot};
+use crate::case::{Column, Job, RunSpec, Snapshot, observed};
 use crate::error::Error;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::parameter::Parameters;
@@ -46,10 +46,10 @@ const FLOOR: usize = 0;
 const BACK: usize = 1;
 const FRONT: usize = 2;
 const GATE: usize = 3;
-/// A lower bound of the relative spacing of doubles, with which the starts of an ensemble differ.
-const LAST_BITS: u64 = 4;
+/// How many last bits the starts of an ensemble differ by, at most.
+const LAST_BITS: u64 = 3;
 
-/// A running simulation: first behind the gate, if there is a gravity stage, then free.
+/// A running simulation: first behind the gate, then free.
 pub(super) struct Simulated {
     simulation: Box<dyn Simulation<2>>,
     /// The scene without a gate, until that is removed.
@@ -60,6 +60,8 @@ pub(super) struct Simulated {
     parameters: Parameters,
     water: Hydrostatic,
     steps_per_row: u64,
+    /// Steps behind the gate from the exact start, and rows of the series there with a gravity stage.
+    held_steps: u64,
     stage_rows: usize,
     start: Start,
     flow: Flow,
@@ -84,7 +86,7 @@ impl Simulated {
         let per_direction = number("ppc_per_direction");
         let spacing = h / per_direction;
         let staged = parameters.is("start", "gravity-stage");
-        let at_rest = |staged: bool| -> Result<Particles<2>, Error> {
+        let at_rest = |staged: bool| -> Result<Particles<2>, mpm_core::Error> {
             let places = spec.start_at(seed(spacing));
             let places = perturbed(places, number("seed") as u64);
             let half_size = [0.5 * spacing; 2];
@@ -95,7 +97,7 @@ impl Simulated {
                 particles.deformed(|x| compressed(&water, x))
             })
         };
-        let build = |gate: bool| -> Result<Box<dyn Simulation<2>>, Error> {
+        let build = |gate: bool| -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
             let rise = if gate && staged { RISE } else { 0.0 };
             let scene = Scene {
                 grid: tank(h)?,
@@ -121,7 +123,8 @@ impl Simulated {
             };
             with_any_transfer(spec.scheme, scene)
         };
-        let mut run = Self {
+        let period = 4.0 * DEPTH / law.wave_speed(water.density);
+        let run = Self {
             simulation: build(true)?,
             released: Some(build(false)?),
             stage_work: WorkDone::default(),
@@ -135,6 +138,7 @@ impl Simulated {
             parameters: parameters.clone(),
             water,
             steps_per_row: steps_per_row as u64,
+            held_steps: (PERIODS * period / dt).round() as u64,
             stage_rows: if staged {
                 (STAGE / ROW).round() as usize
             } else {
@@ -143,24 +147,25 @@ impl Simulated {
             start: Start::default(),
             flow: Flow::default(),
         };
-        if !staged {
-            let period = 4.0 * DEPTH / law.wave_speed(water.density);
-            let steps = (PERIODS * period / dt).round();
-            let before = run.impulses();
-            run.simulation.step()?;
-            run.observe_pressure();
-            for _ in 1..steps as u64 {
-                run.simulation.step()?;
-            }
-            run.observe_forces(&before, steps * dt);
-            if let Some(released) = run.released.take() {
-                run.simulation = released;
-            }
-        }
         Ok(run)
     }
 
-    /// Removes the gate.
+    /// From the exact start: holds the water behind the gate for a while, to measure it. The flow begins anew.
+    fn hold(&mut self) -> Result<(), mpm_core::Error> {
+        let before = self.impulses();
+        self.simulation.step()?;
+        self.observe_pressure();
+        for _ in 1..self.held_steps {
+            self.simulation.step()?;
+        }
+        self.observe_forces(&before, self.held_steps as f64 * self.discretisation.dt);
+        if let Some(released) = self.released.take() {
+            self.simulation = released;
+        }
+        Ok(())
+    }
+
+    /// Removes the gate after the gravity stage.
     fn release(&mut self) -> Result<(), mpm_core::Error> {
         if let Some(mut released) = self.released.take() {
             released.take_over(&self.simulation.body()?)?;
@@ -168,16 +173,6 @@ impl Simulated {
             self.simulation = released;
         }
         Ok(())
-    }
-
-    /// A particle quantity in seeding order.
-    fn seeded<T: Copy + Default>(&self, f: impl Fn(&Particles<2>, usize) -> T) -> Vec<T> {
-        let p = self.simulation.particles();
-        let mut values = vec![T::default(); p.len()];
-        for (k, id) in p.id.iter().enumerate() {
-            values[*id as usize] = f(p, k);
-        }
-        values
     }
 
     /// Pressure (Pa) as it enters the forces, in the particles' order.
@@ -310,12 +305,13 @@ fn seed(spacing: f64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Places that differ from `places` in their last bits, in a way of its own for every `seed` but zero, which keeps them.
+/// Places that differ from `places` in their last bits, at random, in a way of its own for every `seed` but zero,
+/// which keeps them.
 fn perturbed(mut places: Vec<[f64; 2]>, seed: u64) -> Vec<[f64; 2]> {
     if seed > 0 {
-        for (k, x) in places.iter_mut().flatten().enumerate() {
-            let bits = seed.wrapping_mul(k as u64 + 1) % LAST_BITS;
-            for _ in 0..bits {
+        let mut random = fastrand::Rng::with_seed(seed);
+        for x in places.iter_mut().flatten() {
+            for _ in 0..random.u64(0..=LAST_BITS) {
                 *x = x.next_up();
             }
         }
@@ -411,6 +407,9 @@ impl Job for Simulated {
     }
 
     fn advance(&mut self) -> Result<Vec<f64>, mpm_core::Error> {
+        if self.stage_rows == 0 && self.released.is_some() {
+            self.hold()?;
+        }
         let before = self.impulses();
         for _ in 0..self.steps_per_row {
             self.simulation.step()?;
@@ -447,10 +446,11 @@ impl Job for Simulated {
         }
         let pressures = self.pressures();
         let column = |name, unit, values| Column { name, unit, values };
+        let p = self.simulation.particles();
         let columns = vec![
-            column("x", "m", self.seeded(|p, k| p.position[k][0])),
-            column("y", "m", self.seeded(|p, k| p.position[k][1])),
-            column("pressure", "Pa", self.seeded(|_, k| pressures[k])),
+            column("x", "m", p.seeded(|k| p.position[k][0])),
+            column("y", "m", p.seeded(|k| p.position[k][1])),
+            column("pressure", "Pa", p.seeded(|k| pressures[k])),
         ];
         Some(Snapshot { time, columns })
     }
@@ -460,14 +460,15 @@ impl Job for Simulated {
         let pressures = self.pressures();
         let mut averaged = pressures.clone();
         self.simulation.average(&mut averaged);
+        let p = self.simulation.particles();
         vec![
-            column("x", "m", self.seeded(|p, k| p.position[k][0])),
-            column("y", "m", self.seeded(|p, k| p.position[k][1])),
-            column("vx", "m/s", self.seeded(|p, k| p.velocity[k][0])),
-            column("vy", "m/s", self.seeded(|p, k| p.velocity[k][1])),
-            column("pressure", "Pa", self.seeded(|_, k| pressures[k])),
-            column("averaged_pressure", "Pa", self.seeded(|_, k| averaged[k])),
-            column("jacobian", "-", self.seeded(|p, k| p.jacobian[k])),
+            column("x", "m", p.seeded(|k| p.position[k][0])),
+            column("y", "m", p.seeded(|k| p.position[k][1])),
+            column("vx", "m/s", p.seeded(|k| p.velocity[k][0])),
+            column("vy", "m/s", p.seeded(|k| p.velocity[k][1])),
+            column("pressure", "Pa", p.seeded(|k| pressures[k])),
+            column("averaged_pressure", "Pa", p.seeded(|k| averaged[k])),
+            column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
         ]
     }
 
@@ -477,13 +478,7 @@ impl Job for Simulated {
         let mut values = self.start.metrics(weight);
         values.extend(self.flow.metrics(self.water.density, h));
         values.push(("mass", self.simulation.totals().mass));
-        let metric = |(name, value): (&str, f64)| {
-            let unit = METRICS.iter().find(|m| m.name == name);
-            let unit = unit.map_or("-", |m| m.unit).to_owned();
-            let value = value.is_finite().then_some(value);
-            (name.to_owned(), Metric { value, unit })
-        };
-        values.into_iter().map(metric).collect()
+        observed(METRICS, values)
     }
 
     fn work(&self) -> WorkDone {
@@ -512,7 +507,9 @@ mod tests {
     fn an_ensemble_differs_in_last_bits() {
         let (places, other) = (seed(0.1), perturbed(seed(0.1), 3));
         assert_eq!(perturbed(seed(0.1), 0), places);
-        assert_ne!(perturbed(seed(0.1), 2), other);
+        for another in [0, 1, 2, 4, 7] {
+            assert_ne!(perturbed(seed(0.1), another), other, "{another}");
+        }
         let moved = places.iter().flatten().zip(other.iter().flatten());
         assert!(moved.clone().any(|(a, b)| a != b));
         assert!(moved.clone().all(|(a, b)| (a - b).abs() < 1e-14));

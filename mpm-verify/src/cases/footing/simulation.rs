@@ -3,7 +3,7 @@
 use super::METRICS;
 use super::reference::{CURVE, EXACT, mean_stresses};
 use crate::assemble::with_basis;
-use crate::case::{Column, Job, RunSpec};
+use crate::case::{Column, Job, RunSpec, observed};
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::probe::PointProbe;
@@ -221,16 +221,6 @@ impl Simulated {
         force / (0.5 * width) / self.strength()
     }
 
-    /// A particle quantity in seeding order.
-    fn seeded<T: Copy + Default>(&self, f: impl Fn(&Particles<2>, usize) -> T) -> Vec<T> {
-        let p = self.simulation.particles();
-        let mut values = vec![T::default(); p.len()];
-        for (k, id) in p.id.iter().enumerate() {
-            values[*id as usize] = f(p, k);
-        }
-        values
-    }
-
     fn on_plateau(&self) -> impl Iterator<Item = &Row> {
         let first = (1.0 - PLATEAU) * self.end;
         self.rows.iter().filter(move |r| r.penetration > first)
@@ -265,7 +255,8 @@ impl Simulated {
 
     /// Displacement (m) of every particle over the plateau, in seeding order; none before it begins.
     fn flow(&self) -> Vec<[f64; 2]> {
-        let now = self.seeded(|p, k| p.position[k]);
+        let p = self.simulation.particles();
+        let now = p.seeded(|k| p.position[k]);
         let displacement = |k: usize, x: &[f64; 2]| {
             let before = self.before_plateau.get(k).unwrap_or(x);
             [x[0] - before[0], x[1] - before[1]]
@@ -279,7 +270,8 @@ impl Simulated {
     /// Places (m) from the axis and rises (m) of the particles at the surface over the plateau, from the axis outward.
     fn surface(&self) -> Vec<(f64, f64)> {
         let spacing = self.discretisation.h / f64::from(self.discretisation.ppc).sqrt();
-        let reference = self.seeded(|p, k| p.reference[k]);
+        let p = self.simulation.particles();
+        let reference = p.seeded(|k| p.reference[k]);
         let on_surface = |x: &[f64; 2]| x[1] > -0.75 * spacing;
         let mut surface: Vec<(f64, f64)> = (reference.iter().zip(self.flow()))
             .filter(|(x, _)| on_surface(x))
@@ -324,7 +316,8 @@ impl Simulated {
         let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
         let mut averaged = mean.clone();
         self.simulation.average(&mut averaged);
-        (self.seeded(|_, k| mean[k]), self.seeded(|_, k| averaged[k]))
+        let p = self.simulation.particles();
+        (p.seeded(|k| mean[k]), p.seeded(|k| averaged[k]))
     }
 }
 
@@ -418,7 +411,8 @@ impl Job for Simulated {
         self.rows.push(row);
         let reached = self.stroke(self.simulation.time());
         if self.before_plateau.is_empty() && reached >= (1.0 - PLATEAU) * self.end {
-            self.before_plateau = self.seeded(|p, k| p.position[k]);
+            let p = self.simulation.particles();
+            self.before_plateau = p.seeded(|k| p.position[k]);
         }
         let totals = self.simulation.totals();
         Ok(vec![
@@ -449,18 +443,19 @@ impl Job for Simulated {
         let (mean_stress, averaged) = self.mean_stress();
         let plastic_strain = self.simulation.plastic_strain();
         let flow = self.flow();
+        let p = self.simulation.particles();
         let of = |axis: usize| flow.iter().map(|u| u[axis]).collect();
         vec![
-            column("x", "m", self.seeded(|p, k| p.position[k][0])),
-            column("y", "m", self.seeded(|p, k| p.position[k][1])),
-            column("reference_x", "m", self.seeded(|p, k| p.reference[k][0])),
-            column("reference_y", "m", self.seeded(|p, k| p.reference[k][1])),
+            column("x", "m", p.seeded(|k| p.position[k][0])),
+            column("y", "m", p.seeded(|k| p.position[k][1])),
+            column("reference_x", "m", p.seeded(|k| p.reference[k][0])),
+            column("reference_y", "m", p.seeded(|k| p.reference[k][1])),
             column("plateau_ux", "m", of(0)),
             column("plateau_uy", "m", of(1)),
             column("mean_stress", "Pa", mean_stress),
             column("averaged_mean_stress", "Pa", averaged),
-            column("plastic_strain", "-", self.seeded(|_, k| plastic_strain[k])),
-            column("jacobian", "-", self.seeded(|p, k| p.jacobian[k])),
+            column("plastic_strain", "-", p.seeded(|k| plastic_strain[k])),
+            column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
         ]
     }
 
@@ -505,7 +500,8 @@ impl Job for Simulated {
             ("log_jacobian_gap".to_owned(), totals.log_jacobian_gap_rms),
             ("mass".to_owned(), totals.mass),
         ];
-        let references = self.seeded(|p, k| p.reference[k]);
+        let p = self.simulation.particles();
+        let references = p.seeded(|k| p.reference[k]);
         for point in mean_stresses() {
             let probe = PointProbe::new(&references, [point.x, point.y], 2.0 * h);
             let value = probe.map_or(f64::NAN, |p| p.value(&mean_stress));
@@ -520,20 +516,7 @@ impl Job for Simulated {
             };
             values.push(((*name).to_owned(), self.bearing_factor(force, WIDTH)));
         }
-        values
-            .into_iter()
-            .map(|(name, value)| {
-                let unit = METRICS
-                    .iter()
-                    .find(|m| m.name == name)
-                    .map_or("-", |m| m.unit);
-                let metric = Metric {
-                    value: value.is_finite().then_some(value),
-                    unit: unit.to_owned(),
-                };
-                (name, metric)
-            })
-            .collect()
+        observed(METRICS, values)
     }
 
     fn work(&self) -> WorkDone {

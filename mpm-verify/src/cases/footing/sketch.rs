@@ -9,15 +9,6 @@ const EXTENT: f64 = 6.0;
 pub(super) fn sketch() -> Sketch {
     let extent = EXTENT * WIDTH;
     let half = 0.5 * WIDTH;
-    let length = |from, to, label: &str| Shape::Length {
-        from,
-        to,
-        label: label.to_owned(),
-    };
-    let note = |at, text: &str| Shape::Note {
-        at,
-        text: text.to_owned(),
-    };
     let shapes = vec![
         Shape::Body(vec![
             [0.0, -extent],
@@ -28,11 +19,11 @@ pub(super) fn sketch() -> Sketch {
         Shape::Body(vec![[0.0, 0.0], [half, 0.0], [half, 0.25], [0.0, 0.25]]),
         Shape::Held([extent, -extent], [0.0, -extent]),
         Shape::Load([0.25 * WIDTH, 1.0], [0.25 * WIDTH, 0.3]),
-        length([0.0, -extent - 0.7], [extent, -extent - 0.7], "6B"),
-        length([extent + 0.5, -extent], [extent + 0.5, 0.0], "6B"),
-        note([1.6 * WIDTH, 0.45], "footing, B/2 = 0.5 m"),
-        note([-0.6, -0.5 * extent], "symmetry"),
-        note([extent - 0.6, -0.5 * extent], "roller"),
+        Shape::length([0.0, -extent - 0.7], [extent, -extent - 0.7], "6B"),
+        Shape::length([extent + 0.5, -extent], [extent + 0.5, 0.0], "6B"),
+        Shape::note([1.6 * WIDTH, 0.45], "footing, B/2 = 0.5 m"),
+        Shape::note([-0.6, -0.5 * extent], "symmetry"),
+        Shape::note([extent - 0.6, -0.5 * extent], "roller"),
     ];
     Sketch {
         shapes,

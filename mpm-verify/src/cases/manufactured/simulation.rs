@@ -2,7 +2,7 @@
 
 use super::{Boundary, METRICS, Manufactured};
 use crate::assemble::with_basis;
-use crate::case::{Column, Job, Level, RunSpec};
+use crate::case::{Column, Job, Level, RunSpec, observed};
 use crate::error::Error;
 use crate::exact::{Exact, Material};
 use crate::parameter::Parameters;
@@ -60,7 +60,7 @@ struct Row {
 
 /// Makes a solver of a solid from the names of a scheme.
 pub(super) type Assemble<const D: usize> =
-    fn(Scheme, Scene<D, NeoHookean, Flip>) -> Result<Box<dyn Simulation<D>>, Error>;
+    fn(Scheme, Scene<D, NeoHookean, Flip>) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>;
 
 fn vector<const D: usize>(x: &[f64; D]) -> Vector3<f64> {
     let mut v = Vector3::zeros();
@@ -310,16 +310,6 @@ impl<const D: usize> Simulated<D> {
         run.at_start = case.rests.then(|| run.cell_means());
         run.observe();
         Ok(run)
-    }
-
-    /// A particle quantity in seeding order.
-    fn seeded<T: Copy + Default>(&self, f: impl Fn(&Particles<D>, usize) -> T) -> Vec<T> {
-        let p = self.simulation.particles();
-        let mut values = vec![T::default(); p.len()];
-        for (k, id) in p.id.iter().enumerate() {
-            values[*id as usize] = f(p, k);
-        }
-        values
     }
 
     /// Displacement minus the exact one (m); across a periodic end the nearest image counts.
@@ -586,41 +576,32 @@ impl<const D: usize> Job for Simulated<D> {
         let [displacement, velocity, stress, mean_stress] = {
             let (errors, _) = self.errors();
             let p = self.simulation.particles();
-            errors.map(|values| {
-                let mut seeded = vec![0.0; p.len()];
-                for (id, value) in p.id.iter().zip(values) {
-                    seeded[*id as usize] = value;
-                }
-                seeded
-            })
+            errors.map(|values| p.seeded(|k| values[k]))
         };
         let force_stress = self.simulation.force_stress();
+        let p = self.simulation.particles();
         let mut columns = Vec::new();
         for (a, name) in ["x", "y", "z"].into_iter().enumerate().take(D) {
-            columns.push(column(name, "m", self.seeded(|p, k| p.position[k][a])));
+            columns.push(column(name, "m", p.seeded(|k| p.position[k][a])));
         }
         for (a, name) in ["reference_x", "reference_y", "reference_z"]
             .into_iter()
             .enumerate()
             .take(D)
         {
-            columns.push(column(name, "m", self.seeded(|p, k| p.reference[k][a])));
+            columns.push(column(name, "m", p.seeded(|k| p.reference[k][a])));
         }
         columns.extend([
             column("displacement_error", "m", displacement),
             column("velocity_error", "m/s", velocity),
             column("stress_error", "Pa", stress),
-            column(
-                "mean_stress",
-                "Pa",
-                self.seeded(|_, k| force_stress[k].mean()),
-            ),
+            column("mean_stress", "Pa", p.seeded(|k| force_stress[k].mean())),
             column("mean_stress_error", "Pa", mean_stress),
-            column("jacobian", "-", self.seeded(|p, k| p.jacobian[k])),
+            column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
             column(
                 "averaged_jacobian",
                 "-",
-                self.seeded(|p, k| p.j_bar.get(k).copied().unwrap_or(p.jacobian[k])),
+                p.seeded(|k| p.j_bar.get(k).copied().unwrap_or(p.jacobian[k])),
             ),
         ]);
         columns
@@ -673,13 +654,7 @@ impl<const D: usize> Job for Simulated<D> {
             values.push(("kinetic_growth", growth));
             values.push(("base_pressure", base));
         }
-        let metric = |(name, value): (&str, f64)| {
-            let known = METRICS.iter().find(|m| m.name == name);
-            let unit = known.map_or("-", |m| m.unit).to_owned();
-            let value = value.is_finite().then_some(value);
-            (name.to_owned(), Metric { value, unit })
-        };
-        values.into_iter().map(metric).collect()
+        observed(METRICS, values)
     }
 
     fn work(&self) -> WorkDone {

@@ -1,0 +1,138 @@
+//! The checks turn red when they should.
+
+use super::super::{PARAMETERS, PARAMETERS_3D};
+use super::*;
+use crate::report::fixture::{self, outcomes};
+
+const OURS: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarConsistent);
+const PRINTED: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarRecursive);
+const STANDARD: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::None);
+
+/// A run in plane strain on cells of 0.4 m, with metrics.
+fn run(scheme: (BasisName, RemedyName), set: &[&str], metrics: &[(&str, f64)]) -> Record {
+    fixture::run(&PARAMETERS, scheme, ("h0.4", 0.4), set, metrics)
+}
+
+fn judged(
+    scheme: (BasisName, RemedyName),
+    set: &[&str],
+    metrics: &[(&str, f64)],
+    check: &str,
+) -> Vec<Option<bool>> {
+    outcomes(&judge(&run(scheme, set, metrics)), check)
+}
+
+#[test]
+fn the_ground_is_all_there() {
+    let metrics = |particles, mass| {
+        [
+            ("particles", particles),
+            ("particles_across", 1.0),
+            ("mass", mass),
+        ]
+    };
+    let of = |m: &[(&str, f64)], check| judged(OURS, &[], m, check);
+    let mass = 2150.0 * 1550.0 * 0.04;
+    assert_eq!(of(&metrics(1550.0, mass), "particle-count"), [Some(true)]);
+    assert_eq!(of(&metrics(1551.0, mass), "particle-count"), [Some(false)]);
+    assert_eq!(of(&metrics(1550.0, mass), "mass"), [Some(true)]);
+    assert_eq!(of(&metrics(1550.0, 1.001 * mass), "mass"), [Some(false)]);
+}
+
+#[test]
+fn the_papers_count_is_that_of_its_grid() {
+    let metrics = [("particles", 311_250.0), ("particles_across", 50.0)];
+    let record = fixture::run(&PARAMETERS_3D, OURS, ("h0.2", 0.2), &[], &metrics);
+    assert_eq!(outcomes(&judge(&record), "particle-count"), [Some(true)]);
+}
+
+#[test]
+fn ground_at_rest_bears_its_weight() {
+    let of = |scheme, metric, value, check| judged(scheme, &[], &[(metric, value)], check);
+    let ratio = |value| of(OURS, "base_reaction_ratio", value, "base-reaction");
+    assert_eq!(
+        (ratio(0.996), ratio(0.994)),
+        (vec![Some(true)], vec![Some(false)])
+    );
+    let rest = |value| of(OURS, "kinetic_share_at_rest", value, "at-rest");
+    assert_eq!(
+        (rest(9e-7), rest(2e-6)),
+        (vec![Some(true)], vec![Some(false)])
+    );
+    let creeps = |value| of(PRINTED, "kinetic_share_at_rest", value, "creeps");
+    assert_eq!(
+        (creeps(1e-4), creeps(1e-8)),
+        (vec![Some(true)], vec![Some(false)])
+    );
+    let overburden = |value| of(OURS, "overburden_error", value, "overburden");
+    assert_eq!(
+        (overburden(0.01), overburden(0.03)),
+        (vec![Some(true)], vec![Some(false)])
+    );
+    let locked = |error| {
+        let metrics = [("overburden_error", error), ("checkerboard_at_rest", error)];
+        judged(STANDARD, &[], &metrics, "locked-stress")
+    };
+    assert_eq!(locked(0.3), [Some(true); 2]);
+    assert_eq!(locked(0.01), [Some(false); 2]);
+}
+
+#[test]
+fn what_stands_and_what_fails_is_judged_where_limit_analysis_knows() {
+    let share = |value| [("failed_share_end", value)];
+    let stands = |value| judged(OURS, &["reduction=1"], &share(value), "stands");
+    assert_eq!(
+        (stands(0.0), stands(0.3)),
+        (vec![Some(true)], vec![Some(false)])
+    );
+    // 1.8 is beyond the bound on cells of 0.4 m by less than a band bears; 2 is beyond that.
+    let fails = |scheme, reduction: &str, value| {
+        let set = format!("reduction={reduction}");
+        let of = |check| judged(scheme, &[&set], &share(value), check);
+        [of("fails"), of("locked")].concat()
+    };
+    assert_eq!(fails(OURS, "2", 0.4), [Some(true)]);
+    assert_eq!(fails(OURS, "2", 0.0), [Some(false)]);
+    assert_eq!(fails(STANDARD, "2", 0.0), [Some(true)]);
+    assert_eq!(fails(STANDARD, "2", 0.4), [Some(false)]);
+    // At the paper's reduction it does not.
+    assert_eq!(fails(OURS, "1.65", 0.0), []);
+}
+
+#[test]
+fn energy_is_accounted_for() {
+    let of = |duration: &str, unaccounted, check| {
+        let metrics = [("fallen_energy", 0.2), ("unaccounted_energy", unaccounted)];
+        let set = format!("duration={duration}");
+        judged(OURS, &[&set], &metrics, check)
+    };
+    assert_eq!(of("1", -0.015, "energy-closure"), [Some(true)]);
+    assert_eq!(of("1", -0.017, "energy-closure"), [Some(false)]);
+    assert_eq!(of("5.5", -0.05, "energy-closure"), [None]);
+    assert_eq!(of("5.5", -0.05, "energy-not-made"), [Some(true)]);
+    assert_eq!(of("5.5", 0.01, "energy-not-made"), [Some(false)]);
+    let gained = |value| judged(OURS, &[], &[("energy_gain", value)], "energy-not-gained");
+    assert_eq!(
+        (gained(0.0), gained(1e-6)),
+        (vec![Some(true)], vec![Some(false)])
+    );
+}
+
+#[test]
+fn three_dimensions_are_those_of_the_section() {
+    let of = |scheme, spread, off, check| {
+        let metrics = [
+            ("width_spread_at_rest", spread),
+            ("off_plane_strain_at_rest", off),
+        ];
+        let mut record = fixture::run(&PARAMETERS_3D, scheme, ("h0.5", 0.5), &[], &metrics);
+        record.discretisation.dim = 3;
+        outcomes(&judge(&record), check)
+    };
+    assert_eq!(of(STANDARD, 1e-8, 1e-8, "uniform"), [Some(true)]);
+    assert_eq!(of(STANDARD, 1e-3, 1e-8, "uniform"), [Some(false)]);
+    assert_eq!(of(STANDARD, 1e-8, 1e-8, "plane-strain"), [Some(true)]);
+    assert_eq!(of(STANDARD, 1e-8, 1e-3, "plane-strain"), [Some(false)]);
+    assert_eq!(of(OURS, 1e-8, 1e-3, "plane-strain"), [Some(true)]);
+    assert_eq!(of(OURS, 1e-8, 3e-2, "plane-strain"), [Some(false)]);
+}

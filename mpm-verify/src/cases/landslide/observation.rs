@@ -1,0 +1,378 @@
+//! What is observed of a slide, and the metrics made of it.
+
+use super::section::{GRAVITY, Section};
+use mpm_core::Particles;
+use serde::{Deserialize, Serialize};
+
+/// Ground that has moved by this share of the height since the release has failed.
+const MOVED: f64 = 0.05;
+/// Share of the section that must have moved before the slope counts as failed.
+const FAILED: f64 = 0.01;
+/// Share of the ground beyond the toe of its bulk: single grains run ahead.
+const AHEAD: f64 = 0.01;
+/// Equivalent plastic strain of a shear band, and how far it falls between two of them.
+const BAND: (f64, f64) = (0.5, 0.5);
+
+/// One observation: sums per metre of width; forces are means since the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct Row {
+    /// Time (s) since the strength was reduced.
+    pub(super) time: f64,
+    /// The outermost particle and half its spacing (m).
+    pub(super) toe: f64,
+    /// Beyond here (m) lies a hundredth of the ground.
+    pub(super) bulk_toe: f64,
+    /// How far (m) the particle at the crest's edge has sunk.
+    pub(super) settlement: f64,
+    /// Energies (J/m).
+    pub(super) kinetic: f64,
+    pub(super) potential: f64,
+    pub(super) stress_work: f64,
+    pub(super) stored: f64,
+    pub(super) dissipated: f64,
+    /// Force on the base, downward (N/m).
+    pub(super) base_force: f64,
+    /// Share of the section that has failed.
+    pub(super) failed: f64,
+    /// Distance (m) behind the crest's edge to which the surface has failed.
+    pub(super) retrogression: f64,
+    /// Number of shear bands at half the height.
+    pub(super) bands: f64,
+    /// Least and greatest J.
+    pub(super) jacobian: (f64, f64),
+    /// Rms ln(J/J̄).
+    pub(super) log_jacobian_gap: f64,
+}
+
+impl Row {
+    pub(super) const COLUMNS: [&'static str; 18] = [
+        "time (s)",
+        "toe (m)",
+        "bulk_toe (m)",
+        "settlement (m)",
+        "kinetic_energy (J/m)",
+        "potential_energy (J/m)",
+        "stress_work (J/m)",
+        "stored_energy (J/m)",
+        "plastic_dissipation (J/m)",
+        "base_force (N/m)",
+        "failed_share (-)",
+        "retrogression (m)",
+        "shear_bands (-)",
+        "jacobian_min (-)",
+        "jacobian_max (-)",
+        "log_jacobian_gap_rms (-)",
+        "energy (J/m)",
+        "accounted_energy (J/m)",
+    ];
+
+    pub(super) fn values(&self) -> Vec<f64> {
+        vec![
+            self.time,
+            self.toe,
+            self.bulk_toe,
+            self.settlement,
+            self.kinetic,
+            self.potential,
+            self.stress_work,
+            self.stored,
+            self.dissipated,
+            self.base_force,
+            self.failed,
+            self.retrogression,
+            self.bands,
+            self.jacobian.0,
+            self.jacobian.1,
+            self.log_jacobian_gap,
+            self.energy(),
+            self.accounted(),
+        ]
+    }
+
+    /// What a step may lose and never gain (J/m): kinetic and potential energy and the work of the stress.
+    pub(super) fn energy(&self) -> f64 {
+        self.kinetic + self.potential + self.stress_work
+    }
+
+    /// Kinetic, potential and stored energy and what flow has dissipated (J/m).
+    pub(super) fn accounted(&self) -> f64 {
+        self.kinetic + self.potential + self.stored + self.dissipated
+    }
+}
+
+/// The ground when its strength is reduced, in seeding order.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct Released {
+    /// Positions (m) in the section.
+    pub(super) positions: Vec<[f64; 2]>,
+    /// Equivalent plastic strains.
+    pub(super) plastic_strain: Vec<f64>,
+}
+
+impl Released {
+    /// How far (m) every particle, now at `positions` (m), has moved.
+    fn moved(&self, positions: &[[f64; 2]]) -> Vec<f64> {
+        let distance =
+            |(x, before): (&[f64; 2], &[f64; 2])| (x[0] - before[0]).hypot(x[1] - before[1]);
+        positions
+            .iter()
+            .zip(&self.positions)
+            .map(distance)
+            .collect()
+    }
+}
+
+/// What the slope looks like at one time: places (m) in the section and equivalent plastic strains in seeding order,
+/// columns from x = 0 and in each from the base up, `across` particles at every place.
+pub(super) struct Look<'a> {
+    pub(super) section: &'a Section,
+    pub(super) spacing: f64,
+    pub(super) across: usize,
+    pub(super) reference: &'a [[f64; 2]],
+    pub(super) positions: &'a [[f64; 2]],
+    pub(super) plastic_strain: &'a [f64],
+}
+
+impl Look<'_> {
+    /// Outermost particle and half its spacing (m).
+    pub(super) fn toe(&self) -> f64 {
+        let outermost = self.positions.iter().map(|x| x[0]).fold(0.0, f64::max);
+        outermost + 0.5 * self.spacing
+    }
+
+    /// Place (m) beyond which a hundredth of the particles lie.
+    pub(super) fn bulk_toe(&self) -> f64 {
+        let mut places: Vec<f64> = self.positions.iter().map(|x| x[0]).collect();
+        let ahead = ((AHEAD * places.len() as f64) as usize).min(places.len().saturating_sub(1));
+        if places.is_empty() {
+            return f64::NAN;
+        }
+        let (_, place, _) = places.select_nth_unstable_by(ahead, |a, b| b.total_cmp(a));
+        *place
+    }
+
+    /// Places in the columns of the particles in the middle of the width whose reference passes.
+    fn in_the_middle(&self, keep: impl Fn(&[f64; 2]) -> bool) -> Vec<usize> {
+        let middle = self.across / 2;
+        (0..self.reference.len())
+            .filter(|k| k % self.across == middle && keep(&self.reference[*k]))
+            .collect()
+    }
+
+    /// How far (m) the particle nearest to the crest's edge has sunk.
+    pub(super) fn settlement(&self) -> f64 {
+        let edge = [self.section.crest, self.section.height];
+        let distance = |k: &usize| {
+            let x = self.reference[*k];
+            (x[0] - edge[0]).hypot(x[1] - edge[1])
+        };
+        let nearest = self
+            .in_the_middle(|_| true)
+            .into_iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        nearest.map_or(f64::NAN, |k| self.reference[k][1] - self.positions[k][1])
+    }
+
+    /// Share of the particles that have failed since the release.
+    pub(super) fn failed(&self, released: &Released) -> f64 {
+        let moved = released.moved(self.positions);
+        let failed = moved.iter().filter(|d| **d > MOVED * self.section.height);
+        failed.count() as f64 / self.positions.len().max(1) as f64
+    }
+
+    /// Distance (m) behind the crest's edge to which the surface of the crest has failed.
+    pub(super) fn retrogression(&self, released: &Released) -> f64 {
+        let moved = released.moved(self.positions);
+        let top = self.section.height - 0.75 * self.spacing;
+        let surface = self.in_the_middle(|x| x[1] > top && x[0] < self.section.crest);
+        let failed = surface
+            .iter()
+            .filter(|k| moved.get(**k) > Some(&(MOVED * self.section.height)));
+        let rearmost = failed
+            .map(|k| self.reference[*k][0])
+            .fold(f64::INFINITY, f64::min);
+        (self.section.crest - rearmost + 0.5 * self.spacing).max(0.0)
+    }
+
+    /// Shear bands through the particles that were at half the height: peaks of the plastic strain.
+    pub(super) fn bands(&self) -> usize {
+        let half = 0.5 * self.section.height;
+        let row = self.in_the_middle(|x| {
+            let above = (x[1] - half) / self.spacing;
+            above > -0.75 && above <= 0.25
+        });
+        let strains: Vec<f64> = row.iter().map(|k| self.plastic_strain[*k]).collect();
+        peaks(&strains)
+    }
+}
+
+/// Number of peaks above that of a band, between which the value falls to a share of the lower one.
+fn peaks(values: &[f64]) -> usize {
+    let (least, dip) = BAND;
+    let (mut count, mut top, mut bottom) = (0, f64::INFINITY, 0.0_f64);
+    for &value in values {
+        bottom = bottom.min(value);
+        if value > least && bottom < dip * value.min(top) {
+            // Up from a valley: another peak, of which the height is yet to be seen.
+            count += 1;
+            (top, bottom) = (value, value);
+        } else if value > top {
+            (top, bottom) = (value, value);
+        }
+    }
+    count
+}
+
+/// The series since the release.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct Series {
+    pub(super) rows: Vec<Row>,
+}
+
+impl Series {
+    /// The observation at `time` (s), if the slide has got there.
+    pub(super) fn at(&self, time: f64) -> Option<&Row> {
+        self.rows.iter().find(|row| (row.time - time).abs() < 1e-6)
+    }
+
+    /// Metrics of a slide of `section` that begins with `start`.
+    pub(super) fn metrics(&self, section: &Section, start: &Row) -> Vec<(&'static str, f64)> {
+        let runout = |row: &Row| row.toe - section.toe();
+        let bulk = |row: &Row| row.bulk_toe - section.toe();
+        let at = |time: f64, f: &dyn Fn(&Row) -> f64| self.at(time).map_or(f64::NAN, f);
+        let end = |f: &dyn Fn(&Row) -> f64| self.rows.last().map_or(f64::NAN, f);
+        let all = |f: fn(&Row) -> f64| self.rows.iter().map(f);
+        let failure = self.rows.iter().find(|row| row.failed >= FAILED);
+        let energies = || std::iter::once(start).chain(&self.rows).map(Row::energy);
+        let falls = end(&|row| start.potential - row.potential);
+        let gains = || energies().zip(energies().skip(1)).map(|(a, b)| b - a);
+        vec![
+            ("runout_1s", at(1.0, &runout)),
+            ("runout_2.5s", at(2.5, &runout)),
+            ("runout_end", end(&runout)),
+            ("bulk_runout_2.5s", at(2.5, &bulk)),
+            ("bulk_runout_end", end(&bulk)),
+            ("settlement_2.5s", at(2.5, &|row| row.settlement)),
+            ("settlement_end", end(&|row| row.settlement)),
+            ("failed_share_2.5s", at(2.5, &|row| row.failed)),
+            ("failed_share_end", end(&|row| row.failed)),
+            ("failure_time", failure.map_or(f64::NAN, |row| row.time)),
+            ("retrogression_end", end(&|row| row.retrogression)),
+            ("shear_bands_end", end(&|row| row.bands)),
+            (
+                "plastic_dissipation",
+                end(&|row| row.dissipated - start.dissipated),
+            ),
+            (
+                "kinetic_energy_max",
+                all(|row| row.kinetic).fold(0.0, f64::max),
+            ),
+            ("energy_gain", gains().fold(0.0, f64::max) / start.potential),
+            (
+                "unaccounted_energy",
+                end(&|row| (row.accounted() - start.accounted()) / start.potential),
+            ),
+            ("fallen_energy", falls / start.potential),
+            (
+                "jacobian_min",
+                all(|row| row.jacobian.0).fold(f64::INFINITY, f64::min),
+            ),
+            (
+                "jacobian_max",
+                all(|row| row.jacobian.1).fold(0.0, f64::max),
+            ),
+            ("log_jacobian_gap", end(&|row| row.log_jacobian_gap)),
+        ]
+    }
+}
+
+/// Potential energy (J) of particles under gravity.
+pub(super) fn potential<const D: usize>(particles: &Particles<D>) -> f64 {
+    let heights = particles.mass.iter().zip(&particles.position);
+    heights.map(|(m, x)| m * GRAVITY * x[1]).sum()
+}
+
+/// Largest range, over the width, of how far the particles of one place have moved from `before` (m), over the largest
+/// of these distances. Zero in plane strain.
+pub(super) fn spread_over_width(moved: &[f64], across: usize) -> f64 {
+    let most = moved.iter().copied().fold(0.0, f64::max);
+    let range = |place: &[f64]| {
+        let ends = place.iter().fold((f64::INFINITY, 0.0_f64), |(lo, hi), d| {
+            (lo.min(*d), hi.max(*d))
+        });
+        ends.1 - ends.0
+    };
+    moved.chunks(across).map(range).fold(0.0, f64::max) / most
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn peaks_are_counted_by_the_valleys_between_them() {
+        assert_eq!(peaks(&[]), 0);
+        assert_eq!(peaks(&[0.1, 0.2, 0.1]), 0);
+        assert_eq!(peaks(&[0.0, 1.0, 2.0, 1.9, 2.5, 0.1]), 1);
+        assert_eq!(peaks(&[0.0, 2.0, 0.1, 0.0, 0.7, 3.0, 0.2, 1.0]), 3);
+        // A peak that stands on the shoulder of another is part of it.
+        assert_eq!(peaks(&[2.0, 1.2, 2.0]), 1);
+    }
+
+    #[test]
+    fn what_differs_over_the_width_is_seen() {
+        assert_eq!(spread_over_width(&[1.0, 1.0, 2.0, 2.0], 2), 0.0);
+        assert_eq!(spread_over_width(&[1.0, 1.0, 2.0, 1.5], 2), 0.25);
+    }
+
+    fn slope() -> (Section, Vec<[f64; 2]>) {
+        let section = Section {
+            height: 5.0,
+            crest: 10.0,
+            run: 5.0,
+        };
+        (section, section.seed(0.1))
+    }
+
+    #[test]
+    fn a_corner_that_slides_off_is_what_has_failed() {
+        let (section, reference) = slope();
+        let released = Released {
+            positions: reference.clone(),
+            plastic_strain: vec![0.0; reference.len()],
+        };
+        // Everything right of x = 8 m goes down and out; along that line it is sheared.
+        let slides = |x: &[f64; 2]| x[0] > 8.0;
+        let positions: Vec<[f64; 2]> = (reference.iter())
+            .map(|x| {
+                if slides(x) {
+                    [x[0] + 1.0, x[1] - 0.5]
+                } else {
+                    *x
+                }
+            })
+            .collect();
+        let strain: Vec<f64> = (reference.iter())
+            .map(|x| if (x[0] - 8.0).abs() < 0.2 { 1.0 } else { 0.0 })
+            .collect();
+        let look = Look {
+            section: &section,
+            spacing: 0.1,
+            across: 1,
+            reference: &reference,
+            positions: &positions,
+            plastic_strain: &strain,
+        };
+        assert!((look.toe() - 15.95).abs() < 0.06, "{}", look.toe());
+        // The columns below a face of 45° hold 1, 2, 3 … particles: ten of them 55, eleven 66. The
+        // hundredth part of 6225 particles ends in the eleventh.
+        let bulk = look.bulk_toe();
+        assert_eq!(positions.iter().filter(|x| x[0] > bulk).count(), 55);
+        assert_eq!(positions.iter().filter(|x| x[0] >= bulk).count(), 66);
+        assert!((look.settlement() - 0.5).abs() < 1e-9);
+        assert!((look.retrogression(&released) - 2.0).abs() < 0.06);
+        assert_eq!(look.bands(), 1);
+        let failed = look.failed(&released) * 62.5;
+        assert!((failed - 22.5).abs() < 0.5, "{failed}");
+    }
+}

@@ -1,0 +1,449 @@
+//! The simulation of a landslide in plane strain or in three dimensions: gravity, reduced strength, observation.
+
+use super::METRICS;
+use super::ground::{BASE, DAMPING, Ground, RISE, ROW, STAGE, strengths};
+use super::observation::{Look, Released, Row, Series, potential, spread_over_width};
+use super::section::GRAVITY;
+use crate::assemble::with_basis;
+use crate::case::{Column, Job, RunSpec, Snapshot, observed};
+use crate::error::Error;
+use crate::parameter::Parameters;
+use crate::record::{Discretisation, Metric, WorkDone};
+use crate::statistics::rms;
+use mpm_core::Simulation;
+use mpm_core::material::Strength;
+use mpm_core::memory::{Memory, MemoryError, Saved};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Distance from the back wall, over the height, within which the stress is that of level ground.
+const FAR: f64 = 0.5;
+/// Times (s) of the snapshots.
+const SNAPSHOTS: [f64; 5] = [0.5, 1.0, 2.5, 4.0, 5.5];
+/// Rows between two frames of the animation, and the largest number of particles that is animated.
+const FRAME: usize = 10;
+const ANIMATED: usize = 7000;
+/// Time (s) at which the flow is still one slide: uniform over the width.
+const EARLY: f64 = 0.5;
+
+/// What is measured at the end of the gravity stage.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+struct AtRest {
+    row: Row,
+    /// Nodal kinetic energy over stored energy.
+    kinetic_share: f64,
+    /// Rms error of the vertical stress far from the face, over γ H.
+    overburden_error: f64,
+    /// Rms of σ_m − Πσ_m over γ H.
+    checkerboard: f64,
+    /// Share of the section that has yielded.
+    yielded: f64,
+    /// Spread of the displacements over the width.
+    width_spread: f64,
+}
+
+/// A slide: first under rising gravity with its full strength, then with the reduced one.
+struct Slide<const D: usize> {
+    simulation: Box<dyn Simulation<D>>,
+    /// The scene with the reduced strength, until it is.
+    reduced: Option<Box<dyn Simulation<D>>>,
+    ground: Ground<D>,
+    strengths: [Strength; 2],
+    /// Work under rising gravity.
+    stage_work: WorkDone,
+    reference: Vec<[f64; 2]>,
+    at_rest: AtRest,
+    released: Released,
+    series: Series,
+    early_spread: f64,
+}
+
+impl<const D: usize> Slide<D> {
+    fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
+        let ground = Ground::new(spec, parameters)?;
+        let strengths = strengths(parameters)?;
+        let build = |strength, stages| {
+            with_basis(
+                spec.scheme.basis,
+                ground.scene(spec, parameters, strength, stages)?,
+            )
+        };
+        let simulation = build(strengths[0], (RISE, DAMPING))?;
+        let reduced = build(strengths[1], (0.0, parameters.number("damping")))?;
+        let p = simulation.particles();
+        Ok(Self {
+            reference: p.seeded(|k| section_of(&p.reference[k])),
+            simulation,
+            reduced: Some(reduced),
+            ground,
+            strengths,
+            stage_work: WorkDone::default(),
+            at_rest: AtRest::default(),
+            released: Released::default(),
+            series: Series::default(),
+            early_spread: f64::NAN,
+        })
+    }
+
+    fn step_row(&mut self) -> Result<Row, mpm_core::Error> {
+        let before = self.simulation.impulse_on(BASE)[1];
+        for _ in 0..self.ground.steps_per_row {
+            self.simulation.step()?;
+        }
+        let mut row = self.observe();
+        row.base_force = -(self.simulation.impulse_on(BASE)[1] - before) / ROW / self.ground.width;
+        if self.reduced.is_some() {
+            row.time -= STAGE;
+            self.at_rest.row = row;
+            if row.time > -0.5 * ROW {
+                self.release()?;
+            }
+        } else {
+            self.series.rows.push(row);
+            if (row.time - EARLY).abs() < 0.5 * ROW {
+                self.early_spread = spread_over_width(&self.moved(), self.ground.across);
+            }
+        }
+        Ok(row)
+    }
+
+    /// Reduces the strength.
+    fn release(&mut self) -> Result<(), mpm_core::Error> {
+        self.measure_rest();
+        let Some(mut reduced) = self.reduced.take() else {
+            return Ok(());
+        };
+        // It counts anew from here.
+        self.at_rest.row.stress_work = 0.0;
+        self.released = Released {
+            positions: self.positions(),
+            plastic_strain: self.plastic_strain(),
+        };
+        reduced.take_over(&self.simulation.body()?)?;
+        self.stage_work = self.simulation.work().into();
+        self.simulation = reduced;
+        Ok(())
+    }
+
+    fn positions(&self) -> Vec<[f64; 2]> {
+        let p = self.simulation.particles();
+        p.seeded(|k| section_of(&p.position[k]))
+    }
+
+    fn plastic_strain(&self) -> Vec<f64> {
+        let strain = self.simulation.plastic_strain();
+        self.simulation.particles().seeded(|k| strain[k])
+    }
+
+    /// How far (m) every particle is from its reference position, in seeding order.
+    fn moved(&self) -> Vec<f64> {
+        let p = self.simulation.particles();
+        let distance = |k: usize| {
+            let pairs = p.position[k].iter().zip(&p.reference[k]);
+            pairs
+                .map(|(x, reference)| (x - reference).powi(2))
+                .sum::<f64>()
+                .sqrt()
+        };
+        p.seeded(distance)
+    }
+
+    fn observe(&self) -> Row {
+        let (positions, plastic_strain) = (self.positions(), self.plastic_strain());
+        let look = Look {
+            section: &self.ground.section,
+            spacing: self.ground.spacing,
+            across: self.ground.across,
+            reference: &self.reference,
+            positions: &positions,
+            plastic_strain: &plastic_strain,
+        };
+        let totals = self.simulation.totals();
+        let per_metre = 1.0 / self.ground.width;
+        let p = self.simulation.particles();
+        Row {
+            time: self.simulation.time(),
+            toe: look.toe(),
+            bulk_toe: look.bulk_toe(),
+            settlement: look.settlement(),
+            kinetic: per_metre * totals.kinetic_energy,
+            potential: per_metre * potential(p),
+            stress_work: per_metre * totals.accumulated.stress_work,
+            stored: per_metre * totals.stored_energy,
+            dissipated: per_metre * self.dissipated(&plastic_strain),
+            base_force: 0.0,
+            failed: look.failed(&self.released),
+            retrogression: look.retrogression(&self.released),
+            bands: look.bands() as f64,
+            jacobian: totals.jacobian,
+            log_jacobian_gap: totals.log_jacobian_gap_rms,
+        }
+    }
+
+    /// What flow has dissipated (J): with the full strength until the release, with the reduced one since.
+    fn dissipated(&self, plastic_strain: &[f64]) -> f64 {
+        let volume = self.ground.spacing.powi(D as i32);
+        let [full, reduced] = self.strengths;
+        let work = |(k, strain): (usize, &f64)| match self.released.plastic_strain.get(k) {
+            None => full.plastic_work(*strain),
+            Some(before) => {
+                full.plastic_work(*before) + reduced.plastic_work(*strain)
+                    - reduced.plastic_work(*before)
+            }
+        };
+        volume * plastic_strain.iter().enumerate().map(work).sum::<f64>()
+    }
+
+    fn measure_rest(&mut self) {
+        let weight = self.ground.density * GRAVITY;
+        let scale = weight * self.ground.section.height;
+        let (section, stress) = (self.ground.section, self.simulation.force_stress());
+        let p = self.simulation.particles();
+        let far = |k: &usize| p.reference[*k][0] < FAR * section.height;
+        let error = |k: usize| stress[k].get(1, 1) + weight * (section.height - p.reference[k][1]);
+        let overburden_error = rms((0..p.len()).filter(far).map(error)) / scale;
+        let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
+        let mut averaged = mean.clone();
+        self.simulation.average(&mut averaged);
+        let strain = self.plastic_strain();
+        let yielded = strain.iter().filter(|e| **e > 0.0).count();
+        self.at_rest = AtRest {
+            row: self.at_rest.row,
+            kinetic_share: self.simulation.residual().kinetic_energy
+                / self.simulation.totals().stored_energy,
+            overburden_error,
+            checkerboard: rms(mean.iter().zip(&averaged).map(|(s, a)| s - a)) / scale,
+            yielded: yielded as f64 / strain.len() as f64,
+            width_spread: spread_over_width(&self.moved(), self.ground.across),
+        };
+    }
+
+    fn steps(&self) -> u64 {
+        self.stage_work.steps + self.simulation.work().steps
+    }
+
+    fn metrics(&self) -> Vec<(&'static str, f64)> {
+        let (rest, totals) = (&self.at_rest, self.simulation.totals());
+        let weight = totals.mass * GRAVITY / self.ground.width;
+        let mut values = self.series.metrics(&self.ground.section, &rest.row);
+        values.extend([
+            ("particles", self.reference.len() as f64),
+            ("particles_across", self.ground.across as f64),
+            ("mass", totals.mass / self.ground.width),
+            ("base_reaction_ratio", rest.row.base_force / weight),
+            ("kinetic_share_at_rest", rest.kinetic_share),
+            ("overburden_error", rest.overburden_error),
+            ("checkerboard_at_rest", rest.checkerboard),
+            ("yielded_at_rest", rest.yielded),
+            ("settlement_at_rest", rest.row.settlement),
+        ]);
+        if D == 3 {
+            let end = spread_over_width(&self.moved(), self.ground.across);
+            values.extend([
+                ("width_spread_at_rest", rest.width_spread),
+                ("width_spread_0.5s", self.early_spread),
+                ("width_spread_end", end),
+            ]);
+        }
+        values
+    }
+
+    fn save(&self) -> Result<Saved, MemoryError> {
+        Saved::of(&(
+            self.reduced.is_none(),
+            self.simulation.save()?,
+            self.stage_work,
+            self.at_rest,
+            &self.released,
+            &self.series,
+            self.early_spread,
+        ))
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        let (is_reduced, simulation): (bool, Saved);
+        (
+            is_reduced,
+            simulation,
+            self.stage_work,
+            self.at_rest,
+            self.released,
+            self.series,
+            self.early_spread,
+        ) = saved.read("the landslide")?;
+        if is_reduced && let Some(reduced) = self.reduced.take() {
+            self.simulation = reduced;
+        }
+        self.simulation.restore(&simulation)
+    }
+}
+
+/// The place in the section.
+fn section_of<const D: usize>(x: &[f64; D]) -> [f64; 2] {
+    [x[0], x[1]]
+}
+
+/// A running simulation; one in three dimensions has the same section in plane strain beside it.
+pub(super) struct Simulated<const D: usize> {
+    slide: Slide<D>,
+    plane: Option<Slide<2>>,
+    discretisation: Discretisation,
+    duration: f64,
+}
+
+impl<const D: usize> Simulated<D> {
+    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
+        let slide = Slide::new(spec, parameters)?;
+        let plane = if D == 3 {
+            Some(Slide::new(spec, parameters)?)
+        } else {
+            None
+        };
+        let per_direction = parameters.number("ppc_per_direction");
+        Ok(Self {
+            discretisation: Discretisation {
+                dim: D,
+                h: spec.level.h,
+                ppc: per_direction.powi(D as i32) as u32,
+                dt: slide.ground.dt,
+                wall: parameters.text("wall"),
+            },
+            slide,
+            plane,
+            duration: parameters.number("duration"),
+        })
+    }
+
+    /// Rows of the whole run and rows so far.
+    fn rows(&self) -> (u64, u64) {
+        let all = ((STAGE + self.duration) / ROW).round() as u64;
+        (all, self.slide.steps() / self.slide.ground.steps_per_row)
+    }
+
+    /// Positions, plastic strain and mean stress.
+    fn columns(&mut self) -> Vec<Column> {
+        let column = |name, unit, values| Column { name, unit, values };
+        let plastic_strain = self.slide.plastic_strain();
+        let stress = self.slide.simulation.force_stress();
+        let p = self.slide.simulation.particles();
+        let mut columns: Vec<Column> = ["x", "y", "z"]
+            .into_iter()
+            .take(D)
+            .enumerate()
+            .map(|(a, name)| column(name, "m", p.seeded(|k| p.position[k][a])))
+            .collect();
+        columns.push(column("plastic_strain", "-", plastic_strain));
+        columns.push(column("mean_stress", "Pa", p.seeded(|k| stress[k].mean())));
+        columns
+    }
+}
+
+impl<const D: usize> Memory for Simulated<D> {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        let plane = self.plane.as_ref().map(Slide::save).transpose()?;
+        Saved::of(&(self.slide.save()?, plane))
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        let (slide, plane): (Saved, Option<Saved>) = saved.read("the landslide")?;
+        self.slide.restore(&slide)?;
+        match (&mut self.plane, plane) {
+            (Some(mine), Some(saved)) => mine.restore(&saved),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl<const D: usize> Job for Simulated<D> {
+    fn discretisation(&self) -> Discretisation {
+        self.discretisation.clone()
+    }
+
+    fn series_columns(&self) -> Vec<&'static str> {
+        let mut columns = Row::COLUMNS.to_vec();
+        if self.plane.is_some() {
+            columns.extend(["plane_strain_toe (m)", "plane_strain_settlement (m)"]);
+        }
+        columns
+    }
+
+    fn advance(&mut self) -> Result<Vec<f64>, mpm_core::Error> {
+        let mut values = self.slide.step_row()?.values();
+        if let Some(plane) = &mut self.plane {
+            let row = plane.step_row()?;
+            values.extend([row.toe, row.settlement]);
+        }
+        Ok(values)
+    }
+
+    fn finished(&self) -> bool {
+        let (all, done) = self.rows();
+        done >= all
+    }
+
+    fn progress(&self) -> f64 {
+        let (all, done) = self.rows();
+        done as f64 / all as f64
+    }
+
+    fn snapshot(&mut self) -> Option<Snapshot> {
+        let rows = self.slide.series.rows.len();
+        let time = self.slide.series.rows.last()?.time;
+        let shown = SNAPSHOTS.iter().any(|t| (t - time).abs() < 0.5 * ROW);
+        let few = self.slide.reference.len() <= ANIMATED;
+        let kept = shown || few && rows.is_multiple_of(FRAME);
+        kept.then(|| Snapshot {
+            time,
+            columns: self.columns(),
+        })
+    }
+
+    fn particles(&mut self) -> Vec<Column> {
+        let mut columns = self.columns();
+        let p = self.slide.simulation.particles();
+        for (a, name) in ["reference_x", "reference_y", "reference_z"]
+            .into_iter()
+            .enumerate()
+            .take(D)
+        {
+            let values = p.seeded(|k| p.reference[k][a]);
+            columns.push(Column {
+                name,
+                unit: "m",
+                values,
+            });
+        }
+        let (name, unit) = ("jacobian", "-");
+        let values = p.seeded(|k| p.jacobian[k]);
+        columns.push(Column { name, unit, values });
+        columns
+    }
+
+    fn metrics(&mut self) -> BTreeMap<String, Metric> {
+        let mut values = self.slide.metrics();
+        if let Some(plane) = &self.plane {
+            let (rest, plane_rest) = (&self.slide.at_rest.row, &plane.at_rest.row);
+            let early = |slide: &Series| slide.at(EARLY).map_or(f64::NAN, |row| row.settlement);
+            let [here, there] = [early(&self.slide.series), early(&plane.series)];
+            let toe = |slide: &Series| slide.rows.last().map_or(f64::NAN, |row| row.toe);
+            let relative = |a: f64, b: f64| (a - b) / b;
+            values.extend([
+                (
+                    "off_plane_strain_at_rest",
+                    relative(rest.settlement, plane_rest.settlement),
+                ),
+                ("off_plane_strain_0.5s", relative(here, there)),
+                (
+                    "off_plane_strain_end",
+                    toe(&self.slide.series) - toe(&plane.series),
+                ),
+            ]);
+        }
+        observed(METRICS, values)
+    }
+
+    fn work(&self) -> WorkDone {
+        let now: WorkDone = self.slide.simulation.work().into();
+        now.after(self.slide.stage_work)
+    }
+}
