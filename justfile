@@ -24,6 +24,10 @@ report folder="reports/latest":
 bench:
     cargo bench -p mpm-core --bench kernels
 
+# Workloads, problems and laws in turns with peers; the report is committed.
+speed python="python3":
+    cargo run --release -- bench --peers taichi --python {{python}} --out reports/bench
+
 # The nightly tier; its report goes into the folder that is committed.
 nightly:
     cargo run --release -- verify --tier nightly --resume --out reports/night

@@ -15,7 +15,8 @@ use mpm_verify::cases;
 use mpm_verify::check::Verdict;
 use mpm_verify::files::read_versioned;
 use mpm_verify::record::{self, Record};
-use std::collections::BTreeMap;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -366,14 +367,13 @@ impl<'a> Mutant<'a> {
         let records: Vec<Record> = runs
             .iter()
             .map(|run| {
-                let folder = self.copy.join("run");
-                let mut arguments = vec!["run"];
+                let folder = tempfile::tempdir_in(self.copy).unwrap();
+                let mut arguments = vec!["run", "--threads", "1"];
                 arguments.extend(run.split_whitespace());
-                arguments.extend(["--out", folder.to_str().unwrap()]);
+                arguments.extend(["--out", folder.path().to_str().unwrap()]);
                 let (code, text) = self.call(fault, &arguments);
-                let record: Record =
-                    read_versioned(&folder.join("record.json"), record::SCHEMA).unwrap();
-                fs::remove_dir_all(folder).unwrap();
+                let record = folder.path().join("record.json");
+                let record: Record = read_versioned(&record, record::SCHEMA).unwrap();
                 let red = record.verdicts.iter().any(Verdict::failed);
                 assert_eq!(code != 0, red, "{run}: exit code {code}: {text}");
                 record
@@ -385,25 +385,37 @@ impl<'a> Mutant<'a> {
         verdicts
     }
 
-    /// What goes otherwise than it should.
+    /// What goes otherwise than it should. Runs are short and take one thread each: as many side by side as there are
+    /// cores.
     fn complaints(&self) -> Vec<String> {
-        let mut complaints = Vec::new();
-        let mut sound: BTreeMap<Runs, Vec<Verdict>> = BTreeMap::new();
-        for fault in &FAULTS {
-            for &(runs, check) in fault.seen_by {
-                let whole = sound.entry(runs).or_insert_with(|| self.judge(None, runs));
-                let held = |v: &Verdict| v.check == check && v.pass == Some(true);
-                if !whole.iter().any(held) || whole.iter().any(Verdict::failed) {
-                    complaints.push(format!("{check} of the sound program: {whole:#?}"));
-                }
-                let broken = self.judge(Some(fault), runs);
-                let red = |v: &Verdict| v.check == check && v.failed();
-                if !broken.iter().any(red) {
-                    complaints.push(format!("{} survives {check}: {broken:#?}", fault.name));
-                }
+        let pairs: Vec<(&Fault, Runs, &str)> = FAULTS
+            .iter()
+            .flat_map(|f| {
+                f.seen_by
+                    .iter()
+                    .map(move |(runs, check)| (f, *runs, *check))
+            })
+            .collect();
+        let all: BTreeSet<Runs> = pairs.iter().map(|(_, runs, _)| *runs).collect();
+        let sound: BTreeMap<Runs, Vec<Verdict>> = all
+            .into_par_iter()
+            .map(|runs| (runs, self.judge(None, runs)))
+            .collect();
+        let complaints = pairs.into_par_iter().flat_map(|(fault, runs, check)| {
+            let mut complaints = Vec::new();
+            let whole = &sound[runs];
+            let held = |v: &Verdict| v.check == check && v.pass == Some(true);
+            if !whole.iter().any(held) || whole.iter().any(Verdict::failed) {
+                complaints.push(format!("{check} of the sound program: {whole:#?}"));
             }
-        }
-        complaints
+            let broken = self.judge(Some(fault), runs);
+            let red = |v: &Verdict| v.check == check && v.failed();
+            if !broken.iter().any(red) {
+                complaints.push(format!("{} survives {check}: {broken:#?}", fault.name));
+            }
+            complaints
+        });
+        complaints.collect()
     }
 }
 

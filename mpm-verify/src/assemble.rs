@@ -22,18 +22,28 @@ pub fn with_any_transfer<const D: usize, M: Law + 'static>(
     }
 }
 
-/// A solver of `scene` with a basis.
+/// A solver of `scene` with a basis. Problems in three dimensions offer bases with three nodes along an axis only, so
+/// no other is compiled for them.
 ///
 /// # Errors
-/// The solver refuses the scene.
+/// The solver refuses the scene; a basis that isn't there in three dimensions.
 pub fn with_basis<const D: usize, M: Law + 'static, T: Transfer<D> + 'static>(
     basis: BasisName,
     scene: Scene<D, M, T>,
 ) -> Result<Box<dyn Simulation<D>>, Error> {
     Ok(match basis {
-        BasisName::Linear => Box::new(Solver::<D, 2, Linear, M, T>::new(scene)?),
         BasisName::Gimp => Box::new(Solver::<D, 3, Gimp, M, T>::new(scene)?),
         BasisName::Bspline2 => Box::new(Solver::<D, 3, QuadraticBSpline, M, T>::new(scene)?),
-        BasisName::Bspline3 => Box::new(Solver::<D, 4, CubicBSpline, M, T>::new(scene)?),
+        BasisName::Linear if const { D < 3 } => Box::new(Solver::<D, 2, Linear, M, T>::new(scene)?),
+        BasisName::Bspline3 if const { D < 3 } => {
+            Box::new(Solver::<D, 4, CubicBSpline, M, T>::new(scene)?)
+        }
+        BasisName::Linear | BasisName::Bspline3 => {
+            return Err(Error::Input {
+                what: "dimension of a problem with this basis",
+                value: D as f64,
+                allowed: "1 or 2",
+            });
+        }
     })
 }

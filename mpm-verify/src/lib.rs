@@ -6,6 +6,7 @@
 //! again without simulating.
 
 pub mod assemble;
+pub mod bench;
 pub mod bless;
 pub mod case;
 pub mod cases;

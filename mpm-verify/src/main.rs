@@ -1,9 +1,10 @@
-//! The command line: `mpm-verify list | explain | run | verify | report | bless | diff | exact`.
+//! The command line: `mpm-verify list | explain | run | verify | report | bless | diff | exact | bench`.
 
 mod progress;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+use mpm_verify::bench::{self, Peers};
 use mpm_verify::bless::Candidates;
 use mpm_verify::case::{Case, RunSpec, Tier, find_level};
 use mpm_verify::checkpoint::{self, Identity, Saving};
@@ -172,6 +173,27 @@ enum Command {
         #[arg(long = "set", value_name = "NAME=VALUE")]
         set: Vec<String>,
     },
+    /// Measure speed: workloads, problems and laws take turns; with --peers, other programs with them
+    Bench {
+        /// Rounds, after one that isn't measured
+        #[arg(long, default_value_t = 7)]
+        rounds: usize,
+        /// Numbers of threads, as 1,2 (one and all cores if not given)
+        #[arg(long, value_delimiter = ',')]
+        threads: Vec<usize>,
+        /// Leave out the cost over the number of particles
+        #[arg(long)]
+        no_scaling: bool,
+        /// Compare with other programs: taichi
+        #[arg(long)]
+        peers: Option<String>,
+        /// The Python interpreter that has the peers' packages
+        #[arg(long, default_value = "python3", requires = "peers")]
+        python: PathBuf,
+        /// Folder of the tables and pictures
+        #[arg(long, default_value = "reports/bench")]
+        out: PathBuf,
+    },
 }
 
 fn main() -> std::process::ExitCode {
@@ -197,7 +219,7 @@ const MAX_THREADS: usize = 1024;
 /// The gist of an error of the command line's syntax.
 fn one_line(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing; allowed: list, explain, run, verify, report, bless, diff, exact"
+        return "a command is missing; allowed: list, explain, run, verify, report, bless, diff, exact, bench"
             .to_owned();
     }
     let text = error.to_string();
@@ -350,7 +372,55 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             say(&exact::State::ask(&name, &at, &time, &set)?.json()?)?;
             Ok(ExitCode::Good)
         }
+        Command::Bench {
+            rounds,
+            threads,
+            no_scaling,
+            peers,
+            python,
+            out,
+        } => {
+            let options = bench::Options {
+                rounds: parse_rounds(rounds)?,
+                threads: compared_threads(threads)?,
+                scaling: !no_scaling,
+                peers: peers.map(|name| Peers::of(&name, python)).transpose()?,
+            };
+            let bar = progress::single("bench");
+            let text = bench::measure(&options, &out, &|share| {
+                bar.set_position((share * progress::SCALE) as u64);
+            })?;
+            bar.finish_and_clear();
+            say(&text)?;
+            Ok(ExitCode::Good)
+        }
     }
+}
+
+/// More rounds than this are surely a slip.
+const MAX_ROUNDS: usize = 1000;
+
+fn parse_rounds(rounds: usize) -> Result<usize, Error> {
+    match rounds {
+        1..=MAX_ROUNDS => Ok(rounds),
+        _ => Err(Error::Input(format!(
+            "--rounds {rounds} is not allowed; allowed: 1 to {MAX_ROUNDS}"
+        ))),
+    }
+}
+
+/// One thread and the others that are asked for, all cores if none is.
+fn compared_threads(asked: Vec<usize>) -> Result<Vec<usize>, Error> {
+    let mut threads = vec![1];
+    if asked.is_empty() {
+        threads.push(parse_threads(None)?);
+    }
+    for n in asked {
+        threads.push(parse_threads(Some(n))?);
+    }
+    threads.sort_unstable();
+    threads.dedup();
+    Ok(threads)
 }
 
 /// The named cases, in the order of all; all if none is named.

@@ -142,6 +142,19 @@ pub struct Machine {
     pub threads: usize,
 }
 
+impl Machine {
+    /// This one, with so many threads.
+    #[must_use]
+    pub fn here(threads: usize) -> Self {
+        Self {
+            os: std::env::consts::OS.to_owned(),
+            arch: std::env::consts::ARCH.to_owned(),
+            cores: std::thread::available_parallelism().map_or(1, usize::from),
+            threads,
+        }
+    }
+}
+
 /// What ran.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Version {

@@ -65,12 +65,7 @@ pub fn execute(
             verdicts: Vec::new(),
             work: job.work(),
             time,
-            machine: Machine {
-                os: std::env::consts::OS.to_owned(),
-                arch: std::env::consts::ARCH.to_owned(),
-                cores: std::thread::available_parallelism().map_or(1, usize::from),
-                threads,
-            },
+            machine: Machine::here(threads),
             version: Version::current(),
         };
         if record.status == Status::Ok {

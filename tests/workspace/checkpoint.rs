@@ -438,7 +438,14 @@ fn the_job_of_every_case_goes_on_bit_for_bit() {
             specs = case.plan(Tier::Pr);
         }
         let cheapest = specs.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        (case, cheapest.unwrap())
+        let mut spec = cheapest.unwrap();
+        if case.name() == "landslide" {
+            // Three dimensions, but not so much ground.
+            spec.set = ["height=2", "crest=2", "floor=2", "duration=0.1"]
+                .map(str::to_owned)
+                .into();
+        }
+        (case, spec)
     });
     let runs: Vec<(&dyn Case, RunSpec)> = runs.collect();
     runs.par_iter()

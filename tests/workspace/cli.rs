@@ -92,6 +92,8 @@ fn bad_values_are_refused_with_the_allowed_range() {
         &["threads", "1 to 1024"],
     );
     refused(&["run", "cook", "--threads", "many"], &["threads"]);
+    refused(&["bench", "--rounds", "0"], &["rounds", "1 to 1000"]);
+    refused(&["bench", "--peers", "numpy"], &["peer", "numpy", "taichi"]);
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Convergence and work–precision of every case.
 
 use super::Picture;
-use super::plot::{Chart, Scale, SlopeTriangle};
+use super::plot::{Chart, Dash, Marker, Scale, Series, SlopeTriangle};
+use super::price;
 use super::style::{Panel, Panels};
 use crate::case::Quantity;
 use crate::cases;
@@ -16,6 +17,8 @@ use std::path::Path;
 
 /// The picture that shows times taken.
 pub(super) const CPU_PICTURE: &str = "cpu-precision.png";
+/// Colour of the front.
+const FRONT: usize = 7;
 /// Room between a slope triangle and the curves above it, as a ratio of errors.
 const CLEARANCE: f64 = 1.3;
 /// Width of a slope triangle, as a share of that of the curves.
@@ -51,12 +54,12 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
             draw(
                 "work-precision.png",
                 &PAIRS,
-                "Error against its cost in particle–node pairs visited, for every scheme, converging or not.".to_owned(),
+                "Error against its cost in particle–node pairs visited, for every scheme, converging or not, and the front of what none beats.".to_owned(),
             )?;
             draw(
                 CPU_PICTURE,
                 &TIME,
-                "Error against its cost in CPU time (one thread), for every scheme, converging or not.".to_owned(),
+                "Error against its cost in CPU time (one thread), for every scheme, converging or not, and the front of what none beats.".to_owned(),
             )?;
         } else {
             draw(
@@ -154,6 +157,17 @@ impl Errors<'_> {
                 .filter(|(x, y)| *x > 0.0 && *y > 0.0)
                 .collect()
         });
+        let all = of_quantity()
+            .flat_map(|c| &c.points)
+            .map(|p| ((axis.of)(p), p.value.abs()))
+            .filter(|(x, y)| *x > 0.0 && *y > 0.0);
+        let front = (!axis.order).then(|| Series {
+            name: "front".to_owned(),
+            points: price::front(all),
+            colour: FRONT,
+            marker: Marker::None,
+            dash: Dash::Solid,
+        });
         let orders = of_quantity()
             .filter(|c| panel.schemes.contains(&c.scheme))
             .filter_map(|c| Some(c.order.as_ref()?.order));
@@ -167,7 +181,7 @@ impl Errors<'_> {
             y_label: error_label(quantity, signed),
             x_scale: Scale::Log10,
             y_scale: Scale::Log10,
-            series,
+            series: front.into_iter().chain(series).collect(),
             reference_lines: Vec::new(),
             slope_triangle,
             x_range: None,

@@ -1,6 +1,7 @@
 //! The report as a site that needs no server and no script: an index and a page per case.
 
 use super::describe::{headline, kind, local_orders, made_by, number, order, outcome};
+use super::price::{Price, Prices};
 use super::sketch;
 use crate::case::{Case, Quantity};
 use crate::cases;
@@ -200,6 +201,7 @@ fn case_page(case: &dyn Case, study: &CaseStudy, tier: &str) -> Value {
         headings => case.headlines().iter().map(|h| h.heading).collect::<Vec<_>>(),
         runs => study.records.iter().map(|r| run(case, r)).collect::<Vec<_>>(),
         ladders => ladders.collect::<Vec<_>>(),
+        prices => Prices::of(study).as_ref().map(prices),
         checks => checks(case, study),
         together => study.verdicts.iter().map(verdict).collect::<Vec<_>>(),
         limits => case.limits().to_vec(),
@@ -333,6 +335,23 @@ fn checks(case: &dyn Case, study: &CaseStudy) -> Vec<Value> {
         context! { name, kind => kind(of), statement, pass, fail, none }
     };
     declared.chain(undeclared).map(row).collect()
+}
+
+fn prices(prices: &Prices) -> Value {
+    let row = |price: &Price| {
+        let [pairs, cpu] = price.shown();
+        context! {
+            scheme => price.scheme.to_string(), pairs, cpu,
+            relative => prices.relative(price),
+            least => number(Some(price.least)),
+        }
+    };
+    context! {
+        label => prices.label,
+        metric => &prices.metric,
+        target => number(Some(prices.target)),
+        rows => prices.rows.iter().map(row).collect::<Vec<_>>(),
+    }
 }
 
 /// The convergence of a quantity, scheme by scheme, if there is any.

@@ -18,6 +18,7 @@ mod html;
 mod junit;
 mod landslide;
 pub mod plot;
+mod price;
 mod remedies;
 mod sketch;
 mod style;

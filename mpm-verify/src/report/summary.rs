@@ -1,7 +1,7 @@
 //! The summary in Markdown.
 
 use super::describe::{self, bless_commands, headline, kind, local_orders, number, order, outcome};
-use super::remedies;
+use super::{price, remedies};
 use crate::case::Headline;
 use crate::cases;
 use crate::check::{Kind, Verdict};
@@ -55,6 +55,7 @@ fn text(summary: &Summary) -> Result<String, Error> {
             &mut t,
         );
         orders(&study.convergence, &mut t);
+        t.push_str(&price::table(study).unwrap_or_default());
     }
     for picture in summary.cases.iter().flat_map(|s| &s.pictures) {
         let _ = writeln!(

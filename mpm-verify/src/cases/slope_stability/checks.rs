@@ -118,3 +118,6 @@ pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
     }
     verdicts
 }
+
+#[cfg(test)]
+mod tests;

@@ -136,3 +136,22 @@ fn three_dimensions_are_those_of_the_section() {
     assert_eq!(of(OURS, 1e-8, 1e-3, "plane-strain"), [Some(true)]);
     assert_eq!(of(OURS, 1e-8, 3e-2, "plane-strain"), [Some(false)]);
 }
+
+#[test]
+fn half_the_time_step_moves_the_toe_by_less_than_a_cell() {
+    let of = |scheme, runout| {
+        let records = [
+            run(
+                scheme,
+                &["reduction=2", "cfl=0.175"],
+                &[("runout_2.5s", runout)],
+            ),
+            run(scheme, &["reduction=2"], &[("runout_2.5s", 5.0)]),
+            run(scheme, &[], &[("runout_2.5s", 1.0)]),
+        ];
+        outcomes(&judge_study(&records), "time-step")
+    };
+    assert_eq!(of(OURS, 5.3), [Some(true)]);
+    assert_eq!(of(OURS, 5.5), [Some(false)]);
+    assert_eq!(of(STANDARD, 5.5), []);
+}

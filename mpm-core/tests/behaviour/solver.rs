@@ -1,11 +1,5 @@
 //! The solver as a whole: conservation, exact motions, errors, determinism, allocation.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::projection::Average;

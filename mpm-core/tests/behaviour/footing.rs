@@ -1,11 +1,5 @@
 //! A rough strip footing on clay, through the barrier.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use mpm_core::basis::{Gimp, WallTreatment};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::material::{HenckyJ2, Law, Strength};

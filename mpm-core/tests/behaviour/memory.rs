@@ -1,11 +1,5 @@
 //! A run that is saved, built anew and restored goes on bit for bit; what is not its memory is refused.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength};

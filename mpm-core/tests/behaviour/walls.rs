@@ -1,11 +1,5 @@
 //! Walls that hold on to what touches them and walls that let go; a body handed from run to run.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::remedy::FbarRate;

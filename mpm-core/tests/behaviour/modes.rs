@@ -1,11 +1,5 @@
 //! What the averages do to waves: the closed forms and tables of `docs/modes.md`.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use mpm_core::material::NewtonianFluid;
 use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};

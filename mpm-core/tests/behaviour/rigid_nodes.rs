@@ -1,11 +1,5 @@
 //! A body pressed by nodes that move with a rigid one.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use mpm_core::basis::{Gimp, Linear, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::remedy::Standard;

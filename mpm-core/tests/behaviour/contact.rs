@@ -1,11 +1,5 @@
 //! Contact with rigid bodies: barrier, friction, reactions, the time step.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use mpm_core::basis::{Gimp, WallTreatment};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::material::{Law, NeoHookean};

@@ -1,0 +1,16 @@
+//! Tests of the solver from outside, as one program.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+mod contact;
+mod footing;
+mod memory;
+mod modes;
+mod rigid_nodes;
+mod solver;
+mod walls;

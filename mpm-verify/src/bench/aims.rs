@@ -1,0 +1,154 @@
+//! The aims and what was measured of them.
+
+use super::{Bench, Measured, Spread, model, ratio};
+
+/// One aim.
+pub(super) struct Aim {
+    /// Its number and what is measured.
+    pub(super) what: String,
+    /// What is wanted, in words.
+    pub(super) wanted: String,
+    /// What was measured.
+    pub(super) measured: Spread,
+    /// Whether its median is within the aim.
+    pub(super) met: bool,
+}
+
+/// Workloads by name and dimension.
+const WORKLOADS: [(&str, usize, bool); 4] = [
+    ("W2", 2, false),
+    ("W2F", 2, true),
+    ("W3", 3, false),
+    ("W3F", 3, true),
+];
+/// How many times as fast as tuned and as idiomatic Taichi, in two and in three dimensions.
+const OVER_PEERS: [(&str, [f64; 2]); 2] = [("tuned", [1.8, 2.5]), ("idiomatic", [8.0, 15.0])];
+const FBAR_COST: f64 = 1.5;
+const TWO_THREADS: f64 = 1.75;
+const SCALING: f64 = 1.1;
+const MEMORY: f64 = 1.2;
+/// Time of a law (ns), in two and in three dimensions.
+const LAW: [f64; 2] = [60.0, 100.0];
+
+fn at_least(what: String, limit: f64, measured: Spread) -> Aim {
+    Aim {
+        what,
+        wanted: format!("at least {limit}"),
+        met: measured.median >= limit,
+        measured,
+    }
+}
+
+fn at_most(what: String, limit: f64, unit: &str, measured: Spread) -> Aim {
+    Aim {
+        what,
+        wanted: format!("at most {limit}{unit}"),
+        met: measured.median <= limit,
+        measured,
+    }
+}
+
+/// All that could be measured, in order.
+pub(super) fn of(bench: &Bench) -> Vec<Aim> {
+    let mut aims = Vec::new();
+    over_peers(bench, &mut aims);
+    fbar_cost(bench, &mut aims);
+    threads(bench, &mut aims);
+    scaling(bench, &mut aims);
+    memory(bench, &mut aims);
+    laws(bench, &mut aims);
+    aims
+}
+
+/// Only of a peer that came to the same sums is a ratio told.
+fn over_peers(bench: &Bench, aims: &mut Vec<Aim>) {
+    for (name, dimension, _) in WORKLOADS {
+        for (way, limits) in OVER_PEERS {
+            let peer = bench.find("peer", &format!("{name} Taichi {way}"), 1);
+            let peer = peer.filter(|p| p.same == Some(true));
+            let ours = bench.find("workload", name, 1);
+            if let Some(spread) = peer.zip(ours).and_then(|(p, o)| ratio(p, o, |s| s.cpu_s)) {
+                let what = format!("1. {name}: times as fast as {way} Taichi, one thread");
+                aims.push(at_least(what, limits[dimension - 2], spread));
+            }
+        }
+    }
+}
+
+fn fbar_cost(bench: &Bench, aims: &mut Vec<Aim>) {
+    for (with, without) in [("W2F", "W2"), ("W3F", "W3")] {
+        let of = |name| bench.find("workload", name, 1);
+        let both = of(with).zip(of(without));
+        if let Some(spread) = both.and_then(|(with, without)| ratio(with, without, |s| s.cpu_s)) {
+            let what = format!("2. {with} over {without}: the price of F̄, one thread");
+            aims.push(at_most(what, FBAR_COST, "", spread));
+        }
+    }
+}
+
+fn threads(bench: &Bench, aims: &mut Vec<Aim>) {
+    for (name, ..) in WORKLOADS {
+        let on = |threads| bench.find("workload", name, threads);
+        let Some((one, two)) = on(1).zip(on(2)) else {
+            continue;
+        };
+        if let Some(spread) = ratio(one, two, |s| s.wall_s) {
+            let mut aim = at_least(
+                format!("3. {name}: times as fast on two threads as on one"),
+                TWO_THREADS,
+                spread,
+            );
+            let same = two.same == Some(true);
+            aim.what += if same { ", same bits" } else { ", OTHER BITS" };
+            aim.met &= same;
+            aims.push(aim);
+        }
+    }
+}
+
+/// Greatest over least cost of a particle's step over the numbers of particles.
+fn scaling(bench: &Bench, aims: &mut Vec<Aim>) {
+    for (name, ..) in WORKLOADS {
+        let sizes: Vec<&Measured> = bench
+            .of_group("scaling")
+            .filter(|m| m.name == name)
+            .collect();
+        let rounds = sizes.iter().map(|m| m.samples.len()).min().unwrap_or(0);
+        let of_round = |k: usize| {
+            let cost = |m: &&Measured| m.samples[k].cpu_s / m.samples[k].updates as f64;
+            let costs = Spread::of(sizes.iter().map(cost));
+            costs.map_or(f64::NAN, |c| c.greatest / c.least)
+        };
+        if let Some(spread) = Spread::of((0..rounds).map(of_round)) {
+            let what = format!("4. {name}: dearest over cheapest size, 10⁴ to 10⁶·⁵ particles");
+            aims.push(at_most(what, SCALING, "", spread));
+        }
+    }
+}
+
+fn memory(bench: &Bench, aims: &mut Vec<Aim>) {
+    for (name, dimension, fbar) in WORKLOADS {
+        let largest = bench
+            .of_group("scaling")
+            .filter(|m| m.name == name)
+            .max_by_key(|m| m.particles);
+        let Some((measured, bytes)) = largest.and_then(|m| Some((m, m.memory?))) else {
+            continue;
+        };
+        let needed = model::needed(dimension, fbar) * measured.particles as f64;
+        if let Some(spread) = Spread::of([bytes as f64 / needed]) {
+            let what = format!("4. {name}: memory over that of the columns it needs");
+            aims.push(at_most(what, MEMORY, "", spread));
+        }
+    }
+}
+
+fn laws(bench: &Bench, aims: &mut Vec<Aim>) {
+    for law in bench.of_group("law") {
+        let limit = LAW[usize::from(law.name.starts_with("3D"))];
+        if let Some(spread) = law.cpu_ns() {
+            let what = format!("5. law, {}: time per particle", law.name);
+            aims.push(at_most(what, limit, " ns", spread));
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! What of this program is timed.
+
+use super::{Outcome, Sample, Timed, timed};
+use crate::case::Job;
+use crate::error::Error;
+use mpm_core::{Memory, Simulation};
+use rayon::ThreadPool;
+use std::collections::BTreeMap;
+
+/// Something of this program that goes on.
+pub(super) trait Going: Send {
+    /// Goes on by a slice and returns the updates.
+    fn go_on(&mut self) -> Result<u64, Error>;
+    /// What it has come to.
+    fn outcome(&mut self) -> Result<Option<Outcome>, Error>;
+}
+
+/// Something of this program on threads of its own.
+pub(super) struct Local<G> {
+    pool: ThreadPool,
+    going: G,
+}
+
+impl<G: Going> Local<G> {
+    /// `begin` on so many threads.
+    pub(super) fn new(
+        threads: usize,
+        begin: impl FnOnce() -> Result<G, Error> + Send,
+    ) -> Result<Self, Error> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool =
+            pool.map_err(|e| Error::Input(format!("{threads} threads can't be started: {e}")))?;
+        let going = pool.install(begin)?;
+        Ok(Self { pool, going })
+    }
+
+    /// What goes on.
+    pub(super) fn going(&self) -> &G {
+        &self.going
+    }
+}
+
+impl<G: Going> Timed for Local<G> {
+    fn slice(&mut self) -> Result<Sample, Error> {
+        let Self { pool, going } = self;
+        pool.install(|| timed(|| going.go_on()))
+    }
+
+    fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
+        let Self { pool, going } = self;
+        pool.install(|| going.outcome())
+    }
+}
+
+fn checksum(memory: &(impl Memory + ?Sized)) -> Result<u32, Error> {
+    let bytes = memory.save().map_err(mpm_core::Error::from)?;
+    let bytes = postcard::to_stdvec(&bytes).map_err(|e| Error::Input(e.to_string()))?;
+    Ok(crc32fast::hash(&bytes))
+}
+
+/// A simulation, so many steps a slice.
+pub(super) struct Steps<const D: usize> {
+    pub(super) simulation: Box<dyn Simulation<D>>,
+    pub(super) steps: u64,
+}
+
+impl<const D: usize> Going for Steps<D> {
+    fn go_on(&mut self) -> Result<u64, Error> {
+        let before = self.simulation.work().particle_steps;
+        for _ in 0..self.steps {
+            self.simulation.step()?;
+        }
+        Ok(self.simulation.work().particle_steps - before)
+    }
+
+    fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
+        Ok(Some(Outcome {
+            bits: Some(checksum(self.simulation.as_ref())?),
+            sums: sums(self.simulation.as_ref()),
+        }))
+    }
+}
+
+/// Sums over a body and means over its particles, as peers tell them.
+fn sums<const D: usize>(simulation: &dyn Simulation<D>) -> BTreeMap<String, f64> {
+    let (totals, particles) = (simulation.totals(), simulation.particles());
+    let mean = |sum: f64| sum / particles.len() as f64;
+    let centre = |a: usize| mean(particles.position.iter().map(|x| x[a]).sum());
+    let jacobian = mean(particles.jacobian.iter().sum());
+    let averaged = match particles.j_bar.is_empty() {
+        true => jacobian,
+        false => mean(particles.j_bar.iter().sum()),
+    };
+    let sums = [
+        ("mass", totals.mass),
+        ("momentum_x", totals.momentum[0]),
+        ("momentum_y", totals.momentum[1]),
+        ("centre_x", centre(0)),
+        ("centre_y", centre(1)),
+        ("kinetic_energy", totals.kinetic_energy),
+        ("stored_energy", totals.stored_energy),
+        ("mean_jacobian", jacobian),
+        ("mean_averaged_jacobian", averaged),
+    ];
+    sums.map(|(name, value)| (name.to_owned(), value)).into()
+}
+
+/// A run of a case, to its next time of observation a slice.
+pub(super) struct Observations(pub(super) Box<dyn Job>);
+
+impl Observations {
+    pub(super) fn particles(&self) -> u64 {
+        self.0.work().particles
+    }
+}
+
+impl Going for Observations {
+    fn go_on(&mut self) -> Result<u64, Error> {
+        let before = self.0.work().particle_steps;
+        self.0.advance()?;
+        Ok(self.0.work().particle_steps - before)
+    }
+
+    fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
+        Ok(Some(Outcome {
+            bits: Some(checksum(self.0.as_ref())?),
+            ..Outcome::default()
+        }))
+    }
+}

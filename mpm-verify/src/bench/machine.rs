@@ -1,0 +1,69 @@
+//! What the machine's memory gives: a triad aᵢ = bᵢ + s cᵢ over arrays that no cache holds (McCalpin 1995).
+
+use super::local::{Going, Local};
+use super::{Options, Outcome, Turn};
+use crate::error::Error;
+use rayon::prelude::*;
+
+/// Numbers per array: 256 MiB each.
+const LENGTH: usize = 1 << 25;
+/// Numbers that one thread takes at a time.
+const PART: usize = 1 << 16;
+/// Bytes that are read and written for one entry, the line that a write fetches before it left aside.
+const BYTES: u64 = 24;
+
+struct Triad {
+    a: Vec<f64>,
+    b: Vec<f64>,
+    c: Vec<f64>,
+}
+
+impl Going for Triad {
+    fn go_on(&mut self) -> Result<u64, Error> {
+        let (b, c) = (self.b.par_chunks(PART), self.c.par_chunks(PART));
+        self.a
+            .par_chunks_mut(PART)
+            .zip(b.zip(c))
+            .for_each(|(a, (b, c))| {
+                for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
+                    *a = b + 3.0 * c;
+                }
+            });
+        Ok(BYTES * LENGTH as u64)
+    }
+
+    fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
+        Ok(None)
+    }
+}
+
+/// The triad on each number of threads.
+pub(super) fn turns(options: &Options) -> Result<Vec<Turn>, Error> {
+    let turn = |&threads: &usize| {
+        let triad = Local::new(threads, || {
+            Ok(Triad {
+                a: vec![0.0; LENGTH],
+                b: vec![1.0; LENGTH],
+                c: vec![2.0; LENGTH],
+            })
+        })?;
+        Ok(Turn {
+            group: "memory",
+            name: "triad".to_owned(),
+            threads,
+            particles: 0,
+            memory: None,
+            timed: Box::new(triad),
+            like: None,
+        })
+    };
+    options.threads.iter().map(turn).collect()
+}
+
+/// Resident memory of this process (bytes), where the system tells.
+pub(super) fn resident() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmRSS:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024 * kilobytes)
+}

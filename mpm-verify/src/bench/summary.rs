@@ -1,0 +1,257 @@
+//! Tables and pictures of what was measured.
+
+use super::{Bench, Measured, Spread, aims, model};
+use crate::error::Error;
+use crate::files::{write_csv, write_whole};
+use crate::report::plot::{Chart, Dash, Marker, Scale, Series, draw_charts};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Writes the tables and pictures of a bench and returns the tables.
+pub(super) fn write(bench: &Bench, out: &Path) -> Result<String, Error> {
+    let mut text = String::from("# Speed\n\n");
+    let machine = &bench.machine;
+    let _ = writeln!(
+        text,
+        "{} {}, {} cores; {}. Medians over the rounds, in brackets least and greatest; CPU time unless said.",
+        machine.os,
+        machine.arch,
+        machine.cores,
+        format_args!(
+            "mpm-verify {}, source {}",
+            bench.version.mpm_verify, bench.version.source
+        )
+    );
+    for part in [
+        aims_table(bench),
+        workloads(bench),
+        peers(bench),
+        problems(bench),
+        sizes(bench),
+    ] {
+        text += &part;
+    }
+    write_whole(&out.join("summary.md"), text.as_bytes())?;
+    write_rows(bench, out)?;
+    draw_scaling(bench, out)?;
+    Ok(text)
+}
+
+fn spread(spread: Option<Spread>, decimals: usize) -> String {
+    spread.map_or("–".to_owned(), |s| {
+        format!(
+            "{:.decimals$} [{:.decimals$}, {:.decimals$}]",
+            s.median, s.least, s.greatest
+        )
+    })
+}
+
+/// A table, or nothing without rows.
+fn table(title: &str, header: &[&str], rows: Vec<Vec<String>>) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    let header: Vec<String> = header.iter().map(|h| (*h).to_owned()).collect();
+    let rule = format!("|{}\n", "---|".repeat(header.len()));
+    let rows: String = rows.iter().map(|row| line(row)).collect();
+    format!("\n## {title}\n\n{}{rule}{rows}", line(&header))
+}
+
+fn aims_table(bench: &Bench) -> String {
+    let row = |aim: aims::Aim| {
+        let met = if aim.met { "met" } else { "missed" };
+        vec![
+            aim.what,
+            aim.wanted,
+            spread(Some(aim.measured), 2),
+            met.to_owned(),
+        ]
+    };
+    let rows = aims::of(bench).into_iter().map(row).collect();
+    table("Aims", &["what", "aim", "measured", ""], rows)
+}
+
+/// Updates per second (10⁶) by wall time.
+fn rate(measured: &Measured) -> Option<Spread> {
+    Spread::of(
+        measured
+            .samples
+            .iter()
+            .map(|s| 1e-6 * s.updates as f64 / s.wall_s),
+    )
+}
+
+fn workloads(bench: &Bench) -> String {
+    let row = |m: &Measured| {
+        let dimension = if m.name.starts_with("W2") { 2 } else { 3 };
+        let fbar = m.name.ends_with('F');
+        let bytes = model::bytes(dimension, fbar);
+        let operations = model::operations(dimension, fbar);
+        let ours = m.wall_ns().map_or(f64::NAN, |s| s.median);
+        let bandwidth = bytes / ours;
+        let triad = bench.find("memory", "triad", m.threads);
+        let triad = triad
+            .and_then(Measured::wall_ns)
+            .map_or(f64::NAN, |s| 1.0 / s.median);
+        vec![
+            m.name.clone(),
+            m.threads.to_string(),
+            m.particles.to_string(),
+            spread(m.cpu_ns(), 1),
+            spread(rate(m), 1),
+            format!("{bytes:.0}"),
+            format!("{operations:.0}"),
+            format!("{bandwidth:.1}"),
+            format!("{triad:.1}"),
+            format!("{:.0} %", 100.0 * bandwidth / triad),
+        ]
+    };
+    let rows = bench.of_group("workload").map(row).collect();
+    let header = [
+        "workload",
+        "threads",
+        "particles",
+        "CPU (ns/update)",
+        "10⁶ updates/s",
+        "bytes/update",
+        "operations/update",
+        "GB/s",
+        "triad GB/s",
+        "of the bound",
+    ];
+    table("Workloads", &header, rows)
+}
+
+fn peers(bench: &Bench) -> String {
+    let row = |m: &Measured| {
+        let same = match m.same {
+            Some(true) => "the same",
+            _ => "OTHER: no ratio",
+        };
+        vec![
+            m.name.clone(),
+            m.threads.to_string(),
+            spread(m.cpu_ns(), 1),
+            spread(rate(m), 1),
+            same.to_owned(),
+        ]
+    };
+    let rows = bench.of_group("peer").map(row).collect();
+    let header = [
+        "peer",
+        "threads",
+        "CPU (ns/update)",
+        "10⁶ updates/s",
+        "sums to 10⁻⁹",
+    ];
+    table("Peers", &header, rows)
+}
+
+fn problems(bench: &Bench) -> String {
+    let row = |one: &Measured| {
+        let others = bench.of_group("problem").filter(|m| m.name == one.name);
+        let rates: Vec<String> = others
+            .map(|m| format!("{} on {}", spread(rate(m), 2), m.threads))
+            .collect();
+        vec![
+            one.name.clone(),
+            one.particles.to_string(),
+            spread(one.cpu_ns(), 1),
+            rates.join(", "),
+        ]
+    };
+    let ones = bench.of_group("problem").filter(|m| m.threads == 1);
+    let header = [
+        "problem",
+        "particles",
+        "CPU (ns/update), one thread",
+        "10⁶ updates/s, threads",
+    ];
+    table("Problems", &header, ones.map(row).collect())
+}
+
+fn sizes(bench: &Bench) -> String {
+    let row = |m: &Measured| {
+        let memory = m.memory.map(|bytes| bytes as f64 / m.particles as f64);
+        vec![
+            m.name.clone(),
+            m.particles.to_string(),
+            spread(m.cpu_ns(), 1),
+            memory.map_or("–".to_owned(), |bytes| format!("{bytes:.0}")),
+        ]
+    };
+    let rows = bench.of_group("scaling").map(row).collect();
+    let header = [
+        "block",
+        "particles",
+        "CPU (ns/update)",
+        "memory (bytes/particle)",
+    ];
+    table("Sizes, one thread", &header, rows)
+}
+
+fn write_rows(bench: &Bench, out: &Path) -> Result<(), Error> {
+    let header = [
+        "group",
+        "name",
+        "threads",
+        "particles",
+        "round",
+        "updates",
+        "wall (s)",
+        "CPU (s)",
+    ];
+    let rows = bench.measured.iter().flat_map(|m| {
+        m.samples.iter().enumerate().map(move |(round, s)| {
+            vec![
+                m.group.clone(),
+                m.name.clone(),
+                m.threads.to_string(),
+                m.particles.to_string(),
+                round.to_string(),
+                s.updates.to_string(),
+                s.wall_s.to_string(),
+                s.cpu_s.to_string(),
+            ]
+        })
+    });
+    write_csv(&out.join("bench.csv"), &header.map(str::to_owned), rows)
+}
+
+/// Draws the cost over the number of particles, if it was measured.
+fn draw_scaling(bench: &Bench, out: &Path) -> Result<(), Error> {
+    let names = ["W2", "W2F", "W3", "W3F"];
+    let series = names.iter().enumerate().map(|(k, name)| {
+        let sizes = bench.of_group("scaling").filter(|m| m.name == *name);
+        let point = |m: &Measured| Some((m.particles as f64, m.cpu_ns()?.median));
+        Series {
+            name: (*name).to_owned(),
+            points: sizes.filter_map(point).collect(),
+            colour: k,
+            marker: [
+                Marker::Circle,
+                Marker::Square,
+                Marker::Triangle,
+                Marker::Diamond,
+            ][k],
+            dash: Dash::Solid,
+        }
+    });
+    let chart = Chart {
+        title: "Cost of a particle's step on one thread".to_owned(),
+        x_label: "particles".to_owned(),
+        y_label: "CPU time per particle and step (ns)".to_owned(),
+        x_scale: Scale::Log10,
+        y_scale: Scale::Linear,
+        series: series.filter(|s| !s.points.is_empty()).collect(),
+        reference_lines: Vec::new(),
+        slope_triangle: None,
+        x_range: None,
+        y_range: None,
+    };
+    match chart.shows_something() {
+        true => Ok(draw_charts(&out.join("scaling.png"), &[chart], 1)?),
+        false => Ok(()),
+    }
+}

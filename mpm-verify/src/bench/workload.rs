@@ -1,0 +1,180 @@
+//! Blocks that fly and deform, of one size with those that other programs are measured with: W2 and W3, and with F̄ W2F and
+//! W3F; and the same in many sizes.
+//!
+//! A square or cube of `cells` cells, two particles per cell and direction, neo-Hookean (E = 10⁵ Pa, ν = 0.3,
+//! 1000 kg/m³), with a smooth velocity field; h = 1/280 m, Δt = 0.1 h/c; FLIP, quadratic B-splines. The room around it is
+//! so wide that no particle reaches an end.
+
+use super::local::{Local, Steps};
+use super::machine::resident;
+use super::{Options, Turn};
+use crate::assemble::with_basis;
+use crate::error::Error;
+use crate::scheme::{BasisName, RemedyName};
+use mpm_core::basis::WallTreatment;
+use mpm_core::material::{Law, NeoHookean};
+use mpm_core::solver::courant_time_step;
+use mpm_core::transfer::Flip;
+use mpm_core::{Axis, Grid, Particles, Scene, Simulation};
+use std::f64::consts::TAU;
+
+/// Cells on every side of the block.
+const MARGIN: usize = 20;
+/// Cell size (m).
+const H: f64 = 1.0 / 280.0;
+const DENSITY: f64 = 1000.0;
+/// Steps of a slice.
+pub(super) const STEPS: u64 = 10;
+/// Particle updates of a slice of the scaling, at least.
+const UPDATES: u64 = 2_000_000;
+
+/// A block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Block<const D: usize> {
+    /// Cells along each axis.
+    pub(super) cells: usize,
+    /// The recursive F̄, or none.
+    pub(super) fbar: bool,
+}
+
+/// The block of 230,400 particles in two dimensions and that of 314,432 in three.
+pub(super) const fn standard<const D: usize>(fbar: bool) -> Block<D> {
+    let cells = if D == 2 { 240 } else { 34 };
+    Block { cells, fbar }
+}
+
+impl<const D: usize> Block<D> {
+    pub(super) fn name(&self) -> String {
+        format!("W{D}{}", if self.fbar { "F" } else { "" })
+    }
+
+    pub(super) fn particles(&self) -> u64 {
+        (2 * self.cells as u64).pow(D as u32)
+    }
+
+    fn positions(&self) -> Vec<[f64; D]> {
+        let n = 2 * self.cells;
+        let place = |k: usize| (MARGIN as f64 + (k as f64 + 0.5) / 2.0) * H;
+        (0..n.pow(D as u32))
+            .map(|k| std::array::from_fn(|a| place(k / n.pow((D - 1 - a) as u32) % n)))
+            .collect()
+    }
+
+    fn simulation(&self) -> Result<Box<dyn Simulation<D>>, Error> {
+        // Quadratic splines have their nodes in the middle of cells; here, as elsewhere, they are at multiples of h.
+        let axis = Axis::open(-0.5 * H, self.cells + 2 * MARGIN);
+        let law = NeoHookean::new(1e5, 0.3)?;
+        let dt = courant_time_step(0.1, H, law.wave_speed(DENSITY));
+        let volume = (0.5 * H).powi(D as i32);
+        let mut particles = Particles::new(self.positions(), volume, DENSITY, [0.25 * H; D])?;
+        for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
+            *v = velocity(x);
+        }
+        let remedy = match self.fbar {
+            true => RemedyName::FbarRecursive,
+            false => RemedyName::None,
+        };
+        Ok(with_basis(
+            BasisName::Bspline2,
+            Scene {
+                grid: Grid::new(H, [axis; D])?,
+                wall: WallTreatment::OpenKnot,
+                law,
+                transfer: Flip::default(),
+                particles,
+                remedy: remedy.build(),
+                loads: Vec::new(),
+                contacts: Vec::new(),
+                force_filters: Vec::new(),
+                constraints: Vec::new(),
+                particle_filters: Vec::new(),
+                dt,
+            },
+        )?)
+    }
+
+    fn turn(
+        &self,
+        group: &'static str,
+        steps: u64,
+        threads: usize,
+        like: Option<usize>,
+    ) -> Result<Turn, Error> {
+        let before = resident();
+        let local = Local::new(threads, || {
+            let simulation = self.simulation()?;
+            Ok(Steps { simulation, steps })
+        })?;
+        let memory = resident().zip(before);
+        Ok(Turn {
+            group,
+            name: self.name(),
+            threads,
+            particles: self.particles(),
+            memory: memory.map(|(after, before)| after.saturating_sub(before)),
+            timed: Box::new(local),
+            like,
+        })
+    }
+
+    /// The block on each number of threads.
+    fn on_threads(
+        &self,
+        group: &'static str,
+        steps: u64,
+        options: &Options,
+        turns: &mut Vec<Turn>,
+    ) -> Result<(), Error> {
+        let first = turns.len();
+        for &threads in &options.threads {
+            let like = (turns.len() > first).then_some(first);
+            turns.push(self.turn(group, steps, threads, like)?);
+        }
+        Ok(())
+    }
+}
+
+fn velocity<const D: usize>(x: &[f64; D]) -> [f64; D] {
+    let wave = |a: usize| TAU * x[a];
+    std::array::from_fn(|a| match a {
+        0 => 0.3 + wave(0).sin() * wave(1).cos(),
+        1 => 0.1 - 0.5 * wave(0).cos() * wave(1).sin(),
+        _ => 0.2 + 0.4 * wave(2).sin() * wave(0).cos(),
+    })
+}
+
+/// W2, W2F, W3 and W3F.
+pub(super) fn turns(options: &Options, turns: &mut Vec<Turn>) -> Result<(), Error> {
+    for fbar in [false, true] {
+        standard::<2>(fbar).on_threads("workload", STEPS, options, turns)?;
+        standard::<3>(fbar).on_threads("workload", STEPS, options, turns)?;
+    }
+    Ok(())
+}
+
+/// Blocks of 10⁴ to 10⁶·⁵ particles, half a decade apart, on one thread.
+pub(super) fn scaling<const D: usize>(_: &Options) -> Result<Vec<Turn>, Error> {
+    let cells: [usize; 6] = match D {
+        2 => [50, 89, 158, 281, 500, 889],
+        _ => [11, 16, 23, 34, 50, 73],
+    };
+    let blocks = cells
+        .into_iter()
+        .flat_map(|cells| [false, true].map(|fbar| Block::<D> { cells, fbar }));
+    blocks
+        .map(|block| {
+            let steps = UPDATES.div_ceil(block.particles());
+            block.turn("scaling", steps, 1, None)
+        })
+        .collect()
+}
+
+/// Blocks of 400 particles on each number of threads.
+#[cfg(test)]
+pub(super) fn small(options: &Options, turns: &mut Vec<Turn>) -> Result<(), Error> {
+    for fbar in [false, true] {
+        let block = Block::<2> { cells: 10, fbar };
+        block.on_threads("workload", STEPS, options, turns)?;
+    }
+    Ok(())
+}
