@@ -2,6 +2,8 @@
 //!
 //! `.ci/instructions BASE` compares them with those of another commit.
 
+#![allow(missing_docs, reason = "what the macros make has no documentation")]
+
 use gungraun::{library_benchmark, library_benchmark_group, main};
 use mpm_core::basis::{Gimp, QuadraticBSpline, WallTreatment};
 use mpm_core::material::{HenckyJ2, Law, NewtonianFluid, Strength};

@@ -1,7 +1,7 @@
 //! How fast the program is: what takes turns on one machine, compared as ratios of one run.
 //!
 //! Wall times of a shared machine are noise. What is compared here takes turns: every round runs a slice of each
-//! [`Timed`] thing, ratios are formed within a round, and their median and range over the rounds are told.
+//! `Timed` thing, ratios are formed within a round, and their median and range over the rounds are told.
 
 mod aims;
 mod laws;
