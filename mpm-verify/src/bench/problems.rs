@@ -1,4 +1,4 @@
-//! The four problems, each at a level at which it takes a second or two from one observation to the next.
+//! The four problems, each at a level with a few thousand particles or a few ten thousand, from one observation to the next.
 
 use super::local::{Local, Observations};
 use super::{Options, Turn};

@@ -1,57 +1,5 @@
 use super::*;
 
-/// A slope 5 m high with a face of 45° and a crest 10 m long, `wide` (m) across (along z), of particles a tenth of a
-/// metre apart; slid by a share `slid` of a slide that is made up: slices that move one after the other along bands of
-/// strain.
-fn slope(wide: f64, slid: f64) -> SolidPanel {
-    let size = 0.1;
-    let mut panel = SolidPanel {
-        title: format!("slid by {slid}"),
-        points: Vec::new(),
-        values: Vec::new(),
-        size,
-    };
-    let places = |length: f64| {
-        let count = (length / size).round() as usize;
-        (0..count).map(move |k| (k as f64 + 0.5) * size)
-    };
-    for x in places(15.0) {
-        for y in places(5.0) {
-            for z in places(wide) {
-                if x + y < 15.0 {
-                    let (point, value) = slide([x, y, z], slid);
-                    panel.points.push(point);
-                    panel.values.push(value);
-                }
-            }
-        }
-    }
-    panel
-}
-
-/// Where a particle has slid, and its strain.
-fn slide([x, y, z]: [f64; 3], slid: f64) -> ([f64; 3], f64) {
-    let toes = [13.5, 11.8, 10.2, 8.8];
-    let wave = 0.25 * (1.3 * z).sin() + 0.12 * (3.1 * z + 1.0).sin();
-    let (mut place, mut strain) = ([x, y, z], 0.0);
-    for (k, toe) in toes.into_iter().enumerate() {
-        let begun = (slid * 4.0 - k as f64).clamp(0.0, 4.0 - k as f64);
-        // Distance behind a curved surface of rupture.
-        let behind = x - (toe + wave - 0.55 * y - 0.05 * y * y);
-        let beyond = 1.0 / (1.0 + (-behind / 0.12).exp());
-        strain += 1.4 * begun.min(1.0) * (-(behind / 0.22).powi(2)).exp();
-        let (dx, dy) = (
-            1.1 * begun * (1.0 + 0.25 * (x - toe).max(0.0)),
-            0.16 * begun,
-        );
-        place[0] += beyond * dx;
-        place[1] -= beyond * dy * y / (1.0 + 0.1 * y);
-    }
-    let foot = (-(y / 0.25).powi(2)).exp() * (place[0] - x) / 2.0;
-    place[1] = place[1].max(0.05);
-    (place, strain + 0.3 * foot.min(3.0))
-}
-
 fn figure(panels: Vec<SolidPanel>, columns: usize) -> SolidFigure {
     SolidFigure {
         title: "A slope".into(),
@@ -198,44 +146,4 @@ fn what_is_not_there_to_be_drawn_is_an_error() {
             ..
         }
     ));
-}
-
-#[test]
-#[ignore = "to look at: writes pictures and a grid for ParaView into the folder for temporary files"]
-fn look() {
-    let folder = std::env::temp_dir().join("solids");
-    let one = figure(vec![slope(5.0, 1.0)], 1);
-    let (clock, processor) = (std::time::Instant::now(), cpu_time::ProcessTime::now());
-    draw_solids(&folder.join("one.png"), &one).unwrap();
-    let particles = one.panels[0].points.len();
-    let times = [clock.elapsed(), processor.elapsed()];
-    let times = format!("{particles} particles: {times:?} by the clock and of the processors");
-    std::fs::write(folder.join("times.txt"), times).unwrap();
-    let slid = &one.panels[0];
-    let column = |name, unit, values| crate::case::Column { name, unit, values };
-    let axis = |k: usize| slid.points.iter().map(|p| p[k]).collect();
-    let columns = [
-        column("x", "m", axis(0)),
-        column("y", "m", axis(1)),
-        column("z", "m", axis(2)),
-        column("strain", "-", slid.values.clone()),
-    ];
-    crate::vtu::write_vtu(&folder.join("one.vtu"), &columns).unwrap();
-    let several = [0.0, 0.5, 1.0, 0.25, 0.75, 1.0].map(|s| slope(5.0, s));
-    draw_solids(&folder.join("several.png"), &figure(several.into(), 2)).unwrap();
-    let mut thin = figure(vec![slope(0.4, 0.0), slope(0.4, 1.0)], 1);
-    thin.window = Some([(0.0, 30.0), (0.0, 5.0), (0.0, 0.4)]);
-    draw_solids(&folder.join("thin.png"), &thin).unwrap();
-    let mut front = figure(vec![slope(0.4, 0.5)], 1);
-    front.window = thin.window;
-    (front.camera.azimuth, front.camera.elevation) = (0.0, 12.0);
-    draw_solids(&folder.join("front.png"), &front).unwrap();
-    let mut stress = figure(vec![slope(5.0, 0.0), slope(5.0, 0.75)], 1);
-    for panel in &mut stress.panels {
-        let depths = panel.points.iter().map(|p| 18.0 * (p[1] - 5.0) + 20.0);
-        panel.values = depths.collect();
-    }
-    (stress.range, stress.label) = ((-80.0, 40.0), "mean stress (kPa)".into());
-    stress.camera.azimuth = 60.0;
-    draw_solids(&folder.join("stress.png"), &stress).unwrap();
 }
