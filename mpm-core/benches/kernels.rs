@@ -56,9 +56,9 @@ fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
                     affine: p.affine.get(k),
                     volume: p.volume[k],
                     stress: &p.stress[k],
-                    external_force: &p.external_force[k],
+                    external_force: p.external_force.get(k),
                 };
-                let stencil = lattice.stencil(&p.position[k], &p.half_size[k]);
+                let stencil = lattice.stencil(&p.position[k], &p.half_size);
                 transfer.particle_to_grid(&lattice, &stencil, &given, &mut nodes, 0);
             }
         });
@@ -72,7 +72,7 @@ fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
         b.iter(|| {
             for k in 0..p.len() {
                 let x = &p.position[k];
-                let stencil = lattice.stencil(x, &p.half_size[k]);
+                let stencil = lattice.stencil(x, &p.half_size);
                 let (v, b) = (&mut velocity[k], affine.get_mut(k));
                 black_box(transfer.grid_to_particle(&lattice, &stencil, x, &nodes, v, b));
             }
@@ -88,11 +88,7 @@ fn passes<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
     group.bench_function("stencil", |b| {
         b.iter(|| {
             for k in 0..p.len() {
-                black_box(
-                    lattice
-                        .stencil(&p.position[k], &p.half_size[k])
-                        .row(0, S - 1),
-                );
+                black_box(lattice.stencil(&p.position[k], &p.half_size).row(0, S - 1));
             }
         });
     });

@@ -81,9 +81,20 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
             axis[a] = self.bases[a].weights(x[a], half_size[a]);
         }
         Stencil {
+            first: self.node(&axis.map(|axis| axis.first)),
             axis,
             strides: self.strides,
         }
+    }
+
+    /// The node of these indices along the axes.
+    #[inline(always)]
+    fn node(&self, index: &[usize; D]) -> usize {
+        let mut node = PLANES_BEFORE * self.strides[0];
+        for a in 0..D {
+            node += index[a] * self.strides[a];
+        }
+        node
     }
 
     /// Calls `visit(k, stencil)` for the `k`-th of the particles at `x` (m) with half sizes `half_size` (m), in
@@ -92,7 +103,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
     pub fn for_each_stencil(
         &self,
         x: &[[f64; D]],
-        half_size: &[[f64; D]],
+        half_size: &[f64; D],
         mut visit: impl FnMut(usize, &Stencil<D, S>),
     ) {
         for begin in (0..x.len()).step_by(EIGHT) {
@@ -101,11 +112,15 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
             let eight: [_; D] = std::array::from_fn(|a| {
                 self.bases[a].weights_of_eight(
                     Eight::pack(|k| x[last.min(begin + k)][a]),
-                    Eight::pack(|k| half_size[last.min(begin + k)][a]),
+                    Eight::splat(half_size[a]),
                 )
             });
-            for k in begin..=last {
+            let first: [_; EIGHT] = std::array::from_fn(|k| {
+                self.node(&std::array::from_fn(|a: usize| eight[a].first[k]))
+            });
+            for k in begin..x.len().min(begin + EIGHT) {
                 let stencil = Stencil {
+                    first: first[(k - begin) % EIGHT],
                     axis: std::array::from_fn(|a| eight[a].part(k - begin)),
                     strides: self.strides,
                 };
@@ -208,6 +223,7 @@ pub type Arms<const D: usize, const S: usize> = [[f64; S]; D];
 pub struct Stencil<const D: usize, const S: usize> {
     /// Per axis.
     pub axis: [AxisWeights<S>; D],
+    first: usize,
     strides: [usize; D],
 }
 
@@ -300,11 +316,7 @@ impl<const D: usize, const S: usize> Stencil<D, S> {
     #[inline(always)]
     #[must_use]
     pub fn first(&self) -> usize {
-        let mut first = PLANES_BEFORE * self.strides[0];
-        for a in 0..D {
-            first += self.axis[a].first * self.strides[a];
-        }
-        first
+        self.first
     }
 
     /// The weights alone.

@@ -186,3 +186,24 @@ pub(crate) mod rows {
         }
     }
 }
+
+/// One vector, which serde knows for no general `D` either.
+pub(crate) mod row {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    pub(crate) fn serialize<const D: usize, S: Serializer>(
+        vector: &[f64; D],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        vector.as_slice().serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, const D: usize, R: Deserializer<'de>>(
+        deserializer: R,
+    ) -> Result<[f64; D], R::Error> {
+        let numbers = Vec::<f64>::deserialize(deserializer)?;
+        let length = numbers.len();
+        let vector = numbers.try_into();
+        vector.map_err(|_| R::Error::invalid_length(length, &"a vector"))
+    }
+}

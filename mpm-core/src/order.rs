@@ -8,17 +8,17 @@ use crate::lattice::Lattice;
 use crate::parallel::SLAB;
 use std::ops::Range;
 
-/// The order of particles at `positions` (m) with `half_sizes` (m), stable where nothing tells them apart, and
+/// The order of particles at `positions` (m) with half sizes `half_size` (m), stable where nothing tells them apart, and
 /// the range of every slab of [`SLAB`] cells along the first axis.
 #[must_use]
 pub fn stencil_order<const D: usize, const S: usize, B: Basis<S>>(
     lattice: &Lattice<D, S, B>,
     positions: &[[f64; D]],
-    half_sizes: &[[f64; D]],
+    half_size: &[f64; D],
 ) -> (Vec<u32>, Vec<Range<usize>>) {
     let grid = &lattice.grid;
     let mut first_node = vec![0; positions.len()];
-    lattice.for_each_stencil(positions, half_sizes, |p, stencil| {
+    lattice.for_each_stencil(positions, half_size, |p, stencil| {
         first_node[p] = stencil.first()
     });
     let slab = |p: u32| grid.cell(0, positions[p as usize][0]) / SLAB;

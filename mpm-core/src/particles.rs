@@ -1,16 +1,19 @@
 //! The particles of a body, as columns.
 
 use crate::error::{Error, require};
-use crate::memory::{MemoryError, rows};
+use crate::memory::{MemoryError, row, rows};
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
 
-/// Columns of one body. All have one entry per particle, but `j_bar` and `affine`, which are empty
-/// where no remedy or transfer needs them.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+/// Columns of one body. All have one entry per particle, but `j_bar`, `affine` and `external_force`,
+/// which are empty in a run without a remedy, transfer or load that needs them.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(bound = "")]
 pub struct Particles<const D: usize> {
+    /// Half the size of every particle's domain along each axis (m).
+    #[serde(with = "row")]
+    pub half_size: [f64; D],
     /// Place in the seeding order.
     pub id: Vec<u32>,
     /// Reference position X (m).
@@ -31,9 +34,6 @@ pub struct Particles<const D: usize> {
     pub reference_volume: Vec<f64>,
     /// Volume that weights stresses and averages, V (m³), Eq. (15).
     pub volume: Vec<f64>,
-    /// Half the size of the particle's domain along each axis (m).
-    #[serde(with = "rows")]
-    pub half_size: Vec<[f64; D]>,
     /// Jacobian J = det F.
     pub jacobian: Vec<f64>,
     /// Averaged Jacobian J̄.
@@ -72,6 +72,7 @@ impl<const D: usize> Particles<D> {
         }
         let n = positions.len();
         Ok(Self {
+            half_size,
             id: (0..n as u32).collect(),
             reference: positions.clone(),
             position: positions,
@@ -80,7 +81,6 @@ impl<const D: usize> Particles<D> {
             mass: vec![density * volume; n],
             reference_volume: vec![volume; n],
             volume: vec![volume; n],
-            half_size: vec![half_size; n],
             jacobian: vec![1.0; n],
             j_bar: Vec::new(),
             stress: vec![SymmetricTensor::default(); n],
@@ -139,7 +139,7 @@ impl<const D: usize> Particles<D> {
     }
 
     /// The lengths of the columns, by name.
-    fn lengths(&self) -> [(&'static str, usize); 15] {
+    fn lengths(&self) -> [(&'static str, usize); 14] {
         [
             ("id", self.id.len()),
             ("reference", self.reference.len()),
@@ -149,7 +149,6 @@ impl<const D: usize> Particles<D> {
             ("mass", self.mass.len()),
             ("reference_volume", self.reference_volume.len()),
             ("volume", self.volume.len()),
-            ("half_size", self.half_size.len()),
             ("jacobian", self.jacobian.len()),
             ("j_bar", self.j_bar.len()),
             ("stress", self.stress.len()),
@@ -190,7 +189,6 @@ impl<const D: usize> Particles<D> {
         permute(&mut self.mass, order);
         permute(&mut self.reference_volume, order);
         permute(&mut self.volume, order);
-        permute(&mut self.half_size, order);
         permute(&mut self.jacobian, order);
         permute(&mut self.j_bar, order);
         permute(&mut self.stress, order);

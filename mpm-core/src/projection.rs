@@ -133,9 +133,10 @@ impl<const D: usize, const S: usize, B: Basis<S>> Projection<'_, D, S, B> {
             .weights
             .par_chunks_mut(CHUNK)
             .zip(particles.position.par_chunks(CHUNK))
-            .zip(particles.half_size.par_chunks(CHUNK))
-            .for_each(|((weights, x), l)| {
-                lattice.for_each_stencil(x, l, |k, stencil| weights[k] = stencil.weights());
+            .for_each(|(weights, x)| {
+                lattice.for_each_stencil(x, &particles.half_size, |k, stencil| {
+                    weights[k] = stencil.weights()
+                });
             });
         let volume = &particles.volume;
         let (weights, volumes) = (&averaging.weights, &mut averaging.volumes);

@@ -18,12 +18,12 @@ pub struct Reach {
 type Places = Range<usize>;
 
 impl Reach {
-    /// What particles at `positions` (m) with `half_sizes` (m) reach if each moves by a cell at most.
+    /// What particles at `positions` (m) with half sizes `half_size` (m) reach if each moves by a cell at most.
     #[must_use]
     pub fn of<const D: usize, const S: usize, B: Basis<S>>(
         lattice: &Lattice<D, S, B>,
         positions: &[[f64; D]],
-        half_sizes: &[[f64; D]],
+        half_size: &[f64; D],
     ) -> Self {
         if D == 1 || lattice.has_images() {
             // An image's original is somewhere else.
@@ -31,7 +31,7 @@ impl Reach {
         }
         let length = lattice.row_length();
         let mut rows: Vec<Places> = vec![0..0; lattice.len() / length];
-        lattice.for_each_stencil(positions, half_sizes, |_, stencil| {
+        lattice.for_each_stencil(positions, half_size, |_, stencil| {
             let (row, place) = (stencil.first() / length, stencil.first() % length);
             rows[row] = union(&rows[row], &(place..place + 1));
         });
@@ -132,8 +132,7 @@ mod tests {
         let end = grid.axes[0].hi(H);
         let at = |place: &[f64; 6]| std::array::from_fn(|a| -1.0 + 6.0 * place[a]);
         let positions: Vec<[f64; D]> = places.iter().map(at).collect();
-        let half_sizes = vec![[0.25 * H; D]; positions.len()];
-        let reach = Reach::of(&lattice, &positions, &half_sizes);
+        let reach = Reach::of(&lattice, &positions, &[0.25 * H; D]);
         assert!(D == 1 || !reach.contains(0));
         let mut field = vec![1; lattice.len()];
         reach.clear(&mut field);

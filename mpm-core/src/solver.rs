@@ -2,6 +2,7 @@
 
 mod contact;
 mod memory;
+mod room;
 
 pub use contact::contact_cfl;
 
@@ -26,6 +27,7 @@ use crate::transfer::{Flip, Given, NodalState, Transfer};
 use crate::work::Work;
 use nalgebra::SMatrix;
 use rayon::prelude::*;
+use room::Room;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -189,11 +191,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     /// time step beyond the CFL limit; a particle in a rigid body.
     pub fn new(mut scene: Scene<D, M, T>) -> Result<Self, Error> {
         require(scene.dt > 0.0, "time step", scene.dt, "positive (s)")?;
-        for l in scene.particles.half_size.iter().flatten() {
+        for l in scene.particles.half_size {
             require(
-                *l <= 0.5 * scene.grid.h,
+                l <= 0.5 * scene.grid.h,
                 "particle half size",
-                *l,
+                l,
                 "at most half a cell (m)",
             )?;
         }
@@ -210,6 +212,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         }
         scene.remedy.attach(&mut scene.particles);
         scene.transfer.attach(&mut scene.particles);
+        if scene.loads.is_empty() && scene.contacts.is_empty() {
+            scene.particles.external_force = Vec::new();
+        }
         let n = scene.particles.len();
         let work = Work {
             particles: n as u64,
@@ -312,9 +317,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn apply_loads(&mut self) {
-        if self.scene.loads.is_empty() && self.scene.contacts.is_empty() {
-            return;
-        }
         self.scene.particles.external_force.fill([0.0; D]);
         for load in &self.scene.loads {
             load.add(self.time, &mut self.scene.particles);
@@ -331,12 +333,12 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             lattice.plane(),
             &self.slabs,
             |slab, nodes, origin| {
-                let (x, l) = (&p.position[slab.clone()], &p.half_size[slab.clone()]);
+                let x = &p.position[slab.clone()];
                 let (mass, v) = (&p.mass[slab.clone()], &p.velocity[slab.clone()]);
                 let affine = p.affine.get(slab.clone()).unwrap_or_default();
                 let (volume, stress) = (&p.volume[slab.clone()], &p.stress[slab.clone()]);
-                let external_force = &p.external_force[slab];
-                lattice.for_each_stencil(x, l, |k, stencil| {
+                let external_force = p.external_force.get(slab).unwrap_or_default();
+                lattice.for_each_stencil(x, &p.half_size, |k, stencil| {
                     let given = Given {
                         position: &x[k],
                         mass: mass[k],
@@ -344,7 +346,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                         affine: affine.get(k),
                         volume: volume[k],
                         stress: &stress[k],
-                        external_force: &external_force[k],
+                        external_force: external_force.get(k),
                     };
                     transfer.particle_to_grid(lattice, stencil, &given, nodes, origin);
                 });
@@ -412,6 +414,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let transfer = &mut self.scene.transfer;
         let passes = 1 + transfer.prepare(lattice, p, &self.slabs, nodes, &self.prescribed);
         let (transfer, chunks) = (&*transfer, self.chunk_sums.len());
+        let (half_size, external_force) = (&p.half_size, &p.external_force);
         (
             self.chunk_sums.par_iter_mut(),
             p.velocity.par_chunks_mut(CHUNK),
@@ -420,38 +423,40 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             p.delta_f.par_chunks_mut(CHUNK),
             p.jacobian.par_chunks_mut(CHUNK),
             p.position.par_chunks(CHUNK),
-            p.half_size.par_chunks(CHUNK),
             p.volume.par_chunks(CHUNK),
             p.stress.par_chunks(CHUNK),
-            p.external_force.par_chunks(CHUNK),
         )
             .into_par_iter()
             .enumerate()
             .for_each(
-                |(c, (sums, v, affine, increment, delta_f, j, x, l, volume, stress, force))| {
+                |(c, (sums, v, affine, increment, delta_f, j, x, volume, stress))| {
                     let mut chunk = ChunkSums::default();
-                    lattice.for_each_stencil(x, l, |k, stencil| {
-                        let (stress, volume, force) = (stress[k], volume[k], force[k]);
+                    // All of one length: nothing is left to check between sums and what they are for.
+                    let (v, increment) = (&mut v[..x.len()], &mut increment[..x.len()]);
+                    let (delta_f, j) = (&mut delta_f[..x.len()], &mut j[..x.len()]);
+                    let (volume, stress) = (&volume[..x.len()], &stress[..x.len()]);
+                    lattice.for_each_stencil(x, half_size, |k, stencil| {
+                        let (stress, volume) = (stress[k], volume[k]);
                         let b = affine.get_mut(k);
                         let got =
                             transfer.grid_to_particle(lattice, stencil, &x[k], nodes, &mut v[k], b);
                         let gradient = SMatrix::<f64, D, D>::from_fn(|a, b| got.gradient[a][b]);
                         delta_f[k] = SMatrix::identity() + gradient * dt;
                         j[k] *= space::determinant(&delta_f[k]);
-                        if chunk.fault.is_none()
-                            && let Err(fault) = check_jacobian(j[k])
-                        {
-                            chunk.fault = Some((c * CHUNK + k, fault));
+                        if let Err(fault) = check_jacobian(j[k]) {
+                            chunk.fault.get_or_insert((c * CHUNK + k, fault));
                         }
-                        let (mut load_power, mut stress_power) = (0.0, 0.0);
+                        let mut stress_power = 0.0;
                         for a in 0..D {
                             increment[k][a] = dt * got.moving[a];
-                            load_power += force[a] * got.velocity[a];
                             for b in 0..D {
                                 stress_power += stress.get(a, b) * got.gradient[a][b];
                             }
                         }
-                        chunk.load_power += load_power;
+                        if let Some(force) = external_force.get(c * CHUNK + k) {
+                            let powers = force.iter().zip(&got.velocity).map(|(f, v)| f * v);
+                            chunk.load_power += powers.sum::<f64>();
+                        }
                         chunk.stress_power += volume * stress_power;
                     });
                     *sums = chunk;
@@ -525,15 +530,15 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let grid = &self.scene.grid;
         let wave_distance = self.wave_speed * self.scene.dt;
         let p = &mut self.scene.particles;
+        let room = Room::new(grid, p.half_size.map(B::beyond_wall));
         (
             self.chunk_sums.par_iter_mut(),
             p.position.par_chunks_mut(CHUNK),
             p.increment.par_chunks(CHUNK),
-            p.half_size.par_chunks(CHUNK),
         )
             .into_par_iter()
             .enumerate()
-            .for_each(|(c, (sums, x, increment, half_size))| {
+            .for_each(|(c, (sums, x, increment))| {
                 let mut largest = 0.0_f64;
                 for k in 0..x.len() {
                     let mut next = x[k];
@@ -543,9 +548,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                         distance = distance.max(increment[k][a].abs());
                     }
                     // A particle that breaks down stays where it is, so the state can be inspected.
-                    let checked = check_cfl(distance + wave_distance, grid.h).and_then(|()| {
-                        place_on_grid(grid, &mut next, &half_size[k].map(B::beyond_wall))
-                    });
+                    let checked = check_cfl(distance + wave_distance, grid.h)
+                        .and_then(|()| room.place(&mut next));
                     match checked {
                         Ok(wrapped) => {
                             x[k] = next;
@@ -582,13 +586,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     fn check_positions(&mut self) -> Result<(), Error> {
         check_cfl(self.wave_speed * self.scene.dt, self.scene.grid.h)
             .map_err(|fault| self.breakdown(0, fault))?;
+        let beyond = self.scene.particles.half_size.map(B::beyond_wall);
+        let room = Room::new(&self.scene.grid, beyond);
         for k in 0..self.scene.particles.len() {
             check_jacobian(self.scene.particles.jacobian[k])
                 .map_err(|fault| self.breakdown(k, fault))?;
             let mut x = self.scene.particles.position[k];
-            let beyond = self.scene.particles.half_size[k].map(B::beyond_wall);
-            let placed = place_on_grid(&self.scene.grid, &mut x, &beyond);
-            placed.map_err(|fault| self.breakdown(k, fault))?;
+            room.place(&mut x)
+                .map_err(|fault| self.breakdown(k, fault))?;
             self.scene.particles.position[k] = x;
         }
         Ok(())
@@ -612,16 +617,16 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 }
 
 fn check_jacobian(j: f64) -> Result<(), Fault> {
+    if j > 0.0 && j < f64::INFINITY {
+        return Ok(());
+    }
     if !j.is_finite() {
         return Err(Fault::NotFinite {
             quantity: "Jacobian J",
             value: j,
         });
     }
-    if j <= 0.0 {
-        return Err(Fault::NonPositiveJacobian(j));
-    }
-    Ok(())
+    Err(Fault::NonPositiveJacobian(j))
 }
 
 /// Whether what moves `distance` (m) in a step stays within the CFL limit on cells of size `h` (m).
@@ -633,42 +638,6 @@ fn check_cfl(distance: f64, h: f64) -> Result<(), Fault> {
         });
     }
     Ok(())
-}
-
-/// Brings a position on a periodic axis back between its ends (true when it had left) and checks the
-/// others, which a position may be `beyond` (m, axis by axis) if they are walls.
-fn place_on_grid<const D: usize>(
-    grid: &Grid<D>,
-    x: &mut [f64; D],
-    beyond: &[f64; D],
-) -> Result<bool, Fault> {
-    let mut wrapped = false;
-    for (axis, (x, ends)) in x.iter_mut().zip(&grid.axes).enumerate() {
-        let (wall_lo, wall_hi) = ends.wall_ends();
-        let give = |wall: bool| if wall { beyond[axis] } else { 0.0 };
-        let (lo, hi) = (ends.lo - give(wall_lo), ends.hi(grid.h) + give(wall_hi));
-        if *x >= lo && *x < hi {
-            continue;
-        }
-        if !x.is_finite() {
-            return Err(Fault::NotFinite {
-                quantity: "position",
-                value: *x,
-            });
-        }
-        if ends.is_periodic() {
-            *x = lo + (*x - lo).rem_euclid(hi - lo);
-            wrapped = true;
-        } else if *x != hi {
-            return Err(Fault::OffGrid {
-                axis,
-                value: *x,
-                lo,
-                hi,
-            });
-        }
-    }
-    Ok(wrapped)
 }
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simulation<D>

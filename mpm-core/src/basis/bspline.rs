@@ -7,7 +7,7 @@
 
 use super::{AxisNodes, AxisWeights, Basis, EightAxisWeights};
 use crate::grid::Axis;
-use crate::number::{EIGHT, Eight, Real, indices};
+use crate::number::{Eight, Real, indices};
 
 /// How B-splines meet a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -28,6 +28,8 @@ pub struct BSpline<const S: usize> {
     origin: f64,
     /// Knot pattern of each knot interval, an index into `polynomials`.
     pattern: Vec<usize>,
+    /// Before the first and after the last of the intervals that have the pattern of the middle one.
+    uniform: (f64, f64),
     /// Per pattern: coefficient of the k-th power of the local coordinate for each function.
     polynomials: Vec<[[f64; S]; S]>,
     /// Knots in units of h from `origin`.
@@ -67,7 +69,7 @@ impl<const S: usize> Basis<S> for BSpline<S> {
             .map(|k| (k as f64 - degree as f64).clamp(lowest, highest))
             .collect();
         let mut polynomials = Vec::new();
-        let pattern = (0..intervals)
+        let pattern: Vec<usize> = (0..intervals)
             .map(|cell| {
                 let p = interval_polynomials::<S>(&knots[cell..=cell + 2 * degree + 1], cell);
                 polynomials.iter().position(|q| *q == p).unwrap_or_else(|| {
@@ -76,10 +78,19 @@ impl<const S: usize> Basis<S> for BSpline<S> {
                 })
             })
             .collect();
+        let middle = pattern[intervals / 2];
+        let of_middle = |interval: &usize| pattern[*interval] == middle;
+        let last_before = (0..intervals / 2).rev().find(|i| !of_middle(i));
+        let first_after = (intervals / 2..intervals).find(|i| !of_middle(i));
+        let uniform = (
+            last_before.map_or(-1.0, |i| i as f64),
+            first_after.unwrap_or(intervals) as f64,
+        );
         Self {
             h,
             inverse_h: 1.0 / h,
             origin,
+            uniform,
             pattern,
             polynomials,
             knots,
@@ -117,17 +128,16 @@ impl<const S: usize> Basis<S> for BSpline<S> {
 
     #[inline(always)]
     fn weights_of_eight(&self, x: Eight, _half_size: Eight) -> EightAxisWeights<S> {
-        let (first, t) = self.place(x);
-        let first = indices(first);
-        let pattern = first.map(|first| self.pattern[first]);
+        let (interval, t) = self.place(x);
+        let first = indices(interval);
+        let (before, after) = self.uniform;
         // Away from walls all have one pattern.
-        let (w, dw) = if pattern == [pattern[0]; EIGHT] {
-            let c = &self.polynomials[pattern[0]];
+        let (w, dw) = if interval.all_below(after) && (-interval).all_below(-before) {
+            let c = &self.polynomials[self.pattern[first[0]]];
             self.functions(t, |k, s| Eight::splat(c[k][s]))
         } else {
-            self.functions(t, |k, s| {
-                Eight::pack(|p| self.polynomials[pattern[p]][k][s])
-            })
+            let c = first.map(|first| &self.polynomials[self.pattern[first]]);
+            self.functions(t, |k, s| Eight::pack(|p| c[p][k][s]))
         };
         EightAxisWeights { first, w, dw }
     }

@@ -104,18 +104,20 @@ fn check_places<const D: usize>(
     expected: usize,
 ) -> Result<(), MemoryError> {
     MemoryError::unless_equal("slabs", slabs.len(), expected)?;
+    for l in particles.half_size {
+        let fits = l > 0.0 && l <= 0.5 * grid.h;
+        require(fits, "half_size", l, "positive, at most half a cell (m)")?;
+    }
     let mut end = 0;
     for (k, slab) in slabs.iter().enumerate() {
         MemoryError::unless_equal("first particle of a slab", slab.start, end)?;
         end = slab.end;
-        let columns = particles.position.get(slab.clone());
-        let columns = columns.zip(particles.half_size.get(slab.clone()));
-        let Some((positions, half_sizes)) = columns else {
+        let Some(positions) = particles.position.get(slab.clone()) else {
             let count = particles.len();
             return MemoryError::unless_equal("last particle of a slab", slab.end, count);
         };
         let cells = (k * SLAB).saturating_sub(1)..=(k + 1) * SLAB;
-        for (x, half_size) in positions.iter().zip(half_sizes) {
+        for x in positions {
             for (axis, (x, ends)) in x.iter().zip(&grid.axes).enumerate() {
                 let inside = (ends.lo..=ends.hi(grid.h)).contains(x);
                 let near = axis > 0 || cells.contains(&grid.cell(axis, *x));
@@ -125,10 +127,6 @@ fn check_places<const D: usize>(
                     *x,
                     "on the grid, near its slab (m)",
                 )?;
-            }
-            for l in half_size {
-                let fits = *l > 0.0 && *l <= 0.5 * grid.h;
-                require(fits, "half_size", *l, "positive, at most half a cell (m)")?;
             }
         }
     }

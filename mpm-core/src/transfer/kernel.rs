@@ -20,8 +20,8 @@ pub struct Given<'a, const D: usize> {
     pub volume: f64,
     /// Cauchy stress (Pa).
     pub stress: &'a SymmetricTensor,
-    /// External force (N).
-    pub external_force: &'a [f64; D],
+    /// External force (N), where there is one.
+    pub external_force: Option<&'a [f64; D]>,
 }
 
 impl<const D: usize> Given<'_, D> {
@@ -52,8 +52,10 @@ pub fn spread<const D: usize, const S: usize, R: Fn(usize) -> Node>(
 ) {
     let mut external = [0.0; 4];
     let mut flux = [[0.0; 4]; D];
+    if let Some(force) = given.external_force {
+        external[..D].copy_from_slice(force);
+    }
     for a in 0..D {
-        external[a] = given.external_force[a];
         for b in 0..D {
             flux[b][a] = -given.volume * given.stress.get(a, b);
         }

@@ -67,9 +67,9 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
                         affine: p.affine.get(k),
                         volume: p.volume[k],
                         stress: &p.stress[k],
-                        external_force: &p.external_force[k],
+                        external_force: p.external_force.get(k),
                     };
-                    let stencil = lattice.stencil(&p.position[k], &p.half_size[k]);
+                    let stencil = lattice.stencil(&p.position[k], &p.half_size);
                     transfer.particle_to_grid(lattice, &stencil, &given, nodes, origin);
                 }
             },
@@ -86,7 +86,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
         let p = &mut self.particles;
         for k in 0..p.position.len() {
             let x = &p.position[k];
-            let stencil = lattice.stencil(x, &p.half_size[k]);
+            let stencil = lattice.stencil(x, &p.half_size);
             let (v, b) = (&mut p.velocity[k], p.affine.get_mut(k));
             transfer.grid_to_particle(lattice, &stencil, x, &self.nodes, v, b);
         }
@@ -95,7 +95,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
     /// The diagonal of D of a particle.
     fn spread_of(&self, k: usize) -> [f64; D] {
         let x = &self.particles.position[k];
-        let stencil = self.lattice.stencil(x, &self.particles.half_size[k]);
+        let stencil = self.lattice.stencil(x, &self.particles.half_size);
         second_moment(&stencil, &self.lattice.arms(&stencil, x))
     }
 
@@ -317,7 +317,7 @@ fn factor<const S: usize, B: Basis<S>>(n: usize, k: f64, transfer: &mut impl Tra
     lattice.for_each_node(|node, index| wave[node] = (k * lattice.position(index)[0] / H).cos());
     for p in 0..cells * n {
         let particles = &mut frozen.particles;
-        let stencil = lattice.stencil(&particles.position[p], &particles.half_size[p]);
+        let stencil = lattice.stencil(&particles.position[p], &particles.half_size);
         let begin = stencil.first();
         let sum = wave[begin..begin + S].iter().zip(stencil.last().w);
         particles.velocity[p] = [sum.map(|(u, w)| u * w).sum()];

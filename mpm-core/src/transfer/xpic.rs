@@ -69,7 +69,7 @@ impl Xpic {
         particles: &Particles<D>,
         slabs: &[Range<usize>],
     ) {
-        let (x, l, mass) = (&particles.position, &particles.half_size, &particles.mass);
+        let (x, mass) = (&particles.position, &particles.mass);
         let nodes = &self.nodes;
         self.mapped.fill(Node::ZERO);
         scatter(
@@ -77,9 +77,9 @@ impl Xpic {
             lattice.plane(),
             slabs,
             |slab, mapped, origin| {
-                let (x, l) = (&x[slab.clone()], &l[slab.clone()]);
+                let x = &x[slab.clone()];
                 let mass = &mass[slab];
-                lattice.for_each_stencil(x, l, |p, stencil| {
+                lattice.for_each_stencil(x, &particles.half_size, |p, stencil| {
                     let (lines, rows) = Stencil::<D, S>::OUTER;
                     let weights = stencil.last().w.map(Node::splat);
                     let mut sum = Node::ZERO;

@@ -549,7 +549,7 @@ fn bad_input_is_refused_with_its_range() {
     };
     refuse(|s| s.dt = 0.0);
     refuse(|s| s.dt = f64::NAN);
-    refuse(|s| s.particles.half_size[0] = [0.3, 0.1]);
+    refuse(|s| s.particles.half_size = [0.3, 0.1]);
     for eta in [1.5, -0.1, f64::NAN] {
         assert!(matches!(Flip::new(eta), Err(Error::Input { .. })));
     }

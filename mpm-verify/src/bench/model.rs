@@ -16,11 +16,11 @@ const SYMMETRIC: usize = 6;
 /// Bytes per particle and step.
 pub(super) fn bytes(dimension: usize, fbar: bool) -> f64 {
     let d = dimension;
-    let stencil = 2 * d;
-    let particle_to_grid = stencil + 1 + d + 1 + SYMMETRIC + d;
-    let grid_to_particle = stencil + 2 * d + 2 + 1 + SYMMETRIC + d + d + d * d;
+    let stencil = d;
+    let particle_to_grid = stencil + 1 + d + 1 + SYMMETRIC;
+    let grid_to_particle = stencil + 2 * d + 2 + 1 + SYMMETRIC + d + d * d;
     let law = d * d + 2 + 2 * SYMMETRIC + SYMMETRIC + 1;
-    let motion = 2 * d + d + d;
+    let motion = 2 * d + d;
     let mut numbers = particle_to_grid + grid_to_particle + law + motion;
     // Zeroed, added to, updated and read; a write is a read and a write.
     let passes_over_nodes = 1 + 2 + 2 + 1;
@@ -59,6 +59,6 @@ pub(super) fn operations(dimension: usize, fbar: bool) -> f64 {
 pub(super) fn needed(dimension: usize, fbar: bool) -> f64 {
     let d = dimension;
     // Place in the seeding order; mass, two volumes and J.
-    let numbers = 4 + 4 * d + 2 * SYMMETRIC + d * d + usize::from(fbar);
+    let numbers = 4 + 3 * d + 2 * SYMMETRIC + d * d + usize::from(fbar);
     (size_of::<u32>() + NUMBER * numbers) as f64
 }
