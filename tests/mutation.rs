@@ -258,8 +258,8 @@ const FAULTS: [Fault; 22] = [
 const DRIFT: Fault = Fault {
     name: "the neo-Hookean pressure is a millionth too large",
     file: "material/neo_hookean.rs",
-    sound: "self.lambda * 0.5 * squared_jacobian.ln()",
-    broken: "self.lambda * 0.500_000_5 * squared_jacobian.ln()",
+    sound: "T::splat(0.5 * self.lambda) * squared_jacobian.ln()",
+    broken: "T::splat(0.500_000_5 * self.lambda) * squared_jacobian.ln()",
     seen_by: &[],
 };
 

@@ -59,6 +59,10 @@ pub trait Real:
     #[must_use]
     fn exp(self) -> Self;
 
+    /// Natural logarithm.
+    #[must_use]
+    fn ln(self) -> Self;
+
     /// Absolute value.
     #[must_use]
     fn abs(self) -> Self;
@@ -113,6 +117,11 @@ impl Real for f64 {
     #[inline(always)]
     fn exp(self) -> Self {
         f64::exp(self)
+    }
+
+    #[inline(always)]
+    fn ln(self) -> Self {
+        f64::ln(self)
     }
 
     #[inline(always)]
@@ -180,6 +189,11 @@ impl Real for Eight {
     }
 
     #[inline(always)]
+    fn ln(self) -> Self {
+        f64x8::ln(self)
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         f64x8::abs(self)
     }
@@ -207,5 +221,42 @@ impl Real for Eight {
     #[inline(always)]
     fn any_positive(self) -> bool {
         self.simd_gt(f64x8::ZERO).any()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Units in the last place by which the logarithm of eight may differ from the library's: the polynomial's
+    /// quotient, its product with a power and two sums are rounded, and so is the other.
+    const UNITS: f64 = 4.0;
+
+    proptest! {
+        #[test]
+        fn the_logarithm_of_eight_is_that_of_each(
+            x in prop::array::uniform8(prop_oneof![
+                0.99..1.01_f64,
+                0.1..10.0_f64,
+                (-700.0..700.0_f64).prop_map(f64::exp),
+            ])
+        ) {
+            let together = f64x8::new(x).ln().to_array();
+            for (x, together) in x.into_iter().zip(together) {
+                let alone = x.ln();
+                let unit = alone.abs().next_up() - alone.abs();
+                prop_assert!((together - alone).abs() <= UNITS * unit, "ln {x}: {together}, {alone}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_logarithm_of_what_has_none_is_no_number() {
+        let of = f64x8::new([0.0, -1.0, f64::NAN, f64::INFINITY, 1.0, 2.0, 3.0, 4.0]).ln();
+        let [of_zero, of_negative, of_nothing, of_infinity, of_one, ..] = of.to_array();
+        assert_eq!(of_zero, f64::NEG_INFINITY);
+        assert!(of_negative.is_nan() && of_nothing.is_nan());
+        assert_eq!((of_infinity, of_one), (f64::INFINITY, 0.0));
     }
 }

@@ -10,9 +10,9 @@
 //! along a radius, for any size of the step: exact where the direction of flow doesn't turn, of first order in
 //! the step where it does.
 
-use super::{Law, NeoHookean};
+use super::{Law, NeoHookean, side_by_side};
 use crate::error::{Error, require};
-use crate::number::{EIGHT, Eight, Real};
+use crate::number::{Eight, Real};
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
@@ -228,39 +228,27 @@ impl Law for HenckyJ2 {
         states: &mut [ElastoplasticState],
         stresses: &mut [SymmetricTensor],
     ) {
-        let (blocks, rest) = states.as_chunks_mut::<EIGHT>();
-        let (of_blocks, of_rest) = stresses.as_chunks_mut::<EIGHT>();
-        let first_of_rest = blocks.len() * EIGHT;
-        for (block, (states, stresses)) in blocks.iter_mut().zip(of_blocks).enumerate() {
-            let each: [_; EIGHT] = std::array::from_fn(|k| delta_f(block * EIGHT + k));
-            let packed = |i: usize, j: usize| Eight::pack(|k| each[k][(i, j)]);
-            let deformation = Matrix3::new(
-                packed(0, 0),
-                packed(0, 1),
-                packed(0, 2),
-                packed(1, 0),
-                packed(1, 1),
-                packed(1, 2),
-                packed(2, 0),
-                packed(2, 1),
-                packed(2, 2),
-            );
-            let (stress, elastic, plastic_strain) = self.advance(
-                &deformation,
-                &SymmetricTensor::pack(|k| states[k].elastic),
-                Eight::pack(|k| states[k].plastic_strain),
-            );
-            for k in 0..EIGHT {
-                stresses[k] = stress.part(k);
-                states[k] = ElastoplasticState {
-                    elastic: elastic.part(k),
-                    plastic_strain: plastic_strain.part(k),
-                };
-            }
-        }
-        for (k, (state, stress)) in rest.iter_mut().zip(of_rest).enumerate() {
-            (*stress, *state) = self.update(&delta_f(first_of_rest + k), dt, state);
-        }
+        side_by_side(
+            self,
+            |deformation, states| {
+                let (stress, elastic, plastic_strain) = self.advance(
+                    deformation,
+                    &SymmetricTensor::pack(|k| states[k].elastic),
+                    Eight::pack(|k| states[k].plastic_strain),
+                );
+                for (k, state) in states.iter_mut().enumerate() {
+                    *state = ElastoplasticState {
+                        elastic: elastic.part(k),
+                        plastic_strain: plastic_strain.part(k),
+                    };
+                }
+                stress
+            },
+            delta_f,
+            dt,
+            states,
+            stresses,
+        );
     }
 
     fn plastic_strain(&self, state: &ElastoplasticState) -> f64 {

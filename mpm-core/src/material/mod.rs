@@ -8,6 +8,7 @@ pub use hencky_j2::{ElastoplasticState, HenckyJ2, Strength};
 pub use neo_hookean::NeoHookean;
 pub use newtonian_fluid::NewtonianFluid;
 
+use crate::number::{EIGHT, Eight, Real};
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 use serde::Serialize;
@@ -30,7 +31,7 @@ pub trait Law: Send + Sync {
     ) -> (SymmetricTensor, Self::State);
 
     /// The same of many particles, the `k`-th of which deforms by `delta_f(k)`. A law for which it pays computes
-    /// [`EIGHT`](crate::number::EIGHT) of them side by side.
+    /// [`EIGHT`] of them side by side.
     #[inline]
     fn update_all(
         &self,
@@ -54,6 +55,47 @@ pub trait Law: Send + Sync {
 
     /// Speed of pressure waves (m/s) in undeformed material of the given density (kg/m³).
     fn wave_speed(&self, density: f64) -> f64;
+}
+
+/// [`Law::update_all`] of a law with a formula for eight: `eight` gives the stresses (Pa) of eight particles after
+/// their relative deformation, and changes their states. Those that are left over go one by one.
+#[inline(always)]
+fn side_by_side<M: Law>(
+    law: &M,
+    eight: impl Fn(&Matrix3<Eight>, &mut [M::State; EIGHT]) -> SymmetricTensor<Eight>,
+    delta_f: impl Fn(usize) -> Matrix3<f64>,
+    dt: f64,
+    states: &mut [M::State],
+    stresses: &mut [SymmetricTensor],
+) {
+    let (blocks, rest) = states.as_chunks_mut::<EIGHT>();
+    let (of_blocks, of_rest) = stresses.as_chunks_mut::<EIGHT>();
+    let first_of_rest = blocks.len() * EIGHT;
+    for (block, (states, stresses)) in blocks.iter_mut().zip(of_blocks).enumerate() {
+        let mut each = [Matrix3::identity(); EIGHT];
+        for (k, one) in each.iter_mut().enumerate() {
+            *one = delta_f(block * EIGHT + k);
+        }
+        let packed = |i: usize, j: usize| Eight::pack(|k| each[k][(i, j)]);
+        let deformation = Matrix3::new(
+            packed(0, 0),
+            packed(0, 1),
+            packed(0, 2),
+            packed(1, 0),
+            packed(1, 1),
+            packed(1, 2),
+            packed(2, 0),
+            packed(2, 1),
+            packed(2, 2),
+        );
+        let stress = eight(&deformation, states);
+        for (k, one) in stresses.iter_mut().enumerate() {
+            *one = stress.part(k);
+        }
+    }
+    for (k, (state, stress)) in rest.iter_mut().zip(of_rest).enumerate() {
+        (*stress, *state) = law.update(&delta_f(first_of_rest + k), dt, state);
+    }
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 //! W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 (ln J)², hence P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ and
 //! σ = \[μ (b − I) + λ ln J I\]/J with b = F Fᵀ.
 
-use super::Law;
+use super::{Law, side_by_side};
 use crate::error::{Error, require};
+use crate::number::{EIGHT, Eight, Real};
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 
@@ -43,6 +44,20 @@ impl NeoHookean {
     }
 }
 
+impl NeoHookean {
+    /// Cauchy stress (Pa) at the left Cauchy–Green tensor `b`: of one particle, or of eight.
+    #[inline(always)]
+    fn stress<T: Real>(&self, b: &SymmetricTensor<T>) -> SymmetricTensor<T> {
+        let squared_jacobian = b.determinant();
+        let inverse_jacobian = T::splat(1.0) / squared_jacobian.sqrt();
+        let pressure_part = T::splat(0.5 * self.lambda) * squared_jacobian.ln() - T::splat(self.mu);
+        b.scale_add_identity(
+            T::splat(self.mu) * inverse_jacobian,
+            pressure_part * inverse_jacobian,
+        )
+    }
+}
+
 impl Law for NeoHookean {
     type State = SymmetricTensor;
 
@@ -58,12 +73,25 @@ impl Law for NeoHookean {
         state: &SymmetricTensor,
     ) -> (SymmetricTensor, SymmetricTensor) {
         let b = state.push_forward(delta_f);
-        let squared_jacobian = b.determinant();
-        let inverse_jacobian = 1.0 / squared_jacobian.sqrt();
-        let pressure_part = self.lambda * 0.5 * squared_jacobian.ln() - self.mu;
-        let stress =
-            b.scale_add_identity(self.mu * inverse_jacobian, pressure_part * inverse_jacobian);
-        (stress, b)
+        (self.stress(&b), b)
+    }
+
+    #[inline]
+    fn update_all(
+        &self,
+        delta_f: impl Fn(usize) -> Matrix3<f64>,
+        dt: f64,
+        states: &mut [SymmetricTensor],
+        stresses: &mut [SymmetricTensor],
+    ) {
+        let eight = |deformation: &Matrix3<Eight>, states: &mut [SymmetricTensor; EIGHT]| {
+            let b = SymmetricTensor::pack(|k| states[k]).push_forward(deformation);
+            for (k, state) in states.iter_mut().enumerate() {
+                *state = b.part(k);
+            }
+            self.stress(&b)
+        };
+        side_by_side(self, eight, delta_f, dt, states, stresses);
     }
 
     fn energy(&self, b: &SymmetricTensor) -> f64 {

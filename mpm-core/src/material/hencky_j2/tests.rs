@@ -1,6 +1,7 @@
 //! Plastic flow against closed forms.
 
 use super::*;
+use crate::number::EIGHT;
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 
