@@ -4,7 +4,7 @@ use super::Picture;
 use super::curves::write_curves;
 use super::plot::{
     Camera, Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, SolidFigure, SolidPanel,
-    Up, animate_fields, draw_charts, draw_fields, draw_solids, share_ranges,
+    Up, animate_fields, animate_solids, draw_charts, draw_fields, draw_solids, share_ranges,
 };
 use super::style::{Colour, series};
 use crate::error::Error;
@@ -25,6 +25,10 @@ const REMEDIES: [RemedyName; 3] = [
     RemedyName::FbarRecursive,
     RemedyName::FbarConsistent,
 ];
+/// Those without which there is nothing to compare.
+const COMPARED: [RemedyName; 2] = [RemedyName::None, RemedyName::FbarConsistent];
+/// Least number of frames of an animation: else it is but the snapshots.
+const LEAST_FRAMES: usize = 3;
 /// Times (s) of the pictures.
 const TIMES: [f64; 3] = [1.0, 2.5, 5.5];
 /// Times (s) between frames of the animation, and between showing them (hundredths of a second).
@@ -61,6 +65,38 @@ const FIELDS: [Field; 2] = [
         label: "mean normal stress (kPa)",
     },
 ];
+
+/// A run at one time, as a panel.
+struct Shown {
+    title: String,
+    /// Distance of particles (m), and their number across the width.
+    spacing: f64,
+    across: usize,
+    particles: Table,
+}
+
+impl Shown {
+    /// Whether particles lie in three dimensions.
+    fn is_solid(&self) -> bool {
+        !self.particles.column("z").is_empty()
+    }
+
+    fn values(&self, field: &Field) -> Vec<f64> {
+        let values = self.particles.column(field.column).iter();
+        values.map(|v| field.factor * v).collect()
+    }
+
+    /// Of values in seeding order those in the middle of the width.
+    fn in_the_middle<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        let from = self.across / 2;
+        values
+            .iter()
+            .skip(from)
+            .step_by(self.across)
+            .copied()
+            .collect()
+    }
+}
 
 struct Runs<'a> {
     case: &'a str,
@@ -112,13 +148,14 @@ impl Runs<'_> {
             .copied()
     }
 
-    /// The finest level at which all remedies have run with a basis, the longest runs first.
-    fn level(&self, basis: BasisName) -> Option<String> {
-        let has_all = |r: &&&Record| {
+    /// Levels at which remedies can be compared with a basis, the longest runs and the finest first.
+    fn levels(&self, basis: BasisName) -> Vec<String> {
+        let compares = |r: &&&Record| {
             let has = |&remedy: &RemedyName| self.find(basis, remedy, &r.level).is_some();
-            REMEDIES.iter().all(has)
+            COMPARED.iter().all(has)
         };
-        self.records.iter().find(has_all).map(|r| r.level.clone())
+        let levels = self.records.iter().filter(compares);
+        crate::distinct(levels.map(|r| r.level.clone()))
     }
 
     fn path(&self, name: &str) -> std::path::PathBuf {
@@ -132,50 +169,79 @@ impl Runs<'_> {
         });
     }
 
-    /// The particles of a run at `time` (s), if it has kept them.
-    fn snapshot(&self, record: &Record, time: f64) -> Result<Option<Table>, Error> {
-        let file = snapshot_file(self.gathered.folder(record)?, time);
-        file.exists().then(|| Table::read(&file)).transpose()
+    /// All that has run with a basis at a level, at `time` (s); none if a run has not kept it.
+    fn shown(&self, basis: BasisName, level: &str, time: f64) -> Result<Vec<Shown>, Error> {
+        let mut shown = Vec::new();
+        for remedy in REMEDIES {
+            let Some(record) = self.find(basis, remedy, level) else {
+                continue;
+            };
+            let file = snapshot_file(self.gathered.folder(record)?, time);
+            if !file.exists() {
+                return Ok(Vec::new());
+            }
+            shown.push(Shown {
+                title: format!("{}, {time:.1} s", name_of(remedy)),
+                spacing: spacing(record),
+                across: record.metric("particles_across").max(1.0) as usize,
+                particles: Table::read(&file)?,
+            });
+        }
+        Ok(shown)
     }
 
+    /// A field at all times, a row for each remedy: in three dimensions the solid and the section in its middle.
     fn snapshots(&mut self, basis: BasisName, of: &str, field: &Field) -> Result<(), Error> {
-        let Some(level) = self.level(basis) else {
+        let Some(level) = self.levels(basis).into_iter().next() else {
             return Ok(());
         };
-        let mut shown: Vec<(String, f64, Table)> = Vec::new();
-        let mut columns = 0;
+        let mut times = Vec::new();
         for time in TIMES {
-            let mut column = Vec::new();
-            for remedy in REMEDIES {
-                let Some(record) = self.find(basis, remedy, &level) else {
-                    continue;
-                };
-                if let Some(table) = self.snapshot(record, time)? {
-                    let title = format!("{}, {time:.1} s", name_of(remedy));
-                    column.push((title, spacing(record), table));
-                }
-            }
-            if column.len() == REMEDIES.len() {
-                columns += 1;
-                shown.extend(column);
+            let shown = self.shown(basis, &level, time)?;
+            if !shown.is_empty() {
+                times.push(shown);
             }
         }
-        if columns == 0 {
+        let (columns, rows) = (times.len(), times.first().map_or(0, Vec::len));
+        let panels: Vec<&Shown> = (0..rows)
+            .flat_map(|row| times.iter().map(move |shown| &shown[row]))
+            .collect();
+        if panels.is_empty() {
             return Ok(());
         }
-        // By rows: a remedy each.
-        let order = (0..shown.len()).map(|k| (k % columns) * REMEDIES.len() + k / columns);
-        let panels: Vec<&(String, f64, Table)> = order.map(|k| &shown[k]).collect();
         let title = format!("{of}, {}", level_title(&level));
-        let name = format!("{}-{basis}", field.name);
-        if panels.iter().all(|(_, _, table)| is_solid(table)) {
-            draw_solids(&self.path(&name), &solids(title, &panels, columns, field))?;
-        } else {
-            draw_fields(&self.path(&name), &fields(title, &panels, columns, field))?;
+        let solid = panels.iter().all(|shown| shown.is_solid());
+        let (name, figures) = (
+            format!("{}-{basis}", field.name),
+            "The paper's Figures 14 and 15",
+        );
+        if solid {
+            draw_solids(
+                &self.path(&name),
+                &solids(title.clone(), &panels, columns, field),
+            )?;
+            self.picture(
+                &name,
+                format!(
+                    "The slide with {of}: {}. {figures} (data: snapshots of each run).",
+                    field.label
+                ),
+            );
         }
+        let (section, where_it_is) = match solid {
+            true => (format!("section-{name}"), ", in the middle of the width"),
+            false => (name, ""),
+        };
+        draw_fields(
+            &self.path(&section),
+            &fields(title, &panels, columns, field),
+        )?;
         self.picture(
-            &name,
-            format!("The slide with {of}: {}; standard MPM, the paper's F̄, ours. The paper's Figures 14 and 15 (data: snapshots of each run).", field.label),
+            &section,
+            format!(
+                "The slide with {of}{where_it_is}: {}. {figures} (data: snapshots of each run).",
+                field.label
+            ),
         );
         Ok(())
     }
@@ -204,7 +270,7 @@ impl Runs<'_> {
         ];
         let mut charts = Vec::new();
         for (basis, title) in BASES {
-            let Some(level) = self.level(basis) else {
+            let Some(level) = self.levels(basis).into_iter().next() else {
                 continue;
             };
             for (column, scale, label) in quantities {
@@ -277,43 +343,35 @@ impl Runs<'_> {
 
     /// The plastic strain with GIMP, frame by frame, of the finest level that has kept frames.
     fn animation(&mut self) -> Result<(), Error> {
-        let mut frames = Vec::new();
-        let Some(level) = self.level(BasisName::Gimp) else {
-            return Ok(());
-        };
-        for k in 1.. {
-            let time = f64::from(k) * FRAME;
-            let mut shown = Vec::new();
-            for remedy in REMEDIES {
-                let Some(record) = self.find(BasisName::Gimp, remedy, &level) else {
-                    continue;
-                };
-                if let Some(table) = self
-                    .snapshot(record, time)?
-                    .filter(|table| !is_solid(table))
-                {
-                    let title = format!("{}, {time:.1} s", name_of(remedy));
-                    shown.push((title, spacing(record), table));
+        let (basis, field) = (BasisName::Gimp, &FIELDS[0]);
+        for level in self.levels(basis) {
+            let mut frames = Vec::new();
+            for k in 1.. {
+                let shown = self.shown(basis, &level, f64::from(k) * FRAME)?;
+                if shown.is_empty() {
+                    break;
                 }
+                frames.push(shown);
             }
-            if shown.len() < REMEDIES.len() {
-                break;
+            if frames.len() < LEAST_FRAMES {
+                continue;
             }
-            let panels: Vec<&(String, f64, Table)> = shown.iter().collect();
-            frames.push(fields(String::new(), &panels, 1, &FIELDS[0]));
+            let panels = frames.iter().map(|shown| shown.iter().collect::<Vec<_>>());
+            let (name, path) = ("slide", self.path("slide"));
+            if frames.iter().flatten().all(Shown::is_solid) {
+                let solid = |panels: Vec<&Shown>| solids(String::new(), &panels, 1, field);
+                animate_solids(&path, &panels.map(solid).collect::<Vec<_>>(), DELAY)?;
+            } else {
+                let flat = |panels: Vec<&Shown>| fields(String::new(), &panels, 1, field);
+                animate_fields(&path, &panels.map(flat).collect::<Vec<_>>(), DELAY)?;
+            }
+            let level = level_title(&level);
+            self.picture(
+                name,
+                format!("The slide with GIMP, {level}: {}.", field.label),
+            );
+            break;
         }
-        // Else it is but the snapshots.
-        if frames.len() < 3 {
-            return Ok(());
-        }
-        animate_fields(&self.path("slide"), &frames, DELAY)?;
-        self.picture(
-            "slide",
-            format!(
-                "The slide with GIMP, {}: plastic strain; standard MPM, the paper's F̄, ours.",
-                level_title(&level)
-            ),
-        );
         Ok(())
     }
 }
@@ -333,36 +391,18 @@ fn level_title(level: &str) -> String {
     }
 }
 
-/// Whether particles lie in three dimensions.
-fn is_solid(table: &Table) -> bool {
-    !table.column("z").is_empty()
-}
-
 /// Distance of particles (m).
 fn spacing(record: &Record) -> f64 {
     let dimension = record.discretisation.dim as f64;
     record.discretisation.h / f64::from(record.discretisation.ppc).powf(1.0 / dimension)
 }
 
-fn values(table: &Table, field: &Field) -> Vec<f64> {
-    table
-        .column(field.column)
-        .iter()
-        .map(|v| field.factor * v)
-        .collect()
-}
-
-fn fields(
-    title: String,
-    panels: &[&(String, f64, Table)],
-    columns: usize,
-    field: &Field,
-) -> FieldFigure {
-    let panel = |(title, size, table): &&(String, f64, Table)| FieldPanel {
-        title: title.clone(),
-        points: table.points("x", "y"),
-        values: values(table, field),
-        size: *size,
+fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> FieldFigure {
+    let panel = |shown: &&Shown| FieldPanel {
+        title: shown.title.clone(),
+        points: shown.in_the_middle(&shown.particles.points("x", "y")),
+        values: shown.in_the_middle(&shown.values(field)),
+        size: shown.spacing,
         outline: OUTLINE.to_vec(),
     };
     FieldFigure {
@@ -377,23 +417,15 @@ fn fields(
     }
 }
 
-fn solids(
-    title: String,
-    panels: &[&(String, f64, Table)],
-    columns: usize,
-    field: &Field,
-) -> SolidFigure {
-    let across = |(_, size, table): &&(String, f64, Table)| {
-        table.column("z").iter().fold(0.0_f64, |z, v| z.max(*v)) + 0.5 * size
-    };
-    let width = panels.iter().map(across).fold(0.0, f64::max);
-    let panel = |(title, size, table): &&(String, f64, Table)| {
-        let (x, y, z) = (table.column("x"), table.column("y"), table.column("z"));
+fn solids(title: String, panels: &[&Shown], columns: usize, field: &Field) -> SolidFigure {
+    let width = |shown: &&Shown| shown.across as f64 * shown.spacing;
+    let panel = |shown: &&Shown| {
+        let [x, y, z] = ["x", "y", "z"].map(|axis| shown.particles.column(axis));
         SolidPanel {
-            title: title.clone(),
+            title: shown.title.clone(),
             points: (0..x.len()).map(|k| [x[k], y[k], z[k]]).collect(),
-            values: values(table, field),
-            size: *size,
+            values: shown.values(field),
+            size: shown.spacing,
         }
     };
     SolidFigure {
@@ -408,7 +440,11 @@ fn solids(
             up: Up::Y,
         },
         axes: ["x (m)", "y (m)", "z (m)"].map(str::to_owned),
-        window: Some([WINDOW.0, WINDOW.1, (0.0, width)]),
+        window: Some([
+            WINDOW.0,
+            WINDOW.1,
+            (0.0, panels.iter().map(width).fold(0.0, f64::max)),
+        ]),
     }
 }
 

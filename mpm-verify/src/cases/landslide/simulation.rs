@@ -21,8 +21,8 @@ const FAR: f64 = 0.5;
 /// Times (s) of the snapshots.
 const SNAPSHOTS: [f64; 5] = [0.5, 1.0, 2.5, 4.0, 5.5];
 /// Rows between two frames of the animation, and the largest number of particles that is animated.
-const FRAME: usize = 10;
-const ANIMATED: usize = 7000;
+const FRAME: usize = 20;
+const ANIMATED: usize = 20_000;
 /// Time (s) at which the flow is still one slide: uniform over the width.
 const EARLY: f64 = 0.5;
 
