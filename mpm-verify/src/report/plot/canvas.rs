@@ -12,7 +12,8 @@ use plotters::backend::{BitMapBackend, DrawingBackend};
 use plotters::prelude::{Color, FontDesc, FontFamily, FontStyle, RGBColor, TextStyle};
 use plotters::style::{FontTransform, register_font};
 
-use super::{Marker, PlotError};
+use super::PlotError;
+use super::chart::Marker;
 use crate::files::write_whole;
 
 /// A position, rightwards and downwards in pixels or in data coordinates.

@@ -11,10 +11,11 @@ mod surface;
 
 pub use camera::{Camera, Up};
 
+use super::axes::{Axis, TICK, extent, widen};
+use super::bar::{BAR, BAR_TIP, draw_bar};
 use super::canvas::{Block, Canvas, FINE, HEADING, LABEL, Point, Rgb, SMALL, TITLE};
 use super::canvas::{largest, save_animation, stone_of};
-use super::{Axis, BAR, BAR_TIP, EDGE, NO_VALUE, PlotError, TICK};
-use super::{draw_bar, extent, nothing, widen};
+use super::{EDGE, NO_VALUE, PlotError, nothing};
 use camera::{Place, View};
 use rayon::prelude::*;
 use rulers::Ruler;

@@ -1,8 +1,8 @@
 //! Marks in metres along three edges of the window about a body.
 
-use super::super::axes::Axis;
+use super::super::SOLID;
+use super::super::axes::{Axis, TICK};
 use super::super::canvas::{Block, Canvas, INK, LABEL, Point, SMALL, between};
-use super::super::{SOLID, TICK};
 use super::camera::{Place, Up};
 use super::surface::Screen;
 
