@@ -1,9 +1,10 @@
 //! The command line: `mpm-verify list | explain | run | verify | report | bless | diff | exact | bench`.
 
+mod cli;
 mod progress;
 
-use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::Parser;
+use cli::{Cli, Command, one_line};
 use mpm_verify::bench::{self, Peers};
 use mpm_verify::bless::Candidates;
 use mpm_verify::case::{Case, RunSpec, Tier, find_level};
@@ -24,178 +25,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Verification bench of the locking-free material point method.
-#[derive(Debug, Parser)]
-#[command(version, about)]
-struct Cli {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Debug, Subcommand)]
-enum Command {
-    /// List the cases with their schemes and levels
-    List {
-        /// Only the runs of this tier: quick, pr, nightly, long
-        #[arg(long)]
-        tier: Option<String>,
-        /// text or json
-        #[arg(long, default_value = "text")]
-        format: String,
-    },
-    /// Parameters, schemes, levels, metrics, checks, references and limits of a case
-    Explain {
-        /// The case
-        case: String,
-    },
-    /// Run one case once
-    Run {
-        /// The case
-        case: String,
-        /// Basis functions
-        #[arg(long, default_value = "gimp")]
-        basis: String,
-        /// Locking remedy
-        #[arg(long, default_value = "fbar-rate")]
-        remedy: String,
-        /// Transfer
-        #[arg(long, default_value = "flip")]
-        transfer: String,
-        /// Level of refinement (the coarsest if not given)
-        #[arg(long)]
-        level: Option<String>,
-        /// Change a parameter
-        #[arg(long = "set", value_name = "NAME=VALUE")]
-        set: Vec<String>,
-        /// Start every particle a last bit beside its place
-        #[arg(long)]
-        perturb: bool,
-        /// Folder for record, series, particles and VTU
-        #[arg(long, group = "folder")]
-        out: Option<PathBuf>,
-        /// In place of --out: go on in this folder from the checkpoint that the same run has left there,
-        /// with the same results to the last bit; begin if there is none
-        #[arg(long, value_name = "DIR", group = "folder")]
-        resume: Option<PathBuf>,
-        /// Write a checkpoint so often, by the clock; 0: after every row of the series
-        #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
-        checkpoint_every: u64,
-        /// Threads (all cores if not given)
-        #[arg(long)]
-        threads: Option<usize>,
-    },
-    /// Run a tier of cases, judge them and write the report
-    Verify {
-        /// The cases (all if none is given)
-        cases: Vec<String>,
-        /// quick, pr, nightly or long
-        #[arg(long, default_value = "pr")]
-        tier: String,
-        /// Make only the i-th of n shares of the runs; `report` puts the shares together
-        #[arg(long, value_name = "I/N")]
-        shard: Option<String>,
-        /// Keep the runs that are there already, if this very program made them, and go on with those that
-        /// it has left a checkpoint of
-        #[arg(long)]
-        resume: bool,
-        /// Write a checkpoint of every run so often, by the clock; 0: after every row of its series
-        #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S)]
-        checkpoint_every: u64,
-        /// Folder of the report
-        #[arg(long, default_value = "reports/latest")]
-        out: PathBuf,
-        /// Folder of the goldens
-        #[arg(long, default_value = "golden")]
-        golden: PathBuf,
-        /// Runs side by side (as many as there are cores if not given)
-        #[arg(long)]
-        threads: Option<usize>,
-    },
-    /// Judge again what `verify` has left and rebuild the report, without simulating
-    Report {
-        /// The folder, or those of all shards
-        #[arg(required = true)]
-        folders: Vec<PathBuf>,
-        /// Folder of the report (that of the runs if there is one only)
-        #[arg(long)]
-        out: Option<PathBuf>,
-        /// Keep what the report there says of the cases that the folders do not hold
-        #[arg(long, requires = "out")]
-        update: bool,
-        /// Folder of the goldens
-        #[arg(long, default_value = "golden")]
-        golden: PathBuf,
-        /// Add this night (YYYY-MM-DD) to the report's history and draw the trends
-        #[arg(long, value_name = "DATE", requires = "commit")]
-        night: Option<String>,
-        /// The commit of that night
-        #[arg(long, requires = "night")]
-        commit: Option<String>,
-    },
-    /// Accept drift: take what `verify` has left as the new golden (refused while the truth is missed)
-    Bless {
-        /// The case
-        case: String,
-        /// Why the results have changed
-        #[arg(long)]
-        reason: String,
-        /// The folder that `verify` has written, or those of all shards
-        #[arg(long, default_value = "reports/latest", num_args = 1..)]
-        from: Vec<PathBuf>,
-        /// Folder of the goldens
-        #[arg(long, default_value = "golden")]
-        golden: PathBuf,
-        /// Runs side by side (as many as there are cores if not given)
-        #[arg(long)]
-        threads: Option<usize>,
-    },
-    /// Compare two report folders: numbers, verdicts, pictures
-    Diff {
-        /// The old report
-        old: PathBuf,
-        /// The new report
-        new: PathBuf,
-        /// Folder for the comparison with its pictures (old | new | difference)
-        #[arg(long)]
-        out: Option<PathBuf>,
-    },
-    /// Evaluate an exact solution at a reference point, as JSON
-    Exact {
-        /// The solution
-        name: String,
-        /// Reference coordinates (m), as many as the motion has dimensions
-        #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
-        at: String,
-        /// Time (s)
-        #[arg(long, allow_hyphen_values = true)]
-        time: String,
-        /// Change a parameter
-        #[arg(long = "set", value_name = "NAME=VALUE")]
-        set: Vec<String>,
-    },
-    /// Measure speed: workloads, problems and laws take turns; with --peers, other programs with them
-    Bench {
-        /// Rounds, after one that isn't measured
-        #[arg(long, default_value_t = 7)]
-        rounds: usize,
-        /// Numbers of threads, as 1,2 (one and all cores if not given)
-        #[arg(long, value_delimiter = ',')]
-        threads: Vec<usize>,
-        /// Leave out the cost over the number of particles
-        #[arg(long)]
-        no_scaling: bool,
-        /// Compare with other programs: taichi
-        #[arg(long)]
-        peers: Option<String>,
-        /// The Python interpreter that has the peers' packages
-        #[arg(long, default_value = "python3", requires = "peers")]
-        python: PathBuf,
-        /// Folder of the tables and pictures
-        #[arg(long, default_value = "reports/bench")]
-        out: PathBuf,
-    },
-}
-
 fn main() -> std::process::ExitCode {
     let outcome = match Cli::try_parse() {
         Ok(cli) => dispatch(cli.command),
@@ -215,22 +44,6 @@ fn main() -> std::process::ExitCode {
 
 /// More threads than this are surely a slip.
 const MAX_THREADS: usize = 1024;
-
-/// The gist of an error of the command line's syntax.
-fn one_line(error: &clap::Error) -> String {
-    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing; allowed: list, explain, run, verify, report, bless, diff, exact, bench"
-            .to_owned();
-    }
-    let text = error.to_string();
-    let lines: Vec<&str> = text
-        .lines()
-        .map(str::trim)
-        .take_while(|line| !line.starts_with("Usage"))
-        .filter(|line| !line.is_empty())
-        .collect();
-    lines.join(" ").trim_start_matches("error: ").to_owned()
-}
 
 fn say(text: &str) -> Result<(), Error> {
     match io::stdout().write_all(text.as_bytes()) {
