@@ -250,6 +250,11 @@ const METRICS: &[MetricInfo] = &[
         "peaks of the plastic strain above one half through the particles from half the height, at the end",
     ),
     metric(
+        "rearmost_band_end",
+        "m",
+        "how far behind the crest's edge the rearmost of them is, before any motion",
+    ),
+    metric(
         "plastic_dissipation",
         "J/m",
         "energy that flow has dissipated since the reduction",

@@ -101,6 +101,11 @@ pub(super) const CHECKS: &[CheckInfo] = &[
         "in three dimensions: at rest the crest has sunk as in plane strain, within 10⁻⁴ without F̄ and 2 % with it",
     ),
     check(
+        "slice",
+        Kind::Truth,
+        "in three dimensions: at rest the crest of a slice has sunk as that of the full width, within 10⁻⁴",
+    ),
+    check(
         "time-step",
         Kind::Truth,
         "fbar-consistent: half the time step moves the toe at 2.5 s by less than a cell",
@@ -311,35 +316,51 @@ fn across(record: &Record, verdicts: &mut Vec<Verdict>) {
     ));
 }
 
-/// What the time step changes, where the slope fails at once: at the paper's reduction the onset itself is at stake.
 pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
-    let halved = |r: &&Record| {
-        r.status == Status::Ok
-            && r.remedy == RemedyName::FbarConsistent
-            && r.parameters.number("cfl") < 0.2
-    };
     let mut verdicts = Vec::new();
-    for run in records.iter().filter(halved) {
-        let same = |r: &&Record| {
-            let but_for_cfl = run.set.iter().filter(|set| !set.starts_with("cfl="));
-            r.status == Status::Ok
-                && r.scheme() == run.scheme()
-                && r.level == run.level
-                && r.set.iter().eq(but_for_cfl)
-        };
-        if let Some(own) = records.iter().find(same) {
-            let metric = "runout_2.5s";
-            verdicts.push(Verdict::close(
-                "time-step",
-                metric,
-                run.metric(metric),
-                own.metric(metric),
-                run.discretisation.h,
-                format!("{} {}: twice the step", run.scheme(), run.folder()),
-            ));
-        }
+    for (slice, whole) in pairs(records, "width") {
+        let metric = "settlement_at_rest";
+        let expected = whole.metric(metric);
+        verdicts.push(Verdict::close(
+            "slice",
+            metric,
+            slice.metric(metric),
+            expected,
+            GROWN_ROUNDING * expected,
+            format!("{} {}: the full width", slice.scheme(), slice.folder()),
+        ));
+    }
+    // Where the slope fails at once: at the paper's reduction the onset itself is at stake.
+    let halved = |(run, _): &(&Record, &Record)| {
+        run.remedy == RemedyName::FbarConsistent && run.parameters.number("cfl") < 0.2
+    };
+    for (run, own) in pairs(records, "cfl").into_iter().filter(halved) {
+        let metric = "runout_2.5s";
+        verdicts.push(Verdict::close(
+            "time-step",
+            metric,
+            run.metric(metric),
+            own.metric(metric),
+            run.discretisation.h,
+            format!("{} {}: twice the step", run.scheme(), run.folder()),
+        ));
     }
     verdicts
+}
+
+/// Runs that change a parameter, each with the run that differs in nothing else.
+fn pairs<'a>(records: &'a [Record], parameter: &str) -> Vec<(&'a Record, &'a Record)> {
+    let changes = |set: &&String| set.split('=').next() == Some(parameter);
+    let ended = || records.iter().filter(|r| r.status == Status::Ok);
+    let own = |run: &&'a Record| {
+        let others = || run.set.iter().filter(|set| !changes(set));
+        let same = |r: &&Record| {
+            r.scheme() == run.scheme() && r.level == run.level && r.set.iter().eq(others())
+        };
+        Some((*run, ended().find(same)?))
+    };
+    let changed = ended().filter(|run| run.set.iter().any(|set| changes(&set)));
+    changed.filter_map(|run| own(&run)).collect()
 }
 
 #[cfg(test)]

@@ -194,33 +194,39 @@ impl Look<'_> {
         (self.section.crest - rearmost + 0.5 * self.spacing).max(0.0)
     }
 
-    /// Shear bands through the particles that were at half the height: peaks of the plastic strain.
-    pub(super) fn bands(&self) -> usize {
+    /// How far (m) behind the crest's edge shear bands pass through the ground that was at half the height, from the
+    /// rear: peaks of the plastic strain.
+    pub(super) fn bands(&self) -> Vec<f64> {
         let half = 0.5 * self.section.height;
         let row = self.in_the_middle(|x| {
             let above = (x[1] - half) / self.spacing;
             above > -0.75 && above <= 0.25
         });
         let strains: Vec<f64> = row.iter().map(|k| self.plastic_strain[*k]).collect();
-        peaks(&strains)
+        let place = |peak: usize| self.section.crest - self.reference[row[peak]][0];
+        peaks(&strains).into_iter().map(place).collect()
     }
 }
 
-/// Number of peaks above that of a band, between which the value falls to a share of the lower one.
-fn peaks(values: &[f64]) -> usize {
+/// Where values have peaks above that of a band, between which they fall to a share of the lower one.
+fn peaks(values: &[f64]) -> Vec<usize> {
     let (least, dip) = BAND;
-    let (mut count, mut top, mut bottom) = (0, f64::INFINITY, 0.0_f64);
-    for &value in values {
+    let mut peaks: Vec<usize> = Vec::new();
+    let (mut top, mut bottom) = (f64::INFINITY, 0.0_f64);
+    for (k, &value) in values.iter().enumerate() {
         bottom = bottom.min(value);
         if value > least && bottom < dip * value.min(top) {
             // Up from a valley: another peak, of which the height is yet to be seen.
-            count += 1;
+            peaks.push(k);
             (top, bottom) = (value, value);
-        } else if value > top {
+        } else if let Some(peak) = peaks.last_mut()
+            && value > top
+        {
+            *peak = k;
             (top, bottom) = (value, value);
         }
     }
-    count
+    peaks
 }
 
 /// The series since the release.
@@ -310,13 +316,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn peaks_are_counted_by_the_valleys_between_them() {
-        assert_eq!(peaks(&[]), 0);
-        assert_eq!(peaks(&[0.1, 0.2, 0.1]), 0);
-        assert_eq!(peaks(&[0.0, 1.0, 2.0, 1.9, 2.5, 0.1]), 1);
-        assert_eq!(peaks(&[0.0, 2.0, 0.1, 0.0, 0.7, 3.0, 0.2, 1.0]), 3);
+    fn peaks_are_told_apart_by_the_valleys_between_them() {
+        let none: [usize; 0] = [];
+        assert_eq!(peaks(&[]), none);
+        assert_eq!(peaks(&[0.1, 0.2, 0.1]), none);
+        assert_eq!(peaks(&[0.0, 1.0, 2.0, 1.9, 2.5, 0.1]), [4]);
+        assert_eq!(peaks(&[0.0, 2.0, 0.1, 0.0, 0.7, 3.0, 0.2, 1.0]), [1, 5, 7]);
         // A peak that stands on the shoulder of another is part of it.
-        assert_eq!(peaks(&[2.0, 1.2, 2.0]), 1);
+        assert_eq!(peaks(&[2.0, 1.2, 2.0]), [0]);
     }
 
     #[test]
@@ -371,7 +378,10 @@ mod tests {
         assert_eq!(positions.iter().filter(|x| x[0] >= bulk).count(), 66);
         assert!((look.settlement() - 0.5).abs() < 1e-9);
         assert!((look.retrogression(&released) - 2.0).abs() < 0.06);
-        assert_eq!(look.bands(), 1);
+        let [band] = look.bands()[..] else {
+            panic!("{:?}", look.bands())
+        };
+        assert!((band - 2.0).abs() < 0.2, "{band}");
         let failed = look.failed(&released) * 62.5;
         assert!((failed - 22.5).abs() < 0.5, "{failed}");
     }

@@ -148,16 +148,21 @@ impl<const D: usize> Slide<D> {
         p.seeded(distance)
     }
 
-    fn observe(&self) -> Row {
-        let (positions, plastic_strain) = (self.positions(), self.plastic_strain());
-        let look = Look {
+    /// What the slope looks like with these places (m) and plastic strains.
+    fn look<'a>(&'a self, positions: &'a [[f64; 2]], plastic_strain: &'a [f64]) -> Look<'a> {
+        Look {
             section: &self.ground.section,
             spacing: self.ground.spacing,
             across: self.ground.across,
             reference: &self.reference,
-            positions: &positions,
-            plastic_strain: &plastic_strain,
-        };
+            positions,
+            plastic_strain,
+        }
+    }
+
+    fn observe(&self) -> Row {
+        let (positions, plastic_strain) = (self.positions(), self.plastic_strain());
+        let look = self.look(&positions, &plastic_strain);
         let totals = self.simulation.totals();
         let per_metre = 1.0 / self.ground.width;
         let p = self.simulation.particles();
@@ -174,7 +179,7 @@ impl<const D: usize> Slide<D> {
             base_force: 0.0,
             failed: look.failed(&self.released),
             retrogression: look.retrogression(&self.released),
-            bands: look.bands() as f64,
+            bands: look.bands().len() as f64,
             jacobian: totals.jacobian,
             log_jacobian_gap: totals.log_jacobian_gap_rms,
         }
@@ -225,8 +230,14 @@ impl<const D: usize> Slide<D> {
     fn metrics(&self) -> Vec<(&'static str, f64)> {
         let (rest, totals) = (&self.at_rest, self.simulation.totals());
         let weight = totals.mass * GRAVITY / self.ground.width;
+        let (positions, plastic_strain) = (self.positions(), self.plastic_strain());
+        let bands = self.look(&positions, &plastic_strain).bands();
         let mut values = self.series.metrics(&self.ground.section, &rest.row);
         values.extend([
+            (
+                "rearmost_band_end",
+                bands.into_iter().fold(f64::NAN, f64::max),
+            ),
             ("particles", self.reference.len() as f64),
             ("particles_across", self.ground.across as f64),
             ("mass", totals.mass / self.ground.width),

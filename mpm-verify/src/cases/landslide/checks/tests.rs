@@ -155,3 +155,21 @@ fn half_the_time_step_moves_the_toe_by_less_than_a_cell() {
     assert_eq!(of(OURS, 5.5), [Some(false)]);
     assert_eq!(of(STANDARD, 5.5), []);
 }
+
+#[test]
+fn a_slice_sinks_as_the_full_width() {
+    let of = |settlement| {
+        let at = |set: &[&str], value| {
+            let metrics = [("settlement_at_rest", value)];
+            fixture::run(&PARAMETERS_3D, OURS, ("h0.5", 0.5), set, &metrics)
+        };
+        let records = [
+            at(&[], 0.01),
+            at(&["width=2"], settlement),
+            at(&["width=2", "reduction=2"], 0.02),
+        ];
+        outcomes(&judge_study(&records), "slice")
+    };
+    assert_eq!(of(0.010_000_5), [Some(true)]);
+    assert_eq!(of(0.010_002), [Some(false)]);
+}
