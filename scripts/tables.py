@@ -263,6 +263,12 @@ def lost(r):
     return number(-100 * metric(r, "unaccounted_energy") / fallen, "{:.0f} %")
 
 
+def bands(r):
+    count, rear = metric(r, "shear_bands_end"), metric(r, "rearmost_band_end")
+    where = "" if math.isnan(rear) else f" ({number(rear, '{:.1f}')})"
+    return number(count, "{:.0f}") + where
+
+
 def landslide_2d(summary):
     rows = []
     for r in Runs(summary, "landslide-2d").where(set=[], status="ok"):
@@ -277,13 +283,16 @@ def landslide_2d(summary):
                 number(100 * metric(r, "failed_share_end"), "{:.0f} %"),
                 number(metric(r, "failure_time"), "{:.2f}"),
                 number(metric(r, "retrogression_end"), "{:.1f}"),
-                number(metric(r, "shear_bands_end"), "{:.0f}"),
+                bands(r),
                 number(metric(r, "checkerboard_at_rest")),
+                number(metric(r, "checkerboard_2.5s")),
+                f"{number(metric(r, 'jacobian_min'), '{:.2f}')} … {number(metric(r, 'jacobian_max'), '{:.2f}')}",
+                number(metric(r, "log_jacobian_gap"), "{:.2f}"),
                 lost(r),
                 number(r["time"]["cpu_s"], "{:.0f}"),
             ]
         )
-    head = "scheme; h; run-out at 2.5 s (m); at 5.5 s (m); of the bulk (m); settlement (m); failed; fails at (s); retrogression (m); bands; σ_m − Πσ_m at rest (γH); lost; CPU (s)"
+    head = "scheme; h; run-out at 2.5 s (m); at 5.5 s (m); of the bulk (m); settlement (m); failed; fails at (s); retrogression (m); bands (rearmost, m); σ_m − Πσ_m at rest (γH); at 2.5 s; J; ln(J/J̄) rms; lost; CPU (s)"
     return table(head.split("; "), rows)
 
 
@@ -324,13 +333,14 @@ def landslide_3d(summary):
                 number(metric(r, "runout_end"), "{:.2f}"),
                 number(metric(r, "off_plane_strain_end"), "{:+.2f}"),
                 percent(metric(r, "off_plane_strain_at_rest"), 3),
+                percent(metric(r, "off_plane_strain_0.5s"), 3),
                 number(metric(r, "width_spread_at_rest"), "{:.0e}"),
                 number(metric(r, "width_spread_0.5s"), "{:.0e}"),
                 number(metric(r, "width_spread_end"), "{:.0e}"),
                 number(r["time"]["cpu_s"], "{:.0f}"),
             ]
         )
-    head = "scheme; level; changed; particles; run-out at 2.5 s (m); at the end (m); against plane strain (m); off plane strain at rest; spread at rest; at 0.5 s; at the end; CPU (s)"
+    head = "scheme; level; changed; particles; run-out at 2.5 s (m); at the end (m); against plane strain (m); off plane strain at rest; at 0.5 s; spread at rest; at 0.5 s; at the end; CPU (s)"
     return table(head.split("; "), rows)
 
 

@@ -9,7 +9,7 @@ mod section;
 mod simulation;
 mod sketch;
 
-pub(super) use ground::{DAMPING, Ground, RISE, STAGE};
+pub(super) use ground::{DAMPING, Ground, RISE, STABILITY, STAGE, factor_of_safety};
 pub(super) use sketch::sketch;
 
 use crate::case::{
@@ -200,6 +200,11 @@ const METRICS: &[MetricInfo] = &[
         "rms of σ_m − Πσ_m over γ H, then",
     ),
     metric(
+        "checkerboard_2.5s",
+        "-",
+        "likewise 2.5 s after the reduction",
+    ),
+    metric(
         "yielded_at_rest",
         "-",
         "share of the particles that have yielded, then",
@@ -344,7 +349,7 @@ const SWEEPS: &[Sweep] = &[
 const LIMITS: &[&str] = &[
     "Softening is local: shear bands are as thin as the cells allow, and what flows after the onset depends on their size.",
     "The reduced slope stands at a factor of safety of one: which scheme and level tips is part of the answer.",
-    "The clay is undrained and keeps its volume; nothing drains, and nothing cracks.",
+    "The clay is undrained; nothing drains, and nothing cracks. Its averaged volume is kept; that of single particles in the flow is not (J).",
 ];
 
 fn references() -> Vec<String> {

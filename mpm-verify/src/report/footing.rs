@@ -27,8 +27,9 @@ const REMEDIES: [RemedyName; 4] = [
 ];
 /// Finest first.
 const LEVELS: [&str; 4] = ["b80", "b40", "b20", "b10"];
-/// Largest pressure over strength drawn.
+/// Largest pressure over strength drawn; and the range about Prandtl's that is drawn larger.
 const MOST: f64 = 10.0;
+const ABOUT: (f64, f64) = (4.8, 5.8);
 /// What is drawn of the ground (m): so far to the right and down.
 const NEAR: (f64, f64) = (2.5, 2.0);
 /// The mean normal stress (kPa) is drawn from this to zero.
@@ -55,7 +56,8 @@ pub(super) fn draw(
         records: study
             .records
             .iter()
-            .filter(|r| r.status == Status::Ok && r.is_default())
+            .filter(|r| r.status == Status::Ok)
+            .filter(|r| r.is_default() || r.changes_only("penetration"))
             .collect(),
         gathered,
         out,
@@ -101,7 +103,7 @@ impl Runs<'_> {
             .collect())
     }
 
-    /// Above: standard and consistent at all levels. Below: all remedies at one.
+    /// Above: standard and consistent at all levels, whole and about the limit load. Below: all remedies at one.
     fn curves(&mut self) -> Result<(), Error> {
         let (mut all_levels, mut all_remedies) = (Vec::new(), Vec::new());
         for (basis, title) in BASES {
@@ -157,10 +159,16 @@ impl Runs<'_> {
         let path = self.out.join("footing/load-settlement.png");
         share_ranges(&path, &mut charts)?;
         write_curves(&self.out.join("footing/load-settlement.csv"), &charts)?;
+        let about: Vec<Chart> = charts
+            .iter()
+            .take(BASES.len())
+            .map(about_the_limit)
+            .collect();
+        charts.splice(BASES.len()..BASES.len(), about);
         draw_charts(&path, &charts, 2)?;
         self.picture(
             "load-settlement",
-            "Pressure over undrained strength against penetration over the footing's width: above, standard MPM (dotted) and fbar-consistent (full) at all levels; below, all remedies at one level; with Prandtl's limit load and the finite elements of vanishing size. The paper's Figure 8.",
+            "Pressure over undrained strength against penetration over the footing's width: above, standard MPM (dotted) and fbar-consistent (full) at all levels, whole and about the limit load; below, all remedies at one level; with Prandtl's limit load and the finite elements of vanishing size. The paper's Figure 8.",
         );
         Ok(())
     }
@@ -310,4 +318,15 @@ impl Runs<'_> {
             (STRAINS, "log₁₀ of the equivalent plastic strain"),
         )
     }
+}
+
+/// The part of a chart of loads about Prandtl's.
+fn about_the_limit(chart: &Chart) -> Chart {
+    let (least, most) = ABOUT;
+    let mut chart = chart.clone();
+    chart.y_range = Some(ABOUT);
+    for series in &mut chart.series {
+        series.points.retain(|(_, q)| (least..=most).contains(q));
+    }
+    chart
 }

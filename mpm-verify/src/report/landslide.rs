@@ -37,7 +37,7 @@ const DELAY: u16 = 20;
 /// Coordinate of the first toe (m).
 const TOE: f64 = 15.0;
 /// What is shown of the section (m), and across (m).
-const WINDOW: ((f64, f64), (f64, f64)) = ((0.0, 40.0), (0.0, 5.5));
+const WINDOW: ((f64, f64), (f64, f64)) = ((0.0, 45.0), (0.0, 5.5));
 const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (15.0, 0.0), (10.0, 5.0), (0.0, 5.0)];
 
 /// A field of the snapshots: its column, the factor to the unit shown, its range and its label.
@@ -47,6 +47,8 @@ struct Field {
     factor: f64,
     range: (f64, f64),
     label: &'static str,
+    /// The paper's figure of it.
+    figure: &'static str,
 }
 
 const FIELDS: [Field; 2] = [
@@ -56,6 +58,7 @@ const FIELDS: [Field; 2] = [
         factor: 1.0,
         range: (0.0, 2.0),
         label: "equivalent plastic strain (–)",
+        figure: "Figure 14",
     },
     Field {
         name: "mean-stress",
@@ -63,6 +66,7 @@ const FIELDS: [Field; 2] = [
         factor: 1e-3,
         range: (-120.0, 0.0),
         label: "mean normal stress (kPa)",
+        figure: "Figure 15",
     },
 ];
 
@@ -211,10 +215,7 @@ impl Runs<'_> {
         }
         let title = format!("{of}, {}", level_title(&level));
         let solid = panels.iter().all(|shown| shown.is_solid());
-        let (name, figures) = (
-            format!("{}-{basis}", field.name),
-            "The paper's Figures 14 and 15",
-        );
+        let name = format!("{}-{basis}", field.name);
         if solid {
             draw_solids(
                 &self.path(&name),
@@ -223,8 +224,8 @@ impl Runs<'_> {
             self.picture(
                 &name,
                 format!(
-                    "The slide with {of}: {}. {figures} (data: snapshots of each run).",
-                    field.label
+                    "The slide with {of}: {}. The paper's {} (data: snapshots of each run).",
+                    field.label, field.figure
                 ),
             );
         }
@@ -239,8 +240,8 @@ impl Runs<'_> {
         self.picture(
             &section,
             format!(
-                "The slide with {of}{where_it_is}: {}. {figures} (data: snapshots of each run).",
-                field.label
+                "The slide with {of}{where_it_is}: {}. The paper's {} (data: snapshots of each run).",
+                field.label, field.figure
             ),
         );
         Ok(())

@@ -12,6 +12,7 @@ use mpm_core::stage::{
 };
 use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side};
+use std::f64::consts::SQRT_2;
 
 /// Time (s) between two rows of the series.
 pub(crate) const ROW: f64 = 0.01;
@@ -28,6 +29,22 @@ const FULL: f64 = 5.0;
 const SLICE: f64 = 4.0;
 /// Place of the base in the scene's list of constraints.
 pub(crate) const BASE: usize = 0;
+
+/// Stability number γH/c of a slope at 45° on a firm base and its bounds: docs/exact.md.
+pub(crate) const STABILITY: (f64, f64, f64) = (6.04, 6.015, 6.078);
+
+/// Factor of safety of the slope of `parameters` with the strength κ (Pa), if the stability number is this.
+pub(crate) fn factor_of_safety(parameters: &Parameters, strength: f64, stability: f64) -> f64 {
+    let number = |name| parameters.number(name);
+    stability * strength / SQRT_2 / (number("density") * GRAVITY * number("height"))
+}
+
+/// The longest period (s) of shear waves in the slope, 4H/c_s.
+pub(crate) fn longest_period(parameters: &Parameters) -> f64 {
+    let number = |name| parameters.number(name);
+    let shear_modulus = 0.5 * number("young_modulus") / (1.0 + number("poisson_ratio"));
+    4.0 * number("height") / (shear_modulus / number("density")).sqrt()
+}
 
 /// Strengths before and after the reduction: only the peak is reduced.
 pub(crate) fn strengths(parameters: &Parameters) -> Result<[Strength; 2], Error> {

@@ -23,8 +23,9 @@ const SNAPSHOTS: [f64; 5] = [0.5, 1.0, 2.5, 4.0, 5.5];
 /// Rows between two frames of the animation, and the largest number of particles that is animated.
 const FRAME: usize = 20;
 const ANIMATED: usize = 20_000;
-/// Time (s) at which the flow is still one slide: uniform over the width.
+/// Times (s) at which the flow is still one slide, uniform over the width, and at which it is fastest.
 const EARLY: f64 = 0.5;
+const FLOWING: f64 = 2.5;
 
 /// What is measured at the end of the gravity stage.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
@@ -56,6 +57,8 @@ struct Slide<const D: usize> {
     released: Released,
     series: Series,
     early_spread: f64,
+    /// Rms of σ_m − Πσ_m over γ H in the flow.
+    checkerboard: f64,
 }
 
 impl<const D: usize> Slide<D> {
@@ -82,6 +85,7 @@ impl<const D: usize> Slide<D> {
             released: Released::default(),
             series: Series::default(),
             early_spread: f64::NAN,
+            checkerboard: f64::NAN,
         })
     }
 
@@ -102,6 +106,9 @@ impl<const D: usize> Slide<D> {
             self.series.rows.push(row);
             if (row.time - EARLY).abs() < 0.5 * ROW {
                 self.early_spread = spread_over_width(&self.moved(), self.ground.across);
+            }
+            if (row.time - FLOWING).abs() < 0.5 * ROW {
+                self.checkerboard = self.checkerboard();
             }
         }
         Ok(row)
@@ -199,6 +206,16 @@ impl<const D: usize> Slide<D> {
         volume * plastic_strain.iter().enumerate().map(work).sum::<f64>()
     }
 
+    /// Rms of σ_m − Πσ_m over γ H.
+    fn checkerboard(&mut self) -> f64 {
+        let stress = self.simulation.force_stress();
+        let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
+        let mut averaged = mean.clone();
+        self.simulation.average(&mut averaged);
+        let scale = self.ground.density * GRAVITY * self.ground.section.height;
+        rms(mean.iter().zip(&averaged).map(|(s, a)| s - a)) / scale
+    }
+
     fn measure_rest(&mut self) {
         let weight = self.ground.density * GRAVITY;
         let scale = weight * self.ground.section.height;
@@ -207,9 +224,6 @@ impl<const D: usize> Slide<D> {
         let far = |k: &usize| p.reference[*k][0] < FAR * section.height;
         let error = |k: usize| stress[k].get(1, 1) + weight * (section.height - p.reference[k][1]);
         let overburden_error = rms((0..p.len()).filter(far).map(error)) / scale;
-        let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
-        let mut averaged = mean.clone();
-        self.simulation.average(&mut averaged);
         let strain = self.plastic_strain();
         let yielded = strain.iter().filter(|e| **e > 0.0).count();
         self.at_rest = AtRest {
@@ -217,7 +231,7 @@ impl<const D: usize> Slide<D> {
             kinetic_share: self.simulation.residual().kinetic_energy
                 / self.simulation.totals().stored_energy,
             overburden_error,
-            checkerboard: rms(mean.iter().zip(&averaged).map(|(s, a)| s - a)) / scale,
+            checkerboard: self.checkerboard(),
             yielded: yielded as f64 / strain.len() as f64,
             width_spread: spread_over_width(&self.moved(), self.ground.across),
         };
@@ -245,6 +259,7 @@ impl<const D: usize> Slide<D> {
             ("kinetic_share_at_rest", rest.kinetic_share),
             ("overburden_error", rest.overburden_error),
             ("checkerboard_at_rest", rest.checkerboard),
+            ("checkerboard_2.5s", self.checkerboard),
             ("yielded_at_rest", rest.yielded),
             ("settlement_at_rest", rest.row.settlement),
         ]);
@@ -268,6 +283,7 @@ impl<const D: usize> Slide<D> {
             &self.released,
             &self.series,
             self.early_spread,
+            self.checkerboard,
         ))
     }
 
@@ -281,6 +297,7 @@ impl<const D: usize> Slide<D> {
             self.released,
             self.series,
             self.early_spread,
+            self.checkerboard,
         ) = saved.read("the landslide")?;
         if is_reduced && let Some(reduced) = self.reduced.take() {
             self.simulation = reduced;

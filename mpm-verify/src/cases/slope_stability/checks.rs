@@ -1,16 +1,13 @@
 //! Verdicts on the stability of the slope. The tolerances are derived in `docs/slope-stability.md`.
 
+use super::super::landslide::{STABILITY, factor_of_safety};
 use crate::case::{CheckInfo, check};
 use crate::check::{Kind, Verdict};
 use crate::record::{Record, Status};
 use crate::scheme::RemedyName;
-use std::f64::consts::SQRT_2;
 
-/// Stability number γH/c of the slope at 45° on a firm base and its bounds: docs/exact.md.
-const STABILITY: (f64, f64, f64) = (6.04, 6.015, 6.078);
 /// What a slope may exceed its limit by and still be called standing.
 const SLOW: f64 = 0.005;
-const GRAVITY: f64 = 9.81;
 
 pub(super) const CHECKS: &[CheckInfo] = &[
     check(
@@ -26,7 +23,7 @@ pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "locked",
         Kind::KnownLimit,
-        "none: the factor is above all that",
+        "none: the slope still stands at a factor above all that",
     ),
     check(
         "factor-converges",
@@ -37,9 +34,11 @@ pub(super) const CHECKS: &[CheckInfo] = &[
 
 /// Factor of safety of the run's slope for a stability number.
 fn factor(record: &Record, stability: f64) -> f64 {
-    let number = |name| record.parameters.number(name);
-    let cohesion = number("strength") / SQRT_2;
-    stability * cohesion / (number("density") * GRAVITY * number("height"))
+    factor_of_safety(
+        &record.parameters,
+        record.parameters.number("strength"),
+        stability,
+    )
 }
 
 /// Half of the bracket that the trials leave.
@@ -71,10 +70,10 @@ pub(super) fn judge(record: &Record) -> Vec<Verdict> {
         Verdict::above(
             "locked",
             Kind::KnownLimit,
-            metric,
-            value,
-            upper,
-            "standard MPM locks: Zhao et al. 2022, Figure 16",
+            "stands_at",
+            record.metric("stands_at"),
+            upper - resolution(record),
+            "standard MPM locks: Zhao et al. 2022, Figure 14",
         )
     } else {
         Verdict::close(

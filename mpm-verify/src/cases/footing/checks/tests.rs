@@ -129,3 +129,94 @@ fn the_finite_elements_agree_with_prandtl_and_are_found() {
     assert!(curve(&run(OURS, 0.03, &[], &[])).is_err());
     assert!(has_the_curve_of(&run(OURS, 0.05, &["poisson_ratio=0.3"], &[]).parameters).is_err());
 }
+
+const STANDARD: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::None);
+
+/// Outcomes of a check for a value that is just good and for one that is just not.
+fn edge(scheme: (BasisName, RemedyName), check: &str, metric: &str, good: f64, bad: f64) {
+    let of = |value| outcomes(&judge(&run(scheme, 0.05, &[], &[(metric, value)])), check);
+    let judged = (of(good), of(bad));
+    let expected = (vec![Some(true)], vec![Some(false)]);
+    assert_eq!(judged, expected, "{check} {metric}");
+}
+
+#[test]
+fn every_verdict_on_one_run_has_an_edge() {
+    edge(OURS, "quasi-static", "force_imbalance", -0.0049, 0.0051);
+    edge(OURS, "limit-load", "plateau_rise", 0.0049, 0.0051);
+    edge(OURS, "limit-load", "plateau_rise", -0.0099, -0.0101);
+    edge(OURS, "smooth-pressure", "checkerboard_ratio", 0.19, 0.21);
+    let elements = 5.37651;
+    edge(
+        OURS,
+        "fem-plateau",
+        "nc_b",
+        1.019 * elements,
+        0.979 * elements,
+    );
+    edge(STANDARD, "no-limit-load", "plateau_rise", 0.0051, 0.0049);
+    edge(STANDARD, "checkerboard", "checkerboard_ratio", 0.51, 0.49);
+    edge(
+        STANDARD,
+        "locked",
+        "nc_effective",
+        1.021 * EXACT,
+        1.019 * EXACT,
+    );
+}
+
+#[test]
+fn the_curve_is_that_of_the_elements() {
+    let reference = curve(&run(OURS, 0.05, &[], &[])).unwrap();
+    let outcome = |factor: f64| {
+        let at = |(name, s): &(&'static str, f64)| (*name, factor * reference.at(*s).unwrap());
+        let metrics: Vec<(&str, f64)> = CURVE.iter().map(at).collect();
+        outcomes(&judge(&run(OURS, 0.05, &[], &metrics)), "curve")
+    };
+    assert_eq!(outcome(1.019), vec![Some(true); CURVE.len()]);
+    assert_eq!(outcome(0.979), vec![Some(false); CURVE.len()]);
+}
+
+#[test]
+fn the_mean_stress_is_that_of_the_elements_to_a_cells_gradient() {
+    let outcome = |cells: f64| {
+        let mut record = run(OURS, 0.05, &[], &[]);
+        for point in mean_stresses() {
+            let value = point.value + point.uncertainty + cells * 0.05 * GRADIENT;
+            let metric = crate::record::Metric {
+                value: Some(value),
+                unit: "-".to_owned(),
+            };
+            record.metrics.insert(point.metric(), metric);
+        }
+        outcomes(&judge(&record), "mean-stress")
+    };
+    assert_eq!(outcome(0.99), [Some(true); 5]);
+    assert_eq!(outcome(1.01), [Some(false); 5]);
+}
+
+#[test]
+fn the_elastic_slope_is_that_of_the_elements() {
+    let strong = ["undrained_strength=1e6"];
+    let slope = elastic_slope(&run(OURS, 0.05, &strong, &[])).unwrap();
+    let outcome = |factor: f64| {
+        // E = 10⁶ Pa, as the strength.
+        let metrics = [("elastic_slope", factor * slope)];
+        outcomes(&judge(&run(OURS, 0.05, &strong, &metrics)), "elastic-slope")
+    };
+    assert_eq!(outcome(1.019), [Some(true)]);
+    assert_eq!(outcome(1.021), [Some(false)]);
+}
+
+#[test]
+fn contacts_agree_within_two_cells() {
+    let outcome = |ratio: f64| {
+        let runs = [
+            run(OURS, 0.05, &[], &[("nc_b", 5.4)]),
+            run(OURS, 0.05, &["contact=barrier"], &[("nc_b", 5.4 * ratio)]),
+        ];
+        outcomes(&judge_study(&runs), "contacts-agree")
+    };
+    assert_eq!(outcome(1.09), [Some(true)]);
+    assert_eq!(outcome(0.89), [Some(false)]);
+}
