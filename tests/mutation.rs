@@ -88,7 +88,7 @@ const RESTING: Runs = &["dam-break --remedy none --level h0.5 --set duration=0.1
 const SLIDE: Runs =
     &["landslide-2d --remedy fbar-consistent --level h0.4 --set reduction=2 --set duration=1.5"];
 
-const FAULTS: [Fault; 22] = [
+const FAULTS: [Fault; 23] = [
     Fault {
         name: "P2G drops the stress along the last axis",
         file: "transfer/kernel.rs",
@@ -209,6 +209,13 @@ const FAULTS: [Fault; 22] = [
         sound: "direction.scale_add_identity(-share, T::default())",
         broken: "direction.scale_add_identity(-share, T::splat(-0.1) * flow)",
         seen_by: &[(FOOTING, "completes")],
+    },
+    Fault {
+        name: "the law holds √(3/2) ‖s‖ against the strength of ‖s‖",
+        file: "material/hencky_j2.rs",
+        sound: "self.flow(shear * norm, plastic_strain)",
+        broken: "self.flow(shear * norm * T::splat(1.5_f64.sqrt()), plastic_strain)",
+        seen_by: &[(FOOTING, "prandtl")],
     },
     Fault {
         name: "softening is forgotten",
