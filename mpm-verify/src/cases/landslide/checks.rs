@@ -20,7 +20,7 @@ const GROWN_ROUNDING: f64 = 1e-4;
 const OTHER_SCALING: f64 = 0.02;
 /// Length of the crest over the height from which on the back wall feels little of the face.
 const LONG_CREST: f64 = 2.0;
-/// Time (s) until which no band has formed with the paper's reduction.
+/// Up to this reduction, the paper's, no band has formed until this time (s).
 const PAPERS_REDUCTION: f64 = 1.65;
 const EARLY: f64 = 0.5;
 /// Duration (s) of a run that ends while the slide is young.
@@ -345,6 +345,7 @@ fn across(record: &Record, verdicts: &mut Vec<Verdict>) {
     }
 }
 
+/// What the width and the time step change.
 pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
     let mut verdicts = Vec::new();
     for (slice, whole) in pairs(records, "width") {
