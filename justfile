@@ -38,7 +38,15 @@ night-of case:
     cargo run --release -- verify {{case}} --tier nightly --resume --out reports/night-{{case}}
     cargo run --release -- report reports/night-{{case}} --out reports/nightly --update --night "$(date -u +%F)" --commit "$(git rev-parse HEAD)"
 
-# Fill the tables of results of the pages in docs/ from the committed report.
+# The long tier of a case, its night included; stop it at any time and start it again.
+long-of case:
+    cargo run --release -- verify {{case}} --tier long --resume --out reports/long-{{case}}
+
+# What has ended of it, for the committed report of long runs.
+long-report case:
+    cargo run --release -- report reports/long-{{case}} --so-far --out reports/long --update
+
+# Fill the tables of results of the pages in docs/ from the committed reports.
 tables:
     python3 scripts/tables.py
 

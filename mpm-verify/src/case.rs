@@ -19,7 +19,7 @@ pub enum Tier {
     Pr,
     /// Every night.
     Nightly,
-    /// By hand.
+    /// By hand: a night's, and what takes days.
     Long,
 }
 
@@ -313,8 +313,22 @@ pub trait Case: Sync {
     fn watched(&self) -> &'static [&'static str];
     /// The geometry.
     fn sketch(&self) -> Sketch;
-    /// The runs of a tier.
+    /// The runs of a tier; of [`Tier::Long`] those that a night does not have.
     fn plan(&self, tier: Tier) -> Vec<RunSpec>;
+    /// All runs of a tier: a long one has those of a night too, so that levels stand side by side.
+    fn runs(&self, tier: Tier) -> Vec<RunSpec> {
+        let mut runs = if tier == Tier::Long {
+            self.plan(Tier::Nightly)
+        } else {
+            Vec::new()
+        };
+        for spec in self.plan(tier) {
+            if runs.iter().all(|other| other.folder() != spec.folder()) {
+                runs.push(spec);
+            }
+        }
+        runs
+    }
     /// The largest tier whose runs carry goldens.
     fn golden_tier(&self) -> Tier;
     /// Relative cost of a run, to start the longest first.

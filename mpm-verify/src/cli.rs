@@ -103,6 +103,9 @@ pub(crate) enum Command {
         /// Keep what the report there says of the cases that the folders do not hold
         #[arg(long, requires = "out")]
         update: bool,
+        /// Leave out the runs that have not ended, and say which they are
+        #[arg(long)]
+        so_far: bool,
         /// Folder of the goldens
         #[arg(long, default_value = "golden")]
         golden: PathBuf,

@@ -135,6 +135,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             folders,
             out,
             update,
+            so_far,
             golden,
             night,
             commit,
@@ -153,7 +154,12 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 None => None,
             };
             let how = if update { How::Update } else { How::Whole };
-            report_on(&folders, &out, how, &golden, night.as_ref())
+            let read = match so_far {
+                true => Gathered::read_so_far,
+                false => Gathered::read,
+            };
+            let gather = || read(&folders);
+            report_on(gather, &out, how, &golden, night.as_ref())
         }
         Command::Bless {
             case,
@@ -342,7 +348,8 @@ fn verify(
     let records = make_runs(plan, out, saving, workers, &listener)?;
     listener.finish();
     if plan.shard == Shard::WHOLE {
-        return report_on(&[out.to_path_buf()], out, How::Whole, golden, None);
+        let gather = || Gathered::read(&[out.to_path_buf()]);
+        return report_on(gather, out, How::Whole, golden, None);
     }
     let failed = records.iter().filter(|r| exit_code(r) != ExitCode::Good);
     for record in failed {
@@ -371,7 +378,7 @@ enum How {
 }
 
 fn report_on(
-    folders: &[PathBuf],
+    gather: impl Fn() -> Result<Gathered, Error>,
     out: &Path,
     how: How,
     golden: &Path,
@@ -385,7 +392,7 @@ fn report_on(
         // What it says is kept until the new report is whole.
         How::Update => update_report,
     };
-    let gathered = Gathered::read(folders)?;
+    let gathered = gather()?;
     let judged = gathered.judge(|r| golden::compare(golden, r, gathered.folder(r)?))?;
     let summary = write(&gathered, judged, golden, night, out)?;
     say(&describe::verdict_summary(&summary))?;

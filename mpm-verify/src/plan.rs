@@ -113,7 +113,7 @@ impl Plan {
         let mut runs = Vec::new();
         let mut costs = Vec::new();
         for case in cases {
-            for spec in case.plan(tier) {
+            for spec in case.runs(tier) {
                 costs.push(case.cost(&spec));
                 runs.push(PlannedRun {
                     case: case.name().to_owned(),
@@ -236,6 +236,19 @@ mod tests {
         assert!(sizes.iter().max().unwrap() - sizes.iter().min().unwrap() <= 1);
         let costliest = |k: usize| plan(k).own().any(|r| r.level == "h0.25");
         assert!((1..=4).all(costliest));
+    }
+
+    #[test]
+    fn no_run_is_planned_twice_and_a_long_plan_has_the_night() {
+        let all = cases::all();
+        let of = |tier| Plan::new(&all, tier, Shard::WHOLE).unwrap();
+        for tier in [Tier::Quick, Tier::Pr, Tier::Nightly, Tier::Long] {
+            of(tier).check().unwrap();
+        }
+        let long = of(Tier::Long);
+        let same = |a: &PlannedRun, b: &PlannedRun| a.folder() == b.folder();
+        let has = |run: &PlannedRun| long.runs.iter().any(|other| same(run, other));
+        assert!(of(Tier::Nightly).runs.iter().all(has));
     }
 
     #[test]

@@ -45,6 +45,9 @@ pub struct CaseStudy {
     pub night: Option<Night>,
     /// Pictures of the case, in the order they are shown.
     pub pictures: Vec<Picture>,
+    /// Folders of the runs of the plan that have not ended; none, if the report is whole.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pending: Vec<String>,
 }
 
 impl CaseStudy {
@@ -58,6 +61,7 @@ impl CaseStudy {
             convergence: Vec::new(),
             night: None,
             pictures: Vec::new(),
+            pending: Vec::new(),
         }
     }
 
@@ -168,6 +172,44 @@ impl Gathered {
     /// twice, a run has no record, or a record is damaged, of another schema, run or program.
     pub fn read(folders: &[PathBuf]) -> Result<Self, Error> {
         let plans = read_plans(folders)?;
+        let (gathered, missing) = Self::ended_and_missing(&plans)?;
+        let [first, ..] = missing[..] else {
+            of_one_program(gathered.records())?;
+            return Ok(gathered);
+        };
+        let (shard, whole) = &plans[first.shard - 1];
+        Err(Error::Input(format!(
+            "{}: incomplete: {} of {} runs have no record, the first is {}; `verify --resume` with the same tier, shard and folder makes them",
+            shard.display(),
+            missing.len(),
+            whole.runs.len(),
+            first.folder().display()
+        )))
+    }
+
+    /// Reads the records there are of a plan; the other runs are [`CaseStudy::pending`]. A case of which no run has ended is left out.
+    ///
+    /// # Errors
+    /// Those of [`Gathered::read`] but for missing records, or no run has ended.
+    pub fn read_so_far(folders: &[PathBuf]) -> Result<Self, Error> {
+        let plans = read_plans(folders)?;
+        let (mut gathered, missing) = Self::ended_and_missing(&plans)?;
+        of_one_program(gathered.records())?;
+        for study in &mut gathered.studies {
+            let own = missing.iter().filter(|run| run.case == study.case);
+            let folder = |run: &&PlannedRun| run_folder(run.scheme, &run.level, &run.set);
+            study.pending = own.map(folder).collect();
+        }
+        if gathered.studies.is_empty() {
+            return Err(Error::file(plans[0].0, "no run has ended"));
+        }
+        Ok(gathered)
+    }
+
+    /// The runs that have a record, and those that have none.
+    fn ended_and_missing<'a>(
+        plans: &'a [(&Path, Plan)],
+    ) -> Result<(Self, Vec<&'a PlannedRun>), Error> {
         let (_, whole) = &plans[0];
         let mut gathered = Self {
             tier: whole.tier.clone(),
@@ -176,10 +218,9 @@ impl Gathered {
         };
         let mut missing = Vec::new();
         for run in &whole.runs {
-            let shard = &plans[run.shard - 1].0;
-            let folder = shard.join(run.folder());
+            let folder = plans[run.shard - 1].0.join(run.folder());
             let Some(record) = read_record(&folder, run)? else {
-                missing.push((shard, run));
+                missing.push(run);
                 continue;
             };
             let place = run.folder().display().to_string();
@@ -191,17 +232,7 @@ impl Gathered {
                     .push(CaseStudy::new(&run.case, vec![record])),
             }
         }
-        if let Some((shard, run)) = missing.first() {
-            return Err(Error::Input(format!(
-                "{}: incomplete: {} of {} runs have no record, the first is {}; `verify --resume` with the same tier, shard and folder makes them",
-                shard.display(),
-                missing.len(),
-                whole.runs.len(),
-                run.folder().display()
-            )));
-        }
-        of_one_program(gathered.records())?;
-        Ok(gathered)
+        Ok((gathered, missing))
     }
 
     /// Whether runs of a case are among those gathered.

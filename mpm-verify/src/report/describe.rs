@@ -24,6 +24,15 @@ pub fn made_by(study: &CaseStudy) -> [String; 3] {
     .map(|known| known.unwrap_or_else(|| "–".to_owned()))
 }
 
+/// How many runs a study has, and of how many.
+pub(super) fn runs(study: &CaseStudy) -> String {
+    let ended = study.records.len();
+    match study.pending.len() {
+        0 => ended.to_string(),
+        pending => format!("{ended} of {}", ended + pending),
+    }
+}
+
 /// The cases as text, with the runs of a tier if one is given.
 #[must_use]
 pub fn list_text(cases: &[&dyn Case], tier: Option<Tier>) -> String {
@@ -41,7 +50,7 @@ pub fn list_text(cases: &[&dyn Case], tier: Option<Tier>) -> String {
             }
             Some(tier) => {
                 let _ = writeln!(text, "  runs of tier {tier}:");
-                for spec in case.plan(tier) {
+                for spec in case.runs(tier) {
                     let _ = writeln!(text, "    {}", spec.folder());
                 }
             }
@@ -65,7 +74,7 @@ pub fn list_json(cases: &[&dyn Case], tier: Option<Tier>) -> String {
             if let Some(tier) = tier {
                 entry["tier"] = json!(tier.to_string());
                 entry["runs"] = case
-                    .plan(tier)
+                    .runs(tier)
                     .iter()
                     .map(|s| json!({"scheme": s.scheme, "level": s.level.name, "set": s.set}))
                     .collect();

@@ -54,6 +54,9 @@ fn text(summary: &Summary) -> Result<String, Error> {
             &study.records,
             &mut t,
         );
+        if !study.pending.is_empty() {
+            let _ = writeln!(t, "\nNot run yet: {}.", study.pending.join(", "));
+        }
         orders(&study.convergence, &mut t);
         t.push_str(&price::table(study).unwrap_or_default());
     }
@@ -76,7 +79,7 @@ fn programs(summary: &Summary, t: &mut String) {
     );
     for study in &summary.cases {
         let made_by = describe::made_by(study).join(" | ");
-        let runs = study.records.len();
+        let runs = describe::runs(study);
         let _ = writeln!(t, "| {} | {runs} | {made_by} |", study.case);
     }
 }
