@@ -44,8 +44,10 @@ pub fn scatter<T: Send>(
     for colour in 0..2 {
         let start = colour * SLAB * plane;
         if let Some(runs) = nodes.get_mut(start..) {
+            // Slabs are few and unlike, so each is for the next thread that is free.
             runs.par_chunks_mut(RUN * plane)
                 .enumerate()
+                .with_max_len(1)
                 .for_each(|(j, run)| {
                     if let Some(particles) = slabs.get(2 * j + colour) {
                         kernel(particles.clone(), run, start + j * RUN * plane);
