@@ -246,3 +246,62 @@ impl Job for Simulated {
         now.after(self.done)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{LEVELS, PARAMETERS};
+    use super::*;
+    use crate::scheme::{BasisName, RemedyName, Scheme};
+
+    fn slope(set: &[&str]) -> Simulated {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        let spec = RunSpec {
+            scheme: Scheme::flip(BasisName::Gimp, RemedyName::None),
+            level: LEVELS[0],
+            set: set.clone(),
+            perturbed: false,
+        };
+        Simulated::new(&spec, &Parameters::new(&PARAMETERS, &set).unwrap()).unwrap()
+    }
+
+    /// Tries factors until the answer is known, where the slope fails above `limit`.
+    fn bisect(slope: &mut Simulated, limit: f64) -> Vec<f64> {
+        while !slope.is_known() {
+            let factor = slope.next_factor();
+            slope.trials.push(Trial {
+                factor,
+                fails: factor > limit,
+                moved: 0.01 * factor,
+                time: LOOK,
+            });
+        }
+        slope.trials.iter().map(|t| t.factor).collect()
+    }
+
+    #[test]
+    fn bisection_closes_in_on_the_limit() {
+        let mut slope = slope(&["trials=5"]);
+        let tried = bisect(&mut slope, 1.65);
+        assert_eq!(tried, [3.0, 2.0, 1.5, 1.75, 1.625]);
+        assert_eq!(slope.bracket(), (1.625, 1.75));
+        let metrics = slope.metrics();
+        let value = |name: &str| metrics[name].value.unwrap();
+        assert!((value("strength_reduction_factor") - 1.6875).abs() < 1e-12);
+        assert!((value("moved_standing") - 0.01625).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_slope_that_stands_at_the_largest_factor_is_tried_no_further() {
+        let mut slope = slope(&["most=2"]);
+        assert_eq!(bisect(&mut slope, 5.0), [2.0]);
+        let metrics = slope.metrics();
+        assert_eq!(metrics["strength_reduction_factor"].value, Some(2.0));
+        assert_eq!(metrics["fails_at"].value, None);
+    }
+
+    #[test]
+    fn trials_are_told_by_the_particle_that_moved_farthest() {
+        let moved = farthest(&[[0.0, 0.0], [1.0, 1.0]], &[[0.1, 0.0], [4.0, 5.0]]);
+        assert!((moved - 5.0).abs() < 1e-12);
+    }
+}
