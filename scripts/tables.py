@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fills the tables of results of the pages in docs/ from a report: `just tables`.
+"""Fills the tables of results of the pages in docs/ from the reports of the night and of long runs: `just tables`.
 
 A table stands between `<!-- table NAME -->` and `<!-- end -->`; NAME is a function of this file.
 Standard library only.
@@ -8,7 +8,6 @@ Standard library only.
 import json
 import math
 import re
-import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -337,12 +336,13 @@ def landslide_3d(summary):
         rows.append(
             [
                 scheme(r),
-                r["level"].replace("h", " ").replace("slice- ", "slice, ") + " m",
+                r["level"].replace("slice-", "slice, ").replace("h", "") + " m",
                 changed,
                 f"{r['work']['particles']:,}",
                 number(metric(r, "runout_2.5s"), "{:.2f}"),
                 number(metric(r, "runout_end"), "{:.2f}"),
                 number(metric(r, "off_plane_strain_end"), "{:+.2f}"),
+                number(metric(r, "failure_time"), "{:.2f}"),
                 percent(metric(r, "off_plane_strain_at_rest"), 3),
                 percent(metric(r, "off_plane_strain_0.5s"), 3),
                 number(metric(r, "width_spread_at_rest"), "{:.0e}"),
@@ -351,7 +351,7 @@ def landslide_3d(summary):
                 number(r["time"]["cpu_s"], "{:.0f}"),
             ]
         )
-    head = "scheme; level; changed; particles; run-out at 2.5 s (m); at the end (m); against plane strain (m); off plane strain at rest; at 0.5 s; spread at rest; at 0.5 s; at the end; CPU (s)"
+    head = "scheme; level; changed; particles; run-out at 2.5 s (m); at the end (m); against plane strain (m); fails at (s); off plane strain at rest; at 0.5 s; spread at rest; at 0.5 s; at the end; CPU (s)"
     return table(head.split("; "), rows)
 
 
@@ -387,9 +387,18 @@ def fill(page, summary):
         print(page.relative_to(ROOT))
 
 
+def with_long(night, long):
+    """The cases of the night; those that have long runs from the report that has both, by one program."""
+    more = {case["case"]: case for case in long["cases"]}
+    night["cases"] = [more.get(case["case"], case) for case in night["cases"]]
+    return night
+
+
 def main():
-    report = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "reports/nightly"
-    summary = json.loads((report / "summary.json").read_text())
+    summary = json.loads((ROOT / "reports/nightly/summary.json").read_text())
+    long = ROOT / "reports/long/summary.json"
+    if long.exists():
+        summary = with_long(summary, json.loads(long.read_text()))
     for page in sorted((ROOT / "docs").glob("*.md")):
         fill(page, summary)
 

@@ -54,7 +54,7 @@ const REMEDIES: [RemedyName; 3] = [
     RemedyName::FbarConsistent,
 ];
 
-const PARAMETERS: [Parameter; 16] = [
+const PARAMETERS: [Parameter; 17] = [
     parameter(
         "young_modulus",
         "Pa",
@@ -98,6 +98,13 @@ const PARAMETERS: [Parameter; 16] = [
         "factor by which the peak strength is divided after the gravity stage",
     ),
     parameter(
+        "release",
+        "s",
+        "0",
+        number(0.0, 60.0, false),
+        "time over which that factor rises from one; 0: at once",
+    ),
+    parameter(
         "density",
         "kg/m³",
         "2150",
@@ -131,7 +138,7 @@ const PARAMETERS: [Parameter; 16] = [
         "s",
         "5.5",
         number(0.01, 60.0, false),
-        "time after the reduction",
+        "time after the reduction, or from where it begins",
     ),
     parameter(
         "damping",
@@ -552,14 +559,15 @@ fn plan_3d(tier: Tier) -> Vec<RunSpec> {
     match tier {
         Tier::Quick => Vec::new(),
         Tier::Pr => runs(slice, &early, &["duration=0.5"]),
-        Tier::Nightly => plan_3d(Tier::Pr),
-        Tier::Long => [
+        Tier::Nightly => [
+            plan_3d(Tier::Pr),
             runs(slice, &all, &[]),
+            runs(slice, &early, &["reduction=1", "duration=1"]),
+            runs(slice, &early, &["reduction=2", "duration=2.5"]),
             runs(h50, &all, &[]),
             runs(h50, &all, &["width=2"]),
-            runs(h25, &all, &[]),
-            runs(h20, &all, &[]),
         ]
         .concat(),
+        Tier::Long => [runs(h25, &all, &[]), runs(h20, &all, &[])].concat(),
     }
 }

@@ -34,6 +34,8 @@ const TIMES: [f64; 3] = [1.0, 2.5, 5.5];
 /// Times (s) between frames of the animation, and between showing them (hundredths of a second).
 const FRAME: f64 = 0.2;
 const DELAY: u16 = 20;
+/// Colours of levels: those that no remedy shown here has.
+const LEVEL_COLOURS: [usize; 5] = [5, 0, 2, 4, 7];
 /// Coordinate of the first toe (m).
 const TOE: f64 = 15.0;
 /// What is shown of the section (m), and across (m).
@@ -328,7 +330,7 @@ impl Runs<'_> {
     ) -> Result<Vec<Series>, Error> {
         let levels = crate::distinct(self.records.iter().map(|r| r.level.clone()));
         let mut curves = Vec::new();
-        for (colour, level) in levels.into_iter().enumerate() {
+        for (level, colour) in levels.into_iter().zip(LEVEL_COLOURS) {
             if let Some(record) = self.find(basis, RemedyName::FbarConsistent, &level) {
                 curves.push(Series {
                     name: level_title(&level),

@@ -46,12 +46,18 @@ pub(crate) fn longest_period(parameters: &Parameters) -> f64 {
     4.0 * number("height") / (shear_modulus / number("density")).sqrt()
 }
 
-/// Strengths before and after the reduction: only the peak is reduced.
-pub(crate) fn strengths(parameters: &Parameters) -> Result<[Strength; 2], Error> {
+/// The strength with its peak, and only that, divided by `reduction`.
+pub(crate) fn strength(
+    parameters: &Parameters,
+    reduction: f64,
+) -> Result<Strength, mpm_core::Error> {
     let number = |name| parameters.number(name);
-    let (peak, residual) = (number("peak_strength"), number("residual_strength"));
-    let of = |peak: f64| Strength::softening(peak, residual.min(peak), number("softening"));
-    Ok([of(peak)?, of(peak / number("reduction"))?])
+    let peak = number("peak_strength") / reduction;
+    Strength::softening(
+        peak,
+        number("residual_strength").min(peak),
+        number("softening"),
+    )
 }
 
 /// The ground, its floor and its walls, on a grid with room for the slide.
@@ -216,4 +222,79 @@ fn walls<const D: usize>() -> Vec<Box<dyn Constraint<D>>> {
         walls.push(wall(2, End::Hi, WallKind::Roller));
     }
     walls
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{LEVELS, PARAMETERS_3D};
+    use super::*;
+    use crate::scheme::{BasisName, RemedyName, Scheme};
+
+    fn parameters(set: &[&str]) -> Parameters {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        Parameters::new(&PARAMETERS_3D, &set).unwrap()
+    }
+
+    fn spec(level: &str) -> RunSpec {
+        RunSpec {
+            scheme: Scheme::flip(BasisName::Gimp, RemedyName::None),
+            level: *LEVELS.iter().find(|l| l.name == level).unwrap(),
+            set: Vec::new(),
+            perturbed: false,
+        }
+    }
+
+    fn ground(level: &str, set: &[&str]) -> Result<Ground<3>, Error> {
+        Ground::new(&spec(level), &parameters(set))
+    }
+
+    #[test]
+    fn the_ground_has_the_papers_particles_and_time_step() {
+        let ground = ground("h0.2", &[]).unwrap();
+        let places = ground.seed();
+        assert_eq!((places.len(), ground.across), (311_250, 50));
+        assert!((ground.dt - 5e-5).abs() < 1e-18);
+        assert_eq!(ground.steps_per_row, 200);
+        // Those of one place of the section follow one another.
+        let (first, last) = (places[0], places[49]);
+        assert_eq!(first[..2], last[..2]);
+        assert!((first[2] - 0.05).abs() < 1e-12 && (last[2] - 4.95).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_slice_is_four_cells_wide_and_a_width_is_whole_cells() {
+        let wide = |level: &str, set: &[&str]| ground(level, set).map(|g| g.width);
+        assert!((wide("slice-h0.4", &[]).unwrap() - 1.6).abs() < 1e-12);
+        assert!((wide("h0.5", &[]).unwrap() - 5.0).abs() < 1e-12);
+        assert!((wide("h0.5", &["width=2"]).unwrap() - 2.0).abs() < 1e-12);
+        for width in ["width=1.5", "width=2.2"] {
+            let refused = wide("h0.5", &[width]).unwrap_err().to_string();
+            assert!(refused.contains("parameter width"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn only_the_peak_is_reduced() {
+        let parameters = parameters(&[]);
+        let at = |reduction: f64, strain: f64| {
+            let strength = strength(&parameters, reduction).unwrap();
+            strength.at(strain).0
+        };
+        assert!((at(1.0, 0.0) - 40.82e3).abs() < 1e-6);
+        assert!((at(1.65, 0.0) - 40.82e3 / 1.65).abs() < 1e-6);
+        for reduction in [1.0, 1.65] {
+            assert!((at(reduction, 100.0) - 2.45e3).abs() < 1e-6);
+        }
+        // A peak reduced below the residual strength takes that with it.
+        assert!((at(100.0, 100.0) - 408.2).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_reduced_slope_is_at_its_limit() {
+        let parameters = parameters(&[]);
+        let factor = |strength| factor_of_safety(&parameters, strength, STABILITY.0);
+        assert!((factor(40.82e3) - 1.653).abs() < 5e-4);
+        assert!((factor(40.82e3 / 1.65) - 1.002).abs() < 5e-4);
+        assert!((longest_period(&parameters) - 0.321).abs() < 5e-4);
+    }
 }

@@ -105,8 +105,6 @@ impl Row {
 pub(super) struct Released {
     /// Positions (m) in the section.
     pub(super) positions: Vec<[f64; 2]>,
-    /// Equivalent plastic strains.
-    pub(super) plastic_strain: Vec<f64>,
 }
 
 impl Released {
@@ -346,7 +344,6 @@ mod tests {
         let (section, reference) = slope();
         let released = Released {
             positions: reference.clone(),
-            plastic_strain: vec![0.0; reference.len()],
         };
         // Everything right of x = 8 m goes down and out; along that line it is sheared.
         let slides = |x: &[f64; 2]| x[0] > 8.0;

@@ -1,7 +1,7 @@
 //! The simulation of a landslide in plane strain or in three dimensions: gravity, reduced strength, observation.
 
 use super::METRICS;
-use super::ground::{BASE, DAMPING, Ground, RISE, ROW, STAGE, strengths};
+use super::ground::{BASE, DAMPING, Ground, RISE, ROW, STAGE, strength};
 use super::observation::{Look, Released, Row, Series, potential, spread_over_width};
 use super::section::GRAVITY;
 use crate::assemble::with_basis;
@@ -43,15 +43,31 @@ struct AtRest {
     width_spread: f64,
 }
 
+/// What came before the strength that holds now.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+struct Before {
+    /// Work since the start.
+    work: WorkDone,
+    /// Time (s) and steps since the reduction began.
+    time: f64,
+    steps: u64,
+    /// Stress work (J) since then.
+    stress_work: f64,
+    /// Of every particle, in seeding order: what flow had dissipated (J/m³), and the plastic strain.
+    dissipated: Vec<f64>,
+    plastic_strain: Vec<f64>,
+}
+
 /// A slide: first under rising gravity with its full strength, then with the reduced one.
 struct Slide<const D: usize> {
     simulation: Box<dyn Simulation<D>>,
-    /// The scene with the reduced strength, until it is.
-    reduced: Option<Box<dyn Simulation<D>>>,
+    spec: RunSpec,
+    parameters: Parameters,
     ground: Ground<D>,
-    strengths: [Strength; 2],
-    /// Work under rising gravity.
-    stage_work: WorkDone,
+    strength: Strength,
+    /// Factor by which the peak has been divided; none under rising gravity.
+    reduction: Option<f64>,
+    before: Before,
     reference: Vec<[f64; 2]>,
     at_rest: AtRest,
     released: Released,
@@ -64,23 +80,26 @@ struct Slide<const D: usize> {
 impl<const D: usize> Slide<D> {
     fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
         let ground = Ground::new(spec, parameters)?;
-        let strengths = strengths(parameters)?;
-        let build = |strength, stages| {
-            with_basis(
-                spec.scheme.basis,
-                ground.scene(spec, parameters, strength, stages)?,
-            )
-        };
-        let simulation = build(strengths[0], (RISE, DAMPING))?;
-        let reduced = build(strengths[1], (0.0, parameters.number("damping")))?;
+        // What is wrong with the reduced strength is said before anything moves.
+        strength(parameters, parameters.number("reduction"))?;
+        let strength = strength(parameters, 1.0)?;
+        let scene = ground.scene(spec, parameters, strength, (RISE, DAMPING))?;
+        let simulation = with_basis(spec.scheme.basis, scene)?;
         let p = simulation.particles();
+        let reference: Vec<[f64; 2]> = p.seeded(|k| section_of(&p.reference[k]));
         Ok(Self {
-            reference: p.seeded(|k| section_of(&p.reference[k])),
+            before: Before {
+                dissipated: vec![0.0; reference.len()],
+                plastic_strain: vec![0.0; reference.len()],
+                ..Before::default()
+            },
+            reference,
             simulation,
-            reduced: Some(reduced),
+            spec: spec.clone(),
+            parameters: parameters.clone(),
             ground,
-            strengths,
-            stage_work: WorkDone::default(),
+            strength,
+            reduction: None,
             at_rest: AtRest::default(),
             released: Released::default(),
             series: Series::default(),
@@ -92,11 +111,11 @@ impl<const D: usize> Slide<D> {
     fn step_row(&mut self) -> Result<Row, mpm_core::Error> {
         let before = self.simulation.impulse_on(BASE)[1];
         for _ in 0..self.ground.steps_per_row {
-            self.simulation.step()?;
+            self.simulation.step().map_err(|e| self.since_release(e))?;
         }
         let mut row = self.observe();
         row.base_force = -(self.simulation.impulse_on(BASE)[1] - before) / ROW / self.ground.width;
-        if self.reduced.is_some() {
+        if self.reduction.is_none() {
             row.time -= STAGE;
             self.at_rest.row = row;
             if row.time > -0.5 * ROW {
@@ -104,6 +123,9 @@ impl<const D: usize> Slide<D> {
             }
         } else {
             self.series.rows.push(row);
+            if self.reduction != Some(self.next_reduction()) {
+                self.reduce()?;
+            }
             if (row.time - EARLY).abs() < 0.5 * ROW {
                 self.early_spread = spread_over_width(&self.moved(), self.ground.across);
             }
@@ -114,21 +136,73 @@ impl<const D: usize> Slide<D> {
         Ok(row)
     }
 
-    /// Reduces the strength.
+    /// A breakdown, with time and steps of the strengths that held before since the release.
+    fn since_release(&self, error: mpm_core::Error) -> mpm_core::Error {
+        match error {
+            mpm_core::Error::Breakdown {
+                time,
+                step,
+                particle,
+                fault,
+            } => mpm_core::Error::Breakdown {
+                time: self.before.time + time,
+                step: self.before.steps + step,
+                particle,
+                fault,
+            },
+            other => other,
+        }
+    }
+
+    /// Ends the gravity stage.
     fn release(&mut self) -> Result<(), mpm_core::Error> {
         self.measure_rest();
-        let Some(mut reduced) = self.reduced.take() else {
-            return Ok(());
-        };
-        // It counts anew from here.
-        self.at_rest.row.stress_work = 0.0;
         self.released = Released {
             positions: self.positions(),
-            plastic_strain: self.plastic_strain(),
         };
-        reduced.take_over(&self.simulation.body()?)?;
-        self.stage_work = self.simulation.work().into();
-        self.simulation = reduced;
+        self.reduce()?;
+        // All count anew from here.
+        self.at_rest.row.stress_work = 0.0;
+        (self.before.time, self.before.steps, self.before.stress_work) = (0.0, 0, 0.0);
+        Ok(())
+    }
+
+    /// The factor by which the peak strength is divided during the next row.
+    fn next_reduction(&self) -> f64 {
+        let number = |name| self.parameters.number(name);
+        let share = (self.series.rows.len() + 1) as f64 * ROW / number("release").max(ROW);
+        match number("reduction") {
+            whole if share > 1.0 - 1e-9 => whole,
+            whole => 1.0 + (whole - 1.0) * share,
+        }
+    }
+
+    /// Reduces the strength to that of the next row.
+    fn reduce(&mut self) -> Result<(), mpm_core::Error> {
+        let (time, totals) = (self.simulation.time(), self.simulation.totals());
+        let plastic_strain = self.plastic_strain();
+        self.before = Before {
+            work: self.work(),
+            time: self.before.time + time,
+            steps: self.before.steps + self.simulation.work().steps,
+            stress_work: self.before.stress_work + totals.accumulated.stress_work,
+            dissipated: self.dissipated(&plastic_strain),
+            plastic_strain,
+        };
+        let body = self.simulation.body()?;
+        self.weaken(self.next_reduction())?;
+        self.simulation.take_over(&body)
+    }
+
+    /// A scene with the peak strength divided by `reduction`, at the start, in place of the one that was.
+    fn weaken(&mut self, reduction: f64) -> Result<(), mpm_core::Error> {
+        self.reduction = Some(reduction);
+        self.strength = strength(&self.parameters, reduction)?;
+        let stages = (0.0, self.parameters.number("damping"));
+        let scene = self
+            .ground
+            .scene(&self.spec, &self.parameters, self.strength, stages)?;
+        self.simulation = with_basis(self.spec.scheme.basis, scene)?;
         Ok(())
     }
 
@@ -172,17 +246,18 @@ impl<const D: usize> Slide<D> {
         let look = self.look(&positions, &plastic_strain);
         let totals = self.simulation.totals();
         let per_metre = 1.0 / self.ground.width;
+        let volume = self.ground.spacing.powi(D as i32);
         let p = self.simulation.particles();
         Row {
-            time: self.simulation.time(),
+            time: self.before.time + self.simulation.time(),
             toe: look.toe(),
             bulk_toe: look.bulk_toe(),
             settlement: look.settlement(),
             kinetic: per_metre * totals.kinetic_energy,
             potential: per_metre * potential(p),
-            stress_work: per_metre * totals.accumulated.stress_work,
+            stress_work: per_metre * (self.before.stress_work + totals.accumulated.stress_work),
             stored: per_metre * totals.stored_energy,
-            dissipated: per_metre * self.dissipated(&plastic_strain),
+            dissipated: per_metre * (volume * self.dissipated(&plastic_strain).iter().sum::<f64>()),
             base_force: 0.0,
             failed: look.failed(&self.released),
             retrogression: look.retrogression(&self.released),
@@ -192,18 +267,17 @@ impl<const D: usize> Slide<D> {
         }
     }
 
-    /// What flow has dissipated (J): with the full strength until the release, with the reduced one since.
-    fn dissipated(&self, plastic_strain: &[f64]) -> f64 {
-        let volume = self.ground.spacing.powi(D as i32);
-        let [full, reduced] = self.strengths;
-        let work = |(k, strain): (usize, &f64)| match self.released.plastic_strain.get(k) {
-            None => full.plastic_work(*strain),
-            Some(before) => {
-                full.plastic_work(*before) + reduced.plastic_work(*strain)
-                    - reduced.plastic_work(*before)
-            }
-        };
-        volume * plastic_strain.iter().enumerate().map(work).sum::<f64>()
+    /// What flow has dissipated (J/m³) at every particle: with strengths that were, then with that of now.
+    fn dissipated(&self, plastic_strain: &[f64]) -> Vec<f64> {
+        let work = |strain: f64| self.strength.plastic_work(strain);
+        let Before {
+            dissipated,
+            plastic_strain: before,
+            ..
+        } = &self.before;
+        (dissipated.iter().zip(plastic_strain).zip(before))
+            .map(|((dissipated, now), before)| dissipated + work(*now) - work(*before))
+            .collect()
     }
 
     /// Rms of σ_m − Πσ_m over γ H.
@@ -237,8 +311,9 @@ impl<const D: usize> Slide<D> {
         };
     }
 
-    fn steps(&self) -> u64 {
-        self.stage_work.steps + self.simulation.work().steps
+    fn work(&self) -> WorkDone {
+        let now: WorkDone = self.simulation.work().into();
+        now.after(self.before.work)
     }
 
     fn metrics(&self) -> Vec<(&'static str, f64)> {
@@ -276,9 +351,9 @@ impl<const D: usize> Slide<D> {
 
     fn save(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(
-            self.reduced.is_none(),
+            self.reduction,
             self.simulation.save()?,
-            self.stage_work,
+            &self.before,
             self.at_rest,
             &self.released,
             &self.series,
@@ -288,19 +363,23 @@ impl<const D: usize> Slide<D> {
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        let (is_reduced, simulation): (bool, Saved);
+        let (reduction, simulation): (Option<f64>, Saved);
         (
-            is_reduced,
+            reduction,
             simulation,
-            self.stage_work,
+            self.before,
             self.at_rest,
             self.released,
             self.series,
             self.early_spread,
             self.checkerboard,
         ) = saved.read("the landslide")?;
-        if is_reduced && let Some(reduced) = self.reduced.take() {
-            self.simulation = reduced;
+        if let Some(reduction) = reduction {
+            self.weaken(reduction).map_err(|_| MemoryError::Value {
+                what: "reduction",
+                value: reduction,
+                allowed: "a factor that the strength can be divided by",
+            })?;
         }
         self.simulation.restore(&simulation)
     }
@@ -345,7 +424,10 @@ impl<const D: usize> Simulated<D> {
     /// Rows of the whole run and rows so far.
     fn rows(&self) -> (u64, u64) {
         let all = ((STAGE + self.duration) / ROW).round() as u64;
-        (all, self.slide.steps() / self.slide.ground.steps_per_row)
+        (
+            all,
+            self.slide.work().steps / self.slide.ground.steps_per_row,
+        )
     }
 
     /// Positions, plastic strain and mean stress.
@@ -471,7 +553,9 @@ impl<const D: usize> Job for Simulated<D> {
     }
 
     fn work(&self) -> WorkDone {
-        let now: WorkDone = self.slide.simulation.work().into();
-        now.after(self.slide.stage_work)
+        self.slide.work()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -64,6 +64,16 @@ fn ground_at_rest_bears_its_weight() {
         (creeps(1e-4), creeps(1e-8)),
         (vec![Some(true)], vec![Some(false)])
     );
+    let coarse = |value| {
+        let metrics = [("kinetic_share_at_rest", value), ("yielded_at_rest", 0.01)];
+        let scheme = (BasisName::Bspline2, RemedyName::FbarConsistent);
+        let record = fixture::run(&PARAMETERS, scheme, ("h0.5", 0.5), &[], &metrics);
+        outcomes(&judge(&record), "slow-motion")
+    };
+    assert_eq!(
+        (coarse(1.1e-6), coarse(9e-7)),
+        (vec![Some(true)], vec![Some(false)])
+    );
     let overburden = |value| of(OURS, "overburden_error", value, "overburden");
     assert_eq!(
         (overburden(0.01), overburden(0.03)),
@@ -109,6 +119,14 @@ fn energy_is_accounted_for() {
     assert_eq!(of("1", -0.015, "energy-closure"), [Some(true)]);
     assert_eq!(of("1", -0.017, "energy-closure"), [Some(false)]);
     assert_eq!(of("5.5", -0.05, "energy-closure"), [None]);
+    let metrics = [("fallen_energy", 1e-6), ("unaccounted_energy", -1e-7)];
+    let standing = judged(
+        OURS,
+        &["duration=1", "reduction=1"],
+        &metrics,
+        "energy-closure",
+    );
+    assert_eq!(standing, [None]);
     assert_eq!(of("5.5", -0.05, "energy-not-made"), [Some(true)]);
     assert_eq!(of("5.5", 0.01, "energy-not-made"), [Some(false)]);
     let gained = |value| judged(OURS, &[], &[("energy_gain", value)], "energy-not-gained");
@@ -140,6 +158,7 @@ fn three_dimensions_are_those_of_the_section() {
     assert_eq!(of(STANDARD, 1e-8, 1e-3, "plane-strain"), [Some(false); 2]);
     assert_eq!(of(OURS, 1e-8, 1e-3, "plane-strain"), [Some(true)]);
     assert_eq!(of(OURS, 1e-8, 3e-2, "plane-strain"), [Some(false)]);
+    assert_eq!(of(PRINTED, 1e-8, 3e-2, "plane-strain"), [None]);
 }
 
 #[test]
