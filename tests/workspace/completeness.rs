@@ -145,14 +145,33 @@ fn every_case_has_a_page_that_names_what_it_checks() {
     }
 }
 
+/// Of the long tier some runs have ended and the others are said not to have.
 #[test]
-fn the_nightly_report_is_small_and_holds_no_particles() {
-    let all = super::files(&workspace().join("reports/nightly"));
-    let bytes: usize = all.values().map(Vec::len).sum();
-    assert!(bytes <= 80_000_000, "{bytes} bytes");
-    assert!(
-        all.keys()
-            .all(|name| name.extension().is_none_or(|e| e != "vtu"))
-    );
-    assert!(all.contains_key(&PathBuf::from("summary.md")));
+fn the_report_of_long_runs_is_of_the_plan() {
+    let path = workspace().join("reports/long/summary.json");
+    let summary: Summary = read_versioned(&path, SCHEMA).unwrap();
+    assert_eq!(summary.tier, "long");
+    for study in &summary.cases {
+        let case = cases::find(&study.case).unwrap();
+        let ended = study.records.iter().map(Record::folder);
+        let told: BTreeSet<String> = ended.chain(study.pending.iter().cloned()).collect();
+        let plan = case.runs(Tier::Long);
+        let planned: BTreeSet<String> = plan.iter().map(RunSpec::folder).collect();
+        assert_eq!(told, planned, "{} is of another plan", study.case);
+        let long: BTreeSet<String> = case.plan(Tier::Long).iter().map(RunSpec::folder).collect();
+        let is_long = |r: &Record| long.contains(&r.folder());
+        assert!(study.records.iter().any(is_long), "no long run has ended");
+    }
+}
+
+#[test]
+fn the_committed_reports_are_small_and_hold_no_particles() {
+    for (report, most) in [("nightly", 80_000_000), ("long", 40_000_000)] {
+        let all = super::files(&workspace().join("reports").join(report));
+        let bytes: usize = all.values().map(Vec::len).sum();
+        assert!(bytes <= most, "{report}: {bytes} bytes");
+        let are_particles = |name: &PathBuf| name.extension().is_some_and(|e| e == "vtu");
+        assert!(!all.keys().any(are_particles), "{report}");
+        assert!(all.contains_key(&PathBuf::from("summary.md")), "{report}");
+    }
 }

@@ -27,6 +27,8 @@ const REMEDIES: [RemedyName; 3] = [
 ];
 /// Those without which there is nothing to compare.
 const COMPARED: [RemedyName; 2] = [RemedyName::None, RemedyName::FbarConsistent];
+/// The one that long runs begin with.
+const OURS: RemedyName = RemedyName::FbarConsistent;
 /// Least number of frames of an animation: else it is but the snapshots.
 const LEAST_FRAMES: usize = 3;
 /// Times (s) of the pictures.
@@ -137,8 +139,19 @@ pub(super) fn draw(
             .unwrap_or(std::cmp::Ordering::Equal)
     });
     for (basis, title) in BASES {
+        let compared = runs.levels(basis).into_iter().next();
+        // The finest of all, if others have yet to run on it.
+        let finest = runs
+            .level_of(basis, OURS)
+            .filter(|l| Some(l) != compared.as_ref());
         for field in &FIELDS {
-            runs.snapshots(basis, title, field)?;
+            let name = format!("{}-{basis}", field.name);
+            if let Some(level) = &compared {
+                runs.snapshots(basis, level, field, (title, &name))?;
+            }
+            if let Some(level) = &finest {
+                runs.snapshots(basis, level, field, (title, &format!("{name}-{level}")))?;
+            }
         }
     }
     runs.run_out()?;
@@ -162,6 +175,12 @@ impl Runs<'_> {
         };
         let levels = self.records.iter().filter(compares);
         crate::distinct(levels.map(|r| r.level.clone()))
+    }
+
+    /// The finest level of the longest runs with a basis and a remedy.
+    fn level_of(&self, basis: BasisName, remedy: RemedyName) -> Option<String> {
+        let own = |r: &&&Record| r.basis == basis && r.remedy == remedy;
+        self.records.iter().find(own).map(|r| r.level.clone())
     }
 
     fn path(&self, name: &str) -> std::path::PathBuf {
@@ -197,13 +216,16 @@ impl Runs<'_> {
     }
 
     /// A field at all times, a row for each remedy: in three dimensions the solid and the section in its middle.
-    fn snapshots(&mut self, basis: BasisName, of: &str, field: &Field) -> Result<(), Error> {
-        let Some(level) = self.levels(basis).into_iter().next() else {
-            return Ok(());
-        };
+    fn snapshots(
+        &mut self,
+        basis: BasisName,
+        level: &str,
+        field: &Field,
+        (of, name): (&str, &str),
+    ) -> Result<(), Error> {
         let mut times = Vec::new();
         for time in TIMES {
-            let shown = self.shown(basis, &level, time)?;
+            let shown = self.shown(basis, level, time)?;
             if !shown.is_empty() {
                 times.push(shown);
             }
@@ -215,34 +237,33 @@ impl Runs<'_> {
         if panels.is_empty() {
             return Ok(());
         }
-        let title = format!("{of}, {}", level_title(&level));
+        let title = format!("{of}, {}", level_title(level));
         let solid = panels.iter().all(|shown| shown.is_solid());
-        let name = format!("{}-{basis}", field.name);
         if solid {
             draw_solids(
-                &self.path(&name),
+                &self.path(name),
                 &solids(title.clone(), &panels, columns, field),
             )?;
             self.picture(
-                &name,
+                name,
                 format!(
-                    "The slide with {of}: {}. The paper's {} (data: snapshots of each run).",
+                    "The slide with {title}: {}. The paper's {} (data: snapshots of each run).",
                     field.label, field.figure
                 ),
             );
         }
         let (section, where_it_is) = match solid {
             true => (format!("section-{name}"), ", in the middle of the width"),
-            false => (name, ""),
+            false => (name.to_owned(), ""),
         };
         draw_fields(
             &self.path(&section),
-            &fields(title, &panels, columns, field),
+            &fields(title.clone(), &panels, columns, field),
         )?;
         self.picture(
             &section,
             format!(
-                "The slide with {of}{where_it_is}: {}. The paper's {} (data: snapshots of each run).",
+                "The slide with {title}{where_it_is}: {}. The paper's {} (data: snapshots of each run).",
                 field.label, field.figure
             ),
         );
