@@ -3,25 +3,29 @@
 mod contact;
 mod memory;
 mod room;
+mod scene;
+mod simulation;
+mod sort;
+mod start;
 
 pub use contact::contact_cfl;
+pub use scene::{Scene, courant_time_step};
+pub use simulation::Simulation;
 
-use crate::basis::{Basis, WallTreatment};
+use crate::basis::Basis;
 use crate::contact::RigidContact;
-use crate::error::{Error, Fault, require};
-use crate::grid::Grid;
+use crate::error::{Error, Fault};
 use crate::lattice::Lattice;
 use crate::material::Law;
-use crate::memory::{Memory, Saved};
+use crate::memory::Saved;
 use crate::monitor::{Accumulated, Residual, Totals};
-use crate::order::stencil_order;
 use crate::parallel::{CHUNK, chunks_if_present, scatter};
-use crate::particles::{Particles, permute};
+use crate::particles::Particles;
 use crate::projection::{Average, Averaging, Projection};
 use crate::reach::Reach;
 use crate::remedy::Remedy;
 use crate::space;
-use crate::stage::{Constraint, ForceFilter, Load, ParticleFilter, Prescribed};
+use crate::stage::Prescribed;
 use crate::tensor::SymmetricTensor;
 use crate::transfer::{Flip, Given, NodalState, Transfer};
 use crate::work::Work;
@@ -33,88 +37,6 @@ use std::ops::Range;
 
 /// Largest (c + |v|) Δt / h: beyond it a wave or a particle crosses more than a cell in a step.
 const CFL_LIMIT: f64 = 1.0;
-
-/// Everything that a run is made of. Stages that a scene doesn't have are empty lists.
-pub struct Scene<const D: usize, M: Law, T = Flip> {
-    /// The grid.
-    pub grid: Grid<D>,
-    /// How B-splines meet walls.
-    pub wall: WallTreatment,
-    /// The law of the body.
-    pub law: M,
-    /// The particle–grid transfer.
-    pub transfer: T,
-    /// The particles of the body.
-    pub particles: Particles<D>,
-    /// The locking remedy of the body.
-    pub remedy: Box<dyn Remedy<D>>,
-    /// Loads.
-    pub loads: Vec<Box<dyn Load<D>>>,
-    /// Contacts with rigid bodies.
-    pub contacts: Vec<RigidContact<D>>,
-    /// Filters of nodal forces.
-    pub force_filters: Vec<Box<dyn ForceFilter>>,
-    /// Constraints.
-    pub constraints: Vec<Box<dyn Constraint<D>>>,
-    /// Filters of particles.
-    pub particle_filters: Vec<Box<dyn ParticleFilter<D>>>,
-    /// Time step Δt (s).
-    pub dt: f64,
-}
-
-/// The time step (s) of CFL number `cfl` for waves of speed `c` (m/s) on cells of size `h` (m).
-#[must_use]
-pub fn courant_time_step(cfl: f64, h: f64, c: f64) -> f64 {
-    cfl * h / c
-}
-
-/// A run, whatever its basis and law.
-pub trait Simulation<const D: usize>: Memory + Send {
-    /// Advances by one step.
-    ///
-    /// # Errors
-    /// [`Error::Breakdown`] when the computation breaks down; the state is then that of the middle
-    /// of the step and no further step makes sense.
-    fn step(&mut self) -> Result<(), Error>;
-    /// Time (s).
-    fn time(&self) -> f64;
-    /// The particles, sorted by place.
-    fn particles(&self) -> &Particles<D>;
-    /// Mass, momentum, energies, J.
-    fn totals(&self) -> Totals;
-    /// Out-of-balance and held forces of the last step.
-    fn residual(&self) -> Residual;
-    /// The force of the body on the constraint with this place in the scene's list in the last step (N):
-    /// the nodal forces at the components that it holds. NaN of a constraint that there isn't.
-    fn force_on(&self, constraint: usize) -> [f64; 3];
-    /// The impulse of the body on the constraint with this place in the scene's list since time zero (N s): the
-    /// momentum that it took. Beside the nodal forces it has what the particles brought to the held nodes. NaN of a
-    /// constraint that there isn't.
-    fn impulse_on(&self, constraint: usize) -> [f64; 3];
-    /// The force of the body on the rigid body of the contact with this place in the scene's list in the last step
-    /// (N). NaN of a contact that there isn't.
-    fn reaction(&self, contact: usize) -> [f64; 3];
-    /// What the run did so far.
-    fn work(&self) -> Work;
-    /// Replaces `field` (one value per particle) by its average Π `field`.
-    fn average(&mut self, field: &mut [f64]);
-    /// The stress of every particle (Pa) with which it enters the next forces: the law's, with the
-    /// remedy's share.
-    fn force_stress(&mut self) -> Vec<SymmetricTensor>;
-    /// The equivalent plastic strain of every particle.
-    fn plastic_strain(&self) -> Vec<f64>;
-    /// The body, particles with their states, as bytes.
-    ///
-    /// # Errors
-    /// [`Error::Memory`], as [`Memory::save`].
-    fn body(&self) -> Result<Saved, Error>;
-    /// Goes on with the [`body`](Self::body) of another run of the same particles, basis, remedy, transfer and kind of
-    /// law: under the stages and with the constants of this one, whose time and sums stay as they are.
-    ///
-    /// # Errors
-    /// [`Error::Memory`], as [`Memory::restore`]; the run then stays as it was.
-    fn take_over(&mut self, body: &Saved) -> Result<(), Error>;
-}
 
 /// Sums of one chunk of particles in a gather.
 #[derive(Debug, Clone, Copy, Default)]
@@ -162,117 +84,7 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     transfer_pairs: u64,
 }
 
-impl<const D: usize, M: Law, T> Scene<D, M, T> {
-    /// The scene with another transfer.
-    #[must_use]
-    pub fn with_transfer<U>(self, transfer: U) -> Scene<D, M, U> {
-        Scene {
-            grid: self.grid,
-            wall: self.wall,
-            law: self.law,
-            transfer,
-            particles: self.particles,
-            remedy: self.remedy,
-            loads: self.loads,
-            contacts: self.contacts,
-            force_filters: self.force_filters,
-            constraints: self.constraints,
-            particle_filters: self.particle_filters,
-            dt: self.dt,
-        }
-    }
-}
-
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
-    /// A solver of `scene` at time zero.
-    ///
-    /// # Errors
-    /// A time step or particle of the scene that is not allowed; a particle off the grid; a
-    /// time step beyond the CFL limit; a particle in a rigid body.
-    pub fn new(mut scene: Scene<D, M, T>) -> Result<Self, Error> {
-        require(scene.dt > 0.0, "time step", scene.dt, "positive (s)")?;
-        for l in scene.particles.half_size {
-            require(
-                l <= 0.5 * scene.grid.h,
-                "particle half size",
-                l,
-                "at most half a cell (m)",
-            )?;
-        }
-        let lattice = Lattice::new(scene.grid, scene.wall);
-        let density = scene
-            .particles
-            .mass
-            .iter()
-            .zip(&scene.particles.reference_volume)
-            .map(|(m, v)| m / v)
-            .fold(f64::INFINITY, f64::min);
-        for (j, f) in (scene.particles.jacobian.iter_mut()).zip(&scene.particles.delta_f) {
-            *j = space::determinant(f);
-        }
-        scene.remedy.attach(&mut scene.particles);
-        scene.transfer.attach(&mut scene.particles);
-        if scene.loads.is_empty() && scene.contacts.is_empty() {
-            scene.particles.external_force = Vec::new();
-        }
-        let n = scene.particles.len();
-        let work = Work {
-            particles: n as u64,
-            nodes: lattice.len() as u64,
-            ..Work::default()
-        };
-        let mut solver = Self {
-            states: vec![scene.law.initial_state(); n],
-            slabs: Vec::new(),
-            nodes: vec![NodalState::default(); lattice.len()],
-            averaging: Averaging::new(lattice.len()),
-            reach: Reach::everything(&lattice),
-            declared: Vec::new(),
-            prescribed: Vec::new(),
-            held: vec![Held::default(); scene.constraints.len()],
-            chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
-            drift: 0.0,
-            wave_speed: scene.law.wave_speed(density),
-            time: 0.0,
-            accumulated: Accumulated::default(),
-            residual: Residual::default(),
-            work,
-            transfer_pairs: 2 * (S as u64).pow(D as u32),
-            lattice,
-            scene,
-        };
-        solver.check_positions()?;
-        solver.attach_contacts()?;
-        // The initial F has been there for ever: no rate.
-        solver.update_stress(f64::INFINITY);
-        solver.declare_constraints();
-        solver.sort();
-        Ok(solver)
-    }
-
-    fn declare_constraints(&mut self) {
-        let (lattice, scene) = (&self.lattice, &self.scene);
-        let declared = &mut self.declared;
-        lattice.for_each_node(|node, index| {
-            let position = lattice.position(index);
-            for axis in 0..D {
-                let first = scene.constraints.iter().enumerate().find_map(|(by, c)| {
-                    let full_velocity = c.prescribe(&scene.grid, &position, axis)?;
-                    Some(Prescribed {
-                        node,
-                        axis,
-                        velocity: full_velocity,
-                        full_velocity,
-                        bound: c.bound(),
-                        force: 0.0,
-                        by,
-                    })
-                });
-                declared.extend(first);
-            }
-        });
-    }
-
     /// Sets the prescribed velocities to those in the middle of the step, and notes the forces on what they hold.
     fn move_constraints(&mut self) {
         let middle = self.time + 0.5 * self.scene.dt;
@@ -285,35 +97,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             p.velocity = self.held[p.by].amplitude * p.full_velocity;
             p.force = self.nodes[p.node].change.as_array()[p.axis];
         }
-    }
-
-    /// Sorts the particles when one of them may have left the neighbours of the cell where it was.
-    fn sort_if_needed(&mut self) {
-        if self.drift > self.scene.grid.h {
-            self.sort();
-        }
-    }
-
-    fn sort(&mut self) {
-        let p = &self.scene.particles;
-        let (order, slabs) = stencil_order(&self.lattice, &p.position, &p.half_size);
-        self.scene.particles.permute(&order);
-        permute(&mut self.states, &order);
-        self.slabs = slabs;
-        self.drift = 0.0;
-        self.work.sorts += 1;
-        self.find_reach();
-    }
-
-    /// Finds the nodes that the particles see until they are sorted again.
-    fn find_reach(&mut self) {
-        let p = &self.scene.particles;
-        self.reach = Reach::of(&self.lattice, &p.position, &p.half_size);
-        self.nodes.fill(NodalState::default());
-        self.averaging.clear();
-        let within = self.declared.iter().filter(|c| self.reach.contains(c.node));
-        self.prescribed.clear();
-        self.prescribed.extend(within);
     }
 
     fn apply_loads(&mut self) {
@@ -581,22 +364,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             self.accumulated.filter_loss +=
                 filter.filter(self.residual.kinetic_energy, &mut self.scene.particles);
         }
-    }
-
-    fn check_positions(&mut self) -> Result<(), Error> {
-        check_cfl(self.wave_speed * self.scene.dt, self.scene.grid.h)
-            .map_err(|fault| self.breakdown(0, fault))?;
-        let beyond = self.scene.particles.half_size.map(B::beyond_wall);
-        let room = Room::new(&self.scene.grid, beyond);
-        for k in 0..self.scene.particles.len() {
-            check_jacobian(self.scene.particles.jacobian[k])
-                .map_err(|fault| self.breakdown(k, fault))?;
-            let mut x = self.scene.particles.position[k];
-            room.place(&mut x)
-                .map_err(|fault| self.breakdown(k, fault))?;
-            self.scene.particles.position[k] = x;
-        }
-        Ok(())
     }
 
     fn breakdown(&self, index: usize, fault: Fault) -> Error {

@@ -1,0 +1,40 @@
+//! The order of the particles, and the nodes that they see.
+
+use super::Solver;
+use crate::basis::Basis;
+use crate::material::Law;
+use crate::order::stencil_order;
+use crate::particles::permute;
+use crate::reach::Reach;
+use crate::transfer::{NodalState, Transfer};
+
+impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
+    /// Sorts the particles when one of them may have left the neighbours of the cell where it was.
+    pub(super) fn sort_if_needed(&mut self) {
+        if self.drift > self.scene.grid.h {
+            self.sort();
+        }
+    }
+
+    pub(super) fn sort(&mut self) {
+        let p = &self.scene.particles;
+        let (order, slabs) = stencil_order(&self.lattice, &p.position, &p.half_size);
+        self.scene.particles.permute(&order);
+        permute(&mut self.states, &order);
+        self.slabs = slabs;
+        self.drift = 0.0;
+        self.work.sorts += 1;
+        self.find_reach();
+    }
+
+    /// Finds the nodes that the particles see until they are sorted again.
+    pub(super) fn find_reach(&mut self) {
+        let p = &self.scene.particles;
+        self.reach = Reach::of(&self.lattice, &p.position, &p.half_size);
+        self.nodes.fill(NodalState::default());
+        self.averaging.clear();
+        let within = self.declared.iter().filter(|c| self.reach.contains(c.node));
+        self.prescribed.clear();
+        self.prescribed.extend(within);
+    }
+}

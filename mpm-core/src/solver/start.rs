@@ -1,0 +1,123 @@
+//! A solver at time zero.
+
+use super::room::Room;
+use super::{ChunkSums, Held, Scene, Solver, check_cfl, check_jacobian};
+use crate::basis::Basis;
+use crate::error::{Error, require};
+use crate::lattice::Lattice;
+use crate::material::Law;
+use crate::monitor::{Accumulated, Residual};
+use crate::parallel::CHUNK;
+use crate::projection::Averaging;
+use crate::reach::Reach;
+use crate::space;
+use crate::stage::Prescribed;
+use crate::transfer::{NodalState, Transfer};
+use crate::work::Work;
+
+impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
+    /// A solver of `scene` at time zero.
+    ///
+    /// # Errors
+    /// A time step or particle of the scene that is not allowed; a particle off the grid; a
+    /// time step beyond the CFL limit; a particle in a rigid body.
+    pub fn new(mut scene: Scene<D, M, T>) -> Result<Self, Error> {
+        require(scene.dt > 0.0, "time step", scene.dt, "positive (s)")?;
+        for l in scene.particles.half_size {
+            require(
+                l <= 0.5 * scene.grid.h,
+                "particle half size",
+                l,
+                "at most half a cell (m)",
+            )?;
+        }
+        let lattice = Lattice::new(scene.grid, scene.wall);
+        let density = scene
+            .particles
+            .mass
+            .iter()
+            .zip(&scene.particles.reference_volume)
+            .map(|(m, v)| m / v)
+            .fold(f64::INFINITY, f64::min);
+        for (j, f) in (scene.particles.jacobian.iter_mut()).zip(&scene.particles.delta_f) {
+            *j = space::determinant(f);
+        }
+        scene.remedy.attach(&mut scene.particles);
+        scene.transfer.attach(&mut scene.particles);
+        if scene.loads.is_empty() && scene.contacts.is_empty() {
+            scene.particles.external_force = Vec::new();
+        }
+        let n = scene.particles.len();
+        let work = Work {
+            particles: n as u64,
+            nodes: lattice.len() as u64,
+            ..Work::default()
+        };
+        let mut solver = Self {
+            states: vec![scene.law.initial_state(); n],
+            slabs: Vec::new(),
+            nodes: vec![NodalState::default(); lattice.len()],
+            averaging: Averaging::new(lattice.len()),
+            reach: Reach::everything(&lattice),
+            declared: Vec::new(),
+            prescribed: Vec::new(),
+            held: vec![Held::default(); scene.constraints.len()],
+            chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
+            drift: 0.0,
+            wave_speed: scene.law.wave_speed(density),
+            time: 0.0,
+            accumulated: Accumulated::default(),
+            residual: Residual::default(),
+            work,
+            transfer_pairs: 2 * (S as u64).pow(D as u32),
+            lattice,
+            scene,
+        };
+        solver.check_positions()?;
+        solver.attach_contacts()?;
+        // The initial F has been there for ever: no rate.
+        solver.update_stress(f64::INFINITY);
+        solver.declare_constraints();
+        solver.sort();
+        Ok(solver)
+    }
+
+    fn declare_constraints(&mut self) {
+        let (lattice, scene) = (&self.lattice, &self.scene);
+        let declared = &mut self.declared;
+        lattice.for_each_node(|node, index| {
+            let position = lattice.position(index);
+            for axis in 0..D {
+                let first = scene.constraints.iter().enumerate().find_map(|(by, c)| {
+                    let full_velocity = c.prescribe(&scene.grid, &position, axis)?;
+                    Some(Prescribed {
+                        node,
+                        axis,
+                        velocity: full_velocity,
+                        full_velocity,
+                        bound: c.bound(),
+                        force: 0.0,
+                        by,
+                    })
+                });
+                declared.extend(first);
+            }
+        });
+    }
+
+    fn check_positions(&mut self) -> Result<(), Error> {
+        check_cfl(self.wave_speed * self.scene.dt, self.scene.grid.h)
+            .map_err(|fault| self.breakdown(0, fault))?;
+        let beyond = self.scene.particles.half_size.map(B::beyond_wall);
+        let room = Room::new(&self.scene.grid, beyond);
+        for k in 0..self.scene.particles.len() {
+            check_jacobian(self.scene.particles.jacobian[k])
+                .map_err(|fault| self.breakdown(k, fault))?;
+            let mut x = self.scene.particles.position[k];
+            room.place(&mut x)
+                .map_err(|fault| self.breakdown(k, fault))?;
+            self.scene.particles.position[k] = x;
+        }
+        Ok(())
+    }
+}
