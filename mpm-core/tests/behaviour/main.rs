@@ -8,9 +8,12 @@
 )]
 
 mod contact;
+mod execution;
 mod footing;
 mod memory;
 mod modes;
 mod rigid_nodes;
+mod scenes;
 mod solver;
+mod transfers;
 mod walls;

@@ -1,0 +1,165 @@
+//! Threads, the order of the particles, allocation and counters.
+
+use crate::scenes::{block, open_grid, remedies, scene, scene_with, swirl};
+use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use mpm_core::remedy::FbarRate;
+use mpm_core::stage::{BodyForce, LocalDamping};
+use mpm_core::transfer::{Apic, Flip, Xpic};
+use mpm_core::{Axis, Basis, Grid, Simulation, Solver, Transfer};
+
+fn bits<const D: usize, const S: usize, B: Basis<S> + 'static>(threads: usize) -> Vec<u64> {
+    bits_of::<D, S, B, _>(threads, Flip::default())
+}
+
+fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>>(
+    threads: usize,
+    transfer: T,
+) -> Vec<u64> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap();
+    pool.install(|| {
+        let mut lo = [4; D];
+        let mut hi = [8; D];
+        lo[0] = 2;
+        hi[0] = 40;
+        let mut particles = block(0.5, 2, lo, hi);
+        swirl(&mut particles, 0.5);
+        for v in &mut particles.velocity {
+            v[0] += 2.0;
+        }
+        let mut axes = [Axis::open(0.0, 12); D];
+        axes[0] = Axis::periodic(0.0, 48);
+        let mut scene = scene_with(Grid::new(0.5, axes).unwrap(), particles, transfer);
+        scene.remedy = Box::new(FbarRate::default());
+        let mut solver = Solver::<D, S, B, _, T>::new(scene).unwrap();
+        for _ in 0..60 {
+            solver.step().unwrap();
+        }
+        assert!(solver.work().sorts > 1, "the test must cover sorting");
+        let p = solver.particles();
+        let t = solver.totals();
+        let columns = p
+            .position
+            .iter()
+            .flatten()
+            .chain(p.velocity.iter().flatten())
+            .chain(p.affine.iter().flatten());
+        let stress = p.stress.iter().map(|s| s.xx.to_bits());
+        let sums = [
+            t.kinetic_energy,
+            t.accumulated.stress_work,
+            solver.residual().free_force,
+        ];
+        columns
+            .map(|v| v.to_bits())
+            .chain(stress)
+            .chain(sums.map(f64::to_bits))
+            .collect()
+    })
+}
+
+#[test]
+fn results_are_bitwise_the_same_for_any_number_of_threads() {
+    let one = bits::<2, 3, Gimp>(1);
+    for threads in [2, 3, 7] {
+        assert_eq!(one, bits::<2, 3, Gimp>(threads), "{threads} threads");
+    }
+    assert_eq!(bits::<2, 4, CubicBSpline>(1), bits::<2, 4, CubicBSpline>(4));
+    assert_eq!(
+        bits::<3, 3, QuadraticBSpline>(1),
+        bits::<3, 3, QuadraticBSpline>(4)
+    );
+    assert_eq!(bits::<1, 2, Linear>(1), bits::<1, 2, Linear>(4));
+    let apic = |threads| bits_of::<2, 3, QuadraticBSpline, _>(threads, Apic);
+    assert_eq!(apic(1), apic(4));
+    let xpic = |threads| bits_of::<2, 3, Gimp, _>(threads, Xpic::new(3).unwrap());
+    assert_eq!(xpic(1), xpic(4));
+}
+
+#[test]
+fn the_order_of_the_particles_changes_rounding_only() {
+    let run = |reverse: bool| {
+        let mut particles = block(0.5, 2, [4, 4], [8, 8]);
+        swirl(&mut particles, 0.3);
+        if reverse {
+            let order: Vec<u32> = (0..particles.len() as u32).rev().collect();
+            particles.permute(&order);
+        }
+        let mut solver =
+            Solver::<2, 3, Gimp, _>::new(scene(open_grid::<2>(0.5, 12), particles)).unwrap();
+        for _ in 0..40 {
+            solver.step().unwrap();
+        }
+        let p = solver.particles();
+        let mut sorted: Vec<(u32, [f64; 2])> =
+            p.id.iter()
+                .copied()
+                .zip(p.position.iter().copied())
+                .collect();
+        sorted.sort_by_key(|(id, _)| *id);
+        sorted
+    };
+    for ((_, a), (_, b)) in run(false).iter().zip(run(true)) {
+        assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_step_allocates_nothing() {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
+    pool.install(|| {
+        allocates_nothing(&Flip::default());
+        allocates_nothing(&Apic);
+        allocates_nothing(&Xpic::new(3).unwrap());
+    });
+}
+
+fn allocates_nothing<T: Transfer<2> + Clone>(transfer: &T) {
+    for remedy in remedies::<2>() {
+        let mut particles = block(0.5, 2, [4, 4], [8, 8]);
+        swirl(&mut particles, 0.01);
+        let mut scene = scene_with(open_grid::<2>(0.5, 12), particles, transfer.clone());
+        scene.remedy = remedy;
+        scene
+            .loads
+            .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1e-3]))));
+        scene
+            .force_filters
+            .push(Box::new(LocalDamping::new(0.1).unwrap()));
+        let mut solver = Solver::<2, 3, Gimp, _, T>::new(scene).unwrap();
+        solver.step().unwrap();
+        let info = allocation_counter::measure(|| {
+            for _ in 0..20 {
+                solver.step().unwrap();
+            }
+        });
+        assert_eq!(info.count_total, 0);
+    }
+}
+
+#[test]
+fn work_is_counted_exactly() {
+    let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
+    scene.remedy = Box::new(FbarRate::default());
+    let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+    for _ in 0..10 {
+        solver.step().unwrap();
+    }
+    let w = solver.work();
+    assert_eq!((w.particles, w.steps, w.particle_steps), (64, 10, 640));
+    assert_eq!((w.projections, w.sorts), (10, 1));
+    // Two transfers and two halves of Π, nine nodes each.
+    assert_eq!(w.particle_node_pairs, 640 * 9 * 4);
+
+    // XPIC(3) goes twice more to the particles and back.
+    let particles = block(0.5, 2, [4, 4], [8, 8]);
+    let scene = scene_with(open_grid::<2>(0.5, 12), particles, Xpic::new(3).unwrap());
+    let mut solver = Solver::<2, 3, Gimp, _, Xpic>::new(scene).unwrap();
+    solver.step().unwrap();
+    assert_eq!(solver.work().particle_node_pairs, 64 * 9 * (2 + 4));
+}

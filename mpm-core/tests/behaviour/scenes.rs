@@ -1,0 +1,110 @@
+//! Bodies to try the solver on.
+
+use mpm_core::basis::WallTreatment;
+use mpm_core::material::{Law, NeoHookean};
+use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::solver::courant_time_step;
+use mpm_core::transfer::Flip;
+use mpm_core::{Axis, Grid, Particles, Remedy, Scene};
+
+pub(crate) const DENSITY: f64 = 2.0;
+
+pub(crate) fn law() -> NeoHookean {
+    NeoHookean::new(100.0, 0.3).unwrap()
+}
+
+/// A block of particles, `per_cell` per cell and direction, filling `[lo, hi]` cells of size `h`.
+pub(crate) fn block<const D: usize>(
+    h: f64,
+    per_cell: usize,
+    lo: [usize; D],
+    hi: [usize; D],
+) -> Particles<D> {
+    let spacing = h / per_cell as f64;
+    let counts: [usize; D] = std::array::from_fn(|a| (hi[a] - lo[a]) * per_cell);
+    let total: usize = counts.iter().product();
+    let positions = (0..total)
+        .map(|k| {
+            let mut rest = k;
+            std::array::from_fn(|a| {
+                let i = rest % counts[a];
+                rest /= counts[a];
+                lo[a] as f64 * h + (i as f64 + 0.5) * spacing
+            })
+        })
+        .collect();
+    Particles::new(
+        positions,
+        spacing.powi(D as i32),
+        DENSITY,
+        [0.5 * spacing; D],
+    )
+    .unwrap()
+}
+
+pub(crate) fn scene<const D: usize>(
+    grid: Grid<D>,
+    particles: Particles<D>,
+) -> Scene<D, NeoHookean> {
+    scene_with(grid, particles, Flip::default())
+}
+
+pub(crate) fn scene_with<const D: usize, T>(
+    grid: Grid<D>,
+    particles: Particles<D>,
+    transfer: T,
+) -> Scene<D, NeoHookean, T> {
+    let law = law();
+    Scene {
+        dt: courant_time_step(0.3, grid.h, law.wave_speed(DENSITY)),
+        grid,
+        wall: WallTreatment::OpenKnot,
+        law,
+        particles,
+        remedy: Box::new(Standard),
+        loads: Vec::new(),
+        contacts: Vec::new(),
+        force_filters: Vec::new(),
+        constraints: Vec::new(),
+        particle_filters: Vec::new(),
+        transfer,
+    }
+}
+
+pub(crate) fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {
+    vec![
+        Box::new(Standard),
+        Box::new(FbarRecursive::default()),
+        Box::new(FbarTotal::default()),
+        Box::new(FbarRate::default()),
+        Box::new(FbarConsistent::default()),
+    ]
+}
+
+pub(crate) fn open_grid<const D: usize>(h: f64, cells: usize) -> Grid<D> {
+    Grid::new(h, [Axis::open(0.0, cells); D]).unwrap()
+}
+
+/// A motion with gradients, decided by position alone.
+pub(crate) fn swirl<const D: usize>(particles: &mut Particles<D>, speed: f64) {
+    for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
+        for a in 0..D {
+            v[a] = speed * (3.0 * x[(a + 1) % D] + a as f64).sin();
+        }
+    }
+}
+
+/// Σ m (x × v + ε:B), as an antisymmetric matrix.
+pub(crate) fn angular_momentum<const D: usize>(p: &Particles<D>) -> [[f64; D]; D] {
+    let mut sum = [[0.0; D]; D];
+    for k in 0..p.len() {
+        let (m, x, v) = (p.mass[k], &p.position[k], &p.velocity[k]);
+        let spin = |a, b| p.affine.get(k).map_or(0.0, |q| q[(b, a)] - q[(a, b)]);
+        for a in 0..D {
+            for b in 0..D {
+                sum[a][b] += m * (x[a] * v[b] - x[b] * v[a] + spin(a, b));
+            }
+        }
+    }
+    sum
+}
