@@ -4,6 +4,7 @@
 
 pub(super) mod checks;
 pub(super) mod plan;
+mod scene;
 mod simulation;
 mod sketch;
 

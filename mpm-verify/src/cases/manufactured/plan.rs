@@ -1,6 +1,6 @@
 //! Plans of runs, and what a run costs.
 
-use super::{Manufactured, simulation::Timing};
+use super::{Manufactured, scene::Timing};
 use crate::case::{Level, RunSpec};
 use crate::parameter::Parameters;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};

@@ -1,0 +1,257 @@
+//! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
+
+use super::{Boundary, Manufactured};
+use crate::assemble::with_basis;
+use crate::case::{Level, RunSpec};
+use crate::error::Error;
+use crate::exact::{Exact, Material};
+use crate::parameter::Parameters;
+use crate::scheme::{RemedyName, Scheme};
+use mpm_core::basis::WallTreatment;
+use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
+use mpm_core::remedy::FbarConsistent;
+use mpm_core::solver::courant_time_step;
+use mpm_core::stage::{BodyForce, Constraint, End, Load, Wall, WallKind};
+use mpm_core::transfer::Flip;
+use mpm_core::{Axis, Grid, Particles, Remedy, Scene, Side, Simulation};
+use nalgebra::Vector3;
+use std::sync::Arc;
+
+/// Cells per side at which Δt ∝ h and Δt ∝ h² coincide.
+const COARSEST: f64 = 8.0;
+/// Cells above a free surface.
+const HEADROOM: usize = 4;
+
+/// Makes a solver of a solid from the names of a scheme.
+pub(super) type Assemble<const D: usize> =
+    fn(Scheme, Scene<D, NeoHookean, Flip>) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>;
+
+/// How the duration is divided.
+pub(super) struct Timing {
+    /// Number of steps, a whole one.
+    pub(super) steps: f64,
+    /// Time step (s).
+    pub(super) dt: f64,
+}
+
+impl Timing {
+    /// From the CFL number and the speed of the body's waves, or that at `step_poisson_ratio` if it is
+    /// larger, so that runs at several ratios can take the same steps.
+    pub(super) fn new(
+        case: &Manufactured,
+        level: Level,
+        parameters: &Parameters,
+        solution: &dyn Exact,
+    ) -> Result<Self, Error> {
+        let number = |name| parameters.number(name);
+        let density = solution.material().density;
+        let mut speed = Body::new(case, solution).wave_speed(density);
+        let ratio = number("step_poisson_ratio");
+        if !ratio.is_nan() {
+            let stiff = NeoHookean::new(number("young_modulus"), ratio)?;
+            speed = speed.max(stiff.wave_speed(density));
+        }
+        let side = solution.extent()[0][1] - solution.extent()[0][0];
+        let finer = if parameters.is("step_scaling", "h2") {
+            COARSEST * level.h / side
+        } else {
+            1.0
+        };
+        let longest = courant_time_step(number("cfl") * finer, level.h, speed);
+        let steps = (number("duration") / longest).ceil();
+        Ok(Self {
+            steps,
+            dt: number("duration") / steps,
+        })
+    }
+}
+
+/// A solver at time zero, of steps `dt` (s).
+///
+/// # Errors
+/// A parameter out of range, or a scene that the solver refuses.
+pub(super) fn begin<const D: usize>(
+    case: &Manufactured,
+    spec: &RunSpec,
+    parameters: &Parameters,
+    solution: &Arc<dyn Exact>,
+    dt: f64,
+    assemble: Assemble<D>,
+) -> Result<Box<dyn Simulation<D>>, Error> {
+    let number = |name| parameters.number(name);
+    let (grid, constraints) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
+    let remedy: Box<dyn Remedy<D>> = match spec.scheme.remedy {
+        RemedyName::FbarConsistent => Box::new(FbarConsistent::new(number("relaxation"))),
+        other => other.build(),
+    };
+    let forcing = Arc::clone(solution);
+    let body = Body::new(case, solution.as_ref());
+    let scene = Setting {
+        grid,
+        wall: if parameters.is("wall", "wall-line") {
+            WallTreatment::WallLine
+        } else {
+            WallTreatment::OpenKnot
+        },
+        transfer: Flip::new(number("flip"))?,
+        particles: seed(spec, number("ppc_per_direction"), solution.as_ref(), dt)?,
+        remedy,
+        loads: vec![Box::new(BodyForce(Box::new(move |x: &[f64; D], t| {
+            components(&forcing.body_force(&vector(x), t))
+        })))],
+        constraints,
+        dt,
+    };
+    Ok(match body {
+        Body::Solid(law) => assemble(spec.scheme, scene.of(law))?,
+        Body::Fluid(law) => with_basis(spec.scheme.basis, scene.of(law))?,
+    })
+}
+
+/// Components in three dimensions; those that are missing are zero.
+pub(super) fn vector<const D: usize>(x: &[f64; D]) -> Vector3<f64> {
+    let mut v = Vector3::zeros();
+    v.as_mut_slice()[..D].copy_from_slice(x);
+    v
+}
+
+/// The first components.
+fn components<const D: usize>(v: &Vector3<f64>) -> [f64; D] {
+    std::array::from_fn(|a| v[a])
+}
+
+/// Cells of size `h` over a length, which they fill.
+fn cells([lo, hi]: [f64; 2], h: f64) -> usize {
+    ((hi - lo) / h).round() as usize
+}
+
+/// The grid and what holds the body.
+fn surroundings<const D: usize>(
+    boundary: Boundary,
+    solution: &dyn Exact,
+    h: f64,
+) -> Result<(Grid<D>, Vec<Box<dyn Constraint<D>>>), Error> {
+    let mut walls: Vec<Box<dyn Constraint<D>>> = Vec::new();
+    let mut hold = |axis, end, kind| walls.push(Box::new(Wall { axis, end, kind }));
+    let extent = solution.extent();
+    let axes = std::array::from_fn(|axis| {
+        let (lo, n) = (extent[axis][0], cells(extent[axis], h));
+        match boundary {
+            Boundary::Walls(kind) => {
+                hold(axis, End::Lo, kind);
+                hold(axis, End::Hi, kind);
+                Axis::walls(lo, n)
+            }
+            Boundary::Periodic => Axis::periodic(lo, n),
+            Boundary::Vessel if axis + 1 == D => {
+                hold(axis, End::Lo, WallKind::Roller);
+                Axis::bounded(lo, n + HEADROOM, (Side::Wall, Side::Open))
+            }
+            Boundary::Vessel => {
+                hold(axis, End::Lo, WallKind::Roller);
+                hold(axis, End::Hi, WallKind::Roller);
+                Axis::walls(lo, n)
+            }
+        }
+    });
+    Ok((Grid::new(h, axes)?, walls))
+}
+
+/// Particles on a lattice over the whole body, in the state of time zero; velocities, which live half a
+/// step from positions, are those of −Δt/2.
+fn seed<const D: usize>(
+    spec: &RunSpec,
+    per_direction: f64,
+    solution: &dyn Exact,
+    dt: f64,
+) -> Result<Particles<D>, Error> {
+    let spacing = spec.level.h / per_direction;
+    let extent = solution.extent();
+    let counts: [usize; D] = std::array::from_fn(|a| cells(extent[a], spacing));
+    let positions = (0..counts.iter().product())
+        .map(|mut k: usize| {
+            let mut x = [0.0; D];
+            for a in (0..D).rev() {
+                x[a] = extent[a][0] + ((k % counts[a]) as f64 + 0.5) * spacing;
+                k /= counts[a];
+            }
+            x
+        })
+        .collect();
+    let mut particles = Particles::new(
+        spec.start_at(positions),
+        spacing.powi(D as i32),
+        solution.material().density,
+        [0.5 * spacing; D],
+    )?
+    .deformed(|x| {
+        let x = vector(x);
+        let f = solution.deformation_gradient(&x, 0.0);
+        (
+            components(&(x + solution.displacement(&x, 0.0))),
+            f.fixed_view::<D, D>(0, 0).into_owned(),
+        )
+    });
+    for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
+        *v = components(&solution.velocity(&vector(x), -0.5 * dt));
+    }
+    Ok(particles)
+}
+
+/// The law of the body.
+enum Body {
+    Solid(NeoHookean),
+    Fluid(NewtonianFluid),
+}
+
+impl Body {
+    fn new(case: &Manufactured, solution: &dyn Exact) -> Self {
+        let Material { mu, lambda, .. } = solution.material();
+        if case.fluid {
+            Self::Fluid(NewtonianFluid {
+                bulk_modulus: lambda,
+                viscosity: mu,
+            })
+        } else {
+            Self::Solid(NeoHookean { mu, lambda })
+        }
+    }
+
+    fn wave_speed(&self, density: f64) -> f64 {
+        match self {
+            Self::Solid(law) => law.wave_speed(density),
+            Self::Fluid(law) => law.wave_speed(density),
+        }
+    }
+}
+
+/// A scene without its law.
+struct Setting<const D: usize> {
+    grid: Grid<D>,
+    wall: WallTreatment,
+    transfer: Flip,
+    particles: Particles<D>,
+    remedy: Box<dyn Remedy<D>>,
+    loads: Vec<Box<dyn Load<D>>>,
+    constraints: Vec<Box<dyn Constraint<D>>>,
+    dt: f64,
+}
+
+impl<const D: usize> Setting<D> {
+    fn of<M: Law>(self, law: M) -> Scene<D, M> {
+        Scene {
+            grid: self.grid,
+            wall: self.wall,
+            law,
+            transfer: self.transfer,
+            particles: self.particles,
+            remedy: self.remedy,
+            loads: self.loads,
+            contacts: Vec::new(),
+            force_filters: Vec::new(),
+            constraints: self.constraints,
+            particle_filters: Vec::new(),
+            dt: self.dt,
+        }
+    }
+}
