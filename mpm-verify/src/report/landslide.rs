@@ -411,7 +411,7 @@ fn name_of(remedy: RemedyName) -> String {
 fn level_title(level: &str) -> String {
     match level.strip_prefix("slice-") {
         Some(rest) => format!("slice, {}", level_title(rest)),
-        None => format!("h = {} m", level.trim_start_matches('h')),
+        None => format!("h = {}\u{a0}m", level.trim_start_matches('h')),
     }
 }
 
