@@ -308,7 +308,7 @@ def landslide_2d(summary):
 
 def landslide_studies(summary):
     runs = Runs(summary, "landslide-2d")
-    sets = [["reduction=1", "duration=2.5"], [], ["cfl=0.175"], ["damping=0.7"], ["reduction=1.8"], ["reduction=2"]]
+    sets = [["reduction=1", "duration=2.5"], [], ["cfl=0.175"], ["damping=0.7"], ["release=2"], ["reduction=1.8"], ["reduction=2"]]
 
     def cell(r):
         if r is None or r["status"] != "ok":
@@ -325,7 +325,7 @@ def landslide_studies(summary):
                 found = [runs.one(basis=basis, remedy=remedy, level=level, set=s) for s in sets]
                 if any(found):
                     rows.append([f"{basis} {remedy}", f"{level[1:]} m"] + [cell(r) for r in found])
-    head = "scheme; h; no reduction; 1.65; half the step; damped; 1.8; 2"
+    head = "scheme; h; no reduction; 1.65; half the step; damped; over 2 s; 1.8; 2"
     return table(head.split("; "), rows)
 
 
@@ -388,10 +388,16 @@ def fill(page, summary):
 
 
 def with_long(night, long):
-    """The cases of the night; those that have long runs from the report that has both, by one program."""
-    more = {case["case"]: case for case in long["cases"]}
-    night["cases"] = [more.get(case["case"], case) for case in night["cases"]]
-    return night
+    """The night with the long runs; of a run that both have, the long report's."""
+
+    def run(record):
+        return [record[key] for key in ["basis", "remedy", "transfer", "level", "set", "perturbed"]]
+
+    for case in long["cases"]:
+        long_runs = [run(r) for r in case["records"]]
+        case["records"] += [r for r in Runs(night, case["case"]).records if run(r) not in long_runs]
+    more = [case["case"] for case in long["cases"]]
+    return {"cases": long["cases"] + [case for case in night["cases"] if case["case"] not in more]}
 
 
 def main():
