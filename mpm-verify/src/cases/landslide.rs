@@ -424,6 +424,10 @@ macro_rules! shared {
             Tier::Pr
         }
 
+        fn breaks_down(&self, record: &Record) -> Option<&'static str> {
+            checks::breaks_down(record)
+        }
+
         fn judge(&self, record: &Record) -> Vec<Verdict> {
             checks::judge(record)
         }
@@ -538,16 +542,13 @@ fn plan_2d(tier: Tier) -> Vec<RunSpec> {
             runs(h20, &all, &[]),
             studies(h40, &[&["reduction=1", "duration=2.5"]]),
             studies(h40, &[&["reduction=1.8"], &["reduction=2"]]),
-            studies(h40, &[&["cfl=0.175"], &["damping=0.7"]]),
-        ]
-        .concat(),
-        Tier::Long => [
-            runs(h10, &all, &[]),
+            studies(h40, &[&["cfl=0.175"], &["damping=0.7"], &["release=2"]]),
             studies(h20, &[&["reduction=1.8"], &["reduction=2"]]),
-            studies(h20, &[&["cfl=0.175"], &["damping=0.7"]]),
-            runs(h05, &all, &[]),
+            studies(h20, &[&["cfl=0.175"], &["release=2"]]),
+            runs(h10, &all, &[]),
         ]
         .concat(),
+        Tier::Long => [studies(h20, &[&["damping=0.7"]]), runs(h05, &all, &[])].concat(),
     }
 }
 

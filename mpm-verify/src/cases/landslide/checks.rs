@@ -27,6 +27,9 @@ const PAPERS_REDUCTION: f64 = 1.65;
 const EARLY: f64 = 0.5;
 /// Duration (s) of a run that ends while the slide is young.
 const EARLY_SLIDE: f64 = 1.5;
+/// Reduction, and cells (m), from which on `fbar-recursive` with GIMP throws a grain off the grid in plane strain, and when (s).
+const THROWN: (f64, f64, f64) = (2.0, 0.2, 5.3);
+const THROWS: &str = "averages of averages let the true volumes drift until a grain is thrown off: docs/landslide.md";
 /// Rms of σ_m − Πσ_m over γ H that locking exceeds.
 const CHECKERBOARD: f64 = 0.05;
 
@@ -50,6 +53,11 @@ pub(super) const CHECKS: &[CheckInfo] = &[
         "at-rest",
         Kind::Truth,
         "none, fbar-consistent but for that: after the gravity stage the kinetic energy of the nodes is below 10⁻⁶ of the stored energy",
+    ),
+    check(
+        "breaks-down",
+        Kind::KnownLimit,
+        "fbar-recursive with GIMP in plane strain, h ≤ 0.2 m, reductions of 2 and more: a grain leaves the grid before 5.3 s",
     ),
     check(
         "creeps",
@@ -122,6 +130,16 @@ pub(super) const CHECKS: &[CheckInfo] = &[
         "fbar-consistent: half the time step moves the toe at 2.5 s by less than a cell",
     ),
 ];
+
+/// Why a run is known to break down before its end, if it is.
+pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
+    let number = |name| record.parameters.number(name);
+    let (reduction, h, time) = THROWN;
+    let printed = record.remedy == RemedyName::FbarRecursive && record.basis == BasisName::Gimp;
+    let flat = record.discretisation.dim == 2 && record.discretisation.h <= h;
+    let far = number("reduction") >= reduction && number("duration") >= time;
+    (printed && flat && far).then_some(THROWS)
+}
 
 pub(super) fn judge(record: &Record) -> Vec<Verdict> {
     let mut verdicts = Vec::new();

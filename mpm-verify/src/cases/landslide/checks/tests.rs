@@ -197,3 +197,15 @@ fn a_slice_sinks_as_the_full_width() {
     assert_eq!(of(0.010_000_5), [Some(true)]);
     assert_eq!(of(0.010_002), [Some(false)]);
 }
+
+#[test]
+fn the_printed_algorithm_throws_a_grain_where_the_slope_goes_fast() {
+    let fails = |scheme, h, set: &[&str]| {
+        breaks_down(&fixture::run(&PARAMETERS, scheme, ("fine", h), set, &[])).is_some()
+    };
+    assert!(fails(PRINTED, 0.2, &["reduction=2"]));
+    assert!(!fails(OURS, 0.2, &["reduction=2"]));
+    assert!(!fails(PRINTED, 0.4, &["reduction=2"]));
+    assert!(!fails(PRINTED, 0.2, &["reduction=1.8"]));
+    assert!(!fails(PRINTED, 0.2, &["reduction=2", "duration=2.5"]));
+}
