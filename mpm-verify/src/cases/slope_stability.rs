@@ -230,8 +230,8 @@ impl Case for SlopeStability {
         let all = |level| runs(level, &self.schemes(), &[]);
         match tier {
             Tier::Quick | Tier::Pr => Vec::new(),
-            Tier::Nightly => all(h40),
-            Tier::Long => [all(h20), all(h10)].concat(),
+            Tier::Nightly => [all(h40), all(h20)].concat(),
+            Tier::Long => all(h10),
         }
     }
 

@@ -4,16 +4,18 @@ use super::super::landslide::{STABILITY, factor_of_safety};
 use crate::case::{CheckInfo, check};
 use crate::check::{Kind, Verdict};
 use crate::record::{Record, Status};
-use crate::scheme::RemedyName;
+use crate::scheme::{BasisName, RemedyName};
 
 /// What a slope may exceed its limit by and still be called standing.
 const SLOW: f64 = 0.005;
+/// Cells (m) up to which standard quadratic splines no longer lock beyond what a band of cells explains.
+const FINE: f64 = 0.2;
 
 pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "limit-load",
         Kind::Truth,
-        "fbar-consistent, fbar-recursive: the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure",
+        "F̄, and standard quadratic splines at h ≤ 0.2 m: the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure",
     ),
     check(
         "lower-bound",
@@ -23,7 +25,7 @@ pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "locked",
         Kind::KnownLimit,
-        "none: the slope still stands at a factor above all that",
+        "none with GIMP, and with quadratic splines at h > 0.2 m: the slope still stands at a factor above all that",
     ),
     check(
         "factor-converges",
@@ -47,6 +49,11 @@ fn resolution(record: &Record) -> f64 {
     0.5 * (number("most") - 1.0) / 2.0_f64.powf(number("trials") - 1.0)
 }
 
+fn locks(record: &Record) -> bool {
+    let coarse = record.discretisation.h > FINE;
+    record.remedy == RemedyName::None && (record.basis == BasisName::Gimp || coarse)
+}
+
 pub(super) fn judge(record: &Record) -> Vec<Verdict> {
     let metric = "strength_reduction_factor";
     if record.parameters.number("face_angle") != 45.0 {
@@ -66,7 +73,7 @@ pub(super) fn judge(record: &Record) -> Vec<Verdict> {
         lower,
         "lower bound of limit analysis: docs/exact.md",
     );
-    let judged = if record.remedy == RemedyName::None {
+    let judged = if locks(record) {
         Verdict::above(
             "locked",
             Kind::KnownLimit,

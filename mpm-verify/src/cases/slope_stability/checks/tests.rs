@@ -62,6 +62,23 @@ fn standard_mpm_is_known_to_be_too_strong() {
 }
 
 #[test]
+fn standard_splines_are_judged_by_limit_analysis_on_fine_cells() {
+    let splines = (BasisName::Bspline2, RemedyName::None);
+    let limit = |value| {
+        outcomes(
+            &judge(&run(splines, ("h0.2", 0.2), &[], value)),
+            "limit-load",
+        )
+    };
+    assert_eq!(
+        (limit(1.74), limit(1.76)),
+        (vec![Some(true)], vec![Some(false)])
+    );
+    let coarse = judge(&run(splines, ("h0.4", 0.4), &[], 1.74));
+    assert_eq!(outcomes(&coarse, "limit-load"), []);
+}
+
+#[test]
 fn another_face_has_no_reference() {
     let steep = run(OURS, ("h0.4", 0.4), &["face_angle=60"], 1.7);
     assert_eq!(outcomes(&judge(&steep), "limit-load"), [None]);
