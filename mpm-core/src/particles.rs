@@ -4,6 +4,7 @@ use crate::error::{Error, require};
 use crate::memory::{MemoryError, row, rows};
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Columns of one body. All have one entry per particle, but `j_bar`, `affine` and `external_force`,
@@ -199,8 +200,8 @@ impl<const D: usize> Particles<D> {
 }
 
 /// Puts a column in the order `order`; an empty column stays empty.
-pub(crate) fn permute<T: Copy>(column: &mut Vec<T>, order: &[u32]) {
+pub(crate) fn permute<T: Copy + Send + Sync>(column: &mut Vec<T>, order: &[u32]) {
     if !column.is_empty() {
-        *column = order.iter().map(|&p| column[p as usize]).collect();
+        *column = order.par_iter().map(|&p| column[p as usize]).collect();
     }
 }

@@ -122,6 +122,15 @@ fn gather_values<const D: usize, const S: usize, B: Basis<S>>(
         });
 }
 
+/// Divides nodal values by nodal volumes, where there are any.
+fn divide(values: &mut [f64], volumes: &[f64]) {
+    for (value, volume) in values.iter_mut().zip(volumes) {
+        if *volume > 0.0 {
+            *value /= *volume;
+        }
+    }
+}
+
 impl<const D: usize, const S: usize, B: Basis<S>> Projection<'_, D, S, B> {
     /// Weights and nodal volumes of the particles.
     fn prepare(&mut self, particles: &Particles<D>) {
@@ -158,17 +167,11 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, 
         scatter_values(lattice, self.slabs, weights, self.reach, values, |p| {
             volume[p] * given[p]
         });
-        let parts = self
-            .reach
-            .parts(values)
-            .zip(self.reach.parts(&mut averaging.volumes));
-        for (values, volumes) in parts {
-            for (value, volume) in values.iter_mut().zip(volumes) {
-                if *volume > 0.0 {
-                    *value /= *volume;
-                }
-            }
-        }
+        let volumes = self.reach.chunks(&mut averaging.volumes);
+        self.reach
+            .chunks(values)
+            .zip(volumes)
+            .for_each(|(values, volumes)| values.zip(volumes).for_each(|(q, v)| divide(q, v)));
         lattice.unfold(values);
         gather_values(lattice, weights, values, field);
         *self.count += 1;

@@ -6,7 +6,11 @@
 
 use crate::basis::Basis;
 use crate::lattice::Lattice;
+use rayon::prelude::*;
 use std::ops::Range;
+
+/// Nodes per chunk of what is done for nodes: so many that a small scene is one chunk, which wakes no other thread.
+pub const NODES: usize = 4096;
 
 /// Runs of consecutive nodes, in their order.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -70,24 +74,44 @@ impl Reach {
         after > 0 && self.runs[after - 1].contains(&node)
     }
 
-    /// The values of a nodal field in every run.
-    pub fn parts<'a, T>(&'a self, field: &'a mut [T]) -> impl Iterator<Item = &'a mut [T]> {
-        let mut rest = field;
-        let mut begin = 0;
-        self.runs.iter().map(move |run| {
-            let (_, from_run) = std::mem::take(&mut rest).split_at_mut(run.start - begin);
-            let (part, after) = from_run.split_at_mut(run.len());
-            rest = after;
-            begin = run.end;
-            part
-        })
+    /// A nodal field in chunks of [`NODES`], and of each chunk the values of what is within reach, run by run.
+    pub fn chunks<'a, T: Send>(
+        &'a self,
+        field: &'a mut [T],
+    ) -> impl IndexedParallelIterator<Item = impl Iterator<Item = &'a mut [T]>> {
+        field
+            .par_chunks_mut(NODES)
+            .enumerate()
+            .map(|(c, chunk)| self.parts(chunk, c * NODES))
+    }
+
+    /// Of a piece of a nodal field whose first node is `origin` the values of what is within reach, run by run.
+    fn parts<'a, T>(
+        &'a self,
+        piece: &'a mut [T],
+        origin: usize,
+    ) -> impl Iterator<Item = &'a mut [T]> {
+        let end = origin + piece.len();
+        let first = self.runs.partition_point(|run| run.end <= origin);
+        let mut rest = piece;
+        let mut begin = origin;
+        self.runs[first..]
+            .iter()
+            .take_while(move |run| run.start < end)
+            .map(move |run| {
+                let run = run.start.max(origin)..run.end.min(end);
+                let (_, from_run) = std::mem::take(&mut rest).split_at_mut(run.start - begin);
+                let (part, after) = from_run.split_at_mut(run.len());
+                rest = after;
+                begin = run.end;
+                part
+            })
     }
 
     /// Sets a nodal field to zero.
-    pub fn clear<T: Copy + Default>(&self, field: &mut [T]) {
-        for part in self.parts(field) {
-            part.fill(T::default());
-        }
+    pub fn clear<T: Copy + Default + Send>(&self, field: &mut [T]) {
+        self.chunks(field)
+            .for_each(|parts| parts.for_each(|part| part.fill(T::default())));
     }
 }
 

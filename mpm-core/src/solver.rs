@@ -25,7 +25,7 @@ use crate::projection::{Average, Averaging, Projection};
 use crate::reach::Reach;
 use crate::remedy::Remedy;
 use crate::space;
-use crate::stage::Prescribed;
+use crate::stage::{ForceFilter, Prescribed};
 use crate::tensor::SymmetricTensor;
 use crate::transfer::{Flip, Given, NodalState, Transfer};
 use crate::work::Work;
@@ -46,6 +46,17 @@ struct ChunkSums {
     largest_increment: f64,
     wrapped: bool,
     fault: Option<(usize, Fault)>,
+}
+
+/// Sums of one chunk of nodes in the update.
+#[derive(Debug, Clone, Copy, Default)]
+struct NodeSums {
+    /// Σ|f_i| (N).
+    free_force: f64,
+    /// After the update (J).
+    kinetic_energy: f64,
+    /// Power that filters take (W).
+    damping: f64,
 }
 
 /// A constraint in a step.
@@ -73,6 +84,7 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     prescribed: Vec<Prescribed>,
     held: Vec<Held>,
     chunk_sums: Vec<ChunkSums>,
+    node_sums: Vec<NodeSums>,
     /// Largest distance (m) that a particle can have moved since the particles were sorted.
     drift: f64,
     wave_speed: f64,
@@ -141,30 +153,22 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     /// New nodal velocities, Eq. (9), with filters and constraints.
     fn update_grid(&mut self) {
         let dt = self.scene.dt;
+        let filters = &self.scene.force_filters;
+        self.reach
+            .chunks(&mut self.nodes)
+            .zip(&mut self.node_sums)
+            .for_each(|(parts, sums)| {
+                *sums = NodeSums::default();
+                parts
+                    .flatten()
+                    .for_each(|node| update_node::<D>(node, dt, filters, sums));
+            });
         let mut residual = Residual::default();
-        let mut damping = 0.0;
-        for node in self.reach.parts(&mut self.nodes).flatten() {
-            let mass = node.mass();
-            if mass <= 0.0 {
-                *node = NodalState::default();
-                continue;
-            }
-            let velocity = node.motion.as_mut_array();
-            for v in &mut velocity[..D] {
-                *v /= mass;
-            }
-            for filter in &self.scene.force_filters {
-                damping += filter.filter(node);
-            }
-            for f in &node.change.as_array()[..D] {
-                residual.free_force += f.abs();
-            }
-            // The padding of the force is zero, so the mass stays what it is.
-            node.change *= dt / mass;
-            node.motion += node.change;
-            residual.kinetic_energy += node.kinetic_energy();
+        for sums in &self.node_sums {
+            residual.free_force += sums.free_force;
+            residual.kinetic_energy += sums.kinetic_energy;
+            self.accumulated.damping += dt * sums.damping;
         }
-        self.accumulated.damping += dt * damping;
         for c in &self.prescribed {
             let node = &mut self.nodes[c.node];
             let mass = node.mass();
@@ -381,6 +385,33 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             None => Ok(()),
         }
     }
+}
+
+/// The new velocity of a node, Eq. (9), and its share in the sums.
+fn update_node<const D: usize>(
+    node: &mut NodalState,
+    dt: f64,
+    filters: &[Box<dyn ForceFilter>],
+    sums: &mut NodeSums,
+) {
+    let mass = node.mass();
+    if mass <= 0.0 {
+        *node = NodalState::default();
+        return;
+    }
+    for v in &mut node.motion.as_mut_array()[..D] {
+        *v /= mass;
+    }
+    for filter in filters {
+        sums.damping += filter.filter(node);
+    }
+    for f in &node.change.as_array()[..D] {
+        sums.free_force += f.abs();
+    }
+    // The padding of the force is zero, so the mass stays what it is.
+    node.change *= dt / mass;
+    node.motion += node.change;
+    sums.kinetic_energy += node.kinetic_energy();
 }
 
 fn check_jacobian(j: f64) -> Result<(), Fault> {

@@ -35,7 +35,7 @@ pub trait Load<const D: usize>: Memory + Send {
 }
 
 /// A filter of nodal forces.
-pub trait ForceFilter: Memory + Send {
+pub trait ForceFilter: Memory + Send + Sync {
     /// Changes the force (N, in `change`) of a node whose `motion` is its velocity (m/s) before the
     /// update; returns the power (W) that it takes from the motion.
     fn filter(&self, node: &mut NodalState) -> f64;
