@@ -567,8 +567,9 @@ fn plan_3d(tier: Tier) -> Vec<RunSpec> {
             runs(slice, &early, &["reduction=2", "duration=2.5"]),
             runs(h50, &all, &[]),
             runs(h50, &all, &["width=2"]),
+            runs(h25, &all, &[]),
         ]
         .concat(),
-        Tier::Long => [runs(h25, &all, &[]), runs(h20, &all, &[])].concat(),
+        Tier::Long => runs(h20, &all, &[]),
     }
 }

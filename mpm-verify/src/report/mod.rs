@@ -55,7 +55,8 @@ pub fn write_report(
 }
 
 /// Brings the report in `out` up to date, likewise: the cases that are gathered are drawn anew, the others
-/// keep what it says of them, and those that are known no more are gone.
+/// keep what it says of them, but for the pictures that their records suffice for, and those that are known no
+/// more are gone.
 ///
 /// # Errors
 /// `out` holds no report of this tier, or as [`write_report`].
@@ -78,7 +79,7 @@ pub fn update_report(
     write(gathered, summary, golden, night, out)
 }
 
-/// Draws the cases that are gathered and writes what tells of all.
+/// Draws the cases and writes what tells of all.
 fn write(
     gathered: &Gathered,
     mut summary: Summary,
@@ -90,6 +91,9 @@ fn write(
         if gathered.has(&study.case) {
             study.night = night.cloned();
             study.pictures = draw(study, gathered, golden, out)?;
+        } else {
+            let drawn = draw_from_records(study, out)?;
+            update::replace(&mut study.pictures, drawn);
         }
     }
     summary::write(&summary, out)?;
@@ -109,11 +113,17 @@ fn draw(
 ) -> Result<Vec<Picture>, Error> {
     let mut pictures = drift::draw(study, gathered, golden, out)?;
     pictures.extend(draw_own(study, gathered, out)?);
-    pictures.extend(convergence::draw(study, out)?);
-    pictures.extend(sweep::draw(study, out)?);
+    pictures.extend(draw_from_records(study, out)?);
     if let Some(night) = &study.night {
         pictures.extend(history::add(study, night, out)?);
     }
+    Ok(pictures)
+}
+
+/// Draws what the records of a case tell by themselves.
+fn draw_from_records(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error> {
+    let mut pictures = convergence::draw(study, out)?;
+    pictures.extend(sweep::draw(study, out)?);
     Ok(pictures)
 }
 

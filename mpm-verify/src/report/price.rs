@@ -7,14 +7,19 @@ use crate::scheme::Scheme;
 use crate::study::CaseStudy;
 use std::fmt::Write;
 
-/// The points that no other beats in both cost and error, by rising cost.
+/// The points that no other beats in both cost and error, by rising cost, and the corners of the steps between them: no
+/// point is below the line.
 pub(super) fn front(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = points.collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let mut front: Vec<(f64, f64)> = Vec::new();
     for (cost, error) in points {
-        if front.last().is_none_or(|best| error < best.1) {
+        let Some(&(_, best)) = front.last() else {
             front.push((cost, error));
+            continue;
+        };
+        if error < best {
+            front.extend([(cost, best), (cost, error)]);
         }
     }
     front
@@ -187,7 +192,7 @@ mod tests {
         let points = [(4.0, 0.1), (1.0, 0.5), (2.0, 0.5), (3.0, 0.2), (5.0, 0.15)];
         assert_eq!(
             front(points.into_iter()),
-            [(1.0, 0.5), (3.0, 0.2), (4.0, 0.1)]
+            [(1.0, 0.5), (3.0, 0.5), (3.0, 0.2), (4.0, 0.2), (4.0, 0.1)]
         );
     }
 

@@ -7,7 +7,7 @@ use crate::check::Kind;
 use crate::error::Error;
 use crate::files::read_versioned;
 use crate::run::judge;
-use crate::study::{CaseStudy, SCHEMA, Summary, of_one_program};
+use crate::study::{CaseStudy, Picture, SCHEMA, Summary, of_one_program};
 use std::path::Path;
 
 /// Reads what the report in `out` says.
@@ -44,6 +44,16 @@ pub(super) fn merge(former: Summary, again: Summary) -> Summary {
     Summary::new(&again.tier, studies)
 }
 
+/// Puts pictures that have been drawn again in the place of the former ones, and new ones at the end.
+pub(super) fn replace(pictures: &mut Vec<Picture>, drawn: Vec<Picture>) {
+    for picture in drawn {
+        match pictures.iter_mut().find(|p| p.file == picture.file) {
+            Some(former) => *former = picture,
+            None => pictures.push(picture),
+        }
+    }
+}
+
 /// A study with the verdicts of the checks as they are now; those on drift, which need more than the
 /// records, stay.
 fn judged_again(case: &dyn Case, mut study: CaseStudy) -> CaseStudy {
@@ -63,7 +73,6 @@ mod tests {
     use crate::check::Verdict;
     use crate::night::Night;
     use crate::report::fixture::record;
-    use crate::study::Picture;
 
     fn study(case: &str, commit: &str) -> CaseStudy {
         let mut run = record("h2", Vec::new());
@@ -98,6 +107,26 @@ mod tests {
             .map(|s| &s.night.as_ref().unwrap().commit);
         assert_eq!(commits.collect::<Vec<_>>(), ["new", "new", "old"]);
         assert_eq!((merged.tier.as_str(), merged.counts.runs), ("pr", 3));
+    }
+
+    #[test]
+    fn what_is_drawn_again_keeps_its_place() {
+        let picture = |file: &str, caption: &str| Picture {
+            file: file.to_owned(),
+            caption: caption.to_owned(),
+        };
+        let mut pictures = vec![picture("slide.png", "old"), picture("orders.png", "old")];
+        replace(
+            &mut pictures,
+            vec![picture("orders.png", "new"), picture("price.png", "new")],
+        );
+        let told: Vec<_> = pictures.iter().map(|p| (&*p.file, &*p.caption)).collect();
+        let expected = [
+            ("slide.png", "old"),
+            ("orders.png", "new"),
+            ("price.png", "new"),
+        ];
+        assert_eq!(told, expected);
     }
 
     #[test]
