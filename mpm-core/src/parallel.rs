@@ -15,6 +15,8 @@ use std::ops::Range;
 
 /// Particles per chunk of a gather.
 pub const CHUNK: usize = 1024;
+/// Chunks that a thread takes at once, at most: few, so that threads which are not equally fast end together.
+pub const AT_ONCE: usize = 4;
 /// Cells per slab, along the first axis.
 pub const SLAB: usize = 8;
 /// Planes kept before the first node, so that the runs of planes of the first slab begin in the array.

@@ -7,7 +7,7 @@ mod patch;
 
 use crate::basis::Basis;
 use crate::lattice::{Lattice, Weights};
-use crate::parallel::{CHUNK, scatter};
+use crate::parallel::{AT_ONCE, CHUNK, scatter};
 use crate::particles::Particles;
 use crate::reach::Reach;
 use patch::{Patch, ROW};
@@ -109,6 +109,7 @@ fn gather_values<const D: usize, const S: usize, B: Basis<S>>(
     field
         .par_chunks_mut(CHUNK)
         .zip(weights.par_chunks(CHUNK))
+        .with_max_len(AT_ONCE)
         .for_each(|(field, weights)| {
             let mut p = 0;
             while p < field.len() {
@@ -142,6 +143,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Projection<'_, D, S, B> {
             .weights
             .par_chunks_mut(CHUNK)
             .zip(particles.position.par_chunks(CHUNK))
+            .with_max_len(AT_ONCE)
             .for_each(|(weights, x)| {
                 lattice.for_each_stencil(x, &particles.half_size, |k, stencil| {
                     weights[k] = stencil.weights()

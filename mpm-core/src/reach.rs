@@ -148,16 +148,19 @@ mod tests {
     use proptest::prelude::*;
 
     const H: f64 = 0.5;
+    /// In three dimensions more nodes than a chunk has.
+    const CELLS: usize = 20;
 
     /// Every node that the particles see, now and after any motion by at most a cell, is within reach.
     fn covers<const D: usize, const S: usize, B: Basis<S>>(places: &[[f64; 6]]) {
-        let grid = Grid::new(H, [Axis::walls(-1.0, 12); D]).unwrap();
+        let grid = Grid::new(H, [Axis::walls(-1.0, CELLS); D]).unwrap();
         let lattice = Lattice::<D, S, B>::new(grid, WallTreatment::WallLine);
         let end = grid.axes[0].hi(H);
-        let at = |place: &[f64; 6]| std::array::from_fn(|a| -1.0 + 6.0 * place[a]);
+        let at = |place: &[f64; 6]| std::array::from_fn(|a| -1.0 + CELLS as f64 * H * place[a]);
         let positions: Vec<[f64; D]> = places.iter().map(at).collect();
         let reach = Reach::of(&lattice, &positions, &[0.25 * H; D]);
         assert!(D == 1 || !reach.contains(0));
+        assert!(D < 3 || lattice.len() > 2 * NODES);
         let mut field = vec![1; lattice.len()];
         reach.clear(&mut field);
         for (node, value) in field.iter().enumerate() {

@@ -19,7 +19,7 @@ use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Accumulated, Residual, Totals};
-use crate::parallel::{CHUNK, chunks_if_present, scatter};
+use crate::parallel::{AT_ONCE, CHUNK, chunks_if_present, scatter};
 use crate::particles::Particles;
 use crate::projection::{Average, Averaging, Projection};
 use crate::reach::Reach;
@@ -214,6 +214,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             p.stress.par_chunks(CHUNK),
         )
             .into_par_iter()
+            .with_max_len(AT_ONCE)
             .enumerate()
             .for_each(
                 |(c, (sums, v, affine, increment, delta_f, j, x, volume, stress))| {
@@ -302,6 +303,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             p.reference_volume.par_chunks(CHUNK),
         )
             .into_par_iter()
+            .with_max_len(AT_ONCE)
             .for_each(|(states, stress, volume, delta_f, j, reference_volume)| {
                 law.update_all(|k| space::embed(&delta_f[k]), dt, states, stress);
                 for (volume, (j, reference)) in
@@ -324,6 +326,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             p.increment.par_chunks(CHUNK),
         )
             .into_par_iter()
+            .with_max_len(AT_ONCE)
             .enumerate()
             .for_each(|(c, (sums, x, increment))| {
                 let mut largest = 0.0_f64;
