@@ -567,9 +567,12 @@ fn plan_3d(tier: Tier) -> Vec<RunSpec> {
             runs(slice, &early, &["reduction=2", "duration=2.5"]),
             runs(h50, &all, &[]),
             runs(h50, &all, &["width=2"]),
-            runs(h25, &all, &[]),
+            runs(h25, &early, &[]),
         ]
         .concat(),
-        Tier::Long => runs(h20, &all, &[]),
+        Tier::Long => {
+            let later: Vec<Scheme> = all.iter().copied().filter(|s| !early.contains(s)).collect();
+            [runs(h25, &later, &[]), runs(h20, &all, &[])].concat()
+        }
     }
 }
