@@ -3,6 +3,8 @@
 //! *Gathers* write to particles only: they run over chunks of [`CHUNK`] particles, and sums are
 //! formed per chunk and added in the order of the chunks.
 //!
+//! What is done *node by node* runs over chunks of [`NODE_CHUNK`] nodes, likewise ([`crate::reach`]).
+//!
 //! *Scatters* write to nodes. Particles are sorted by place, and slabs of [`SLAB`] cells along the
 //! first axis hold contiguous runs of them. A slab's particles reach fewer than `2 SLAB` planes of
 //! nodes, so slabs of even number can run side by side, each on its own run of planes, and then
@@ -17,6 +19,8 @@ use std::ops::Range;
 pub const CHUNK: usize = 1024;
 /// Chunks that a thread takes at once, at most: few, so that threads which are not equally fast end together.
 pub const AT_ONCE: usize = 4;
+/// Nodes per chunk of what is done for nodes: so many that a small scene is one chunk, which wakes no other thread.
+pub const NODE_CHUNK: usize = 4096;
 /// Cells per slab, along the first axis.
 pub const SLAB: usize = 8;
 /// Planes kept before the first node, so that the runs of planes of the first slab begin in the array.

@@ -6,11 +6,9 @@
 
 use crate::basis::Basis;
 use crate::lattice::Lattice;
+use crate::parallel::NODE_CHUNK;
 use rayon::prelude::*;
 use std::ops::Range;
-
-/// Nodes per chunk of what is done for nodes: so many that a small scene is one chunk, which wakes no other thread.
-pub const NODES: usize = 4096;
 
 /// Runs of consecutive nodes, in their order.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,15 +72,15 @@ impl Reach {
         after > 0 && self.runs[after - 1].contains(&node)
     }
 
-    /// A nodal field in chunks of [`NODES`], and of each chunk the values of what is within reach, run by run.
+    /// A nodal field in chunks of [`NODE_CHUNK`], and of each chunk the values of what is within reach, run by run.
     pub fn chunks<'a, T: Send>(
         &'a self,
         field: &'a mut [T],
     ) -> impl IndexedParallelIterator<Item = impl Iterator<Item = &'a mut [T]>> {
         field
-            .par_chunks_mut(NODES)
+            .par_chunks_mut(NODE_CHUNK)
             .enumerate()
-            .map(|(c, chunk)| self.parts(chunk, c * NODES))
+            .map(|(c, chunk)| self.parts(chunk, c * NODE_CHUNK))
     }
 
     /// Of a piece of a nodal field whose first node is `origin` the values of what is within reach, run by run.
@@ -160,7 +158,7 @@ mod tests {
         let positions: Vec<[f64; D]> = places.iter().map(at).collect();
         let reach = Reach::of(&lattice, &positions, &[0.25 * H; D]);
         assert!(D == 1 || !reach.contains(0));
-        assert!(D < 3 || lattice.len() > 2 * NODES);
+        assert!(D < 3 || lattice.len() > 2 * NODE_CHUNK);
         let mut field = vec![1; lattice.len()];
         reach.clear(&mut field);
         for (node, value) in field.iter().enumerate() {

@@ -7,9 +7,9 @@ use crate::error::{Error, require};
 use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::monitor::{Accumulated, Residual};
-use crate::parallel::CHUNK;
+use crate::parallel::{CHUNK, NODE_CHUNK};
 use crate::projection::Averaging;
-use crate::reach::{NODES, Reach};
+use crate::reach::Reach;
 use crate::space;
 use crate::stage::Prescribed;
 use crate::transfer::{NodalState, Transfer};
@@ -63,7 +63,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             prescribed: Vec::new(),
             held: vec![Held::default(); scene.constraints.len()],
             chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
-            node_sums: vec![NodeSums::default(); lattice.len().div_ceil(NODES)],
+            node_sums: vec![NodeSums::default(); lattice.len().div_ceil(NODE_CHUNK)],
             drift: 0.0,
             wave_speed: scene.law.wave_speed(density),
             time: 0.0,
