@@ -232,6 +232,44 @@ fn damping_takes_energy_and_says_how_much() {
     assert!(LocalDamping::new(f64::NAN).is_err());
 }
 
+/// A long body that falls, with nodes enough for several threads: their energy is that of the particles, their
+/// out-of-balance force what damping leaves of the weight, the power of damping the rest of it.
+#[test]
+fn sums_over_nodes_are_those_of_a_falling_body_however_many_nodes() {
+    const ALPHA: f64 = 0.25;
+    const SPEED: f64 = 0.5;
+    const GRAVITY: f64 = 10.0;
+    let mut particles = block(0.5, 2, [2, 4], [398, 8]);
+    particles.velocity.fill([0.0, -SPEED]);
+    let grid = Grid::new(0.5, [Axis::open(0.0, 400), Axis::open(0.0, 60)]).unwrap();
+    let mut scene = scene(grid, particles);
+    scene
+        .loads
+        .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -GRAVITY]))));
+    scene
+        .force_filters
+        .push(Box::new(LocalDamping::new(ALPHA).unwrap()));
+    let dt = scene.dt;
+    let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+    let weight = GRAVITY * solver.totals().mass;
+    let (mut speed, mut damped) = (SPEED, 0.0);
+    for _ in 0..3 {
+        solver.step().unwrap();
+        damped += dt * ALPHA * weight * speed;
+        speed += dt * (1.0 - ALPHA) * GRAVITY;
+        let (nodes, total) = (solver.residual(), solver.totals());
+        for (sum, exact) in [
+            (nodes.kinetic_energy, total.kinetic_energy),
+            (nodes.kinetic_energy, 0.5 * total.mass * speed * speed),
+            (nodes.free_force, (1.0 - ALPHA) * weight),
+            (total.accumulated.damping, damped),
+        ] {
+            // Rounding of sums over 25 thousand nodes.
+            assert!((sum / exact - 1.0).abs() < 1e-11, "{sum} for {exact}");
+        }
+    }
+}
+
 fn fault(change: impl FnOnce(&mut Scene<2, NeoHookean>)) -> (u32, Fault) {
     let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
     change(&mut scene);

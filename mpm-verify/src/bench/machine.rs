@@ -1,4 +1,5 @@
-//! What the machine's memory gives: a triad aᵢ = bᵢ + s cᵢ over arrays that no cache holds (McCalpin 1995).
+//! What the machine is, and what its memory gives: a triad aᵢ = bᵢ + s cᵢ over arrays that no cache holds
+//! (McCalpin 1995).
 
 use super::local::{Going, Local};
 use super::{Options, Outcome, Turn};
@@ -66,4 +67,37 @@ pub(super) fn resident() -> Option<u64> {
     let line = status.lines().find_map(|l| l.strip_prefix("VmRSS:"))?;
     let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(1024 * kilobytes)
+}
+
+/// Name, family and model of the processor, where the system tells.
+pub(super) fn processor() -> Option<String> {
+    named(&std::fs::read_to_string("/proc/cpuinfo").ok()?)
+}
+
+/// Of the first core that `told` describes.
+fn named(told: &str) -> Option<String> {
+    let field = |name: &str| {
+        let value = told.lines().find_map(|line| {
+            let (key, value) = line.split_once(':')?;
+            (key.trim() == name).then(|| value.trim())
+        });
+        value.map(ToOwned::to_owned)
+    };
+    let name = field("model name")?;
+    let (family, model) = (field("cpu family")?, field("model")?);
+    Some(format!("{name}, family {family}, model {model}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::named;
+
+    #[test]
+    fn a_processor_is_named_by_its_first_core() {
+        let told = "processor\t: 0\ncpu family\t: 25\nmodel\t\t: 17\nmodel name\t: AMD EPYC\n\n\
+                    processor\t: 1\ncpu family\t: 6\nmodel\t\t: 1\nmodel name\t: Other\n";
+        let name = "AMD EPYC, family 25, model 17";
+        assert_eq!(named(told).as_deref(), Some(name));
+        assert_eq!(named("CPU implementer\t: 0x41\n"), None);
+    }
 }

@@ -153,6 +153,8 @@ pub struct Bench {
     pub schema: u32,
     /// The machine.
     pub machine: Machine,
+    /// Its processor, where the system tells.
+    pub processor: Option<String>,
     /// The program.
     pub version: Version,
     /// What was measured.
@@ -196,6 +198,7 @@ pub fn measure(options: &Options, out: &Path, progress: &dyn Fn(f64)) -> Result<
     let mut bench = Bench {
         schema: SCHEMA,
         machine: Machine::here(options.threads.iter().copied().max().unwrap_or(1)),
+        processor: machine::processor(),
         version: Version::current(),
         measured: Vec::new(),
     };
@@ -380,6 +383,7 @@ mod tests {
         let mut bench = Bench {
             schema: SCHEMA,
             machine: Machine::here(2),
+            processor: None,
             version: Version::current(),
             measured: take_turns(turns, options.rounds, &|_| ()).unwrap(),
         };

@@ -11,12 +11,15 @@ use std::path::Path;
 pub(super) fn write(bench: &Bench, out: &Path) -> Result<String, Error> {
     let mut text = String::from("# Speed\n\n");
     let machine = &bench.machine;
+    let processor = bench.processor.as_deref();
+    let processor = processor.map_or(String::new(), |name| format!(" ({name})"));
     let _ = writeln!(
         text,
-        "{} {}, {} cores; {}. Medians over the rounds, in brackets least and greatest; CPU time unless said.",
+        "{} {}, {} cores{}; {}. Medians over the rounds, in brackets least and greatest; CPU time unless said.",
         machine.os,
         machine.arch,
         machine.cores,
+        processor,
         format_args!(
             "mpm-verify {}, source {}",
             bench.version.mpm_verify, bench.version.source
