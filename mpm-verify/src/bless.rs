@@ -3,7 +3,7 @@
 use crate::check::Verdict;
 use crate::checkpoint::Saving;
 use crate::error::Error;
-use crate::golden::{Golden, home};
+use crate::golden::{Golden, home, leaves_numbers};
 use crate::plan::PlannedRun;
 use crate::record::{Record, Status, Version};
 use crate::report::describe::{drift_line, verdict_line};
@@ -84,7 +84,7 @@ impl<'a> Candidates<'a> {
     fn measured(&self) -> impl Iterator<Item = &&'a Record> {
         self.drifted.iter().filter(|r| {
             let mut drifting = r.verdicts.iter().filter(|v| v.drifts());
-            !drifting.all(|v| v.metric == crate::golden::PIXELS)
+            !drifting.all(leaves_numbers)
         })
     }
 
@@ -145,8 +145,8 @@ impl<'a> Candidates<'a> {
         for record in &self.drifted {
             if !measured.iter().any(|m| std::ptr::eq(*m, *record)) {
                 let folder = home(root, record);
-                let redrawn = Golden::read(&folder)?.redrawn(record, reason)?;
-                goldens.push((folder, redrawn));
+                let renewed = Golden::read(&folder)?.renewed(record, reason)?;
+                goldens.push((folder, renewed));
             }
         }
         for (folder, golden) in &goldens {

@@ -67,6 +67,17 @@ pub fn convergence(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
     all
 }
 
+/// The quantities of `case` scheme by scheme over the levels of its own problem, for each time step and number of
+/// particles per cell that it has been divided into: what a value costs depends on these.
+#[must_use]
+pub fn precision(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
+    let own = || records.iter().filter(|r| r.is_of_own_problem());
+    let mut sets = distinct(own().map(|r| &r.set[..]));
+    sets.sort_by_key(|set| set.len());
+    let of_set = |set: &[String]| over_levels(case, set, &ladders(own().filter(|r| r.set == set)));
+    sets.into_iter().flat_map(of_set).collect()
+}
+
 fn ladders<'a>(records: impl Iterator<Item = &'a Record>) -> Ladders<'a> {
     let mut ladders = Ladders::new();
     for record in records {
@@ -182,6 +193,19 @@ mod tests {
         // At the case's own parameters, one level is shown.
         records[0].set.clear();
         assert_eq!(of_sets(&records), [(String::new(), 1)]);
+    }
+
+    #[test]
+    fn a_cost_is_that_of_runs_with_the_same_time_step_and_particles() {
+        let sets: [&[&str]; 3] = [&["cfl=0.6"], &[], &["poisson_ratio=0.3"]];
+        let mut records = Vec::new();
+        for set in sets {
+            records.extend(LEVELS[..2].iter().map(|(name, h)| run(name, *h, set)));
+        }
+        let entries = precision(cases::find("cook").unwrap(), &records);
+        let told = entries.iter().map(|c| (c.set.join(" "), c.points.len()));
+        let expected = [(String::new(), 2), ("cfl=0.6".to_owned(), 2)];
+        assert_eq!(told.collect::<Vec<_>>(), expected);
     }
 
     #[test]

@@ -1,16 +1,16 @@
 //! Goldens: blessed results, so that drift is seen. They never stand in for the truth.
 //!
 //! `golden/<case>/<scheme>/<level>/` holds the metrics, some forty rows of the time series, a picture
-//! drawn from those rows, a tolerance for each column, and when and why they were blessed. A tolerance
-//! is ten times the measured response of its column to a last-bit perturbation of the starting
-//! positions; a column that did not respond must not change at all.
+//! drawn from those rows, a tolerance for each column, the work that was done, and when and why they were
+//! blessed. A tolerance is ten times the measured response of its column to a last-bit perturbation of the
+//! starting positions; a column that did not respond must not change at all, and neither must a count of work.
 
 use crate::case::{Case, RunSpec};
 use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::files::{make_folder, read_versioned, write_json, write_whole};
-use crate::record::{Metric, Record, Version};
+use crate::record::{Metric, Record, Version, WorkDone};
 use crate::report::triptych::different_pixels;
 use crate::report::watched::draw_watched;
 use crate::table::Table;
@@ -22,6 +22,7 @@ use std::path::{Path, PathBuf};
 const METRICS: &str = "metrics.csv";
 const SERIES: &str = "series.csv";
 const TOLERANCES: &str = "tolerances.csv";
+const WORK: &str = "work.csv";
 const PICTURE: &str = "series.png";
 const BLESSING: &str = "blessed.json";
 /// Version of the blessing's format.
@@ -34,6 +35,10 @@ pub const MARGIN: f64 = 10.0;
 const MOST_STEPS: u64 = 2_000_000_000;
 /// The metric of the verdict on a golden's picture.
 pub const PIXELS: &str = "different pixels of the picture";
+/// What stands before the name of a count in the metric of its verdict.
+const COUNT: &str = "count of ";
+/// The count that is told where none has changed.
+const PAIRS: &str = "particle_node_pairs";
 /// Name of the check.
 const CHECK: &str = "golden";
 
@@ -61,7 +66,7 @@ pub struct Blessing {
     pub date: String,
     /// Why.
     pub reason: String,
-    /// Date and reason of a later drawing of the same numbers, if the picture alone has changed.
+    /// Date and reason of a later blessing of the same numbers, if only their picture or the work has changed.
     pub redrawn: Option<[String; 2]>,
     /// The program that ran.
     pub version: Version,
@@ -75,6 +80,7 @@ pub struct Golden {
     metrics: Table,
     series: Table,
     tolerances: Vec<Tolerance>,
+    work: WorkDone,
     blessing: Blessing,
     picture: RgbImage,
 }
@@ -145,6 +151,12 @@ fn with_unit(name: &str, metric: &Metric) -> String {
     format!("{name} ({})", metric.unit)
 }
 
+/// Whether a drift leaves metrics and series alone, so that their tolerances stay what they are.
+#[must_use]
+pub fn leaves_numbers(drift: &Verdict) -> bool {
+    drift.metric == PIXELS || drift.metric.starts_with(COUNT)
+}
+
 /// The metrics of a record that have a value, as a table of one row.
 fn metrics_of(record: &Record) -> Table {
     let cells = record.metrics.iter();
@@ -189,6 +201,10 @@ impl Golden {
             }
             tolerances.push(row);
         }
+        let path = folder.join(WORK);
+        let mut reader = csv::Reader::from_path(&path).map_err(|e| Error::file(&path, e))?;
+        let work = reader.deserialize().next();
+        let work = work.ok_or_else(|| Error::file(&path, "no rows"))?;
         let picture = folder.join(PICTURE);
         let golden = Self {
             metrics: Table::read_finite(&folder.join(METRICS))?,
@@ -197,6 +213,7 @@ impl Golden {
             picture: image::open(&picture)
                 .map_err(|e| Error::file(&picture, e))?
                 .to_rgb8(),
+            work: work.map_err(|e| Error::file(&path, e))?,
             tolerances,
         };
         for (name, table) in [("metrics", &golden.metrics), ("series", &golden.series)] {
@@ -251,6 +268,7 @@ impl Golden {
         let mut verdicts = self.compare_metrics(record);
         let series = Table::read(&folder.join(SERIES))?;
         verdicts.extend(self.compare_series(&series));
+        verdicts.extend(self.compare_work(record));
         verdicts.push(self.compare_picture(record)?);
         Ok(verdicts)
     }
@@ -317,6 +335,19 @@ impl Golden {
         verdicts
     }
 
+    /// A verdict for each count of work that has changed; if none has, for the particle–node pairs.
+    fn compare_work(&self, record: &Record) -> Vec<Verdict> {
+        let counts = record.work.counts().into_iter().zip(self.work.counts());
+        let mut verdicts: Vec<Verdict> = counts
+            .map(|((name, now), (_, before))| {
+                self.of_numbers(&format!("{COUNT}{name}"), now as f64, before as f64, 0.0)
+            })
+            .collect();
+        let drifts = verdicts.iter().any(Verdict::drifts);
+        verdicts.retain(|v| v.drifts() || (!drifts && v.metric.ends_with(PAIRS)));
+        verdicts
+    }
+
     /// Whether the picture of the golden's own numbers is drawn as it was.
     fn compare_picture(&self, record: &Record) -> Result<Verdict, Error> {
         let drawn = draw_watched(&record.case, &self.series)?;
@@ -376,17 +407,19 @@ impl Golden {
             metrics,
             series,
             tolerances,
+            work: record.work,
             blessing: Blessing::now(record, reason),
         })
     }
 
-    /// The same numbers with the picture as it is drawn now.
+    /// The same numbers with the picture as it is drawn and the work as it is done now.
     ///
     /// # Errors
     /// The picture can't be drawn.
-    pub fn redrawn(&self, record: &Record, reason: &str) -> Result<Self, Error> {
+    pub fn renewed(&self, record: &Record, reason: &str) -> Result<Self, Error> {
         Ok(Self {
             picture: draw_watched(&record.case, &self.series)?,
+            work: record.work,
             blessing: Blessing {
                 redrawn: Some([today(), reason.to_owned()]),
                 ..self.blessing.clone()
@@ -408,15 +441,8 @@ impl Golden {
         self.series.write(&at(SERIES))?;
         write_json(&at(BLESSING), &self.blessing)?;
         write_whole(&at(PICTURE), &small_png(&self.picture, &at(PICTURE))?)?;
-        let failed = |e: csv::Error| Error::file(&at(TOLERANCES), e);
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        for tolerance in &self.tolerances {
-            writer.serialize(tolerance).map_err(failed)?;
-        }
-        let bytes = writer
-            .into_inner()
-            .map_err(|e| Error::file(&at(TOLERANCES), e))?;
-        write_whole(&at(TOLERANCES), &bytes)?;
+        write_rows(&at(TOLERANCES), &self.tolerances)?;
+        write_rows(&at(WORK), &[self.work])?;
         let failed = |e: std::io::Error| Error::file(folder, e);
         let old = tempfile::tempdir_in(parent).map_err(failed)?;
         if folder.exists() {
@@ -495,6 +521,16 @@ fn responses(
             })
         })
         .collect()
+}
+
+/// Writes a table with a column for each field.
+fn write_rows<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row).map_err(|e| Error::file(path, e))?;
+    }
+    let bytes = writer.into_inner().map_err(|e| Error::file(path, e))?;
+    write_whole(path, &bytes)
 }
 
 /// A PNG file as small as it gets: goldens are kept for ever.

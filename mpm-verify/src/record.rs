@@ -258,13 +258,23 @@ impl Record {
     /// Whether `name` is the only parameter that was changed.
     #[must_use]
     pub fn changes_only(&self, name: &str) -> bool {
-        !self.set.is_empty()
-            && self
-                .set
-                .iter()
-                .all(|assignment| assignment.split('=').next() == Some(name))
+        !self.set.is_empty() && self.changes_none_but(&[name])
+    }
+
+    /// Whether the run was of the case's own problem, however divided in space and time.
+    #[must_use]
+    pub fn is_of_own_problem(&self) -> bool {
+        self.changes_none_but(&DISCRETISATION)
+    }
+
+    fn changes_none_but(&self, names: &[&str]) -> bool {
+        let mut changed = self.set.iter().filter_map(|set| set.split('=').next());
+        changed.all(|name| names.contains(&name))
     }
 }
+
+/// Parameters that change how a problem is divided in space and time, and not the problem.
+const DISCRETISATION: [&str; 3] = ["cfl", "step_scaling", "ppc_per_direction"];
 
 /// One record per scheme and level at the case's own parameters. A state of rest hardly depends on the
 /// time step, so where there is no such record one that differs in `cfl` alone stands in, but for

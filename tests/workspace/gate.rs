@@ -97,7 +97,7 @@ fn a_sound_report_holds_against_its_goldens() {
 #[test]
 fn every_defect_of_a_golden_is_a_clear_line_and_exit_code_three() {
     type Damage = (&'static str, fn(&Path), &'static str);
-    let damages: [Damage; 18] = [
+    let damages: [Damage; 20] = [
         ("missing", |p| fs::remove_dir_all(p).unwrap(), "no golden"),
         (
             "no metrics",
@@ -108,6 +108,16 @@ fn every_defect_of_a_golden_is_a_clear_line_and_exit_code_three() {
             "no picture",
             |p| fs::remove_file(p.join("series.png")).unwrap(),
             "series.png",
+        ),
+        (
+            "no counts",
+            |p| fs::remove_file(p.join("work.csv")).unwrap(),
+            "work.csv",
+        ),
+        (
+            "counts cut",
+            |p| change(p, "work.csv", without_last_line),
+            "no rows",
         ),
         (
             "no blessing",
@@ -274,6 +284,29 @@ fn drift_is_shown_named_and_accepted_with_a_reason() {
     assert_eq!(code(&scene.report()), 0);
     assert!(!shown.exists(), "what no longer drifts is no longer shown");
     assert!(stdout(&scene.bless("again")).contains("0 goldens blessed"));
+}
+
+/// One step more is drift of the counts alone, which is blessed without a twin.
+#[test]
+fn work_is_compared_exactly() {
+    let scene = Scene::new();
+    let path = scene.report.join(RUN).join("record.json");
+    let mut record = json(&path);
+    let steps = record["work"]["steps"].as_u64().unwrap();
+    record["work"]["steps"] = json!(steps + 1);
+    fs::write(&path, record.to_string()).unwrap();
+    let output = scene.report();
+    assert_eq!(code(&output), 3);
+    let said = stdout(&output);
+    assert!(said.contains("count of steps"), "{said}");
+    let before = files(&scene.golden);
+    let output = scene.bless("a step more");
+    assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    let after = files(&scene.golden);
+    let changed = after.iter().filter(|(k, v)| before.get(*k) != Some(v));
+    let changed: Vec<_> = changed.map(|(k, _)| k.file_name().unwrap()).collect();
+    assert_eq!(changed, ["blessed.json", "work.csv"]);
+    assert_eq!(code(&scene.report()), 0);
 }
 
 /// A run that is too long for a golden has none; but a golden that is there is held against it.

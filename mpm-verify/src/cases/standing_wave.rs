@@ -5,8 +5,7 @@
 use super::manufactured::checks;
 use super::manufactured::plan::{REMEDIES, ladder, levels, pairs, union};
 use super::manufactured::{Boundary, Manufactured, numerical, parameters};
-use crate::case::headline;
-use crate::case::{CheckInfo, Headline, RunSpec, Tier};
+use crate::case::{CheckInfo, Headline, Quantity, RunSpec, Tier, error, headline};
 use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::exact::hydrostatic::Hydrostatic;
@@ -94,6 +93,8 @@ fn frequency(p: &Parameters) -> f64 {
     StandingWave::new(p).map_or(f64::NAN, |wave| wave.angular_frequency())
 }
 
+const QUANTITIES: &[Quantity] = &[error("frequency_error", "relative error of the frequency")];
+
 pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
     references: &[
         "Exact to first order in the steepness: Lamb 1932, §228, on top of the exact state of rest of a compressible liquid. Frequency ω² = g k tanh kH; the compressibility lowers it by about gH/(2c²) = 0.1 %.",
@@ -113,7 +114,7 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
     judge,
     judge_study: |_| Vec::new(),
     headlines: HEADLINES,
-    quantities: &[],
+    quantities: QUANTITIES,
     breaks_down: |r| {
         let averaged = r.remedy != RemedyName::None;
         let early = r.basis == Gimp && r.level == "n16" && r.remedy == RemedyName::FbarTotal;

@@ -6,7 +6,7 @@ use super::price;
 use super::style::{Panel, Panels};
 use crate::case::Quantity;
 use crate::cases;
-use crate::convergence::{Convergence, Point};
+use crate::convergence::{Convergence, Point, precision};
 use crate::distinct;
 use crate::error::Error;
 use crate::files::{write_csv, write_json};
@@ -15,6 +15,8 @@ use crate::study::CaseStudy;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+/// The picture that shows work done.
+const PAIRS_PICTURE: &str = "work-precision.png";
 /// The picture that shows times taken.
 pub(super) const CPU_PICTURE: &str = "cpu-precision.png";
 /// Colour of the front.
@@ -31,38 +33,47 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
     write_json(&folder.join("study.json"), &study.convergence)?;
     write_points(&study.convergence, &folder.join("convergence.csv"))?;
 
+    let case = cases::find(&study.case)?;
+    let costs = precision(case, &study.records);
     let errors = || study.convergence.iter().filter(|c| c.is_error);
     let mut pictures = Vec::new();
-    for set in distinct(errors().map(|c| &c.set[..])) {
+    let mut draw = |entries: Vec<&Convergence>, name: &str, axis: &Axis, caption: String| {
+        let quantities = case.quantities();
         let errors = Errors {
-            entries: errors().filter(|c| c.set == set).collect(),
-            quantities: cases::find(&study.case)?.quantities(),
+            entries,
+            quantities,
         };
-        let mut draw = |name: &str, axis: &Axis, caption: String| {
-            let file = format!("{}/{name}", study.case);
-            if errors.draw(&out.join(&file), axis)? {
-                pictures.push(Picture { file, caption });
-            }
-            Ok::<(), Error>(())
-        };
+        let file = format!("{}/{name}", study.case);
+        if errors.draw(&out.join(&file), axis)? {
+            pictures.push(Picture { file, caption });
+        }
+        Ok::<(), Error>(())
+    };
+    for set in distinct(errors().map(|c| &c.set[..])) {
+        let entries = errors().filter(|c| c.set == set).collect();
         if set.is_empty() {
             draw(
+                entries,
                 "convergence.png",
                 &SIZE,
                 "Error against cell size, for every scheme, converging or not. Both axes are logarithmic; the triangle shows an order.".to_owned(),
             )?;
-            draw(
-                "work-precision.png",
-                &PAIRS,
-                "Error against its cost in particle–node pairs visited, for every scheme, converging or not, and the front of what none beats.".to_owned(),
-            )?;
-            draw(
-                CPU_PICTURE,
-                &TIME,
-                "Error against its cost in CPU time (one thread), for every scheme, converging or not, and the front of what none beats.".to_owned(),
-            )?;
+            for (file, axis, cost) in [
+                (PAIRS_PICTURE, &PAIRS, "particle–node pairs visited"),
+                (CPU_PICTURE, &TIME, "CPU time (one thread)"),
+            ] {
+                draw(
+                    costs.iter().filter(|c| c.is_error).collect(),
+                    file,
+                    axis,
+                    format!(
+                        "Error against its cost in {cost}, for every scheme, converging or not. Runs of another time step or number of particles per cell are curves of their own, of the same look. The front of what no run of any scheme beats is the same in every panel of an error."
+                    ),
+                )?;
+            }
         } else {
             draw(
+                entries,
                 &format!("convergence-{}.png", slug(set)),
                 &SIZE,
                 format!("Error against cell size with {}, likewise.", set.join(", ")),
@@ -132,7 +143,10 @@ const TIME: Axis = Axis {
     order: false,
 };
 
-/// The errors at one set of parameters.
+/// The point at which a line ends and another of the same look begins.
+const GAP: (f64, f64) = (f64::NAN, f64::NAN);
+
+/// Errors that share their axes.
 struct Errors<'a> {
     entries: Vec<&'a Convergence>,
     quantities: &'a [Quantity],
@@ -148,22 +162,19 @@ impl Errors<'_> {
 
     fn chart(&self, quantity: &Quantity, axis: &Axis, panel: &Panel) -> Chart {
         let of_quantity = || self.entries.iter().filter(|c| c.metric == quantity.metric);
+        let points_of = |c: &Convergence| -> Vec<(f64, f64)> {
+            let points = c.points.iter().map(|p| ((axis.of)(p), p.value.abs()));
+            // An error of zero has no logarithm.
+            points.filter(|(x, y)| *x > 0.0 && *y > 0.0).collect()
+        };
         let series = panel.curves(|scheme| {
-            of_quantity()
-                .filter(|c| c.scheme == scheme)
-                .flat_map(|c| &c.points)
-                .map(|p| ((axis.of)(p), p.value.abs()))
-                // An error of zero has no logarithm.
-                .filter(|(x, y)| *x > 0.0 && *y > 0.0)
-                .collect()
+            let own = of_quantity().filter(|c| c.scheme == scheme);
+            let curves: Vec<_> = own.map(|c| points_of(c)).collect();
+            curves.join(&GAP)
         });
-        let all = of_quantity()
-            .flat_map(|c| &c.points)
-            .map(|p| ((axis.of)(p), p.value.abs()))
-            .filter(|(x, y)| *x > 0.0 && *y > 0.0);
         let front = (!axis.order).then(|| Series {
             name: "front".to_owned(),
-            points: price::front(all),
+            points: price::front(of_quantity().flat_map(|c| points_of(c))),
             colour: FRONT,
             marker: Marker::None,
             dash: Dash::Solid,

@@ -342,7 +342,7 @@ fn prices(prices: &Prices) -> Value {
     let row = |price: &Price| {
         let [pairs, cpu] = price.shown();
         context! {
-            scheme => price.scheme.to_string(), pairs, cpu,
+            scheme => price.name(), pairs, cpu,
             relative => prices.relative(price),
             least => number(Some(price.least)),
         }

@@ -1,10 +1,12 @@
 //! What an error costs: the runs that no other beats, and the cost to reach a target error.
 
 use super::describe;
+use crate::case::Quantity;
 use crate::cases;
-use crate::convergence::{Convergence, Point};
-use crate::scheme::Scheme;
+use crate::convergence::{Convergence, Point, precision};
+use crate::scheme::{RemedyName, Scheme};
 use crate::study::CaseStudy;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// The points that no other beats in both cost and error, by rising cost, and the corners of the steps between them: no
@@ -32,7 +34,7 @@ pub(super) struct Prices {
     pub(super) metric: String,
     /// What it is.
     pub(super) label: &'static str,
-    /// The target: the least error that half of the schemes reach at one of their levels.
+    /// The target: the least error that half of the schemes reach with one of their runs.
     pub(super) target: f64,
     /// Cheapest first, then those that don't reach it.
     pub(super) rows: Vec<Price>,
@@ -41,11 +43,13 @@ pub(super) struct Prices {
 /// What a target error costs with a scheme.
 #[derive(Debug, PartialEq)]
 pub(super) struct Price {
-    pub(super) scheme: Scheme,
+    scheme: Scheme,
     /// The least error that it has reached.
     pub(super) least: f64,
     /// Particle–node pairs and CPU time (s), if it has reached the target.
-    pub(super) cost: Option<Cost>,
+    cost: Option<Cost>,
+    /// The time step and particles per cell with which it costs that, if they aren't the case's own.
+    set: Vec<String>,
 }
 
 /// Between two levels, a cost is interpolated in logarithms.
@@ -58,28 +62,45 @@ pub(super) struct Cost {
 }
 
 impl Prices {
-    /// Of the first error of a case at its own parameters, if two schemes have it at two levels.
+    /// Of the first error of a case in its own problem, if two schemes have it at two levels.
     pub(super) fn of(study: &CaseStudy) -> Option<Self> {
         let case = cases::find(&study.case).ok()?;
         let quantity = case.quantities().iter().find(|q| q.is_error)?;
-        let wanted = |c: &&Convergence| {
-            c.metric == quantity.metric && c.set.is_empty() && c.points.len() > 1
-        };
-        let curves: Vec<&Convergence> = study.convergence.iter().filter(wanted).collect();
-        if curves.len() < 2 {
+        let mut curves = precision(case, &study.records);
+        curves.retain(|c| c.metric == quantity.metric);
+        Self::over(&curves, quantity)
+    }
+
+    /// Of curves of an error.
+    fn over(curves: &[Convergence], quantity: &Quantity) -> Option<Self> {
+        let mut schemes = BTreeMap::<Scheme, Vec<&Convergence>>::new();
+        for curve in curves {
+            schemes.entry(curve.scheme).or_default().push(curve);
+        }
+        schemes.retain(|_, own| own.iter().any(|c| c.points.len() > 1));
+        if schemes.len() < 2 {
             return None;
         }
-        let mut reached: Vec<f64> = curves.iter().map(|c| least(c)).collect();
+        let least = |own: &[&Convergence]| {
+            let errors = own.iter().flat_map(|c| &c.points).map(|p| p.value.abs());
+            errors.fold(f64::INFINITY, f64::min)
+        };
+        let mut reached: Vec<f64> = schemes.values().map(|own| least(own)).collect();
         reached.sort_by(f64::total_cmp);
         let target = reached[reached.len() / 2];
-        let mut rows: Vec<Price> = curves
-            .iter()
-            .map(|c| Price {
-                scheme: c.scheme,
-                least: least(c),
-                cost: cost(&c.points, target),
-            })
-            .collect();
+        let row = |(scheme, own): (&Scheme, &Vec<&Convergence>)| {
+            let costs = own
+                .iter()
+                .filter_map(|c| Some((cost(&c.points, target)?, &c.set)));
+            let cheapest = costs.min_by(|(a, _), (b, _)| a.pairs.total_cmp(&b.pairs));
+            Price {
+                scheme: *scheme,
+                least: least(own),
+                cost: cheapest.map(|(cost, _)| cost),
+                set: cheapest.map_or(Vec::new(), |(_, set)| set.clone()),
+            }
+        };
+        let mut rows: Vec<Price> = schemes.iter().map(row).collect();
         let key = |row: &Price| row.cost.map_or(f64::INFINITY, |c| c.pairs);
         rows.sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.least.total_cmp(&b.least)));
         Some(Self {
@@ -92,13 +113,29 @@ impl Prices {
 
     /// How many times as many pairs as the cheapest, as shown.
     pub(super) fn relative(&self, row: &Price) -> String {
-        let cheapest = self.rows.first().and_then(|r| r.cost);
-        let ratio = row.cost.zip(cheapest).map(|(c, best)| c.pairs / best.pairs);
-        ratio.map_or_else(String::new, |ratio| format!("{ratio:.1}"))
+        let cheapest = self.rows.first();
+        let Some((cost, best)) = row.cost.zip(cheapest.and_then(|r| r.cost)) else {
+            return String::new();
+        };
+        // A bound on one makes a bound of the ratio, bounds on both an estimate.
+        let bound = match (cost.at_most, best.at_most) {
+            _ if cheapest == Some(row) => "",
+            (true, false) => "≤ ",
+            (false, true) => "≥ ",
+            (true, true) => "~ ",
+            (false, false) => "",
+        };
+        format!("{bound}{:.1}", cost.pairs / best.pairs)
     }
 }
 
 impl Price {
+    /// The scheme, and what it was run with.
+    pub(super) fn name(&self) -> String {
+        let parts = std::iter::once(describe::scheme(self.scheme)).chain(self.set.iter().cloned());
+        parts.collect::<Vec<_>>().join(" ")
+    }
+
     /// Pairs (10⁶) and CPU time (s) as shown.
     pub(super) fn shown(&self) -> [String; 2] {
         let Some(cost) = self.cost else {
@@ -122,14 +159,14 @@ fn rounded(value: f64) -> f64 {
     (value * unit).round() / unit
 }
 
-fn least(c: &Convergence) -> f64 {
-    let errors = c.points.iter().map(|p| p.value.abs());
-    errors.fold(f64::INFINITY, f64::min)
-}
-
-/// The cost of `target` on the way from coarse to fine.
+/// The cost of `target` on the way from coarse to fine, from where no finer level misses it: a coarse one that meets it by
+/// luck doesn't count.
 fn cost(points: &[Point], target: f64) -> Option<Cost> {
-    let reached = points.iter().position(|p| p.value.abs() <= target)?;
+    let missed = points.iter().rposition(|p| p.value.abs() > target);
+    let reached = missed.map_or(0, |k| k + 1);
+    if reached == points.len() {
+        return None;
+    }
     let fine = &points[reached];
     let Some(coarse) = reached.checked_sub(1).map(|k| &points[k]) else {
         return Some(Cost {
@@ -164,7 +201,7 @@ pub(super) fn table(study: &CaseStudy) -> Option<String> {
         let _ = writeln!(
             t,
             "| {} | {pairs} | {cpu} | {} | {} |",
-            describe::scheme(row.scheme),
+            row.name(),
             prices.relative(row),
             describe::number(Some(rounded(row.least)))
         );
@@ -172,9 +209,58 @@ pub(super) fn table(study: &CaseStudy) -> Option<String> {
     Some(t)
 }
 
+/// For each case what its target costs with the cheapest scheme, and how many times as much with the cheapest of each
+/// remedy, in Markdown; nothing where no case has an error.
+pub(super) fn overview(studies: &[CaseStudy]) -> String {
+    let mut remedies = Vec::new();
+    let mut rows = Vec::new();
+    for study in studies {
+        let Some(prices) = Prices::of(study) else {
+            continue;
+        };
+        remedies.extend(prices.rows.iter().map(|row| row.scheme.remedy));
+        rows.push((&study.case, prices));
+    }
+    let remedies: BTreeSet<RemedyName> = remedies.into_iter().collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mut t = String::from(
+        "\n## Speed against error\n\nWhat the least error that half of the schemes reach costs with the cheapest scheme, and how many times as many particle–node pairs with the cheapest of each remedy:\n\n| case | error | target | cheapest | pairs (10⁶) | CPU time (s) |",
+    );
+    for remedy in &remedies {
+        let _ = write!(t, " {remedy} |");
+    }
+    let _ = writeln!(t, "\n|{}", "---|".repeat(6 + remedies.len()));
+    for (case, prices) in rows {
+        let Some(first) = prices.rows.first() else {
+            continue;
+        };
+        let [pairs, cpu] = first.shown();
+        let target = describe::number(Some(rounded(prices.target)));
+        let (error, cheapest) = (prices.label, first.name());
+        let _ = write!(
+            t,
+            "| {case} | {error} | {target} | {cheapest} | {pairs} | {cpu} |"
+        );
+        for remedy in &remedies {
+            let mut own = prices
+                .rows
+                .iter()
+                .filter(|row| row.scheme.remedy == *remedy);
+            let cheapest = own.next().map(|row| prices.relative(row));
+            let cheapest = cheapest.filter(|ratio| !ratio.is_empty());
+            let _ = write!(t, " {} |", cheapest.as_deref().unwrap_or("–"));
+        }
+        t.push('\n');
+    }
+    t
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scheme::{BasisName, TransferName};
 
     fn point(value: f64, pairs: u64) -> Point {
         Point {
@@ -204,6 +290,49 @@ mod tests {
         let coarse = cost(&points, 0.5).unwrap();
         assert!(coarse.at_most && coarse.pairs == 100.0);
         assert_eq!(cost(&points, 0.05), None);
+        let lucky = [point(0.01, 100), point(0.4, 800), point(0.1, 6400)];
+        assert!(cost(&lucky, 0.2).unwrap().pairs > 800.0);
+        assert_eq!(cost(&lucky[..2], 0.2), None);
+    }
+
+    /// A scheme costs what its cheapest curve costs; a bound on a cost is one on its ratio.
+    #[test]
+    fn the_cheapest_curve_of_a_scheme_counts() {
+        let curve = |remedy, set: &[&str], points: &[Point]| Convergence {
+            set: set.iter().map(|s| (*s).to_owned()).collect(),
+            scheme: Scheme {
+                basis: BasisName::Gimp,
+                remedy,
+                transfer: TransferName::Flip,
+            },
+            metric: "e".to_owned(),
+            is_error: true,
+            points: points.to_vec(),
+            order: None,
+            extrapolation: None,
+            remark: None,
+        };
+        let (coarse, fine) = (point(0.4, 100), point(0.1, 1600));
+        let dear = [point(0.4, 400), point(0.1, 6400)];
+        let curves = [
+            curve(RemedyName::None, &[], &dear),
+            curve(
+                RemedyName::None,
+                &["cfl=0.6"],
+                &[coarse.clone(), fine.clone()],
+            ),
+            curve(RemedyName::FbarRate, &[], &[fine.clone(), fine]),
+            curve(RemedyName::FbarTotal, &[], &[coarse]),
+        ];
+        let quantity = crate::case::error("e", "error");
+        let prices = Prices::over(&curves, &quantity).unwrap();
+        let told = prices
+            .rows
+            .iter()
+            .map(|row| format!("{} {}", row.name(), prices.relative(row)));
+        let told: Vec<_> = told.collect();
+        assert_eq!(told, ["gimp none cfl=0.6 1.0", "gimp fbar-rate ≤ 1.0"]);
+        assert_eq!(prices.target, 0.1);
     }
 
     #[test]

@@ -47,6 +47,7 @@ fn text(summary: &Summary) -> Result<String, Error> {
     if let Some(table) = remedies::table(summary) {
         let _ = writeln!(t, "\n## Remedies against criteria\n{table}");
     }
+    t.push_str(&price::overview(&summary.cases));
     for study in &summary.cases {
         let _ = writeln!(t, "\n## {}\n", study.case);
         results(
