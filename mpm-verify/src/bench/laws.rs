@@ -67,7 +67,6 @@ fn turn<M: Law + 'static, const D: usize>(name: &str, law: M, shear: f64) -> Res
         name: format!("{D}D {name}"),
         threads: 1,
         particles: PARTICLES as u64,
-        memory: None,
         timed: Box::new(local),
         like: None,
     })

@@ -50,6 +50,13 @@ impl<G: Going> Timed for Local<G> {
         let Self { pool, going } = self;
         pool.install(|| going.outcome())
     }
+
+    fn held(self: Box<Self>) -> Option<u64> {
+        let Self { going, .. } = *self;
+        // Each thread counts its own: many may have allocated, this one alone gives back.
+        let given_back = allocation_counter::measure(|| drop(going));
+        Some(given_back.bytes_current.unsigned_abs())
+    }
 }
 
 fn checksum(memory: &(impl Memory + ?Sized)) -> Result<u32, Error> {

@@ -53,20 +53,11 @@ pub(super) fn turns(options: &Options) -> Result<Vec<Turn>, Error> {
             name: "triad".to_owned(),
             threads,
             particles: 0,
-            memory: None,
             timed: Box::new(triad),
             like: None,
         })
     };
     options.threads.iter().map(turn).collect()
-}
-
-/// Resident memory of this process (bytes), where the system tells.
-pub(super) fn resident() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|l| l.strip_prefix("VmRSS:"))?;
-    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(1024 * kilobytes)
 }
 
 /// Name, family and model of the processor, where the system tells.

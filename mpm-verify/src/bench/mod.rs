@@ -58,6 +58,10 @@ trait Timed {
     fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
         Ok(None)
     }
+    /// Ends it and tells the memory (bytes) that it held; `None` of another program.
+    fn held(self: Box<Self>) -> Option<u64> {
+        None
+    }
 }
 
 /// What something has come to.
@@ -82,7 +86,7 @@ pub struct Measured {
     pub particles: u64,
     /// One per round.
     pub samples: Vec<Sample>,
-    /// Resident memory that it took (bytes), where the system tells.
+    /// Memory (bytes) that it held after its last slice, exactly; `None` of another program.
     pub memory: Option<u64>,
     /// Whether it came to what it is compared with: on more threads the same bits as on one, of a peer the same sums.
     pub same: Option<bool>,
@@ -179,7 +183,6 @@ struct Turn {
     name: String,
     threads: usize,
     particles: u64,
-    memory: Option<u64>,
     timed: Box<dyn Timed>,
     /// The place of the one whose outcome this one's must be.
     like: Option<usize>,
@@ -262,7 +265,7 @@ fn take_turns(
             threads: turn.threads,
             particles: turn.particles,
             samples,
-            memory: turn.memory,
+            memory: turn.timed.held(),
             same,
             sums: outcome.map(|o| o.sums).unwrap_or_default(),
         })
@@ -334,7 +337,6 @@ mod tests {
             name: "slow".to_owned(),
             threads: 1,
             particles: 10,
-            memory: None,
             timed: Box::new(Slow(begin)),
             like,
         }

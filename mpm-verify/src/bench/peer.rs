@@ -85,7 +85,6 @@ impl Peers {
                     name,
                     threads,
                     particles: block.particles(),
-                    memory: None,
                     timed: Box::new(peer),
                     like,
                 });

@@ -67,7 +67,6 @@ fn turn(
         name: format!("{} {level} {scheme}", case.name()),
         threads,
         particles,
-        memory: None,
         timed: Box::new(local),
         like,
     })

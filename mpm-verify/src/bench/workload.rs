@@ -6,7 +6,6 @@
 //! so wide that no particle reaches an end.
 
 use super::local::{Local, Steps};
-use super::machine::resident;
 use super::{Options, Turn};
 use crate::assemble::with_basis;
 use crate::error::Error;
@@ -100,18 +99,15 @@ impl<const D: usize> Block<D> {
         threads: usize,
         like: Option<usize>,
     ) -> Result<Turn, Error> {
-        let before = resident();
         let local = Local::new(threads, || {
             let simulation = self.simulation()?;
             Ok(Steps { simulation, steps })
         })?;
-        let memory = resident().zip(before);
         Ok(Turn {
             group,
             name: self.name(),
             threads,
             particles: self.particles(),
-            memory: memory.map(|(after, before)| after.saturating_sub(before)),
             timed: Box::new(local),
             like,
         })
@@ -177,4 +173,33 @@ pub(super) fn small(options: &Options, turns: &mut Vec<Turn>) -> Result<(), Erro
         block.on_threads("workload", STEPS, options, turns)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::model::needed;
+    use super::*;
+    use mpm_core::lattice::Weights;
+    use mpm_core::transfer::NodalState;
+
+    #[test]
+    fn what_a_block_holds_is_its_columns_its_weights_and_its_nodes() {
+        for fbar in [false, true] {
+            let block = Block::<2> { cells: 30, fbar };
+            let mut turn = block.turn("scaling", 1, 1, None).unwrap();
+            turn.timed.slice().unwrap();
+            let held = turn.timed.held().unwrap() as f64;
+            // Displacements; with F̄ weights and values to be averaged.
+            let works_with = match fbar {
+                true => size_of::<([f64; 2], Weights<2, 3>, f64)>(),
+                false => size_of::<[f64; 2]>(),
+            };
+            let of_particle = needed(2, fbar) + works_with as f64;
+            // Its state, its volume and its value.
+            let of_node = size_of::<NodalState>() + size_of::<[f64; 2]>();
+            let nodes = (block.cells + 2 * MARGIN).pow(2);
+            let least = block.particles() as f64 * of_particle + (nodes * of_node) as f64;
+            assert!((least..1.1 * least).contains(&held), "{held} of {least}");
+        }
+    }
 }
