@@ -287,12 +287,11 @@ def sums():
     log_j = np.log(np.linalg.det(gradients))
     b = np.einsum("pij,pij->p", gradients, gradients) + (3 - DIM)
     energy = 0.5 * MU * (b - 3.0 - 2.0 * log_j) + 0.5 * LAMBDA * log_j**2
+    axes = list(enumerate("xyz"[:DIM]))
     return {
         "mass": MASS * N,
-        "momentum_x": MASS * moves[:, 0].sum(),
-        "momentum_y": MASS * moves[:, 1].sum(),
-        "centre_x": at[:, 0].mean(),
-        "centre_y": at[:, 1].mean(),
+        **{f"momentum_{axis}": MASS * moves[:, a].sum() for a, axis in axes},
+        **{f"centre_{axis}": at[:, a].mean() for a, axis in axes},
         "kinetic_energy": 0.5 * MASS * (moves**2).sum(),
         "stored_energy": VOLUME * energy.sum(),
         "mean_jacobian": J.to_numpy().mean(),

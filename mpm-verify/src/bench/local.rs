@@ -100,16 +100,23 @@ fn sums<const D: usize>(simulation: &dyn Simulation<D>) -> BTreeMap<String, f64>
     };
     let sums = [
         ("mass", totals.mass),
-        ("momentum_x", totals.momentum[0]),
-        ("momentum_y", totals.momentum[1]),
-        ("centre_x", centre(0)),
-        ("centre_y", centre(1)),
         ("kinetic_energy", totals.kinetic_energy),
         ("stored_energy", totals.stored_energy),
         ("mean_jacobian", jacobian),
         ("mean_averaged_jacobian", averaged),
     ];
-    sums.map(|(name, value)| (name.to_owned(), value)).into()
+    let of_body = sums.map(|(name, value)| (name.to_owned(), value));
+    let of_axes = ["x", "y", "z"]
+        .iter()
+        .enumerate()
+        .take(D)
+        .flat_map(|(a, axis)| {
+            [
+                (format!("momentum_{axis}"), totals.momentum[a]),
+                (format!("centre_{axis}"), centre(a)),
+            ]
+        });
+    of_body.into_iter().chain(of_axes).collect()
 }
 
 /// A run of a case, to its next time of observation a slice.

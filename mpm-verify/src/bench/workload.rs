@@ -183,6 +183,21 @@ mod tests {
     use mpm_core::transfer::NodalState;
 
     #[test]
+    fn sums_are_told_along_every_axis() {
+        let block = Block::<3> {
+            cells: 2,
+            fbar: false,
+        };
+        let mut turn = block.turn("workload", STEPS, 1, None).unwrap();
+        let sums = turn.timed.outcome().unwrap().unwrap().sums;
+        let speeds = block.positions().into_iter().map(|x| velocity(&x)[2]);
+        let mean = speeds.sum::<f64>() / block.particles() as f64;
+        let centre = (MARGIN as f64 + 1.0) * H;
+        assert!((sums["momentum_z"] / sums["mass"] - mean).abs() < 1e-12);
+        assert!((sums["centre_z"] - centre).abs() < 1e-12);
+    }
+
+    #[test]
     fn what_a_block_holds_is_its_columns_its_weights_and_its_nodes() {
         for fbar in [false, true] {
             let block = Block::<2> { cells: 30, fbar };
