@@ -119,25 +119,30 @@ fn sums<const D: usize>(simulation: &dyn Simulation<D>) -> BTreeMap<String, f64>
     of_body.into_iter().chain(of_axes).collect()
 }
 
-/// A run of a case, to its next time of observation a slice.
-pub(super) struct Observations(pub(super) Box<dyn Job>);
+/// A run of a case, so many times of observation a slice.
+pub(super) struct Observations {
+    pub(super) job: Box<dyn Job>,
+    pub(super) observations: usize,
+}
 
 impl Observations {
     pub(super) fn particles(&self) -> u64 {
-        self.0.work().particles
+        self.job.work().particles
     }
 }
 
 impl Going for Observations {
     fn go_on(&mut self) -> Result<u64, Error> {
-        let before = self.0.work().particle_steps;
-        self.0.advance()?;
-        Ok(self.0.work().particle_steps - before)
+        let before = self.job.work().particle_steps;
+        for _ in 0..self.observations {
+            self.job.advance()?;
+        }
+        Ok(self.job.work().particle_steps - before)
     }
 
     fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
         Ok(Some(Outcome {
-            bits: Some(checksum(self.0.as_ref())?),
+            bits: Some(checksum(self.job.as_ref())?),
             ..Outcome::default()
         }))
     }

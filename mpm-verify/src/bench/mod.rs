@@ -342,6 +342,16 @@ mod tests {
         }
     }
 
+    fn bench(measured: Vec<Measured>) -> Bench {
+        Bench {
+            schema: SCHEMA,
+            machine: Machine::here(2),
+            processor: None,
+            version: Version::current(),
+            measured,
+        }
+    }
+
     #[test]
     fn the_first_slice_is_not_measured_and_outcomes_are_compared() {
         let turns = vec![turn(0.0, None), turn(0.0, Some(0)), turn(1e-9, Some(0))];
@@ -373,6 +383,30 @@ mod tests {
     }
 
     #[test]
+    fn a_small_problem_must_lose_nothing_to_threads() {
+        let on = |threads, particles, begin, like| Turn {
+            group: "problem",
+            name: format!("of {particles}"),
+            threads,
+            particles,
+            ..turn(begin, like)
+        };
+        let turns = vec![
+            on(1, 3200, 0.0, None),
+            on(2, 3200, 0.0, Some(0)),
+            on(3, 3200, 1.0, Some(0)),
+            on(1, 20_000, 0.0, None),
+            on(2, 20_000, 0.0, Some(3)),
+        ];
+        let aims = aims::of(&bench(take_turns(turns, 2, &|_| ()).unwrap()));
+        let told: Vec<(&str, bool)> = aims.iter().map(|a| (a.what.as_str(), a.met)).collect();
+        let what = "3. of 3200, 3200 particles: times as fast on";
+        let two = format!("{what} 2 threads as on one, same bits");
+        let three = format!("{what} 3 threads as on one, OTHER BITS");
+        assert_eq!(told, [(two.as_str(), true), (three.as_str(), false)]);
+    }
+
+    #[test]
     fn two_threads_come_to_the_same_bits_and_the_aims_are_told() {
         let options = Options {
             rounds: 1,
@@ -382,13 +416,7 @@ mod tests {
         };
         let mut turns = Vec::new();
         workload::small(&options, &mut turns).unwrap();
-        let mut bench = Bench {
-            schema: SCHEMA,
-            machine: Machine::here(2),
-            processor: None,
-            version: Version::current(),
-            measured: take_turns(turns, options.rounds, &|_| ()).unwrap(),
-        };
+        let mut bench = bench(take_turns(turns, options.rounds, &|_| ()).unwrap());
         assert!(bench.measured.iter().all(|m| m.same != Some(false)));
         let told: Vec<String> = aims::of(&bench).into_iter().map(|a| a.what).collect();
         assert!(
