@@ -102,6 +102,7 @@ fn workloads(bench: &Bench) -> String {
             m.threads.to_string(),
             m.particles.to_string(),
             spread(m.cpu_ns(), 1),
+            spread(m.wall_ns(), 1),
             spread(rate(m), 1),
             format!("{bytes:.0}"),
             format!("{operations:.0}"),
@@ -116,7 +117,8 @@ fn workloads(bench: &Bench) -> String {
         "threads",
         "particles",
         "CPU (ns/update)",
-        "10⁶ updates/s",
+        "wall (ns/update)",
+        "10⁶ updates/s, wall",
         "bytes/update",
         "operations/update",
         "GB/s",
@@ -145,7 +147,7 @@ fn peers(bench: &Bench) -> String {
         "peer",
         "threads",
         "CPU (ns/update)",
-        "10⁶ updates/s",
+        "10⁶ updates/s, wall",
         "sums to 10⁻⁹",
     ];
     table("Peers", &header, rows)
@@ -169,7 +171,7 @@ fn problems(bench: &Bench) -> String {
         "problem",
         "particles",
         "CPU (ns/update), one thread",
-        "10⁶ updates/s, threads",
+        "10⁶ updates/s, wall, threads",
     ];
     table("Problems", &header, ones.map(row).collect())
 }
