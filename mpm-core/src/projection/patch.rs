@@ -105,6 +105,8 @@ impl<const S: usize> Patch<S> {
             }
             sum = line.mul_add(f64x4::splat(slow[i]), sum);
         }
-        (sum * last).reduce_add()
+        // The order in which AVX adds them up, on every processor.
+        let [a, b, c, d] = (sum * last).to_array();
+        (a + c) + (b + d)
     }
 }
