@@ -24,6 +24,10 @@ report folder="reports/latest":
 bench:
     cargo bench -p mpm-core --bench kernels
 
+# Builds for the instruction sets of this machine give the same bits, or the same sums within a bound.
+paths:
+    .ci/paths
+
 # Workloads, problems and laws in turns with peers; the report is committed.
 speed python="python3":
     cargo run --release -- bench --peers taichi --python {{python}} --out reports/bench
