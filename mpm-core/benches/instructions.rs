@@ -6,7 +6,7 @@
 
 mod body;
 
-use body::{fluid, sheared, soil};
+use body::{fluid, sheared, soil, solid};
 use gungraun::{library_benchmark, library_benchmark_group, main};
 use mpm_core::basis::{Gimp, QuadraticBSpline};
 use mpm_core::material::Law;
@@ -45,6 +45,8 @@ type Begun<const D: usize> = Result<Box<dyn Simulation<D>>, Error>;
 #[bench::soil_gimp_consistent(begin::<2, Gimp, _>(soil(), FbarConsistent::default()))]
 #[bench::soil_bspline2_recursive(begin::<2, QuadraticBSpline, _>(soil(), FbarRecursive::default()))]
 #[bench::fluid_bspline2(begin::<2, QuadraticBSpline, _>(fluid(), Standard))]
+#[bench::solid_bspline2(begin::<2, QuadraticBSpline, _>(solid(), Standard))]
+#[bench::solid_bspline2_recursive(begin::<2, QuadraticBSpline, _>(solid(), FbarRecursive::default()))]
 fn plane_strain(simulation: Begun<2>) -> Begun<2> {
     steps(simulation)
 }
@@ -53,6 +55,8 @@ fn plane_strain(simulation: Begun<2>) -> Begun<2> {
 #[bench::soil_gimp(begin::<3, Gimp, _>(soil(), Standard))]
 #[bench::soil_gimp_consistent(begin::<3, Gimp, _>(soil(), FbarConsistent::default()))]
 #[bench::soil_bspline2_recursive(begin::<3, QuadraticBSpline, _>(soil(), FbarRecursive::default()))]
+#[bench::solid_bspline2(begin::<3, QuadraticBSpline, _>(solid(), Standard))]
+#[bench::solid_bspline2_recursive(begin::<3, QuadraticBSpline, _>(solid(), FbarRecursive::default()))]
 fn space(simulation: Begun<3>) -> Begun<3> {
     steps(simulation)
 }

@@ -6,9 +6,9 @@
 #[path = "../benches/body/mod.rs"]
 mod body;
 
-use body::{DENSITY, fluid, sheared, soil};
+use body::{DENSITY, fluid, sheared, soil, solid};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline};
-use mpm_core::material::{Law, NeoHookean};
+use mpm_core::material::Law;
 use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
 use mpm_core::transfer::{Apic, Flip, Xpic};
 use mpm_core::{Basis, Particles, Remedy, Simulation, Transfer};
@@ -85,8 +85,7 @@ fn run<const D: usize, const S: usize, B: Basis<S>>(
 
 fn main() -> Result<(), Box<dyn Error>> {
     writeln!(stdout(), "{}", instructions())?;
-    let solid = NeoHookean::new(25e6, 0.3)?;
-    let (soil, fluid) = (soil()?, fluid()?);
+    let (solid, soil, fluid) = (solid()?, soil()?, fluid()?);
     let (flip, xpic) = (Flip::default(), || Xpic::new(3));
     let (total, rate) = (FbarTotal::default, FbarRate::default);
     let (recursive, consistent) = (FbarRecursive::default, FbarConsistent::default);

@@ -1,7 +1,7 @@
 //! A body to count and compare with.
 
 use mpm_core::basis::WallTreatment;
-use mpm_core::material::{HenckyJ2, Law, NewtonianFluid, Strength};
+use mpm_core::material::{HenckyJ2, Law, NeoHookean, NewtonianFluid, Strength};
 use mpm_core::solver::courant_time_step;
 use mpm_core::{Axis, Basis, Error, Grid, Particles, Remedy, Scene, Solver, Transfer};
 
@@ -41,6 +41,10 @@ pub(crate) fn sheared<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Tr
         constraints: Vec::new(),
         particle_filters: Vec::new(),
     })
+}
+
+pub(crate) fn solid() -> Result<NeoHookean, Error> {
+    NeoHookean::new(25e6, 0.3)
 }
 
 pub(crate) fn soil() -> Result<HenckyJ2, Error> {
