@@ -4,7 +4,7 @@
 //! first index form a plane, planes are contiguous, and parallel scatters work on runs of planes
 //! (see [`crate::parallel`]).
 
-use crate::basis::{AxisNodes, AxisWeights, Basis, WallTreatment};
+use crate::basis::{AxisNodes, AxisWeights, Basis, EightAxisWeights, WallTreatment};
 use crate::grid::Grid;
 use crate::number::{EIGHT, Eight, Real};
 use crate::parallel::PLANES_BEFORE;
@@ -109,21 +109,26 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         for begin in (0..x.len()).step_by(EIGHT) {
             // Beyond the last particle the last one once more.
             let last = (x.len() - 1).min(begin + EIGHT - 1);
-            let eight: [_; D] = std::array::from_fn(|a| {
-                self.bases[a].weights_of_eight(
+            // In place: what `from_fn` makes is copied, a block by a call of the C library.
+            let mut eight = [EightAxisWeights::NONE; D];
+            for a in 0..D {
+                eight[a] = self.bases[a].weights_of_eight(
                     Eight::pack(|k| x[last.min(begin + k)][a]),
                     Eight::splat(half_size[a]),
-                )
-            });
+                );
+            }
             let first: [_; EIGHT] = std::array::from_fn(|k| {
                 self.node(&std::array::from_fn(|a: usize| eight[a].first[k]))
             });
             for k in begin..x.len().min(begin + EIGHT) {
-                let stencil = Stencil {
+                let mut stencil = Stencil {
                     first: first[(k - begin) % EIGHT],
-                    axis: std::array::from_fn(|a| eight[a].part(k - begin)),
+                    axis: [AxisWeights::NONE; D],
                     strides: self.strides,
                 };
+                for a in 0..D {
+                    stencil.axis[a] = eight[a].part(k - begin);
+                }
                 visit(k, &stencil);
             }
         }

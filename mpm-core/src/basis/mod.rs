@@ -48,6 +48,13 @@ pub struct EightAxisWeights<const S: usize> {
 }
 
 impl<const S: usize> EightAxisWeights<S> {
+    /// No weight anywhere.
+    pub const NONE: Self = Self {
+        first: [0; EIGHT],
+        w: [Eight::ZERO; S],
+        dw: [Eight::ZERO; S],
+    };
+
     /// Those at the `k`-th point.
     #[inline(always)]
     #[must_use]
