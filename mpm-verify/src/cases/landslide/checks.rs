@@ -29,7 +29,7 @@ const EARLY: f64 = 0.5;
 const EARLY_SLIDE: f64 = 1.5;
 /// Reduction, and cells (m), from which on `fbar-recursive` with GIMP throws a grain off the grid in plane strain, and when (s).
 const THROWN: (f64, f64, f64) = (2.0, 0.2, 5.3);
-const THROWS: &str = "averages of averages let the true volumes drift until a grain is thrown off: docs/landslide.md";
+const THROWS: &str = "a grain is thrown off, likely as averages of averages let the true volumes drift: docs/landslide.md";
 /// Rms of σ_m − Πσ_m over γ H that locking exceeds.
 const CHECKERBOARD: f64 = 0.05;
 
