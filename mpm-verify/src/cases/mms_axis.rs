@@ -3,12 +3,14 @@
 //! Set-up, choices and tolerances: `docs/mms-axis.md`.
 
 use super::manufactured::checks::{self, Claim, Wave};
-use super::manufactured::plan::{BASES, REMEDIES, ladder, pairs, union, with_transfers};
+use super::manufactured::plan::{
+    BASES, REMEDIES, ladder, more_particles, other_transfers, pairs, union,
+};
 use super::manufactured::{Manufactured, numerical, parameters};
 use crate::case::{RunSpec, Sweep, Tier};
 use crate::exact::axis_aligned::ENTRY;
 use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use crate::scheme::{BasisName, RemedyName, TransferName};
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
@@ -67,11 +69,6 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
     )
 });
 
-fn other_transfers() -> Vec<Scheme> {
-    let schemes = pairs(&[Gimp, Bspline2], &[RemedyName::None, FbarConsistent]);
-    with_transfers(&schemes, &[TransferName::Apic, TransferName::Xpic2])
-}
-
 fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
     let levels = &case.levels;
     let main = [RemedyName::None, FbarRecursive, FbarRate, FbarConsistent];
@@ -110,6 +107,7 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
                 ),
                 ladder(&levels[..4], &pairs(&BASES, &REMEDIES), &["dimension=1"]),
                 ladder(&levels[..3], &sound, &["dimension=3"]),
+                more_particles(&levels[..3]),
             ];
             for cfl in ["cfl=0.15", "cfl=0.075", "cfl=0.0375"] {
                 parts.push(ladder(&levels[1..2], &pair, &[cfl]));
@@ -172,9 +170,7 @@ pub(super) fn claim(r: &Record) -> Claim {
         };
     }
     if r.transfer != TransferName::Flip {
-        return Claim::Open(
-            "what a transfer takes from the velocity per step is part of the error; see the page",
-        );
+        return Claim::Open(checks::TRANSFER);
     }
     if r.parameters.number("dimension") == 1.0 {
         match (r.basis, r.remedy) {

@@ -3,7 +3,7 @@
 //! Set-up, choices and tolerances: `docs/mms-swirl.md`.
 
 use super::manufactured::checks;
-use super::manufactured::plan::{ladder, levels, pairs, union};
+use super::manufactured::plan::{ladder, levels, more_particles, pairs, union};
 use super::manufactured::{Boundary, Manufactured, numerical, parameters, step_poisson_ratio};
 use super::mms_vortex_box::{WAVE, claim, judge_study};
 use crate::case::{RunSpec, Tier};
@@ -60,6 +60,7 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
             ladder(&levels[..2], &case.schemes, &[]),
             ladder(&levels[2..], &case.schemes, &[]),
             ladder(&levels[..2], &case.schemes, &["poisson_ratio=0.3"]),
+            more_particles(&levels[..2]),
         ]),
         Tier::Long => Vec::new(),
     }

@@ -3,7 +3,9 @@
 //! Set-up, choices and tolerances: `docs/mms-vortex-pressure.md`.
 
 use super::manufactured::checks;
-use super::manufactured::plan::{REMEDIES, ladder, levels, pairs, union};
+use super::manufactured::plan::{
+    REMEDIES, ladder, levels, more_particles, other_transfers, pairs, union,
+};
 use super::manufactured::{Manufactured, numerical, parameters, step_poisson_ratio};
 use super::mms_vortex_box::{LOCKING_CURVE, WAVE, claim, judge_study};
 use crate::case::{RunSpec, Tier};
@@ -22,7 +24,7 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
         "The pressure is 100 Pa; at ν = 0.4999 an error of 10⁻⁴ in J is worth more.",
         "As in mms-vortex-box, all runs take the steps of ν = 0.4999.",
     ],
-    schemes: pairs(&[Gimp, Bspline2], &REMEDIES),
+    schemes: [pairs(&[Gimp, Bspline2], &REMEDIES), other_transfers()].concat(),
     levels: levels(
         1.0,
         [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)],
@@ -59,13 +61,21 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
             &[],
         ),
         Tier::Nightly => {
-            let mut parts = vec![plan(case, Tier::Pr), ladder(levels, &case.schemes, &[])];
+            let mut parts = vec![
+                plan(case, Tier::Pr),
+                ladder(levels, &case.schemes, &[]),
+                more_particles(&levels[..3]),
+            ];
             for ratio in [
                 "poisson_ratio=0.3",
                 "poisson_ratio=0.49",
                 "poisson_ratio=0.4999",
             ] {
-                parts.push(ladder(&levels[..2], &case.schemes, &[ratio]));
+                parts.push(ladder(
+                    &levels[..2],
+                    &pairs(&[Gimp, Bspline2], &REMEDIES),
+                    &[ratio],
+                ));
             }
             union(parts)
         }

@@ -4,7 +4,9 @@
 //! Set-up, choices and tolerances: `docs/mms-wall-pressure.md`.
 
 use super::manufactured::checks::{self, Wave};
-use super::manufactured::plan::{BASES, REMEDIES, ladder, pairs, union};
+use super::manufactured::plan::{
+    BASES, REMEDIES, ladder, more_particles, other_transfers, pairs, union,
+};
 use super::manufactured::{Manufactured, numerical, parameters};
 use super::mms_axis::{claim, judge_study};
 use crate::case::{RunSpec, Tier};
@@ -30,6 +32,7 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
         "Compression and extension without shear: mms-vortex-box has the shear.",
         "At ν = 0.3 nothing locks.",
     ],
+    schemes: [pairs(&BASES, &REMEDIES), other_transfers()].concat(),
     plan,
     checks: checks::CHECKS,
     judge: |record| checks::of_run(record, &claim(record), &WAVE),
@@ -65,6 +68,7 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
         Tier::Nightly => union([
             plan(case, Tier::Pr),
             ladder(levels, &case.schemes, &[]),
+            more_particles(&levels[..3]),
             ladder(
                 &levels[..4],
                 &pairs(&[Gimp, Bspline2], &REMEDIES),

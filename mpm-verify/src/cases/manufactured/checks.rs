@@ -105,6 +105,10 @@ pub(in crate::cases) enum Claim {
     Open(&'static str),
 }
 
+/// Why no order is claimed of transfers but FLIP.
+pub(in crate::cases) const TRANSFER: &str =
+    "what a transfer takes from the velocity per step is part of the error: docs/manufactured.md";
+
 /// The remedies that neither lock nor creep.
 pub(in crate::cases) fn is_sound(remedy: RemedyName) -> bool {
     matches!(

@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::exact::Exact;
 use crate::parameter::{Domain, Parameter, Parameters};
 use crate::record::Record;
-use crate::scheme::Scheme;
+use crate::scheme::{Scheme, TransferName};
 use crate::sketch::Sketch;
 use mpm_core::stage::WallKind;
 use simulation::Simulated;
@@ -392,7 +392,14 @@ impl Case for Manufactured {
 
     fn start(&self, spec: &RunSpec, p: &Parameters) -> Result<Box<dyn Job>, Error> {
         use crate::assemble::{with_any_transfer, with_basis};
-        Ok(match (self.solution)(p)?.dimension() {
+        let dimension = (self.solution)(p)?.dimension();
+        if dimension != 2 && spec.scheme.transfer != TransferName::Flip {
+            return Err(Error::Input(format!(
+                "transfer: {} in {dimension} dimensions, allowed: flip; others in two dimensions only",
+                spec.scheme.transfer
+            )));
+        }
+        Ok(match dimension {
             1 => Box::new(Simulated::<1>::new(self, spec, p, |scheme, scene| {
                 with_basis(scheme.basis, scene)
             })?),

@@ -30,13 +30,33 @@ pub(in crate::cases) fn pairs(bases: &[BasisName], remedies: &[RemedyName]) -> V
         .collect()
 }
 
-/// The schemes with other transfers.
-pub(in crate::cases) fn with_transfers(
-    schemes: &[Scheme],
-    transfers: &[TransferName],
-) -> Vec<Scheme> {
-    let with = |&transfer: &TransferName| schemes.iter().map(move |s| Scheme { transfer, ..*s });
-    transfers.iter().flat_map(with).collect()
+/// The schemes that are also run with another transfer or number of particles per cell than the case's own.
+fn main_pairs() -> Vec<Scheme> {
+    pairs(
+        &[BasisName::Gimp, BasisName::Bspline2],
+        &[RemedyName::None, RemedyName::FbarConsistent],
+    )
+}
+
+/// The main pairs with APIC and XPIC(2).
+pub(in crate::cases) fn other_transfers() -> Vec<Scheme> {
+    let with = |transfer| {
+        main_pairs()
+            .into_iter()
+            .map(move |scheme| Scheme { transfer, ..scheme })
+    };
+    [TransferName::Apic, TransferName::Xpic2]
+        .into_iter()
+        .flat_map(with)
+        .collect()
+}
+
+/// The main pairs with more particles per cell than the case's own two per direction.
+pub(in crate::cases) fn more_particles(levels: &[Level]) -> Vec<RunSpec> {
+    ["ppc_per_direction=3", "ppc_per_direction=4"]
+        .iter()
+        .flat_map(|ppc| ladder(levels, &main_pairs(), &[ppc]))
+        .collect()
 }
 
 /// The levels of `n` cells per side of length `side` (m).
@@ -90,4 +110,66 @@ pub(super) fn cost(case: &Manufactured, spec: &RunSpec) -> f64 {
         _ => 1.5,
     };
     known().unwrap_or(0.0) * remedy / STEPS_PER_COST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Tier;
+    use crate::cases;
+
+    #[test]
+    fn cases_in_the_plane_run_with_other_transfers_and_more_particles() {
+        let names = [
+            "mms-axis",
+            "mms-wall-pressure",
+            "mms-vortex-ring",
+            "mms-vortex-box",
+            "mms-vortex-pressure",
+            "mms-double-shear",
+        ];
+        for name in names {
+            let night = cases::find(name).unwrap().plan(Tier::Nightly);
+            for scheme in main_pairs() {
+                let levels = |transfer, set: &[&str]| {
+                    let like =
+                        |s: &&RunSpec| s.scheme == Scheme { transfer, ..scheme } && s.set == set;
+                    night.iter().filter(like).count()
+                };
+                for transfer in [TransferName::Apic, TransferName::Xpic2] {
+                    assert!(levels(transfer, &[]) >= 4, "{name} {scheme} {transfer}");
+                }
+                for ppc in ["ppc_per_direction=3", "ppc_per_direction=4"] {
+                    assert_eq!(
+                        levels(TransferName::Flip, &[ppc]),
+                        3,
+                        "{name} {scheme} {ppc}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn another_transfer_is_refused_where_it_would_be_flip() {
+        let case = cases::find("mms-axis").unwrap();
+        let transfer = TransferName::Apic;
+        for dimension in ["dimension=1", "dimension=3"] {
+            let spec = RunSpec {
+                scheme: Scheme {
+                    transfer,
+                    ..main_pairs()[0]
+                },
+                level: case.levels()[0],
+                set: vec![dimension.to_owned()],
+                perturbed: false,
+            };
+            let parameters = Parameters::new(case.parameters(), &spec.set).unwrap();
+            let refused = case.start(&spec, &parameters).err().unwrap().to_string();
+            assert!(
+                refused.contains("apic") && refused.contains("flip"),
+                "{refused}"
+            );
+        }
+    }
 }
