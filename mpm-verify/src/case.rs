@@ -333,6 +333,15 @@ pub trait Case: Sync {
     fn golden_tier(&self) -> Tier;
     /// Relative cost of a run, to start the longest first.
     fn cost(&self, spec: &RunSpec) -> f64;
+    /// The parameters, as `name=value`, at which schemes are run at the most levels: those of its convergence and trends.
+    fn ladder(&self) -> &'static [&'static str] {
+        &[]
+    }
+    /// Whether its runs end in a state of rest, which hardly depends on the time step: one with another step then
+    /// stands in for a level that has none with the case's own.
+    fn settles(&self) -> bool {
+        false
+    }
     /// Begins a run.
     ///
     /// # Errors

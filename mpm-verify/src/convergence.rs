@@ -53,11 +53,16 @@ pub struct Convergence {
 /// The records of each scheme over the levels.
 type Ladders<'a> = BTreeMap<Scheme, Vec<&'a Record>>;
 
-/// The convergence of every quantity of `case`, scheme by scheme: over records at its own parameters,
-/// then over those at each set of others, in order of appearance, that a scheme has run at three levels.
+/// The convergence of every quantity of `case`, scheme by scheme: over records at its own parameters (and those
+/// that stand in for them, where the case settles), then over those at each set of others, in order of appearance, that a scheme has run at three levels.
 #[must_use]
 pub fn convergence(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
-    let mut all = over_levels(case, &[], &ladders(of_own_parameters(records).into_iter()));
+    let own = if case.settles() {
+        of_own_parameters(records)
+    } else {
+        records.iter().filter(|r| r.is_default()).collect()
+    };
+    let mut all = over_levels(case, &[], &ladders(own.into_iter()));
     let changed = records.iter().filter(|r| !r.is_default());
     for set in distinct(changed.map(|r| &r.set[..])) {
         let mut ladders = ladders(records.iter().filter(|r| r.set == set));
@@ -182,6 +187,30 @@ mod tests {
             assert_eq!(entry.points[0].level, "h2");
             assert!((entry.order.unwrap().order - 2.0).abs() < 1e-12);
         }
+    }
+
+    /// The numbers of levels with the case's own time step and with another one that a level each has run with.
+    fn levels_of(case: &str, metric: &str) -> Vec<(String, usize)> {
+        let sets: [&[&str]; 3] = [&[], &[], &["cfl=0.2"]];
+        let mut records: Vec<Record> = LEVELS
+            .iter()
+            .zip(sets)
+            .map(|((name, h), set)| run(name, *h, set))
+            .collect();
+        for record in &mut records {
+            let error = record.metrics["fem_edge_mean_error"].clone();
+            record.metrics.insert(metric.to_owned(), error);
+        }
+        let entries = convergence(cases::find(case).unwrap(), &records);
+        let own = entries.iter().filter(|c| c.metric == metric);
+        own.map(|c| (c.set.join(" "), c.points.len())).collect()
+    }
+
+    #[test]
+    fn another_time_step_stands_in_only_where_runs_settle() {
+        let own = |levels| vec![(String::new(), levels)];
+        assert_eq!(levels_of("cook", "fem_edge_mean_error"), own(3));
+        assert_eq!(levels_of("dam-break", "front_rms_error"), own(2));
     }
 
     #[test]

@@ -372,6 +372,10 @@ impl Case for Cook {
         QUANTITIES
     }
 
+    fn settles(&self) -> bool {
+        true
+    }
+
     fn sweeps(&self) -> &'static [Sweep] {
         SWEEPS
     }

@@ -361,6 +361,10 @@ impl Case for DamBreak {
         QUANTITIES
     }
 
+    fn ladder(&self) -> &'static [&'static str] {
+        &["cfl=0.3"]
+    }
+
     fn sweeps(&self) -> &'static [Sweep] {
         SWEEPS
     }
@@ -418,6 +422,7 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
     let ours = flip(&[FbarConsistent]);
     let all = DamBreak.schemes();
     let finest = flip(&[FbarRecursive, FbarConsistent]);
+    let fewer = ["cfl=0.3", "ppc_per_direction=3"];
     let studies = |sets: &[&str]| -> Vec<RunSpec> {
         let of = |set: &&str| runs(h25, &ours, &[*set]);
         sets.iter().flat_map(of).collect()
@@ -432,9 +437,14 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
             plan(Tier::Pr),
             runs(h50, &all, &[]),
             runs(h25, &all, &[]),
+            runs(h50, &all, &["cfl=0.3"]),
+            runs(h25, &all, &["cfl=0.3"]),
             runs(h12, &all, &["cfl=0.3"]),
             runs(h06, &finest, &["cfl=0.3"]),
-            studies(&["cfl=0.15", "cfl=0.3", "start=gravity-stage"]),
+            runs(h50, &ours, &fewer),
+            runs(h25, &ours, &fewer),
+            runs(h12, &ours, &fewer),
+            studies(&["cfl=0.15", "start=gravity-stage"]),
             studies(&["pic_rate=0.1", "pic_rate=1", "pic_rate=10", "pic_rate=100"]),
             studies(&["wall_contact=sticky", "seed=1", "seed=2", "seed=3"]),
         ]

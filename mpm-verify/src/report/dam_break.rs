@@ -7,7 +7,7 @@ use super::plot::{
     draw_fields, share_ranges,
 };
 use super::style::{Colour, series};
-use crate::cases::dam_break_front;
+use crate::cases::{self, dam_break_front};
 use crate::error::Error;
 use crate::record::{Record, Status};
 use crate::run::snapshot_file;
@@ -51,6 +51,8 @@ const LEVELS: [&str; 4] = ["h0.0625", "h0.125", "h0.25", "h0.5"];
 
 struct Runs<'a> {
     records: Vec<&'a Record>,
+    /// The parameters at which levels are compared.
+    ladder: &'static [&'static str],
     gathered: &'a Gathered,
     out: &'a Path,
     pictures: Vec<Picture>,
@@ -70,6 +72,7 @@ pub(super) fn draw(
             .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
             .filter(own)
             .collect(),
+        ladder: cases::find(&study.case)?.ladder(),
         gathered,
         out,
         pictures: Vec::new(),
@@ -90,6 +93,13 @@ impl Runs<'_> {
             .iter()
             .find(|r| r.basis == basis && r.remedy == remedy && r.level == level)
             .copied()
+    }
+
+    /// Our run among those that are compared over the levels.
+    fn on_the_ladder(&self, basis: BasisName, level: &str) -> Option<&Record> {
+        let ours = |r: &&&Record| (r.basis, r.remedy) == (basis, RemedyName::FbarConsistent);
+        let mut own = self.records.iter().filter(ours).copied();
+        own.find(|r| r.level == level && r.set == self.ladder)
     }
 
     /// The level at which the remedies are compared, if there is one that has all.
@@ -263,7 +273,7 @@ impl Runs<'_> {
             by_remedy.push(chart(&title, label, column, curves));
             let mut curves = Vec::new();
             for (colour, level) in LEVELS.into_iter().enumerate() {
-                if let Some(record) = self.find(basis, RemedyName::FbarConsistent, level) {
+                if let Some(record) = self.on_the_ladder(basis, level) {
                     curves.push(Series {
                         name: format!("h = {} m", &level[1..]),
                         points: self.history(record, column, factor)?,
@@ -273,7 +283,8 @@ impl Runs<'_> {
                     });
                 }
             }
-            by_level.push(chart("fbar-consistent", label, column, curves));
+            let title = format!("fbar-consistent, {}", self.ladder.join(" "));
+            by_level.push(chart(&title, label, column, curves));
         }
         let mut charts = [by_remedy, by_level].concat();
         if charts
@@ -297,7 +308,7 @@ impl Runs<'_> {
         draw_charts(&path, &charts, columns)?;
         self.picture(
             &name,
-            format!("Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at h = {} m; below, fbar-consistent at all levels. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m.", &shared[1..]),
+            format!("Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at h = {} m; below, fbar-consistent at all levels with one CFL number. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m.", &shared[1..]),
         );
         Ok(())
     }

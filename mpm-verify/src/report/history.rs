@@ -49,7 +49,8 @@ pub(super) fn add(study: &CaseStudy, night: &Night, out: &Path) -> Result<Option
     let path = out.join(FILE);
     let mut rows = read(&path)?;
     rows.retain(|row| row.night != night.date || row.case != study.case);
-    rows.extend(rows_of(study, night));
+    let ladder = cases::find(&study.case)?.ladder();
+    rows.extend(rows_of(study, ladder, night));
     rows.sort_by_key(|row| (row.night, cases::place(&row.case)));
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in &rows {
@@ -70,7 +71,7 @@ fn read(path: &Path) -> Result<Vec<Row>, Error> {
         .collect()
 }
 
-fn rows_of(study: &CaseStudy, night: &Night) -> Vec<Row> {
+fn rows_of(study: &CaseStudy, ladder: &[&str], night: &Night) -> Vec<Row> {
     let row = |run: String, quantity: String, value: f64| Row {
         night: night.date,
         commit: night.commit.clone(),
@@ -80,9 +81,8 @@ fn rows_of(study: &CaseStudy, night: &Night) -> Vec<Row> {
         value,
     };
     let mut rows = Vec::new();
-    // Trends are of the case's own parameters.
-    let own = |c: &&Convergence| c.is_error && c.set.is_empty();
-    for entry in study.convergence.iter().filter(own) {
+    let watched = |c: &&Convergence| c.is_error && c.set == ladder;
+    for entry in study.convergence.iter().filter(watched) {
         let finest = entry.points.last();
         rows.extend(finest.map(|p| {
             let run = format!("{}/{}", entry.scheme, p.level);

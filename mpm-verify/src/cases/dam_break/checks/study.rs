@@ -28,33 +28,15 @@ fn is_own(record: &Record) -> bool {
     record.is_default() || record.changes_only("cfl")
 }
 
-/// The runs of a scheme over the levels, coarsest first; of two at a level the one with the case's own time step.
-fn over_levels(records: &[Record], like: &Record) -> Vec<Record> {
-    let mut runs: Vec<&Record> = records
-        .iter()
-        .filter(|r| r.scheme() == like.scheme() && is_own(r))
-        .collect();
-    runs.sort_by(|a, b| {
-        let key = |r: &Record| (-r.discretisation.h, r.set.len());
-        key(a)
-            .partial_cmp(&key(b))
-            .unwrap_or(std::cmp::Ordering::Equal)
-    });
-    runs.dedup_by(|a, b| a.level == b.level);
-    runs.into_iter().cloned().collect()
-}
-
+/// Whether the runs of a scheme with one time step converge over the levels.
 fn levels(records: &[Record]) -> Vec<Verdict> {
+    let judged = |r: &&Record| is_own(r) && is_averaged(r) && is_flip(r);
+    let mut own: Vec<&Record> = records.iter().filter(judged).collect();
+    own.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
     let mut verdicts = Vec::new();
-    let schemes = crate::distinct(records.iter().map(Record::scheme));
-    for scheme in schemes {
-        let Some(like) = records.iter().find(|r| r.scheme() == scheme && is_own(r)) else {
-            continue;
-        };
-        if !is_averaged(like) || !is_flip(like) {
-            continue;
-        }
-        let runs = over_levels(records, like);
+    for (scheme, set) in crate::distinct(own.iter().map(|r| (r.scheme(), &r.set))) {
+        let same = |r: &&&Record| (r.scheme(), &r.set) == (scheme, set);
+        let runs: Vec<&Record> = own.iter().filter(same).copied().collect();
         for (check, metric) in [
             ("front-converges", "front_rms_error"),
             ("start-converges", "pressure_profile_error"),
@@ -67,19 +49,31 @@ fn levels(records: &[Record]) -> Vec<Verdict> {
                     metric,
                     fine,
                     coarse,
-                    format!("{scheme}: {} against {}", pair[1].level, pair[0].level),
+                    format!(
+                        "{}: {} against {}",
+                        name(pair[0]),
+                        pair[1].level,
+                        pair[0].level
+                    ),
                 ));
             }
         }
-        if like.remedy == RemedyName::FbarConsistent {
+        if scheme.remedy == RemedyName::FbarConsistent {
             late(records, &runs, &mut verdicts);
         }
     }
     verdicts
 }
 
+/// Scheme and changed parameters of a run.
+fn name(run: &Record) -> String {
+    format!("{} {}", run.scheme(), run.set.join(" "))
+        .trim_end()
+        .to_owned()
+}
+
 /// Whether what is summed over the whole flow converges.
-fn late(records: &[Record], runs: &[Record], verdicts: &mut Vec<Verdict>) {
+fn late(records: &[Record], runs: &[&Record], verdicts: &mut Vec<Verdict>) {
     for metric in ["wall_impulse", "centre_x_mean"] {
         for three in runs.windows(3) {
             let change = |k: usize| (three[k + 1].metric(metric) - three[k].metric(metric)).abs();
@@ -88,10 +82,10 @@ fn late(records: &[Record], runs: &[Record], verdicts: &mut Vec<Verdict>) {
                 Kind::Truth,
                 metric,
                 change(1),
-                change(0) + spread(records, &three[0], metric),
+                change(0) + spread(records, three[0], metric),
                 format!(
                     "{}: from {} to {}, against from {} to {}",
-                    three[0].scheme(),
+                    name(three[0]),
                     three[1].level,
                     three[2].level,
                     three[0].level,
@@ -102,7 +96,7 @@ fn late(records: &[Record], runs: &[Record], verdicts: &mut Vec<Verdict>) {
     }
 }
 
-/// The range of a metric over an ensemble of the scheme, of the level that has one.
+/// The range of a metric over an ensemble of the scheme, of the level and the time step that have one.
 fn spread(records: &[Record], like: &Record, metric: &str) -> f64 {
     let members = |r: &&Record| r.scheme() == like.scheme() && r.changes_only("seed");
     let values = || records.iter().filter(members).map(|r| r.metric(metric));
