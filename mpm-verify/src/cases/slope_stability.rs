@@ -7,8 +7,8 @@ mod checks;
 mod simulation;
 
 use crate::case::{
-    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, headline,
-    metric, runs,
+    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
+    headline, metric, runs,
 };
 use crate::check::Verdict;
 use crate::error::Error;
@@ -136,6 +136,11 @@ const METRICS: &[MetricInfo] = &[
         "-",
         "middle of the factors between which the slope first fails; the largest tried, if it stands",
     ),
+    metric(
+        "factor_error",
+        "-",
+        "relative distance of that from the factor of limit analysis, which is known to half a per cent; none where the slope stands at the largest factor or has another angle than 45°",
+    ),
     metric("stands_at", "-", "largest factor at which the slope stands"),
     metric("fails_at", "-", "least factor at which it fails"),
     metric(
@@ -153,11 +158,7 @@ const HEADLINES: &[Headline] = &[
     headline("moved_standing", "moved, standing (mm)", 1e3, 1),
 ];
 
-const QUANTITIES: &[Quantity] = &[Quantity {
-    metric: "strength_reduction_factor",
-    label: "strength reduction factor (–)",
-    is_error: false,
-}];
+const QUANTITIES: &[Quantity] = &[error("factor_error", "relative error of the factor")];
 
 impl Case for SlopeStability {
     fn name(&self) -> &'static str {

@@ -3,7 +3,7 @@
 use super::METRICS;
 use crate::assemble::with_basis;
 use crate::case::{Column, Job, RunSpec, observed};
-use crate::cases::landslide::{DAMPING, Ground, RISE, STAGE};
+use crate::cases::landslide::{DAMPING, Ground, RISE, STABILITY, STAGE, factor_of_safety};
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::record::{Discretisation, Metric, WorkDone};
@@ -77,6 +77,16 @@ impl Simulated {
             of(false).fold(1.0, f64::max),
             of(true).fold(f64::INFINITY, f64::min),
         )
+    }
+
+    /// The factor of limit analysis; NaN of another angle than 45°.
+    fn limit(&self) -> f64 {
+        let number = |name| self.parameters.number(name);
+        if number("face_angle") == 45.0 {
+            factor_of_safety(&self.parameters, number("strength"), STABILITY.0)
+        } else {
+            f64::NAN
+        }
     }
 
     /// The factor to try next: the largest, then the middle of the bracket.
@@ -233,6 +243,10 @@ impl Job for Simulated {
         };
         let values = vec![
             ("strength_reduction_factor", factor),
+            (
+                "factor_error",
+                (0.5 * (stands + fails) / self.limit() - 1.0).abs(),
+            ),
             ("stands_at", stands),
             ("fails_at", fails),
             ("moved_standing", standing.map_or(f64::NAN, |t| t.moved)),
@@ -288,6 +302,7 @@ mod tests {
         let value = |name: &str| metrics[name].value.unwrap();
         assert!((value("strength_reduction_factor") - 1.6875).abs() < 1e-12);
         assert!((value("moved_standing") - 0.01625).abs() < 1e-12);
+        assert!((value("factor_error") - (1.6875 / 1.6532 - 1.0)).abs() < 1e-4);
     }
 
     #[test]
@@ -297,6 +312,7 @@ mod tests {
         let metrics = slope.metrics();
         assert_eq!(metrics["strength_reduction_factor"].value, Some(2.0));
         assert_eq!(metrics["fails_at"].value, None);
+        assert_eq!(metrics["factor_error"].value, None);
     }
 
     #[test]
