@@ -1,6 +1,6 @@
 //! The difference of two report folders.
 
-use super::convergence::CPU_PICTURE;
+use super::convergence::{CPU_PICTURE, CPU_VALUE_PICTURE};
 use super::describe::{number, outcome};
 use super::history::TRENDS;
 use super::triptych::{different_pixels, triptych};
@@ -191,7 +191,7 @@ fn outcomes(summary: &Summary) -> BTreeMap<String, &'static str> {
 /// Whether a picture shows times taken, which no two runs share.
 fn shows_time(path: &Path) -> bool {
     let name = path.file_name().and_then(|n| n.to_str()).unwrap_or("");
-    name == CPU_PICTURE || name.starts_with(TRENDS)
+    [CPU_PICTURE, CPU_VALUE_PICTURE].contains(&name) || name.starts_with(TRENDS)
 }
 
 /// Collects the PNG files below `folder`, as paths relative to `root`.

@@ -9,22 +9,27 @@ use crate::study::CaseStudy;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// The points that no other beats in both cost and error, by rising cost, and the corners of the steps between them: no
-/// point is below the line.
-pub(super) fn front(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    let mut points: Vec<(f64, f64)> = points.collect();
+/// By rising cost, the points whose error is less than `gain` times that of the point before: with a gain of one, those that
+/// no other beats in both.
+pub(super) fn front(mut points: Vec<(f64, f64)>, gain: f64) -> Vec<(f64, f64)> {
     points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut front: Vec<(f64, f64)> = Vec::new();
-    for (cost, error) in points {
-        let Some(&(_, best)) = front.last() else {
-            front.push((cost, error));
-            continue;
-        };
-        if error < best {
-            front.extend([(cost, best), (cost, error)]);
+    let mut best = f64::INFINITY;
+    points.retain(|(_, error)| {
+        let counts = *error < gain * best;
+        if counts {
+            best = *error;
         }
-    }
-    front
+        counts
+    });
+    points
+}
+
+/// A front with the corners of the steps between its points: no point is below the line.
+pub(super) fn steps(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let corners = front
+        .windows(2)
+        .flat_map(|pair| [(pair[1].0, pair[0].1), pair[1]]);
+    front.iter().take(1).copied().chain(corners).collect()
 }
 
 /// What a target error costs with every scheme.
@@ -275,11 +280,14 @@ mod tests {
 
     #[test]
     fn the_front_holds_what_none_beats() {
-        let points = [(4.0, 0.1), (1.0, 0.5), (2.0, 0.5), (3.0, 0.2), (5.0, 0.15)];
-        assert_eq!(
-            front(points.into_iter()),
-            [(1.0, 0.5), (3.0, 0.5), (3.0, 0.2), (4.0, 0.2), (4.0, 0.1)]
-        );
+        let points = vec![(4.0, 0.1), (1.0, 0.5), (2.0, 0.5), (3.0, 0.2), (5.0, 0.15)];
+        assert_eq!(front(points.clone(), 0.45), [(1.0, 0.5), (3.0, 0.2)]);
+        let slow: Vec<(f64, f64)> = (0..9).map(|k| (f64::from(k), 0.93f64.powi(k))).collect();
+        assert_eq!(front(slow, 0.9).len(), 5, "small gains add up");
+        let front = front(points, 1.0);
+        assert_eq!(front, [(1.0, 0.5), (3.0, 0.2), (4.0, 0.1)]);
+        let line = [(1.0, 0.5), (3.0, 0.5), (3.0, 0.2), (4.0, 0.2), (4.0, 0.1)];
+        assert_eq!(steps(&front), line);
     }
 
     #[test]

@@ -12,8 +12,8 @@ use plotters::backend::{BitMapBackend, DrawingBackend};
 use plotters::prelude::{Color, FontDesc, FontFamily, FontStyle, RGBColor, TextStyle};
 use plotters::style::{FontTransform, register_font};
 
-use super::PlotError;
 use super::chart::Marker;
+use super::{PlotError, SOLID};
 use crate::files::write_whole;
 
 /// A position, rightwards and downwards in pixels or in data coordinates.
@@ -239,6 +239,13 @@ impl Canvas {
                 }
                 return;
             }
+            Marker::Ring => {
+                let point = |k| f64::from(k) * std::f64::consts::TAU / 48.0;
+                let ring = (0..=48).map(|k| about(16.0 * point(k).cos(), 16.0 * point(k).sin()));
+                self.stroke(&ring.collect::<Vec<_>>(), 2.4, colour, SOLID);
+                return;
+            }
+            Marker::Dot => (24, 0.0, 5.0),
             Marker::Circle => (48, 0.0, 10.0),
             Marker::Square => (4, 45.0, 12.8),
             Marker::Triangle => (3, 90.0, 14.0),

@@ -30,6 +30,10 @@ pub enum Marker {
     Diamond,
     /// Diagonal cross.
     Cross,
+    /// Small circle, for what should not draw the eye.
+    Dot,
+    /// Ring about the marker of another series.
+    Ring,
 }
 
 /// Line of a series.
@@ -49,7 +53,7 @@ pub enum Dash {
 /// its markers are thinned out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// Name in the legend.
+    /// Name in the legend; a series without one is not in it.
     pub name: String,
     /// Points in data coordinates.
     pub points: Vec<(f64, f64)>,
@@ -160,7 +164,7 @@ fn entries(chart: &Chart) -> Vec<Entry<'_>> {
 
 /// Entries laid out in columns, filled one by one.
 struct Legend<'a> {
-    entries: &'a [Entry<'a>],
+    entries: Vec<&'a Entry<'a>>,
     rows: usize,
     column: f64,
     width: f64,
@@ -169,16 +173,17 @@ struct Legend<'a> {
 
 impl<'a> Legend<'a> {
     /// At most `room` pixels wide, if one column allows it.
-    fn new(entries: &'a [Entry], room: f64) -> Self {
+    fn new(entries: &'a [Entry<'a>], room: f64) -> Self {
+        let entries: Vec<_> = entries.iter().filter(|e| !e.name.is_empty()).collect();
         let widest = largest(entries.iter().map(|e| SMALL.width(e.name)));
         let column = SAMPLE + 14.0 + widest + COLUMN_GAP;
         let columns = (((room + COLUMN_GAP) / column) as usize).max(1);
         let rows = entries.len().div_ceil(columns).max(1);
         Self {
+            width: entries.len().div_ceil(rows) as f64 * column - COLUMN_GAP,
             entries,
             rows,
             column,
-            width: entries.len().div_ceil(rows) as f64 * column - COLUMN_GAP,
             height: rows as f64 * ENTRY_HEIGHT,
         }
     }
@@ -396,7 +401,8 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
     let top = 16.0 + most(&|p| p.title.height());
     let bottom = most(&|p| p.axes.below());
     let shared = plans.iter().all(|p| p.entries == first.entries);
-    let beside = shared && first.entries.len() > 6 && columns < 3;
+    let named = first.entries.iter().filter(|e| !e.name.is_empty());
+    let beside = shared && named.count() > 6 && columns < 3;
 
     let (rows, natural) = (charts.len().div_ceil(columns), left + size.0 + right);
     let grid_width = |cell: f64| columns as f64 * (cell + CELL_GAP) - CELL_GAP;
