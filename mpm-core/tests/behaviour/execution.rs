@@ -133,7 +133,7 @@ where
             v[0] += 2.0;
         }
         let mut axes = [Axis::open(0.0, 12); D];
-        axes[0] = Axis::periodic(0.0, 48);
+        axes[0] = Axis::open(0.0, 48);
         let grid = Grid::new(0.5, axes).unwrap();
         let mut scene = scene_with(grid, particles, transfer.clone());
         scene.remedy = remedy;
