@@ -55,11 +55,7 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
     judge_study,
     sweeps: LOCKING_CURVE,
     breaks_down: |r| {
-        let known = [
-            (Bspline2, FbarRate, "n128"),
-            (Gimp, FbarTotal, "n64"),
-            (Linear, FbarTotal, "n64"),
-        ];
+        let known = [(Bspline2, FbarRate, "n128"), (Linear, FbarTotal, "n64")];
         let breaks = r.is_default() && known.iter().any(|k| *k == (r.basis, r.remedy, &r.level));
         breaks.then_some(NULL_SPACE)
     },

@@ -19,6 +19,8 @@ const FORMAL_IN_TIME: f64 = 1.0;
 /// Largest relative error of a squared frequency over (kh)², quadratic splines with fbar-rate where all of
 /// the stress is averaged, rounded up: docs/modes.md.
 const DISPERSION: f64 = 0.8;
+/// Roundings in the mass of a particle.
+const ROUNDINGS: f64 = 10.0;
 /// Levels, the finest ones, that decide an order.
 const DECIDING: usize = 3;
 /// Largest error at a Poisson's ratio over that at 0.3 that counts as free of locking, and the least
@@ -156,8 +158,8 @@ pub(in crate::cases) fn mass(r: &Record) -> Verdict {
         "mass",
         r.metric("mass"),
         expected,
-        1e-12 * expected,
-        "ρ₀ times the volume of the body; rounding of a sum",
+        (r.work.particles as f64 + ROUNDINGS) * f64::EPSILON * expected,
+        "ρ₀ times the volume of the body; each of n sums rounds once",
     )
 }
 
