@@ -100,7 +100,7 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
             }
             union(parts)
         }
-        Tier::Long => ladder(&levels[4..], &pairs(&BASES, &REMEDIES), &[]),
+        Tier::Long => ladder(&levels[4..], &case.schemes, &[]),
     }
 }
 
