@@ -50,8 +50,8 @@ pub struct Convergence {
     pub remark: Option<String>,
 }
 
-/// The records of each scheme over the levels.
-type Ladders<'a> = BTreeMap<Scheme, Vec<&'a Record>>;
+/// The records of each scheme over the levels that have the same [`stem`].
+type Ladders<'a> = BTreeMap<(Scheme, &'a str), Vec<&'a Record>>;
 
 /// The convergence of every quantity of `case`, scheme by scheme: over records at its own parameters (and those
 /// that stand in for them, where the case settles), then over those at each set of others, in order of appearance, that a scheme has run at three levels.
@@ -72,7 +72,7 @@ pub fn convergence(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
     all
 }
 
-/// The quantities of `case` scheme by scheme over the levels of its own problem, for each time step and number of
+/// The quantities of `case` scheme by scheme over the levels of its own problem (slices apart), for each time step and number of
 /// particles per cell that it has been divided into: what a value costs depends on these.
 #[must_use]
 pub fn precision(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
@@ -86,15 +86,21 @@ pub fn precision(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
 fn ladders<'a>(records: impl Iterator<Item = &'a Record>) -> Ladders<'a> {
     let mut ladders = Ladders::new();
     for record in records {
-        ladders.entry(record.scheme()).or_default().push(record);
+        let ladder = ladders.entry((record.scheme(), stem(&record.level)));
+        ladder.or_default().push(record);
     }
     ladders
+}
+
+/// What the levels of one problem have in common, and a slice has not with the whole: the name but for the number at its end.
+fn stem(level: &str) -> &str {
+    level.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.')
 }
 
 fn over_levels(case: &dyn Case, set: &[String], ladders: &Ladders) -> Vec<Convergence> {
     let mut all = Vec::new();
     for quantity in case.quantities() {
-        for (scheme, ladder) in ladders {
+        for ((scheme, _), ladder) in ladders {
             let mut points: Vec<Point> = ladder
                 .iter()
                 .map(|r| Point {
@@ -235,6 +241,17 @@ mod tests {
         let told = entries.iter().map(|c| (c.set.join(" "), c.points.len()));
         let expected = [(String::new(), 2), ("cfl=0.6".to_owned(), 2)];
         assert_eq!(told.collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn slices_are_no_levels_of_the_whole() {
+        let names = ["h0.5", "slice-h0.4", "h0.25", "h0.2", "slice-h0.1"];
+        let records = names.map(|name| {
+            let h = name.rsplit('h').next().unwrap().parse().unwrap();
+            run(name, h, &[])
+        });
+        let own = [(String::new(), 3), (String::new(), 2)];
+        assert_eq!(of_sets(&records), own);
     }
 
     #[test]

@@ -87,7 +87,7 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         );
         draw(&diagram, error, Against::Cost(cost), caption)?;
         let caption = format!(
-            "What has no exact value, against its cost in {what}: how soon each scheme settles, and where. Runs of another time step or number of particles per cell are lines of their own; what lies far off the bulk is cut off."
+            "What has no exact value, against its cost in {what}: how soon each scheme settles, and where. Runs of another time step or number of particles per cell, and slices of a problem, are lines of their own; what lies far off the bulk is cut off."
         );
         draw(&diagram, value, Against::CostOfValues(cost), caption)?;
     }
