@@ -315,10 +315,36 @@ impl Canvas {
         if let Some(error) = &self.error {
             return Err(failed(path, error));
         }
-        let sides = [self.image.width(), self.image.height()];
-        let [width, height] = sides.map(|side| side / (FINE as u32 * coarser));
-        Ok(imageops::thumbnail(&self.image, width, height))
+        Ok(averaged(&self.image, FINE as u32 * coarser))
     }
+}
+
+/// The means of squares of `side` pixels; what is left over at the right and below is dropped. The library's `thumbnail`
+/// gives the same and took half of the time of a report.
+fn averaged(image: &RgbImage, side: u32) -> RgbImage {
+    let mut means = RgbImage::new(image.width() / side, image.height() / side);
+    if means.is_empty() {
+        return means;
+    }
+    let (row, square) = (3 * image.width() as usize, 3 * side as usize);
+    let mut sums = vec![0; 3 * means.width() as usize];
+    let rows = image.chunks_exact(row * side as usize);
+    for (mean, rows) in means.chunks_exact_mut(sums.len()).zip(rows) {
+        sums.fill(side * side / 2);
+        for line in rows.chunks_exact(row) {
+            for (sums, pixels) in sums.chunks_exact_mut(3).zip(line.chunks_exact(square)) {
+                for pixel in pixels.chunks_exact(3) {
+                    for (sum, channel) in sums.iter_mut().zip(pixel) {
+                        *sum += u32::from(*channel);
+                    }
+                }
+            }
+        }
+        for (mean, sum) in mean.iter_mut().zip(&sums) {
+            *mean = (sum / (side * side)) as u8;
+        }
+    }
+    means
 }
 
 fn failed(path: &Path, cause: &dyn Display) -> PlotError {
@@ -405,6 +431,19 @@ pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn means_are_those_of_the_library() {
+        let value = |x: u32, y: u32, k: u32| ((x * 7919 + y * 104_729 + k * 31) % 256) as u8;
+        let pixel = |x, y| image::Rgb([0, 1, 2].map(|k| value(x, y, k)));
+        for side in [1, 3, 6] {
+            let image = RgbImage::from_fn(5 * side, 4 * side, pixel);
+            assert!(averaged(&image, side) == imageops::thumbnail(&image, 5, 4));
+        }
+        let over = RgbImage::from_fn(17, 13, pixel);
+        let part = imageops::crop_imm(&over, 0, 0, 15, 12).to_image();
+        assert!(averaged(&over, 3) == averaged(&part, 3));
+    }
 
     #[test]
     fn colours_run_between_their_ends() {
