@@ -173,7 +173,7 @@ def footing_orders(summary):
     orders = {
         (c["scheme"]["basis"], c["scheme"]["remedy"]): c["order"]
         for c in found["convergence"]
-        if c["metric"] == "prandtl_error" and c["set"] == []
+        if c["metric"] == "prandtl_error" and c["set"] == [] and c["scheme"]["transfer"] == "flip"
     }
 
     def order(basis, remedy):
@@ -282,7 +282,7 @@ def bands(r):
 
 def landslide_2d(summary):
     rows = []
-    for r in Runs(summary, "landslide-2d").where(set=[], status="ok"):
+    for r in Runs(summary, "landslide-2d").where(set=[], transfer="flip", status="ok"):
         rows.append(
             [
                 scheme(r),
@@ -323,7 +323,7 @@ def landslide_studies(summary):
     for basis in BASES[:2]:
         for remedy in ["none", "fbar-recursive", "fbar-consistent"]:
             for level in ["h0.4", "h0.2", "h0.1", "h0.05"]:
-                found = [runs.one(basis=basis, remedy=remedy, level=level, set=s) for s in sets]
+                found = [runs.one(basis=basis, remedy=remedy, transfer="flip", level=level, set=s) for s in sets]
                 if any(found):
                     rows.append([f"{basis} {remedy}", f"{level[1:]} m"] + [cell(r) for r in found])
     head = "scheme; h; no reduction; 1.65; half the step; damped; over 2 s; 1.8; 2"
@@ -375,14 +375,55 @@ def slope_stability(summary):
     return table(["scheme", "h = 0.4 m", "0.2 m", "0.1 m"], rows)
 
 
+OTHERS = [
+    ("flip", []),
+    ("apic", []),
+    ("xpic2", []),
+    ("flip", ["ppc_per_direction=3"]),
+    ("flip", ["ppc_per_direction=4"]),
+]
+
+
+def other_transfers(summary, case, levels, cell, others=OTHERS):
+    """What each transfer and number of particles comes to at the levels, and the times it takes."""
+    runs = Runs(summary, case)
+    rows = []
+    for basis in BASES[:2]:
+        for remedy in ["none", "fbar-consistent"]:
+            for level, name in levels.items():
+                like = {"basis": basis, "remedy": remedy, "level": level}
+                found = [runs.one(transfer=transfer, set=changed, **like) for transfer, changed in others]
+                cells = [f"{cell(r)} ({r['time']['cpu_s']:.0f} s)" if r else "–" for r in found]
+                rows.append([f"{basis} {remedy}", name] + cells)
+    heads = {"apic": "APIC", "xpic2": "XPIC(2)"}
+    per_direction = [f"{s[0][-1]} per direction" if s else heads.get(t, "FLIP, 2 per direction") for t, s in others]
+    return table(["scheme", "h", *per_direction], rows)
+
+
+def cook_transfers(summary):
+    def cell(r):
+        return percent(metric(r, "fem_mid_edge_error"), 2)
+
+    return other_transfers(summary, "cook", {"h2": "2 m", "h1": "1 m", "h0.5": "½ m"}, cell)
+
+
+def footing_transfers(summary):
+    def cell(r):
+        return percent(metric(r, "nc_effective") / EXACT - 1, 2)
+
+    without_three = [other for other in OTHERS if other[1] != ["ppc_per_direction=3"]]
+    return other_transfers(summary, "footing", {"b10": "B/10", "b20": "B/20"}, cell, without_three)
+
+
+def landslide_transfers(summary):
+    def cell(r):
+        return number(metric(r, "runout_2.5s"), "{:.2f} m")
+
+    return other_transfers(summary, "landslide-2d", {"h0.4": "0.4 m", "h0.2": "0.2 m"}, cell)
+
+
 def transfers_and_particles(summary):
     """The error of u on 32 cells (16 in three dimensions), and by what factor another transfer or number of particles changes it."""
-    others = [
-        ("apic", []),
-        ("xpic2", []),
-        ("flip", ["ppc_per_direction=3"]),
-        ("flip", ["ppc_per_direction=4"]),
-    ]
     cases = [c["case"] for c in summary["cases"] if c["case"].startswith("mms-")]
     rows = []
     for case in cases:
@@ -394,7 +435,7 @@ def transfers_and_particles(summary):
                 own = metric(runs.one(transfer="flip", set=[], **like), "displacement_l2")
                 factors = [
                     metric(runs.one(transfer=transfer, set=changed, **like), "displacement_l2") / own
-                    for transfer, changed in others
+                    for transfer, changed in OTHERS[1:]
                 ]
                 form = "{:,.0f}" if own >= 1e-3 else "{:.3g}"
                 cells = [number(1e6 * own, form)] + [number(f, "{:.2f}") for f in factors]

@@ -6,19 +6,39 @@ use mpm_core::transfer::{Apic, Flip, Xpic};
 use mpm_core::{Error, Law, Scene, Simulation, Solver, Transfer};
 
 /// A solver of `scene` with the basis and the transfer of `scheme`; `scene` brings the transfer that
-/// stands for `flip`.
+/// stands for `flip`. Problems in the plane offer other transfers, so none is compiled for the rest.
 ///
 /// # Errors
-/// The solver refuses the scene.
+/// The solver refuses the scene; a transfer other than `flip` outside of the plane, or beside a blend with PIC, which it
+/// would not see.
 pub fn with_any_transfer<const D: usize, M: Law + 'static>(
     scheme: Scheme,
     scene: Scene<D, M, Flip>,
 ) -> Result<Box<dyn Simulation<D>>, Error> {
+    let share = scene.transfer.share();
+    if scheme.transfer != TransferName::Flip && share != 1.0 {
+        return Err(Error::Input {
+            what: "share of FLIP beside another transfer",
+            value: share,
+            allowed: "1: only the transfer flip blends with PIC",
+        });
+    }
     match scheme.transfer {
         TransferName::Flip => with_basis(scheme.basis, scene),
-        TransferName::Apic => with_basis(scheme.basis, scene.with_transfer(Apic)),
-        TransferName::Xpic2 => with_basis(scheme.basis, scene.with_transfer(Xpic::new(2)?)),
-        TransferName::Xpic3 => with_basis(scheme.basis, scene.with_transfer(Xpic::new(3)?)),
+        TransferName::Apic if const { D == 2 } => {
+            with_basis(scheme.basis, scene.with_transfer(Apic))
+        }
+        TransferName::Xpic2 if const { D == 2 } => {
+            with_basis(scheme.basis, scene.with_transfer(Xpic::new(2)?))
+        }
+        TransferName::Xpic3 if const { D == 2 } => {
+            with_basis(scheme.basis, scene.with_transfer(Xpic::new(3)?))
+        }
+        TransferName::Apic | TransferName::Xpic2 | TransferName::Xpic3 => Err(Error::Input {
+            what: "dimension of a problem with another transfer than flip",
+            value: D as f64,
+            allowed: "2",
+        }),
     }
 }
 

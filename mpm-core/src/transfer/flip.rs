@@ -34,6 +34,12 @@ impl Flip {
         )?;
         Ok(Self { eta })
     }
+
+    /// The share η of FLIP.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.eta
+    }
 }
 
 impl Default for Flip {

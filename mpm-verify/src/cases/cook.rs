@@ -7,6 +7,7 @@ mod reference;
 mod simulation;
 mod sketch;
 
+use super::manufactured::plan::{ladder, more_particles, other_transfers, pairs};
 use crate::case::{
     Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
     headline, metric,
@@ -346,10 +347,7 @@ impl Case for Cook {
     }
 
     fn schemes(&self) -> Vec<Scheme> {
-        BASES
-            .iter()
-            .flat_map(|&basis| REMEDIES.map(|remedy| Scheme::flip(basis, remedy)))
-            .collect()
+        [pairs(&BASES, &REMEDIES), other_transfers()].concat()
     }
 
     fn levels(&self) -> &[Level] {
@@ -424,16 +422,7 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
     use RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, None};
     let [h2, h1, half, quarter] = LEVELS;
     let runs = |level: Level, bases: &[BasisName], remedies: &[RemedyName], set: &[&str]| {
-        bases
-            .iter()
-            .flat_map(|&basis| remedies.iter().map(move |&r| Scheme::flip(basis, r)))
-            .map(|scheme| RunSpec {
-                scheme,
-                level,
-                set: set.iter().map(|s| (*s).to_owned()).collect(),
-                perturbed: false,
-            })
-            .collect::<Vec<_>>()
+        ladder(&[level], &pairs(bases, remedies), set)
     };
     let halved = ["cfl=0.15"];
     let large = ["cfl=0.6"];
@@ -508,6 +497,8 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
             runs(quarter, &[Bspline3], &[None, FbarTotal, FbarRate], &large),
             runs(half, &BASES, &[FbarConsistent], &[]),
             runs(quarter, &BASES, &[FbarConsistent], &large),
+            ladder(&LEVELS, &other_transfers(), &[]),
+            more_particles(&[h2, h1]),
         ]
         .concat(),
     }

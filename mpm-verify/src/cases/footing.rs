@@ -7,6 +7,7 @@ mod reference;
 mod simulation;
 mod sketch;
 
+use super::manufactured::plan::{ladder, other_transfers, pairs};
 use crate::case::{
     Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
     headline, metric,
@@ -308,15 +309,8 @@ impl Case for Footing {
     }
 
     fn schemes(&self) -> Vec<Scheme> {
-        let mut schemes: Vec<Scheme> = BASES
-            .iter()
-            .flat_map(|&basis| REMEDIES.map(|remedy| Scheme::flip(basis, remedy)))
-            .collect();
-        schemes.push(Scheme::flip(
-            BasisName::Bspline3,
-            RemedyName::FbarConsistent,
-        ));
-        schemes
+        let cubic = pairs(&[BasisName::Bspline3], &[RemedyName::FbarConsistent]);
+        [pairs(&BASES, &REMEDIES), cubic, other_transfers()].concat()
     }
 
     fn levels(&self) -> &[Level] {
@@ -388,16 +382,7 @@ const SMALL: &[&str] = &["domain_width=3", "domain_depth=3", "penetration=0.0025
 const ELASTIC: &[&str] = &["undrained_strength=1e6"];
 
 fn runs(level: Level, bases: &[BasisName], remedies: &[RemedyName], set: &[&str]) -> Vec<RunSpec> {
-    let schemes = bases
-        .iter()
-        .flat_map(|&basis| remedies.iter().map(move |&r| Scheme::flip(basis, r)));
-    let spec = |scheme| RunSpec {
-        scheme,
-        level,
-        set: set.iter().map(|s| (*s).to_owned()).collect(),
-        perturbed: false,
-    };
-    schemes.map(spec).collect()
+    ladder(&[level], &pairs(bases, remedies), set)
 }
 
 fn plan(tier: Tier) -> Vec<RunSpec> {
@@ -444,6 +429,13 @@ fn plan(tier: Tier) -> Vec<RunSpec> {
             cubic(b10),
             cubic(b40),
             cubic(b80),
+            ladder(&LEVELS, &other_transfers(), &[]),
+            runs(
+                b10,
+                &BASES,
+                &[None, FbarConsistent],
+                &["ppc_per_direction=4"],
+            ),
         ]
         .concat(),
     }

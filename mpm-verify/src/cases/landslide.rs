@@ -12,6 +12,7 @@ mod sketch;
 pub(super) use ground::{DAMPING, Ground, RISE, STABILITY, STAGE, factor_of_safety};
 pub(super) use sketch::sketch;
 
+use super::manufactured::plan::{ladder, more_particles, other_transfers};
 use crate::case::{
     Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, headline,
     metric, runs,
@@ -392,10 +393,6 @@ macro_rules! shared {
             LIMITS
         }
 
-        fn schemes(&self) -> Vec<Scheme> {
-            schemes()
-        }
-
         fn metrics(&self) -> &'static [MetricInfo] {
             METRICS
         }
@@ -441,6 +438,10 @@ macro_rules! shared {
 impl Case for Landslide2d {
     shared!();
 
+    fn schemes(&self) -> Vec<Scheme> {
+        [schemes(), other_transfers()].concat()
+    }
+
     fn name(&self) -> &'static str {
         "landslide-2d"
     }
@@ -481,6 +482,10 @@ impl Case for Landslide2d {
 
 impl Case for Landslide {
     shared!();
+
+    fn schemes(&self) -> Vec<Scheme> {
+        schemes()
+    }
 
     fn name(&self) -> &'static str {
         "landslide"
@@ -548,7 +553,13 @@ fn plan_2d(tier: Tier) -> Vec<RunSpec> {
             runs(h10, &all, &[]),
         ]
         .concat(),
-        Tier::Long => [studies(h20, &[&["damping=0.7"]]), runs(h05, &all, &[])].concat(),
+        Tier::Long => [
+            studies(h20, &[&["damping=0.7"]]),
+            runs(h05, &all, &[]),
+            ladder(&LEVELS_2D, &other_transfers(), &[]),
+            more_particles(&[h40]),
+        ]
+        .concat(),
     }
 }
 

@@ -6,7 +6,7 @@ use super::reference::{
 use crate::case::{CheckInfo, check};
 use crate::check::{Kind, Verdict};
 use crate::record::{Record, of_own_parameters};
-use crate::scheme::{BasisName, RemedyName};
+use crate::scheme::{BasisName, RemedyName, TransferName};
 use std::collections::BTreeMap;
 
 /// Relative tolerance of mid-edge and edge mean at h ≤ 1 m, per metre of cell size.
@@ -34,6 +34,8 @@ const REACTION: f64 = 0.02;
 /// Relative difference in displacement that two runs at rest may have: each is within the
 /// out-of-balance virtual work of 1e-3 that rest admits.
 const REST_NOISE: f64 = 2e-3;
+/// Coarsest cell (m), on which XPIC(2) creeps longest.
+const COARSEST: f64 = 2.0;
 /// Poisson's ratios for which F̄ is meant and its tolerances are stated.
 const NEARLY_INCOMPRESSIBLE: (f64, f64) = (0.49, 0.499);
 /// The probe (m) that is two cells of 1 m away from the free lower side.
@@ -111,6 +113,16 @@ pub(super) const CHECKS: &[CheckInfo] = &[
         "too-soft-when-compressible",
         Kind::KnownLimit,
         "fbar-total, fbar-rate, fbar-consistent at ν < 0.49 and h = 1: mid-edge u_y exceeds the reference by more than 1 % · h/(1 m): averaging a pressure that needs none softens; mid-edge, edge-mean and no-creep are not judged there",
+    ),
+    check(
+        "rests-late",
+        Kind::KnownLimit,
+        "none, fbar-consistent with XPIC(2) and quadratic splines at h = 2 m: rest is not reached within two periods (within three it is)",
+    ),
+    check(
+        "too-stiff-with-more-particles",
+        Kind::KnownLimit,
+        "fbar-total, fbar-rate, fbar-consistent with GIMP and more than two particles per direction: mid-edge and mean u_y of the right side fall short by more than the tolerances of mid-edge and edge-mean; these and tip are not judged there",
     ),
     check(
         "noisy-pressure",
@@ -270,14 +282,28 @@ fn count(record: &Record, verdicts: &mut Vec<Verdict>) {
 }
 
 fn rest(record: &Record, verdicts: &mut Vec<Verdict>) {
-    verdicts.push(Verdict::close(
-        "at-rest",
-        "at_rest",
-        record.metric("at_rest"),
-        1.0,
-        0.0,
-        "a statically loaded elastic body has an equilibrium",
-    ));
+    let (metric, at_rest) = ("at_rest", record.metric("at_rest"));
+    let spline = record.basis == BasisName::Bspline2;
+    let filtered = record.transfer == TransferName::Xpic2 && spline;
+    verdicts.push(if filtered && record.discretisation.h == COARSEST {
+        Verdict::at_most(
+            "rests-late",
+            Kind::KnownLimit,
+            metric,
+            at_rest,
+            0.0,
+            "what XPIC filters from the velocity in every step creeps",
+        )
+    } else {
+        Verdict::close(
+            "at-rest",
+            metric,
+            at_rest,
+            1.0,
+            0.0,
+            "a statically loaded elastic body has an equilibrium",
+        )
+    });
     let load = record.parameters.number("load");
     verdicts.push(Verdict::close(
         "reaction",
@@ -363,14 +389,22 @@ fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<V
         } else {
             fine
         };
-        verdicts.push(Verdict::close(
-            name,
-            metric,
-            record.metric(metric),
-            exact,
-            relative * exact.abs() + uncertainty,
-            source.clone(),
-        ));
+        let (value, tolerance) = (record.metric(metric), relative * exact.abs() + uncertainty);
+        verdicts.push(if !too_stiff(record) {
+            Verdict::close(name, metric, value, exact, tolerance, source.clone())
+        } else if name == "tip" {
+            let why = "see too-stiff-with-more-particles";
+            Verdict::not_applicable(name, metric, why)
+        } else {
+            Verdict::above(
+                "too-stiff-with-more-particles",
+                Kind::KnownLimit,
+                &format!("shortfall of {metric}"),
+                exact - value,
+                tolerance,
+                "with two per direction the soft boundary of a GIMP body makes up for the load's place and its stiffness; with more it doesn't",
+            )
+        });
     }
     let scale = stress_scale(&record.parameters);
     for point in &reference.mean_stress {
@@ -417,6 +451,11 @@ fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<V
             "the reference field is stored for ν = 0.499",
         )
     });
+}
+
+/// Whether the body has so many particles that it is known to be too stiff.
+fn too_stiff(record: &Record) -> bool {
+    record.basis == BasisName::Gimp && record.parameters.number("ppc_per_direction") > 2.0
 }
 
 /// Where the pressure of GIMP with F̄ is known to be off by more than a cell would explain.

@@ -3,7 +3,7 @@
 use super::METRICS;
 use super::checks::CREEP;
 use super::reference::{Field, solution, stress_points, stress_scale};
-use crate::assemble::with_basis;
+use crate::assemble::with_any_transfer;
 use crate::case::{Column, Job, RunSpec, observed};
 use crate::error::Error;
 use crate::parameter::Parameters;
@@ -157,8 +157,8 @@ impl Simulated {
             particle_filters.push(Box::new(KineticDamping::default()));
         }
         let loads = loads(parameters, period, spacing, &particles);
-        let simulation = with_basis(
-            spec.scheme.basis,
+        let simulation = with_any_transfer(
+            spec.scheme,
             Scene {
                 grid,
                 wall,

@@ -2,7 +2,7 @@
 
 use super::METRICS;
 use super::reference::{CURVE, EXACT, mean_stresses};
-use crate::assemble::with_basis;
+use crate::assemble::with_any_transfer;
 use crate::case::{Column, Job, RunSpec, observed};
 use crate::error::Error;
 use crate::parameter::Parameters;
@@ -148,8 +148,8 @@ impl Simulated {
             constraints.push(footing(parameters, h));
             Press::RigidNodes
         };
-        let simulation = with_basis(
-            spec.scheme.basis,
+        let simulation = with_any_transfer(
+            spec.scheme,
             Scene {
                 grid,
                 wall: if parameters.is("wall", "wall-line") {

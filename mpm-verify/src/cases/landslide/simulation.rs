@@ -4,7 +4,7 @@ use super::METRICS;
 use super::ground::{BASE, DAMPING, Ground, RISE, ROW, STAGE, strength};
 use super::observation::{Look, Released, Row, Series, potential, spread_over_width};
 use super::section::GRAVITY;
-use crate::assemble::with_basis;
+use crate::assemble::with_any_transfer;
 use crate::case::{Column, Job, RunSpec, Snapshot, observed};
 use crate::error::Error;
 use crate::parameter::Parameters;
@@ -84,7 +84,7 @@ impl<const D: usize> Slide<D> {
         strength(parameters, parameters.number("reduction"))?;
         let strength = strength(parameters, 1.0)?;
         let scene = ground.scene(spec, parameters, strength, (RISE, DAMPING))?;
-        let simulation = with_basis(spec.scheme.basis, scene)?;
+        let simulation = with_any_transfer(spec.scheme, scene)?;
         let p = simulation.particles();
         let reference: Vec<[f64; 2]> = p.seeded(|k| section_of(&p.reference[k]));
         Ok(Self {
@@ -202,7 +202,7 @@ impl<const D: usize> Slide<D> {
         let scene = self
             .ground
             .scene(&self.spec, &self.parameters, self.strength, stages)?;
-        self.simulation = with_basis(self.spec.scheme.basis, scene)?;
+        self.simulation = with_any_transfer(self.spec.scheme, scene)?;
         Ok(())
     }
 

@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::exact::Exact;
 use crate::parameter::{Domain, Parameter, Parameters};
 use crate::record::Record;
-use crate::scheme::{Scheme, TransferName};
+use crate::scheme::Scheme;
 use crate::sketch::Sketch;
 use mpm_core::stage::WallKind;
 use simulation::Simulated;
@@ -391,22 +391,10 @@ impl Case for Manufactured {
     }
 
     fn start(&self, spec: &RunSpec, p: &Parameters) -> Result<Box<dyn Job>, Error> {
-        use crate::assemble::{with_any_transfer, with_basis};
-        let dimension = (self.solution)(p)?.dimension();
-        if dimension != 2 && spec.scheme.transfer != TransferName::Flip {
-            return Err(Error::Input(format!(
-                "transfer: {} in {dimension} dimensions, allowed: flip; others in two dimensions only",
-                spec.scheme.transfer
-            )));
-        }
-        Ok(match dimension {
-            1 => Box::new(Simulated::<1>::new(self, spec, p, |scheme, scene| {
-                with_basis(scheme.basis, scene)
-            })?),
-            2 => Box::new(Simulated::<2>::new(self, spec, p, with_any_transfer)?),
-            _ => Box::new(Simulated::<3>::new(self, spec, p, |scheme, scene| {
-                with_basis(scheme.basis, scene)
-            })?),
+        Ok(match (self.solution)(p)?.dimension() {
+            1 => Box::new(Simulated::<1>::new(self, spec, p)?),
+            2 => Box::new(Simulated::<2>::new(self, spec, p)?),
+            _ => Box::new(Simulated::<3>::new(self, spec, p)?),
         })
     }
 

@@ -151,25 +151,61 @@ mod tests {
     }
 
     #[test]
+    fn problems_in_the_plane_run_with_other_transfers_at_two_levels() {
+        for (name, per_direction) in [("cook", 2), ("footing", 1), ("landslide-2d", 2)] {
+            let case = cases::find(name).unwrap();
+            let long = case.plan(Tier::Long);
+            for scheme in other_transfers() {
+                let levels = long
+                    .iter()
+                    .filter(|s| s.scheme == scheme && s.set.is_empty());
+                assert!(levels.count() >= 2, "{name} {scheme}");
+                assert!(case.schemes().contains(&scheme), "{name} {scheme}");
+            }
+            for scheme in main_pairs() {
+                let of = |s: &&RunSpec| {
+                    let changed = s.set.iter().any(|s| s.starts_with("ppc_per_direction="));
+                    s.scheme == scheme && s.set.len() == 1 && changed
+                };
+                let numbers = crate::distinct(long.iter().filter(of).map(|s| &s.set[..]));
+                assert_eq!(numbers.len(), per_direction, "{name} {scheme}");
+            }
+        }
+    }
+
+    /// Why a run with APIC and a changed parameter does not begin.
+    fn refusal(case: &str, set: &str) -> String {
+        let case = cases::find(case).unwrap();
+        let spec = RunSpec {
+            scheme: other_transfers()[0],
+            level: case.levels()[0],
+            set: vec![set.to_owned()],
+            perturbed: false,
+        };
+        let parameters = Parameters::new(case.parameters(), &spec.set).unwrap();
+        case.start(&spec, &parameters).err().unwrap().to_string()
+    }
+
+    #[test]
     fn another_transfer_is_refused_where_it_would_be_flip() {
-        let case = cases::find("mms-axis").unwrap();
-        let transfer = TransferName::Apic;
         for dimension in ["dimension=1", "dimension=3"] {
-            let spec = RunSpec {
-                scheme: Scheme {
-                    transfer,
-                    ..main_pairs()[0]
-                },
-                level: case.levels()[0],
-                set: vec![dimension.to_owned()],
-                perturbed: false,
-            };
-            let parameters = Parameters::new(case.parameters(), &spec.set).unwrap();
-            let refused = case.start(&spec, &parameters).err().unwrap().to_string();
+            let refused = refusal("mms-axis", dimension);
             assert!(
-                refused.contains("apic") && refused.contains("flip"),
+                refused.contains("dimension") && refused.contains("flip"),
                 "{refused}"
             );
         }
+    }
+
+    #[test]
+    fn a_blend_is_refused_where_it_would_not_be_seen() {
+        for case in ["cook", "footing", "mms-axis"] {
+            let refused = refusal(case, "flip=0.9");
+            assert!(
+                refused.contains("share of FLIP") && refused.contains("0.9"),
+                "{refused}"
+            );
+        }
+        assert!(refusal("dam-break", "pic_rate=1").contains("share of FLIP"));
     }
 }

@@ -1,12 +1,12 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
 use super::{Boundary, Manufactured};
-use crate::assemble::with_basis;
+use crate::assemble::with_any_transfer;
 use crate::case::{Level, RunSpec};
 use crate::error::Error;
 use crate::exact::{Exact, Material};
 use crate::parameter::Parameters;
-use crate::scheme::{RemedyName, Scheme};
+use crate::scheme::RemedyName;
 use mpm_core::basis::WallTreatment;
 use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
 use mpm_core::remedy::FbarConsistent;
@@ -21,10 +21,6 @@ use std::sync::Arc;
 const COARSEST: f64 = 8.0;
 /// Cells above a free surface.
 const HEADROOM: usize = 4;
-
-/// Makes a solver of a solid from the names of a scheme.
-pub(super) type Assemble<const D: usize> =
-    fn(Scheme, Scene<D, NeoHookean, Flip>) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>;
 
 /// How the duration is divided.
 pub(super) struct Timing {
@@ -76,7 +72,6 @@ pub(super) fn begin<const D: usize>(
     parameters: &Parameters,
     solution: &Arc<dyn Exact>,
     dt: f64,
-    assemble: Assemble<D>,
 ) -> Result<Box<dyn Simulation<D>>, Error> {
     let number = |name| parameters.number(name);
     let (grid, constraints) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
@@ -103,8 +98,8 @@ pub(super) fn begin<const D: usize>(
         dt,
     };
     Ok(match body {
-        Body::Solid(law) => assemble(spec.scheme, scene.of(law))?,
-        Body::Fluid(law) => with_basis(spec.scheme.basis, scene.of(law))?,
+        Body::Solid(law) => with_any_transfer(spec.scheme, scene.of(law))?,
+        Body::Fluid(law) => with_any_transfer(spec.scheme, scene.of(law))?,
     })
 }
 

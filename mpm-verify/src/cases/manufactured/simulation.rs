@@ -1,6 +1,6 @@
 //! The simulation of a motion that is known in closed form, in any dimension and of any law.
 
-use super::scene::{Assemble, Timing, begin, vector};
+use super::scene::{Timing, begin, vector};
 use super::{METRICS, Manufactured};
 use crate::case::{Column, Job, RunSpec, observed};
 use crate::error::Error;
@@ -49,12 +49,11 @@ impl<const D: usize> Simulated<D> {
         case: &Manufactured,
         spec: &RunSpec,
         parameters: &Parameters,
-        assemble: Assemble<D>,
     ) -> Result<Self, Error> {
         let solution: Arc<dyn Exact> = (case.solution)(parameters)?.into();
         let number = |name| parameters.number(name);
         let Timing { steps, dt } = Timing::new(case, spec.level, parameters, solution.as_ref())?;
-        let simulation = begin(case, spec, parameters, &solution, dt, assemble)?;
+        let simulation = begin(case, spec, parameters, &solution, dt)?;
         let frequency = case.frequency.map(|f| f(parameters));
         let row = match frequency {
             Some(omega) => std::f64::consts::TAU / omega / ROWS_PER_PERIOD / dt,
