@@ -175,6 +175,8 @@ impl Diagram<'_> {
         let schemes: BTreeSet<Scheme> = self.entries.iter().map(|c| c.scheme).collect();
         let errors = !matches!(against, Against::CostOfValues(_));
         let quantities = self.quantities.iter().filter(|q| q.is_error == errors);
+        // A value has something to show once a scheme has two.
+        let quantities = quantities.filter(|q| errors || self.of(q).any(|c| c.points.len() > 1));
         let chart = |quantity: &&Quantity, panel: &Panel| match against {
             Against::Size => self.by_size(quantity, panel),
             Against::Cost(cost) => self.error_by_cost(quantity, cost, panel),

@@ -41,7 +41,7 @@ impl Row {
 }
 
 /// Adds a night of a case to the history in `out` (replacing that case's rows if the night is there
-/// already) and draws the case's trends.
+/// already) and draws the case's trends, once there are two nights.
 ///
 /// # Errors
 /// The history is damaged, or a file can't be written.
@@ -116,12 +116,16 @@ fn axis(quantity: &str) -> (String, Scale) {
     }
 }
 
-/// The errors at the finest level, the orders and the cost of a case, scheme by scheme.
+/// The errors at the finest level, the orders and the cost of a case, scheme by scheme, from two nights on.
 fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, Error> {
     let own: Vec<&Row> = rows.iter().filter(|r| r.case == study.case).collect();
-    let Some(first) = own.first().map(|r| r.night) else {
+    let (Some(first), Some(last)) = (own.first(), own.last()) else {
         return Ok(None);
     };
+    let first = first.night;
+    if first == last.night {
+        return Ok(None);
+    }
     let mut quantities: Vec<&str> = Vec::new();
     let mut points = Vec::new();
     for row in &own {
@@ -181,13 +185,14 @@ mod tests {
             run.case = case.to_owned();
             let study = CaseStudy::new(case, vec![run]);
             let night = Night::new(date, commit).unwrap();
-            let picture = add(&study, &night, folder.path()).unwrap().unwrap();
-            assert_eq!(picture.file, format!("trends-{case}.png"));
+            let picture = add(&study, &night, folder.path()).unwrap();
+            picture.map(|p| p.file)
         };
-        add("column", "2026-01-02", "a");
-        add("cook", "2026-01-02", "a");
-        add("cook", "2026-01-01", "b");
-        add("cook", "2026-01-02", "c");
+        let trends = Some("trends-cook.png".to_owned());
+        assert_eq!(add("column", "2026-01-02", "a"), None);
+        assert_eq!(add("cook", "2026-01-02", "a"), None);
+        assert_eq!(add("cook", "2026-01-01", "b"), trends);
+        assert_eq!(add("cook", "2026-01-02", "c"), trends);
         let rows = read(&folder.path().join(FILE)).unwrap();
         let told = rows
             .iter()
