@@ -153,7 +153,7 @@ fn list_and_explain_name_everything() {
     let listed = mpm_verify(&["list", "--format", "json", "--tier", "pr"]);
     let cases: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
     assert_eq!(cases[0]["case"], "cook");
-    assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 15);
+    assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 23);
     assert_eq!(cases[0]["tier"], "pr");
 
     let text = stdout(&mpm_verify(&["explain", "cook"]));
