@@ -385,7 +385,7 @@ OTHERS = [
 
 
 def other_transfers(summary, case, levels, cell, others=OTHERS):
-    """What each transfer and number of particles comes to at the levels, and the times it takes."""
+    """What each transfer and number of particles comes to at the levels where there is more than FLIP."""
     runs = Runs(summary, case)
     rows = []
     for basis in BASES[:2]:
@@ -393,8 +393,8 @@ def other_transfers(summary, case, levels, cell, others=OTHERS):
             for level, name in levels.items():
                 like = {"basis": basis, "remedy": remedy, "level": level}
                 found = [runs.one(transfer=transfer, set=changed, **like) for transfer, changed in others]
-                cells = [f"{cell(r)} ({r['time']['cpu_s']:.0f} s)" if r else "–" for r in found]
-                rows.append([f"{basis} {remedy}", name] + cells)
+                if any(found[1:]):
+                    rows.append([f"{basis} {remedy}", name] + [cell(r) if r else "–" for r in found])
     heads = {"apic": "APIC", "xpic2": "XPIC(2)"}
     per_direction = [f"{s[0][-1]} per direction" if s else heads.get(t, "FLIP, 2 per direction") for t, s in others]
     return table(["scheme", "h", *per_direction], rows)
@@ -458,14 +458,15 @@ def fill(page, summary):
 
 
 def with_long(night, long):
-    """The night with the long runs; of a run that both have, the long report's."""
+    """The night with the long runs; of a run that both have, the night's, so that times in a table are of one machine."""
 
     def run(record):
         return [record[key] for key in ["basis", "remedy", "transfer", "level", "set", "perturbed"]]
 
     for case in long["cases"]:
-        long_runs = [run(r) for r in case["records"]]
-        case["records"] += [r for r in Runs(night, case["case"]).records if run(r) not in long_runs]
+        of_night = Runs(night, case["case"]).records
+        known = [run(r) for r in of_night]
+        case["records"] = of_night + [r for r in case["records"] if run(r) not in known]
     more = [case["case"] for case in long["cases"]]
     return {"cases": long["cases"] + [case for case in night["cases"] if case["case"] not in more]}
 
