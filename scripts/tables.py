@@ -463,12 +463,12 @@ def with_long(night, long):
     def run(record):
         return [record[key] for key in ["basis", "remedy", "transfer", "level", "set", "perturbed"]]
 
-    for case in long["cases"]:
-        of_night = Runs(night, case["case"]).records
-        known = [run(r) for r in of_night]
-        case["records"] = of_night + [r for r in case["records"] if run(r) not in known]
-    more = [case["case"] for case in long["cases"]]
-    return {"cases": long["cases"] + [case for case in night["cases"] if case["case"] not in more]}
+    cases = []
+    for case in night["cases"]:
+        known = [run(r) for r in case["records"]]
+        more = [r for r in Runs(long, case["case"]).records if run(r) not in known]
+        cases.append({**case, "records": case["records"] + more})
+    return {"cases": cases}
 
 
 def main():
