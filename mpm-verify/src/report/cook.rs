@@ -8,7 +8,7 @@ use super::style::{Colour, series};
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::record::{Record, Status, of_own_parameters};
-use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::study::{CaseStudy, Gathered};
 use crate::table::Table;
 use std::path::Path;
@@ -35,7 +35,7 @@ pub(super) fn draw(
     let mut runs = Runs {
         records: of_own_parameters(&study.records)
             .into_iter()
-            .filter(|r| r.status == Status::Ok)
+            .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
             .collect(),
         gathered,
         out,

@@ -10,7 +10,7 @@ use super::style::{Colour, series};
 use crate::cases::footing_limit;
 use crate::error::Error;
 use crate::record::{Record, Status};
-use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::study::{CaseStudy, Gathered};
 use crate::table::Table;
 use std::path::Path;
@@ -56,7 +56,7 @@ pub(super) fn draw(
         records: study
             .records
             .iter()
-            .filter(|r| r.status == Status::Ok)
+            .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
             .filter(|r| r.is_default() || r.changes_only("penetration"))
             .collect(),
         gathered,

@@ -10,7 +10,7 @@ use super::style::{Colour, series};
 use crate::error::Error;
 use crate::record::{Record, Status};
 use crate::run::snapshot_file;
-use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::study::{CaseStudy, Gathered};
 use crate::table::Table;
 use std::path::Path;
@@ -124,7 +124,7 @@ pub(super) fn draw(
     let mut runs = Runs {
         case: &study.case,
         records: (study.records.iter())
-            .filter(|r| r.status == Status::Ok)
+            .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
             .filter(own)
             .collect(),
         gathered,
