@@ -28,6 +28,9 @@ pub enum Error {
     /// The scene could not be built from the parameters.
     #[error("{0}")]
     Scene(#[from] mpm_core::Error),
+    /// A scheme or a part of one is not known by this name.
+    #[error(transparent)]
+    Name(#[from] mpm_solvers::scheme::NameError),
     /// A picture could not be drawn.
     #[error(transparent)]
     Plot(#[from] crate::report::plot::PlotError),

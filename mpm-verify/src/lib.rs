@@ -5,7 +5,6 @@
 //! runs many side by side; the report draws. Every hand-off is a plain file, so each later stage runs
 //! again without simulating.
 
-pub mod assemble;
 pub mod bench;
 pub mod bless;
 pub mod case;
@@ -25,13 +24,14 @@ pub mod probe;
 pub mod record;
 pub mod report;
 pub mod run;
-pub mod scheme;
 pub mod series;
 pub mod sketch;
 pub mod statistics;
 pub mod study;
 pub mod table;
 pub mod vtu;
+
+pub use mpm_solvers::scheme;
 
 /// Each value once, in order of appearance.
 pub(crate) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {

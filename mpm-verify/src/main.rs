@@ -93,11 +93,11 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             threads,
         } => {
             let case = cases::find(&case)?;
-            let scheme = Scheme {
-                basis: BasisName::parse(&basis)?,
-                remedy: RemedyName::parse(&remedy)?,
-                transfer: TransferName::parse(&transfer)?,
-            };
+            let scheme = Scheme::explicit(
+                BasisName::parse(&basis)?,
+                RemedyName::parse(&remedy)?,
+                TransferName::parse(&transfer)?,
+            );
             let level = match level {
                 Some(name) => find_level(case, &name)?,
                 None => case.levels()[0],

@@ -220,11 +220,7 @@ impl Record {
     /// The scheme.
     #[must_use]
     pub fn scheme(&self) -> Scheme {
-        Scheme {
-            basis: self.basis,
-            remedy: self.remedy,
-            transfer: self.transfer,
-        }
+        Scheme::explicit(self.basis, self.remedy, self.transfer)
     }
 
     /// Name of the run, which is also its folder below that of its case.

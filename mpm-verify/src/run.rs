@@ -47,9 +47,9 @@ pub fn execute(
         let mut record = Record {
             schema: SCHEMA,
             case: case.name().to_owned(),
-            basis: spec.scheme.basis,
-            remedy: spec.scheme.remedy,
-            transfer: spec.scheme.transfer,
+            basis: spec.scheme.basis(),
+            remedy: spec.scheme.remedy(),
+            transfer: spec.scheme.transfer(),
             level: spec.level.name.to_owned(),
             set: spec.set.clone(),
             perturbed: spec.perturbed,

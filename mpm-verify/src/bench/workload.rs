@@ -7,14 +7,14 @@
 
 use super::local::{Local, Steps};
 use super::{Options, Turn};
-use crate::assemble::with_basis;
 use crate::error::Error;
-use crate::scheme::{BasisName, RemedyName};
+use crate::scheme::{BasisName, RemedyName, Scheme};
 use mpm_core::basis::WallTreatment;
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::solver::courant_time_step;
 use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Simulation};
+use mpm_solvers::{Solvable, solver};
 use std::f64::consts::TAU;
 
 /// Cells on every side of the block.
@@ -50,7 +50,12 @@ impl<const D: usize> Block<D> {
     pub(super) fn particles(&self) -> u64 {
         (2 * self.cells as u64).pow(D as u32)
     }
+}
 
+impl<const D: usize> Block<D>
+where
+    NeoHookean: Solvable<D>,
+{
     fn positions(&self) -> Vec<[f64; D]> {
         let n = 2 * self.cells;
         let place = |k: usize| (MARGIN as f64 + (k as f64 + 0.5) / 2.0) * H;
@@ -73,8 +78,8 @@ impl<const D: usize> Block<D> {
             true => RemedyName::FbarRecursive,
             false => RemedyName::None,
         };
-        Ok(with_basis(
-            BasisName::Bspline2,
+        Ok(solver(
+            Scheme::flip(BasisName::Bspline2, remedy),
             Scene {
                 grid: Grid::new(H, [axis; D])?,
                 wall: WallTreatment::OpenKnot,
@@ -149,7 +154,10 @@ pub(super) fn turns(options: &Options, turns: &mut Vec<Turn>) -> Result<(), Erro
 }
 
 /// Blocks of 10⁴ to 10⁶·⁵ particles, half a decade apart, on one thread.
-pub(super) fn scaling<const D: usize>(_: &Options) -> Result<Vec<Turn>, Error> {
+pub(super) fn scaling<const D: usize>(_: &Options) -> Result<Vec<Turn>, Error>
+where
+    NeoHookean: Solvable<D>,
+{
     let cells: [usize; 6] = match D {
         2 => [50, 89, 158, 281, 500, 889],
         _ => [11, 16, 23, 34, 50, 73],

@@ -395,7 +395,7 @@ impl Case for Cook {
     }
 
     fn cost(&self, spec: &RunSpec) -> f64 {
-        let sweep = match spec.scheme.remedy {
+        let sweep = match spec.scheme.remedy() {
             RemedyName::None => 1.0,
             RemedyName::FbarRecursive => 2.5,
             RemedyName::FbarTotal | RemedyName::FbarRate => 1.5,

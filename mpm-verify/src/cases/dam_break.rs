@@ -324,11 +324,7 @@ impl Case for DamBreak {
     fn schemes(&self) -> Vec<Scheme> {
         let with = |transfer| {
             BASES.into_iter().flat_map(move |basis| {
-                REMEDIES.map(move |remedy| Scheme {
-                    basis,
-                    remedy,
-                    transfer,
-                })
+                REMEDIES.map(move |remedy| Scheme::explicit(basis, remedy, transfer))
             })
         };
         let mut schemes: Vec<Scheme> = with(TransferName::Flip).collect();
@@ -386,7 +382,7 @@ impl Case for DamBreak {
     }
 
     fn cost(&self, spec: &RunSpec) -> f64 {
-        let sweep = match spec.scheme.remedy {
+        let sweep = match spec.scheme.remedy() {
             RemedyName::None => 1.0,
             RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => 1.4,
             RemedyName::FbarConsistent => 1.9,

@@ -354,7 +354,7 @@ impl Case for Footing {
     }
 
     fn cost(&self, spec: &RunSpec) -> f64 {
-        let sweep = match spec.scheme.remedy {
+        let sweep = match spec.scheme.remedy() {
             RemedyName::None => 1.0,
             RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => 1.5,
             RemedyName::FbarConsistent => 2.5,

@@ -373,7 +373,7 @@ fn schemes() -> Vec<Scheme> {
 }
 
 fn cost(spec: &RunSpec, dimension: i32) -> f64 {
-    let sweep = match spec.scheme.remedy {
+    let sweep = match spec.scheme.remedy() {
         RemedyName::None => 1.0,
         RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => 1.2,
         RemedyName::FbarConsistent => 1.7,

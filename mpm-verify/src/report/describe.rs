@@ -107,7 +107,9 @@ pub fn explain(case: &dyn Case) -> String {
         let _ = writeln!(
             t,
             "  --basis {} --remedy {} --transfer {}",
-            s.basis, s.remedy, s.transfer
+            s.basis(),
+            s.remedy(),
+            s.transfer()
         );
     }
     let _ = writeln!(t, "\nLevels (--level L)");
@@ -170,11 +172,7 @@ pub fn number(value: Option<f64>) -> String {
 /// A scheme in short: its transfer goes without saying if it is FLIP.
 #[must_use]
 pub fn scheme(scheme: Scheme) -> String {
-    let Scheme {
-        basis,
-        remedy,
-        transfer,
-    } = scheme;
+    let (basis, remedy, transfer) = (scheme.basis(), scheme.remedy(), scheme.transfer());
     match transfer {
         TransferName::Flip => format!("{basis} {remedy}"),
         _ => format!("{basis} {remedy} {transfer}"),

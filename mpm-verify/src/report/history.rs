@@ -36,7 +36,9 @@ struct Row {
 
 impl Row {
     fn scheme(&self) -> Result<Scheme, Error> {
-        Scheme::parse(self.run.split('/').next().unwrap_or_default())
+        Ok(Scheme::parse(
+            self.run.split('/').next().unwrap_or_default(),
+        )?)
     }
 }
 

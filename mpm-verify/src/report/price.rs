@@ -223,7 +223,7 @@ pub(super) fn overview(studies: &[CaseStudy]) -> String {
         let Some(prices) = Prices::of(study) else {
             continue;
         };
-        remedies.extend(prices.rows.iter().map(|row| row.scheme.remedy));
+        remedies.extend(prices.rows.iter().map(|row| row.scheme.remedy()));
         rows.push((&study.case, prices));
     }
     let remedies: BTreeSet<RemedyName> = remedies.into_iter().collect();
@@ -252,7 +252,7 @@ pub(super) fn overview(studies: &[CaseStudy]) -> String {
             let mut own = prices
                 .rows
                 .iter()
-                .filter(|row| row.scheme.remedy == *remedy);
+                .filter(|row| row.scheme.remedy() == *remedy);
             let cheapest = own.next().map(|row| prices.relative(row));
             let cheapest = cheapest.filter(|ratio| !ratio.is_empty());
             let _ = write!(t, " {} |", cheapest.as_deref().unwrap_or("–"));
@@ -308,11 +308,7 @@ mod tests {
     fn the_cheapest_curve_of_a_scheme_counts() {
         let curve = |remedy, set: &[&str], points: &[Point]| Convergence {
             set: set.iter().map(|s| (*s).to_owned()).collect(),
-            scheme: Scheme {
-                basis: BasisName::Gimp,
-                remedy,
-                transfer: TransferName::Flip,
-            },
+            scheme: Scheme::explicit(BasisName::Gimp, remedy, TransferName::Flip),
             metric: "e".to_owned(),
             is_error: true,
             points: points.to_vec(),

@@ -26,24 +26,23 @@ pub(super) enum Colour {
 /// The curve of a scheme.
 pub(super) fn series(scheme: Scheme, points: Vec<(f64, f64)>, colour: Colour) -> Series {
     // Total and rate nearly coincide: the dashed line and the hollow marker let the other show.
-    let (of_remedy, dash, by_remedy) = match scheme.remedy {
+    let (of_remedy, dash, by_remedy) = match scheme.remedy() {
         RemedyName::None => (Marker::Cross, Dash::Dotted, 6),
         RemedyName::FbarRecursive => (Marker::Triangle, Dash::Solid, 1),
         RemedyName::FbarTotal => (Marker::Square, Dash::Solid, 2),
         RemedyName::FbarRate => (Marker::Circle, Dash::Dashed, 0),
         RemedyName::FbarConsistent => (Marker::Diamond, Dash::Solid, 3),
     };
-    let by_basis = match scheme.basis {
+    let by_basis = match scheme.basis() {
         BasisName::Gimp => 0,
         BasisName::Bspline2 => 1,
         BasisName::Bspline3 => 2,
         BasisName::Linear => 3,
     };
-    let of_transfer = match scheme.transfer {
+    let of_transfer = match scheme.transfer() {
         TransferName::Flip => Marker::Circle,
         TransferName::Apic => Marker::Square,
         TransferName::Xpic2 => Marker::Triangle,
-        TransferName::Xpic3 => Marker::Diamond,
     };
     let (colour, marker) = match colour {
         Colour::Basis => (by_basis, of_remedy),
@@ -90,8 +89,8 @@ pub(super) struct Panels(Vec<Panel>);
 impl Panels {
     /// All schemes in one panel while they can be told apart, else a panel for every basis.
     pub(super) fn new(schemes: &BTreeSet<Scheme>) -> Self {
-        let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis).collect();
-        let others: BTreeSet<_> = schemes.iter().map(|s| (s.remedy, s.transfer)).collect();
+        let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis()).collect();
+        let others: BTreeSet<_> = schemes.iter().map(|s| (s.remedy(), s.transfer())).collect();
         let transfers: BTreeSet<_> = others.iter().map(|(_, transfer)| transfer).collect();
         let transfers = transfers.len() > 1;
         if schemes.len() <= MOST_CURVES && !transfers {
@@ -106,11 +105,7 @@ impl Panels {
             title: basis.to_string(),
             schemes: others
                 .iter()
-                .map(|&(remedy, transfer)| Scheme {
-                    basis,
-                    remedy,
-                    transfer,
-                })
+                .map(|&(remedy, transfer)| Scheme::explicit(basis, remedy, transfer))
                 .collect(),
             colour: Colour::Marked { transfers },
         };
@@ -156,11 +151,11 @@ mod tests {
         let mut all = BTreeSet::new();
         for &basis in bases {
             for remedy in remedies {
-                all.extend(transfers.iter().map(|&transfer| Scheme {
-                    basis,
-                    remedy,
-                    transfer,
-                }));
+                all.extend(
+                    transfers
+                        .iter()
+                        .map(|&transfer| Scheme::explicit(basis, remedy, transfer)),
+                );
             }
         }
         all
@@ -191,12 +186,7 @@ mod tests {
     fn panels_of_bases_have_one_legend_whose_curves_all_differ() {
         let mut all = schemes(
             &[BasisName::Gimp, BasisName::Bspline2],
-            &[
-                TransferName::Flip,
-                TransferName::Apic,
-                TransferName::Xpic2,
-                TransferName::Xpic3,
-            ],
+            &[TransferName::Flip, TransferName::Apic, TransferName::Xpic2],
         );
         all.pop_last();
         let panels = looks(&all);

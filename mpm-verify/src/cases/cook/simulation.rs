@@ -3,7 +3,6 @@
 use super::METRICS;
 use super::checks::CREEP;
 use super::reference::{Field, solution, stress_points, stress_scale};
-use crate::assemble::with_any_transfer;
 use crate::case::{Column, Job, RunSpec, observed};
 use crate::error::Error;
 use crate::parameter::Parameters;
@@ -20,6 +19,7 @@ use mpm_core::stage::{
 };
 use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Memory, MemoryError, Particles, Saved, Scene, Side, Simulation};
+use mpm_solvers::solver;
 use std::collections::BTreeMap;
 
 /// Corners: (0, 0), (48, 44), (48, 60), (0, 44) m.
@@ -157,14 +157,14 @@ impl Simulated {
             particle_filters.push(Box::new(KineticDamping::default()));
         }
         let loads = loads(parameters, period, spacing, &particles);
-        let simulation = with_any_transfer(
+        let simulation = solver(
             spec.scheme,
             Scene {
                 grid,
                 wall,
                 law,
                 particles,
-                remedy: spec.scheme.remedy.build(),
+                remedy: spec.scheme.remedy().build(),
                 loads,
                 contacts: Vec::new(),
                 force_filters,
@@ -202,7 +202,7 @@ impl Simulated {
             steps_per_observation: ((period / OBSERVATIONS / dt).round() as u64).max(1),
             period,
             ramp: number("load_ramp") * period,
-            recursive: spec.scheme.remedy == RemedyName::FbarRecursive,
+            recursive: spec.scheme.remedy() == RemedyName::FbarRecursive,
             density,
             gaps: Vec::new(),
             energy_defect: (0.0, 0.0),

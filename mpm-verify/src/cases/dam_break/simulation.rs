@@ -3,7 +3,6 @@
 use super::METRICS;
 use super::flow::{Flow, Row, Start};
 use super::reference::{DEPTH, GRAVITY, LENGTH, TANK};
-use crate::assemble::with_any_transfer;
 use crate::case::{Column, Job, RunSpec, Snapshot, observed};
 use crate::error::Error;
 use crate::exact::hydrostatic::Hydrostatic;
@@ -21,6 +20,7 @@ use mpm_core::stage::{
 };
 use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
+use mpm_solvers::solver;
 use nalgebra::{SMatrix, Vector3};
 use std::collections::BTreeMap;
 
@@ -108,7 +108,7 @@ impl Simulated {
                 },
                 law,
                 particles: at_rest(staged)?,
-                remedy: spec.scheme.remedy.build(),
+                remedy: spec.scheme.remedy().build(),
                 loads: vec![weight(rise)],
                 contacts: Vec::new(),
                 force_filters: if gate && staged {
@@ -116,12 +116,12 @@ impl Simulated {
                 } else {
                     Vec::new()
                 },
-                constraints: walls(parameters, gate.then(|| gate_of(spec.scheme.basis, h))),
+                constraints: walls(parameters, gate.then(|| gate_of(spec.scheme.basis(), h))),
                 particle_filters: Vec::new(),
                 transfer: Flip::new((-number("pic_rate") * dt).exp())?,
                 dt,
             };
-            with_any_transfer(spec.scheme, scene)
+            solver(spec.scheme, scene)
         };
         let period = 4.0 * DEPTH / law.wave_speed(water.density);
         let run = Self {

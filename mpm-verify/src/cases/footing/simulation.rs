@@ -2,7 +2,6 @@
 
 use super::METRICS;
 use super::reference::{CURVE, EXACT, mean_stresses};
-use crate::assemble::with_any_transfer;
 use crate::case::{Column, Job, RunSpec, observed};
 use crate::error::Error;
 use crate::parameter::Parameters;
@@ -20,6 +19,7 @@ use mpm_core::stage::{
 };
 use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
+use mpm_solvers::solver;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -148,7 +148,7 @@ impl Simulated {
             constraints.push(footing(parameters, h));
             Press::RigidNodes
         };
-        let simulation = with_any_transfer(
+        let simulation = solver(
             spec.scheme,
             Scene {
                 grid,
@@ -159,7 +159,7 @@ impl Simulated {
                 },
                 law,
                 particles,
-                remedy: spec.scheme.remedy.build(),
+                remedy: spec.scheme.remedy().build(),
                 loads: Vec::new(),
                 contacts,
                 force_filters: filters(number("damping"))?,
@@ -180,7 +180,7 @@ impl Simulated {
                 wall: parameters.text("wall"),
             },
             parameters: parameters.clone(),
-            effective_width: effective_width(spec.scheme.basis, h).0,
+            effective_width: effective_width(spec.scheme.basis(), h).0,
             steps_per_row: ((ROW * WIDTH / rate / dt).round() as u64).max(1),
             end: number("penetration"),
             rows: Vec::new(),

@@ -173,7 +173,7 @@ impl<const D: usize> Ground<D> {
             },
             law: Self::law(parameters, strength)?,
             particles,
-            remedy: spec.scheme.remedy.build(),
+            remedy: spec.scheme.remedy().build(),
             loads: vec![Box::new(weight)],
             contacts: Vec::new(),
             force_filters: filters(damping)?,

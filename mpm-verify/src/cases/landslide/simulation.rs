@@ -4,15 +4,15 @@ use super::METRICS;
 use super::ground::{BASE, DAMPING, Ground, RISE, ROW, STAGE, strength};
 use super::observation::{Look, Released, Row, Series, potential, spread_over_width};
 use super::section::GRAVITY;
-use crate::assemble::with_any_transfer;
 use crate::case::{Column, Job, RunSpec, Snapshot, observed};
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::record::{Discretisation, Metric, WorkDone};
 use crate::statistics::rms;
 use mpm_core::Simulation;
-use mpm_core::material::Strength;
+use mpm_core::material::{HenckyJ2, Strength};
 use mpm_core::memory::{Memory, MemoryError, Saved};
+use mpm_solvers::{Solvable, solver};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -77,14 +77,17 @@ struct Slide<const D: usize> {
     checkerboard: f64,
 }
 
-impl<const D: usize> Slide<D> {
+impl<const D: usize> Slide<D>
+where
+    HenckyJ2: Solvable<D>,
+{
     fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
         let ground = Ground::new(spec, parameters)?;
         // What is wrong with the reduced strength is said before anything moves.
         strength(parameters, parameters.number("reduction"))?;
         let strength = strength(parameters, 1.0)?;
         let scene = ground.scene(spec, parameters, strength, (RISE, DAMPING))?;
-        let simulation = with_any_transfer(spec.scheme, scene)?;
+        let simulation = solver(spec.scheme, scene)?;
         let p = simulation.particles();
         let reference: Vec<[f64; 2]> = p.seeded(|k| section_of(&p.reference[k]));
         Ok(Self {
@@ -202,7 +205,7 @@ impl<const D: usize> Slide<D> {
         let scene = self
             .ground
             .scene(&self.spec, &self.parameters, self.strength, stages)?;
-        self.simulation = with_any_transfer(self.spec.scheme, scene)?;
+        self.simulation = solver(self.spec.scheme, scene)?;
         Ok(())
     }
 
@@ -398,11 +401,14 @@ pub(super) struct Simulated<const D: usize> {
     duration: f64,
 }
 
-impl<const D: usize> Simulated<D> {
+impl<const D: usize> Simulated<D>
+where
+    HenckyJ2: Solvable<D>,
+{
     pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
-        let slide = Slide::new(spec, parameters)?;
+        let slide = Slide::<D>::new(spec, parameters)?;
         let plane = if D == 3 {
-            Some(Slide::new(spec, parameters)?)
+            Some(Slide::<2>::new(spec, parameters)?)
         } else {
             None
         };
@@ -448,9 +454,12 @@ impl<const D: usize> Simulated<D> {
     }
 }
 
-impl<const D: usize> Memory for Simulated<D> {
+impl<const D: usize> Memory for Simulated<D>
+where
+    HenckyJ2: Solvable<D>,
+{
     fn save(&self) -> Result<Saved, MemoryError> {
-        let plane = self.plane.as_ref().map(Slide::save).transpose()?;
+        let plane = self.plane.as_ref().map(Slide::<2>::save).transpose()?;
         Saved::of(&(self.slide.save()?, plane))
     }
 
@@ -464,7 +473,10 @@ impl<const D: usize> Memory for Simulated<D> {
     }
 }
 
-impl<const D: usize> Job for Simulated<D> {
+impl<const D: usize> Job for Simulated<D>
+where
+    HenckyJ2: Solvable<D>,
+{
     fn discretisation(&self) -> Discretisation {
         self.discretisation.clone()
     }

@@ -43,7 +43,7 @@ pub(in crate::cases) fn other_transfers() -> Vec<Scheme> {
     let with = |transfer| {
         main_pairs()
             .into_iter()
-            .map(move |scheme| Scheme { transfer, ..scheme })
+            .map(move |scheme| Scheme::explicit(scheme.basis(), scheme.remedy(), transfer))
     };
     [TransferName::Apic, TransferName::Xpic2]
         .into_iter()
@@ -104,7 +104,7 @@ pub(super) fn cost(case: &Manufactured, spec: &RunSpec) -> f64 {
         let particles: f64 = (0..solution.dimension()).map(along).product();
         Some(particles * timing.steps)
     };
-    let remedy = match spec.scheme.remedy {
+    let remedy = match spec.scheme.remedy() {
         RemedyName::None => 1.0,
         RemedyName::FbarConsistent => 3.0,
         _ => 1.5,
@@ -132,8 +132,10 @@ mod tests {
             let night = cases::find(name).unwrap().plan(Tier::Nightly);
             for scheme in main_pairs() {
                 let levels = |transfer, set: &[&str]| {
-                    let like =
-                        |s: &&RunSpec| s.scheme == Scheme { transfer, ..scheme } && s.set == set;
+                    let like = |s: &&RunSpec| {
+                        s.scheme == Scheme::explicit(scheme.basis(), scheme.remedy(), transfer)
+                            && s.set == set
+                    };
                     night.iter().filter(like).count()
                 };
                 for transfer in [TransferName::Apic, TransferName::Xpic2] {

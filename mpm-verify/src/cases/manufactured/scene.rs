@@ -1,7 +1,6 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
 use super::{Boundary, Manufactured};
-use crate::assemble::with_any_transfer;
 use crate::case::{Level, RunSpec};
 use crate::error::Error;
 use crate::exact::{Exact, Material};
@@ -14,6 +13,7 @@ use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{BodyForce, Constraint, End, Load, Wall, WallKind};
 use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Remedy, Scene, Side, Simulation};
+use mpm_solvers::{Solvable, solver};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -72,10 +72,14 @@ pub(super) fn begin<const D: usize>(
     parameters: &Parameters,
     solution: &Arc<dyn Exact>,
     dt: f64,
-) -> Result<Box<dyn Simulation<D>>, Error> {
+) -> Result<Box<dyn Simulation<D>>, Error>
+where
+    NeoHookean: Solvable<D>,
+    NewtonianFluid: Solvable<D>,
+{
     let number = |name| parameters.number(name);
     let (grid, constraints) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
-    let remedy: Box<dyn Remedy<D>> = match spec.scheme.remedy {
+    let remedy: Box<dyn Remedy<D>> = match spec.scheme.remedy() {
         RemedyName::FbarConsistent => Box::new(FbarConsistent::new(number("relaxation"))),
         other => other.build(),
     };
@@ -98,8 +102,8 @@ pub(super) fn begin<const D: usize>(
         dt,
     };
     Ok(match body {
-        Body::Solid(law) => with_any_transfer(spec.scheme, scene.of(law))?,
-        Body::Fluid(law) => with_any_transfer(spec.scheme, scene.of(law))?,
+        Body::Solid(law) => solver(spec.scheme, scene.of(law))?,
+        Body::Fluid(law) => solver(spec.scheme, scene.of(law))?,
     })
 }
 

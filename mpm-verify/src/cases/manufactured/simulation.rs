@@ -8,7 +8,9 @@ use crate::exact::Exact;
 use crate::parameter::Parameters;
 use crate::record::{Discretisation, Metric, WorkDone};
 use crate::statistics::{fit_line, rms};
+use mpm_core::material::{NeoHookean, NewtonianFluid};
 use mpm_core::{Memory, MemoryError, Particles, Saved, Simulation};
+use mpm_solvers::Solvable;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -44,7 +46,11 @@ struct Row {
     mode: f64,
 }
 
-impl<const D: usize> Simulated<D> {
+impl<const D: usize> Simulated<D>
+where
+    NeoHookean: Solvable<D>,
+    NewtonianFluid: Solvable<D>,
+{
     pub(super) fn new(
         case: &Manufactured,
         spec: &RunSpec,
@@ -286,7 +292,11 @@ impl<const D: usize> Simulated<D> {
     }
 }
 
-impl<const D: usize> Memory for Simulated<D> {
+impl<const D: usize> Memory for Simulated<D>
+where
+    NeoHookean: Solvable<D>,
+    NewtonianFluid: Solvable<D>,
+{
     fn save(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(self.simulation.save()?, &self.rows))
     }
@@ -298,7 +308,11 @@ impl<const D: usize> Memory for Simulated<D> {
     }
 }
 
-impl<const D: usize> Job for Simulated<D> {
+impl<const D: usize> Job for Simulated<D>
+where
+    NeoHookean: Solvable<D>,
+    NewtonianFluid: Solvable<D>,
+{
     fn discretisation(&self) -> Discretisation {
         self.discretisation.clone()
     }

@@ -1,7 +1,6 @@
 //! Trials of a slope with reduced strength.
 
 use super::METRICS;
-use crate::assemble::with_basis;
 use crate::case::{Column, Job, RunSpec, observed};
 use crate::cases::landslide::{DAMPING, Ground, RISE, STABILITY, STAGE, factor_of_safety};
 use crate::error::Error;
@@ -10,6 +9,7 @@ use crate::record::{Discretisation, Metric, WorkDone};
 use mpm_core::Simulation;
 use mpm_core::material::Strength;
 use mpm_core::memory::{Memory, MemoryError, Saved};
+use mpm_solvers::solver;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -55,7 +55,7 @@ impl Simulated {
         let strength = Strength::perfect(parameters.number("strength"))?;
         let scene = ground.scene(spec, parameters, strength, (RISE, DAMPING))?;
         Ok(Self {
-            simulation: with_basis(spec.scheme.basis, scene)?,
+            simulation: solver(spec.scheme, scene)?,
             at_rest: None,
             trials: Vec::new(),
             done: WorkDone::default(),
@@ -118,7 +118,7 @@ impl Simulated {
         let scene = self
             .ground
             .scene(&self.spec, &self.parameters, strength, stages)?;
-        with_basis(self.spec.scheme.basis, scene)
+        solver(self.spec.scheme, scene)
     }
 
     fn positions(&self) -> Vec<[f64; 2]> {

@@ -58,7 +58,7 @@ fn levels(records: &[Record]) -> Vec<Verdict> {
                 ));
             }
         }
-        if scheme.remedy == RemedyName::FbarConsistent {
+        if scheme.remedy() == RemedyName::FbarConsistent {
             late(records, &runs, &mut verdicts);
         }
     }
@@ -111,7 +111,7 @@ fn against_standard(records: &[Record]) -> Vec<Verdict> {
         let standard = records.iter().find(|r| {
             let scheme = run.scheme();
             r.remedy == RemedyName::None
-                && (r.basis, r.transfer) == (scheme.basis, scheme.transfer)
+                && (r.basis, r.transfer) == (scheme.basis(), scheme.transfer())
                 && (&r.level, &r.set) == (&run.level, &run.set)
         });
         let Some(standard) = standard else {

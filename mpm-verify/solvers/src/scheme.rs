@@ -1,10 +1,28 @@
-//! Schemes: a basis, a locking remedy and a transfer.
+//! Schemes by solver kind, and their names.
 
-use crate::error::Error;
 use mpm_core::Remedy;
 use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use thiserror::Error;
+
+/// A name that stands for nothing.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NameError {
+    /// One of several kinds of names; the error lists those that are known.
+    #[error("unknown {kind} \"{given}\"; allowed: {}", allowed.join(", "))]
+    Unknown {
+        /// What it should name.
+        kind: &'static str,
+        /// The name.
+        given: String,
+        /// Those that are known.
+        allowed: &'static [&'static str],
+    },
+    /// A scheme that lacks a part.
+    #[error("scheme \"{0}\" is not of the form basis-remedy-transfer")]
+    Form(String),
+}
 
 /// Basis functions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -46,8 +64,18 @@ pub enum TransferName {
     Apic,
     /// XPIC of order 2.
     Xpic2,
-    /// XPIC of order 3.
-    Xpic3,
+}
+
+impl BasisName {
+    /// Polynomial degree, along an axis, of its smoothest piecewise functions.
+    #[must_use]
+    pub const fn degree(self) -> usize {
+        match self {
+            Self::Linear => 1,
+            Self::Gimp | Self::Bspline2 => 2,
+            Self::Bspline3 => 3,
+        }
+    }
 }
 
 impl RemedyName {
@@ -79,9 +107,13 @@ macro_rules! plain_text {
             ///
             /// # Errors
             /// An unknown name; the error lists the known ones.
-            pub fn parse(name: &str) -> Result<Self, Error> {
+            pub fn parse(name: &str) -> Result<Self, NameError> {
                 $(if name == $text { return Ok($variant); })+
-                Err(Error::unknown($kind, name, [$($text),+]))
+                Err(NameError::Unknown {
+                    kind: $kind,
+                    given: name.to_owned(),
+                    allowed: &[$($text),+],
+                })
             }
         }
 
@@ -101,11 +133,19 @@ plain_text!(RemedyName, "remedy", [
     Self::FbarTotal => "fbar-total", Self::FbarRate => "fbar-rate",
     Self::FbarConsistent => "fbar-consistent"]);
 plain_text!(TransferName, "transfer", [
-    Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2", Self::Xpic3 => "xpic3"]);
+    Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2"]);
 
-/// A scheme.
+/// A scheme, by the kind of its solver. Files and the command line hold its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Scheme {
+#[serde(into = "String", try_from = "String")]
+pub enum Scheme {
+    /// Explicit in time: basis-remedy-transfer.
+    Explicit(Explicit),
+}
+
+/// A scheme of the explicit solver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Explicit {
     /// Basis functions.
     pub basis: BasisName,
     /// Locking remedy.
@@ -115,43 +155,91 @@ pub struct Scheme {
 }
 
 impl Scheme {
-    /// A scheme with the FLIP transfer.
+    /// An explicit scheme.
     #[must_use]
-    pub fn flip(basis: BasisName, remedy: RemedyName) -> Self {
-        Self {
+    pub const fn explicit(basis: BasisName, remedy: RemedyName, transfer: TransferName) -> Self {
+        Self::Explicit(Explicit {
             basis,
             remedy,
-            transfer: TransferName::Flip,
+            transfer,
+        })
+    }
+
+    /// An explicit scheme with the FLIP transfer.
+    #[must_use]
+    pub const fn flip(basis: BasisName, remedy: RemedyName) -> Self {
+        Self::explicit(basis, remedy, TransferName::Flip)
+    }
+
+    /// Name of the solver's kind, as `--solver` takes it.
+    #[must_use]
+    pub const fn solver(self) -> &'static str {
+        match self {
+            Self::Explicit(_) => "explicit",
         }
     }
-}
 
-impl Scheme {
-    /// From its name, basis-remedy-transfer.
+    /// Its basis functions.
+    #[must_use]
+    pub const fn basis(self) -> BasisName {
+        match self {
+            Self::Explicit(e) => e.basis,
+        }
+    }
+
+    /// Its locking remedy.
+    #[must_use]
+    pub const fn remedy(self) -> RemedyName {
+        match self {
+            Self::Explicit(e) => e.remedy,
+        }
+    }
+
+    /// Its transfer.
+    #[must_use]
+    pub const fn transfer(self) -> TransferName {
+        match self {
+            Self::Explicit(e) => e.transfer,
+        }
+    }
+
+    /// From its name.
     ///
     /// # Errors
     /// A part that is missing or unknown.
-    pub fn parse(name: &str) -> Result<Self, Error> {
+    pub fn parse(name: &str) -> Result<Self, NameError> {
         let parts = name.split_once('-').and_then(|(basis, rest)| {
             let (remedy, transfer) = rest.rsplit_once('-')?;
             Some((basis, remedy, transfer))
         });
-        let Some((basis, remedy, transfer)) = parts else {
-            return Err(Error::Input(format!(
-                "scheme \"{name}\" is not of the form basis-remedy-transfer"
-            )));
-        };
-        Ok(Self {
-            basis: BasisName::parse(basis)?,
-            remedy: RemedyName::parse(remedy)?,
-            transfer: TransferName::parse(transfer)?,
-        })
+        let (basis, remedy, transfer) = parts.ok_or_else(|| NameError::Form(name.to_owned()))?;
+        Ok(Self::explicit(
+            BasisName::parse(basis)?,
+            RemedyName::parse(remedy)?,
+            TransferName::parse(transfer)?,
+        ))
+    }
+}
+
+impl From<Scheme> for String {
+    fn from(scheme: Scheme) -> Self {
+        scheme.to_string()
+    }
+}
+
+impl TryFrom<String> for Scheme {
+    type Error = NameError;
+
+    fn try_from(name: String) -> Result<Self, NameError> {
+        Self::parse(&name)
     }
 }
 
 impl fmt::Display for Scheme {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}-{}-{}", self.basis, self.remedy, self.transfer)
+        match self {
+            Self::Explicit(e) => write!(f, "{}-{}-{}", e.basis, e.remedy, e.transfer),
+        }
     }
 }
 

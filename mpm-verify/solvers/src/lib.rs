@@ -1,0 +1,108 @@
+//! From the name of a scheme to a solver: every instance that the cases offer, compiled in this package and nowhere else.
+
+pub mod scheme;
+
+use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid};
+use mpm_core::transfer::{Apic, Xpic};
+use mpm_core::{Error, Law, Scene, Simulation, Solver, Transfer};
+use scheme::{BasisName, Explicit, Scheme, TransferName};
+
+type Built<const D: usize> = Result<Box<dyn Simulation<D>>, Error>;
+
+/// A law with the solvers that are compiled for it.
+pub trait Solvable<const D: usize>: Law + Sized {
+    /// A solver of `scene` by `scheme`; the transfer of the scene stands for `flip`.
+    ///
+    /// # Errors
+    /// The solver refuses the scene; the scheme is not compiled for this law in this dimension; a transfer other than
+    /// `flip` beside a blend with PIC, which it would not see.
+    fn solver(scheme: Scheme, scene: Scene<D, Self>) -> Built<D>;
+}
+
+/// A solver of `scene` by `scheme`.
+///
+/// # Errors
+/// As [`Solvable::solver`].
+pub fn solver<const D: usize, M: Solvable<D>>(scheme: Scheme, scene: Scene<D, M>) -> Built<D> {
+    M::solver(scheme, scene)
+}
+
+/// Compiles solvers for a law: bases with FLIP, and bases with APIC and XPIC too.
+macro_rules! solvable {
+    ($dimension:literal, $law:ty, flip: [$($flip:ident),*], others: [$($other:ident),*]) => {
+        impl Solvable<$dimension> for $law {
+            fn solver(scheme: Scheme, scene: Scene<$dimension, Self>) -> Built<$dimension> {
+                let Scheme::Explicit(Explicit { basis, transfer, .. }) = scheme;
+                refuse_blend(transfer, scene.transfer.share())?;
+                match (transfer, basis) {
+                    $((TransferName::Flip, BasisName::$flip) => $flip(scene),)*
+                    $((TransferName::Apic, BasisName::$other) => $other(scene.with_transfer(Apic)),
+                      (TransferName::Xpic2, BasisName::$other) => {
+                          $other(scene.with_transfer(Xpic::new(2)?))
+                      })*
+                    (_, basis) => Err(not_compiled($dimension, basis, transfer)),
+                }
+            }
+        }
+    };
+}
+
+solvable!(1, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: []);
+solvable!(2, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2]);
+solvable!(2, HenckyJ2, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2]);
+solvable!(2, NewtonianFluid, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2]);
+// Fluids flow in the plane; code that is generic over the dimension asks all the same.
+solvable!(1, NewtonianFluid, flip: [], others: []);
+solvable!(3, NewtonianFluid, flip: [], others: []);
+solvable!(3, NeoHookean, flip: [Gimp, Bspline2], others: []);
+solvable!(3, HenckyJ2, flip: [Gimp, Bspline2], others: []);
+
+/// One generic constructor per basis, by the basis' name.
+macro_rules! with_basis {
+    ($($name:ident: $nodes:literal, $basis:ty;)+) => {
+        $(#[allow(non_snake_case, reason = "the name of the basis, as the macro above writes it")]
+        fn $name<const D: usize, M: Law + 'static, T: Transfer<D> + 'static>(
+            scene: Scene<D, M, T>,
+        ) -> Built<D> {
+            Ok(Box::new(Solver::<D, $nodes, $basis, M, T>::new(scene)?))
+        })+
+    };
+}
+
+with_basis! {
+    Linear: 2, Linear;
+    Gimp: 3, Gimp;
+    Bspline2: 3, QuadraticBSpline;
+    Bspline3: 4, CubicBSpline;
+}
+
+fn refuse_blend(transfer: TransferName, share: f64) -> Result<(), Error> {
+    if transfer == TransferName::Flip || share == 1.0 {
+        return Ok(());
+    }
+    Err(Error::Input {
+        what: "share of FLIP beside another transfer",
+        value: share,
+        allowed: "1: only the transfer flip blends with PIC",
+    })
+}
+
+fn not_compiled(dimension: usize, basis: BasisName, transfer: TransferName) -> Error {
+    let other = transfer != TransferName::Flip;
+    let (value, what, allowed) = if other && dimension != 2 {
+        let what = "dimension of a problem with another transfer than flip";
+        (dimension, what, "2")
+    } else if dimension == 3 {
+        let what = "dimension of a problem with this basis";
+        (dimension, what, "1 or 2")
+    } else {
+        let what = "degree of the basis beside this law and transfer";
+        (basis.degree(), what, "that of a scheme that the case lists")
+    };
+    Error::Input {
+        what,
+        value: value as f64,
+        allowed,
+    }
+}
