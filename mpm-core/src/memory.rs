@@ -36,6 +36,9 @@ pub enum MemoryError {
         /// How many are left.
         surplus: usize,
     },
+    /// The memory asks for a scene that can't be built.
+    #[error("the scene can't be built: {0}")]
+    Scene(String),
     /// A size that is not that of the scene.
     #[error("{what}: {saved} in the memory, {expected} in the scene")]
     Size {

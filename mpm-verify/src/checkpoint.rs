@@ -10,12 +10,13 @@
 //!
 //! Numbers are little-endian; what follows the checksum is written by serde in the format of `postcard`.
 
-use crate::case::{Case, RunSpec};
+use crate::case::Case;
 use crate::error::Error;
 use crate::files;
 use crate::parameter::Parameters;
 use crate::record::{Record, Timing, Version};
 use crate::series::Mark;
+use crate::spec::RunSpec;
 use crc32fast::Hasher;
 use mpm_core::{MemoryError, Saved};
 use serde::{Deserialize, Serialize};
@@ -140,10 +141,10 @@ pub struct Identity {
 impl Identity {
     /// Of a run by this program.
     #[must_use]
-    pub fn of(case: &dyn Case, spec: &RunSpec, parameters: &Parameters) -> Self {
+    pub fn of(case: &Case, spec: &RunSpec, parameters: &Parameters) -> Self {
         Self {
             program: Version::current(),
-            run: run(case.name(), spec.scheme, spec.level.name, spec.perturbed),
+            run: run(case.name, spec.scheme, spec.level.name, spec.perturbed),
             parameters: parameters.clone(),
         }
     }

@@ -1,7 +1,8 @@
 //! Convergence and work–precision of a case: every quantity of every scheme over the levels.
 
-use crate::case::{Case, Quantity};
+use crate::case::Case;
 use crate::distinct;
+use crate::metric::Quantity;
 use crate::order::{Order, Richardson, extrapolate, fit_order};
 use crate::record::{Record, of_own_parameters};
 use crate::scheme::Scheme;
@@ -56,8 +57,8 @@ type Ladders<'a> = BTreeMap<(Scheme, &'a str), Vec<&'a Record>>;
 /// The convergence of every quantity of `case`, scheme by scheme: over records at its own parameters (and those
 /// that stand in for them, where the case settles), then over those at each set of others, in order of appearance, that a scheme has run at three levels.
 #[must_use]
-pub fn convergence(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
-    let own = if case.settles() {
+pub fn convergence(case: &Case, records: &[Record]) -> Vec<Convergence> {
+    let own = if case.settles {
         of_own_parameters(records)
     } else {
         records.iter().filter(|r| r.is_default()).collect()
@@ -75,7 +76,7 @@ pub fn convergence(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
 /// The quantities of `case` scheme by scheme over the levels of its own problem (slices apart), for each time step and number of
 /// particles per cell that it has been divided into: what a value costs depends on these.
 #[must_use]
-pub fn precision(case: &dyn Case, records: &[Record]) -> Vec<Convergence> {
+pub fn precision(case: &Case, records: &[Record]) -> Vec<Convergence> {
     let own = || records.iter().filter(|r| r.is_of_own_problem());
     let mut sets = distinct(own().map(|r| &r.set[..]));
     sets.sort_by_key(|set| set.len());
@@ -97,9 +98,9 @@ fn stem(level: &str) -> &str {
     level.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.')
 }
 
-fn over_levels(case: &dyn Case, set: &[String], ladders: &Ladders) -> Vec<Convergence> {
+fn over_levels(case: &Case, set: &[String], ladders: &Ladders) -> Vec<Convergence> {
     let mut all = Vec::new();
-    for quantity in case.quantities() {
+    for quantity in &case.quantities {
         for ((scheme, _), ladder) in ladders {
             let mut points: Vec<Point> = ladder
                 .iter()
@@ -142,7 +143,7 @@ fn study(set: &[String], scheme: Scheme, quantity: Quantity, points: Vec<Point>)
     Convergence {
         set: set.to_vec(),
         scheme,
-        metric: quantity.metric.to_owned(),
+        metric: quantity.metric.into(),
         is_error: quantity.is_error,
         points,
         order,
@@ -155,7 +156,7 @@ fn study(set: &[String], scheme: Scheme, quantity: Quantity, points: Vec<Point>)
 mod tests {
     use super::*;
     use crate::cases;
-    use crate::record::Metric;
+    use crate::record::Measured;
     use crate::report::fixture::record;
     use crate::scheme::RemedyName;
 
@@ -166,7 +167,7 @@ mod tests {
         run.discretisation.h = h;
         let (value, unit) = (Some(h * h), "-".to_owned());
         run.metrics
-            .insert("fem_edge_mean_error".to_owned(), Metric { value, unit });
+            .insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
         run
     }
 

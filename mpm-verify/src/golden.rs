@@ -5,14 +5,15 @@
 //! blessed. A tolerance is ten times the measured response of its column to a last-bit perturbation of the
 //! starting positions; a column that did not respond must not change at all, and neither must a count of work.
 
-use crate::case::{Case, RunSpec};
+use crate::case::Case;
 use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::files::{make_folder, read_versioned, write_json, write_whole};
-use crate::record::{Metric, Record, Version, WorkDone};
+use crate::record::{Measured, Record, Version, WorkDone};
 use crate::report::triptych::different_pixels;
 use crate::report::watched::draw_watched;
+use crate::spec::RunSpec;
 use crate::table::Table;
 use image::RgbImage;
 use serde::{Deserialize, Serialize};
@@ -93,16 +94,16 @@ pub fn home(root: &Path, record: &Record) -> PathBuf {
 
 /// Why no golden is kept of a run, if none is.
 #[must_use]
-pub fn why_none(case: &dyn Case, record: &Record) -> Option<String> {
-    let tier = case.golden_tier();
+pub fn why_none(case: &Case, record: &Record) -> Option<String> {
+    let tier = case.golden_tier;
     let carries = |spec: &RunSpec| spec.folder() == record.folder();
     if record.work.particle_steps > MOST_STEPS {
         Some(format!(
             "no golden is kept of more than {MOST_STEPS:e} particle steps"
         ))
-    } else if case.breaks_down(record).is_some() {
+    } else if (case.breaks_down)(record).is_some() {
         Some("the run breaks down as it is known to: nothing to compare".to_owned())
-    } else if !case.plan(tier).iter().any(carries) {
+    } else if !case.runs(tier).iter().any(carries) {
         Some(format!("goldens are kept of the runs of tier {tier} only"))
     } else {
         None
@@ -147,7 +148,7 @@ fn mismatch(metric: &str, why: String) -> Verdict {
     }
 }
 
-fn with_unit(name: &str, metric: &Metric) -> String {
+fn with_unit(name: &str, metric: &Measured) -> String {
     format!("{name} ({})", metric.unit)
 }
 

@@ -7,7 +7,7 @@ use clap::Parser;
 use cli::{Cli, Command, one_line};
 use mpm_verify::bench::{self, Peers};
 use mpm_verify::bless::Candidates;
-use mpm_verify::case::{Case, RunSpec, Tier, find_level};
+use mpm_verify::case::{Case, Tier, find_level};
 use mpm_verify::checkpoint::{self, Identity, Saving};
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::exact;
@@ -19,6 +19,7 @@ use mpm_verify::record::{self, Record, Status};
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::{describe, discard_report, update_report, write_report};
 use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use mpm_verify::spec::RunSpec;
 use mpm_verify::study::{Gathered, has_truth, make_runs};
 use mpm_verify::{cases, golden, run};
 use std::io::{self, Write};
@@ -100,7 +101,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             );
             let level = match level {
                 Some(name) => find_level(case, &name)?,
-                None => case.levels()[0],
+                None => case.levels[0],
             };
             let spec = RunSpec {
                 scheme,
@@ -243,12 +244,12 @@ fn compared_threads(asked: Vec<usize>) -> Result<Vec<usize>, Error> {
 }
 
 /// The named cases, in the order of all; all if none is named.
-fn chosen(names: Vec<String>) -> Result<Vec<&'static dyn Case>, Error> {
+fn chosen(names: Vec<String>) -> Result<Vec<&'static Case>, Error> {
     for name in &names {
         cases::find(name)?;
     }
     let mut all = cases::all();
-    all.retain(|c| names.is_empty() || names.iter().any(|n| n == c.name()));
+    all.retain(|c| names.is_empty() || names.iter().any(|n| n == c.name));
     Ok(all)
 }
 
@@ -264,7 +265,7 @@ fn list(tier: Option<&str>, format: &str) -> Result<ExitCode, Error> {
 }
 
 fn run_one(
-    case: &'static dyn Case,
+    case: &'static Case,
     spec: &RunSpec,
     place: Option<(&Path, Saving)>,
     threads: usize,
@@ -292,7 +293,7 @@ fn run_one(
             ))?;
         }
     }
-    let bar = progress::single(&format!("{} {}", case.name(), spec.folder()));
+    let bar = progress::single(&format!("{} {}", case.name, spec.folder()));
     let record = run::execute(case, spec, place, threads, &|share| {
         bar.set_position((share * progress::SCALE) as u64);
     })?;
@@ -312,13 +313,13 @@ fn saving(seconds: u64, resume: bool) -> Saving {
 }
 
 /// The record of this very run in a folder, or `None` if it has not ended there.
-fn ended(case: &dyn Case, spec: &RunSpec, folder: &Path) -> Result<Option<Record>, Error> {
+fn ended(case: &Case, spec: &RunSpec, folder: &Path) -> Result<Option<Record>, Error> {
     let path = folder.join("record.json");
     if !path.exists() {
         return Ok(None);
     }
     let record: Record = read_versioned(&path, record::SCHEMA)?;
-    let asked = Identity::of(case, spec, &Parameters::new(case.parameters(), &spec.set)?);
+    let asked = Identity::of(case, spec, &Parameters::new(case.parameters, &spec.set)?);
     asked
         .require(&Identity::of_record(&record))
         .map_err(|refusal| refusal.of(&path))?;
@@ -401,7 +402,7 @@ fn report_on(
 }
 
 fn bless(
-    case: &'static dyn Case,
+    case: &'static Case,
     reason: &str,
     from: &[PathBuf],
     root: &Path,
@@ -414,8 +415,8 @@ fn bless(
     }
     let gathered = Gathered::read(from)?;
     let summary = gathered.judge(|r| golden::compare(root, r, gathered.folder(r)?))?;
-    let Some(study) = summary.cases.into_iter().find(|s| s.case == case.name()) else {
-        let name = case.name();
+    let Some(study) = summary.cases.into_iter().find(|s| s.case == case.name) else {
+        let name = case.name;
         return Err(Error::Input(format!("the folder has no runs of {name}")));
     };
     let candidates = Candidates::of(&study)?;

@@ -80,6 +80,36 @@ pub struct Parameter {
     pub meaning: &'static str,
 }
 
+impl Parameter {
+    /// The same with another default.
+    pub(crate) const fn with_default(self, default: &'static str) -> Self {
+        Self { default, ..self }
+    }
+
+    /// The same with another meaning.
+    pub(crate) const fn meaning(self, meaning: &'static str) -> Self {
+        Self { meaning, ..self }
+    }
+}
+
+/// How a parameter is asked for: a case asks by the parameter itself, so that a slip does not compile.
+pub trait Named {
+    /// Its name.
+    fn name(&self) -> &str;
+}
+
+impl Named for Parameter {
+    fn name(&self) -> &str {
+        self.name
+    }
+}
+
+impl Named for &str {
+    fn name(&self) -> &str {
+        self
+    }
+}
+
 /// A number from `least` to `most`; with `below` the upper end is excluded.
 pub(crate) const fn number(least: f64, most: f64, below: bool) -> Domain {
     Domain::Number { least, most, below }
@@ -183,14 +213,14 @@ impl Parameters {
             .into_iter()
             .filter(|n| self.0.get(*n) != other.0.get(*n));
         differing
-            .map(|n| (n.clone(), self.text(n), other.text(n)))
+            .map(|n| (n.clone(), self.text(n.as_str()), other.text(n.as_str())))
             .collect()
     }
 
     /// A numeric parameter; NaN if the case has none of this name.
     #[must_use]
-    pub fn number(&self, name: &str) -> f64 {
-        match self.0.get(name) {
+    pub fn number(&self, of: impl Named) -> f64 {
+        match self.0.get(of.name()) {
             Some(Value::Number(x)) => *x,
             _ => f64::NAN,
         }
@@ -198,20 +228,22 @@ impl Parameters {
 
     /// A boolean parameter.
     #[must_use]
-    pub fn boolean(&self, name: &str) -> bool {
-        matches!(self.0.get(name), Some(Value::Boolean(true)))
+    pub fn boolean(&self, of: impl Named) -> bool {
+        matches!(self.0.get(of.name()), Some(Value::Boolean(true)))
     }
 
     /// Whether the choice `name` is `word`.
     #[must_use]
-    pub fn is(&self, name: &str, word: &str) -> bool {
-        matches!(self.0.get(name), Some(Value::Choice(c)) if c == word)
+    pub fn is(&self, of: impl Named, word: &str) -> bool {
+        matches!(self.0.get(of.name()), Some(Value::Choice(c)) if c == word)
     }
 
     /// The value as text; empty if there is none of this name.
     #[must_use]
-    pub fn text(&self, name: &str) -> String {
-        self.0.get(name).map_or_else(String::new, Value::to_string)
+    pub fn text(&self, of: impl Named) -> String {
+        self.0
+            .get(of.name())
+            .map_or_else(String::new, Value::to_string)
     }
 }
 

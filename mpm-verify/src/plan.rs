@@ -1,10 +1,11 @@
 //! What a folder of runs is to hold, and which share of it.
 
-use crate::case::{Case, RunSpec, Tier, find_level, run_folder};
+use crate::case::{Case, Tier, find_level};
 use crate::cases;
 use crate::error::Error;
 use crate::files::write_json;
 use crate::scheme::Scheme;
+use crate::spec::{RunSpec, run_folder};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt;
@@ -79,7 +80,7 @@ impl PlannedRun {
     ///
     /// # Errors
     /// The case or the level is not known to this program.
-    pub fn resolve(&self) -> Result<(&'static dyn Case, RunSpec), Error> {
+    pub fn resolve(&self) -> Result<(&'static Case, RunSpec), Error> {
         let case = cases::find(&self.case)?;
         let spec = RunSpec {
             scheme: self.scheme,
@@ -109,14 +110,14 @@ impl Plan {
     ///
     /// # Errors
     /// The cases have no runs in this tier, or fewer than there are shards.
-    pub fn new(cases: &[&dyn Case], tier: Tier, shard: Shard) -> Result<Self, Error> {
+    pub fn new(cases: &[&Case], tier: Tier, shard: Shard) -> Result<Self, Error> {
         let mut runs = Vec::new();
         let mut costs = Vec::new();
         for case in cases {
             for spec in case.runs(tier) {
-                costs.push(case.cost(&spec));
+                costs.push((case.cost)(&spec));
                 runs.push(PlannedRun {
-                    case: case.name().to_owned(),
+                    case: case.name.to_owned(),
                     scheme: spec.scheme,
                     level: spec.level.name.to_owned(),
                     set: spec.set,

@@ -1,9 +1,9 @@
 //! The record of a run: stable, versioned, in SI units.
 
-use crate::case::run_folder;
 use crate::check::Verdict;
 use crate::parameter::Parameters;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use crate::spec::run_folder;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -56,7 +56,7 @@ pub struct Discretisation {
 
 /// A measured quantity; null where it could not be measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Metric {
+pub struct Measured {
     /// Value.
     pub value: Option<f64>,
     /// Unit.
@@ -203,7 +203,7 @@ pub struct Record {
     /// All parameters.
     pub parameters: Parameters,
     /// Metrics.
-    pub metrics: BTreeMap<String, Metric>,
+    pub metrics: BTreeMap<String, Measured>,
     /// Verdicts.
     pub verdicts: Vec<Verdict>,
     /// Work.
@@ -238,9 +238,9 @@ impl Record {
 
     /// A metric's value; NaN where there is none.
     #[must_use]
-    pub fn metric(&self, name: &str) -> f64 {
+    pub fn metric(&self, of: impl Into<String>) -> f64 {
         self.metrics
-            .get(name)
+            .get(&of.into())
             .and_then(|m| m.value)
             .unwrap_or(f64::NAN)
     }

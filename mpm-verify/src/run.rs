@@ -1,13 +1,15 @@
 //! One run: a job driven to its end, its outputs and its record.
 
-use crate::case::{Case, Column, Job, RunSpec, Snapshot};
+use crate::case::Case;
 use crate::check::{Kind, Verdict};
 use crate::checkpoint::{self, Checkpoint, Identity, Keeper, Refusal, Saving};
 use crate::error::Error;
 use crate::files::{discard, discard_folder, require_writable, write_csv, write_json};
+use crate::job::{Column, Job, Snapshot};
 use crate::parameter::Parameters;
 use crate::record::{BREAKS_DOWN, Failure, Machine, Record, SCHEMA, Status, Timing, Version};
 use crate::series::Series;
+use crate::spec::RunSpec;
 use crate::vtu::{write_pvd, write_vtu};
 use cpu_time::ProcessTime;
 use std::path::{Path, PathBuf};
@@ -21,14 +23,14 @@ use std::time::Instant;
 /// The scene can't be built, a file can't be written, or the checkpoint to go on from is refused
 /// ([`Error::Checkpoint`], and nothing in the folder has changed). A numerical breakdown is not an error here.
 pub fn execute(
-    case: &dyn Case,
+    case: &Case,
     spec: &RunSpec,
     place: Option<(&Path, Saving)>,
     threads: usize,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Record, Error> {
-    let parameters = Parameters::new(case.parameters(), &spec.set)?;
-    let mut job = case.start(spec, &parameters)?;
+    let parameters = Parameters::new(&case.parameters, &spec.set)?;
+    let mut job = (case.begin)(spec, &parameters)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
@@ -46,7 +48,7 @@ pub fn execute(
         let time = clock.time();
         let mut record = Record {
             schema: SCHEMA,
-            case: case.name().to_owned(),
+            case: case.name.to_owned(),
             basis: spec.scheme.basis(),
             remedy: spec.scheme.remedy(),
             transfer: spec.scheme.transfer(),
@@ -82,8 +84,8 @@ pub fn execute(
 }
 
 /// All verdicts on one run.
-pub fn judge(case: &dyn Case, record: &Record) -> Vec<Verdict> {
-    let mut verdicts = vec![match case.breaks_down(record) {
+pub fn judge(case: &Case, record: &Record) -> Vec<Verdict> {
+    let mut verdicts = vec![match (case.breaks_down)(record) {
         None => completes(record),
         Some(why) => breaks_down(record, why),
     }];

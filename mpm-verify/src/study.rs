@@ -1,16 +1,18 @@
 //! Many runs side by side.
 
-use crate::case::{Case, RunSpec, run_folder};
+use crate::case::Case;
 use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::checkpoint::{self, Saving};
 use crate::convergence::{Convergence, convergence};
 use crate::error::{Error, ExitCode};
 use crate::files::{discard, discard_folder, read_versioned, require_writable};
+use crate::gallery::Picture;
 use crate::night::Night;
 use crate::plan::{Plan, PlannedRun};
 use crate::record::{self, BREAKS_DOWN, Record, Version};
 use crate::run::{execute, judge};
+use crate::spec::{RunSpec, run_folder};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -70,15 +72,6 @@ impl CaseStudy {
     pub fn program(&self) -> Option<&Version> {
         self.records.first().map(|r| &r.version)
     }
-}
-
-/// A picture of a report.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Picture {
-    /// File below the report's folder.
-    pub file: String,
-    /// What it shows.
-    pub caption: String,
 }
 
 /// Counts over all verdicts.
@@ -410,7 +403,7 @@ pub fn make_runs(
 /// A run to be made in a folder.
 pub struct Task {
     /// The case.
-    pub case: &'static dyn Case,
+    pub case: &'static Case,
     /// What to run of it.
     pub spec: RunSpec,
     /// Where its outputs go.
@@ -423,7 +416,7 @@ impl Task {
         let path = self.folder.join("record.json");
         let record: Record = read_versioned(&path, record::SCHEMA).ok()?;
         let same = record.perturbed == self.spec.perturbed
-            && record.case == self.case.name()
+            && record.case == self.case.name
             && record.scheme() == self.spec.scheme
             && record.level == self.spec.level.name
             && record.set == self.spec.set
@@ -475,7 +468,7 @@ pub fn run_all(
     listener: &dyn Listener,
 ) -> Result<Vec<Record>, Error> {
     let mut order: Vec<usize> = (0..tasks.len()).collect();
-    let cost = |k: usize| tasks[k].case.cost(&tasks[k].spec);
+    let cost = |k: usize| (tasks[k].case.cost)(&tasks[k].spec);
     order.sort_by(|&a, &b| cost(b).total_cmp(&cost(a)));
     let results = side_by_side(order, workers, |k| {
         let task = &tasks[k];

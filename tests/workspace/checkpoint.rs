@@ -1,10 +1,12 @@
 //! Checkpoints: runs that are killed go on bit for bit, and what is no checkpoint of theirs is refused.
 
 use super::{code, copy_tree, files, golden, json, mpm_verify, quick, stderr, stdout, text};
-use mpm_verify::case::{Case, Job, RunSpec, Tier};
+use mpm_verify::case::{Case, Tier};
 use mpm_verify::checkpoint::{Checkpoint, Identity};
+use mpm_verify::job::Job;
 use mpm_verify::parameter::Parameters;
 use mpm_verify::scheme::{BasisName, RemedyName, Scheme};
+use mpm_verify::spec::RunSpec;
 use mpm_verify::{cases, series};
 use rayon::prelude::*;
 use std::fs;
@@ -91,10 +93,10 @@ fn assert_same(folder: &Path, straight: &Path) {
 fn identity_of_run() -> Identity {
     let case = cases::find("cook").unwrap();
     let set = vec![RUN[5].to_owned()];
-    let parameters = Parameters::new(case.parameters(), &set).unwrap();
+    let parameters = Parameters::new(case.parameters, &set).unwrap();
     let spec = RunSpec {
         scheme: Scheme::flip(BasisName::Gimp, RemedyName::FbarTotal),
-        level: case.levels()[0],
+        level: case.levels[0],
         set,
         perturbed: false,
     };
@@ -394,9 +396,9 @@ fn a_verification_that_is_killed_goes_on_from_its_checkpoints() {
     assert!(time(&damaged)["wall_s"].as_f64().unwrap() < 1e6);
 }
 
-fn start_job(case: &dyn Case, spec: &RunSpec) -> Box<dyn Job> {
-    let parameters = Parameters::new(case.parameters(), &spec.set).unwrap();
-    case.start(spec, &parameters).unwrap()
+fn start_job(case: &Case, spec: &RunSpec) -> Box<dyn Job> {
+    let parameters = Parameters::new(case.parameters, &spec.set).unwrap();
+    (case.begin)(spec, &parameters).unwrap()
 }
 
 /// All that a job has to tell at its end, and at how many rows that was. Debug writes every bit of a number.
@@ -406,8 +408,8 @@ fn end(job: &mut dyn Job) -> String {
 }
 
 /// Drives a job to its end, but for the places in `stops`, where another one, of the saved memory, takes over.
-fn drive(case: &dyn Case, spec: &RunSpec, stops: &[usize]) -> (Vec<String>, String) {
-    let name = format!("{} {}", case.name(), spec.folder());
+fn drive(case: &Case, spec: &RunSpec, stops: &[usize]) -> (Vec<String>, String) {
+    let name = format!("{} {}", case.name, spec.folder());
     let mut job = start_job(case, spec);
     let mut rows = Vec::new();
     while !job.finished() {
@@ -429,8 +431,8 @@ fn drive(case: &dyn Case, spec: &RunSpec, stops: &[usize]) -> (Vec<String>, Stri
 }
 
 /// What leaves less ground in three dimensions and in a row of trials.
-fn less_ground(case: &dyn Case) -> Option<[&'static str; 5]> {
-    let last = match case.name() {
+fn less_ground(case: &Case) -> Option<[&'static str; 5]> {
+    let last = match case.name {
         "landslide" => ["duration=0.1", "reduction=2"],
         "slope-stability" => ["most=20", "trials=6"],
         _ => return None,
@@ -442,7 +444,7 @@ fn less_ground(case: &dyn Case) -> Option<[&'static str; 5]> {
 #[test]
 fn the_job_of_every_case_goes_on_bit_for_bit() {
     let runs = cases::all().into_iter().map(|case| {
-        let cost = |s: &RunSpec| case.cost(s);
+        let cost = |s: &RunSpec| (case.cost)(s);
         let tiers = [Tier::Quick, Tier::Pr, Tier::Nightly].into_iter();
         let specs = tiers.map(|tier| case.plan(tier)).find(|s| !s.is_empty());
         let specs = specs.unwrap().into_iter().rev();
@@ -453,13 +455,13 @@ fn the_job_of_every_case_goes_on_bit_for_bit() {
         }
         (case, spec)
     });
-    let runs: Vec<(&dyn Case, RunSpec)> = runs.collect();
+    let runs: Vec<(&Case, RunSpec)> = runs.collect();
     runs.par_iter()
         .for_each(|(case, spec)| goes_on(*case, spec));
 }
 
-fn goes_on(case: &dyn Case, spec: &RunSpec) {
-    let name = format!("{} {}", case.name(), spec.folder());
+fn goes_on(case: &Case, spec: &RunSpec) {
+    let name = format!("{} {}", case.name, spec.folder());
     let (rows, at_end) = drive(case, spec, &[]);
     let n = rows.len();
     assert!(n > 4, "{name}: {n} rows");

@@ -200,12 +200,12 @@ fn brief(name: &str) -> Option<&'static str> {
 #[test]
 fn every_explained_parameter_is_accepted_and_recorded() {
     for case in mpm_verify::cases::all() {
-        let parameters = explained_parameters(case.name());
-        assert_eq!(parameters.len(), case.parameters().len(), "{parameters:?}");
+        let parameters = explained_parameters(case.name);
+        assert_eq!(parameters.len(), case.parameters.len(), "{parameters:?}");
         let folder = tempfile::tempdir().unwrap();
         let scheme = case.schemes()[0];
         let [basis, remedy] = [scheme.basis().text(), scheme.remedy().text()];
-        let run = ["run", case.name(), "--basis", basis, "--remedy", remedy];
+        let run = ["run", case.name, "--basis", basis, "--remedy", remedy];
         let mut arguments: Vec<String> = run.map(str::to_owned).to_vec();
         arguments.extend(["--out".to_owned(), text(folder.path()).to_owned()]);
         for (name, default) in &parameters {

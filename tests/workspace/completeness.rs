@@ -1,33 +1,34 @@
 //! Nothing is forgotten: every case, scheme and level is run, measured, judged, blessed and described.
 
 use super::{golden, workspace};
-use mpm_verify::case::{Case, RunSpec, Tier};
+use mpm_verify::case::{Case, Tier};
 use mpm_verify::cases;
 use mpm_verify::check::Kind;
 use mpm_verify::files::read_versioned;
 use mpm_verify::golden::{Golden, MARGIN, why_none};
 use mpm_verify::record::Record;
 use mpm_verify::run::judge;
+use mpm_verify::spec::RunSpec;
 use mpm_verify::study::{SCHEMA, Summary, has_truth};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 const TIERS: [Tier; 4] = [Tier::Quick, Tier::Pr, Tier::Nightly, Tier::Long];
 
-fn planned(case: &dyn Case) -> Vec<RunSpec> {
+fn planned(case: &Case) -> Vec<RunSpec> {
     TIERS.iter().flat_map(|tier| case.plan(*tier)).collect()
 }
 
 /// The records of the committed nightly report.
-fn last_night(case: &dyn Case) -> Vec<Record> {
+fn last_night(case: &Case) -> Vec<Record> {
     let path = workspace().join("reports/nightly/summary.json");
     let summary: Summary = read_versioned(&path, SCHEMA).unwrap();
-    let study = summary.cases.into_iter().find(|s| s.case == case.name());
+    let study = summary.cases.into_iter().find(|s| s.case == case.name);
     study.unwrap().records
 }
 
 /// Runs with a golden: of the case's golden tier, and not too long to be run twice.
-fn gated(case: &dyn Case) -> BTreeSet<String> {
+fn gated(case: &Case) -> BTreeSet<String> {
     let records = last_night(case);
     let carries = |r: &&Record| why_none(case, r).is_none();
     records.iter().filter(carries).map(Record::folder).collect()
@@ -38,19 +39,14 @@ fn every_scheme_and_level_belongs_to_a_tier() {
     for case in cases::all() {
         let plan = planned(case);
         for scheme in case.schemes() {
-            for level in case.levels() {
+            for level in case.levels {
                 let there = plan.iter().any(|s| s.scheme == scheme && s.level == *level);
-                assert!(
-                    there,
-                    "{} {scheme} {} is in no tier",
-                    case.name(),
-                    level.name
-                );
+                assert!(there, "{} {scheme} {} is in no tier", case.name, level.name);
             }
         }
         for spec in &plan {
             assert!(case.schemes().contains(&spec.scheme));
-            assert!(case.levels().contains(&spec.level));
+            assert!(case.levels.contains(&spec.level));
         }
         let pr: BTreeSet<String> = case.plan(Tier::Pr).iter().map(RunSpec::folder).collect();
         let nightly: BTreeSet<String> = case
@@ -68,7 +64,7 @@ fn every_scheme_and_level_belongs_to_a_tier() {
 #[test]
 fn every_gated_run_has_a_golden_and_every_golden_a_run() {
     for case in cases::all() {
-        let root = golden().join(case.name());
+        let root = golden().join(case.name);
         let gated = gated(case);
         for run in &gated {
             let golden = Golden::read(&root.join(run)).unwrap_or_else(|e| panic!("{e}"));
@@ -102,12 +98,12 @@ fn every_gated_run_has_a_golden_and_every_golden_a_run() {
 #[test]
 fn every_run_is_measured_and_judged_against_the_truth() {
     for case in cases::all() {
-        assert!(case.checks().iter().any(|c| c.kind == Kind::Truth));
-        let known: Vec<&str> = case.metrics().iter().map(|m| m.name).collect();
-        for name in case.headlines().iter().map(|h| h.metric) {
+        assert!(case.checks.iter().any(|c| c.kind == Kind::Truth));
+        let known: Vec<&str> = case.metrics.iter().map(|m| m.name).collect();
+        for name in case.headlines.iter().map(|h| h.metric) {
             assert!(known.contains(&name), "headline {name} is no metric");
         }
-        for name in case.quantities().iter().map(|q| q.metric) {
+        for name in case.quantities.iter().map(|q| q.metric) {
             assert!(known.contains(&name), "quantity {name} is no metric");
         }
         let records = last_night(case);
@@ -128,7 +124,7 @@ fn every_run_is_measured_and_judged_against_the_truth() {
 #[test]
 fn every_case_has_a_page_that_names_what_it_checks() {
     for case in cases::all() {
-        let path = workspace().join(format!("docs/{}.md", case.name()));
+        let path = workspace().join(format!("docs/{}.md", case.name));
         let page = std::fs::read_to_string(&path).unwrap();
         for part in [
             "## Set-up",
@@ -140,8 +136,8 @@ fn every_case_has_a_page_that_names_what_it_checks() {
             assert!(page.contains(part), "{}: no {part}", path.display());
         }
         assert!(page.contains("!["), "{}: no picture", path.display());
-        assert!(!case.limits().is_empty() && !case.references().is_empty());
-        assert!(!case.sketch().shapes.is_empty());
+        assert!(!case.limits.is_empty() && !case.references.is_empty());
+        assert!(!case.sketch.shapes.is_empty());
     }
 }
 

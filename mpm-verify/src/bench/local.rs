@@ -1,8 +1,8 @@
 //! What of this program is timed.
 
 use super::{Outcome, Sample, Timed, timed};
-use crate::case::Job;
 use crate::error::Error;
+use crate::job::Job;
 use mpm_core::{Memory, Simulation};
 use rayon::ThreadPool;
 use std::collections::BTreeMap;

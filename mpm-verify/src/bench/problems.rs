@@ -2,11 +2,12 @@
 
 use super::local::{Local, Observations};
 use super::{Options, Turn};
-use crate::case::{RunSpec, find_level};
+use crate::case::find_level;
 use crate::cases;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::spec::RunSpec;
 
 /// Case, level and observations of a slice: of the cheapest scheme a third of a second on two threads, so that noise
 /// averages out, and no run ends within the usual rounds.
@@ -60,15 +61,15 @@ fn turn(
         set: Vec::new(),
         perturbed: false,
     };
-    let parameters = Parameters::new(case.parameters(), &spec.set)?;
+    let parameters = Parameters::new(&case.parameters, &spec.set)?;
     let local = Local::new(threads, || {
-        let job = case.start(&spec, &parameters)?;
+        let job = (case.begin)(&spec, &parameters)?;
         Ok(Observations { job, observations })
     })?;
     let particles = local.going().particles();
     Ok(Turn {
         group: "problem",
-        name: format!("{} {level} {scheme}", case.name()),
+        name: format!("{} {level} {scheme}", case.name),
         threads,
         particles,
         timed: Box::new(local),

@@ -1,15 +1,15 @@
 //! Convergence and work–precision of every case.
 
-use super::Picture;
 use super::plot::{Chart, Dash, Marker, Scale, Series, SlopeTriangle};
 use super::price;
 use super::style::{Panel, Panels};
-use crate::case::Quantity;
 use crate::cases;
 use crate::convergence::{Convergence, Point, precision};
 use crate::distinct;
 use crate::error::Error;
 use crate::files::{write_csv, write_json};
+use crate::gallery::Picture;
+use crate::metric::Quantity;
 use crate::scheme::Scheme;
 use crate::study::CaseStudy;
 use std::collections::BTreeSet;
@@ -53,14 +53,14 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
     for set in distinct(errors().map(|c| &c.set[..])) {
         let diagram = Diagram {
             entries: errors().filter(|c| c.set == set).collect(),
-            quantities: case.quantities(),
+            quantities: &case.quantities,
         };
         let changed = if set.is_empty() {
             String::new()
         } else {
             format!(" with {}", set.join(", "))
         };
-        let name = if set == case.ladder() {
+        let name = if set == case.ladder {
             "convergence.png".to_owned()
         } else if set.is_empty() {
             "convergence-own.png".to_owned()
@@ -75,7 +75,7 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
     let costs = precision(case, &study.records);
     let diagram = Diagram {
         entries: costs.iter().collect(),
-        quantities: case.quantities(),
+        quantities: &case.quantities,
     };
     for (cost, error, value) in [
         (&PAIRS, "work-precision.png", "work-value.png"),
@@ -187,7 +187,7 @@ impl Diagram<'_> {
 
     /// The curves of a quantity.
     fn of(&self, quantity: &Quantity) -> impl Iterator<Item = &Convergence> {
-        let metric = quantity.metric;
+        let metric = quantity.metric.name;
         let own = self.entries.iter().filter(move |c| c.metric == metric);
         own.copied()
     }

@@ -1,8 +1,9 @@
 //! Text for the terminal: lists, explanations, verdicts.
 
-use crate::case::{Case, Headline, Tier};
+use crate::case::{Case, Tier};
 use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
+use crate::metric::Headline;
 use crate::record::{Record, Status};
 use crate::scheme::{Scheme, TransferName};
 use crate::study::{CaseStudy, Summary};
@@ -35,11 +36,11 @@ pub(super) fn runs(study: &CaseStudy) -> String {
 
 /// The cases as text, with the runs of a tier if one is given.
 #[must_use]
-pub fn list_text(cases: &[&dyn Case], tier: Option<Tier>) -> String {
+pub fn list_text(cases: &[&Case], tier: Option<Tier>) -> String {
     let mut text = String::new();
     for case in cases {
-        let levels: Vec<&str> = case.levels().iter().map(|l| l.name).collect();
-        let _ = writeln!(text, "{}  {}", case.name(), case.title());
+        let levels: Vec<&str> = case.levels.iter().map(|l| l.name).collect();
+        let _ = writeln!(text, "{}  {}", case.name, case.title);
         let _ = writeln!(text, "  levels: {}", levels.join(" "));
         match tier {
             None => {
@@ -61,14 +62,14 @@ pub fn list_text(cases: &[&dyn Case], tier: Option<Tier>) -> String {
 
 /// The same as JSON.
 #[must_use]
-pub fn list_json(cases: &[&dyn Case], tier: Option<Tier>) -> String {
+pub fn list_json(cases: &[&Case], tier: Option<Tier>) -> String {
     let cases: Vec<Value> = cases
         .iter()
         .map(|case| {
             let mut entry = json!({
-                "case": case.name(),
-                "title": case.title(),
-                "levels": case.levels().iter().map(|l| l.name).collect::<Vec<_>>(),
+                "case": case.name,
+                "title": case.title,
+                "levels": case.levels.iter().map(|l| l.name).collect::<Vec<_>>(),
                 "schemes": case.schemes(),
             });
             if let Some(tier) = tier {
@@ -87,15 +88,10 @@ pub fn list_json(cases: &[&dyn Case], tier: Option<Tier>) -> String {
 
 /// Everything about a case.
 #[must_use]
-pub fn explain(case: &dyn Case) -> String {
-    let mut t = format!(
-        "{}: {}\n\n{}\n",
-        case.name(),
-        case.title(),
-        case.description()
-    );
+pub fn explain(case: &Case) -> String {
+    let mut t = format!("{}: {}\n\n{}\n", case.name, case.title, case.description);
     let _ = writeln!(t, "\nParameters (--set name=value)");
-    for p in case.parameters() {
+    for p in &case.parameters {
         let _ = writeln!(
             t,
             "  {} ({})  default {}, allowed {}\n      {}",
@@ -113,23 +109,23 @@ pub fn explain(case: &dyn Case) -> String {
         );
     }
     let _ = writeln!(t, "\nLevels (--level L)");
-    for l in case.levels() {
+    for l in &case.levels {
         let _ = writeln!(t, "  {}  cells of {} m", l.name, l.h);
     }
     let _ = writeln!(t, "\nMetrics");
-    for m in case.metrics() {
+    for m in &case.metrics {
         let _ = writeln!(t, "  {} ({})  {}", m.name, m.unit, m.meaning);
     }
     let _ = writeln!(t, "\nChecks");
-    for c in case.checks() {
+    for c in &case.checks {
         let _ = writeln!(t, "  {} [{}]  {}", c.name, kind(c.kind), c.statement);
     }
     let _ = writeln!(t, "\nReferences");
-    for r in case.references() {
+    for r in &case.references {
         let _ = writeln!(t, "  {r}");
     }
     let _ = writeln!(t, "\nLimits");
-    for l in case.limits() {
+    for l in case.limits {
         let _ = writeln!(t, "  {l}");
     }
     t

@@ -1,10 +1,10 @@
 //! Pictures of what has drifted: golden | now | difference.
 
-use super::Picture;
 use super::triptych::triptych;
 use crate::check::Verdict;
 use crate::error::Error;
 use crate::files::write_picture;
+use crate::gallery::Picture;
 use crate::golden::{Golden, home};
 use crate::study::{CaseStudy, Gathered};
 use std::path::Path;

@@ -3,7 +3,7 @@
 use crate::check::{Kind, Verdict};
 use crate::night::Night;
 use crate::parameter::{Parameter, Parameters};
-use crate::record::{Failure, Metric, Record, Status};
+use crate::record::{Failure, Measured, Record, Status};
 use crate::scheme::{BasisName, RemedyName};
 use crate::study::{CaseStudy, Counts, Summary};
 
@@ -85,7 +85,7 @@ pub(crate) fn run(
     record.set = set.iter().map(|s| (*s).to_owned()).collect();
     record.parameters = Parameters::new(parameters, &record.set).unwrap();
     for (name, value) in metrics {
-        let metric = Metric {
+        let metric = Measured {
             value: Some(*value),
             unit: "-".to_owned(),
         };

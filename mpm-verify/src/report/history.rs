@@ -1,12 +1,12 @@
 //! Trends over nights: errors, orders and cost, kept in a table beside the report.
 
-use super::Picture;
 use super::plot::{Chart, Scale};
 use super::style::{Panel, Panels};
 use crate::cases;
 use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
+use crate::gallery::Picture;
 use crate::night::Night;
 use crate::scheme::Scheme;
 use crate::study::CaseStudy;
@@ -51,7 +51,7 @@ pub(super) fn add(study: &CaseStudy, night: &Night, out: &Path) -> Result<Option
     let path = out.join(FILE);
     let mut rows = read(&path)?;
     rows.retain(|row| row.night != night.date || row.case != study.case);
-    let ladder = cases::find(&study.case)?.ladder();
+    let ladder = cases::find(&study.case)?.ladder;
     rows.extend(rows_of(study, ladder, night));
     rows.sort_by_key(|row| (row.night, cases::place(&row.case)));
     let mut writer = csv::Writer::from_writer(Vec::new());

@@ -3,16 +3,18 @@
 use super::describe::{self, headline, kind, local_orders, made_by, number, order, outcome};
 use super::price::{Price, Prices};
 use super::sketch;
-use crate::case::{Case, Quantity};
+use crate::case::Case;
 use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::distinct;
 use crate::error::Error;
 use crate::files::write_whole;
+use crate::gallery::Picture;
+use crate::metric::Quantity;
 use crate::record::Record;
 use crate::scheme::Scheme;
-use crate::study::{CaseStudy, Picture, Summary};
+use crate::study::{CaseStudy, Summary};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{Environment, UndefinedBehavior, Value, context};
 use std::path::Path;
@@ -124,16 +126,16 @@ fn index(summary: &Summary) -> Result<Value, Error> {
 /// A case on the index: schemes over levels, at its own parameters and at others.
 fn overview(study: &CaseStudy) -> Result<Value, Error> {
     let case = cases::find(&study.case)?;
-    let own = case.levels().iter().map(|l| (l.name, &[][..])).collect();
+    let own = case.levels.iter().map(|l| (l.name, &[][..])).collect();
     let changed = || study.records.iter().filter(|r| !r.is_default());
     let all = case.schemes();
     let some = |s: &&Scheme| changed().any(|r| r.scheme() == **s);
     let schemes: Vec<Scheme> = all.iter().filter(some).copied().collect();
     let mut columns = distinct(changed().map(|r| (&*r.level, &*r.set)));
-    columns.sort_by_key(|(level, _)| case.levels().iter().position(|l| l.name == *level));
+    columns.sort_by_key(|(level, _)| case.levels.iter().position(|l| l.name == *level));
     Ok(context! {
-        name => case.name(),
-        title => case.title(),
+        name => case.name,
+        title => case.title,
         page => file_of(study),
         runs => describe::runs(study),
         made_by => made_by(study).to_vec(),
@@ -162,56 +164,56 @@ fn matrix(study: &CaseStudy, schemes: &[Scheme], columns: Vec<(&str, &[String])>
     }
 }
 
-fn case_page(case: &dyn Case, study: &CaseStudy, tier: &str) -> Value {
-    let sketch = case.sketch();
-    let parameters = case.parameters().iter().map(|p| {
+fn case_page(case: &Case, study: &CaseStudy, tier: &str) -> Value {
+    let sketch = &case.sketch;
+    let parameters = case.parameters.iter().map(|p| {
         context! {
             name => p.name, unit => p.unit, default => p.default,
             allowed => p.domain.to_string(), meaning => p.meaning,
         }
     });
     let levels = case
-        .levels()
+        .levels
         .iter()
         .map(|l| context! { name => l.name, h => l.h.to_string() });
-    let metrics = case.metrics().iter();
+    let metrics = case.metrics.iter();
     let metrics =
         metrics.map(|m| context! { name => m.name, unit => m.unit, meaning => m.meaning });
-    let known_limits = case.checks().iter().filter(|c| c.kind == Kind::KnownLimit);
+    let known_limits = case.checks.iter().filter(|c| c.kind == Kind::KnownLimit);
     let known_limits = known_limits.map(|c| context! { name => c.name, statement => c.statement });
     let sets = distinct(study.convergence.iter().map(|c| &c.set[..]));
     let ladders = sets.iter().map(|set| {
         let of_set = || study.convergence.iter().filter(|c| c.set == *set);
-        let quantities = case.quantities().iter().map(|q| quantity(q, of_set()));
+        let quantities = case.quantities.iter().map(|q| quantity(q, of_set()));
         context! { set => set.join(" "), quantities => quantities.flatten().collect::<Vec<_>>() }
     });
     context! {
         tier,
-        name => case.name(),
-        title => case.title(),
-        description => case.description(),
-        sketch => Value::from_safe_string(sketch::svg(&sketch, case.title())),
+        name => case.name,
+        title => case.title,
+        description => case.description,
+        sketch => Value::from_safe_string(sketch::svg(&sketch, case.title)),
         sketch_caption => sketch.description,
         parameters => parameters.collect::<Vec<_>>(),
         schemes => case.schemes().iter().map(ToString::to_string).collect::<Vec<_>>(),
         levels => levels.collect::<Vec<_>>(),
-        references => case.references(),
+        references => case.references.clone(),
         made_by => made_by(study).to_vec(),
-        pictures => pictures_in(std::slice::from_ref(study), Some(case.name())),
-        headings => case.headlines().iter().map(|h| h.heading).collect::<Vec<_>>(),
+        pictures => pictures_in(std::slice::from_ref(study), Some(case.name)),
+        headings => case.headlines.iter().map(|h| h.heading).collect::<Vec<_>>(),
         runs => study.records.iter().map(|r| run(case, r)).collect::<Vec<_>>(),
         ladders => ladders.collect::<Vec<_>>(),
         prices => Prices::of(study).as_ref().map(prices),
         checks => checks(case, study),
         together => study.verdicts.iter().map(verdict).collect::<Vec<_>>(),
-        limits => case.limits().to_vec(),
+        limits => case.limits.to_vec(),
         pending => study.pending.clone(),
         known_limits => known_limits.collect::<Vec<_>>(),
         metrics => metrics.collect::<Vec<_>>(),
     }
 }
 
-fn run(case: &dyn Case, r: &Record) -> Value {
+fn run(case: &Case, r: &Record) -> Value {
     let (d, w) = (&r.discretisation, &r.work);
     let facts = [
         ("cell size", format!("{} m", d.h)),
@@ -245,7 +247,7 @@ fn run(case: &dyn Case, r: &Record) -> Value {
         outcome => outcome_of_run(r),
         open => r.broke_down() || r.verdicts.iter().any(Verdict::failed),
         error => r.error.as_ref().map(|e| &*e.message),
-        headlines => case.headlines().iter().map(|h| headline(r, h)).collect::<Vec<_>>(),
+        headlines => case.headlines.iter().map(|h| headline(r, h)).collect::<Vec<_>>(),
         cpu => format!("{:.1}", r.time.cpu_s),
         facts => facts.map(|(name, value)| vec![Value::from(name), Value::from(value)]).to_vec(),
         verdicts => shown.map(verdict).collect::<Vec<_>>(),
@@ -309,13 +311,13 @@ fn outcome_of_run(record: &Record) -> Value {
 }
 
 /// Every check with its outcomes: those that the case declares, then those that every case has.
-fn checks(case: &dyn Case, study: &CaseStudy) -> Vec<Value> {
+fn checks(case: &Case, study: &CaseStudy) -> Vec<Value> {
     let of_runs = study.records.iter().flat_map(|r| &r.verdicts);
     let undeclared = of_runs
         .chain(&study.verdicts)
-        .filter(|v| v.kind != Kind::Drift && !case.checks().iter().any(|c| c.name == v.check));
+        .filter(|v| v.kind != Kind::Drift && !case.checks.iter().any(|c| c.name == v.check));
     let undeclared = distinct(undeclared.map(|v| (&*v.check, v.kind, &*v.source)));
-    let declared = case.checks().iter().map(|c| (c.name, c.kind, c.statement));
+    let declared = case.checks.iter().map(|c| (c.name, c.kind, c.statement));
     let row = |(name, of, statement): (&str, Kind, &str)| {
         let mut counts = [0, 0, 0];
         let mut count = |verdicts: &[&Verdict]| {
@@ -360,10 +362,10 @@ fn quantity<'a>(
     quantity: &Quantity,
     convergence: impl Iterator<Item = &'a Convergence>,
 ) -> Option<Value> {
-    let of_quantity = convergence.filter(|c| c.metric == quantity.metric);
+    let of_quantity = convergence.filter(|c| c.metric == quantity.metric.name);
     let schemes: Vec<Value> = of_quantity.map(row_of_convergence).collect();
     let shown = !schemes.is_empty();
-    shown.then(|| context! { label => quantity.label, metric => quantity.metric, schemes })
+    shown.then(|| context! { label => quantity.label, metric => quantity.metric.name, schemes })
 }
 
 fn row_of_convergence(c: &Convergence) -> Value {

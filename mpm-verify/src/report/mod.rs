@@ -2,21 +2,16 @@
 //!
 //! Everything here is made from records and CSV files on disk, never from a running simulation.
 
-mod column;
 mod convergence;
-mod cook;
 mod curves;
-mod dam_break;
 pub mod describe;
 pub mod diff;
 mod drift;
 #[cfg(test)]
 pub(crate) mod fixture;
-mod footing;
 pub mod history;
 mod html;
 mod junit;
-mod landslide;
 pub mod plot;
 mod price;
 mod remedies;
@@ -31,8 +26,10 @@ pub mod watched;
 use crate::cases;
 use crate::error::Error;
 use crate::files::{discard, discard_all, discard_folder, write_dense_json};
+use crate::gallery::{Gallery, Picture};
 use crate::night::Night;
-use crate::study::{CaseStudy, Gathered, Picture, Summary};
+use crate::record::Record;
+use crate::study::{CaseStudy, Gathered, Summary};
 use std::path::Path;
 
 const SUMMARY: &str = "summary.json";
@@ -127,16 +124,12 @@ fn draw_from_records(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Erro
     Ok(pictures)
 }
 
-/// Draws what only one case has.
+/// Draws what only this case has.
 fn draw_own(study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Picture>, Error> {
-    match study.case.as_str() {
-        "column" => column::draw(study, gathered, out),
-        "cook" => cook::draw(study, gathered, out),
-        "dam-break" => dam_break::draw(study, gathered, out),
-        "footing" => footing::draw(study, gathered, out),
-        "landslide" | "landslide-2d" => landslide::draw(study, gathered, out),
-        _ => Ok(Vec::new()),
-    }
+    let folder = |r: &Record| gathered.folder(r).map(Path::to_path_buf);
+    let mut gallery = Gallery::new(&study.case, &study.records, &folder, out);
+    (cases::find(&study.case)?.pictures)(&mut gallery)?;
+    Ok(gallery.pictures())
 }
 
 /// Removes an earlier report from `out`; runs, plan and history stay.
@@ -148,7 +141,7 @@ pub fn discard_report(out: &Path) -> Result<(), Error> {
         discard(&out.join(file))?;
     }
     for case in cases::all() {
-        discard_case(case.name(), out)?;
+        discard_case(case.name, out)?;
     }
     Ok(())
 }

@@ -1,9 +1,9 @@
 //! What an error costs: the runs that no other beats, and the cost to reach a target error.
 
 use super::describe;
-use crate::case::Quantity;
 use crate::cases;
 use crate::convergence::{Convergence, Point, precision};
+use crate::metric::Quantity;
 use crate::scheme::{RemedyName, Scheme};
 use crate::study::CaseStudy;
 use std::collections::{BTreeMap, BTreeSet};
@@ -70,9 +70,9 @@ impl Prices {
     /// Of the first error of a case in its own problem, if two schemes have it at two levels.
     pub(super) fn of(study: &CaseStudy) -> Option<Self> {
         let case = cases::find(&study.case).ok()?;
-        let quantity = case.quantities().iter().find(|q| q.is_error)?;
+        let quantity = case.quantities.iter().find(|q| q.is_error)?;
         let mut curves = precision(case, &study.records);
-        curves.retain(|c| c.metric == quantity.metric);
+        curves.retain(|c| c.metric == quantity.metric.name);
         Self::over(&curves, quantity)
     }
 
@@ -109,7 +109,7 @@ impl Prices {
         let key = |row: &Price| row.cost.map_or(f64::INFINITY, |c| c.pairs);
         rows.sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.least.total_cmp(&b.least)));
         Some(Self {
-            metric: quantity.metric.to_owned(),
+            metric: quantity.metric.into(),
             label: quantity.label,
             target,
             rows,

@@ -2,12 +2,12 @@
 
 use super::describe::{self, bless_commands, headline, kind, local_orders, number, order, outcome};
 use super::{price, remedies};
-use crate::case::Headline;
 use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
+use crate::metric::Headline;
 use crate::record::Record;
 use crate::study::Summary;
 use std::fmt::Write;
@@ -50,11 +50,7 @@ fn text(summary: &Summary) -> Result<String, Error> {
     t.push_str(&price::overview(&summary.cases));
     for study in &summary.cases {
         let _ = writeln!(t, "\n## {}\n", study.case);
-        results(
-            cases::find(&study.case)?.headlines(),
-            &study.records,
-            &mut t,
-        );
+        results(&cases::find(&study.case)?.headlines, &study.records, &mut t);
         if !study.pending.is_empty() {
             let _ = writeln!(t, "\nNot run yet: {}.", study.pending.join(", "));
         }
@@ -228,7 +224,7 @@ fn table(summary: &Summary, t: &mut String, keep: impl Fn(&Verdict) -> bool) {
 mod tests {
     use super::*;
     use crate::convergence::convergence;
-    use crate::record::Metric;
+    use crate::record::Measured;
     use crate::report::fixture::record;
 
     #[test]
@@ -241,7 +237,8 @@ mod tests {
                 run.discretisation.h = h;
                 for (name, value) in [("mean_stress_rms_error", -h * h), ("tip_ux", h)] {
                     let (value, unit) = (Some(value), "-".to_owned());
-                    run.metrics.insert(name.to_owned(), Metric { value, unit });
+                    run.metrics
+                        .insert(name.to_owned(), Measured { value, unit });
                 }
                 records.push(run);
             }

@@ -1,13 +1,14 @@
 //! Errors over the values of a parameter.
 
-use super::Picture;
 use super::convergence::error_label;
 use super::plot::{Chart, Scale};
 use super::style::{Panel, Panels};
-use crate::case::{Case, Quantity, Sweep};
+use crate::case::Case;
 use crate::cases;
 use crate::error::Error;
 use crate::files::write_csv;
+use crate::gallery::Picture;
+use crate::metric::{Quantity, Sweep};
 use crate::record::Record;
 use crate::scheme::Scheme;
 use crate::study::CaseStudy;
@@ -21,16 +22,16 @@ const LEAST_VALUES: usize = 3;
 pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error> {
     let case = cases::find(&study.case)?;
     let mut pictures = Vec::new();
-    for sweep in case.sweeps() {
+    for sweep in &case.sweeps {
         let Some(runs) = Runs::select(case, sweep, &study.records) else {
             continue;
         };
         let shown = |q: &&Quantity| q.is_error && runs.measure(q);
-        let errors: Vec<&Quantity> = case.quantities().iter().filter(shown).collect();
+        let errors: Vec<&Quantity> = case.quantities.iter().filter(shown).collect();
         if errors.is_empty() {
             continue;
         }
-        let file = |extension| format!("{}/sweep-{}.{extension}", study.case, sweep.parameter);
+        let file = |extension| format!("{}/sweep-{}.{extension}", study.case, sweep.parameter.name);
         runs.write(&errors, &out.join(file("csv")))?;
         let schemes: BTreeSet<Scheme> = runs.of_scheme.keys().copied().collect();
         let chart = |quantity: &&Quantity, panel: &Panel| runs.chart(quantity, panel);
@@ -39,7 +40,7 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
                 file: file("png"),
                 caption: format!(
                     "Error at level {} over the values of {}, for every scheme that ran at least {LEAST_VALUES} of them.",
-                    runs.level, sweep.parameter
+                    runs.level, sweep.parameter.name
                 ),
             });
         }
@@ -58,11 +59,11 @@ struct Runs<'a> {
 impl<'a> Runs<'a> {
     /// The runs that differ in the parameter alone, of the schemes that ran enough of its values at the
     /// finest level at which any has; `None` if there is no such level.
-    fn select(case: &dyn Case, sweep: &'a Sweep, records: &'a [Record]) -> Option<Self> {
+    fn select(case: &Case, sweep: &'a Sweep, records: &'a [Record]) -> Option<Self> {
         let at_level = |level: &'static str| {
             let mut of_scheme: BTreeMap<Scheme, Vec<(f64, &Record)>> = BTreeMap::new();
             for record in records.iter().filter(|r| r.level == level) {
-                if record.is_default() || record.changes_only(sweep.parameter) {
+                if record.is_default() || record.changes_only(sweep.parameter.name) {
                     let value = record.parameters.number(sweep.parameter);
                     let runs = of_scheme.entry(record.scheme()).or_default();
                     runs.push((value, record));
@@ -79,7 +80,7 @@ impl<'a> Runs<'a> {
                 of_scheme,
             })
         };
-        case.levels().iter().rev().find_map(|l| at_level(l.name))
+        case.levels.iter().rev().find_map(|l| at_level(l.name))
     }
 
     /// Whether some scheme has measured a quantity at enough values of the parameter.
@@ -94,14 +95,21 @@ impl<'a> Runs<'a> {
         let Sweep {
             parameter, label, ..
         } = self.sweep;
-        let header = ["quantity", "scheme", "level", parameter, label, "value"];
+        let header = [
+            "quantity",
+            "scheme",
+            "level",
+            parameter.name,
+            label,
+            "value",
+        ];
         let mut rows = Vec::new();
         for metric in errors.iter().map(|q| q.metric) {
             for (scheme, runs) in &self.of_scheme {
                 let finite = runs.iter().filter(|(_, r)| r.metric(metric).is_finite());
                 rows.extend(finite.map(|(value, record)| {
                     vec![
-                        metric.to_owned(),
+                        metric.name.to_owned(),
                         scheme.to_string(),
                         self.level.to_owned(),
                         value.to_string(),
@@ -153,11 +161,11 @@ impl<'a> Runs<'a> {
 mod tests {
     use super::*;
     use crate::parameter::Parameters;
-    use crate::record::Metric;
+    use crate::record::Measured;
     use crate::report::fixture::record;
     use crate::scheme::RemedyName;
 
-    fn cook() -> &'static dyn Case {
+    fn cook() -> &'static Case {
         cases::find("cook").unwrap()
     }
 
@@ -168,7 +176,7 @@ mod tests {
         run.parameters = Parameters::new(cook().parameters(), &run.set).unwrap();
         let (value, unit) = (Some(0.01), "-".to_owned());
         run.metrics
-            .insert("fem_edge_mean_error".to_owned(), Metric { value, unit });
+            .insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
         run
     }
 

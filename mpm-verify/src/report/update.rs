@@ -6,8 +6,9 @@ use crate::cases;
 use crate::check::Kind;
 use crate::error::Error;
 use crate::files::read_versioned;
+use crate::gallery::Picture;
 use crate::run::judge;
-use crate::study::{CaseStudy, Picture, SCHEMA, Summary, of_one_program};
+use crate::study::{CaseStudy, SCHEMA, Summary, of_one_program};
 use std::path::Path;
 
 /// Reads what the report in `out` says.
@@ -56,7 +57,7 @@ pub(super) fn replace(pictures: &mut Vec<Picture>, drawn: Vec<Picture>) {
 
 /// A study with the verdicts of the checks as they are now; those on drift, which need more than the
 /// records, stay.
-fn judged_again(case: &dyn Case, mut study: CaseStudy) -> CaseStudy {
+fn judged_again(case: &Case, mut study: CaseStudy) -> CaseStudy {
     for record in &mut study.records {
         let mut verdicts = judge(case, record);
         record.verdicts.retain(|v| v.kind == Kind::Drift);

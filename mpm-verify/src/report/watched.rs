@@ -11,7 +11,7 @@ use image::RgbImage;
 /// # Errors
 /// The case is not known, the series lacks a watched column, or the picture can't be drawn.
 pub fn draw_watched(case: &str, series: &Table) -> Result<RgbImage, Error> {
-    let names = cases::find(case)?.watched();
+    let names = cases::find(case)?.watched;
     let (time, _) = series
         .iter()
         .next()

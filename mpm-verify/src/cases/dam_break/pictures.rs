@@ -72,7 +72,7 @@ pub(super) fn draw(
             .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
             .filter(own)
             .collect(),
-        ladder: cases::find(&study.case)?.ladder(),
+        ladder: cases::find(&study.case)?.ladder,
         gathered,
         out,
         pictures: Vec::new(),

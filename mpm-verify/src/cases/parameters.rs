@@ -1,0 +1,63 @@
+//! Parameters that several problems have: each is asked for by itself, so that a slip does not compile.
+
+use crate::parameter::{Domain, Parameter, number, parameter};
+
+/// Words of [`WALL`].
+pub(super) const WALL_LINE: &str = "wall-line";
+
+pub(super) const YOUNG_MODULUS: Parameter = parameter(
+    "young_modulus",
+    "Pa",
+    "1e6",
+    number(1e-3, 1e12, false),
+    "Young's modulus E",
+);
+pub(super) const POISSON_RATIO: Parameter = parameter(
+    "poisson_ratio",
+    "-",
+    "0.49",
+    number(0.0, 0.5, true),
+    "Poisson's ratio ν",
+);
+pub(super) const DENSITY: Parameter = parameter(
+    "density",
+    "kg/m³",
+    "1000",
+    number(1e-6, 1e6, false),
+    "density ρ",
+);
+pub(super) const CFL: Parameter = parameter(
+    "cfl",
+    "-",
+    "0.4",
+    number(1e-3, 1.0, true),
+    "CFL number c Δt / h of pressure waves",
+);
+pub(super) const FLIP: Parameter = parameter(
+    "flip",
+    "-",
+    "1",
+    number(0.0, 1.0, false),
+    "PIC/FLIP blend η: 1 is FLIP",
+);
+pub(super) const DAMPING: Parameter = parameter(
+    "damping",
+    "-",
+    "0",
+    number(0.0, 1.0, true),
+    "local damping factor",
+);
+pub(super) const WALL: Parameter = parameter(
+    "wall",
+    "-",
+    "open-knot",
+    Domain::Choice(&["open-knot", WALL_LINE]),
+    "how B-splines meet walls",
+);
+pub(super) const PPC_PER_DIRECTION: Parameter = parameter(
+    "ppc_per_direction",
+    "-",
+    "2",
+    Domain::Integer { least: 1, most: 4 },
+    "particles per cell and direction",
+);

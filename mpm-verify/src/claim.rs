@@ -1,0 +1,172 @@
+//! What a case checks: each check is named once, and carries what it is decided by.
+
+use crate::check::{Kind, Verdict};
+use crate::record::Record;
+
+/// A check of a case.
+pub struct Check {
+    /// Name.
+    pub name: &'static str,
+    /// Kind.
+    pub kind: Kind,
+    /// What it demands, of which schemes, and where the tolerance comes from.
+    pub statement: &'static str,
+    /// What it is decided on, and how.
+    pub on: On,
+}
+
+type OfRun = Box<dyn Fn(&Record) -> Vec<Finding> + Send + Sync>;
+type OfStudy = Box<dyn Fn(&[Record]) -> Vec<Finding> + Send + Sync>;
+
+/// What a check is decided on, and how; nothing is found where it says nothing.
+pub enum On {
+    /// One run that has come to its end.
+    Run(OfRun),
+    /// All runs of a case together.
+    Study(OfStudy),
+}
+
+impl Check {
+    /// Against an exact value, an independent reference or a law of physics.
+    pub(crate) fn truth(name: &'static str, statement: &'static str, on: On) -> Self {
+        let kind = Kind::Truth;
+        Self {
+            name,
+            kind,
+            statement,
+            on,
+        }
+    }
+
+    /// Of a limit that is known: it fails if the limit vanishes.
+    pub(crate) fn known_limit(name: &'static str, statement: &'static str, on: On) -> Self {
+        let kind = Kind::KnownLimit;
+        Self {
+            name,
+            kind,
+            statement,
+            on,
+        }
+    }
+
+    /// Verdicts on one run.
+    #[must_use]
+    pub fn of_run(&self, record: &Record) -> Vec<Verdict> {
+        match &self.on {
+            On::Run(found) => self.verdicts(found(record)),
+            On::Study(_) => Vec::new(),
+        }
+    }
+
+    /// Verdicts on the runs of a case together.
+    #[must_use]
+    pub fn of_study(&self, records: &[Record]) -> Vec<Verdict> {
+        match &self.on {
+            On::Run(_) => Vec::new(),
+            On::Study(found) => self.verdicts(found(records)),
+        }
+    }
+
+    fn verdicts(&self, found: Vec<Finding>) -> Vec<Verdict> {
+        found
+            .into_iter()
+            .map(|f| f.verdict(self.name, self.kind))
+            .collect()
+    }
+}
+
+/// A check on single runs.
+pub(crate) fn run(found: impl Fn(&Record) -> Vec<Finding> + Send + Sync + 'static) -> On {
+    On::Run(Box::new(found))
+}
+
+/// A check on the runs of a case together.
+pub(crate) fn study(found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static) -> On {
+    On::Study(Box::new(found))
+}
+
+/// What a check has found; the judge adds whose finding it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    metric: String,
+    value: Option<f64>,
+    reference: Option<f64>,
+    tolerance: Option<f64>,
+    holds: Option<bool>,
+    source: String,
+}
+
+impl Finding {
+    /// |value − reference| ≤ tolerance.
+    pub(crate) fn within(
+        metric: impl Into<String>,
+        value: f64,
+        reference: f64,
+        tolerance: f64,
+        source: impl Into<String>,
+    ) -> Self {
+        Self {
+            metric: metric.into(),
+            value: Some(value),
+            reference: Some(reference),
+            tolerance: Some(tolerance),
+            holds: Some((value - reference).abs() <= tolerance),
+            source: source.into(),
+        }
+    }
+
+    /// value ≤ bound.
+    pub(crate) fn at_most(
+        metric: impl Into<String>,
+        value: f64,
+        bound: f64,
+        source: impl Into<String>,
+    ) -> Self {
+        Self {
+            metric: metric.into(),
+            value: Some(value),
+            reference: None,
+            tolerance: Some(bound),
+            holds: Some(value <= bound),
+            source: source.into(),
+        }
+    }
+
+    /// value > bound.
+    pub(crate) fn above(
+        metric: impl Into<String>,
+        value: f64,
+        bound: f64,
+        source: impl Into<String>,
+    ) -> Self {
+        Self {
+            holds: Some(value > bound),
+            ..Self::at_most(metric, value, bound, source)
+        }
+    }
+
+    /// The check does not apply, and why: never a pass.
+    pub(crate) fn not_applicable(metric: impl Into<String>, why: impl Into<String>) -> Self {
+        Self {
+            metric: metric.into(),
+            value: None,
+            reference: None,
+            tolerance: None,
+            holds: None,
+            source: why.into(),
+        }
+    }
+
+    fn verdict(self, check: &str, kind: Kind) -> Verdict {
+        Verdict {
+            check: check.to_owned(),
+            kind,
+            metric: self.metric,
+            value: self.value,
+            reference: self.reference,
+            tolerance: self.tolerance,
+            pass: self.holds,
+            source: self.source,
+        }
+    }
+}

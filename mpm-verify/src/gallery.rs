@@ -1,0 +1,80 @@
+//! What a case draws its pictures from: the records of a report, and what the runs have written.
+
+use crate::error::Error;
+use crate::record::Record;
+use crate::table::Table;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// A picture of a report.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Picture {
+    /// File below the report's folder.
+    pub file: String,
+    /// What it shows.
+    pub caption: String,
+}
+
+/// The folder of a run.
+pub type FolderOf<'a> = &'a dyn Fn(&Record) -> Result<PathBuf, Error>;
+
+/// The runs of a case, and the place for its pictures.
+pub struct Gallery<'a> {
+    /// Name of the case, which is also the folder of its pictures.
+    pub case: &'a str,
+    /// Records, in the order of the plan.
+    pub records: &'a [Record],
+    folder: FolderOf<'a>,
+    out: &'a Path,
+    pictures: Vec<Picture>,
+}
+
+impl<'a> Gallery<'a> {
+    /// Of runs whose outputs lie in `folder`, for a report in `out`.
+    #[must_use]
+    pub fn new(case: &'a str, records: &'a [Record], folder: FolderOf<'a>, out: &'a Path) -> Self {
+        Self {
+            case,
+            records,
+            folder,
+            out,
+            pictures: Vec::new(),
+        }
+    }
+
+    /// Reads a table that a run has written.
+    ///
+    /// # Errors
+    /// The run is not of this report, or the file is missing or damaged.
+    pub fn table(&self, record: &Record, file: &str) -> Result<Table, Error> {
+        Table::read(&(self.folder)(record)?.join(file))
+    }
+
+    /// Whether a run has written a file.
+    ///
+    /// # Errors
+    /// The run is not of this report.
+    pub fn has(&self, record: &Record, file: &str) -> Result<bool, Error> {
+        Ok((self.folder)(record)?.join(file).exists())
+    }
+
+    /// Where a file of the case's folder goes.
+    #[must_use]
+    pub fn place(&self, file: &str) -> PathBuf {
+        self.out.join(self.case).join(file)
+    }
+
+    /// Hangs a picture that was drawn at [`Gallery::place`].
+    pub fn hang(&mut self, file: &str, caption: impl Into<String>) {
+        self.pictures.push(Picture {
+            file: format!("{}/{file}", self.case),
+            caption: caption.into(),
+        });
+    }
+
+    /// The pictures, in the order they were hung.
+    #[must_use]
+    pub fn pictures(self) -> Vec<Picture> {
+        self.pictures
+    }
+}

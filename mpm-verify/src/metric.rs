@@ -1,0 +1,95 @@
+//! Metrics, and what is shown of them.
+
+use crate::parameter::Parameter;
+
+/// A metric: what a run measures, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Metric {
+    /// Name.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// What it measures.
+    pub meaning: &'static str,
+}
+
+/// A metric by name, unit and meaning.
+pub(crate) const fn metric(
+    name: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+) -> Metric {
+    Metric {
+        name,
+        unit,
+        meaning,
+    }
+}
+
+impl From<Metric> for String {
+    fn from(metric: Metric) -> Self {
+        metric.name.to_owned()
+    }
+}
+
+/// A quantity whose convergence over the levels is studied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity {
+    /// The metric.
+    pub metric: Metric,
+    /// What it is, as an axis is labelled.
+    pub label: &'static str,
+    /// Whether the metric is an error, whose exact value is zero; if not, Richardson's extrapolation
+    /// stands in for the exact value.
+    pub is_error: bool,
+}
+
+/// A parameter over whose values the errors are drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Sweep {
+    /// The parameter, a number.
+    pub parameter: Parameter,
+    /// What is drawn of it, as an axis is labelled.
+    pub label: &'static str,
+    /// What is drawn of a value, such as its distance from a limit; positive if drawn by its logarithm.
+    pub abscissa: fn(f64) -> f64,
+    /// Whether it is drawn by its logarithm.
+    pub logarithmic: bool,
+}
+
+/// A column of the table of results.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Headline {
+    /// The metric.
+    pub metric: Metric,
+    /// Heading, with unit.
+    pub heading: &'static str,
+    /// Factor from the metric's unit to that of the heading.
+    pub factor: f64,
+    /// Decimals shown.
+    pub decimals: usize,
+}
+
+/// An error whose convergence is studied, by metric and label.
+pub(crate) const fn error(metric: Metric, label: &'static str) -> Quantity {
+    Quantity {
+        metric,
+        label,
+        is_error: true,
+    }
+}
+
+/// A column of the table of results by metric, heading, factor to the heading's unit and decimals.
+pub(crate) const fn headline(
+    metric: Metric,
+    heading: &'static str,
+    factor: f64,
+    decimals: usize,
+) -> Headline {
+    Headline {
+        metric,
+        heading,
+        factor,
+        decimals,
+    }
+}

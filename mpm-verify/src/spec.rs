@@ -1,0 +1,65 @@
+//! One run: a scheme at a level, with the parameters that are changed.
+
+use crate::scheme::Scheme;
+
+/// A level of refinement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Level {
+    /// Name.
+    pub name: &'static str,
+    /// Cell size (m).
+    pub h: f64,
+}
+
+/// One run of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunSpec {
+    /// Scheme.
+    pub scheme: Scheme,
+    /// Level.
+    pub level: Level,
+    /// Parameters changed from the defaults, as `name=value`.
+    pub set: Vec<String>,
+    /// Whether every particle starts a last bit beside its place: what such a twin differs in is how far
+    /// results can be trusted to the digit.
+    pub perturbed: bool,
+}
+
+impl RunSpec {
+    /// Folder of the run below that of its case.
+    #[must_use]
+    pub fn folder(&self) -> String {
+        let mut folder = run_folder(self.scheme, self.level.name, &self.set);
+        if self.perturbed {
+            folder.push_str("/twin");
+        }
+        folder
+    }
+
+    /// Where particles seeded at `positions` (m) start: there, or, in a twin, at the next floating-point
+    /// number above or below, in turn.
+    #[must_use]
+    pub fn start_at<const D: usize>(&self, mut positions: Vec<[f64; D]>) -> Vec<[f64; D]> {
+        if self.perturbed {
+            for (k, x) in positions.iter_mut().flatten().enumerate() {
+                *x = if k % 3 == 0 {
+                    x.next_up()
+                } else {
+                    x.next_down()
+                };
+            }
+        }
+        positions
+    }
+}
+
+/// Name of a run, which is also its folder below that of its case.
+#[must_use]
+pub fn run_folder(scheme: Scheme, level: &str, set: &[String]) -> String {
+    let mut folder = format!("{scheme}/{level}");
+    for assignment in set {
+        folder.push('+');
+        folder.push_str(assignment);
+    }
+    folder
+}
