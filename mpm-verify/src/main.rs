@@ -128,7 +128,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 Some(text) => Shard::parse(&text)?,
                 None => Shard::WHOLE,
             };
-            let plan = Plan::new(&chosen(names)?, parse_tier(&tier)?, shard)?;
+            let plan = Plan::new(chosen(names)?, parse_tier(&tier)?, shard)?;
             let saving = saving(checkpoint_every, resume);
             verify(&plan, saving, &out, &golden, parse_threads(threads)?)
         }
@@ -248,16 +248,15 @@ fn chosen(names: Vec<String>) -> Result<Vec<&'static Case>, Error> {
     for name in &names {
         cases::find(name)?;
     }
-    let mut all = cases::all();
-    all.retain(|c| names.is_empty() || names.iter().any(|n| n == c.name));
-    Ok(all)
+    let asked = |c: &&Case| names.is_empty() || names.iter().any(|n| n == c.name);
+    Ok(cases::all().iter().filter(asked).collect())
 }
 
 fn list(tier: Option<&str>, format: &str) -> Result<ExitCode, Error> {
     let tier = tier.map(parse_tier).transpose()?;
     let text = match format {
-        "text" => describe::list_text(&cases::all(), tier),
-        "json" => describe::list_json(&cases::all(), tier),
+        "text" => describe::list_text(cases::all(), tier),
+        "json" => describe::list_json(cases::all(), tier),
         other => return Err(Error::unknown("format", other, ["text", "json"])),
     };
     say(&text)?;
@@ -319,7 +318,7 @@ fn ended(case: &Case, spec: &RunSpec, folder: &Path) -> Result<Option<Record>, E
         return Ok(None);
     }
     let record: Record = read_versioned(&path, record::SCHEMA)?;
-    let asked = Identity::of(case, spec, &Parameters::new(case.parameters, &spec.set)?);
+    let asked = Identity::of(case, spec, &Parameters::new(&case.parameters, &spec.set)?);
     asked
         .require(&Identity::of_record(&record))
         .map_err(|refusal| refusal.of(&path))?;

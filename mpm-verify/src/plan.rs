@@ -110,7 +110,11 @@ impl Plan {
     ///
     /// # Errors
     /// The cases have no runs in this tier, or fewer than there are shards.
-    pub fn new(cases: &[&Case], tier: Tier, shard: Shard) -> Result<Self, Error> {
+    pub fn new<'a>(
+        cases: impl IntoIterator<Item = &'a Case>,
+        tier: Tier,
+        shard: Shard,
+    ) -> Result<Self, Error> {
         let mut runs = Vec::new();
         let mut costs = Vec::new();
         for case in cases {
@@ -229,7 +233,7 @@ mod tests {
     #[test]
     fn every_run_belongs_to_exactly_one_shard_and_shards_are_alike() {
         let all = cases::all();
-        let plan = |index| Plan::new(&all, Tier::Nightly, Shard { index, count: 4 }).unwrap();
+        let plan = |index| Plan::new(all, Tier::Nightly, Shard { index, count: 4 }).unwrap();
         let whole = plan(1);
         assert!((1..=4).all(|k| plan(k).is_of_one_whole_with(&whole)));
         let sizes: Vec<usize> = (1..=4).map(|k| plan(k).own().count()).collect();
@@ -242,7 +246,7 @@ mod tests {
     #[test]
     fn no_run_is_planned_twice_and_a_long_plan_has_the_night() {
         let all = cases::all();
-        let of = |tier| Plan::new(&all, tier, Shard::WHOLE).unwrap();
+        let of = |tier| Plan::new(all, tier, Shard::WHOLE).unwrap();
         for tier in [Tier::Quick, Tier::Pr, Tier::Nightly, Tier::Long] {
             of(tier).check().unwrap();
         }
@@ -258,6 +262,6 @@ mod tests {
             index: 1,
             count: 100,
         };
-        assert!(Plan::new(&cases::all(), Tier::Quick, shard).is_err());
+        assert!(Plan::new(cases::all(), Tier::Quick, shard).is_err());
     }
 }

@@ -93,7 +93,7 @@ fn assert_same(folder: &Path, straight: &Path) {
 fn identity_of_run() -> Identity {
     let case = cases::find("cook").unwrap();
     let set = vec![RUN[5].to_owned()];
-    let parameters = Parameters::new(case.parameters, &set).unwrap();
+    let parameters = Parameters::new(&case.parameters, &set).unwrap();
     let spec = RunSpec {
         scheme: Scheme::flip(BasisName::Gimp, RemedyName::FbarTotal),
         level: case.levels[0],
@@ -397,7 +397,7 @@ fn a_verification_that_is_killed_goes_on_from_its_checkpoints() {
 }
 
 fn start_job(case: &Case, spec: &RunSpec) -> Box<dyn Job> {
-    let parameters = Parameters::new(case.parameters, &spec.set).unwrap();
+    let parameters = Parameters::new(&case.parameters, &spec.set).unwrap();
     (case.begin)(spec, &parameters).unwrap()
 }
 
@@ -446,7 +446,7 @@ fn the_job_of_every_case_goes_on_bit_for_bit() {
     let runs = cases::all().into_iter().map(|case| {
         let cost = |s: &RunSpec| (case.cost)(s);
         let tiers = [Tier::Quick, Tier::Pr, Tier::Nightly].into_iter();
-        let specs = tiers.map(|tier| case.plan(tier)).find(|s| !s.is_empty());
+        let specs = tiers.map(|tier| case.runs(tier)).find(|s| !s.is_empty());
         let specs = specs.unwrap().into_iter().rev();
         let cheapest = specs.min_by(|a, b| cost(a).total_cmp(&cost(b)));
         let mut spec = cheapest.unwrap();
@@ -474,7 +474,7 @@ fn goes_on(case: &Case, spec: &RunSpec) {
 #[test]
 fn a_job_of_two_scenes_goes_on_in_either() {
     let case = cases::find("dam-break").unwrap();
-    let mut spec = case.plan(Tier::Pr).swap_remove(0);
+    let mut spec = case.runs(Tier::Pr).swap_remove(0);
     spec.set = ["start=gravity-stage", "duration=0.06"]
         .map(str::to_owned)
         .into();

@@ -355,7 +355,7 @@ fn below_the_curves<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::error;
+    use crate::metric::{error, metric};
     use crate::scheme::{BasisName, RemedyName};
     use std::cell::RefCell;
 
@@ -403,7 +403,8 @@ mod tests {
         };
         let schemes = curves.iter().map(|c| c.scheme).collect();
         let picture = folder.path().join("a.png");
-        let drawn = Panels::new(&schemes).draw(&picture, [error("e", "error")], chart);
+        let drawn =
+            Panels::new(&schemes).draw(&picture, [error(metric("e", "-", ""), "error")], chart);
         assert!(drawn.unwrap() && picture.exists());
         let [chart] = &charts.borrow()[..] else {
             panic!("one panel");
@@ -436,7 +437,7 @@ mod tests {
             quantities: &[],
         };
         let quantity = Quantity {
-            metric: "e",
+            metric: metric("e", "-", ""),
             label: "run-out (m)",
             is_error: false,
         };

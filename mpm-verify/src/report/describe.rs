@@ -36,7 +36,7 @@ pub(super) fn runs(study: &CaseStudy) -> String {
 
 /// The cases as text, with the runs of a tier if one is given.
 #[must_use]
-pub fn list_text(cases: &[&Case], tier: Option<Tier>) -> String {
+pub fn list_text(cases: &[Case], tier: Option<Tier>) -> String {
     let mut text = String::new();
     for case in cases {
         let levels: Vec<&str> = case.levels.iter().map(|l| l.name).collect();
@@ -62,7 +62,7 @@ pub fn list_text(cases: &[&Case], tier: Option<Tier>) -> String {
 
 /// The same as JSON.
 #[must_use]
-pub fn list_json(cases: &[&Case], tier: Option<Tier>) -> String {
+pub fn list_json(cases: &[Case], tier: Option<Tier>) -> String {
     let cases: Vec<Value> = cases
         .iter()
         .map(|case| {

@@ -328,7 +328,7 @@ mod tests {
             curve(RemedyName::FbarRate, &[], &[fine.clone(), fine]),
             curve(RemedyName::FbarTotal, &[], &[coarse]),
         ];
-        let quantity = crate::case::error("e", "error");
+        let quantity = crate::metric::error(crate::metric::metric("e", "-", ""), "error");
         let prices = Prices::over(&curves, &quantity).unwrap();
         let told = prices
             .rows

@@ -329,7 +329,7 @@ mod tests {
     use quick_xml::events::Event;
 
     fn cook() -> String {
-        svg(&crate::cases::find("cook").unwrap().sketch(), "Cook")
+        svg(&crate::cases::find("cook").unwrap().sketch, "Cook")
     }
 
     /// An attribute of an element.

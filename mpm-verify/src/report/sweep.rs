@@ -173,7 +173,7 @@ mod tests {
         let mut run = record(level, Vec::new());
         run.remedy = remedy;
         run.set = set.iter().map(|s| (*s).to_owned()).collect();
-        run.parameters = Parameters::new(cook().parameters(), &run.set).unwrap();
+        run.parameters = Parameters::new(&cook().parameters, &run.set).unwrap();
         let (value, unit) = (Some(0.01), "-".to_owned());
         run.metrics
             .insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
@@ -200,11 +200,11 @@ mod tests {
     #[test]
     fn a_sweep_changes_one_parameter_at_the_finest_level_with_three_values() {
         let records = records();
-        let runs = Runs::select(cook(), &cook().sweeps()[0], &records).unwrap();
+        let runs = Runs::select(cook(), &cook().sweeps[0], &records).unwrap();
         assert_eq!((runs.level, runs.of_scheme.len()), ("h1", 1));
         let values = runs.of_scheme.values().flatten().map(|(value, _)| *value);
         assert_eq!(values.collect::<Vec<_>>(), [0.3, 0.499, 0.4999]);
-        assert!(Runs::select(cook(), &cook().sweeps()[0], &records[..4]).is_none());
+        assert!(Runs::select(cook(), &cook().sweeps[0], &records[..4]).is_none());
     }
 
     #[test]
@@ -212,9 +212,9 @@ mod tests {
         let mut records = records();
         records[3].metrics.clear();
         records[4].metrics.clear();
-        let sweep = &cook().sweeps()[0];
+        let sweep = &cook().sweeps[0];
         let runs = Runs::select(cook(), sweep, &records).unwrap();
-        assert!(!cook().quantities().iter().any(|q| runs.measure(q)));
+        assert!(!cook().quantities.iter().any(|q| runs.measure(q)));
     }
 
     #[test]
