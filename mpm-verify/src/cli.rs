@@ -33,11 +33,17 @@ pub(crate) enum Command {
     Run {
         /// The case
         case: String,
+        /// Scheme by its name, as `list` and records write it, in place of its parts
+        #[arg(long, conflicts_with_all = ["solver", "basis", "remedy", "transfer"])]
+        scheme: Option<String>,
+        /// Solver: explicit
+        #[arg(long, default_value = "explicit")]
+        solver: String,
         /// Basis functions
         #[arg(long, default_value = "gimp")]
         basis: String,
         /// Locking remedy
-        #[arg(long, default_value = "fbar-rate")]
+        #[arg(long, default_value = "fbar-consistent")]
         remedy: String,
         /// Transfer
         #[arg(long, default_value = "flip")]

@@ -18,7 +18,7 @@ use mpm_verify::plan::{Plan, Shard};
 use mpm_verify::record::{self, Record, Status};
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::{describe, discard_report, update_report, write_report};
-use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
 use mpm_verify::study::{Gathered, has_truth, make_runs};
 use mpm_verify::{cases, golden, run};
@@ -82,6 +82,8 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
         }
         Command::Run {
             case,
+            scheme,
+            solver,
             basis,
             remedy,
             transfer,
@@ -94,11 +96,10 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             threads,
         } => {
             let case = cases::find(&case)?;
-            let scheme = Scheme::explicit(
-                BasisName::parse(&basis)?,
-                RemedyName::parse(&remedy)?,
-                TransferName::parse(&transfer)?,
-            );
+            let scheme = match scheme {
+                Some(name) => Scheme::parse(&name)?,
+                None => Scheme::of_parts(&solver, &basis, &remedy, &transfer)?,
+            };
             let level = match level {
                 Some(name) => find_level(case, &name)?,
                 None => case.levels[0],

@@ -203,6 +203,30 @@ impl Scheme {
         }
     }
 
+    /// From the names of a solver and of its parts.
+    ///
+    /// # Errors
+    /// One of them is unknown.
+    pub fn of_parts(
+        solver: &str,
+        basis: &str,
+        remedy: &str,
+        transfer: &str,
+    ) -> Result<Self, NameError> {
+        match solver {
+            "explicit" => Ok(Self::explicit(
+                BasisName::parse(basis)?,
+                RemedyName::parse(remedy)?,
+                TransferName::parse(transfer)?,
+            )),
+            _ => Err(NameError::Unknown {
+                kind: "solver",
+                given: solver.to_owned(),
+                allowed: &["explicit"],
+            }),
+        }
+    }
+
     /// From its name.
     ///
     /// # Errors
@@ -213,11 +237,7 @@ impl Scheme {
             Some((basis, remedy, transfer))
         });
         let (basis, remedy, transfer) = parts.ok_or_else(|| NameError::Form(name.to_owned()))?;
-        Ok(Self::explicit(
-            BasisName::parse(basis)?,
-            RemedyName::parse(remedy)?,
-            TransferName::parse(transfer)?,
-        ))
+        Self::of_parts("explicit", basis, remedy, transfer)
     }
 }
 
