@@ -223,6 +223,24 @@ impl Record {
         Scheme::explicit(self.basis, self.remedy, self.transfer)
     }
 
+    /// The basis.
+    #[must_use]
+    pub fn basis(&self) -> BasisName {
+        self.scheme().basis()
+    }
+
+    /// The locking remedy.
+    #[must_use]
+    pub fn remedy(&self) -> RemedyName {
+        self.scheme().remedy()
+    }
+
+    /// The transfer.
+    #[must_use]
+    pub fn transfer(&self) -> TransferName {
+        self.scheme().transfer()
+    }
+
     /// Name of the run, which is also its folder below that of its case.
     #[must_use]
     pub fn folder(&self) -> String {

@@ -5,9 +5,11 @@ use crate::error::Error;
 use std::sync::LazyLock;
 
 mod family;
+mod manufactured;
+mod mms_vortex_ring;
 mod parameters;
 
-static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| vec![]);
+static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| vec![mms_vortex_ring::case()]);
 
 /// All problems.
 #[must_use]

@@ -253,12 +253,14 @@ const DIMENSION: Parameter = Parameter {
 };
 
 /// The angular frequency ω.
+pub(crate) const ANGULAR_FREQUENCY: Parameter = number(
+    ["angular_frequency", "rad/s", "1"],
+    [1e-6, 1e6],
+    "angular frequency ω",
+);
+
 const fn angular_frequency(default: &'static str) -> Parameter {
-    number(
-        ["angular_frequency", "rad/s", default],
-        [1e-6, 1e6],
-        "angular frequency ω",
-    )
+    ANGULAR_FREQUENCY.with_default(default)
 }
 
 /// Gravity g.

@@ -32,20 +32,16 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(VortexRing::new(p)?)),
 };
 
+// π/4.
+pub(crate) const ANGLE: Parameter = number(
+    ["angle", "rad", "0.7853981633974483"],
+    [0.0, TAU],
+    "largest angle α₀",
+);
+
 const PARAMETERS: [Parameter; 5] = {
     let [e, nu, rho] = Material::parameters("1e3", "0.3");
-    [
-        e,
-        nu,
-        rho,
-        // π/4.
-        number(
-            ["angle", "rad", "0.7853981633974483"],
-            [0.0, TAU],
-            "largest angle α₀",
-        ),
-        angular_frequency("3.141592653589793"),
-    ]
+    [e, nu, rho, ANGLE, angular_frequency("3.141592653589793")]
 };
 
 impl VortexRing {
@@ -56,7 +52,7 @@ impl VortexRing {
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         Ok(Self {
             material: Material::new(p)?,
-            angle: p.number("angle"),
+            angle: p.number(ANGLE),
             angular_frequency: p.number("angular_frequency"),
         })
     }

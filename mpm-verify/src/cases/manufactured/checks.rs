@@ -1,7 +1,12 @@
 //! Gates on errors whose exact value is known. The tolerances are derived in `docs/manufactured.md`.
 
-use crate::case::{CheckInfo, check};
-use crate::check::{Kind, Verdict};
+use super::metrics::{
+    BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_RATIO, DISPLACEMENT_SCALE, MASS, STRESS_L2,
+};
+use crate::cases::parameters::{CFL, DENSITY, POISSON_RATIO, YOUNG_MODULUS};
+use crate::claim::{Check, Finding, On, run, study};
+use crate::exact::ANGULAR_FREQUENCY;
+use crate::metric::Metric;
 use crate::order::{fit_order, richardson};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, Scheme};
@@ -30,70 +35,8 @@ const LOCKED: f64 = 1.5;
 /// Poisson's ratio that locking is measured against.
 const COMPRESSIBLE: f64 = 0.3;
 
-pub(in crate::cases) const ERROR_BOUND: CheckInfo = check(
-    "error-bound",
-    Kind::Truth,
-    "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of the largest rms of the exact u, k the wave number of the motion and c the speed of its waves: the largest dispersion among bases and remedies, and what a forced vibration makes of it; left out where that is as large as the motion, and where known limits are judged instead",
-);
-pub(in crate::cases) const MASS: CheckInfo = check(
-    "mass",
-    Kind::Truth,
-    "the particles have the mass of the body, to rounding",
-);
-pub(in crate::cases) const ORDER: CheckInfo = check(
-    "order-displacement",
-    Kind::Truth,
-    "order of the rms error of u over the three finest levels at least 2 − 0.15, where theory gives 2",
-);
-pub(in crate::cases) const ORDER_STRESS: CheckInfo = check(
-    "order-stress",
-    Kind::Truth,
-    "order of the rms error of σ at least 1 − 0.15, one less than that of u",
-);
-pub(in crate::cases) const FALLS: CheckInfo = check(
-    "error-falls",
-    Kind::Truth,
-    "the rms error of u falls from level to level, where the order is judged",
-);
-pub(in crate::cases) const OBSERVED: CheckInfo = check(
-    "observed-order",
-    Kind::Truth,
-    "where no theory gives the order: it lies in the band stated with the verdict",
-);
-pub(in crate::cases) const STALLS: CheckInfo = check(
-    "stalls",
-    Kind::KnownLimit,
-    "order of the rms error of u below 2 − 0.15, or the one stated with the verdict, for the reason given there",
-);
-pub(in crate::cases) const ORDER_TIME: CheckInfo = check(
-    "order-time",
-    Kind::Truth,
-    "order in Δt at fixed h, from successive differences of the displacement's share of the exact one, at least 1 − 0.15",
-);
-pub(in crate::cases) const LOCKING: CheckInfo = check(
-    "no-locking",
-    Kind::Truth,
-    "fbar-total, fbar-rate, fbar-consistent, all but linear functions: rms error of u at any Poisson's ratio at most 1.2 times that at 0.3, same steps",
-);
-pub(in crate::cases) const LOCKS: CheckInfo = check(
-    "locks",
-    Kind::KnownLimit,
-    "none with linear functions and GIMP at ν ≥ 0.499: rms error of u above 1.5 times that at ν = 0.3 at the coarsest level",
-);
-
-/// The gates of an isochoric or an axis-aligned motion.
-pub(in crate::cases) const CHECKS: &[CheckInfo] = &[
-    MASS,
-    ERROR_BOUND,
-    ORDER,
-    ORDER_STRESS,
-    FALLS,
-    OBSERVED,
-    STALLS,
-    ORDER_TIME,
-    LOCKING,
-    LOCKS,
-];
+/// What a problem claims of the convergence of a run's scheme.
+pub(in crate::cases) type Claims = fn(&Record) -> Claim;
 
 /// What is known of the convergence of a scheme with some parameters.
 pub(in crate::cases) enum Claim {
@@ -120,6 +63,7 @@ pub(in crate::cases) fn is_sound(remedy: RemedyName) -> bool {
 }
 
 /// A motion as its bounds see it.
+#[derive(Clone, Copy)]
 pub(in crate::cases) struct Wave {
     /// Wave number k (1/m).
     pub(in crate::cases) number: f64,
@@ -130,65 +74,78 @@ pub(in crate::cases) struct Wave {
 impl Wave {
     /// 1/|1 − (ω/kc)²|: what a forced vibration makes of a relative error of the stiffness.
     fn amplification(&self, r: &Record) -> f64 {
-        let number = |name| r.parameters.number(name);
-        let Ok(law) = NeoHookean::new(number("young_modulus"), number("poisson_ratio")) else {
+        let number = |p| r.parameters.number(p);
+        let Ok(law) = NeoHookean::new(number(YOUNG_MODULUS), number(POISSON_RATIO)) else {
             return f64::NAN;
         };
-        let density = number("density");
+        let density = number(DENSITY);
         let speed = if self.shear {
             (law.mu / density).sqrt()
         } else {
             law.wave_speed(density)
         };
-        let ratio = number("angular_frequency") / (self.number * speed);
+        let ratio = number(ANGULAR_FREQUENCY) / (self.number * speed);
         1.0 / (1.0 - ratio * ratio).abs()
     }
 }
 
-/// The verdicts on one run of a motion.
-pub(in crate::cases) fn of_run(r: &Record, claim: &Claim, wave: &Wave) -> Vec<Verdict> {
-    vec![mass(r), error_bound(r, claim, wave)]
+/// The checks of a motion that is a wave: mass, the bound on its error, and the order of its displacement.
+pub(in crate::cases) fn of_motion(of: &'static [(Metric, Claims)], wave: Wave) -> Vec<Check> {
+    let mut checks = vec![mass()];
+    checks.extend(of.iter().map(|&(_, claims)| error_bound(claims, wave)));
+    checks.extend(orders(of));
+    checks
 }
 
-/// Whether the particles have the mass of the body.
-pub(in crate::cases) fn mass(r: &Record) -> Verdict {
-    let expected = r.metric("body_mass");
-    Verdict::close(
-        MASS.name,
+/// The particles have the mass of the body.
+pub(in crate::cases) fn mass() -> Check {
+    let statement = "the particles have the mass of the body, to rounding";
+    Check::truth(
         "mass",
-        r.metric("mass"),
-        expected,
-        (r.work.particles as f64 + ROUNDINGS) * f64::EPSILON * expected,
-        "ρ₀ times the volume of the body; each of n sums rounds once",
+        statement,
+        run(|r| {
+            let expected = r.metric(BODY_MASS);
+            vec![Finding::within(
+                MASS,
+                r.metric(MASS),
+                expected,
+                (r.work.particles as f64 + ROUNDINGS) * f64::EPSILON * expected,
+                "ρ₀ times the volume of the body; each of n sums rounds once",
+            )]
+        }),
     )
 }
 
-fn error_bound(r: &Record, claim: &Claim, wave: &Wave) -> Verdict {
-    let metric = "displacement_l2";
-    let sound = r.remedy == RemedyName::None || is_sound(r.remedy);
+fn error_bound(claims: Claims, wave: Wave) -> Check {
+    Check::truth(
+        "error-bound",
+        "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of the largest rms of the exact u, k the wave number of the motion and c the speed of its waves: the largest dispersion among bases and remedies, and what a forced vibration makes of it; left out where that is as large as the motion, and where known limits are judged instead",
+        run(move |r| vec![bound(r, &claims(r), &wave)]),
+    )
+}
+
+fn bound(r: &Record, claim: &Claim, wave: &Wave) -> Finding {
+    let metric = DISPLACEMENT_L2;
+    let sound = r.remedy() == RemedyName::None || is_sound(r.remedy());
     match claim {
         Claim::Second | Claim::Observed(..) if sound => {
             let kh = wave.number * r.discretisation.h;
             let bound = DISPERSION * kh * kh * wave.amplification(r);
             if bound >= 1.0 {
                 let why = format!("the bound, {bound:.3} of the motion, bounds nothing");
-                return Verdict::not_applicable(ERROR_BOUND.name, metric, why);
+                return Finding::not_applicable(metric, why);
             }
-            Verdict::at_most(
-                ERROR_BOUND.name,
-                Kind::Truth,
+            Finding::at_most(
                 metric,
                 r.metric(metric),
-                bound * r.metric("displacement_scale"),
+                bound * r.metric(DISPLACEMENT_SCALE),
                 format!("{bound:.3} times displacement_scale"),
             )
         }
         Claim::Second | Claim::Observed(..) => {
-            Verdict::not_applicable(ERROR_BOUND.name, metric, "Eq. (26) is of first order")
+            Finding::not_applicable(metric, "Eq. (26) is of first order")
         }
-        Claim::Stalls(_, why) | Claim::Open(why) => {
-            Verdict::not_applicable(ERROR_BOUND.name, metric, *why)
-        }
+        Claim::Stalls(_, why) | Claim::Open(why) => Finding::not_applicable(metric, *why),
     }
 }
 
@@ -216,7 +173,7 @@ fn subject(metric: &str, scheme: Scheme, ladder: &[&Record]) -> String {
 }
 
 /// Observed order of a metric over the finest levels; NaN where there is none.
-fn order(ladder: &[&Record], metric: &str) -> f64 {
+fn order(ladder: &[&Record], metric: Metric) -> f64 {
     let points: Vec<(f64, f64)> = ladder
         .iter()
         .map(|r| (r.discretisation.h, r.metric(metric)))
@@ -225,295 +182,241 @@ fn order(ladder: &[&Record], metric: &str) -> f64 {
     fit_order(finest).map_or(f64::NAN, |o| o.order)
 }
 
-/// The gates on the order of `metric` for every ladder of at least three levels.
-pub(in crate::cases) fn orders_of(
-    records: &[Record],
-    metric: &str,
-    claim: impl Fn(&Record) -> Claim,
-) -> Vec<Verdict> {
-    let mut verdicts = Vec::new();
-    for (scheme, ladder) in ladders(records) {
-        if ladder.len() < DECIDING {
-            continue;
+/// A ladder that decides an order, and what is claimed of it.
+struct Ladder<'a> {
+    metric: Metric,
+    claim: Claim,
+    scheme: Scheme,
+    runs: Vec<&'a Record>,
+}
+
+impl Ladder<'_> {
+    fn order(&self) -> f64 {
+        order(&self.runs, self.metric)
+    }
+
+    fn about(&self, what: &str) -> String {
+        let what = format!("{what}{}", self.metric.name);
+        subject(&what, self.scheme, &self.runs)
+    }
+
+    /// Largest ratio of the error at a level to that at the one before; NaN if a run has none: one that broke down
+    /// must not be lost among the others.
+    fn worst_ratio(&self) -> f64 {
+        let errors: Vec<f64> = self.runs.iter().map(|r| r.metric(self.metric)).collect();
+        if errors.iter().any(|e| e.is_nan()) {
+            return f64::NAN;
         }
-        let name = subject(&format!("order_{metric}"), scheme, &ladder);
-        let found = order(&ladder, metric);
-        match claim(ladder[ladder.len() - 1]) {
-            Claim::Second => {
-                verdicts.push(Verdict::above(
-                    ORDER.name,
-                    Kind::Truth,
-                    &name,
-                    found,
+        let ratios = errors.windows(2).map(|pair| pair[1] / pair[0]);
+        ratios.fold(0.0, f64::max)
+    }
+}
+
+/// A check on the ladders of some metrics, each with its claims.
+fn on_ladders(of: &'static [(Metric, Claims)], found: fn(&Ladder) -> Option<Finding>) -> On {
+    study(move |records| {
+        let ladders = of.iter().flat_map(|&(metric, claims)| {
+            let all = ladders(records).into_iter();
+            let deciding = all.filter(|(_, runs)| runs.len() >= DECIDING);
+            deciding.map(move |(scheme, runs)| Ladder {
+                metric,
+                claim: claims(runs[runs.len() - 1]),
+                scheme,
+                runs,
+            })
+        });
+        ladders.filter_map(|l| found(&l)).collect()
+    })
+}
+
+/// The checks on the order of errors, for every ladder of at least three levels.
+pub(in crate::cases) fn orders(of: &'static [(Metric, Claims)]) -> [Check; 4] {
+    [
+        Check::truth(
+            "order-displacement",
+            "order of the rms error of u over the three finest levels at least 2 − 0.15, where theory gives 2",
+            on_ladders(of, |l| match l.claim {
+                Claim::Second => Some(Finding::above(
+                    l.about("order_"),
+                    l.order(),
                     FORMAL - SLACK,
                     "second order: linear fields are reproduced, the lumped mass has its centre at the node",
-                ));
-                let errors = ladder.iter().map(|r| r.metric(metric));
-                let errors: Vec<f64> = errors.collect();
-                // A run that broke down has no error, and must not be lost among the others.
-                let worst = if errors.iter().any(|e| e.is_nan()) {
-                    f64::NAN
-                } else {
-                    let ratios = errors.windows(2).map(|pair| pair[1] / pair[0]);
-                    ratios.fold(0.0, f64::max)
-                };
-                verdicts.push(Verdict::at_most(
-                    FALLS.name,
-                    Kind::Truth,
-                    &subject(&format!("largest ratio of {metric}"), scheme, &ladder),
-                    worst,
+                )),
+                Claim::Open(why) => Some(Finding::not_applicable(l.about("order_"), why)),
+                _ => None,
+            }),
+        ),
+        Check::truth(
+            "error-falls",
+            "the rms error of u falls from level to level, where the order is judged",
+            on_ladders(of, |l| match l.claim {
+                Claim::Second => Some(Finding::at_most(
+                    l.about("largest ratio of "),
+                    l.worst_ratio(),
                     1.0,
                     "a consistent scheme converges",
-                ));
-            }
-            Claim::Observed([least, most], why) => verdicts.push(Verdict::close(
-                OBSERVED.name,
-                &name,
-                found,
-                0.5 * (least + most),
-                0.5 * (most - least),
-                why,
-            )),
-            Claim::Stalls(below, why) => verdicts.push(Verdict::at_most(
-                STALLS.name,
-                Kind::KnownLimit,
-                &name,
-                found,
-                below,
-                why,
-            )),
-            Claim::Open(why) => verdicts.push(Verdict::not_applicable(ORDER.name, &name, why)),
-        }
-    }
-    verdicts
+                )),
+                _ => None,
+            }),
+        ),
+        Check::truth(
+            "observed-order",
+            "where no theory gives the order: it lies in the band stated with the verdict",
+            on_ladders(of, |l| match l.claim {
+                Claim::Observed([least, most], why) => Some(Finding::within(
+                    l.about("order_"),
+                    l.order(),
+                    0.5 * (least + most),
+                    0.5 * (most - least),
+                    why,
+                )),
+                _ => None,
+            }),
+        ),
+        Check::known_limit(
+            "stalls",
+            "order of the rms error of u below 2 − 0.15, or the one stated with the verdict, for the reason given there",
+            on_ladders(of, |l| match l.claim {
+                Claim::Stalls(below, why) => {
+                    Some(Finding::at_most(l.about("order_"), l.order(), below, why))
+                }
+                _ => None,
+            }),
+        ),
+    ]
 }
 
-/// The gates on the order of the stress where that of the displacement is claimed.
-pub(in crate::cases) fn stress_orders(
-    records: &[Record],
-    claim: impl Fn(&Record) -> Claim,
-) -> Vec<Verdict> {
-    let deciding = ladders(records).into_iter().filter(|(_, ladder)| {
-        ladder.len() >= DECIDING && matches!(claim(ladder[ladder.len() - 1]), Claim::Second)
-    });
-    let verdict = |(scheme, ladder): (Scheme, Vec<&Record>)| {
-        Verdict::above(
-            ORDER_STRESS.name,
-            Kind::Truth,
-            &subject("order_stress_l2", scheme, &ladder),
-            order(&ladder, "stress_l2"),
-            FORMAL - 1.0 - SLACK,
-            "gradients of a second-order displacement",
-        )
-    };
-    deciding.map(verdict).collect()
+/// The order of the stress where that of the displacement is claimed.
+pub(in crate::cases) fn stress_order(of: &'static [(Metric, Claims)]) -> Check {
+    Check::truth(
+        "order-stress",
+        "order of the rms error of σ at least 1 − 0.15, one less than that of u",
+        on_ladders(of, |l| match l.claim {
+            Claim::Second => Some(Finding::above(
+                subject("order_stress_l2", l.scheme, &l.runs),
+                order(&l.runs, STRESS_L2),
+                FORMAL - 1.0 - SLACK,
+                "gradients of a second-order displacement",
+            )),
+            _ => None,
+        }),
+    )
 }
 
-/// The gates on the order in time: runs of a scheme at a level that differ in the CFL number alone,
-/// each half of the one before.
-pub(in crate::cases) fn time_orders(records: &[Record]) -> Vec<Verdict> {
-    let metric = "displacement_ratio";
+/// The order in time: runs of a scheme at a level that differ in the CFL number alone, each half of the one before.
+pub(in crate::cases) fn order_in_time() -> Check {
+    Check::truth(
+        "order-time",
+        "order in Δt at fixed h, from successive differences of the displacement's share of the exact one, at least 1 − 0.15",
+        study(time_orders),
+    )
+}
+
+fn time_orders(records: &[Record]) -> Vec<Finding> {
     let mut families: BTreeMap<(&str, Scheme), Vec<(f64, f64)>> = BTreeMap::new();
     for r in records {
-        let converges = r.remedy != RemedyName::FbarRecursive;
-        if converges && (r.is_default() || r.changes_only("cfl")) {
+        let converges = r.remedy() != RemedyName::FbarRecursive;
+        if converges && (r.is_default() || r.changes_only(CFL.name)) {
             let family = families.entry((&r.level, r.scheme())).or_default();
-            family.push((r.discretisation.dt, r.metric(metric)));
+            family.push((r.discretisation.dt, r.metric(DISPLACEMENT_RATIO)));
         }
     }
-    let mut verdicts = Vec::new();
+    let mut found = Vec::new();
     for ((level, scheme), mut family) in families {
         family.sort_by(|a, b| b.0.total_cmp(&a.0));
         let [.., a, b, c] = family[..] else { continue };
-        let found = richardson([a, b, c]).map_or(f64::NAN, |r| r.order);
-        verdicts.push(Verdict::above(
-            ORDER_TIME.name,
-            Kind::Truth,
-            &format!("order in Δt of {metric} of {scheme} {level}"),
-            found,
+        found.push(Finding::above(
+            format!(
+                "order in Δt of {} of {scheme} {level}",
+                DISPLACEMENT_RATIO.name
+            ),
+            richardson([a, b, c]).map_or(f64::NAN, |r| r.order),
             FORMAL_IN_TIME - SLACK,
             "symplectic Euler, F updated by I + Δt ∇v: first order",
         ));
     }
-    verdicts
+    found
 }
 
-/// The gates on locking: runs that differ in Poisson's ratio alone.
-pub(in crate::cases) fn locking(records: &[Record]) -> Vec<Verdict> {
-    let metric = "displacement_l2";
+/// Locking: runs that differ in Poisson's ratio alone.
+pub(in crate::cases) fn locking() -> [Check; 2] {
+    [
+        Check::truth(
+            "no-locking",
+            "fbar-total, fbar-rate, fbar-consistent, all but linear functions: rms error of u at any Poisson's ratio at most 1.2 times that at 0.3, same steps",
+            study(|records| {
+                let sound =
+                    |p: &&Pair| is_sound(p.stiff.remedy()) && p.stiff.basis() != BasisName::Linear;
+                let pairs = pairs_of_ratios(records);
+                let found = pairs.iter().filter(sound).map(|p| {
+                    let why =
+                        "the exact motion does not depend on ν; both runs take the same steps";
+                    Finding::at_most(p.about(), p.factor(), LOCKING_FREE, why)
+                });
+                found.collect()
+            }),
+        ),
+        Check::known_limit(
+            "locks",
+            "none with linear functions and GIMP at ν ≥ 0.499: rms error of u above 1.5 times that at ν = 0.3 at the coarsest level",
+            study(|records| {
+                let sizes = records.iter().map(|r| r.discretisation.h);
+                let coarsest = sizes.fold(0.0, f64::max);
+                let locks = |p: &&Pair| {
+                    p.stiff.remedy() == RemedyName::None
+                        && matches!(p.stiff.basis(), BasisName::Linear | BasisName::Gimp)
+                        && p.ratio() >= 0.499
+                        && p.stiff.discretisation.h == coarsest
+                };
+                let pairs = pairs_of_ratios(records);
+                let found = pairs.iter().filter(locks).map(|p| {
+                    let why = "more constraints on the volume than nodes to meet them";
+                    Finding::above(p.about(), p.factor(), LOCKED, why)
+                });
+                found.collect()
+            }),
+        ),
+    ]
+}
+
+/// Two runs that differ in Poisson's ratio alone, one of them at [`COMPRESSIBLE`].
+struct Pair<'a> {
+    stiff: &'a Record,
+    soft: &'a Record,
+}
+
+impl Pair<'_> {
+    fn ratio(&self) -> f64 {
+        self.stiff.parameters.number(POISSON_RATIO)
+    }
+
+    fn factor(&self) -> f64 {
+        self.stiff.metric(DISPLACEMENT_L2) / self.soft.metric(DISPLACEMENT_L2)
+    }
+
+    fn about(&self) -> String {
+        let (metric, stiff) = (DISPLACEMENT_L2.name, self.stiff);
+        let (scheme, level, ratio) = (stiff.scheme(), &stiff.level, self.ratio());
+        format!("{metric} of {scheme} {level} at ν = {ratio} over ν = 0.3")
+    }
+}
+
+fn pairs_of_ratios(records: &[Record]) -> Vec<Pair<'_>> {
     let others = |r: &Record| -> Vec<String> {
         let kept = r.set.iter().filter(|s| !s.starts_with("poisson_ratio="));
         kept.cloned().collect()
     };
-    let ratio = |r: &Record| r.parameters.number("poisson_ratio");
-    let coarsest = records
-        .iter()
-        .map(|r| r.discretisation.h)
-        .fold(0.0, f64::max);
-    let mut verdicts = Vec::new();
-    for stiff in records.iter().filter(|r| ratio(r) != COMPRESSIBLE) {
-        let soft = records.iter().find(|r| {
-            ratio(r) == COMPRESSIBLE
-                && r.scheme() == stiff.scheme()
-                && r.level == stiff.level
-                && others(r) == others(stiff)
-        });
-        let Some(soft) = soft else { continue };
-        let factor = stiff.metric(metric) / soft.metric(metric);
-        let name = format!(
-            "{metric} of {} {} at ν = {} over ν = 0.3",
-            stiff.scheme(),
-            stiff.level,
-            ratio(stiff)
-        );
-        if is_sound(stiff.remedy) && stiff.basis != BasisName::Linear {
-            verdicts.push(Verdict::at_most(
-                LOCKING.name,
-                Kind::Truth,
-                &name,
-                factor,
-                LOCKING_FREE,
-                "the exact motion does not depend on ν; both runs take the same steps",
-            ));
-        } else if stiff.remedy == RemedyName::None
-            && matches!(stiff.basis, BasisName::Linear | BasisName::Gimp)
-            && ratio(stiff) >= 0.499
-            && stiff.discretisation.h == coarsest
-        {
-            verdicts.push(Verdict::above(
-                LOCKS.name,
-                Kind::KnownLimit,
-                &name,
-                factor,
-                LOCKED,
-                "more constraints on the volume than nodes to meet them",
-            ));
-        }
-    }
-    verdicts
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::parameter::{Domain, Parameter, Parameters};
-    use crate::record::Metric;
-    use crate::report::fixture::record;
-
-    /// A run at cell size 1/n with an error.
-    fn run(n: f64, metric: &str, value: f64) -> Record {
-        let mut r = record(&format!("n{n}"), Vec::new());
-        r.discretisation.h = 1.0 / n;
-        let unit = "m".to_owned();
-        let value = value.is_finite().then_some(value);
-        r.metrics.insert(metric.to_owned(), Metric { value, unit });
-        r
-    }
-
-    /// Runs with errors h^p.
-    fn of_order(p: f64) -> Vec<Record> {
-        let error = |n: f64| run(n, "displacement_l2", n.powf(-p));
-        [8.0, 16.0, 32.0, 64.0].map(error).to_vec()
-    }
-
-    fn outcomes(records: &[Record], claim: fn(&Record) -> Claim) -> Vec<(String, Option<bool>)> {
-        let verdicts = orders_of(records, "displacement_l2", claim);
-        verdicts.into_iter().map(|v| (v.check, v.pass)).collect()
-    }
-
-    #[test]
-    fn an_order_below_the_formal_one_is_red_and_no_order_is_too() {
-        let gate = |records: &[Record]| outcomes(records, |_| Claim::Second);
-        let named = |pass, falls| {
-            vec![
-                (ORDER.name.to_owned(), Some(pass)),
-                (FALLS.name.to_owned(), Some(falls)),
-            ]
+    let ratio = |r: &Record| r.parameters.number(POISSON_RATIO);
+    let pair = |stiff| {
+        let same = |soft: &&Record| {
+            ratio(soft) == COMPRESSIBLE
+                && soft.scheme() == Record::scheme(stiff)
+                && soft.level == stiff.level
+                && others(soft) == others(stiff)
         };
-        assert_eq!(gate(&of_order(1.9)), named(true, true));
-        assert_eq!(gate(&of_order(1.8)), named(false, true));
-        assert_eq!(gate(&of_order(-0.1)), named(false, false));
-        let mut broken = of_order(2.0);
-        broken[2] = run(32.0, "displacement_l2", f64::NAN);
-        assert_eq!(gate(&broken), named(false, false));
-        assert!(
-            gate(&of_order(2.0)[..2]).is_empty(),
-            "two levels have no order"
-        );
-    }
-
-    #[test]
-    fn a_known_stall_that_vanishes_is_red() {
-        let stalls = |records: &[Record]| outcomes(records, |_| Claim::Stalls(0.5, ""));
-        assert_eq!(stalls(&of_order(0.1))[0].1, Some(true));
-        assert_eq!(stalls(&of_order(1.0))[0].1, Some(false));
-        let band = |records: &[Record]| outcomes(records, |_| Claim::Observed([1.0, 1.5], ""));
-        assert_eq!(band(&of_order(1.2))[0].1, Some(true));
-        assert_eq!(band(&of_order(2.0))[0].1, Some(false));
-        assert_eq!(outcomes(&of_order(0.0), |_| Claim::Open(""))[0].1, None);
-    }
-
-    /// A run with a Poisson's ratio.
-    fn at_ratio(remedy: RemedyName, ratio: &str, error: f64) -> Record {
-        const RATIO: Parameter = Parameter {
-            name: "poisson_ratio",
-            unit: "-",
-            default: "0.3",
-            domain: Domain::Number {
-                least: 0.0,
-                most: 0.5,
-                below: true,
-            },
-            meaning: "",
-        };
-        let mut r = run(8.0, "displacement_l2", error);
-        r.remedy = remedy;
-        r.set = vec![format!("poisson_ratio={ratio}")];
-        r.parameters = Parameters::new(&[RATIO], &r.set).unwrap();
-        r
-    }
-
-    #[test]
-    fn locking_is_the_error_over_that_of_the_compressible_body() {
-        let judged = |remedy, factor| {
-            let pair = [
-                at_ratio(remedy, "0.3", 1.0),
-                at_ratio(remedy, "0.4999", factor),
-            ];
-            let verdicts = locking(&pair);
-            verdicts
-                .into_iter()
-                .map(|v| (v.check, v.pass))
-                .collect::<Vec<_>>()
-        };
-        let free = LOCKING.name.to_owned();
-        let locks = LOCKS.name.to_owned();
-        assert_eq!(
-            judged(RemedyName::FbarConsistent, 1.1),
-            [(free.clone(), Some(true))]
-        );
-        assert_eq!(
-            judged(RemedyName::FbarConsistent, 1.3),
-            [(free, Some(false))]
-        );
-        assert_eq!(judged(RemedyName::None, 8.0), [(locks.clone(), Some(true))]);
-        assert_eq!(judged(RemedyName::None, 1.0), [(locks, Some(false))]);
-    }
-
-    #[test]
-    fn the_order_in_time_comes_from_successive_differences() {
-        let at = |cfl: f64, order: i32| {
-            let mut r = run(16.0, "displacement_ratio", 1.0 + 0.1 * cfl.powi(order));
-            r.discretisation.dt = cfl;
-            r.set = vec![format!("cfl={cfl}")];
-            r
-        };
-        for (order, pass) in [(1, true), (2, true)] {
-            let verdicts = time_orders(&[0.4, 0.2, 0.1].map(|cfl| at(cfl, order)));
-            assert_eq!(verdicts[0].pass, Some(pass));
-            assert!((verdicts[0].value.unwrap() - f64::from(order)).abs() < 1e-9);
-        }
-        let stuck = [0.4, 0.2, 0.1].map(|cfl| at(cfl, 0));
-        assert!(time_orders(&stuck)[0].failed());
-    }
+        let soft = records.iter().find(same)?;
+        Some(Pair { stiff, soft })
+    };
+    let stiff = records.iter().filter(|r| ratio(r) != COMPRESSIBLE);
+    stiff.filter_map(pair).collect()
 }

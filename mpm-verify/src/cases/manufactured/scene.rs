@@ -1,11 +1,14 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
-use super::{Boundary, Manufactured};
-use crate::case::{Level, RunSpec};
+use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO, STEP_SCALING};
+use crate::cases::parameters::{
+    CFL, FLIP, PPC_PER_DIRECTION, WALL, WALL_LINE, YOUNG_MODULUS,
+};
 use crate::error::Error;
 use crate::exact::{Exact, Material};
-use crate::parameter::Parameters;
+use crate::parameter::{Parameter, Parameters};
 use crate::scheme::RemedyName;
+use crate::spec::{Level, RunSpec};
 use mpm_core::basis::WallTreatment;
 use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
 use mpm_core::remedy::FbarConsistent;
@@ -34,32 +37,55 @@ impl Timing {
     /// From the CFL number and the speed of the body's waves, or that at `step_poisson_ratio` if it is
     /// larger, so that runs at several ratios can take the same steps.
     pub(super) fn new(
-        case: &Manufactured,
+        case: Manufactured,
         level: Level,
         parameters: &Parameters,
         solution: &dyn Exact,
     ) -> Result<Self, Error> {
-        let number = |name| parameters.number(name);
+        let number = |p| parameters.number(p);
         let density = solution.material().density;
         let mut speed = Body::new(case, solution).wave_speed(density);
-        let ratio = number("step_poisson_ratio");
+        let ratio = number(STEP_POISSON_RATIO);
         if !ratio.is_nan() {
-            let stiff = NeoHookean::new(number("young_modulus"), ratio)?;
+            let stiff = NeoHookean::new(number(YOUNG_MODULUS), ratio)?;
             speed = speed.max(stiff.wave_speed(density));
         }
         let side = solution.extent()[0][1] - solution.extent()[0][0];
-        let finer = if parameters.is("step_scaling", "h2") {
+        let finer = if parameters.is(STEP_SCALING, "h2") {
             COARSEST * level.h / side
         } else {
             1.0
         };
-        let longest = courant_time_step(number("cfl") * finer, level.h, speed);
-        let steps = (number("duration") / longest).ceil();
+        let longest = courant_time_step(number(CFL) * finer, level.h, speed);
+        let steps = (number(DURATION) / longest).ceil();
         Ok(Self {
             steps,
-            dt: number("duration") / steps,
+            dt: number(DURATION) / steps,
         })
     }
+}
+
+/// Particle steps per unit of cost, without a remedy.
+const STEPS_PER_COST: f64 = 5e7;
+
+/// Cost of a run, by its particle steps.
+pub(super) fn cost(case: &Manufactured, known: &[Parameter], spec: &RunSpec) -> f64 {
+    let steps = || {
+        let p = Parameters::new(known, &spec.set).ok()?;
+        let solution = (case.solution)(&p).ok()?;
+        let timing = Timing::new(*case, spec.level, &p, solution.as_ref()).ok()?;
+        let per_cell = p.number(PPC_PER_DIRECTION);
+        let extent = solution.extent();
+        let along = |a: usize| (extent[a][1] - extent[a][0]) / spec.level.h * per_cell;
+        let particles: f64 = (0..solution.dimension()).map(along).product();
+        Some(particles * timing.steps)
+    };
+    let remedy = match spec.scheme.remedy() {
+        RemedyName::None => 1.0,
+        RemedyName::FbarConsistent => 3.0,
+        _ => 1.5,
+    };
+    steps().unwrap_or(0.0) * remedy / STEPS_PER_COST
 }
 
 /// A solver at time zero, of steps `dt` (s).
@@ -67,33 +93,33 @@ impl Timing {
 /// # Errors
 /// A parameter out of range, or a scene that the solver refuses.
 pub(super) fn begin<const D: usize>(
-    case: &Manufactured,
+    case: Manufactured,
     spec: &RunSpec,
     parameters: &Parameters,
     solution: &Arc<dyn Exact>,
     dt: f64,
-) -> Result<Box<dyn Simulation<D>>, Error>
+) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
 where
     NeoHookean: Solvable<D>,
     NewtonianFluid: Solvable<D>,
 {
-    let number = |name| parameters.number(name);
+    let number = |p| parameters.number(p);
     let (grid, constraints) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
     let remedy: Box<dyn Remedy<D>> = match spec.scheme.remedy() {
-        RemedyName::FbarConsistent => Box::new(FbarConsistent::new(number("relaxation"))),
+        RemedyName::FbarConsistent => Box::new(FbarConsistent::new(number(RELAXATION))),
         other => other.build(),
     };
     let forcing = Arc::clone(solution);
     let body = Body::new(case, solution.as_ref());
     let scene = Setting {
         grid,
-        wall: if parameters.is("wall", "wall-line") {
+        wall: if parameters.is(WALL, WALL_LINE) {
             WallTreatment::WallLine
         } else {
             WallTreatment::OpenKnot
         },
-        transfer: Flip::new(number("flip"))?,
-        particles: seed(spec, number("ppc_per_direction"), solution.as_ref(), dt)?,
+        transfer: Flip::new(number(FLIP))?,
+        particles: seed(spec, number(PPC_PER_DIRECTION), solution.as_ref(), dt)?,
         remedy,
         loads: vec![Box::new(BodyForce(Box::new(move |x: &[f64; D], t| {
             components(&forcing.body_force(&vector(x), t))
@@ -129,7 +155,7 @@ fn surroundings<const D: usize>(
     boundary: Boundary,
     solution: &dyn Exact,
     h: f64,
-) -> Result<(Grid<D>, Vec<Box<dyn Constraint<D>>>), Error> {
+) -> Result<(Grid<D>, Vec<Box<dyn Constraint<D>>>), mpm_core::Error> {
     let mut walls: Vec<Box<dyn Constraint<D>>> = Vec::new();
     let mut hold = |axis, end, kind| walls.push(Box::new(Wall { axis, end, kind }));
     let extent = solution.extent();
@@ -163,7 +189,7 @@ fn seed<const D: usize>(
     per_direction: f64,
     solution: &dyn Exact,
     dt: f64,
-) -> Result<Particles<D>, Error> {
+) -> Result<Particles<D>, mpm_core::Error> {
     let spacing = spec.level.h / per_direction;
     let extent = solution.extent();
     let counts: [usize; D] = std::array::from_fn(|a| cells(extent[a], spacing));
@@ -204,7 +230,7 @@ enum Body {
 }
 
 impl Body {
-    fn new(case: &Manufactured, solution: &dyn Exact) -> Self {
+    fn new(case: Manufactured, solution: &dyn Exact) -> Self {
         let Material { mu, lambda, .. } = solution.material();
         if case.fluid {
             Self::Fluid(NewtonianFluid {

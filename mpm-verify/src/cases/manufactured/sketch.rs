@@ -1,12 +1,12 @@
 //! The body and what holds it, drawn.
 
 use super::{Boundary, Manufactured};
-use crate::parameter::Parameters;
+use crate::parameter::{Parameter, Parameters};
 use crate::sketch::{Point, Shape, Sketch};
 
 /// The body at rest, seen along the third axis; a bar is drawn with a thickness.
-pub(super) fn sketch(case: &Manufactured) -> Sketch {
-    let solution = Parameters::new(&case.parameters, &[]).and_then(|p| (case.solution)(&p));
+pub(super) fn sketch(case: &Manufactured, known: &[Parameter]) -> Sketch {
+    let solution = Parameters::new(known, &[]).and_then(|p| (case.solution)(&p));
     let Ok(solution) = solution else {
         return Sketch::default();
     };

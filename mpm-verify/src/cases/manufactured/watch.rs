@@ -1,15 +1,20 @@
 //! The simulation of a motion that is known in closed form, in any dimension and of any law.
 
+use super::Manufactured;
+use super::metrics as m;
 use super::scene::{Timing, begin, vector};
-use super::{METRICS, Manufactured};
-use crate::case::{Column, Job, RunSpec, observed};
+use crate::cases::parameters::{PPC_PER_DIRECTION, WALL};
+use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::exact::Exact;
+use crate::job::Column;
+use crate::metric::Metric;
 use crate::parameter::Parameters;
-use crate::record::{Discretisation, Metric, WorkDone};
+use crate::record::Discretisation;
+use crate::spec::RunSpec;
 use crate::statistics::{fit_line, rms};
 use mpm_core::material::{NeoHookean, NewtonianFluid};
-use mpm_core::{Memory, MemoryError, Particles, Saved, Simulation};
+use mpm_core::{Particles, Simulation};
 use mpm_solvers::Solvable;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -21,15 +26,23 @@ const ROWS: f64 = 200.0;
 const ROWS_PER_PERIOD: f64 = 40.0;
 /// Times at which the size of the exact displacement is looked up.
 const SCALE_TIMES: u32 = 20;
-/// A running simulation.
-pub(super) struct Simulated<const D: usize> {
-    simulation: Box<dyn Simulation<D>>,
+
+/// A motion, watched beside its exact solution.
+pub(super) struct Motion<const D: usize> {
+    case: Manufactured,
+    spec: RunSpec,
+    parameters: Parameters,
     solution: Arc<dyn Exact>,
     discretisation: Discretisation,
     steps: u64,
     steps_per_row: u64,
     /// Angular frequency (rad/s) of a solution that is one standing wave.
     frequency: Option<f64>,
+}
+
+/// What has been seen of a motion.
+#[derive(Default, Serialize, Deserialize)]
+pub(super) struct Seen {
     /// Means of J̄ and J over each cell at the start, of a body that is to stay at rest.
     at_start: Option<Vec<[f64; 2]>>,
     rows: Vec<Row>,
@@ -46,46 +59,49 @@ struct Row {
     mode: f64,
 }
 
-impl<const D: usize> Simulated<D>
+impl<const D: usize> Motion<D>
 where
     NeoHookean: Solvable<D>,
     NewtonianFluid: Solvable<D>,
 {
-    pub(super) fn new(
-        case: &Manufactured,
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// The parameters don't make a scene.
+    pub(super) fn drive(
+        case: Manufactured,
         spec: &RunSpec,
         parameters: &Parameters,
-    ) -> Result<Self, Error> {
+    ) -> Result<Drive<D, Self>, Error> {
         let solution: Arc<dyn Exact> = (case.solution)(parameters)?.into();
-        let number = |name| parameters.number(name);
         let Timing { steps, dt } = Timing::new(case, spec.level, parameters, solution.as_ref())?;
-        let simulation = begin(case, spec, parameters, &solution, dt)?;
         let frequency = case.frequency.map(|f| f(parameters));
         let row = match frequency {
             Some(omega) => std::f64::consts::TAU / omega / ROWS_PER_PERIOD / dt,
             None => steps / ROWS,
         };
-        let mut run = Self {
-            simulation,
+        let per_direction = parameters.number(PPC_PER_DIRECTION) as u32;
+        let motion = Self {
+            case,
+            spec: spec.clone(),
+            parameters: parameters.clone(),
             solution,
             discretisation: Discretisation {
                 dim: D,
                 h: spec.level.h,
-                ppc: (number("ppc_per_direction") as u32).pow(D as u32),
+                ppc: per_direction.pow(D as u32),
                 dt,
-                wall: parameters.text("wall"),
+                wall: parameters.text(WALL),
             },
             steps: steps as u64,
             steps_per_row: (row as u64).max(1),
             frequency,
-            at_start: None,
-            rows: Vec::new(),
         };
-        run.at_start = case.rests.then(|| run.cell_means());
-        run.observe();
-        Ok(run)
+        Ok(Drive::new(motion, Seen::default())?)
     }
+}
 
+impl<const D: usize> Motion<D> {
     /// Displacement minus the exact one (m); across a periodic end the nearest image counts.
     fn displacement_error(&self, p: &Particles<D>, k: usize, t: f64) -> Vector3<f64> {
         let x = vector(&p.reference[k]);
@@ -100,9 +116,9 @@ where
     }
 
     /// Means of J̄ and J over each cell, by the particles' reference positions.
-    fn cell_means(&self) -> Vec<[f64; 2]> {
+    fn cell_means(&self, run: &dyn Simulation<D>) -> Vec<[f64; 2]> {
         let (p, h, extent) = (
-            self.simulation.particles(),
+            run.particles(),
             self.discretisation.h,
             self.solution.extent(),
         );
@@ -118,12 +134,12 @@ where
     }
 
     /// The share of the displacement since the start that has the shape of the standing wave.
-    fn mode(&self) -> f64 {
+    fn mode(&self, run: &dyn Simulation<D>) -> f64 {
         let Some(omega) = self.frequency else {
             return f64::NAN;
         };
         let quarter = 0.5 * std::f64::consts::PI / omega;
-        let p = self.simulation.particles();
+        let p = run.particles();
         let (mut along, mut squares) = (0.0, 0.0);
         for k in 0..p.len() {
             let x = vector(&p.reference[k]);
@@ -135,23 +151,23 @@ where
         along / squares
     }
 
-    fn observe(&mut self) -> Vec<f64> {
-        let totals = self.simulation.totals();
+    fn observe(&self, seen: &mut Seen, run: &dyn Simulation<D>) -> Vec<f64> {
+        let totals = run.totals();
         let work = totals.accumulated;
         let row = Row {
-            time: self.simulation.time(),
+            time: run.time(),
             kinetic: totals.kinetic_energy,
             energy: totals.kinetic_energy + totals.stored_energy - work.load_work,
-            mode: self.mode(),
+            mode: self.mode(run),
         };
-        self.rows.push(row);
-        let p = self.simulation.particles();
+        seen.rows.push(row);
+        let p = run.particles();
         let errors = (0..p.len()).map(|k| self.displacement_error(p, k, row.time).norm());
         let mut values = vec![
             row.time,
             rms(errors),
             row.kinetic,
-            self.simulation.residual().kinetic_energy,
+            run.residual().kinetic_energy,
             totals.stored_energy,
             work.stress_work,
             work.load_work,
@@ -168,8 +184,8 @@ where
 
     /// The largest rms over the particles of the exact displacement since the start, over the
     /// duration.
-    fn displacement_scale(&self) -> f64 {
-        let references = &self.simulation.particles().reference;
+    fn displacement_scale(&self, run: &dyn Simulation<D>) -> f64 {
+        let references = &run.particles().reference;
         let scale = |t: f64| {
             rms(references.iter().map(|x| {
                 let x = vector(x);
@@ -177,16 +193,14 @@ where
             }))
         };
         let times = (0..=SCALE_TIMES).map(|k| f64::from(k) / f64::from(SCALE_TIMES));
-        times
-            .map(|s| scale(s * self.simulation.time()))
-            .fold(0.0, f64::max)
+        times.map(|s| scale(s * run.time())).fold(0.0, f64::max)
     }
 
     /// Cauchy stress of the motion and of the exact solution (Pa), in the particles' order.
-    fn stresses(&mut self) -> Vec<(Matrix3<f64>, Matrix3<f64>)> {
-        let t = self.simulation.time();
-        let stress = self.simulation.force_stress();
-        let references = &self.simulation.particles().reference;
+    fn stresses(&self, run: &mut dyn Simulation<D>) -> Vec<(Matrix3<f64>, Matrix3<f64>)> {
+        let t = run.time();
+        let stress = run.force_stress();
+        let references = &run.particles().reference;
         let pairs = references.iter().zip(stress).map(|(x, s)| {
             let x = vector(x);
             let f = self.solution.deformation_gradient(&x, t);
@@ -198,10 +212,10 @@ where
 
     /// Errors of displacement, velocity, stress and mean stress of every particle, and the projections
     /// of displacement and velocity on the exact ones.
-    fn errors(&mut self) -> ([Vec<f64>; 4], [f64; 2]) {
-        let (t, dt) = (self.simulation.time(), self.discretisation.dt);
-        let stresses = self.stresses();
-        let p = self.simulation.particles();
+    fn errors(&self, run: &mut dyn Simulation<D>) -> ([Vec<f64>; 4], [f64; 2]) {
+        let (t, dt) = (run.time(), self.discretisation.dt);
+        let stresses = self.stresses(run);
+        let p = run.particles();
         let mut errors = [const { Vec::new() }; 4];
         let mut projections = [(0.0, 0.0); 2];
         for (k, (stress, exact_stress)) in stresses.iter().enumerate() {
@@ -240,18 +254,18 @@ where
 
     /// Frequency over the exact one from the zeros of the mode, and its amplitude in the last period
     /// over that in the first.
-    fn vibration(&self) -> Option<[f64; 2]> {
+    fn vibration(&self, seen: &Seen, run: &dyn Simulation<D>) -> Option<[f64; 2]> {
         let omega = self.frequency?;
-        let zeros = self.rows.windows(2).filter_map(|pair| {
+        let zeros = seen.rows.windows(2).filter_map(|pair| {
             let ([a, b], crosses) = ([pair[0], pair[1]], pair[0].mode * pair[1].mode < 0.0);
             crosses.then(|| a.time + (b.time - a.time) * a.mode / (a.mode - b.mode))
         });
         let zeros: Vec<(f64, f64)> = zeros.enumerate().map(|(k, t)| (k as f64, t)).collect();
         let half_period = fit_line(&zeros)?.slope;
         let period = std::f64::consts::TAU / omega;
-        let end = self.simulation.time();
+        let end = run.time();
         let largest = |from: f64, to: f64| {
-            let inside = self.rows.iter().filter(|r| (from..=to).contains(&r.time));
+            let inside = seen.rows.iter().filter(|r| (from..=to).contains(&r.time));
             inside.map(|r| r.mode.abs()).fold(0.0, f64::max)
         };
         Some([
@@ -262,10 +276,10 @@ where
 
     /// Of a body at rest: largest drift of the cells' means of J̄ and J per 10⁵ steps, largest kinetic
     /// energy of the last third over that of the middle third, and the pressure at the base.
-    fn rest(&mut self) -> Option<[f64; 4]> {
-        let start = self.at_start.clone()?;
+    fn rest(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Option<[f64; 4]> {
+        let start = seen.at_start.clone()?;
         let per = 1e5 / self.steps as f64;
-        let now = self.cell_means();
+        let now = self.cell_means(run);
         let drift = |which: usize| {
             let moved = start
                 .iter()
@@ -273,14 +287,14 @@ where
                 .map(|(a, b)| (b[which] - a[which]).abs());
             moved.fold(0.0, f64::max) * per
         };
-        let third = self.rows.len() / 3;
+        let third = seen.rows.len() / 3;
         let peak = |rows: &[Row]| rows.iter().map(|r| r.kinetic).fold(0.0, f64::max);
-        let (earlier, last) = self.rows.split_at(self.rows.len() - third);
+        let (earlier, last) = seen.rows.split_at(seen.rows.len() - third);
         let growth = peak(last) / peak(&earlier[earlier.len() - third..]);
-        let stress = self.simulation.force_stress();
+        let stress = run.force_stress();
         let height = self.solution.extent()[D - 1];
         let below = |y: f64| y < 0.5 * (height[0] + height[1]);
-        let references = &self.simulation.particles().reference;
+        let references = &run.particles().reference;
         let profile: Vec<(f64, f64)> = references
             .iter()
             .zip(&stress)
@@ -292,32 +306,23 @@ where
     }
 }
 
-impl<const D: usize> Memory for Simulated<D>
+impl<const D: usize> Watch<D> for Motion<D>
 where
     NeoHookean: Solvable<D>,
     NewtonianFluid: Solvable<D>,
 {
-    fn save(&self) -> Result<Saved, MemoryError> {
-        Saved::of(&(self.simulation.save()?, &self.rows))
-    }
+    type Seen = Seen;
 
-    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        let simulation: Saved;
-        (simulation, self.rows) = saved.read("a motion known in closed form")?;
-        self.simulation.restore(&simulation)
-    }
-}
-
-impl<const D: usize> Job for Simulated<D>
-where
-    NeoHookean: Solvable<D>,
-    NewtonianFluid: Solvable<D>,
-{
     fn discretisation(&self) -> Discretisation {
         self.discretisation.clone()
     }
 
-    fn series_columns(&self) -> Vec<&'static str> {
+    fn scene(&self, _: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+        let dt = self.discretisation.dt;
+        begin(self.case, &self.spec, &self.parameters, &self.solution, dt)
+    }
+
+    fn columns(&self) -> Vec<&'static str> {
         let mut columns = vec![
             "time (s)",
             "displacement_l2 (m)",
@@ -337,31 +342,31 @@ where
         columns
     }
 
-    fn advance(&mut self) -> Result<Vec<f64>, mpm_core::Error> {
-        let left = self.steps - self.simulation.work().steps;
-        for _ in 0..self.steps_per_row.min(left) {
-            self.simulation.step()?;
+    fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, mpm_core::Error> {
+        if seen.rows.is_empty() {
+            let start = stage.run.as_ref();
+            seen.at_start = self.case.rests.then(|| self.cell_means(start));
+            self.observe(seen, start);
         }
-        Ok(self.observe())
+        let left = self.steps - stage.run.work().steps;
+        stage.steps(self.steps_per_row.min(left))?;
+        Ok(self.observe(seen, stage.run.as_ref()))
     }
 
-    fn finished(&self) -> bool {
-        self.simulation.work().steps >= self.steps
+    fn progress(&self, _: &Seen, stage: &Stage<D>) -> f64 {
+        stage.run.work().steps as f64 / self.steps as f64
     }
 
-    fn progress(&self) -> f64 {
-        self.simulation.work().steps as f64 / self.steps as f64
-    }
-
-    fn particles(&mut self) -> Vec<Column> {
+    fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {
+        let run = stage.run.as_mut();
         let column = |name, unit, values| Column { name, unit, values };
         let [displacement, velocity, stress, mean_stress] = {
-            let (errors, _) = self.errors();
-            let p = self.simulation.particles();
+            let (errors, _) = self.errors(run);
+            let p = run.particles();
             errors.map(|values| p.seeded(|k| values[k]))
         };
-        let force_stress = self.simulation.force_stress();
-        let p = self.simulation.particles();
+        let force_stress = run.force_stress();
+        let p = run.particles();
         let mut columns = Vec::new();
         for (a, name) in ["x", "y", "z"].into_iter().enumerate().take(D) {
             columns.push(column(name, "m", p.seeded(|k| p.position[k][a])));
@@ -389,57 +394,48 @@ where
         columns
     }
 
-    fn metrics(&mut self) -> BTreeMap<String, Metric> {
-        let (errors, [displacement_ratio, velocity_ratio]) = self.errors();
-        let totals = self.simulation.totals();
+    fn metrics(&self, seen: &Seen, stage: &mut Stage<D>) -> Vec<(Metric, f64)> {
+        let run = stage.run.as_mut();
+        let (errors, [displacement_ratio, velocity_ratio]) = self.errors(run);
+        let totals = run.totals();
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-        let peak = self.rows.iter().map(|r| r.kinetic).fold(0.0, f64::max);
-        let start = self.rows[0].energy;
-        let gain = |row: &Row| (row.energy - start) / peak;
-        let mut values: Vec<(&str, f64)> = vec![
-            ("displacement_scale", self.displacement_scale()),
-            ("displacement_ratio", displacement_ratio),
-            ("velocity_ratio", velocity_ratio),
-            (
-                "energy_gain",
-                self.rows.iter().map(gain).fold(0.0, f64::max),
-            ),
-            (
-                "energy_loss",
-                self.rows.iter().map(|r| -gain(r)).fold(0.0, f64::max),
-            ),
-            ("energy_end", self.rows.last().map_or(f64::NAN, gain)),
-            ("log_jacobian_gap", totals.log_jacobian_gap_rms),
-            ("kinetic_energy_peak", peak),
-            ("mass", totals.mass),
-            ("body_mass", self.body_mass()),
+        let peak = seen.rows.iter().map(|r| r.kinetic).fold(0.0, f64::max);
+        let start = seen.rows.first().map_or(f64::NAN, |r| r.energy);
+        let gains = || seen.rows.iter().map(|r| (r.energy - start) / peak);
+        let mut values = vec![
+            (m::DISPLACEMENT_SCALE, self.displacement_scale(run)),
+            (m::DISPLACEMENT_RATIO, displacement_ratio),
+            (m::VELOCITY_RATIO, velocity_ratio),
+            (m::ENERGY_GAIN, gains().fold(0.0, f64::max)),
+            (m::ENERGY_LOSS, gains().map(|g| -g).fold(0.0, f64::max)),
+            (m::ENERGY_END, gains().next_back().unwrap_or(f64::NAN)),
+            (m::LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
+            (m::KINETIC_ENERGY_PEAK, peak),
+            (m::MASS, totals.mass),
+            (m::BODY_MASS, self.body_mass()),
         ];
         let names = [
-            ["displacement_l2", "displacement_linf"],
-            ["velocity_l2", "velocity_linf"],
-            ["stress_l2", "stress_linf"],
-            ["mean_stress_l2", "mean_stress_linf"],
+            [m::DISPLACEMENT_L2, m::DISPLACEMENT_LINF],
+            [m::VELOCITY_L2, m::VELOCITY_LINF],
+            [m::STRESS_L2, m::STRESS_LINF],
+            [m::MEAN_STRESS_L2, m::MEAN_STRESS_LINF],
         ];
         for ([l2, linf], errors) in names.into_iter().zip(&errors) {
             values.push((l2, rms(errors.iter().copied())));
             values.push((linf, largest(errors)));
         }
-        if let Some([frequency, amplitude]) = self.vibration() {
-            values.push(("frequency_ratio", frequency));
-            values.push(("frequency_error", (frequency - 1.0).abs()));
-            values.push(("amplitude_ratio", amplitude));
-            values.push(("damping", -amplitude.ln()));
+        if let Some([frequency, amplitude]) = self.vibration(seen, run) {
+            values.push((m::FREQUENCY_RATIO, frequency));
+            values.push((m::FREQUENCY_ERROR, (frequency - 1.0).abs()));
+            values.push((m::AMPLITUDE_RATIO, amplitude));
+            values.push((m::DAMPING, -amplitude.ln()));
         }
-        if let Some([j_bar, j, growth, base]) = self.rest() {
-            values.push(("j_drift_per_1e5_steps", j_bar));
-            values.push(("true_j_drift_per_1e5_steps", j));
-            values.push(("kinetic_growth", growth));
-            values.push(("base_pressure", base));
+        if let Some([j_bar, j, growth, base]) = self.rest(seen, run) {
+            values.push((m::J_DRIFT_PER_1E5_STEPS, j_bar));
+            values.push((m::TRUE_J_DRIFT_PER_1E5_STEPS, j));
+            values.push((m::KINETIC_GROWTH, growth));
+            values.push((m::BASE_PRESSURE, base));
         }
-        observed(METRICS, values)
-    }
-
-    fn work(&self) -> WorkDone {
-        self.simulation.work().into()
+        values
     }
 }
