@@ -6,9 +6,9 @@ use model::{
     Bloch, CELLS, H, KINDS, Kind, LENGTH, Moving, UNSEEN, Wave, add, noise, product, theta,
 };
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::NewtonianFluid;
-use mpm_core::solver::courant_time_step;
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Basis, Grid, Law, Particles, Scene, Simulation, Solver, SymmetricTensor};
 use nalgebra::{Complex, Matrix3};
 use std::f64::consts::TAU;

@@ -1,7 +1,7 @@
 //! Schemes by solver kind, and their names.
 
 use mpm_core::Remedy;
-use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use thiserror::Error;

@@ -1,18 +1,19 @@
 //! A solver at time zero.
 
 use super::room::Room;
-use super::{ChunkSums, Held, NodeSums, Scene, Solver, check_cfl, check_jacobian};
+use super::{ChunkSums, Held, NodeSums, Solver, Transfer, check_cfl, check_jacobian};
 use crate::basis::Basis;
 use crate::error::{Error, require};
 use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::monitor::{Accumulated, Residual};
+use crate::nodes::NodalState;
 use crate::parallel::{CHUNK, NODE_CHUNK};
 use crate::projection::Averaging;
 use crate::reach::Reach;
+use crate::scene::Scene;
 use crate::space;
 use crate::stage::Prescribed;
-use crate::transfer::{NodalState, Transfer};
 use crate::work::Work;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
