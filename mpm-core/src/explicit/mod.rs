@@ -298,9 +298,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     /// Stress, state and volume of the particles, Eqs. (15), (22).
-    fn update_stress(&mut self, dt: f64) {
+    fn update_stress(&mut self) {
         self.averaging.expire();
-        let law = &self.scene.law;
+        let (law, dt) = (&self.scene.law, self.scene.dt);
         let p = &mut self.scene.particles;
         (
             self.states.par_chunks_mut(CHUNK),
@@ -461,7 +461,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.update_grid();
         self.grid_to_particles()?;
         self.average_volume_change();
-        self.update_stress(self.scene.dt);
+        self.update_stress();
         self.keep_gaps_open(self.time + self.scene.dt)?;
         self.move_particles()?;
         self.filter_particles();

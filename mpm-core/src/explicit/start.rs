@@ -77,11 +77,19 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         };
         solver.check_positions()?;
         solver.attach_contacts()?;
-        // The initial F has been there for ever: no rate.
-        solver.update_stress(f64::INFINITY);
+        solver.rest();
         solver.declare_constraints();
         solver.sort();
         Ok(solver)
+    }
+
+    /// Stress, state and volume that the initial deformation gradients give.
+    fn rest(&mut self) {
+        let (law, p) = (&self.scene.law, &mut self.scene.particles);
+        for (k, f) in p.delta_f.iter().enumerate() {
+            (p.stress[k], self.states[k]) = law.at_rest(&space::embed(f));
+            p.volume[k] = p.jacobian[k] * p.reference_volume[k];
+        }
     }
 
     fn declare_constraints(&mut self) {

@@ -30,6 +30,11 @@ impl Law for Prestressed {
         1.0
     }
 
+    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, f64) {
+        let (stress, state) = self.bulk.at_rest(f);
+        (stress.scale_add_identity(1.0, self.mean), state)
+    }
+
     fn update(&self, delta_f: &Matrix3<f64>, dt: f64, state: &f64) -> (SymmetricTensor, f64) {
         let (stress, state) = self.bulk.update(delta_f, dt, state);
         (stress.scale_add_identity(1.0, self.mean), state)
