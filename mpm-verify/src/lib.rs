@@ -12,6 +12,7 @@ pub mod cases;
 pub mod check;
 pub mod checkpoint;
 pub mod convergence;
+pub mod draw;
 pub mod error;
 pub mod exact;
 pub mod files;

@@ -203,6 +203,16 @@ impl Scheme {
         }
     }
 
+    /// In short, for people: FLIP goes without saying.
+    #[must_use]
+    pub fn title(self) -> String {
+        let (basis, remedy, transfer) = (self.basis(), self.remedy(), self.transfer());
+        match transfer {
+            TransferName::Flip => format!("{basis} {remedy}"),
+            _ => format!("{basis} {remedy} {transfer}"),
+        }
+    }
+
     /// From its name.
     ///
     /// # Errors

@@ -1,10 +1,10 @@
 //! Trends over nights: errors, orders and cost, kept in a table beside the report.
 
 use super::Picture;
-use super::plot::{Chart, Scale};
-use super::style::{Panel, Panels};
 use crate::cases;
 use crate::convergence::Convergence;
+use crate::draw::style::{Panel, Panels};
+use crate::draw::{Chart, Scale};
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::night::Night;

@@ -2,10 +2,10 @@
 
 use super::Picture;
 use super::convergence::error_label;
-use super::plot::{Chart, Scale};
-use super::style::{Panel, Panels};
 use crate::case::{Case, Quantity, Sweep};
 use crate::cases;
+use crate::draw::style::{Panel, Panels};
+use crate::draw::{Chart, Scale};
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::record::Record;
