@@ -91,14 +91,14 @@ const SLIDE: Runs =
 const FAULTS: [Fault; 23] = [
     Fault {
         name: "P2G drops the stress along the last axis",
-        file: "transfer/kernel.rs",
+        file: "explicit/transfer/kernel.rs",
         sound: "across.mul_add(w, along.mul_add(dw, nodes[k].change))",
         broken: "across.mul_add(w, (along * 0.0).mul_add(dw, nodes[k].change))",
         seen_by: &[(RATE, "completes")],
     },
     Fault {
         name: "P2G halves the mass",
-        file: "transfer/kernel.rs",
+        file: "explicit/transfer/kernel.rs",
         sound: "[0.0, 0.0, 0.0, self.mass]",
         broken: "[0.0, 0.0, 0.0, 0.5 * self.mass]",
         seen_by: &[(RATE, "mid-edge")],
@@ -112,7 +112,7 @@ const FAULTS: [Fault; 23] = [
     },
     Fault {
         name: "F-bar is skipped",
-        file: "remedy/mod.rs",
+        file: "explicit/remedy/mod.rs",
         sound: "stretch_of_volume::<D>(volume_ratio)",
         broken: "1.0",
         seen_by: &[(RATE, "mean-stress-rms"), (VORTEX, "no-locking")],
@@ -134,7 +134,7 @@ const FAULTS: [Fault; 23] = [
     },
     Fault {
         name: "the printed algorithm no longer creeps",
-        file: "remedy/fbar_recursive.rs",
+        file: "explicit/remedy/fbar_recursive.rs",
         sound: "particles.j_bar[p] * determinant(&particles.delta_f[p])",
         broken: "particles.jacobian[p]",
         seen_by: &[(RECURSIVE, "never-at-rest")],
@@ -163,14 +163,14 @@ const FAULTS: [Fault; 23] = [
     },
     Fault {
         name: "the increment of the volume is averaged twice",
-        file: "remedy/fbar_rate.rs",
+        file: "explicit/remedy/fbar_rate.rs",
         sound: "average.average(particles, &mut self.next)",
         broken: "for _ in 0..2 { average.average(particles, &mut self.next) }",
         seen_by: &[(BAR, "averaging-softens")],
     },
     Fault {
         name: "the consistent average lacks its second term",
-        file: "remedy/fbar_consistent.rs",
+        file: "explicit/remedy/fbar_consistent.rs",
         sound: "*field += (1.0 - UNSEEN) * *seen",
         broken: "*field += 0.0 * *seen",
         seen_by: &[(BAR_CONSISTENT, "averaging-softens")],

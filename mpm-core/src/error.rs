@@ -32,7 +32,7 @@ pub enum Fault {
     /// The time step exceeds what the wave and particle speeds allow.
     #[error("time step is unstable: CFL number {cfl} exceeds {limit}")]
     UnstableTimeStep {
-        /// (c + |v|) Δt / h of the particle; where a contact is too stiff, [`crate::solver::contact_cfl`].
+        /// (c + |v|) Δt / h of the particle; where a contact is too stiff, the CFL number of both together.
         cfl: f64,
         /// The largest admissible value.
         limit: f64,

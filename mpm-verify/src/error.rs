@@ -33,7 +33,7 @@ pub enum Error {
     Name(#[from] mpm_solvers::scheme::NameError),
     /// A picture could not be drawn.
     #[error(transparent)]
-    Plot(#[from] crate::report::plot::PlotError),
+    Picture(Box<dyn std::error::Error + Send + Sync>),
     /// A checkpoint is not one that this run can go on from.
     #[error("{}: {refusal}", path.display())]
     Checkpoint {

@@ -13,6 +13,7 @@ pub mod check;
 pub mod checkpoint;
 pub mod claim;
 pub mod convergence;
+pub mod draw;
 pub mod drive;
 pub mod error;
 pub mod exact;

@@ -1,8 +1,8 @@
 //! A body to count and compare with.
 
 use mpm_core::basis::WallTreatment;
+use mpm_core::explicit::courant_time_step;
 use mpm_core::material::{HenckyJ2, Law, NeoHookean, NewtonianFluid, Strength};
-use mpm_core::solver::courant_time_step;
 use mpm_core::{Axis, Basis, Error, Grid, Particles, Remedy, Scene, Solver, Transfer};
 
 /// Its density (kg/m³).

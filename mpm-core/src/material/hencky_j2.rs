@@ -202,6 +202,11 @@ impl Law for HenckyJ2 {
         }
     }
 
+    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, ElastoplasticState) {
+        // The stress depends on no rate: any duration will do.
+        self.update(f, 1.0, &self.initial_state())
+    }
+
     #[inline]
     fn update(
         &self,

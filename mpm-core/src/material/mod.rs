@@ -22,6 +22,9 @@ pub trait Law: Send + Sync {
     /// The state of undeformed material.
     fn initial_state(&self) -> Self::State;
 
+    /// Cauchy stress (Pa) and state of a body that rests at the deformation gradient `f` and came there at no rate.
+    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State);
+
     /// Cauchy stress (Pa) and state after the relative deformation `delta_f` over `dt` (s).
     fn update(
         &self,

@@ -57,6 +57,14 @@ fn rest_is_free_of_stress<M: Law>(law: &M, q: &Matrix3<f64>) {
     assert!(turned.abs().max() < 1e-12 * modulus(law));
 }
 
+/// A body at rest has the stress that ever slower deformation tends to.
+fn rest_is_the_limit_of_slow_deformation<M: Law>(law: &M, f: &Matrix3<f64>) {
+    let (stress, state) = law.at_rest(f);
+    let (slow, after) = law.update(f, 1e30, &law.initial_state());
+    assert!((stress.to_matrix() - slow.to_matrix()).abs().max() < 1e-15 * modulus(law));
+    assert_eq!(state, after);
+}
+
 /// Two steps give what one gives: the state forgets nothing.
 fn increments_compose<M: Law>(law: &M, first: &Matrix3<f64>, second: &Matrix3<f64>) {
     let half = deform(law, first).1;
@@ -126,6 +134,11 @@ macro_rules! every_law_must {
                 }
 
                 #[test]
+                fn rest_as_slow_deformation_ends(f in deformations()) {
+                    rest_is_the_limit_of_slow_deformation(&$law, &f);
+                }
+
+                #[test]
                 fn treat_eight_as_one(
                     f in prop::array::uniform8(deformations()),
                     g in prop::array::uniform8(deformations()),
@@ -187,6 +200,7 @@ fn a_fluid_resists_the_rate_of_shear_and_of_nothing_else() {
     // The state remembers the volume, not the shear.
     let (s, _) = law.update(&Matrix3::identity(), dt, &j);
     assert!((s.mean() - pressure_part).abs() < 1e-15 && s.xy == 0.0);
+    rest_is_the_limit_of_slow_deformation(&law, &(shear * 1.01));
     for (bulk_modulus, viscosity) in [(0.0, 0.0), (f64::NAN, 0.0), (1.0, -1.0), (1.0, f64::NAN)] {
         assert!(NewtonianFluid::new(bulk_modulus, viscosity).is_err());
     }

@@ -3,7 +3,7 @@
 use super::ForceFilter;
 use crate::error::{Error, require};
 use crate::memory::Memoryless;
-use crate::transfer::NodalState;
+use crate::nodes::NodalState;
 
 /// Opposes every component of a nodal velocity by the fraction `alpha` of that component's
 /// out-of-balance force: f ← f − α |f| sign(v). It vanishes with the out-of-balance force and so

@@ -25,8 +25,8 @@ pub use rigid_nodes::RigidNodes;
 pub use wall::{End, Wall, WallKind};
 
 use crate::memory::Memory;
+use crate::nodes::NodalState;
 use crate::particles::Particles;
-use crate::transfer::NodalState;
 
 /// A load on the particles.
 pub trait Load<const D: usize>: Memory + Send {

@@ -2,11 +2,11 @@
 
 use mpm_core::basis::{Gimp, WallTreatment};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
+use mpm_core::explicit::remedy::Standard;
+use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{contact_cfl, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::remedy::Standard;
-use mpm_core::solver::{contact_cfl, courant_time_step};
 use mpm_core::stage::{BodyForce, End, LocalDamping, smooth_rise, smooth_stroke};
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Error, Fault, Grid, Particles, Scene, Simulation, Solver};
 
 const H: f64 = 0.5;

@@ -2,9 +2,9 @@
 
 use crate::scenes::{block, open_grid, remedies, scene, scene_with, swirl};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use mpm_core::remedy::FbarRate;
+use mpm_core::explicit::remedy::FbarRate;
+use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
 use mpm_core::stage::{BodyForce, LocalDamping};
-use mpm_core::transfer::{Apic, Flip, Xpic};
 use mpm_core::{Axis, Basis, Grid, Simulation, Solver, Transfer};
 
 fn bits<const D: usize, const S: usize, B: Basis<S> + 'static>(threads: usize) -> Vec<u64> {

@@ -2,11 +2,11 @@
 
 use mpm_core::basis::{Gimp, WallTreatment};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
+use mpm_core::explicit::contact_cfl;
+use mpm_core::explicit::remedy::FbarRate;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::{HenckyJ2, Law, Strength};
-use mpm_core::remedy::FbarRate;
-use mpm_core::solver::contact_cfl;
 use mpm_core::stage::{End, Wall, WallKind};
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation, Solver};
 use std::f64::consts::PI;
 

@@ -2,15 +2,15 @@
 
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength};
 use mpm_core::memory::{Memory, MemoryError, Saved};
-use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
-use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{
     BodyForce, Constraint, DeadForce, End, KineticDamping, LocalDamping, Observation,
     RestCriterion, RigidNodes, Wall, WallKind,
 };
-use mpm_core::transfer::{Apic, Flip, Xpic};
 use mpm_core::{
     Axis, Basis, Grid, Law, Particles, Remedy, Scene, Side, Simulation, Solver, Transfer,
 };

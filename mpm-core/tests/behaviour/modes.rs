@@ -6,9 +6,9 @@ use model::{
     Bloch, CELLS, H, KINDS, Kind, LENGTH, Moving, UNSEEN, Wave, add, noise, product, theta,
 };
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::NewtonianFluid;
-use mpm_core::solver::courant_time_step;
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Basis, Grid, Law, Particles, Scene, Simulation, Solver, SymmetricTensor};
 use nalgebra::{Complex, Matrix3};
 use std::f64::consts::TAU;
@@ -28,6 +28,11 @@ impl Law for Prestressed {
 
     fn initial_state(&self) -> f64 {
         1.0
+    }
+
+    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, f64) {
+        let (stress, state) = self.bulk.at_rest(f);
+        (stress.scale_add_identity(1.0, self.mean), state)
     }
 
     fn update(&self, delta_f: &Matrix3<f64>, dt: f64, state: &f64) -> (SymmetricTensor, f64) {

@@ -1,11 +1,11 @@
 //! A body pressed by nodes that move with a rigid one.
 
 use mpm_core::basis::{Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::remedy::Standard;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::remedy::Standard;
-use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{Constraint, End, RigidNodes, Wall, WallKind};
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Basis, Grid, Particles, Scene, Side, Simulation, Solver};
 
 const H: f64 = 0.5;

@@ -1,10 +1,10 @@
 //! Bodies to try the solver on.
 
 use mpm_core::basis::WallTreatment;
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
-use mpm_core::solver::courant_time_step;
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Remedy, Scene};
 
 pub(crate) const DENSITY: f64 = 2.0;

@@ -4,12 +4,12 @@ use crate::scenes::{
     DENSITY, angular_momentum, block, law, open_grid, remedies, scene, scene_with, swirl,
 };
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::remedy::Standard;
+use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::projection::Average;
-use mpm_core::remedy::Standard;
-use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{BodyForce, Constraint, End, KineticDamping, LocalDamping, Wall, WallKind};
-use mpm_core::transfer::{Apic, Flip, Xpic};
 use mpm_core::{
     Axis, Basis, Error, Fault, Grid, Memoryless, Particles, Remedy, Scene, Side, Simulation,
     Solver, SymmetricTensor, Transfer,

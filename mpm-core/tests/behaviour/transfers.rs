@@ -2,8 +2,8 @@
 
 use crate::scenes::{angular_momentum, block, open_grid, scene, scene_with, swirl};
 use mpm_core::basis::{Gimp, QuadraticBSpline};
+use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
 use mpm_core::stage::{BodyForce, KineticDamping, ParticleFilter};
-use mpm_core::transfer::{Apic, Flip, Xpic};
 use mpm_core::{Basis, Simulation, Solver, Transfer};
 use nalgebra::SMatrix;
 use std::f64::consts::PI;

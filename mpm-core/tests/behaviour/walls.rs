@@ -1,11 +1,11 @@
 //! Walls that hold on to what touches them and walls that let go; a body handed from run to run.
 
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::remedy::FbarRate;
+use mpm_core::explicit::transfer::{Apic, Flip};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::remedy::FbarRate;
-use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{BodyForce, Constraint, End, LocalDamping, Wall, WallKind};
-use mpm_core::transfer::{Apic, Flip};
 use mpm_core::{Axis, Basis, Error, Grid, Particles, Scene, Simulation, Solver, Transfer};
 
 const H: f64 = 0.5;

@@ -3,8 +3,8 @@
 pub mod scheme;
 
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use mpm_core::explicit::transfer::{Apic, Xpic};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid};
-use mpm_core::transfer::{Apic, Xpic};
 use mpm_core::{Error, Law, Scene, Simulation, Solver, Transfer};
 use scheme::{BasisName, Explicit, Scheme, TransferName};
 

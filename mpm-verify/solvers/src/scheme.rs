@@ -1,7 +1,7 @@
 //! Schemes by solver kind, and their names.
 
 use mpm_core::Remedy;
-use mpm_core::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use thiserror::Error;
@@ -224,6 +224,16 @@ impl Scheme {
                 given: solver.to_owned(),
                 allowed: &["explicit"],
             }),
+        }
+    }
+
+    /// In short, for people: FLIP goes without saying.
+    #[must_use]
+    pub fn title(self) -> String {
+        let (basis, remedy, transfer) = (self.basis(), self.remedy(), self.transfer());
+        match transfer {
+            TransferName::Flip => format!("{basis} {remedy}"),
+            _ => format!("{basis} {remedy} {transfer}"),
         }
     }
 

@@ -5,7 +5,7 @@
 //! the loops over the nodes of a stencil, a fused one as two, vectors of four as four.
 
 use mpm_core::lattice::Weights;
-use mpm_core::transfer::NodalState;
+use mpm_core::nodes::NodalState;
 use std::mem::size_of;
 
 /// Bytes of a number.

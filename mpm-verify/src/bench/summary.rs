@@ -1,9 +1,9 @@
 //! Tables and pictures of what was measured.
 
 use super::{Bench, Measured, Spread, aims, model};
+use crate::draw::{Chart, Dash, Marker, Scale, Series, draw_charts};
 use crate::error::Error;
 use crate::files::{write_csv, write_whole};
-use crate::report::plot::{Chart, Dash, Marker, Scale, Series, draw_charts};
 use std::fmt::Write;
 use std::path::Path;
 

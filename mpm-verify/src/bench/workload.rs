@@ -10,9 +10,9 @@ use super::{Options, Turn};
 use crate::error::Error;
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use mpm_core::basis::WallTreatment;
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::solver::courant_time_step;
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Simulation};
 use mpm_solvers::{Solvable, solver};
 use std::f64::consts::TAU;
@@ -188,7 +188,7 @@ mod tests {
     use super::super::model::needed;
     use super::*;
     use mpm_core::lattice::Weights;
-    use mpm_core::transfer::NodalState;
+    use mpm_core::nodes::NodalState;
 
     #[test]
     fn sums_are_told_along_every_axis() {

@@ -1,11 +1,11 @@
 //! Convergence and work–precision of every case.
 
-use super::plot::{Chart, Dash, Marker, Scale, Series, SlopeTriangle};
 use super::price;
-use super::style::{Panel, Panels};
 use crate::cases;
 use crate::convergence::{Convergence, Point, precision};
 use crate::distinct;
+use crate::draw::style::{Panel, Panels};
+use crate::draw::{Chart, Dash, Marker, Scale, Series, SlopeTriangle};
 use crate::error::Error;
 use crate::files::{write_csv, write_json};
 use crate::gallery::Picture;

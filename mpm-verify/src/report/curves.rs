@@ -1,6 +1,6 @@
 //! The numbers behind charts of curves.
 
-use super::plot::Chart;
+use crate::draw::Chart;
 use crate::error::Error;
 use crate::files::write_csv;
 use std::path::Path;

@@ -5,7 +5,6 @@ use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::metric::Headline;
 use crate::record::{Record, Status};
-use crate::scheme::{Scheme, TransferName};
 use crate::study::{CaseStudy, Summary};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -162,16 +161,6 @@ pub fn number(value: Option<f64>) -> String {
             text.trim_end_matches('0').trim_end_matches('.').to_owned()
         }
         Some(x) => format!("{x:.3e}"),
-    }
-}
-
-/// A scheme in short: its transfer goes without saying if it is FLIP.
-#[must_use]
-pub fn scheme(scheme: Scheme) -> String {
-    let (basis, remedy, transfer) = (scheme.basis(), scheme.remedy(), scheme.transfer());
-    match transfer {
-        TransferName::Flip => format!("{basis} {remedy}"),
-        _ => format!("{basis} {remedy} {transfer}"),
     }
 }
 

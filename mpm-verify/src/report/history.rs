@@ -1,9 +1,9 @@
 //! Trends over nights: errors, orders and cost, kept in a table beside the report.
 
-use super::plot::{Chart, Scale};
-use super::style::{Panel, Panels};
 use crate::cases;
 use crate::convergence::Convergence;
+use crate::draw::style::{Panel, Panels};
+use crate::draw::{Chart, Scale};
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::gallery::Picture;

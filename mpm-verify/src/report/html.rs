@@ -2,12 +2,12 @@
 
 use super::describe::{self, headline, kind, local_orders, made_by, number, order, outcome};
 use super::price::{Price, Prices};
-use super::sketch;
 use crate::case::Case;
 use crate::cases;
 use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::distinct;
+use crate::draw::sketch;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::gallery::Picture;

@@ -137,7 +137,7 @@ impl Prices {
 impl Price {
     /// The scheme, and what it was run with.
     pub(super) fn name(&self) -> String {
-        let parts = std::iter::once(describe::scheme(self.scheme)).chain(self.set.iter().cloned());
+        let parts = std::iter::once(self.scheme.title()).chain(self.set.iter().cloned());
         parts.collect::<Vec<_>>().join(" ")
     }
 

@@ -145,7 +145,7 @@ fn results(headlines: &[Headline], records: &[Record], t: &mut String) {
         let _ = writeln!(
             t,
             "| {} | {} | {} | {} | {} | {} | {:.1} |",
-            describe::scheme(r.scheme()),
+            r.scheme().title(),
             r.level,
             r.set.join(" "),
             r.work.particles,
@@ -177,7 +177,7 @@ fn orders(convergence: &[Convergence], t: &mut String) {
             t,
             "| {} | {} | {} | {levels} | {} | {} | {} |",
             c.metric,
-            describe::scheme(c.scheme),
+            c.scheme.title(),
             c.set.join(" "),
             number(c.points.last().map(|p| p.value)),
             order(c),
@@ -200,7 +200,7 @@ fn table(summary: &Summary, t: &mut String, keep: impl Fn(&Verdict) -> bool) {
         let run = record.map_or_else(
             || study.case.clone(),
             |r| {
-                let scheme = describe::scheme(r.scheme());
+                let scheme = r.scheme().title();
                 format!("{scheme} {} {}", r.level, r.set.join(" "))
             },
         );

@@ -1,10 +1,10 @@
 //! Errors over the values of a parameter.
 
 use super::convergence::error_label;
-use super::plot::{Chart, Scale};
-use super::style::{Panel, Panels};
 use crate::case::Case;
 use crate::cases;
+use crate::draw::style::{Panel, Panels};
+use crate::draw::{Chart, Scale};
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::gallery::Picture;

@@ -1,7 +1,7 @@
 //! The watched columns of a time series, one chart each.
 
-use super::plot::{Chart, Dash, Marker, Scale, Series, draw_charts};
 use crate::cases;
+use crate::draw::{Chart, Dash, Marker, Scale, Series, draw_charts};
 use crate::error::Error;
 use crate::table::Table;
 use image::RgbImage;

@@ -1,8 +1,8 @@
 //! The picture of the hydrostatic column: who creeps.
 
 use super::Picture;
-use super::plot::{Chart, Scale, draw_charts};
-use super::style::{Colour, series};
+use crate::draw::style::{Colour, series};
+use crate::draw::{Chart, Scale, draw_charts};
 use crate::error::Error;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, TransferName};

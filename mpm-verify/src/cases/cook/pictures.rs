@@ -1,10 +1,10 @@
 //! The pictures of Cook's membrane.
 
 use super::Picture;
-use super::plot::{
+use crate::draw::style::{Colour, series};
+use crate::draw::{
     Chart, FieldFigure, FieldPanel, ReferenceLine, Scale, Series, draw_charts, draw_fields,
 };
-use super::style::{Colour, series};
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::record::{Record, Status, of_own_parameters};

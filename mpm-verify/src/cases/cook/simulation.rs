@@ -11,13 +11,13 @@ use crate::record::{Discretisation, Metric, WorkDone};
 use crate::scheme::RemedyName;
 use crate::statistics::{Line, fit_line, rms};
 use mpm_core::basis::WallTreatment;
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{
     DeadForce, End, ForceFilter, KineticDamping, Load, LocalDamping, Observation, ParticleFilter,
     RestCriterion, Wall, WallKind,
 };
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Memory, MemoryError, Particles, Saved, Scene, Side, Simulation};
 use mpm_solvers::solver;
 use std::collections::BTreeMap;

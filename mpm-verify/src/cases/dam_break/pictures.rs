@@ -2,12 +2,12 @@
 
 use super::Picture;
 use super::curves::write_curves;
-use super::plot::{
+use crate::cases::{self, dam_break_front};
+use crate::draw::style::{Colour, series};
+use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, animate_fields, draw_charts,
     draw_fields, share_ranges,
 };
-use super::style::{Colour, series};
-use crate::cases::{self, dam_break_front};
 use crate::error::Error;
 use crate::record::{Record, Status};
 use crate::run::snapshot_file;

@@ -11,14 +11,14 @@ use crate::record::{Discretisation, Metric, WorkDone};
 use crate::scheme::BasisName;
 use crate::statistics::{fit_line, rms};
 use mpm_core::basis::WallTreatment;
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::{Law, NewtonianFluid};
 use mpm_core::memory::{Memory, MemoryError, Saved};
-use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{
     BodyForce, Constraint, End, ForceFilter, Load, LocalDamping, RigidNodes, Wall, WallKind,
     smooth_rise,
 };
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
 use mpm_solvers::solver;
 use nalgebra::{SMatrix, Vector3};

@@ -2,12 +2,12 @@
 
 use super::Picture;
 use super::curves::write_curves;
-use super::plot::{
+use crate::cases::footing_limit;
+use crate::draw::style::{Colour, series};
+use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Scale, Series, draw_charts,
     draw_fields, share_ranges,
 };
-use super::style::{Colour, series};
-use crate::cases::footing_limit;
 use crate::error::Error;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};

@@ -11,13 +11,13 @@ use crate::scheme::BasisName;
 use crate::statistics::{fit_line, rms};
 use mpm_core::basis::WallTreatment;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::{HenckyJ2, Law, Strength};
 use mpm_core::memory::{Memory, MemoryError, Saved};
-use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{
     Constraint, End, ForceFilter, LocalDamping, RigidNodes, Wall, WallKind, smooth_stroke,
 };
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
 use mpm_solvers::solver;
 use serde::{Deserialize, Serialize};

@@ -5,12 +5,12 @@ use crate::case::RunSpec;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use mpm_core::basis::WallTreatment;
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::{HenckyJ2, Law, Strength};
-use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{
     BodyForce, Constraint, End, ForceFilter, LocalDamping, Wall, WallKind, smooth_rise,
 };
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Scene, Side};
 use std::f64::consts::SQRT_2;
 

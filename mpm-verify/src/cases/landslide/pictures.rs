@@ -2,11 +2,11 @@
 
 use super::Picture;
 use super::curves::write_curves;
-use super::plot::{
+use crate::draw::style::{Colour, series};
+use crate::draw::{
     Camera, Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, SolidFigure, SolidPanel,
     Up, animate_fields, animate_solids, draw_charts, draw_fields, draw_solids, share_ranges,
 };
-use super::style::{Colour, series};
 use crate::error::Error;
 use crate::record::{Record, Status};
 use crate::run::snapshot_file;

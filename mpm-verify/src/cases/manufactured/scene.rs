@@ -1,20 +1,18 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
 use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO, STEP_SCALING};
-use crate::cases::parameters::{
-    CFL, FLIP, PPC_PER_DIRECTION, WALL, WALL_LINE, YOUNG_MODULUS,
-};
+use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, WALL, WALL_LINE, YOUNG_MODULUS};
 use crate::error::Error;
 use crate::exact::{Exact, Material};
 use crate::parameter::{Parameter, Parameters};
 use crate::scheme::RemedyName;
 use crate::spec::{Level, RunSpec};
 use mpm_core::basis::WallTreatment;
+use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::remedy::FbarConsistent;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
-use mpm_core::remedy::FbarConsistent;
-use mpm_core::solver::courant_time_step;
 use mpm_core::stage::{BodyForce, Constraint, End, Load, Wall, WallKind};
-use mpm_core::transfer::Flip;
 use mpm_core::{Axis, Grid, Particles, Remedy, Scene, Side, Simulation};
 use mpm_solvers::{Solvable, solver};
 use nalgebra::Vector3;

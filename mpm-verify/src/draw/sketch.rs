@@ -25,7 +25,7 @@ const PLAIN: f64 = 1.4;
 const FINE: f64 = 0.7;
 
 /// The sketch as an SVG element; y points up in the problem, down in the picture.
-pub(super) fn svg(sketch: &Sketch, title: &str) -> String {
+pub(crate) fn svg(sketch: &Sketch, title: &str) -> String {
     let corners: Vec<Point> = sketch.shapes.iter().flat_map(corners).collect();
     let extent = |axis: usize| {
         let values = || corners.iter().map(|p| p[axis]);

@@ -4,8 +4,8 @@ use super::{CFL_LIMIT, Solver};
 use crate::basis::Basis;
 use crate::contact::Stiffest;
 use crate::error::{Error, Fault, require};
+use crate::explicit::transfer::Transfer;
 use crate::material::Law;
-use crate::transfer::Transfer;
 
 /// The CFL number of a contact whose stiffness over mass is `ratio` (1/s²) for the time step `dt` (s) of a body of
 /// CFL number `cfl`: the greatest frequency of both together times Δt/2, at most.

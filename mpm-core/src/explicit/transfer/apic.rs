@@ -19,11 +19,12 @@
 //! rather than C = B D⁻¹ over a step is what conserves angular momentum where D_p changes as the
 //! particle moves; near a node of hats C can then be large, on nodes of little mass.
 
+use super::Transfer;
 use super::kernel::{Given, Received, gather, spread};
-use super::{NodalState, Node, Transfer};
 use crate::basis::Basis;
 use crate::lattice::{Arms, Lattice, Stencil};
 use crate::memory::Memoryless;
+use crate::nodes::{NodalState, Node};
 use crate::particles::Particles;
 use nalgebra::SMatrix;
 

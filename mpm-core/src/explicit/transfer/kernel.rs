@@ -1,7 +1,7 @@
 //! What all transfers share: forces and velocities between one particle and the nodes of its stencil.
 
-use super::{NodalState, Node};
 use crate::lattice::Stencil;
+use crate::nodes::{NodalState, Node};
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 

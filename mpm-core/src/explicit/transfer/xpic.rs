@@ -19,11 +19,12 @@
 //! are held to (as mapped it would carry particles through a wall).
 
 use super::kernel::{Given, Received, gather};
-use super::{Flip, NodalState, Node, Transfer};
+use super::{Flip, Transfer};
 use crate::basis::Basis;
 use crate::error::{Error, require};
 use crate::lattice::{Lattice, Stencil};
 use crate::memory::Memoryless;
+use crate::nodes::{NodalState, Node};
 use crate::parallel::scatter;
 use crate::particles::Particles;
 use crate::stage::Prescribed;

@@ -1,18 +1,19 @@
 //! A solver at time zero.
 
 use super::room::Room;
-use super::{ChunkSums, Held, NodeSums, Scene, Solver, check_cfl, check_jacobian};
+use super::{ChunkSums, Held, NodeSums, Solver, Transfer, check_cfl, check_jacobian};
 use crate::basis::Basis;
 use crate::error::{Error, require};
 use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::monitor::{Accumulated, Residual};
+use crate::nodes::NodalState;
 use crate::parallel::{CHUNK, NODE_CHUNK};
 use crate::projection::Averaging;
 use crate::reach::Reach;
+use crate::scene::Scene;
 use crate::space;
 use crate::stage::Prescribed;
-use crate::transfer::{NodalState, Transfer};
 use crate::work::Work;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
@@ -76,11 +77,19 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         };
         solver.check_positions()?;
         solver.attach_contacts()?;
-        // The initial F has been there for ever: no rate.
-        solver.update_stress(f64::INFINITY);
+        solver.rest();
         solver.declare_constraints();
         solver.sort();
         Ok(solver)
+    }
+
+    /// Stress, state and volume that the initial deformation gradients give.
+    fn rest(&mut self) {
+        let (law, p) = (&self.scene.law, &mut self.scene.particles);
+        for (k, f) in p.delta_f.iter().enumerate() {
+            (p.stress[k], self.states[k]) = law.at_rest(&space::embed(f));
+            p.volume[k] = p.jacobian[k] * p.reference_volume[k];
+        }
     }
 
     fn declare_constraints(&mut self) {

@@ -1,7 +1,6 @@
 //! How the curve of a scheme looks, and which schemes share their axes, the same in every picture.
 
-use super::describe;
-use super::plot::{Chart, Dash, Marker, PlotError, Series, draw_charts, share_ranges};
+use super::{Chart, Dash, Marker, PlotError, Series, draw_charts, share_ranges};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -11,7 +10,7 @@ const MOST_CURVES: usize = 8;
 
 /// What the colour of a curve tells.
 #[derive(Clone, Copy)]
-pub(super) enum Colour {
+pub(crate) enum Colour {
     /// The basis; remedies differ in marker and line.
     Basis,
     /// The remedy, for curves of one basis with too many points for markers.
@@ -24,7 +23,7 @@ pub(super) enum Colour {
 }
 
 /// The curve of a scheme.
-pub(super) fn series(scheme: Scheme, points: Vec<(f64, f64)>, colour: Colour) -> Series {
+pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>, colour: Colour) -> Series {
     // Total and rate nearly coincide: the dashed line and the hollow marker let the other show.
     let (of_remedy, dash, by_remedy) = match scheme.remedy() {
         RemedyName::None => (Marker::Cross, Dash::Dotted, 6),
@@ -51,7 +50,7 @@ pub(super) fn series(scheme: Scheme, points: Vec<(f64, f64)>, colour: Colour) ->
         Colour::Marked { transfers: true } => (by_remedy, of_transfer),
     };
     Series {
-        name: describe::scheme(scheme),
+        name: scheme.title(),
         points,
         colour,
         marker,
@@ -60,16 +59,16 @@ pub(super) fn series(scheme: Scheme, points: Vec<(f64, f64)>, colour: Colour) ->
 }
 
 /// Schemes whose curves share a pair of axes.
-pub(super) struct Panel {
+pub(crate) struct Panel {
     /// What they have in common; may be empty.
-    pub(super) title: String,
-    pub(super) schemes: Vec<Scheme>,
+    pub(crate) title: String,
+    pub(crate) schemes: Vec<Scheme>,
     colour: Colour,
 }
 
 impl Panel {
     /// The curve of every scheme.
-    pub(super) fn curves(&self, points: impl Fn(Scheme) -> Vec<(f64, f64)>) -> Vec<Series> {
+    pub(crate) fn curves(&self, points: impl Fn(Scheme) -> Vec<(f64, f64)>) -> Vec<Series> {
         let curve = |scheme: &Scheme| {
             let mut curve = series(*scheme, points(*scheme), self.colour);
             // What the title says already would keep panels from sharing a legend.
@@ -84,11 +83,11 @@ impl Panel {
 }
 
 /// Panels side by side.
-pub(super) struct Panels(Vec<Panel>);
+pub(crate) struct Panels(Vec<Panel>);
 
 impl Panels {
     /// All schemes in one panel while they can be told apart, else a panel for every basis.
-    pub(super) fn new(schemes: &BTreeSet<Scheme>) -> Self {
+    pub(crate) fn new(schemes: &BTreeSet<Scheme>) -> Self {
         let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis()).collect();
         let others: BTreeSet<_> = schemes.iter().map(|s| (s.remedy(), s.transfer())).collect();
         let transfers: BTreeSet<_> = others.iter().map(|(_, transfer)| transfer).collect();
@@ -114,7 +113,7 @@ impl Panels {
 
     /// Draws a row of panels with common ranges for each of `items` that has something to show;
     /// returns whether any has.
-    pub(super) fn draw<T>(
+    pub(crate) fn draw<T>(
         &self,
         path: &Path,
         items: impl IntoIterator<Item = T>,

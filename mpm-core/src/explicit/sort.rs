@@ -1,12 +1,12 @@
 //! The order of the particles, and the nodes that they see.
 
-use super::Solver;
+use super::{Solver, Transfer};
 use crate::basis::Basis;
 use crate::material::Law;
+use crate::nodes::NodalState;
 use crate::order::stencil_order;
 use crate::particles::permute;
 use crate::reach::Reach;
-use crate::transfer::{NodalState, Transfer};
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// Sorts the particles when one of them may have left the neighbours of the cell where it was.

@@ -2,15 +2,15 @@
 
 mod contact;
 mod memory;
+pub mod remedy;
 mod room;
-mod scene;
-mod simulation;
 mod sort;
 mod start;
+pub mod transfer;
 
 pub use contact::contact_cfl;
-pub use scene::{Scene, courant_time_step};
-pub use simulation::Simulation;
+pub use remedy::Remedy;
+pub use transfer::Transfer;
 
 use crate::basis::Basis;
 use crate::contact::RigidContact;
@@ -19,24 +19,32 @@ use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Accumulated, Residual, Totals};
+use crate::nodes::NodalState;
 use crate::parallel::{AT_ONCE, CHUNK, chunks_if_present, scatter};
 use crate::particles::Particles;
 use crate::projection::{Average, Averaging, Projection};
 use crate::reach::Reach;
-use crate::remedy::Remedy;
+use crate::scene::Scene;
+use crate::simulation::Simulation;
 use crate::space;
 use crate::stage::{ForceFilter, Prescribed};
 use crate::tensor::SymmetricTensor;
-use crate::transfer::{Flip, Given, NodalState, Transfer};
 use crate::work::Work;
 use nalgebra::SMatrix;
 use rayon::prelude::*;
 use room::Room;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+use transfer::{Flip, Given};
 
 /// Largest (c + |v|) Δt / h: beyond it a wave or a particle crosses more than a cell in a step.
 const CFL_LIMIT: f64 = 1.0;
+
+/// The time step (s) of CFL number `cfl` for waves of speed `c` (m/s) on cells of size `h` (m).
+#[must_use]
+pub fn courant_time_step(cfl: f64, h: f64, c: f64) -> f64 {
+    cfl * h / c
+}
 
 /// Sums of one chunk of particles in a gather.
 #[derive(Debug, Clone, Copy, Default)]
@@ -290,9 +298,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     /// Stress, state and volume of the particles, Eqs. (15), (22).
-    fn update_stress(&mut self, dt: f64) {
+    fn update_stress(&mut self) {
         self.averaging.expire();
-        let law = &self.scene.law;
+        let (law, dt) = (&self.scene.law, self.scene.dt);
         let p = &mut self.scene.particles;
         (
             self.states.par_chunks_mut(CHUNK),
@@ -453,7 +461,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.update_grid();
         self.grid_to_particles()?;
         self.average_volume_change();
-        self.update_stress(self.scene.dt);
+        self.update_stress();
         self.keep_gaps_open(self.time + self.scene.dt)?;
         self.move_particles()?;
         self.filter_particles();

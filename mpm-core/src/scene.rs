@@ -2,12 +2,12 @@
 
 use crate::basis::WallTreatment;
 use crate::contact::RigidContact;
+use crate::explicit::remedy::Remedy;
+use crate::explicit::transfer::Flip;
 use crate::grid::Grid;
 use crate::material::Law;
 use crate::particles::Particles;
-use crate::remedy::Remedy;
 use crate::stage::{Constraint, ForceFilter, Load, ParticleFilter};
-use crate::transfer::Flip;
 
 /// Everything that a run is made of. Stages that a scene doesn't have are empty lists.
 pub struct Scene<const D: usize, M: Law, T = Flip> {
@@ -35,12 +35,6 @@ pub struct Scene<const D: usize, M: Law, T = Flip> {
     pub particle_filters: Vec<Box<dyn ParticleFilter<D>>>,
     /// Time step Δt (s).
     pub dt: f64,
-}
-
-/// The time step (s) of CFL number `cfl` for waves of speed `c` (m/s) on cells of size `h` (m).
-#[must_use]
-pub fn courant_time_step(cfl: f64, h: f64, c: f64) -> f64 {
-    cfl * h / c
 }
 
 impl<const D: usize, M: Law, T> Scene<D, M, T> {

@@ -3,12 +3,13 @@
 //! FLIP (Brackbill & Ruppel 1986, doi 10.1016/0021-9991(86)90211-1) adds the nodes' change to the
 //! particle's velocity, PIC replaces it by the nodes' velocity. Particles move with Σ w_ip v_iⁿ⁺¹.
 
+use super::Transfer;
 use super::kernel::{Given, Received, gather, spread};
-use super::{NodalState, Transfer};
 use crate::basis::Basis;
 use crate::error::{Error, require};
 use crate::lattice::{Lattice, Stencil};
 use crate::memory::Memoryless;
+use crate::nodes::NodalState;
 use nalgebra::SMatrix;
 
 /// The blend η FLIP + (1 − η) PIC of Eq. (13); FLIP by default.

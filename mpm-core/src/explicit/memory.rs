@@ -3,13 +3,13 @@
 
 use super::{Held, Solver};
 use crate::basis::Basis;
+use crate::explicit::transfer::Transfer;
 use crate::grid::Grid;
 use crate::material::Law;
 use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
 use crate::monitor::{Accumulated, Residual};
 use crate::parallel::SLAB;
 use crate::particles::Particles;
-use crate::transfer::Transfer;
 use crate::work::Work;
 use std::ops::Range;
 

@@ -2,6 +2,7 @@ use super::*;
 use crate::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
+use crate::nodes::Node;
 use crate::order::stencil_order;
 use crate::parallel::scatter;
 use crate::stage::{Bound, Prescribed};

@@ -66,8 +66,8 @@ impl Font {
         let styles = [FontStyle::Normal, FontStyle::Bold];
         READY.call_once(|| {
             let fonts: [&[u8]; 2] = [
-                include_bytes!("../../../assets/fonts/DejaVuSans.ttf"),
-                include_bytes!("../../../assets/fonts/DejaVuSans-Bold.ttf"),
+                include_bytes!("../../assets/fonts/DejaVuSans.ttf"),
+                include_bytes!("../../assets/fonts/DejaVuSans-Bold.ttf"),
             ];
             for (font, style) in fonts.into_iter().zip(styles) {
                 // A font that could not be read is missing when a text is drawn: an error then.

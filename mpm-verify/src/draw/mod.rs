@@ -1,4 +1,4 @@
-//! Pictures of the report: grids of line charts and panels of particle fields, as PNG files.
+//! Pictures: grids of line charts and panels of particle fields, as PNG files.
 //!
 //! Everything is laid out in pixels around axes boxes of fixed size, so that no label can be
 //! clipped and no legend can hide data. The same input gives the same bytes.
@@ -8,7 +8,9 @@ mod bar;
 mod canvas;
 mod chart;
 mod field;
+pub(crate) mod sketch;
 mod solid;
+pub(crate) mod style;
 
 pub use chart::{
     Chart, Dash, Marker, ReferenceLine, Scale, Series, SlopeTriangle, draw_charts, share_ranges,
@@ -62,6 +64,12 @@ pub enum PlotError {
         /// What failed.
         cause: String,
     },
+}
+
+impl From<PlotError> for crate::error::Error {
+    fn from(cause: PlotError) -> Self {
+        Self::Picture(Box::new(cause))
+    }
 }
 
 /// Margin of a picture, in pixels.
