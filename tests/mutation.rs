@@ -177,9 +177,9 @@ const FAULTS: [Fault; 23] = [
     },
     Fault {
         name: "splines are not interpolatory at walls",
-        file: "solver.rs",
-        sound: "Lattice::new(scene.grid, scene.wall)",
-        broken: "Lattice::new(scene.grid, WallTreatment::WallLine)",
+        file: "explicit/start.rs",
+        sound: "Lattice::new(scene.grid, settings.wall)",
+        broken: "Lattice::new(scene.grid, crate::basis::WallTreatment::WallLine)",
         seen_by: &[(WALL_SPLINES, "order-displacement")],
     },
     Fault {
@@ -227,8 +227,8 @@ const FAULTS: [Fault; 23] = [
     Fault {
         name: "the barrier presses back with half the force",
         file: "contact/mod.rs",
-        sound: "self.reaction[a] -= force[a]",
-        broken: "self.reaction[a] -= 0.5 * force[a]",
+        sound: "self.reaction.force[a] -= force[a]",
+        broken: "self.reaction.force[a] -= 0.5 * force[a]",
         seen_by: &[(BARRIER, "quasi-static")],
     },
     Fault {
@@ -240,7 +240,7 @@ const FAULTS: [Fault; 23] = [
     },
     Fault {
         name: "a wall throws back twice what it stops",
-        file: "solver.rs",
+        file: "explicit/mod.rs",
         sound: "*change += held - free",
         broken: "*change += 3.0 * (held - free)",
         seen_by: &[(DAM, "energy-not-gained")],
