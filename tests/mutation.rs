@@ -12,9 +12,9 @@
 )]
 
 use mpm_verify::cases;
-use mpm_verify::check::Verdict;
 use mpm_verify::files::read_versioned;
 use mpm_verify::record::{self, Record};
+use mpm_verify::verdict::Verdict;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -411,7 +411,7 @@ impl<'a> Mutant<'a> {
         let complaints = pairs.into_par_iter().flat_map(|(fault, runs, check)| {
             let mut complaints = Vec::new();
             let whole = &sound[runs];
-            let held = |v: &Verdict| v.check == check && v.pass == Some(true);
+            let held = |v: &Verdict| v.check == check && v.holds() == Some(true);
             if !whole.iter().any(held) || whole.iter().any(Verdict::failed) {
                 complaints.push(format!("{check} of the sound program: {whole:#?}"));
             }

@@ -1,11 +1,11 @@
 //! What a problem must say of itself.
 
-use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use crate::record::{Discretisation, Metric, Record, WorkDone};
 use crate::scheme::Scheme;
 use crate::sketch::Sketch;
+use crate::verdict::{Kind, Verdict};
 use mpm_core::Memory;
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,13 +1,13 @@
 //! One run: a job driven to its end, its outputs and its record.
 
 use crate::case::{Case, Column, Job, RunSpec, Snapshot};
-use crate::check::{Kind, Verdict};
 use crate::checkpoint::{self, Checkpoint, Identity, Keeper, Refusal, Saving};
 use crate::error::Error;
 use crate::files::{discard, discard_folder, require_writable, write_csv, write_json};
 use crate::parameter::Parameters;
 use crate::record::{BREAKS_DOWN, Failure, Machine, Record, SCHEMA, Status, Timing, Version};
 use crate::series::Series;
+use crate::verdict::{Kind, Verdict};
 use crate::vtu::{write_pvd, write_vtu};
 use cpu_time::ProcessTime;
 use std::path::{Path, PathBuf};
@@ -47,9 +47,8 @@ pub fn execute(
         let mut record = Record {
             schema: SCHEMA,
             case: case.name().to_owned(),
-            basis: spec.scheme.basis(),
-            remedy: spec.scheme.remedy(),
-            transfer: spec.scheme.transfer(),
+            scheme: spec.scheme,
+            solver: spec.scheme.solver().to_owned(),
             level: spec.level.name.to_owned(),
             set: spec.set.clone(),
             perturbed: spec.perturbed,
@@ -103,6 +102,7 @@ fn completes(record: &Record) -> Verdict {
         0.0,
         "the equations have a solution",
     )
+    .bookkeeping()
 }
 
 /// Whether a run that is known to break down does.

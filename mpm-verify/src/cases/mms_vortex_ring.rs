@@ -86,7 +86,7 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
 fn claim(r: &Record) -> Claim {
     if r.parameters.number("angle") > LARGE {
         Claim::Stalls(1.0, "shear of 4.8 parts particles by five cells and more")
-    } else if r.transfer != TransferName::Flip {
+    } else if r.transfer() != TransferName::Flip {
         Claim::Open(checks::TRANSFER)
     } else if r.parameters.number("ppc_per_direction") > 2.0 {
         Claim::Open("runs with more particles end at n32; the band is that of n16 to n64")

@@ -4,7 +4,6 @@ use super::describe::{self, headline, kind, local_orders, made_by, number, order
 use super::price::{Price, Prices};
 use crate::case::{Case, Quantity};
 use crate::cases;
-use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::distinct;
 use crate::draw::sketch;
@@ -13,6 +12,7 @@ use crate::files::write_whole;
 use crate::record::Record;
 use crate::scheme::Scheme;
 use crate::study::{CaseStudy, Picture, Summary};
+use crate::verdict::{Kind, Verdict};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{Environment, UndefinedBehavior, Value, context};
 use std::path::Path;
@@ -235,7 +235,7 @@ fn run(case: &dyn Case, r: &Record) -> Value {
     let undrifted = r
         .verdicts
         .iter()
-        .filter(|v| v.kind == Kind::Drift && v.pass == Some(true));
+        .filter(|v| v.kind == Kind::Drift && v.holds() == Some(true));
     context! {
         id => anchor(r),
         name => name(r),
@@ -254,7 +254,7 @@ fn run(case: &dyn Case, r: &Record) -> Value {
 }
 
 fn verdict(v: &Verdict) -> Value {
-    let (class, symbol) = match v.pass {
+    let (class, symbol) = match v.holds() {
         Some(true) => ("pass", "✓"),
         Some(false) if v.kind == Kind::Drift => ("drift", "≠"),
         Some(false) => ("fail", "✗"),
@@ -295,7 +295,7 @@ fn tally(broken: usize, failed: usize, drifted: usize, held: usize) -> Value {
 
 fn outcome_of(verdicts: &[Verdict], broken: usize) -> Value {
     let count = |which: fn(&Verdict) -> bool| verdicts.iter().filter(|v| which(v)).count();
-    let held = count(|v| v.pass == Some(true));
+    let held = count(|v| v.holds() == Some(true));
     tally(
         broken,
         count(Verdict::misses_the_truth),
@@ -319,7 +319,7 @@ fn checks(case: &dyn Case, study: &CaseStudy) -> Vec<Value> {
     let row = |(name, of, statement): (&str, Kind, &str)| {
         let mut counts = [0, 0, 0];
         let mut count = |verdicts: &[&Verdict]| {
-            let any = |pass| verdicts.iter().any(|v| v.pass == pass);
+            let any = |pass| verdicts.iter().any(|v| v.holds() == pass);
             let worst = [Some(false), Some(true), None].into_iter().position(any);
             if let Some(k) = worst {
                 counts[k] += 1;

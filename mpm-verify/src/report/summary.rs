@@ -4,12 +4,12 @@ use super::describe::{self, bless_commands, headline, kind, local_orders, number
 use super::{price, remedies};
 use crate::case::Headline;
 use crate::cases;
-use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::Record;
 use crate::study::Summary;
+use crate::verdict::{Kind, Verdict};
 use std::fmt::Write;
 use std::path::Path;
 

@@ -12,13 +12,13 @@ use crate::case::{
     Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
     headline, metric,
 };
-use crate::check::Verdict;
 use crate::error::Error;
 use crate::exact::Exact;
 use crate::parameter::{Domain, Parameter, Parameters};
 use crate::record::Record;
 use crate::scheme::Scheme;
 use crate::sketch::Sketch;
+use crate::verdict::Verdict;
 use mpm_core::stage::WallKind;
 use simulation::Simulated;
 

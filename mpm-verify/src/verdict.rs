@@ -12,9 +12,26 @@ pub enum Kind {
     KnownLimit,
     /// Against the blessed golden.
     Drift,
+    /// That nothing was lost on the way: mass, counts, completion. It holds of a wrong solution as well, so it does
+    /// not make a run judged.
+    Bookkeeping,
 }
 
-/// The outcome of a check.
+/// What a check found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// It holds.
+    Right,
+    /// A known limit is there, as it is known to be.
+    WrongAsKnown,
+    /// The check does not apply.
+    NotJudged,
+    /// It does not hold; of a known limit: it has vanished.
+    Failed,
+}
+
+/// What is said of one value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// Name of the check.
@@ -29,8 +46,8 @@ pub struct Verdict {
     pub reference: Option<f64>,
     /// Largest admissible distance from the reference (for a bound: the bound itself).
     pub tolerance: Option<f64>,
-    /// Whether it holds; absent where the check is not applicable.
-    pub pass: Option<bool>,
+    /// What came out.
+    pub outcome: Outcome,
     /// Where reference and tolerance come from; why a check is not applicable.
     pub source: String,
 }
@@ -53,7 +70,7 @@ impl Verdict {
             value: Some(value),
             reference: Some(reference),
             tolerance: Some(tolerance),
-            pass: Some((value - reference).abs() <= tolerance),
+            outcome: found(Kind::Truth, (value - reference).abs() <= tolerance),
             source: source.into(),
         }
     }
@@ -75,7 +92,7 @@ impl Verdict {
             value: Some(value),
             reference: None,
             tolerance: Some(bound),
-            pass: Some(value <= bound),
+            outcome: found(kind, value <= bound),
             source: source.into(),
         }
     }
@@ -91,8 +108,17 @@ impl Verdict {
         source: impl Into<String>,
     ) -> Self {
         Self {
-            pass: Some(value > bound),
+            outcome: found(kind, value > bound),
             ..Self::at_most(check, kind, metric, value, bound, source)
+        }
+    }
+
+    /// The same, counted as bookkeeping.
+    #[must_use]
+    pub fn bookkeeping(self) -> Self {
+        Self {
+            kind: Kind::Bookkeeping,
+            ..self
         }
     }
 
@@ -106,15 +132,25 @@ impl Verdict {
             value: None,
             reference: None,
             tolerance: None,
-            pass: None,
+            outcome: Outcome::NotJudged,
             source: why.into(),
+        }
+    }
+
+    /// Whether what the check states is so, a known limit included; nothing where it was not judged.
+    #[must_use]
+    pub fn holds(&self) -> Option<bool> {
+        match self.outcome {
+            Outcome::Right | Outcome::WrongAsKnown => Some(true),
+            Outcome::Failed => Some(false),
+            Outcome::NotJudged => None,
         }
     }
 
     /// Whether the check was applied and does not hold.
     #[must_use]
     pub fn failed(&self) -> bool {
-        self.pass == Some(false)
+        self.outcome == Outcome::Failed
     }
 
     /// Whether the check was applied, is not one of drift, and does not hold.
@@ -127,6 +163,15 @@ impl Verdict {
     #[must_use]
     pub fn drifts(&self) -> bool {
         self.failed() && self.kind == Kind::Drift
+    }
+}
+
+/// The outcome of a check of a kind that was applied.
+fn found(kind: Kind, holds: bool) -> Outcome {
+    match (holds, kind) {
+        (false, _) => Outcome::Failed,
+        (true, Kind::KnownLimit) => Outcome::WrongAsKnown,
+        (true, _) => Outcome::Right,
     }
 }
 
@@ -144,7 +189,16 @@ mod tests {
     #[test]
     fn not_applicable_is_neither_pass_nor_failure() {
         let v = Verdict::not_applicable("c", "m", "no reference");
-        assert_eq!(v.pass, None);
+        assert_eq!((v.outcome, v.holds()), (Outcome::NotJudged, None));
         assert!(!v.failed());
+    }
+
+    #[test]
+    fn a_known_limit_is_wrong_as_known_and_fails_when_it_vanishes() {
+        let limit = |value| Verdict::above("c", Kind::KnownLimit, "m", value, 1.0, "").outcome;
+        assert_eq!(limit(2.0), Outcome::WrongAsKnown);
+        assert_eq!(limit(1.0), Outcome::Failed);
+        let exact = Verdict::close("c", "m", 1.0, 1.0, 0.0, "");
+        assert_eq!(exact.outcome, Outcome::Right);
     }
 }
