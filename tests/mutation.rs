@@ -12,9 +12,9 @@
 )]
 
 use mpm_verify::cases;
-use mpm_verify::check::Verdict;
 use mpm_verify::files::read_versioned;
 use mpm_verify::record::{self, Record};
+use mpm_verify::verdict::Verdict;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -177,9 +177,9 @@ const FAULTS: [Fault; 23] = [
     },
     Fault {
         name: "splines are not interpolatory at walls",
-        file: "solver.rs",
-        sound: "Lattice::new(scene.grid, scene.wall)",
-        broken: "Lattice::new(scene.grid, WallTreatment::WallLine)",
+        file: "explicit/start.rs",
+        sound: "Lattice::new(scene.grid, settings.wall)",
+        broken: "Lattice::new(scene.grid, crate::basis::WallTreatment::WallLine)",
         seen_by: &[(WALL_SPLINES, "order-displacement")],
     },
     Fault {
@@ -227,8 +227,8 @@ const FAULTS: [Fault; 23] = [
     Fault {
         name: "the barrier presses back with half the force",
         file: "contact/mod.rs",
-        sound: "self.reaction[a] -= force[a]",
-        broken: "self.reaction[a] -= 0.5 * force[a]",
+        sound: "self.reaction.force[a] -= force[a]",
+        broken: "self.reaction.force[a] -= 0.5 * force[a]",
         seen_by: &[(BARRIER, "quasi-static")],
     },
     Fault {
@@ -240,7 +240,7 @@ const FAULTS: [Fault; 23] = [
     },
     Fault {
         name: "a wall throws back twice what it stops",
-        file: "solver.rs",
+        file: "explicit/mod.rs",
         sound: "*change += held - free",
         broken: "*change += 3.0 * (held - free)",
         seen_by: &[(DAM, "energy-not-gained")],
@@ -411,7 +411,7 @@ impl<'a> Mutant<'a> {
         let complaints = pairs.into_par_iter().flat_map(|(fault, runs, check)| {
             let mut complaints = Vec::new();
             let whole = &sound[runs];
-            let held = |v: &Verdict| v.check == check && v.pass == Some(true);
+            let held = |v: &Verdict| v.check == check && v.holds() == Some(true);
             if !whole.iter().any(held) || whole.iter().any(Verdict::failed) {
                 complaints.push(format!("{check} of the sound program: {whole:#?}"));
             }

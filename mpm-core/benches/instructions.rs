@@ -9,10 +9,11 @@ mod body;
 use body::{fluid, sheared, soil, solid};
 use gungraun::{library_benchmark, library_benchmark_group, main};
 use mpm_core::basis::{Gimp, QuadraticBSpline};
+use mpm_core::explicit::Remedy;
 use mpm_core::explicit::remedy::{FbarConsistent, FbarRecursive, Standard};
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::Law;
-use mpm_core::{Basis, Error, Remedy, Simulation};
+use mpm_core::{Basis, Error, Simulation};
 use rayon::ThreadPoolBuilder;
 use std::hint::black_box;
 

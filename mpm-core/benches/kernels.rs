@@ -5,6 +5,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
+use mpm_core::explicit::Transfer;
 use mpm_core::explicit::transfer::{Apic, Flip, Given, Xpic};
 use mpm_core::material::{HenckyJ2, Law, NeoHookean, Strength};
 use mpm_core::nodes::NodalState;
@@ -12,7 +13,7 @@ use mpm_core::order::stencil_order;
 use mpm_core::projection::{Average, Averaging, Projection};
 use mpm_core::reach::Reach;
 use mpm_core::space::embed;
-use mpm_core::{Axis, Basis, Grid, Lattice, Particles, SymmetricTensor, Transfer};
+use mpm_core::{Axis, Basis, Grid, Lattice, Particles, SymmetricTensor};
 use nalgebra::Matrix2;
 use std::hint::black_box;
 

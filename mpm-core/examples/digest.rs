@@ -10,8 +10,9 @@ use body::{DENSITY, fluid, sheared, soil, solid};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline};
 use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
 use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
+use mpm_core::explicit::{Remedy, Transfer};
 use mpm_core::material::Law;
-use mpm_core::{Basis, Particles, Remedy, Simulation, Transfer};
+use mpm_core::{Basis, Particles, Simulation};
 use std::error::Error;
 use std::io::{Write, stdout};
 

@@ -18,6 +18,7 @@
 //! 2 (plane strain) or 3.
 
 pub mod basis;
+pub mod body;
 pub mod contact;
 pub mod error;
 pub mod explicit;
@@ -41,15 +42,15 @@ pub mod tensor;
 pub mod work;
 
 pub use basis::Basis;
+pub use body::Body;
 pub use error::{Error, Fault};
-pub use explicit::{Remedy, Solver, Transfer};
 pub use grid::{Axis, Grid, Side};
 pub use lattice::Lattice;
 pub use material::Law;
 pub use memory::{Memory, MemoryError, Memoryless, Saved};
-pub use monitor::Totals;
+pub use monitor::{Reaction, Totals};
 pub use particles::Particles;
 pub use scene::Scene;
-pub use simulation::Simulation;
+pub use simulation::{Field, Part, Simulation};
 pub use tensor::SymmetricTensor;
 pub use work::Work;

@@ -31,6 +31,24 @@ pub struct Residual {
     pub kinetic_energy: f64,
 }
 
+/// What the body does to a part of the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Reaction {
+    /// Force (N) in the last step: on a constraint the nodal forces at the components that it holds.
+    pub force: [f64; 3],
+    /// Momentum (N s) that the part took since time zero. Beside the forces it has, on a constraint, what the particles
+    /// brought to the held nodes.
+    pub impulse: [f64; 3],
+}
+
+impl Reaction {
+    /// Of a part that there isn't.
+    pub const NONE: Self = Self {
+        force: [f64::NAN; 3],
+        impulse: [f64::NAN; 3],
+    };
+}
+
 /// Sums over a body. The potential energy of the loads is −`accumulated.load_work` where they are
 /// conservative.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

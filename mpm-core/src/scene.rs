@@ -1,59 +1,67 @@
-//! Everything that a run is made of.
+//! What a run is of: a grid, a body, and what acts on it.
 
-use crate::basis::WallTreatment;
+use crate::body::Body;
 use crate::contact::RigidContact;
-use crate::explicit::remedy::Remedy;
-use crate::explicit::transfer::Flip;
 use crate::grid::Grid;
 use crate::material::Law;
-use crate::particles::Particles;
-use crate::stage::{Constraint, ForceFilter, Load, ParticleFilter};
+use crate::stage::{Constraint, Load};
 
-/// Everything that a run is made of. Stages that a scene doesn't have are empty lists.
-pub struct Scene<const D: usize, M: Law, T = Flip> {
+/// A grid, a body on it, and the loads, constraints and contacts that the scene has. How it is solved is the solver's.
+pub struct Scene<const D: usize, M: Law> {
     /// The grid.
     pub grid: Grid<D>,
-    /// How B-splines meet walls.
-    pub wall: WallTreatment,
-    /// The law of the body.
-    pub law: M,
-    /// The particle–grid transfer.
-    pub transfer: T,
-    /// The particles of the body.
-    pub particles: Particles<D>,
-    /// The locking remedy of the body.
-    pub remedy: Box<dyn Remedy<D>>,
+    /// The body.
+    pub body: Body<D, M>,
     /// Loads.
     pub loads: Vec<Box<dyn Load<D>>>,
-    /// Contacts with rigid bodies.
-    pub contacts: Vec<RigidContact<D>>,
-    /// Filters of nodal forces.
-    pub force_filters: Vec<Box<dyn ForceFilter>>,
-    /// Constraints.
+    /// Constraints. Their places are those of [`Part::Constraint`](crate::simulation::Part::Constraint).
     pub constraints: Vec<Box<dyn Constraint<D>>>,
-    /// Filters of particles.
-    pub particle_filters: Vec<Box<dyn ParticleFilter<D>>>,
-    /// Time step Δt (s).
-    pub dt: f64,
+    /// Contacts with rigid bodies. Their places are those of [`Part::Contact`](crate::simulation::Part::Contact).
+    pub contacts: Vec<RigidContact<D>>,
 }
 
-impl<const D: usize, M: Law, T> Scene<D, M, T> {
-    /// The scene with another transfer.
+impl<const D: usize, M: Law> Scene<D, M> {
+    /// `body` on `grid`, left to itself.
     #[must_use]
-    pub fn with_transfer<U>(self, transfer: U) -> Scene<D, M, U> {
-        Scene {
-            grid: self.grid,
-            wall: self.wall,
-            law: self.law,
-            transfer,
-            particles: self.particles,
-            remedy: self.remedy,
-            loads: self.loads,
-            contacts: self.contacts,
-            force_filters: self.force_filters,
-            constraints: self.constraints,
-            particle_filters: self.particle_filters,
-            dt: self.dt,
+    pub fn new(grid: Grid<D>, body: Body<D, M>) -> Self {
+        Self {
+            grid,
+            body,
+            loads: Vec::new(),
+            constraints: Vec::new(),
+            contacts: Vec::new(),
         }
+    }
+
+    /// With another load.
+    #[must_use]
+    pub fn load(mut self, load: impl Load<D> + 'static) -> Self {
+        self.loads.push(Box::new(load));
+        self
+    }
+
+    /// With another constraint. Where several hold the same component of a node, the first one counts.
+    #[must_use]
+    pub fn constrain(self, constraint: impl Constraint<D> + 'static) -> Self {
+        self.constrain_all([constraint])
+    }
+
+    /// With several constraints, in their order.
+    #[must_use]
+    pub fn constrain_all<C: Constraint<D> + 'static>(
+        mut self,
+        constraints: impl IntoIterator<Item = C>,
+    ) -> Self {
+        for constraint in constraints {
+            self.constraints.push(Box::new(constraint));
+        }
+        self
+    }
+
+    /// With another contact.
+    #[must_use]
+    pub fn contact(mut self, contact: RigidContact<D>) -> Self {
+        self.contacts.push(contact);
+        self
     }
 }

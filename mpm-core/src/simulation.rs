@@ -2,12 +2,32 @@
 
 use crate::error::Error;
 use crate::memory::{Memory, Saved};
-use crate::monitor::{Residual, Totals};
+use crate::monitor::{Reaction, Residual, Totals};
 use crate::particles::Particles;
 use crate::tensor::SymmetricTensor;
 use crate::work::Work;
 
-/// A run, whatever its basis and law.
+/// What the body acts on, by its place in the scene's list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// A constraint.
+    Constraint(usize),
+    /// A contact with a rigid body.
+    Contact(usize),
+}
+
+/// A field over the particles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Field {
+    /// Mean normal stress (Pa, tension positive) that enters the forces.
+    MeanStress,
+    /// Its average Π over the volume.
+    AveragedMeanStress,
+    /// Equivalent plastic strain.
+    PlasticStrain,
+}
+
+/// A run, whatever its solver, basis and law.
 pub trait Simulation<const D: usize>: Memory + Send {
     /// Advances by one step.
     ///
@@ -23,25 +43,14 @@ pub trait Simulation<const D: usize>: Memory + Send {
     fn totals(&self) -> Totals;
     /// Out-of-balance and held forces of the last step.
     fn residual(&self) -> Residual;
-    /// The force of the body on the constraint with this place in the scene's list in the last step (N):
-    /// the nodal forces at the components that it holds. NaN of a constraint that there isn't.
-    fn force_on(&self, constraint: usize) -> [f64; 3];
-    /// The impulse of the body on the constraint with this place in the scene's list since time zero (N s): the
-    /// momentum that it took. Beside the nodal forces it has what the particles brought to the held nodes. NaN of a
-    /// constraint that there isn't.
-    fn impulse_on(&self, constraint: usize) -> [f64; 3];
-    /// The force of the body on the rigid body of the contact with this place in the scene's list in the last step
-    /// (N). NaN of a contact that there isn't.
-    fn reaction(&self, contact: usize) -> [f64; 3];
     /// What the run did so far.
     fn work(&self) -> Work;
-    /// Replaces `field` (one value per particle) by its average Π `field`.
-    fn average(&mut self, field: &mut [f64]);
-    /// The stress of every particle (Pa) with which it enters the next forces: the law's, with the
-    /// remedy's share.
+    /// What the body does to a part of the scene; NaN of a part that there isn't.
+    fn on(&self, part: Part) -> Reaction;
+    /// The stress of every particle (Pa) that enters the next forces: the law's, with the remedy's share.
     fn force_stress(&mut self) -> Vec<SymmetricTensor>;
-    /// The equivalent plastic strain of every particle.
-    fn plastic_strain(&self) -> Vec<f64>;
+    /// A field, one value per particle.
+    fn field(&mut self, field: Field) -> Vec<f64>;
     /// The body, particles with their states, as bytes.
     ///
     /// # Errors

@@ -1,6 +1,5 @@
 //! Accepting drift.
 
-use crate::check::Verdict;
 use crate::checkpoint::Saving;
 use crate::error::Error;
 use crate::golden::{Golden, home, leaves_numbers};
@@ -8,6 +7,7 @@ use crate::plan::PlannedRun;
 use crate::record::{Record, Status, Version};
 use crate::report::describe::{drift_line, verdict_line};
 use crate::study::{CaseStudy, Gathered, Listener, Task, has_truth, run_all};
+use crate::verdict::Verdict;
 use std::fmt::Write;
 use std::path::Path;
 

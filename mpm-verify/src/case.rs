@@ -1,7 +1,6 @@
 //! What a problem must say of itself.
 
-use crate::check::Verdict;
-use crate::claim::Check;
+use crate::check::Check;
 use crate::error::Error;
 use crate::gallery::Gallery;
 use crate::job::Job;
@@ -11,6 +10,7 @@ use crate::record::Record;
 use crate::scheme::Scheme;
 use crate::sketch::Sketch;
 use crate::spec::{Level, RunSpec};
+use crate::verdict::Verdict;
 use std::collections::BTreeSet;
 use std::fmt;
 

@@ -1,150 +1,188 @@
-//! Verdicts.
+//! What a case checks: each check is named once, and carries what it is decided by.
 
-use serde::{Deserialize, Serialize};
+use crate::record::Record;
+use crate::verdict::{Kind, Outcome, Verdict};
 
-/// What kind of statement a check makes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// Against an exact value, an independent reference or a law of physics.
-    Truth,
-    /// A known limit of the scheme is still there; red when it vanishes.
-    KnownLimit,
-    /// Against the blessed golden.
-    Drift,
-}
-
-/// The outcome of a check.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
-    /// Name of the check.
-    pub check: String,
+/// A check of a case.
+pub struct Check {
+    /// Name.
+    pub name: &'static str,
     /// Kind.
     pub kind: Kind,
-    /// The metric that is judged.
-    pub metric: String,
-    /// Its value.
-    pub value: Option<f64>,
-    /// What it is held against.
-    pub reference: Option<f64>,
-    /// Largest admissible distance from the reference (for a bound: the bound itself).
-    pub tolerance: Option<f64>,
-    /// Whether it holds; absent where the check is not applicable.
-    pub pass: Option<bool>,
-    /// Where reference and tolerance come from; why a check is not applicable.
-    pub source: String,
+    /// What it demands, of which schemes, and where the tolerance comes from.
+    pub statement: &'static str,
+    /// What it is decided on, and how.
+    pub on: On,
 }
 
-impl Verdict {
-    /// |value − reference| ≤ tolerance.
+type OfRun = Box<dyn Fn(&Record) -> Vec<Finding> + Send + Sync>;
+type OfStudy = Box<dyn Fn(&[Record]) -> Vec<Finding> + Send + Sync>;
+
+/// What a check is decided on, and how; nothing is found where it says nothing.
+pub enum On {
+    /// One run that has come to its end.
+    Run(OfRun),
+    /// All runs of a case together.
+    Study(OfStudy),
+}
+
+impl Check {
+    /// Against an exact value, an independent reference or a law of physics.
+    pub(crate) fn truth(name: &'static str, statement: &'static str, on: On) -> Self {
+        let kind = Kind::Truth;
+        Self {
+            name,
+            kind,
+            statement,
+            on,
+        }
+    }
+
+    /// Of a limit that is known: it fails if the limit vanishes.
+    pub(crate) fn known_limit(name: &'static str, statement: &'static str, on: On) -> Self {
+        let kind = Kind::KnownLimit;
+        Self {
+            name,
+            kind,
+            statement,
+            on,
+        }
+    }
+
+    /// Of what a wrong solution fulfils as well, such as its mass: it makes no run judged.
+    pub(crate) fn bookkeeping(name: &'static str, statement: &'static str, on: On) -> Self {
+        let kind = Kind::Bookkeeping;
+        Self {
+            name,
+            kind,
+            statement,
+            on,
+        }
+    }
+
+    /// Verdicts on one run.
     #[must_use]
-    pub fn close(
-        check: &str,
-        metric: &str,
+    pub fn of_run(&self, record: &Record) -> Vec<Verdict> {
+        match &self.on {
+            On::Run(found) => self.verdicts(found(record)),
+            On::Study(_) => Vec::new(),
+        }
+    }
+
+    /// Verdicts on the runs of a case together.
+    #[must_use]
+    pub fn of_study(&self, records: &[Record]) -> Vec<Verdict> {
+        match &self.on {
+            On::Run(_) => Vec::new(),
+            On::Study(found) => self.verdicts(found(records)),
+        }
+    }
+
+    fn verdicts(&self, found: Vec<Finding>) -> Vec<Verdict> {
+        found
+            .into_iter()
+            .map(|f| f.verdict(self.name, self.kind))
+            .collect()
+    }
+}
+
+/// A check on single runs.
+pub(crate) fn run(found: impl Fn(&Record) -> Vec<Finding> + Send + Sync + 'static) -> On {
+    On::Run(Box::new(found))
+}
+
+/// A check on the runs of a case together.
+pub(crate) fn study(found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static) -> On {
+    On::Study(Box::new(found))
+}
+
+/// What a check has found; the judge adds whose finding it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    metric: String,
+    value: Option<f64>,
+    reference: Option<f64>,
+    tolerance: Option<f64>,
+    holds: Option<bool>,
+    source: String,
+}
+
+impl Finding {
+    /// |value − reference| ≤ tolerance.
+    pub(crate) fn within(
+        metric: impl Into<String>,
         value: f64,
         reference: f64,
         tolerance: f64,
         source: impl Into<String>,
     ) -> Self {
         Self {
-            check: check.to_owned(),
-            kind: Kind::Truth,
-            metric: metric.to_owned(),
+            metric: metric.into(),
             value: Some(value),
             reference: Some(reference),
             tolerance: Some(tolerance),
-            pass: Some((value - reference).abs() <= tolerance),
+            holds: Some((value - reference).abs() <= tolerance),
             source: source.into(),
         }
     }
 
     /// value ≤ bound.
-    #[must_use]
-    pub fn at_most(
-        check: &str,
-        kind: Kind,
-        metric: &str,
+    pub(crate) fn at_most(
+        metric: impl Into<String>,
         value: f64,
         bound: f64,
         source: impl Into<String>,
     ) -> Self {
         Self {
-            check: check.to_owned(),
-            kind,
-            metric: metric.to_owned(),
+            metric: metric.into(),
             value: Some(value),
             reference: None,
             tolerance: Some(bound),
-            pass: Some(value <= bound),
+            holds: Some(value <= bound),
             source: source.into(),
         }
     }
 
     /// value > bound.
-    #[must_use]
-    pub fn above(
-        check: &str,
-        kind: Kind,
-        metric: &str,
+    pub(crate) fn above(
+        metric: impl Into<String>,
         value: f64,
         bound: f64,
         source: impl Into<String>,
     ) -> Self {
         Self {
-            pass: Some(value > bound),
-            ..Self::at_most(check, kind, metric, value, bound, source)
+            holds: Some(value > bound),
+            ..Self::at_most(metric, value, bound, source)
         }
     }
 
-    /// A check that does not apply, and why: never a pass.
-    #[must_use]
-    pub fn not_applicable(check: &str, metric: &str, why: impl Into<String>) -> Self {
+    /// The check does not apply, and why: never a pass.
+    pub(crate) fn not_applicable(metric: impl Into<String>, why: impl Into<String>) -> Self {
         Self {
-            check: check.to_owned(),
-            kind: Kind::Truth,
-            metric: metric.to_owned(),
+            metric: metric.into(),
             value: None,
             reference: None,
             tolerance: None,
-            pass: None,
+            holds: None,
             source: why.into(),
         }
     }
 
-    /// Whether the check was applied and does not hold.
-    #[must_use]
-    pub fn failed(&self) -> bool {
-        self.pass == Some(false)
-    }
-
-    /// Whether the check was applied, is not one of drift, and does not hold.
-    #[must_use]
-    pub fn misses_the_truth(&self) -> bool {
-        self.failed() && self.kind != Kind::Drift
-    }
-
-    /// Whether the result has drifted from its golden.
-    #[must_use]
-    pub fn drifts(&self) -> bool {
-        self.failed() && self.kind == Kind::Drift
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_value_that_is_not_a_number_never_passes() {
-        assert!(Verdict::close("c", "m", f64::NAN, 1.0, 1.0, "").failed());
-        assert!(Verdict::at_most("c", Kind::Truth, "m", f64::NAN, 1.0, "").failed());
-        assert!(Verdict::above("c", Kind::KnownLimit, "m", f64::NAN, 1.0, "").failed());
-    }
-
-    #[test]
-    fn not_applicable_is_neither_pass_nor_failure() {
-        let v = Verdict::not_applicable("c", "m", "no reference");
-        assert_eq!(v.pass, None);
-        assert!(!v.failed());
+    fn verdict(self, check: &str, kind: Kind) -> Verdict {
+        Verdict {
+            check: check.to_owned(),
+            kind,
+            metric: self.metric,
+            value: self.value,
+            reference: self.reference,
+            tolerance: self.tolerance,
+            outcome: match (self.holds, kind) {
+                (None, _) => Outcome::NotJudged,
+                (Some(false), _) => Outcome::Failed,
+                (Some(true), Kind::KnownLimit) => Outcome::WrongAsKnown,
+                (Some(true), _) => Outcome::Right,
+            },
+            source: self.source,
+        }
     }
 }

@@ -224,7 +224,7 @@ mod tests {
     fn fewer_than_three_levels_of_a_scheme_make_no_ladder() {
         let set = &["poisson_ratio=0.3"][..];
         let mut records: Vec<Record> = LEVELS.iter().map(|(n, h)| run(n, *h, set)).collect();
-        records[0].remedy = RemedyName::FbarTotal;
+        records[0].scheme = Scheme::flip(records[0].basis(), RemedyName::FbarTotal);
         assert_eq!(of_sets(&records), []);
         // At the case's own parameters, one level is shown.
         records[0].set.clear();

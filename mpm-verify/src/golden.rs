@@ -7,7 +7,6 @@
 
 use crate::case::Case;
 use crate::cases;
-use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::files::{make_folder, read_versioned, write_json, write_whole};
 use crate::record::{Measured, Record, Version, WorkDone};
@@ -15,6 +14,7 @@ use crate::report::triptych::different_pixels;
 use crate::report::watched::draw_watched;
 use crate::spec::RunSpec;
 use crate::table::Table;
+use crate::verdict::{Kind, Outcome, Verdict};
 use image::RgbImage;
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -143,7 +143,7 @@ fn mismatch(metric: &str, why: String) -> Verdict {
         value: None,
         reference: None,
         tolerance: None,
-        pass: Some(false),
+        outcome: Outcome::Failed,
         source: why,
     }
 }
@@ -570,6 +570,6 @@ mod tests {
         run.set = vec!["load=2".to_owned()];
         assert!(why_none(case, &run).unwrap().contains("tier nightly"));
         let verdicts = compare(Path::new("no goldens"), &run, Path::new("")).unwrap();
-        assert!(verdicts[0].kind == Kind::Drift && verdicts[0].pass.is_none());
+        assert!(verdicts[0].kind == Kind::Drift && verdicts[0].holds().is_none());
     }
 }

@@ -1,7 +1,7 @@
 //! The verification bench of the material point method.
 //!
 //! A [`case::Case`] is a problem with its parameters, schemes, levels and checks. Running one gives a
-//! [`record::Record`] with metrics; checks turn metrics into verdicts ([`check::Verdict`]); a study
+//! [`record::Record`] with metrics; checks turn metrics into verdicts ([`verdict::Verdict`]); a study
 //! runs many side by side; the report draws. Every hand-off is a plain file, so each later stage runs
 //! again without simulating.
 
@@ -11,7 +11,6 @@ pub mod case;
 pub mod cases;
 pub mod check;
 pub mod checkpoint;
-pub mod claim;
 pub mod convergence;
 pub mod draw;
 pub mod drive;
@@ -36,6 +35,7 @@ pub mod spec;
 pub mod statistics;
 pub mod study;
 pub mod table;
+pub mod verdict;
 pub mod vtu;
 
 pub use mpm_solvers::scheme;

@@ -1,14 +1,14 @@
 //! The record of a run: stable, versioned, in SI units.
 
-use crate::check::Verdict;
 use crate::parameter::Parameters;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::spec::run_folder;
+use crate::verdict::{Outcome, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Version of the record's format.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 /// Name of the check that a run breaks down as it is known to.
 pub const BREAKS_DOWN: &str = "breaks-down";
 
@@ -182,12 +182,10 @@ pub struct Record {
     pub schema: u32,
     /// Case.
     pub case: String,
-    /// Basis.
-    pub basis: BasisName,
-    /// Remedy.
-    pub remedy: RemedyName,
-    /// Transfer.
-    pub transfer: TransferName,
+    /// Scheme.
+    pub scheme: Scheme,
+    /// Kind of solver.
+    pub solver: String,
     /// Level.
     pub level: String,
     /// Parameters changed from their defaults by the plan or the user, as `name=value`.
@@ -220,25 +218,25 @@ impl Record {
     /// The scheme.
     #[must_use]
     pub fn scheme(&self) -> Scheme {
-        Scheme::explicit(self.basis, self.remedy, self.transfer)
+        self.scheme
     }
 
     /// The basis.
     #[must_use]
     pub fn basis(&self) -> BasisName {
-        self.scheme().basis()
+        self.scheme.basis()
     }
 
     /// The locking remedy.
     #[must_use]
     pub fn remedy(&self) -> RemedyName {
-        self.scheme().remedy()
+        self.scheme.remedy()
     }
 
     /// The transfer.
     #[must_use]
     pub fn transfer(&self) -> TransferName {
-        self.scheme().transfer()
+        self.scheme.transfer()
     }
 
     /// Name of the run, which is also its folder below that of its case.
@@ -250,7 +248,7 @@ impl Record {
     /// Whether the run broke down and was not known to.
     #[must_use]
     pub fn broke_down(&self) -> bool {
-        let known = |v: &Verdict| v.check == BREAKS_DOWN && v.pass == Some(true);
+        let known = |v: &Verdict| v.check == BREAKS_DOWN && v.outcome == Outcome::WrongAsKnown;
         self.status == Status::Failed && !self.verdicts.iter().any(known)
     }
 
@@ -300,7 +298,7 @@ pub fn of_own_parameters(records: &[Record]) -> Vec<&Record> {
         .iter()
         .filter(|r| {
             let stands_in = r.changes_only("cfl")
-                && r.remedy != RemedyName::FbarRecursive
+                && r.remedy() != RemedyName::FbarRecursive
                 && !records.iter().any(|d| d.is_default() && same(d, r));
             r.is_default() || stands_in
         })

@@ -1,7 +1,6 @@
 //! One run: a job driven to its end, its outputs and its record.
 
 use crate::case::Case;
-use crate::check::{Kind, Verdict};
 use crate::checkpoint::{self, Checkpoint, Identity, Keeper, Refusal, Saving};
 use crate::error::Error;
 use crate::files::{discard, discard_folder, require_writable, write_csv, write_json};
@@ -10,6 +9,7 @@ use crate::parameter::Parameters;
 use crate::record::{BREAKS_DOWN, Failure, Machine, Record, SCHEMA, Status, Timing, Version};
 use crate::series::Series;
 use crate::spec::RunSpec;
+use crate::verdict::{Kind, Verdict};
 use crate::vtu::{write_pvd, write_vtu};
 use cpu_time::ProcessTime;
 use std::path::{Path, PathBuf};
@@ -49,9 +49,8 @@ pub fn execute(
         let mut record = Record {
             schema: SCHEMA,
             case: case.name.to_owned(),
-            basis: spec.scheme.basis(),
-            remedy: spec.scheme.remedy(),
-            transfer: spec.scheme.transfer(),
+            scheme: spec.scheme,
+            solver: spec.scheme.solver().to_owned(),
             level: spec.level.name.to_owned(),
             set: spec.set.clone(),
             perturbed: spec.perturbed,
@@ -105,6 +104,7 @@ fn completes(record: &Record) -> Verdict {
         0.0,
         "the equations have a solution",
     )
+    .bookkeeping()
 }
 
 /// Whether a run that is known to break down does.

@@ -2,7 +2,6 @@
 
 use crate::case::Case;
 use crate::cases;
-use crate::check::{Kind, Verdict};
 use crate::checkpoint::{self, Saving};
 use crate::convergence::{Convergence, convergence};
 use crate::error::{Error, ExitCode};
@@ -13,6 +12,7 @@ use crate::plan::{Plan, PlannedRun};
 use crate::record::{self, BREAKS_DOWN, Record, Version};
 use crate::run::{execute, judge};
 use crate::spec::{RunSpec, run_folder};
+use crate::verdict::{Kind, Outcome, Verdict};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -435,7 +435,7 @@ fn count(summary: &Summary) -> Counts {
         }
     }
     for (_, _, verdict) in summary.verdicts() {
-        *match (verdict.kind, verdict.pass) {
+        *match (verdict.kind, verdict.holds()) {
             (Kind::Drift, Some(true)) => &mut counts.undrifted,
             (Kind::Drift, Some(false)) => &mut counts.drifted,
             (_, Some(true)) => &mut counts.passed,
@@ -451,9 +451,9 @@ fn count(summary: &Summary) -> Counts {
 #[must_use]
 pub fn has_truth(record: &Record) -> bool {
     record.verdicts.iter().any(|v| match v.kind {
-        Kind::Truth => v.pass.is_some() && v.check != "completes",
+        Kind::Truth => v.outcome != Outcome::NotJudged,
         Kind::KnownLimit => v.check == BREAKS_DOWN,
-        Kind::Drift => false,
+        Kind::Drift | Kind::Bookkeeping => false,
     })
 }
 

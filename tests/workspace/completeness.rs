@@ -3,13 +3,13 @@
 use super::{golden, workspace};
 use mpm_verify::case::{Case, Tier};
 use mpm_verify::cases;
-use mpm_verify::check::Kind;
 use mpm_verify::files::read_versioned;
 use mpm_verify::golden::{Golden, MARGIN, why_none};
 use mpm_verify::record::Record;
 use mpm_verify::run::judge;
 use mpm_verify::spec::RunSpec;
 use mpm_verify::study::{SCHEMA, Summary, has_truth};
+use mpm_verify::verdict::Kind;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 

@@ -203,16 +203,16 @@ fn the_truth_of_what_is_kept_is_judged_again_and_its_drift_stays() {
         let verdicts = records
             .iter()
             .flat_map(|r| r["verdicts"].as_array().unwrap());
-        let drift = verdicts.filter(|v| v["kind"] == "drift" && !v["pass"].is_null());
+        let drift = verdicts.filter(|v| v["kind"] == "drift" && v["outcome"] != "not-judged");
         drift.cloned().collect::<Vec<_>>()
     };
     let before = drift(&json(&scene.summary()), "cook");
-    assert!(before.len() > 20 && before.iter().all(|v| v["pass"] == true));
+    assert!(before.len() > 20 && before.iter().all(|v| v["outcome"] == "right"));
     let none = tempfile::tempdir().unwrap();
     assert_eq!(code(&scene.update(none.path(), "second")), 3);
     let after = json(&scene.summary());
     assert_eq!(drift(&after, "cook"), before);
-    assert!(drift(&after, CASE).iter().all(|v| v["pass"] == false));
+    assert!(drift(&after, CASE).iter().all(|v| v["outcome"] == "failed"));
 
     let metric = "/cases/0/records/0/metrics/at_rest/value";
     edit(&scene.summary(), metric, |_| json!(0.0));

@@ -1,9 +1,8 @@
 //! A body to count and compare with.
 
-use mpm_core::basis::WallTreatment;
-use mpm_core::explicit::courant_time_step;
+use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{HenckyJ2, Law, NeoHookean, NewtonianFluid, Strength};
-use mpm_core::{Axis, Basis, Error, Grid, Particles, Remedy, Scene, Solver, Transfer};
+use mpm_core::{Axis, Basis, Body, Error, Grid, Particles, Scene};
 
 /// Its density (kg/m³).
 pub(crate) const DENSITY: f64 = 2000.0;
@@ -27,20 +26,12 @@ pub(crate) fn sheared<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Tr
     for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
         v[0] = rate * (2.0 * x[1] - x[0]);
     }
-    Solver::new(Scene {
-        grid: Grid::new(1.0, [Axis::open(0.0, n.div_ceil(2) + 2 * MARGIN); D])?,
-        dt: courant_time_step(0.3, 1.0, law.wave_speed(DENSITY)),
-        wall: WallTreatment::OpenKnot,
-        law,
-        transfer,
-        particles,
-        remedy: Box::new(remedy),
-        loads: Vec::new(),
-        contacts: Vec::new(),
-        force_filters: Vec::new(),
-        constraints: Vec::new(),
-        particle_filters: Vec::new(),
-    })
+    let grid = Grid::new(1.0, [Axis::open(0.0, n.div_ceil(2) + 2 * MARGIN); D])?;
+    let dt = courant_time_step(0.3, 1.0, law.wave_speed(DENSITY));
+    let settings = Settings::new(dt)
+        .transfer(transfer)
+        .remedy(Box::new(remedy));
+    Solver::new(Scene::new(grid, Body::new(law, particles)?), settings)
 }
 
 pub(crate) fn solid() -> Result<NeoHookean, Error> {

@@ -12,6 +12,7 @@ pub use friction::Friction;
 
 use crate::error::Fault;
 use crate::memory::{Memory, MemoryError, Saved};
+use crate::monitor::Reaction;
 use crate::particles::Particles;
 
 /// The contact of all particles with one rigid body.
@@ -22,8 +23,8 @@ pub struct RigidContact<const D: usize> {
     friction: Option<Friction>,
     /// Stretch of the stick of every particle (m), by id; empty without friction.
     stretch: Vec<[f64; D]>,
-    /// Force of the particles on the body (N).
-    reaction: [f64; 3],
+    /// What the particles do to the body.
+    reaction: Reaction,
 }
 
 /// The particle with the greatest ratio of contact stiffness to mass.
@@ -44,7 +45,7 @@ impl<const D: usize> RigidContact<D> {
             barrier,
             friction: None,
             stretch: Vec::new(),
-            reaction: [0.0; 3],
+            reaction: Reaction::default(),
         }
     }
 
@@ -63,9 +64,9 @@ impl<const D: usize> RigidContact<D> {
         &self.face
     }
 
-    /// Force of the particles on the rigid body in the last step (N).
+    /// What the particles do to the rigid body.
     #[must_use]
-    pub fn reaction(&self) -> [f64; 3] {
+    pub fn reaction(&self) -> Reaction {
         self.reaction
     }
 
@@ -82,7 +83,7 @@ impl<const D: usize> RigidContact<D> {
         let carried = difference(&moved, &self.face.displacement(time - dt));
         let (axis, sign) = (self.face.axis(), self.face.sign());
         let mut stiffest = Stiffest::default();
-        self.reaction = [0.0; 3];
+        self.reaction.force = [0.0; 3];
         for k in 0..particles.len() {
             let stretch = self.stretch.get_mut(particles.id[k] as usize);
             let gap = self.face.gap(&difference(&particles.position[k], &moved));
@@ -104,7 +105,8 @@ impl<const D: usize> RigidContact<D> {
             force[axis] = sign * normal;
             for a in 0..D {
                 particles.external_force[k][a] += force[a];
-                self.reaction[a] -= force[a];
+                self.reaction.force[a] -= force[a];
+                self.reaction.impulse[a] -= dt * force[a];
             }
             let ratio = stiffness / particles.mass[k];
             if ratio > stiffest.ratio {
@@ -139,7 +141,7 @@ impl<const D: usize> Memory for RigidContact<D> {
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        let (stretch, reaction): (Vec<f64>, [f64; 3]) = saved.read("a contact")?;
+        let (stretch, reaction): (Vec<f64>, Reaction) = saved.read("a contact")?;
         MemoryError::unless_equal("sticks", stretch.len(), D * self.stretch.len())?;
         let (rows, _) = stretch.as_chunks();
         self.stretch.copy_from_slice(rows);

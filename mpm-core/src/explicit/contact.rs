@@ -26,18 +26,18 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                 axis as f64,
                 "not periodic",
             )?;
-            contact.attach(scene.particles.len());
+            contact.attach(scene.body.particles.len());
         }
         self.keep_gaps_open(0.0)
     }
 
     /// Adds the contact forces to the external ones.
     pub(super) fn apply_contacts(&mut self) -> Result<(), Error> {
-        let dt = self.scene.dt;
+        let dt = self.settings.dt;
         let mut stiffest = Stiffest::default();
         let mut ratio = 0.0;
         for contact in &mut self.scene.contacts {
-            let found = contact.add(self.time, dt, &mut self.scene.particles);
+            let found = contact.add(self.time, dt, &mut self.scene.body.particles);
             ratio += found.ratio;
             if found.ratio > stiffest.ratio {
                 stiffest = found;
@@ -56,7 +56,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     pub(super) fn keep_gaps_open(&self, time: f64) -> Result<(), Error> {
         for contact in &self.scene.contacts {
             contact
-                .closed_gap(time, &self.scene.particles)
+                .closed_gap(time, &self.scene.body.particles)
                 .map_err(|(index, fault)| self.breakdown(index, fault))?;
         }
         Ok(())

@@ -20,7 +20,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
     for Solver<D, S, B, M, T>
 {
     fn save(&self) -> Result<Saved, MemoryError> {
-        let scene = &self.scene;
+        let (scene, settings) = (&self.scene, &self.settings);
         let sums = (
             self.time,
             self.accumulated,
@@ -30,16 +30,16 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
         );
         let stages = (
             save_all(&scene.loads)?,
-            save_all(&scene.force_filters)?,
+            save_all(&settings.force_filters)?,
             save_all(&scene.constraints)?,
-            save_all(&scene.particle_filters)?,
+            save_all(&settings.particle_filters)?,
         );
         let contacts: Result<Vec<Saved>, _> = scene.contacts.iter().map(Memory::save).collect();
         Saved::of(&(
             self.save_body()?,
             sums,
-            scene.transfer.save()?,
-            scene.remedy.save()?,
+            settings.transfer.save()?,
+            settings.remedy.save()?,
             stages,
             contacts?,
         ))
@@ -53,17 +53,21 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
         MemoryError::unless_equal("constraints", held.len(), self.held.len())?;
         MemoryError::unless_equal("nodes", work.nodes as usize, self.nodes.len())?;
         self.restore_body(&body)?;
-        let scene = &mut self.scene;
+        let (scene, settings) = (&mut self.scene, &mut self.settings);
         restore_all("loads", &mut scene.loads, &stages.0)?;
-        restore_all("force filters", &mut scene.force_filters, &stages.1)?;
+        restore_all("force filters", &mut settings.force_filters, &stages.1)?;
         restore_all("constraints", &mut scene.constraints, &stages.2)?;
-        restore_all("particle filters", &mut scene.particle_filters, &stages.3)?;
+        restore_all(
+            "particle filters",
+            &mut settings.particle_filters,
+            &stages.3,
+        )?;
         MemoryError::unless_equal("contacts", contacts.len(), scene.contacts.len())?;
         for (contact, saved) in scene.contacts.iter_mut().zip(&contacts) {
             contact.restore(saved)?;
         }
-        scene.transfer.restore(&transfer)?;
-        scene.remedy.restore(&remedy)?;
+        settings.transfer.restore(&transfer)?;
+        settings.remedy.restore(&remedy)?;
         self.time = time;
         self.accumulated = accumulated;
         self.residual = residual;
@@ -74,20 +78,19 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
 }
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
-    /// The particles, their states and how they are sorted.
+    /// The body and how it is sorted.
     pub(super) fn save_body(&self) -> Result<Saved, MemoryError> {
-        Saved::of(&(&self.scene.particles, &self.states, &self.slabs, self.drift))
+        Saved::of(&(self.scene.body.save()?, &self.slabs, self.drift))
     }
 
     /// Replaces the body by one that was saved.
     pub(super) fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        type Body<const D: usize, State> = (Particles<D>, Vec<State>, Vec<Range<usize>>, f64);
-        let (particles, states, slabs, drift): Body<D, M::State> = saved.read("a body")?;
-        particles.check_against(&self.scene.particles)?;
-        MemoryError::unless_equal("states", states.len(), self.states.len())?;
-        check_places(&self.scene.grid, &particles, &slabs, self.slabs.len())?;
-        self.scene.particles = particles;
-        self.states = states;
+        let (body, slabs, drift): (Saved, Vec<Range<usize>>, f64) = saved.read("a body")?;
+        let (scene, expected) = (&mut self.scene, self.slabs.len());
+        let grid = scene.grid;
+        scene.body.restore(&body, |particles| {
+            check_places(&grid, particles, &slabs, expected)
+        })?;
         self.slabs = slabs;
         self.drift = drift;
         self.find_reach();

@@ -4,28 +4,31 @@ mod contact;
 mod memory;
 pub mod remedy;
 mod room;
+mod settings;
 mod sort;
 mod start;
 pub mod transfer;
 
 pub use contact::contact_cfl;
 pub use remedy::Remedy;
+pub use settings::{Settings, courant_time_step};
 pub use transfer::Transfer;
 
 use crate::basis::Basis;
+use crate::body::check_jacobian;
 use crate::contact::RigidContact;
 use crate::error::{Error, Fault};
 use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::memory::Saved;
-use crate::monitor::{Accumulated, Residual, Totals};
+use crate::monitor::{Accumulated, Reaction, Residual, Totals};
 use crate::nodes::NodalState;
 use crate::parallel::{AT_ONCE, CHUNK, chunks_if_present, scatter};
 use crate::particles::Particles;
 use crate::projection::{Average, Averaging, Projection};
 use crate::reach::Reach;
 use crate::scene::Scene;
-use crate::simulation::Simulation;
+use crate::simulation::{Field, Part, Simulation};
 use crate::space;
 use crate::stage::{ForceFilter, Prescribed};
 use crate::tensor::SymmetricTensor;
@@ -39,12 +42,6 @@ use transfer::{Flip, Given};
 
 /// Largest (c + |v|) Δt / h: beyond it a wave or a particle crosses more than a cell in a step.
 const CFL_LIMIT: f64 = 1.0;
-
-/// The time step (s) of CFL number `cfl` for waves of speed `c` (m/s) on cells of size `h` (m).
-#[must_use]
-pub fn courant_time_step(cfl: f64, h: f64, c: f64) -> f64 {
-    cfl * h / c
-}
 
 /// Sums of one chunk of particles in a gather.
 #[derive(Debug, Clone, Copy, Default)]
@@ -71,17 +68,15 @@ struct NodeSums {
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 struct Held {
     amplitude: f64,
-    /// Force of the body on it (N).
-    force: [f64; 3],
-    /// Impulse of the body on it since time zero (N s).
-    impulse: [f64; 3],
+    /// What the body does to it.
+    reaction: Reaction,
 }
 
 /// The explicit solver for one body.
 pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
-    scene: Scene<D, M, T>,
+    scene: Scene<D, M>,
+    settings: Settings<D, T>,
     lattice: Lattice<D, S, B>,
-    states: Vec<M::State>,
     slabs: Vec<Range<usize>>,
     nodes: Vec<NodalState>,
     averaging: Averaging<D, S>,
@@ -107,11 +102,11 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// Sets the prescribed velocities to those in the middle of the step, and notes the forces on what they hold.
     fn move_constraints(&mut self) {
-        let middle = self.time + 0.5 * self.scene.dt;
+        let middle = self.time + 0.5 * self.settings.dt;
         let now = self.scene.constraints.iter().map(|c| c.amplitude(middle));
         for (held, amplitude) in self.held.iter_mut().zip(now) {
             held.amplitude = amplitude;
-            held.force = [0.0; 3];
+            held.reaction.force = [0.0; 3];
         }
         for p in &mut self.prescribed {
             p.velocity = self.held[p.by].amplitude * p.full_velocity;
@@ -120,16 +115,16 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn apply_loads(&mut self) {
-        self.scene.particles.external_force.fill([0.0; D]);
+        self.scene.body.particles.external_force.fill([0.0; D]);
         for load in &self.scene.loads {
-            load.add(self.time, &mut self.scene.particles);
+            load.add(self.time, &mut self.scene.body.particles);
         }
     }
 
     /// Mass, momentum and forces to the nodes, Eqs. (7), (8), (10).
     fn particles_to_grid(&mut self) {
         let lattice = &self.lattice;
-        let (transfer, p) = (&self.scene.transfer, &self.scene.particles);
+        let (transfer, p) = (&self.settings.transfer, &self.scene.body.particles);
         self.reach.clear(&mut self.nodes);
         scatter(
             &mut self.nodes,
@@ -160,8 +155,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 
     /// New nodal velocities, Eq. (9), with filters and constraints.
     fn update_grid(&mut self) {
-        let dt = self.scene.dt;
-        let filters = &self.scene.force_filters;
+        let dt = self.settings.dt;
+        let filters = &self.settings.force_filters;
         self.reach
             .chunks(&mut self.nodes)
             .zip(&mut self.node_sums)
@@ -190,8 +185,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             let before = free - *change;
             residual.free_force -= (mass * *change / dt).abs();
             residual.held_force[c.axis] += c.force;
-            self.held[c.by].force[c.axis] += c.force;
-            self.held[c.by].impulse[c.axis] += mass * (before - held) + dt * c.force;
+            self.held[c.by].reaction.force[c.axis] += c.force;
+            self.held[c.by].reaction.impulse[c.axis] += mass * (before - held) + dt * c.force;
             self.accumulated.constraint_loss +=
                 mass * (0.5 * (before * before - held * held) + (free - before) * held);
             *change += held - free;
@@ -204,9 +199,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 
     /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16).
     fn grid_to_particles(&mut self) -> Result<(), Error> {
-        let (lattice, nodes, dt) = (&self.lattice, &self.nodes, self.scene.dt);
-        let p = &mut self.scene.particles;
-        let transfer = &mut self.scene.transfer;
+        let (lattice, nodes, dt) = (&self.lattice, &self.nodes, self.settings.dt);
+        let p = &mut self.scene.body.particles;
+        let transfer = &mut self.settings.transfer;
         let passes = 1 + transfer.prepare(lattice, p, &self.slabs, nodes, &self.prescribed);
         let (transfer, chunks) = (&*transfer, self.chunk_sums.len());
         let (half_size, external_force) = (&p.half_size, &p.external_force);
@@ -266,6 +261,19 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         self.first_fault()
     }
 
+    /// Replaces `field` (one value per particle) by its average Π `field`. No work of the run: it isn't counted.
+    pub fn average(&mut self, field: &mut [f64]) {
+        let mut uncounted = 0;
+        Projection {
+            lattice: &self.lattice,
+            slabs: &self.slabs,
+            reach: &self.reach,
+            averaging: &mut self.averaging,
+            count: &mut uncounted,
+        }
+        .average(&self.scene.body.particles, field);
+    }
+
     /// The remedy's share in the stress that enters the forces.
     fn adjust_stress(&mut self) {
         self.with_remedy(|remedy, particles, average| remedy.adjust_stress(particles, average));
@@ -289,8 +297,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             count: &mut self.work.projections,
         };
         act(
-            self.scene.remedy.as_mut(),
-            &mut self.scene.particles,
+            self.settings.remedy.as_mut(),
+            &mut self.scene.body.particles,
             &mut projection,
         );
         self.work.particle_node_pairs +=
@@ -300,33 +308,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     /// Stress, state and volume of the particles, Eqs. (15), (22).
     fn update_stress(&mut self) {
         self.averaging.expire();
-        let (law, dt) = (&self.scene.law, self.scene.dt);
-        let p = &mut self.scene.particles;
-        (
-            self.states.par_chunks_mut(CHUNK),
-            p.stress.par_chunks_mut(CHUNK),
-            p.volume.par_chunks_mut(CHUNK),
-            p.delta_f.par_chunks(CHUNK),
-            p.jacobian.par_chunks(CHUNK),
-            p.reference_volume.par_chunks(CHUNK),
-        )
-            .into_par_iter()
-            .with_max_len(AT_ONCE)
-            .for_each(|(states, stress, volume, delta_f, j, reference_volume)| {
-                law.update_all(|k| space::embed(&delta_f[k]), dt, states, stress);
-                for (volume, (j, reference)) in
-                    volume.iter_mut().zip(j.iter().zip(reference_volume))
-                {
-                    *volume = j * reference;
-                }
-            });
+        self.scene.body.update_stress(self.settings.dt);
     }
 
     /// New positions, Eq. (17).
     fn move_particles(&mut self) -> Result<(), Error> {
         let grid = &self.scene.grid;
-        let wave_distance = self.wave_speed * self.scene.dt;
-        let p = &mut self.scene.particles;
+        let wave_distance = self.wave_speed * self.settings.dt;
+        let p = &mut self.scene.body.particles;
         let room = Room::new(grid, p.half_size.map(B::beyond_wall));
         (
             self.chunk_sums.par_iter_mut(),
@@ -375,9 +364,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn filter_particles(&mut self) {
-        for filter in &mut self.scene.particle_filters {
+        for filter in &mut self.settings.particle_filters {
             self.accumulated.filter_loss +=
-                filter.filter(self.residual.kinetic_energy, &mut self.scene.particles);
+                filter.filter(self.residual.kinetic_energy, &mut self.scene.body.particles);
         }
     }
 
@@ -385,7 +374,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         Error::Breakdown {
             time: self.time,
             step: self.work.steps,
-            particle: self.scene.particles.id.get(index).copied().unwrap_or(0),
+            particle: self
+                .scene
+                .body
+                .particles
+                .id
+                .get(index)
+                .copied()
+                .unwrap_or(0),
             fault,
         }
     }
@@ -425,19 +421,6 @@ fn update_node<const D: usize>(
     sums.kinetic_energy += node.kinetic_energy();
 }
 
-fn check_jacobian(j: f64) -> Result<(), Fault> {
-    if j > 0.0 && j < f64::INFINITY {
-        return Ok(());
-    }
-    if !j.is_finite() {
-        return Err(Fault::NotFinite {
-            quantity: "Jacobian J",
-            value: j,
-        });
-    }
-    Err(Fault::NonPositiveJacobian(j))
-}
-
 /// Whether what moves `distance` (m) in a step stays within the CFL limit on cells of size `h` (m).
 fn check_cfl(distance: f64, h: f64) -> Result<(), Fault> {
     if distance > CFL_LIMIT * h {
@@ -462,10 +445,10 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.grid_to_particles()?;
         self.average_volume_change();
         self.update_stress();
-        self.keep_gaps_open(self.time + self.scene.dt)?;
+        self.keep_gaps_open(self.time + self.settings.dt)?;
         self.move_particles()?;
         self.filter_particles();
-        self.time += self.scene.dt;
+        self.time += self.settings.dt;
         self.work.steps += 1;
         self.work.particle_steps += self.work.particles;
         Ok(())
@@ -476,63 +459,46 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
     }
 
     fn particles(&self) -> &Particles<D> {
-        &self.scene.particles
+        &self.scene.body.particles
     }
 
     fn totals(&self) -> Totals {
-        Totals::of(
-            &self.scene.law,
-            &self.scene.particles,
-            &self.states,
-            self.accumulated,
-        )
+        self.scene.body.totals(self.accumulated)
     }
 
     fn residual(&self) -> Residual {
         self.residual
     }
 
-    fn force_on(&self, constraint: usize) -> [f64; 3] {
-        self.held.get(constraint).map_or([f64::NAN; 3], |h| h.force)
-    }
-
-    fn impulse_on(&self, constraint: usize) -> [f64; 3] {
-        self.held
-            .get(constraint)
-            .map_or([f64::NAN; 3], |h| h.impulse)
-    }
-
-    fn reaction(&self, contact: usize) -> [f64; 3] {
-        let contact = self.scene.contacts.get(contact);
-        contact.map_or([f64::NAN; 3], RigidContact::reaction)
-    }
-
     fn work(&self) -> Work {
         self.work
     }
 
-    fn average(&mut self, field: &mut [f64]) {
-        let mut uncounted = 0;
-        Projection {
-            lattice: &self.lattice,
-            slabs: &self.slabs,
-            reach: &self.reach,
-            averaging: &mut self.averaging,
-            count: &mut uncounted,
-        }
-        .average(&self.scene.particles, field);
+    fn on(&self, part: Part) -> Reaction {
+        let found = match part {
+            Part::Constraint(place) => self.held.get(place).map(|held| held.reaction),
+            Part::Contact(place) => self.scene.contacts.get(place).map(RigidContact::reaction),
+        };
+        found.unwrap_or(Reaction::NONE)
     }
 
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
-        let (law_stress, work) = (self.scene.particles.stress.clone(), self.work);
+        let (law_stress, work) = (self.scene.body.particles.stress.clone(), self.work);
         self.adjust_stress();
         self.work = work;
-        std::mem::replace(&mut self.scene.particles.stress, law_stress)
+        std::mem::replace(&mut self.scene.body.particles.stress, law_stress)
     }
 
-    fn plastic_strain(&self) -> Vec<f64> {
-        let law = &self.scene.law;
-        self.states.iter().map(|s| law.plastic_strain(s)).collect()
+    fn field(&mut self, field: Field) -> Vec<f64> {
+        match field {
+            Field::PlasticStrain => self.scene.body.plastic_strain(),
+            Field::MeanStress => self.force_stress().iter().map(|s| s.mean()).collect(),
+            Field::AveragedMeanStress => {
+                let mut mean = self.field(Field::MeanStress);
+                self.average(&mut mean);
+                mean
+            }
+        }
     }
 
     fn body(&self) -> Result<Saved, Error> {

@@ -5,7 +5,6 @@ use crate::basis::Basis;
 use crate::material::Law;
 use crate::nodes::NodalState;
 use crate::order::stencil_order;
-use crate::particles::permute;
 use crate::reach::Reach;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
@@ -17,10 +16,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     pub(super) fn sort(&mut self) {
-        let p = &self.scene.particles;
+        let p = &self.scene.body.particles;
         let (order, slabs) = stencil_order(&self.lattice, &p.position, &p.half_size);
-        self.scene.particles.permute(&order);
-        permute(&mut self.states, &order);
+        self.scene.body.permute(&order);
         self.slabs = slabs;
         self.drift = 0.0;
         self.work.sorts += 1;
@@ -29,7 +27,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 
     /// Finds the nodes that the particles see until they are sorted again.
     pub(super) fn find_reach(&mut self) {
-        let p = &self.scene.particles;
+        let p = &self.scene.body.particles;
         self.reach = Reach::of(&self.lattice, &p.position, &p.half_size);
         self.nodes.fill(NodalState::default());
         self.averaging.clear();

@@ -1,7 +1,7 @@
 //! A solver at time zero.
 
 use super::room::Room;
-use super::{ChunkSums, Held, NodeSums, Solver, Transfer, check_cfl, check_jacobian};
+use super::{ChunkSums, Held, NodeSums, Settings, Solver, Transfer, check_cfl};
 use crate::basis::Basis;
 use crate::error::{Error, require};
 use crate::lattice::Lattice;
@@ -12,19 +12,19 @@ use crate::parallel::{CHUNK, NODE_CHUNK};
 use crate::projection::Averaging;
 use crate::reach::Reach;
 use crate::scene::Scene;
-use crate::space;
 use crate::stage::Prescribed;
 use crate::work::Work;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
-    /// A solver of `scene` at time zero.
+    /// A solver of `scene` with `settings` at time zero.
     ///
     /// # Errors
-    /// A time step or particle of the scene that is not allowed; a particle off the grid; a
+    /// A time step or particle that is not allowed; a particle off the grid; a
     /// time step beyond the CFL limit; a particle in a rigid body.
-    pub fn new(mut scene: Scene<D, M, T>) -> Result<Self, Error> {
-        require(scene.dt > 0.0, "time step", scene.dt, "positive (s)")?;
-        for l in scene.particles.half_size {
+    pub fn new(mut scene: Scene<D, M>, mut settings: Settings<D, T>) -> Result<Self, Error> {
+        require(settings.dt > 0.0, "time step", settings.dt, "positive (s)")?;
+        let particles = &mut scene.body.particles;
+        for l in particles.half_size {
             require(
                 l <= 0.5 * scene.grid.h,
                 "particle half size",
@@ -32,30 +32,19 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                 "at most half a cell (m)",
             )?;
         }
-        let lattice = Lattice::new(scene.grid, scene.wall);
-        let density = scene
-            .particles
-            .mass
-            .iter()
-            .zip(&scene.particles.reference_volume)
-            .map(|(m, v)| m / v)
-            .fold(f64::INFINITY, f64::min);
-        for (j, f) in (scene.particles.jacobian.iter_mut()).zip(&scene.particles.delta_f) {
-            *j = space::determinant(f);
-        }
-        scene.remedy.attach(&mut scene.particles);
-        scene.transfer.attach(&mut scene.particles);
+        let lattice = Lattice::new(scene.grid, settings.wall);
+        settings.remedy.attach(particles);
+        settings.transfer.attach(particles);
         if scene.loads.is_empty() && scene.contacts.is_empty() {
-            scene.particles.external_force = Vec::new();
+            particles.external_force = Vec::new();
         }
-        let n = scene.particles.len();
+        let n = particles.len();
         let work = Work {
             particles: n as u64,
             nodes: lattice.len() as u64,
             ..Work::default()
         };
         let mut solver = Self {
-            states: vec![scene.law.initial_state(); n],
             slabs: Vec::new(),
             nodes: vec![NodalState::default(); lattice.len()],
             averaging: Averaging::new(lattice.len()),
@@ -66,7 +55,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
             node_sums: vec![NodeSums::default(); lattice.len().div_ceil(NODE_CHUNK)],
             drift: 0.0,
-            wave_speed: scene.law.wave_speed(density),
+            wave_speed: scene.body.wave_speed(),
             time: 0.0,
             accumulated: Accumulated::default(),
             residual: Residual::default(),
@@ -74,22 +63,13 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             transfer_pairs: 2 * (S as u64).pow(D as u32),
             lattice,
             scene,
+            settings,
         };
         solver.check_positions()?;
         solver.attach_contacts()?;
-        solver.rest();
         solver.declare_constraints();
         solver.sort();
         Ok(solver)
-    }
-
-    /// Stress, state and volume that the initial deformation gradients give.
-    fn rest(&mut self) {
-        let (law, p) = (&self.scene.law, &mut self.scene.particles);
-        for (k, f) in p.delta_f.iter().enumerate() {
-            (p.stress[k], self.states[k]) = law.at_rest(&space::embed(f));
-            p.volume[k] = p.jacobian[k] * p.reference_volume[k];
-        }
     }
 
     fn declare_constraints(&mut self) {
@@ -116,17 +96,15 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn check_positions(&mut self) -> Result<(), Error> {
-        check_cfl(self.wave_speed * self.scene.dt, self.scene.grid.h)
+        check_cfl(self.wave_speed * self.settings.dt, self.scene.grid.h)
             .map_err(|fault| self.breakdown(0, fault))?;
-        let beyond = self.scene.particles.half_size.map(B::beyond_wall);
+        let beyond = self.scene.body.particles.half_size.map(B::beyond_wall);
         let room = Room::new(&self.scene.grid, beyond);
-        for k in 0..self.scene.particles.len() {
-            check_jacobian(self.scene.particles.jacobian[k])
-                .map_err(|fault| self.breakdown(k, fault))?;
-            let mut x = self.scene.particles.position[k];
+        for k in 0..self.scene.body.particles.len() {
+            let mut x = self.scene.body.particles.position[k];
             room.place(&mut x)
                 .map_err(|fault| self.breakdown(k, fault))?;
-            self.scene.particles.position[k] = x;
+            self.scene.body.particles.position[k] = x;
         }
         Ok(())
     }

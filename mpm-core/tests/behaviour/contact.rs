@@ -1,13 +1,11 @@
 //! Contact with rigid bodies: barrier, friction, reactions, the time step.
 
-use mpm_core::basis::{Gimp, WallTreatment};
+use mpm_core::basis::Gimp;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::remedy::Standard;
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::explicit::{contact_cfl, courant_time_step};
+use mpm_core::explicit::{Settings, Solver, contact_cfl, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{BodyForce, End, LocalDamping, smooth_rise, smooth_stroke};
-use mpm_core::{Axis, Error, Fault, Grid, Particles, Scene, Simulation, Solver};
+use mpm_core::{Axis, Body, Error, Fault, Grid, Part, Particles, Scene, Simulation};
 
 const H: f64 = 0.5;
 const SPACING: f64 = 0.5 * H;
@@ -63,42 +61,38 @@ fn floor<const D: usize>(particles: &Particles<D>, gap: f64) -> RigidFace<D> {
         .touching(particles, gap)
 }
 
-fn scene<const D: usize>(
-    particles: Particles<D>,
-    contacts: Vec<RigidContact<D>>,
-) -> Scene<D, NeoHookean> {
+type Setting<const D: usize> = (Scene<D, NeoHookean>, Settings<D>);
+
+fn scene<const D: usize>(particles: Particles<D>, contacts: Vec<RigidContact<D>>) -> Setting<D> {
     let law = law();
-    Scene {
-        dt: courant_time_step(CFL, H, law.wave_speed(DENSITY)),
-        grid: Grid::new(H, [Axis::open(0.0, 24); D]).unwrap(),
-        wall: WallTreatment::OpenKnot,
-        law,
-        particles,
-        remedy: Box::new(Standard),
-        loads: Vec::new(),
-        contacts,
-        force_filters: Vec::new(),
-        constraints: Vec::new(),
-        particle_filters: Vec::new(),
-        transfer: Flip::default(),
-    }
+    let dt = courant_time_step(CFL, H, law.wave_speed(DENSITY));
+    let grid = Grid::new(H, [Axis::open(0.0, 24); D]).unwrap();
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap());
+    (
+        contacts.into_iter().fold(scene, Scene::contact),
+        Settings::new(dt),
+    )
 }
 
 /// The scene under gravity `b` (m/s²).
 fn under<const D: usize>(
-    mut scene: Scene<D, NeoHookean>,
+    (scene, settings): Setting<D>,
     b: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
-) -> Scene<D, NeoHookean> {
-    scene.loads = vec![Box::new(BodyForce(Box::new(move |_, t| b(t))))];
-    scene
+) -> Setting<D> {
+    let gravity = BodyForce(Box::new(move |_: &[f64; D], t| b(t)));
+    (scene.load(gravity), settings)
 }
 
 const ALPHA: f64 = 0.5;
 
 /// The scene with local damping.
-fn damped<const D: usize>(mut scene: Scene<D, NeoHookean>) -> Scene<D, NeoHookean> {
-    scene.force_filters = vec![Box::new(LocalDamping::new(ALPHA).unwrap())];
-    scene
+fn damped<const D: usize>((scene, settings): Setting<D>) -> Setting<D> {
+    let damping = LocalDamping::new(ALPHA).unwrap();
+    (scene, settings.filter_forces(damping))
+}
+
+fn started<const D: usize>((scene, settings): Setting<D>) -> Result<Block<D>, Error> {
+    Block::new(scene, settings)
 }
 
 fn run<const D: usize>(solver: &mut Block<D>, until: f64) {
@@ -152,17 +146,17 @@ fn a_block_rests_with_its_weight_on_the_floor() {
     let face = floor(&particles, DISTANCE);
     let contact = RigidContact::new(face, barrier());
     let scene = under(scene(particles, vec![contact]), |_| [0.0, -GRAVITY]);
-    let mut solver = Block::new(damped(scene)).unwrap();
+    let mut solver = started(damped(scene)).unwrap();
     let weight = solver.totals().mass * GRAVITY;
     while solver.time() < 200.0 {
         solver.step().unwrap();
         assert!(least(&gaps(&solver, &face, &[0.0; 2])) > 0.0);
     }
-    let (left, reaction) = (out_of_balance(&solver), solver.reaction(0));
+    let (left, reaction) = (out_of_balance(&solver), solver.on(Part::Contact(0)).force);
     assert!(left < AT_REST * weight, "{left}");
     assert!((reaction[1] + weight).abs() <= left + ROUNDING * weight);
     assert_eq!((reaction[0], reaction[2]), (0.0, 0.0));
-    assert!(solver.reaction(1)[1].is_nan());
+    assert!(solver.on(Part::Contact(1)).force[1].is_nan());
 }
 
 /// A periodic row is the same everywhere, so every particle of the lowest layer carries the same; the force that is
@@ -173,8 +167,8 @@ fn the_gap_is_the_one_at_which_the_barrier_carries_the_load() {
     let face = floor(&particles, DISTANCE);
     let contact = RigidContact::new(face, barrier());
     let mut scene = damped(under(scene(particles, vec![contact]), |_| [0.0, -GRAVITY]));
-    scene.grid.axes[0] = Axis::periodic(2.0 * H, 8);
-    let mut solver = Block::new(scene).unwrap();
+    scene.0.grid.axes[0] = Axis::periodic(2.0 * H, 8);
+    let mut solver = started(scene).unwrap();
     run(&mut solver, 200.0);
     let left = out_of_balance(&solver);
     assert!(left < AT_REST * 16.0 * LOAD, "{left}");
@@ -194,14 +188,14 @@ fn momentum_balances<const D: usize>(friction: Option<Friction>) {
     }
     let pull: [f64; D] = std::array::from_fn(|a| if a == D - 1 { -GRAVITY } else { 0.02 });
     let scene = under(scene(particles, vec![contact]), move |_| pull);
-    let dt = scene.dt;
-    let mut solver = Block::<D>::new(scene).unwrap();
+    let dt = scene.1.dt;
+    let mut solver = started(scene).unwrap();
     let terms = (solver.particles().len() + 4_usize.pow(D as u32)) as f64;
     let mut met = [false; D];
     for _ in 0..200 {
         let before = solver.totals();
         solver.step().unwrap();
-        let (after, reaction) = (solver.totals(), solver.reaction(0));
+        let (after, reaction) = (solver.totals(), solver.on(Part::Contact(0)).force);
         for a in 0..D {
             let impulse = dt * (after.mass * pull[a] - reaction[a]);
             let error = after.momentum[a] - before.momentum[a] - impulse;
@@ -228,7 +222,7 @@ fn action_is_reaction_to_rounding() {
 }
 
 /// A block with friction `mu` at the speed `speed`, under gravity of the slope `slope`.
-fn on_a_slope(mu: f64, slope: f64, speed: f64) -> Scene<2, NeoHookean> {
+fn on_a_slope(mu: f64, slope: f64, speed: f64) -> Setting<2> {
     let mut particles = block::<2>(16);
     particles.velocity.fill([speed, 0.0]);
     let contact = RigidContact::new(floor(&particles, REST_GAP), barrier())
@@ -250,12 +244,12 @@ fn a_sliding_block_follows_coulomb() {
         let scene = on_a_slope(mu, slope, speed);
         let stretching = match speed {
             0.0 => (2.0 * limit / ((slope - mu) * GRAVITY)).sqrt(),
-            _ => scene.dt,
+            _ => scene.1.dt,
         };
-        let mut solver = Block::new(scene).unwrap();
+        let mut solver = started(scene).unwrap();
         while solver.time() < 6.0 {
             solver.step().unwrap();
-            let [along, across, _] = solver.reaction(0);
+            let [along, across, _] = solver.on(Part::Contact(0)).force;
             assert!(along <= -mu * across * (1.0 + ROUNDING));
         }
         let (totals, time) = (solver.totals(), solver.time());
@@ -274,11 +268,13 @@ fn a_sliding_block_follows_coulomb() {
 #[test]
 fn a_block_sticks_below_the_angle_of_friction() {
     let (mu, slope) = (0.6, 0.5);
-    let mut solver = Block::new(damped(on_a_slope(mu, slope, 0.0))).unwrap();
+    let mut solver = started(damped(on_a_slope(mu, slope, 0.0))).unwrap();
     run(&mut solver, 200.0);
     let (weight, left) = (solver.totals().mass * GRAVITY, out_of_balance(&solver));
     assert!(left < AT_REST * weight, "{left}");
-    assert!((solver.reaction(0)[0] - slope * weight).abs() <= left + ROUNDING * weight);
+    assert!(
+        (solver.on(Part::Contact(0)).force[0] - slope * weight).abs() <= left + ROUNDING * weight
+    );
     let stretch = slope * LOAD / stick();
     let before = shift(&solver, 0);
     // Sticks may have given up some stretch in the oscillations before rest, at most their limit.
@@ -299,8 +295,8 @@ fn a_rough_stick_does_not_creep() {
         let share = smooth_rise((t - 40.0).max(0.0), 5.0) - smooth_rise((t - 120.0).max(0.0), 5.0);
         [share * shear, -GRAVITY]
     }));
-    let dt = scene.dt;
-    let mut solver = Block::new(scene).unwrap();
+    let dt = scene.1.dt;
+    let mut solver = started(scene).unwrap();
     let [start, early, late, back] = [40.0, 80.0, 120.0, 200.0].map(|until| {
         run(&mut solver, until);
         shift(&solver, 0)
@@ -323,7 +319,7 @@ fn a_moving_plate_takes_a_block_along() {
     let face = floor(&particles, REST_GAP).moving(speed, ramp).unwrap();
     let contact =
         RigidContact::new(face, barrier()).with_friction(Friction::rough(stick()).unwrap());
-    let mut solver = Block::new(under(scene(particles, vec![contact]), move |t| {
+    let mut solver = started(under(scene(particles, vec![contact]), move |t| {
         [pull * smooth_rise(t, 12.0), -GRAVITY]
     }))
     .unwrap();
@@ -349,7 +345,7 @@ fn thrown(speed: f64) -> (RigidFace<2>, Block<2>) {
     particles.velocity.fill([0.0, -speed]);
     let face = floor(&particles, DISTANCE);
     let contact = RigidContact::new(face, barrier());
-    (face, Block::new(scene(particles, vec![contact])).unwrap())
+    (face, started(scene(particles, vec![contact])).unwrap())
 }
 
 /// Slow ones bounce; fast ones meet a barrier too stiff for the step, or would cross it within one. In no state
@@ -408,7 +404,7 @@ fn a_closed_gap_names_time_particle_and_gap() {
 
     let particles = block::<2>(8);
     let inside = RigidContact::new(floor(&particles, -0.1), barrier());
-    let Err(Error::Breakdown { fault, .. }) = Block::new(scene(particles, vec![inside])) else {
+    let Err(Error::Breakdown { fault, .. }) = started(scene(particles, vec![inside])) else {
         panic!("it starts in the body");
     };
     assert_eq!(fault.kind(), "gap-closed");
@@ -423,7 +419,7 @@ fn shaken(ratio: f64) -> Block<2> {
     let friction = Friction::rough(ratio * particles.mass[0]).unwrap();
     let contact = RigidContact::new(floor(&particles, REST_GAP), barrier()).with_friction(friction);
     let scene = under(scene(particles, vec![contact]), |_| [0.0, -GRAVITY]);
-    Block::new(scene).unwrap()
+    started(scene).unwrap()
 }
 
 /// The stiffness enters the time step, and a step that it allows is stable.
@@ -464,7 +460,7 @@ fn the_stiffnesses_of_contacts_add_up() {
         let contact = RigidContact::new(floor(&particles, REST_GAP), barrier())
             .with_friction(Friction::rough(stiffness).unwrap());
         let contacts = vec![contact; contacts];
-        Block::new(scene(particles, contacts)).unwrap().step()
+        started(scene(particles, contacts)).unwrap().step()
     };
     assert!(stiff(1).is_ok());
     assert!(stiff(2).is_err());
@@ -477,7 +473,7 @@ fn particles_beside_a_face_do_not_feel_it() {
     let face = floor(&particles, REST_GAP).within([[0.0, end], [0.0; 2]]);
     let contact =
         RigidContact::new(face, barrier()).with_friction(Friction::rough(stick()).unwrap());
-    let mut solver = Block::new(scene(particles, vec![contact])).unwrap();
+    let mut solver = started(scene(particles, vec![contact])).unwrap();
     solver.step().unwrap();
     let p = solver.particles();
     for k in 0..p.len() {
@@ -486,7 +482,7 @@ fn particles_beside_a_face_do_not_feel_it() {
         assert!(touched || p.external_force[k] == [0.0; 2]);
     }
     let sought = -7.0 * LOAD;
-    assert!((solver.reaction(0)[1] / sought - 1.0).abs() < 1e-9);
+    assert!((solver.on(Part::Contact(0)).force[1] / sought - 1.0).abs() < 1e-9);
 }
 
 /// Bits of a block that slides on a floor in `threads` threads, and of the reactions.
@@ -502,12 +498,12 @@ fn bits(
         }
         let contacts = contacts(&particles);
         let mut scene = under(scene(particles, contacts), |_| [0.0, -GRAVITY]);
-        scene.grid = Grid::new(H, [Axis::open(0.0, 48), Axis::open(0.0, 12)]).unwrap();
-        let mut solver = Block::new(scene).unwrap();
+        scene.0.grid = Grid::new(H, [Axis::open(0.0, 48), Axis::open(0.0, 12)]).unwrap();
+        let mut solver = started(scene).unwrap();
         let mut reactions = Vec::new();
         for _ in 0..100 {
             solver.step().unwrap();
-            let reaction = solver.reaction(0).into_iter();
+            let reaction = solver.on(Part::Contact(0)).force.into_iter();
             reactions.extend(reaction.filter(|r| r.is_finite() && *r != 0.0));
         }
         assert!(solver.work().sorts > 1);
@@ -541,7 +537,7 @@ fn a_face_out_of_reach_changes_no_bit() {
 fn contact_allocates_nothing() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
     pool.build().unwrap().install(|| {
-        let mut solver = Block::new(on_a_slope(0.3, 0.5, 0.0)).unwrap();
+        let mut solver = started(on_a_slope(0.3, 0.5, 0.0)).unwrap();
         solver.step().unwrap();
         let info = allocation_counter::measure(|| {
             for _ in 0..20 {
@@ -557,6 +553,6 @@ fn a_face_across_a_periodic_axis_is_refused() {
     let particles = block::<2>(8);
     let contact = RigidContact::new(floor(&particles, DISTANCE), barrier());
     let mut scene = scene(particles, vec![contact]);
-    scene.grid.axes[1] = Axis::periodic(0.0, 24);
-    assert!(matches!(Block::new(scene), Err(Error::Input { .. })));
+    scene.0.grid.axes[1] = Axis::periodic(0.0, 24);
+    assert!(matches!(started(scene), Err(Error::Input { .. })));
 }

@@ -4,8 +4,9 @@ use crate::scenes::{block, open_grid, remedies, scene, scene_with, swirl};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::FbarRate;
 use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
+use mpm_core::explicit::{Solver, Transfer};
 use mpm_core::stage::{BodyForce, LocalDamping};
-use mpm_core::{Axis, Basis, Grid, Simulation, Solver, Transfer};
+use mpm_core::{Axis, Basis, Grid, Simulation};
 
 fn bits<const D: usize, const S: usize, B: Basis<S> + 'static>(threads: usize) -> Vec<u64> {
     bits_of::<D, S, B, _>(threads, Flip::default())
@@ -31,9 +32,9 @@ fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>
         }
         let mut axes = [Axis::open(0.0, 12); D];
         axes[0] = Axis::periodic(0.0, 48);
-        let mut scene = scene_with(Grid::new(0.5, axes).unwrap(), particles, transfer);
-        scene.remedy = Box::new(FbarRate::default());
-        let mut solver = Solver::<D, S, B, _, T>::new(scene).unwrap();
+        let (scene, mut settings) = scene_with(Grid::new(0.5, axes).unwrap(), particles, transfer);
+        settings.remedy = Box::new(FbarRate::default());
+        let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
         for _ in 0..60 {
             solver.step().unwrap();
         }
@@ -87,8 +88,8 @@ fn the_order_of_the_particles_changes_rounding_only() {
             let order: Vec<u32> = (0..particles.len() as u32).rev().collect();
             particles.permute(&order);
         }
-        let mut solver =
-            Solver::<2, 3, Gimp, _>::new(scene(open_grid::<2>(0.5, 12), particles)).unwrap();
+        let (scene, settings) = scene(open_grid::<2>(0.5, 12), particles);
+        let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
         for _ in 0..40 {
             solver.step().unwrap();
         }
@@ -135,15 +136,15 @@ where
         let mut axes = [Axis::open(0.0, 12); D];
         axes[0] = Axis::open(0.0, 48);
         let grid = Grid::new(0.5, axes).unwrap();
-        let mut scene = scene_with(grid, particles, transfer.clone());
-        scene.remedy = remedy;
+        let (mut scene, mut settings) = scene_with(grid, particles, transfer.clone());
+        settings.remedy = remedy;
         scene
             .loads
             .push(Box::new(BodyForce(Box::new(|_, _| [1e-3; D]))));
-        scene
+        settings
             .force_filters
             .push(Box::new(LocalDamping::new(0.1).unwrap()));
-        let mut solver = Solver::<D, S, B, _, T>::new(scene).unwrap();
+        let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
         solver.step().unwrap();
         let sorts = solver.work().sorts;
         for _ in 0..60 {
@@ -160,9 +161,9 @@ where
 
 #[test]
 fn work_is_counted_exactly() {
-    let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
-    scene.remedy = Box::new(FbarRate::default());
-    let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+    let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
+    settings.remedy = Box::new(FbarRate::default());
+    let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
     for _ in 0..10 {
         solver.step().unwrap();
     }
@@ -174,8 +175,8 @@ fn work_is_counted_exactly() {
 
     // XPIC(3) goes twice more to the particles and back.
     let particles = block(0.5, 2, [4, 4], [8, 8]);
-    let scene = scene_with(open_grid::<2>(0.5, 12), particles, Xpic::new(3).unwrap());
-    let mut solver = Solver::<2, 3, Gimp, _, Xpic>::new(scene).unwrap();
+    let (scene, settings) = scene_with(open_grid::<2>(0.5, 12), particles, Xpic::new(3).unwrap());
+    let mut solver = Solver::<2, 3, Gimp, _, Xpic>::new(scene, settings).unwrap();
     solver.step().unwrap();
     assert_eq!(solver.work().particle_node_pairs, 64 * 9 * (2 + 4));
 }

@@ -1,13 +1,12 @@
 //! A rough strip footing on clay, through the barrier.
 
-use mpm_core::basis::{Gimp, WallTreatment};
+use mpm_core::basis::Gimp;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::contact_cfl;
 use mpm_core::explicit::remedy::FbarRate;
-use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Settings, Solver, contact_cfl};
 use mpm_core::material::{HenckyJ2, Law, Strength};
 use mpm_core::stage::{End, Wall, WallKind};
-use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation, Solver};
+use mpm_core::{Axis, Body, Grid, Part, Particles, Scene, Side, Simulation};
 use std::f64::consts::PI;
 
 const H: f64 = 0.05;
@@ -49,26 +48,15 @@ fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp, Hencky
     assert!(contact_cfl(wave, ratio, DT) < 1.15 * wave);
     let friction = Friction::rough(stick).unwrap();
     let upright = Axis::bounded(0.0, CELLS[1] + 3, (Side::Wall, Side::Open));
-    let wall = |axis, end, kind| Box::new(Wall { axis, end, kind });
-    let scene = Scene {
-        dt: DT,
-        grid: Grid::new(H, [Axis::walls(0.0, CELLS[0]), upright]).unwrap(),
-        wall: WallTreatment::OpenKnot,
-        law,
-        particles,
-        remedy: Box::new(FbarRate::default()),
-        loads: Vec::new(),
-        contacts: vec![RigidContact::new(face, barrier).with_friction(friction)],
-        force_filters: Vec::new(),
-        constraints: vec![
-            wall(1, End::Lo, WallKind::Fixed),
-            wall(0, End::Lo, WallKind::Roller),
-            wall(0, End::Hi, WallKind::Roller),
-        ],
-        particle_filters: Vec::new(),
-        transfer: Flip::default(),
-    };
-    (face, barrier, Solver::new(scene).unwrap())
+    let wall = |axis, end, kind| Wall { axis, end, kind };
+    let grid = Grid::new(H, [Axis::walls(0.0, CELLS[0]), upright]).unwrap();
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap())
+        .constrain(wall(1, End::Lo, WallKind::Fixed))
+        .constrain(wall(0, End::Lo, WallKind::Roller))
+        .constrain(wall(0, End::Hi, WallKind::Roller))
+        .contact(RigidContact::new(face, barrier).with_friction(friction));
+    let settings = Settings::new(DT).remedy(Box::new(FbarRate::default()));
+    (face, barrier, Solver::new(scene, settings).unwrap())
 }
 
 /// Gaps of the uppermost particles under the footing (m), and how far they have moved along it at most (m).
@@ -104,7 +92,7 @@ fn a_rough_footing_sinks_into_clay_with_a_known_loss() {
             gaps.iter()
                 .all(|&gap| gap > 0.99 * DISTANCE && gap < DISTANCE)
         );
-        let reaction = solver.reaction(0)[1];
+        let reaction = solver.on(Part::Contact(0)).force[1];
         let known = barrier.gap(reaction / gaps.len() as f64);
         let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
         assert!(

@@ -1,19 +1,17 @@
 //! A run that is saved, built anew and restored goes on bit for bit; what is not its memory is refused.
 
-use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
 use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
+use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength};
 use mpm_core::memory::{Memory, MemoryError, Saved};
 use mpm_core::stage::{
-    BodyForce, Constraint, DeadForce, End, KineticDamping, LocalDamping, Observation,
-    RestCriterion, RigidNodes, Wall, WallKind,
+    BodyForce, DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion,
+    RigidNodes, Wall, WallKind,
 };
-use mpm_core::{
-    Axis, Basis, Grid, Law, Particles, Remedy, Scene, Side, Simulation, Solver, Transfer,
-};
+use mpm_core::{Axis, Basis, Body, Grid, Law, Part, Particles, Scene, Side, Simulation};
 
 const H: f64 = 0.5;
 const CELLS: usize = 20;
@@ -40,7 +38,7 @@ fn scene<M: Law, T>(
     transfer: T,
     remedy: Box<dyn Remedy<2>>,
     width: usize,
-) -> Scene<2, M, T> {
+) -> (Scene<2, M>, Settings<2, T>) {
     let spacing = 0.5 * H;
     let positions = (0..2 * width * 12)
         .map(|k| [(k / 12) as f64, (k % 12) as f64].map(|i| (i + 0.5) * spacing))
@@ -63,32 +61,25 @@ fn scene<M: Law, T>(
         .touching(&particles, 0.2);
     let drag = Friction::new(0.3, 0.5).unwrap();
     let upright = Axis::bounded(0.0, 8, (Side::Wall, Side::Open));
-    Scene {
-        grid: Grid::new(H, [Axis::periodic(0.0, CELLS), upright]).unwrap(),
-        wall: WallTreatment::OpenKnot,
-        law,
-        transfer,
-        particles,
-        remedy,
-        loads: vec![
-            Box::new(BodyForce(Box::new(|x, t| {
-                [100.0 * (15.0 * t).cos(), -0.2 * x[0]]
-            }))),
-            Box::new(pull),
-        ],
-        contacts: vec![RigidContact::new(lid, Barrier::new(0.2, 0.3).unwrap()).with_friction(drag)],
-        force_filters: vec![Box::new(LocalDamping::new(0.1).unwrap())],
-        constraints: vec![
-            Box::new(Wall {
-                axis: 1,
-                end: End::Lo,
-                kind: WallKind::Roller,
-            }) as Box<dyn Constraint<2>>,
-            Box::new(press),
-        ],
-        particle_filters: vec![Box::new(KineticDamping::default())],
-        dt,
-    }
+    let grid = Grid::new(H, [Axis::periodic(0.0, CELLS), upright]).unwrap();
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap())
+        .load(BodyForce(Box::new(|x: &[f64; 2], t| {
+            [100.0 * (15.0 * t).cos(), -0.2 * x[0]]
+        })))
+        .load(pull)
+        .constrain(Wall {
+            axis: 1,
+            end: End::Lo,
+            kind: WallKind::Roller,
+        })
+        .constrain(press)
+        .contact(RigidContact::new(lid, Barrier::new(0.2, 0.3).unwrap()).with_friction(drag));
+    let settings = Settings::new(dt)
+        .transfer(transfer)
+        .remedy(remedy)
+        .filter_forces(LocalDamping::new(0.1).unwrap())
+        .filter_particles(KineticDamping::default());
+    (scene, settings)
 }
 
 /// All that can be seen of a run. Debug writes every bit of a number.
@@ -99,7 +90,7 @@ fn seen(run: &mut dyn Simulation<2>) -> String {
         run.totals(),
         run.residual(),
         run.work(),
-        [run.force_on(0), run.force_on(1), run.reaction(0)],
+        [Part::Constraint(0), Part::Constraint(1), Part::Contact(0)].map(|part| run.on(part)),
         run.particles().clone(),
         run.force_stress()
     )
@@ -139,8 +130,8 @@ fn of_basis<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone + 'sta
     for k in 0..remedies().len() {
         goes_on(&format!("{name}, remedy {k}"), &|| {
             let remedy = remedies().into_iter().nth(k).unwrap();
-            let scene = scene(solid(), transfer.clone(), remedy, 6);
-            Box::new(Solver::<2, S, B, _, _>::new(scene).unwrap())
+            let (scene, settings) = scene(solid(), transfer.clone(), remedy, 6);
+            Box::new(Solver::<2, S, B, _, _>::new(scene, settings).unwrap())
         });
     }
 }
@@ -164,8 +155,8 @@ fn every_basis_remedy_and_transfer_goes_on_bit_for_bit() {
 fn every_law_goes_on_bit_for_bit() {
     fn of_law<M: Law + Copy + 'static>(name: &str, law: M) {
         goes_on(name, &|| {
-            let scene = scene(law, Flip::default(), Box::new(FbarRate::default()), 6);
-            Box::new(Solver::<2, 3, Gimp, _>::new(scene).unwrap())
+            let (scene, settings) = scene(law, Flip::default(), Box::new(FbarRate::default()), 6);
+            Box::new(Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap())
         });
     }
     let strength = Strength::softening(1.0, 0.5, 2.0).unwrap();
@@ -174,7 +165,8 @@ fn every_law_goes_on_bit_for_bit() {
 }
 
 fn gimp(remedy: Box<dyn Remedy<2>>, width: usize) -> Solver<2, 3, Gimp, NeoHookean> {
-    Solver::new(scene(solid(), Flip::default(), remedy, width)).unwrap()
+    let (scene, settings) = scene(solid(), Flip::default(), remedy, width);
+    Solver::new(scene, settings).unwrap()
 }
 
 fn saved() -> Saved {
@@ -197,23 +189,23 @@ fn the_memory_of_another_scene_is_refused() {
     };
     assert_eq!(refusal(gimp(rate(), 7)), size("id", 144, 168));
     assert_eq!(refusal(gimp(Box::new(Standard), 6)), size("j_bar", 144, 0));
-    let flat = scene(solid(), Apic, rate(), 6);
-    let apic = Solver::<2, 3, Gimp, _, _>::new(flat).unwrap();
+    let (flat, settings) = scene(solid(), Apic, rate(), 6);
+    let apic = Solver::<2, 3, Gimp, _, _>::new(flat, settings).unwrap();
     assert_eq!(refusal(apic), size("affine", 0, 144));
-    let mut undamped = scene(solid(), Flip::default(), rate(), 6);
-    undamped.particle_filters.clear();
-    let undamped = Solver::<2, 3, Gimp, _>::new(undamped).unwrap();
+    let (undamped, mut settings) = scene(solid(), Flip::default(), rate(), 6);
+    settings.particle_filters.clear();
+    let undamped = Solver::<2, 3, Gimp, _>::new(undamped, settings).unwrap();
     assert_eq!(refusal(undamped), size("particle filters", 1, 0));
-    let mut longer = scene(solid(), Flip::default(), rate(), 6);
+    let (mut longer, settings) = scene(solid(), Flip::default(), rate(), 6);
     longer.grid = Grid::new(H, [Axis::periodic(0.0, CELLS + 8), longer.grid.axes[1]]).unwrap();
-    let longer = Solver::<2, 3, Gimp, _>::new(longer).unwrap();
+    let longer = Solver::<2, 3, Gimp, _>::new(longer, settings).unwrap();
     assert!(matches!(
         refusal(longer),
         MemoryError::Size { what: "nodes", .. }
     ));
     let fluid = NewtonianFluid::new(200.0, 0.1).unwrap();
-    let fluid = scene(fluid, Flip::default(), rate(), 6);
-    let fluid = Solver::<2, 3, Gimp, _>::new(fluid).unwrap();
+    let (fluid, settings) = scene(fluid, Flip::default(), rate(), 6);
+    let fluid = Solver::<2, 3, Gimp, _>::new(fluid, settings).unwrap();
     assert!(matches!(
         refusal(fluid),
         MemoryError::Read { .. } | MemoryError::Surplus { .. }

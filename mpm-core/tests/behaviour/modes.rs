@@ -5,11 +5,10 @@ mod model;
 use model::{
     Bloch, CELLS, H, KINDS, Kind, LENGTH, Moving, UNSEEN, Wave, add, noise, product, theta,
 };
-use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
-use mpm_core::explicit::courant_time_step;
-use mpm_core::explicit::transfer::Flip;
+use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use mpm_core::explicit::{Settings, Solver, courant_time_step};
 use mpm_core::material::NewtonianFluid;
-use mpm_core::{Axis, Basis, Grid, Law, Particles, Scene, Simulation, Solver, SymmetricTensor};
+use mpm_core::{Axis, Basis, Body, Grid, Law, Particles, Scene, Simulation, SymmetricTensor};
 use nalgebra::{Complex, Matrix3};
 use std::f64::consts::TAU;
 
@@ -58,7 +57,12 @@ const FLUID: NewtonianFluid = NewtonianFluid {
 const C: f64 = 5.0;
 
 /// `n` particles per cell and direction, at the middle of their shares, on a periodic grid.
-fn scene<const D: usize>(n: usize, kind: Kind, cfl: f64, mean: f64) -> Scene<D, Prestressed> {
+fn scene<const D: usize>(
+    n: usize,
+    kind: Kind,
+    cfl: f64,
+    mean: f64,
+) -> (Scene<D, Prestressed>, Settings<D>) {
     let spacing = H / n as f64;
     let count = CELLS * n;
     let positions = (0..count.pow(D as u32))
@@ -76,20 +80,13 @@ fn scene<const D: usize>(n: usize, kind: Kind, cfl: f64, mean: f64) -> Scene<D, 
     particles
         .stress
         .fill(SymmetricTensor::identity().scale_add_identity(mean, 0.0));
-    Scene {
-        dt: courant_time_step(cfl, H, C),
-        grid: Grid::new(H, [Axis::periodic(0.0, CELLS); D]).unwrap(),
-        wall: WallTreatment::OpenKnot,
-        law: Prestressed { bulk: FLUID, mean },
-        particles,
-        remedy: kind.remedy(),
-        loads: Vec::new(),
-        contacts: Vec::new(),
-        force_filters: Vec::new(),
-        constraints: Vec::new(),
-        particle_filters: Vec::new(),
-        transfer: Flip::default(),
-    }
+    let grid = Grid::new(H, [Axis::periodic(0.0, CELLS); D]).unwrap();
+    let law = Prestressed { bulk: FLUID, mean };
+    let settings = Settings::new(courant_time_step(cfl, H, C)).remedy(kind.remedy());
+    (
+        Scene::new(grid, Body::new(law, particles).unwrap()),
+        settings,
+    )
 }
 
 /// Π̂ as a polynomial in y = 1 − cos kh: the closed forms of `docs/modes.md`.
@@ -112,7 +109,8 @@ fn cubic(n: usize, y: f64) -> f64 {
 
 fn symbol_is<const S: usize, B: Basis<S> + 'static>(closed: fn(usize, f64) -> f64) {
     for n in 1..=5 {
-        let solver = Solver::<2, S, B, _>::new(scene(n, Kind::None, 0.3, 0.0));
+        let (scene, settings) = scene(n, Kind::None, 0.3, 0.0);
+        let solver = Solver::<2, S, B, _>::new(scene, settings);
         let mut solver = solver.unwrap();
         let ids: Vec<usize> = solver
             .particles()
@@ -189,22 +187,22 @@ fn waves_at_rest<const S: usize, B: Basis<S> + 'static>(n: usize) {
     let axes = [1, 3, 7].map(|m| Bloch::<S, B>::new(n, theta(m)));
     let (tau, amplitude, steps) = (0.3, 1e-7 * C, 2000);
     for kind in KINDS {
-        let mut scene = scene::<1>(n, kind, tau, 0.0);
-        let mut unseen = vec![0.0; scene.particles.len()];
+        let (mut scene, settings) = scene::<1>(n, kind, tau, 0.0);
+        let mut unseen = vec![0.0; scene.body.particles.len()];
         for axis in &axes {
             let (phi, _) = axis.seen(0.0);
             let mut null = noise(n, 0);
             let share = product(&phi, &null) / product(&phi, &phi).re;
             add(&mut null, -share, &phi);
-            for (id, v) in scene.particles.velocity.iter_mut().enumerate() {
+            for (id, v) in scene.body.particles.velocity.iter_mut().enumerate() {
                 unseen[id] += amplitude * axis.carried(&null, id).re;
                 v[0] += amplitude * axis.carried(&phi, id).re;
             }
         }
-        for (v, unseen) in scene.particles.velocity.iter_mut().zip(&unseen) {
+        for (v, unseen) in scene.body.particles.velocity.iter_mut().zip(&unseen) {
             v[0] += unseen;
         }
-        let mut solver = Solver::<1, S, B, _>::new(scene).unwrap();
+        let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
         for _ in 0..steps {
             solver.step().unwrap();
         }
@@ -251,19 +249,19 @@ fn crossing_is_linear<const S: usize, B: Basis<S> + 'static>(n: usize, mean: f64
     let start = 0.37 * move_of_step;
     let axes = [1, 3, 7].map(|m| Bloch::<S, B>::new(n, theta(m)));
     for kind in KINDS {
-        let mut scene = scene::<1>(n, kind, tau, mean * DENSITY * C * C);
-        for x in &mut scene.particles.position {
+        let (mut scene, settings) = scene::<1>(n, kind, tau, mean * DENSITY * C * C);
+        for x in &mut scene.body.particles.position {
             x[0] += start;
         }
         let mut waves = axes.each_ref().map(|_| Moving::new(noise(n, 3)));
-        for (id, v) in scene.particles.velocity.iter_mut().enumerate() {
-            v[0] = move_of_step / scene.dt;
+        for (id, v) in scene.body.particles.velocity.iter_mut().enumerate() {
+            v[0] = move_of_step / settings.dt;
             for (axis, wave) in axes.iter().zip(&waves) {
                 v[0] += amplitude * C * axis.carried(&wave.velocity, id).re;
             }
         }
-        let mean_velocity = move_of_step / scene.dt;
-        let mut solver = Solver::<1, S, B, _>::new(scene).unwrap();
+        let mean_velocity = move_of_step / settings.dt;
+        let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
         for step in 0..2 * steps_per_cell {
             for (axis, wave) in axes.iter().zip(&mut waves) {
                 let shift = start + f64::from(step) * move_of_step;
@@ -363,13 +361,15 @@ fn unseen_pressure_pushes<const S: usize, B: Basis<S> + 'static>() {
     // Small: volumes and gradients are those of the lattice to first order.
     let strain = 1e-6;
     let push = |kind| -> f64 {
-        let mut scene = scene::<1>(2, kind, 0.3, 0.0);
-        let particles = &mut scene.particles;
+        let (mut scene, settings) = scene::<1>(2, kind, 0.3, 0.0);
+        let Body {
+            law, mut particles, ..
+        } = scene.body;
         for (id, delta_f) in particles.delta_f.iter_mut().enumerate() {
             delta_f[(0, 0)] += strain * axis.carried(&null, id).re;
-            particles.jacobian[id] = delta_f[(0, 0)];
         }
-        let mut solver = Solver::<1, S, B, _>::new(scene).unwrap();
+        scene.body = Body::new(law, particles).unwrap();
+        let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
         solver.step().unwrap();
         let speeds = solver.particles().velocity.iter().map(|v| v[0].abs());
         speeds.fold(0.0, f64::max)
@@ -400,18 +400,18 @@ fn growth_of_noise<const S: usize, B: Basis<S> + 'static>(
     speed: f64,
     steps: usize,
 ) -> f64 {
-    let mut scene = scene::<2>(2, kind, 0.3, mean * DENSITY * C * C);
+    let (mut scene, settings) = scene::<2>(2, kind, 0.3, mean * DENSITY * C * C);
     let mut state = 1_u32;
     let mut random = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         1e-6 * C * (f64::from(state) / f64::from(u32::MAX) - 0.5)
     };
-    let p = &mut scene.particles;
+    let p = &mut scene.body.particles;
     for (v, x) in p.velocity.iter_mut().zip(&p.position) {
         *v = [speed * C * (TAU * x[1] / LENGTH).sin() + random(), random()];
     }
     let across = |p: &Particles<2>| -> f64 { p.velocity.iter().map(|v| v[1] * v[1]).sum() };
-    let mut solver = Solver::<2, S, B, _>::new(scene).unwrap();
+    let mut solver = Solver::<2, S, B, _>::new(scene, settings).unwrap();
     let before = across(solver.particles());
     for _ in 0..steps {
         solver.step().unwrap();
@@ -455,11 +455,11 @@ fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(
     phi.iter_mut().for_each(|f| *f *= turn);
     let (tau, amplitude, steps) = (0.3, 1e-8 * C, 200);
     for kind in [Kind::Total, Kind::Rate, Kind::Consistent] {
-        let mut scene = scene::<1>(n, kind, tau, mean * DENSITY * C * C);
-        for (id, v) in scene.particles.velocity.iter_mut().enumerate() {
+        let (mut scene, settings) = scene::<1>(n, kind, tau, mean * DENSITY * C * C);
+        for (id, v) in scene.body.particles.velocity.iter_mut().enumerate() {
             v[0] = amplitude * axis.carried(&phi, id).re;
         }
-        let mut solver = Solver::<1, S, B, _>::new(scene).unwrap();
+        let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
         for _ in 0..steps {
             solver.step().unwrap();
         }

@@ -1,12 +1,10 @@
 //! A body pressed by nodes that move with a rigid one.
 
-use mpm_core::basis::{Gimp, Linear, QuadraticBSpline, WallTreatment};
-use mpm_core::explicit::courant_time_step;
-use mpm_core::explicit::remedy::Standard;
-use mpm_core::explicit::transfer::Flip;
+use mpm_core::basis::{Gimp, Linear, QuadraticBSpline};
+use mpm_core::explicit::{Settings, Solver, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::stage::{Constraint, End, RigidNodes, Wall, WallKind};
-use mpm_core::{Axis, Basis, Grid, Particles, Scene, Side, Simulation, Solver};
+use mpm_core::stage::{End, RigidNodes, Wall, WallKind};
+use mpm_core::{Axis, Basis, Body, Grid, Part, Particles, Scene, Side, Simulation};
 
 const H: f64 = 0.5;
 const CELLS: usize = 8;
@@ -37,28 +35,16 @@ fn pressed<const S: usize, B: Basis<S> + 'static>(
     let particles =
         Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
     let upright = Axis::bounded(0.0, CELLS, (Side::Wall, Side::Open));
-    let wall = |axis, end, kind| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
+    let wall = |axis, end, kind| Wall { axis, end, kind };
     let law = law();
-    let scene = Scene {
-        dt: courant_time_step(0.3, H, law.wave_speed(DENSITY)),
-        grid: Grid::new(H, [Axis::walls(0.0, CELLS), upright]).unwrap(),
-        wall: WallTreatment::OpenKnot,
-        law,
-        particles,
-        remedy: Box::new(Standard),
-        loads: Vec::new(),
-        contacts: Vec::new(),
-        force_filters: Vec::new(),
-        constraints: vec![
-            wall(1, End::Lo, base),
-            wall(0, End::Lo, WallKind::Roller),
-            wall(0, End::Hi, WallKind::Roller),
-            Box::new(press),
-        ],
-        particle_filters: Vec::new(),
-        transfer: Flip::default(),
-    };
-    Solver::new(scene).unwrap()
+    let settings = Settings::new(courant_time_step(0.3, H, law.wave_speed(DENSITY)));
+    let grid = Grid::new(H, [Axis::walls(0.0, CELLS), upright]).unwrap();
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap())
+        .constrain(wall(1, End::Lo, base))
+        .constrain(wall(0, End::Lo, WallKind::Roller))
+        .constrain(wall(0, End::Hi, WallKind::Roller))
+        .constrain(press);
+    Solver::new(scene, settings).unwrap()
 }
 
 /// A press on the whole top, from half a cell below it for splines, whose functions there are not
@@ -81,8 +67,8 @@ fn force_over_that_of_the_law<const S: usize, B: Basis<S> + 'static>() -> [f64; 
     while solver.time() < end {
         solver.step().unwrap();
         if solver.time() > 0.8 * end {
-            sums[0] += solver.force_on(3)[1];
-            sums[1] -= solver.force_on(0)[1];
+            sums[0] += solver.on(Part::Constraint(3)).force[1];
+            sums[1] -= solver.on(Part::Constraint(0)).force[1];
             count += 1.0;
         }
     }
@@ -114,7 +100,7 @@ fn a_press_meets_the_force_of_the_law() {
 #[test]
 fn a_constraint_that_does_not_exist_has_no_force() {
     let solver = pressed::<3, Gimp>(WallKind::Roller, press([None, Some(-SPEED)]));
-    assert!(solver.force_on(9)[0].is_nan());
+    assert!(solver.on(Part::Constraint(9)).force[0].is_nan());
 }
 
 /// A narrow press on a fixed body: a rough one holds the material under it, a smooth one doesn't; nodes beside it

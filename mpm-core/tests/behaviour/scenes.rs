@@ -1,11 +1,9 @@
 //! Bodies to try the solver on.
 
-use mpm_core::basis::WallTreatment;
-use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
-use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Remedy, Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::{Axis, Grid, Particles, Remedy, Scene};
+use mpm_core::{Axis, Body, Grid, Particles, Scene};
 
 pub(crate) const DENSITY: f64 = 2.0;
 
@@ -42,33 +40,24 @@ pub(crate) fn block<const D: usize>(
     .unwrap()
 }
 
+/// A body of these particles on `grid`, and steps of the CFL number 0.3.
 pub(crate) fn scene<const D: usize>(
     grid: Grid<D>,
     particles: Particles<D>,
-) -> Scene<D, NeoHookean> {
-    scene_with(grid, particles, Flip::default())
+) -> (Scene<D, NeoHookean>, Settings<D>) {
+    let law = law();
+    let dt = courant_time_step(0.3, grid.h, law.wave_speed(DENSITY));
+    let body = Body::new(law, particles).unwrap();
+    (Scene::new(grid, body), Settings::new(dt))
 }
 
 pub(crate) fn scene_with<const D: usize, T>(
     grid: Grid<D>,
     particles: Particles<D>,
     transfer: T,
-) -> Scene<D, NeoHookean, T> {
-    let law = law();
-    Scene {
-        dt: courant_time_step(0.3, grid.h, law.wave_speed(DENSITY)),
-        grid,
-        wall: WallTreatment::OpenKnot,
-        law,
-        particles,
-        remedy: Box::new(Standard),
-        loads: Vec::new(),
-        contacts: Vec::new(),
-        force_filters: Vec::new(),
-        constraints: Vec::new(),
-        particle_filters: Vec::new(),
-        transfer,
-    }
+) -> (Scene<D, NeoHookean>, Settings<D, T>) {
+    let (scene, settings) = scene(grid, particles);
+    (scene, settings.transfer(transfer))
 }
 
 pub(crate) fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {

@@ -4,15 +4,14 @@ use crate::scenes::{
     DENSITY, angular_momentum, block, law, open_grid, remedies, scene, scene_with, swirl,
 };
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::remedy::Standard;
 use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
+use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::projection::Average;
 use mpm_core::stage::{BodyForce, Constraint, End, KineticDamping, LocalDamping, Wall, WallKind};
 use mpm_core::{
-    Axis, Basis, Error, Fault, Grid, Memoryless, Particles, Remedy, Scene, Side, Simulation,
-    Solver, SymmetricTensor, Transfer,
+    Axis, Basis, Error, Fault, Grid, Memoryless, Particles, Side, Simulation, SymmetricTensor,
 };
 use std::f64::consts::PI;
 
@@ -29,9 +28,9 @@ fn conserves<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<
     for remedy in remedies::<D>() {
         let mut particles = block(0.5, 2, [4; D], [8; D]);
         swirl(&mut particles, 0.3);
-        let mut scene = scene_with(open_grid(0.5, 12), particles, transfer.clone());
-        scene.remedy = remedy;
-        let mut solver = Solver::<D, S, B, _, T>::new(scene).unwrap();
+        let (scene, mut settings) = scene_with(open_grid(0.5, 12), particles, transfer.clone());
+        settings.remedy = remedy;
+        let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
         let before = solver.totals();
         let spin = angular_momentum(solver.particles());
         for _ in 0..50 {
@@ -77,10 +76,10 @@ fn rigid_translation_is_exact_and_free_of_stress_across_cells_and_a_periodic_end
         let grid = Grid::new(0.5, [Axis::periodic(0.0, 8), Axis::open(0.0, 12)]).unwrap();
         let mut particles = block(0.5, 2, [1, 4], [7, 8]);
         particles.velocity.fill([3.0, 0.2]);
-        let mut scene = scene(grid, particles);
-        scene.remedy = remedy;
-        let dt = scene.dt;
-        let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene).unwrap();
+        let (scene, mut settings) = scene(grid, particles);
+        settings.remedy = remedy;
+        let dt = settings.dt;
+        let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings).unwrap();
         let steps = 400;
         for _ in 0..steps {
             solver.step().unwrap();
@@ -101,12 +100,12 @@ fn rigid_translation_is_exact_and_free_of_stress_across_cells_and_a_periodic_end
 #[test]
 fn free_fall_is_exact() {
     // Symplectic Euler under a constant force: x_n = x_0 + g Δt² n (n + 1)/2, exactly.
-    let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 5], [8, 9]));
+    let (mut scene, settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 5], [8, 9]));
     scene
         .loads
         .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
-    let dt = scene.dt;
-    let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+    let dt = settings.dt;
+    let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
     for _ in 0..100 {
         solver.step().unwrap();
     }
@@ -129,15 +128,15 @@ fn a_bar_vibrates_at_its_fundamental_frequency() {
     for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
         v[0] = speed * (0.5 * PI * x[0] / length).sin();
     }
-    let mut scene = scene(grid, particles);
+    let (mut scene, settings) = scene(grid, particles);
     scene.constraints.push(Box::new(Wall {
         axis: 0,
         end: End::Lo,
         kind: WallKind::Fixed,
     }));
-    let dt = scene.dt;
+    let dt = settings.dt;
     let period = 4.0 * length / law().wave_speed(DENSITY);
-    let mut solver = Solver::<1, 3, QuadraticBSpline, _>::new(scene).unwrap();
+    let mut solver = Solver::<1, 3, QuadraticBSpline, _>::new(scene, settings).unwrap();
     let tip = |s: &Solver<1, 3, QuadraticBSpline, NeoHookean>| {
         let p = s.particles();
         let last = (0..p.len()).max_by(|a, b| p.reference[*a][0].total_cmp(&p.reference[*b][0]));
@@ -165,10 +164,10 @@ fn walls_hold_what_they_say() {
         let grid = Grid::new(0.5, [Axis::walls(0.0, 4), Axis::walls(0.0, 4)]).unwrap();
         let mut particles = block(0.5, 2, [0, 0], [4, 4]);
         particles.velocity.fill([0.1, 0.2]);
-        let mut scene = scene(grid, particles);
+        let (mut scene, settings) = scene(grid, particles);
         let wall = |axis, end| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
         scene.constraints = vec![wall(0, End::Lo), wall(0, End::Hi)];
-        let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene).unwrap();
+        let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings).unwrap();
         solver.step().unwrap();
         let p = solver.particles();
         // The particle in the corner cell nearest to the wall x = 0.
@@ -197,17 +196,17 @@ fn damping_takes_energy_and_says_how_much() {
     let run = |local: bool| {
         let mut particles = block(0.5, 2, [4, 4], [8, 8]);
         swirl(&mut particles, 0.01);
-        let mut scene = scene(open_grid::<2>(0.5, 12), particles);
+        let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), particles);
         if local {
-            scene
+            settings
                 .force_filters
                 .push(Box::new(LocalDamping::new(0.5).unwrap()));
         } else {
-            scene
+            settings
                 .particle_filters
                 .push(Box::new(KineticDamping::default()));
         }
-        let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+        let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
         let before = solver.totals().kinetic_energy;
         for _ in 0..200 {
             solver.step().unwrap();
@@ -242,15 +241,15 @@ fn sums_over_nodes_are_those_of_a_falling_body_however_many_nodes() {
     let mut particles = block(0.5, 2, [2, 4], [398, 8]);
     particles.velocity.fill([0.0, -SPEED]);
     let grid = Grid::new(0.5, [Axis::open(0.0, 400), Axis::open(0.0, 60)]).unwrap();
-    let mut scene = scene(grid, particles);
+    let (mut scene, mut settings) = scene(grid, particles);
     scene
         .loads
         .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -GRAVITY]))));
-    scene
+    settings
         .force_filters
         .push(Box::new(LocalDamping::new(ALPHA).unwrap()));
-    let dt = scene.dt;
-    let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+    let dt = settings.dt;
+    let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
     let weight = GRAVITY * solver.totals().mass;
     let (mut speed, mut damped) = (SPEED, 0.0);
     for _ in 0..3 {
@@ -270,10 +269,10 @@ fn sums_over_nodes_are_those_of_a_falling_body_however_many_nodes() {
     }
 }
 
-fn fault(change: impl FnOnce(&mut Scene<2, NeoHookean>)) -> (u32, Fault) {
-    let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
-    change(&mut scene);
-    let outcome = Solver::<2, 3, Gimp, _>::new(scene)
+fn fault(change: impl FnOnce(&mut Particles<2>, &mut Settings<2>)) -> (u32, Fault) {
+    let (mut scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
+    change(&mut scene.body.particles, &mut settings);
+    let outcome = Solver::<2, 3, Gimp, _>::new(scene, settings)
         .and_then(|mut solver| (0..2000).try_for_each(|_| solver.step()));
     match outcome {
         Err(Error::Breakdown {
@@ -291,18 +290,18 @@ fn fault(change: impl FnOnce(&mut Scene<2, NeoHookean>)) -> (u32, Fault) {
 
 #[test]
 fn breakdowns_are_typed_and_name_the_particle() {
-    let (_, not_finite) = fault(|s| s.particles.velocity[7] = [f64::NAN, 0.0]);
+    let (_, not_finite) = fault(|p, _| p.velocity[7] = [f64::NAN, 0.0]);
     assert!(
         matches!(not_finite, Fault::NotFinite { .. }),
         "{not_finite:?}"
     );
 
-    let (_, collapsed) = fault(|s| {
+    let (_, collapsed) = fault(|p, s| {
         // A velocity field that turns the body inside out within one step.
         let rate = -1.1 / s.dt;
         s.transfer = Flip::new(0.0).unwrap();
         s.dt *= 1e-3;
-        for (v, x) in s.particles.velocity.iter_mut().zip(&s.particles.position) {
+        for (v, x) in p.velocity.iter_mut().zip(&p.position) {
             *v = [1e3 * rate * (x[0] - 3.0), 0.0];
         }
     });
@@ -311,28 +310,29 @@ fn breakdowns_are_typed_and_name_the_particle() {
         "{collapsed:?}"
     );
 
-    let (_, gone) = fault(|s| s.particles.velocity.fill([0.0, -5.0]));
+    let (_, gone) = fault(|p, _| p.velocity.fill([0.0, -5.0]));
     assert!(matches!(gone, Fault::OffGrid { axis: 1, .. }), "{gone:?}");
 
-    let (_, unstable) = fault(|s| s.dt *= 4.0);
+    let (_, unstable) = fault(|_, s| s.dt *= 4.0);
     assert!(matches!(unstable, Fault::UnstableTimeStep { cfl, .. } if cfl > 1.0));
 
-    let (particle, outside) = fault(|s| s.particles.position[3] = [-1.0, 2.0]);
+    let (particle, outside) = fault(|p, _| p.position[3] = [-1.0, 2.0]);
     assert_eq!(particle, 3);
     assert!(matches!(outside, Fault::OffGrid { axis: 0, .. }));
 }
 
 #[test]
 fn bad_input_is_refused_with_its_range() {
-    let refuse = |change: fn(&mut Scene<2, NeoHookean>)| {
-        let mut scene = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
-        change(&mut scene);
-        let error = Solver::<2, 3, Gimp, _>::new(scene).err().unwrap();
+    let refuse = |change: fn(&mut Particles<2>, &mut Settings<2>)| {
+        let (mut scene, mut settings) =
+            scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
+        change(&mut scene.body.particles, &mut settings);
+        let error = Solver::<2, 3, Gimp, _>::new(scene, settings).err().unwrap();
         assert!(matches!(error, Error::Input { .. }), "{error}");
     };
-    refuse(|s| s.dt = 0.0);
-    refuse(|s| s.dt = f64::NAN);
-    refuse(|s| s.particles.half_size = [0.3, 0.1]);
+    refuse(|_, s| s.dt = 0.0);
+    refuse(|_, s| s.dt = f64::NAN);
+    refuse(|p, _| p.half_size = [0.3, 0.1]);
     for eta in [1.5, -0.1, f64::NAN] {
         assert!(matches!(Flip::new(eta), Err(Error::Input { .. })));
     }
@@ -368,13 +368,13 @@ fn a_remedy_may_change_the_stress_that_enters_the_force() {
         for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
             *v = [0.01 * (x[0] - 3.0), 0.01 * (x[1] - 3.0)];
         }
-        let mut scene = scene(open_grid::<2>(0.5, 12), particles);
-        scene.law = NeoHookean {
+        let (mut scene, mut settings) = scene(open_grid::<2>(0.5, 12), particles);
+        scene.body.law = NeoHookean {
             lambda: 100.0,
             mu: 1e-9,
         };
-        scene.remedy = remedy;
-        let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+        settings.remedy = remedy;
+        let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
         let before = solver.totals().kinetic_energy;
         for _ in 0..20 {
             solver.step().unwrap();

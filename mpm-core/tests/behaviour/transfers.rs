@@ -3,8 +3,9 @@
 use crate::scenes::{angular_momentum, block, open_grid, scene, scene_with, swirl};
 use mpm_core::basis::{Gimp, QuadraticBSpline};
 use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
+use mpm_core::explicit::{Solver, Transfer};
 use mpm_core::stage::{BodyForce, KineticDamping, ParticleFilter};
-use mpm_core::{Basis, Simulation, Solver, Transfer};
+use mpm_core::{Basis, Simulation};
 use nalgebra::SMatrix;
 use std::f64::consts::PI;
 
@@ -12,12 +13,13 @@ use std::f64::consts::PI;
 fn xpic_falls_as_galileo_says() {
     // Its positions are second order: x_n = x_0 + ½ g (n Δt)², exactly.
     let particles = block(0.5, 2, [4, 5], [8, 9]);
-    let mut scene = scene_with(open_grid::<2>(0.5, 12), particles, Xpic::new(2).unwrap());
+    let (mut scene, settings) =
+        scene_with(open_grid::<2>(0.5, 12), particles, Xpic::new(2).unwrap());
     scene
         .loads
         .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
-    let time = 100.0 * scene.dt;
-    let mut solver = Solver::<2, 3, Gimp, _, Xpic>::new(scene).unwrap();
+    let time = 100.0 * settings.dt;
+    let mut solver = Solver::<2, 3, Gimp, _, Xpic>::new(scene, settings).unwrap();
     for _ in 0..100 {
         solver.step().unwrap();
     }
@@ -35,9 +37,9 @@ fn turn<T: Transfer<2>>(transfer: T) -> [f64; 2] {
     for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
         *v = [-spin * (x[1] - 3.0), spin * (x[0] - 3.0)];
     }
-    let scene = scene_with(open_grid::<2>(0.25, 24), particles, transfer);
-    let steps = (1.0 / spin / scene.dt) as usize;
-    let mut solver = Solver::<2, 3, QuadraticBSpline, _, T>::new(scene).unwrap();
+    let (scene, settings) = scene_with(open_grid::<2>(0.25, 24), particles, transfer);
+    let steps = (1.0 / spin / settings.dt) as usize;
+    let mut solver = Solver::<2, 3, QuadraticBSpline, _, T>::new(scene, settings).unwrap();
     let now = |solver: &Solver<2, 3, QuadraticBSpline, _, T>| {
         let momentum = angular_momentum(solver.particles())[0][1];
         [solver.totals().kinetic_energy, momentum]
@@ -105,8 +107,8 @@ fn energy_left<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone>(
                 [1, 0].map(|a: usize| 0.01 * (PI * (x[a] - 1.0) / 4.0).sin())
             };
         }
-        let scene = scene_with(open_grid::<2>(0.25, 24), particles, transfer.clone());
-        let mut solver = Solver::<2, S, B, _, T>::new(scene).unwrap();
+        let (scene, settings) = scene_with(open_grid::<2>(0.25, 24), particles, transfer.clone());
+        let mut solver = Solver::<2, S, B, _, T>::new(scene, settings).unwrap();
         let before = solver.totals().kinetic_energy;
         for _ in 0..100 {
             solver.step().unwrap();
@@ -157,9 +159,9 @@ fn pic_dissipates_and_flip_does_not() {
     let energy = |flip: f64| {
         let mut particles = block(0.5, 2, [4, 4], [8, 8]);
         swirl(&mut particles, 0.01);
-        let mut scene = scene(open_grid::<2>(0.5, 12), particles);
-        scene.transfer = Flip::new(flip).unwrap();
-        let mut solver = Solver::<2, 3, Gimp, _>::new(scene).unwrap();
+        let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), particles);
+        settings.transfer = Flip::new(flip).unwrap();
+        let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
         for _ in 0..40 {
             solver.step().unwrap();
         }

@@ -1,12 +1,12 @@
 //! Walls that hold on to what touches them and walls that let go; a body handed from run to run.
 
-use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
-use mpm_core::explicit::courant_time_step;
+use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline};
 use mpm_core::explicit::remedy::FbarRate;
 use mpm_core::explicit::transfer::{Apic, Flip};
+use mpm_core::explicit::{Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::stage::{BodyForce, Constraint, End, LocalDamping, Wall, WallKind};
-use mpm_core::{Axis, Basis, Error, Grid, Particles, Scene, Simulation, Solver, Transfer};
+use mpm_core::stage::{BodyForce, End, LocalDamping, Wall, WallKind};
+use mpm_core::{Axis, Basis, Body, Error, Grid, Part, Particles, Scene, Simulation};
 
 const H: f64 = 0.5;
 const DENSITY: f64 = 2.0;
@@ -31,23 +31,24 @@ fn block(gap: usize, velocity: [f64; 2]) -> Particles<2> {
     particles
 }
 
-fn scene<T>(particles: Particles<2>, kind: WallKind, transfer: T) -> Scene<2, NeoHookean, T> {
+fn scene<T>(
+    particles: Particles<2>,
+    kind: WallKind,
+    transfer: T,
+) -> (Scene<2, NeoHookean>, Settings<2, T>) {
     let law = NeoHookean::new(100.0, 0.3).unwrap();
-    let wall = |(axis, end)| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
-    Scene {
-        dt: courant_time_step(0.3, H, law.wave_speed(DENSITY)),
-        grid: Grid::new(H, [Axis::walls(0.0, 10), Axis::walls(0.0, 4)]).unwrap(),
-        wall: WallTreatment::OpenKnot,
-        law,
-        particles,
-        remedy: Box::<FbarRate>::default(),
-        loads: Vec::new(),
-        contacts: Vec::new(),
-        force_filters: Vec::new(),
-        constraints: WALLS.map(wall).into(),
-        particle_filters: Vec::new(),
-        transfer,
-    }
+    let dt = courant_time_step(0.3, H, law.wave_speed(DENSITY));
+    let grid = Grid::new(H, [Axis::walls(0.0, 10), Axis::walls(0.0, 4)]).unwrap();
+    let walls = WALLS.map(|(axis, end)| Wall { axis, end, kind });
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain_all(walls);
+    let settings = Settings::new(dt).transfer(transfer);
+    (scene, settings.remedy(Box::<FbarRate>::default()))
+}
+
+fn started<const S: usize, B: Basis<S>, T: Transfer<2>>(
+    (scene, settings): (Scene<2, NeoHookean>, Settings<2, T>),
+) -> Solver<2, S, B, NeoHookean, T> {
+    Solver::new(scene, settings).unwrap()
 }
 
 /// Runs a block between walls that it meets at the left. In every step its momentum is that of the start less the
@@ -57,7 +58,7 @@ fn run<const S: usize, B: Basis<S>, T: Transfer<2>>(
     kind: WallKind,
     transfer: T,
 ) -> Solver<2, S, B, NeoHookean, T> {
-    let mut solver: Solver<2, S, B, _, T> = Solver::new(scene(block, kind, transfer)).unwrap();
+    let mut solver = started(scene(block, kind, transfer));
     let start = solver.totals();
     let size = start.momentum[0].abs();
     let mut energy = start.kinetic_energy;
@@ -65,7 +66,9 @@ fn run<const S: usize, B: Basis<S>, T: Transfer<2>>(
         solver.step().unwrap();
         let now = solver.totals();
         for axis in 0..2 {
-            let given: f64 = (0..WALLS.len()).map(|w| solver.impulse_on(w)[axis]).sum();
+            let given: f64 = (0..WALLS.len())
+                .map(|w| solver.on(Part::Constraint(w)).impulse[axis])
+                .sum();
             let lost = now.momentum[axis] + given - start.momentum[axis];
             assert!(lost.abs() < 1e-12 * size, "{kind:?}: {lost}");
         }
@@ -86,15 +89,15 @@ fn leftmost(solver: &impl Simulation<2>) -> f64 {
 fn separates<const S: usize, B: Basis<S>, T: Transfer<2> + Copy>(transfer: T) {
     let pulled = || block(0, [SPEED, 0.3 * SPEED]);
     let free = run::<S, B, T>(pulled(), WallKind::Separable, transfer);
-    let push = free.impulse_on(0)[0];
+    let push = free.on(Part::Constraint(0)).impulse[0];
     assert!((-1e-5..=0.0).contains(&push), "{push}");
     assert!(leftmost(&free) > H, "{}", leftmost(&free));
     let held = run::<S, B, T>(pulled(), WallKind::Roller, transfer);
-    assert!(held.impulse_on(0)[0] > 0.0);
+    assert!(held.on(Part::Constraint(0)).impulse[0] > 0.0);
     assert!(leftmost(&held) < H, "{}", leftmost(&held));
     let thrown = block(1, [-SPEED, 0.3 * SPEED]);
     let back = run::<S, B, T>(thrown, WallKind::Separable, transfer);
-    assert!(back.impulse_on(0)[0] < 0.0 && back.totals().momentum[0] > 0.0);
+    assert!(back.on(Part::Constraint(0)).impulse[0] < 0.0 && back.totals().momentum[0] > 0.0);
 }
 
 #[test]
@@ -108,24 +111,20 @@ fn separable_walls_bear_no_tension_and_momentum_balances() {
 /// Damping opposes velocities by a share of the force; at a held node that is the reaction itself.
 #[test]
 fn damping_leaves_reactions_what_they_are() {
-    let mut still = scene(block(0, [0.0; 2]), WallKind::Roller, Flip::default());
-    let (weight, dt) = (1.0, still.dt);
-    still
-        .loads
-        .push(Box::new(BodyForce(Box::new(move |_, _| [-weight, 0.0]))));
-    still
-        .force_filters
-        .push(Box::new(LocalDamping::new(0.3).unwrap()));
-    let mass: f64 = still.particles.mass.iter().sum();
-    let mut solver: Solver<2, 3, Gimp, _> = Solver::new(still).unwrap();
+    let (still, settings) = scene(block(0, [0.0; 2]), WallKind::Roller, Flip::default());
+    let (weight, dt) = (1.0, settings.dt);
+    let mass: f64 = still.body.particles.mass.iter().sum();
+    let pulled = still.load(BodyForce(Box::new(move |_: &[f64; 2], _| [-weight, 0.0])));
+    let damped = settings.filter_forces(LocalDamping::new(0.3).unwrap());
+    let mut solver = started::<3, Gimp, _>((pulled, damped));
     for _ in 0..1000 {
         solver.step().unwrap();
     }
-    let before = solver.impulse_on(0)[0];
+    let before = solver.on(Part::Constraint(0)).impulse[0];
     solver.step().unwrap();
-    let impulse = solver.impulse_on(0)[0] - before;
+    let impulse = solver.on(Part::Constraint(0)).impulse[0] - before;
     let expected = -weight * mass;
-    assert!((solver.force_on(0)[0] / expected - 1.0).abs() < 1e-3);
+    assert!((solver.on(Part::Constraint(0)).force[0] / expected - 1.0).abs() < 1e-3);
     assert!((impulse / dt / expected - 1.0).abs() < 1e-3);
 }
 
@@ -138,11 +137,11 @@ fn a_body_goes_on_in_another_run_bit_for_bit() {
             Flip::default(),
         )
     };
-    let mut first: Solver<2, 3, Gimp, _> = Solver::new(start()).unwrap();
+    let mut first = started::<3, Gimp, _>(start());
     for _ in 0..150 {
         first.step().unwrap();
     }
-    let mut second: Solver<2, 3, Gimp, _> = Solver::new(start()).unwrap();
+    let mut second = started::<3, Gimp, _>(start());
     second.take_over(&first.body().unwrap()).unwrap();
     assert_eq!((second.time(), second.work().steps), (0.0, 0));
     for _ in 0..50 {
@@ -158,8 +157,8 @@ fn a_body_of_other_particles_is_refused() {
     let mut few = block(0, [0.0; 2]);
     few.position.truncate(60);
     let few = Particles::new(few.position, 0.0625, DENSITY, [0.125; 2]).unwrap();
-    let few: Solver<2, 3, Gimp, _> = Solver::new(with(few)).unwrap();
-    let mut solver: Solver<2, 3, Gimp, _> = Solver::new(with(block(0, [0.0; 2]))).unwrap();
+    let few = started::<3, Gimp, _>(with(few));
+    let mut solver = started::<3, Gimp, _>(with(block(0, [0.0; 2])));
     let before = solver.body().unwrap();
     let error = solver.take_over(&few.body().unwrap()).unwrap_err();
     assert!(
@@ -176,12 +175,12 @@ fn grain<B: Basis<3>>(
 ) -> Result<Solver<2, 3, B, NeoHookean, Flip>, Error> {
     let place = vec![[x * H, 2.0 * H]];
     let particle = Particles::new(place, H * H / 4.0, DENSITY, [0.25 * H; 2]).unwrap();
-    let mut scene = scene(particle, WallKind::Separable, Flip::default());
-    scene.law = NeoHookean::new(1e-6, 0.0).unwrap();
-    scene.loads = vec![Box::new(BodyForce(Box::new(move |_, _| {
+    let (mut scene, settings) = scene(particle, WallKind::Separable, Flip::default());
+    scene.body.law = NeoHookean::new(1e-6, 0.0).unwrap();
+    let pushed = scene.load(BodyForce(Box::new(move |_: &[f64; 2], _| {
         [-acceleration, 0.0]
-    })))];
-    Solver::new(scene)
+    })));
+    Solver::new(pushed, settings)
 }
 
 #[test]

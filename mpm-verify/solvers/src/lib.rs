@@ -4,42 +4,54 @@ pub mod scheme;
 
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::transfer::{Apic, Xpic};
+use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid};
-use mpm_core::{Error, Law, Scene, Simulation, Solver, Transfer};
+use mpm_core::{Error, Law, Scene, Simulation};
 use scheme::{BasisName, Explicit, Scheme, TransferName};
 
 type Built<const D: usize> = Result<Box<dyn Simulation<D>>, Error>;
 
 /// A law with the solvers that are compiled for it.
 pub trait Solvable<const D: usize>: Law + Sized {
-    /// A solver of `scene` by `scheme`; the transfer of the scene stands for `flip`.
+    /// A solver of `scene` by `scheme`; the transfer of the settings stands for `flip`.
     ///
     /// # Errors
     /// The solver refuses the scene; the scheme is not compiled for this law in this dimension; a transfer other than
     /// `flip` beside a blend with PIC, which it would not see.
-    fn solver(scheme: Scheme, scene: Scene<D, Self>) -> Built<D>;
+    fn solver(scheme: Scheme, scene: Scene<D, Self>, settings: Settings<D>) -> Built<D>;
 }
 
 /// A solver of `scene` by `scheme`.
 ///
 /// # Errors
 /// As [`Solvable::solver`].
-pub fn solver<const D: usize, M: Solvable<D>>(scheme: Scheme, scene: Scene<D, M>) -> Built<D> {
-    M::solver(scheme, scene)
+pub fn solver<const D: usize, M: Solvable<D>>(
+    scheme: Scheme,
+    scene: Scene<D, M>,
+    settings: Settings<D>,
+) -> Built<D> {
+    M::solver(scheme, scene, settings)
 }
 
 /// Compiles solvers for a law: bases with FLIP, and bases with APIC and XPIC too.
 macro_rules! solvable {
     ($dimension:literal, $law:ty, flip: [$($flip:ident),*], others: [$($other:ident),*]) => {
         impl Solvable<$dimension> for $law {
-            fn solver(scheme: Scheme, scene: Scene<$dimension, Self>) -> Built<$dimension> {
+            #[allow(unused_variables, reason = "a law without an instance has no use for a scene")]
+            fn solver(
+                scheme: Scheme,
+                scene: Scene<$dimension, Self>,
+                settings: Settings<$dimension>,
+            ) -> Built<$dimension> {
                 let Scheme::Explicit(Explicit { basis, transfer, .. }) = scheme;
-                refuse_blend(transfer, scene.transfer.share())?;
+                refuse_blend(transfer, settings.transfer.share())?;
                 match (transfer, basis) {
-                    $((TransferName::Flip, BasisName::$flip) => $flip(scene),)*
-                    $((TransferName::Apic, BasisName::$other) => $other(scene.with_transfer(Apic)),
+                    $((TransferName::Flip, BasisName::$flip) => $flip(scene, settings),)*
+                    $((TransferName::Apic, BasisName::$other) => {
+                          $other(scene, settings.transfer(Apic))
+                      }
                       (TransferName::Xpic2, BasisName::$other) => {
-                          $other(scene.with_transfer(Xpic::new(2)?))
+                          $other(scene, settings.transfer(Xpic::new(2)?))
                       })*
                     (_, basis) => Err(not_compiled($dimension, basis, transfer)),
                 }
@@ -63,9 +75,10 @@ macro_rules! with_basis {
     ($($name:ident: $nodes:literal, $basis:ty;)+) => {
         $(#[allow(non_snake_case, reason = "the name of the basis, as the macro above writes it")]
         fn $name<const D: usize, M: Law + 'static, T: Transfer<D> + 'static>(
-            scene: Scene<D, M, T>,
+            scene: Scene<D, M>,
+            settings: Settings<D, T>,
         ) -> Built<D> {
-            Ok(Box::new(Solver::<D, $nodes, $basis, M, T>::new(scene)?))
+            Ok(Box::new(Solver::<D, $nodes, $basis, M, T>::new(scene, settings)?))
         })+
     };
 }

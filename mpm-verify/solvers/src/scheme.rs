@@ -1,6 +1,6 @@
 //! Schemes by solver kind, and their names.
 
-use mpm_core::Remedy;
+use mpm_core::explicit::Remedy;
 use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
 use serde::{Deserialize, Serialize};
 use std::fmt;

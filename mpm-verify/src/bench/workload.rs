@@ -9,11 +9,9 @@ use super::local::{Local, Steps};
 use super::{Options, Turn};
 use crate::error::Error;
 use crate::scheme::{BasisName, RemedyName, Scheme};
-use mpm_core::basis::WallTreatment;
-use mpm_core::explicit::courant_time_step;
-use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::{Axis, Grid, Particles, Scene, Simulation};
+use mpm_core::{Axis, Body, Grid, Particles, Scene, Simulation};
 use mpm_solvers::{Solvable, solver};
 use std::f64::consts::TAU;
 
@@ -78,23 +76,10 @@ where
             true => RemedyName::FbarRecursive,
             false => RemedyName::None,
         };
-        Ok(solver(
-            Scheme::flip(BasisName::Bspline2, remedy),
-            Scene {
-                grid: Grid::new(H, [axis; D])?,
-                wall: WallTreatment::OpenKnot,
-                law,
-                transfer: Flip::default(),
-                particles,
-                remedy: remedy.build(),
-                loads: Vec::new(),
-                contacts: Vec::new(),
-                force_filters: Vec::new(),
-                constraints: Vec::new(),
-                particle_filters: Vec::new(),
-                dt,
-            },
-        )?)
+        let scene = Scene::new(Grid::new(H, [axis; D])?, Body::new(law, particles)?);
+        let scheme = Scheme::flip(BasisName::Bspline2, remedy);
+        let settings = Settings::new(dt).remedy(remedy.build());
+        Ok(solver(scheme, scene, settings)?)
     }
 
     fn turn(

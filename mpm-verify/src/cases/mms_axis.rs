@@ -142,7 +142,7 @@ pub(super) fn claim(r: &Record) -> Claim {
             "splines that are not interpolatory at a wall meet it with first order",
         );
     }
-    if r.remedy == FbarRecursive {
+    if r.remedy() == FbarRecursive {
         return if r.parameters.is("step_scaling", "h2") {
             Claim::Stalls(
                 0.5,
@@ -158,7 +158,7 @@ pub(super) fn claim(r: &Record) -> Claim {
         };
     }
     if amplitude >= CROSSING {
-        return if r.basis == Linear {
+        return if r.basis() == Linear {
             Claim::Stalls(
                 0.5,
                 "the gradient of a linear basis jumps where particles cross cells",
@@ -169,11 +169,11 @@ pub(super) fn claim(r: &Record) -> Claim {
             )
         };
     }
-    if r.transfer != TransferName::Flip {
+    if r.transfer() != TransferName::Flip {
         return Claim::Open(checks::TRANSFER);
     }
     if r.parameters.number("dimension") == 1.0 {
-        match (r.basis, r.remedy) {
+        match (r.basis(), r.remedy()) {
             (Gimp, RemedyName::None) => {
                 return Claim::Observed(
                     [1.4, 2.6],
@@ -188,7 +188,7 @@ pub(super) fn claim(r: &Record) -> Claim {
             _ => {}
         }
     }
-    match r.basis {
+    match r.basis() {
         Linear => Claim::Open(
             "displaced particles shift a linear basis's quadrature of mass and body force by u, a floor of about A² k",
         ),
@@ -201,7 +201,7 @@ pub(super) fn claim(r: &Record) -> Claim {
 }
 
 /// The gates on refinement in space and time.
-pub(super) fn judge_study(records: &[Record]) -> Vec<crate::check::Verdict> {
+pub(super) fn judge_study(records: &[Record]) -> Vec<crate::verdict::Verdict> {
     let mut verdicts = checks::orders_of(records, "displacement_l2", claim);
     verdicts.extend(checks::stress_orders(records, claim));
     verdicts.extend(checks::time_orders(records));

@@ -90,25 +90,25 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
 }
 
 fn claim(r: &Record) -> Claim {
-    if r.basis == Linear {
+    if r.basis() == Linear {
         return Claim::Open("the gradient of a linear basis jumps where particles cross cells");
     }
-    if r.transfer != TransferName::Flip {
+    if r.transfer() != TransferName::Flip {
         return Claim::Open(checks::TRANSFER);
     }
     if feeds_null_space(r) {
-        return if r.basis == Gimp {
+        return if r.basis() == Gimp {
             Claim::Stalls(1.0, NULL_SPACE)
         } else {
             Claim::Open(NULL_SPACE)
         };
     }
-    if is_sound(r.remedy) {
+    if is_sound(r.remedy()) {
         Claim::Observed(
             [1.4, 2.6],
             "second order until the quadrature error of sheared particles shows",
         )
-    } else if r.remedy == RemedyName::None {
+    } else if r.remedy() == RemedyName::None {
         Claim::Open("without a remedy the error is that of locking until the cells resolve it")
     } else {
         Claim::Open("Eq. (26) diffuses J; of an isochoric motion it has little to diffuse")

@@ -56,7 +56,10 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
     sweeps: LOCKING_CURVE,
     breaks_down: |r| {
         let known = [(Bspline2, FbarRate, "n128"), (Linear, FbarTotal, "n64")];
-        let breaks = r.is_default() && known.iter().any(|k| *k == (r.basis, r.remedy, &r.level));
+        let breaks = r.is_default()
+            && known
+                .iter()
+                .any(|k| *k == (r.basis(), r.remedy(), &r.level));
         breaks.then_some(NULL_SPACE)
     },
     ..Manufactured::solid(
@@ -110,15 +113,15 @@ pub(super) const NULL_SPACE: &str =
 
 /// Whether a scheme feeds the null space for so many steps that it shows.
 pub(super) fn feeds_null_space(r: &Record) -> bool {
-    matches!(r.remedy, FbarTotal | FbarRate) && r.discretisation.h < FED
+    matches!(r.remedy(), FbarTotal | FbarRate) && r.discretisation.h < FED
 }
 
 /// What is known of convergence of an isochoric motion.
 pub(super) fn claim(r: &Record) -> Claim {
-    if r.basis == Linear {
+    if r.basis() == Linear {
         return Claim::Open("the gradient of a linear basis jumps where particles cross cells");
     }
-    if r.transfer != TransferName::Flip {
+    if r.transfer() != TransferName::Flip {
         return Claim::Open(checks::TRANSFER);
     }
     if r.discretisation.h < FLOOR {
@@ -128,19 +131,19 @@ pub(super) fn claim(r: &Record) -> Claim {
     }
     if feeds_null_space(r) {
         let shears_only = r.parameters.number("pressure").is_nan();
-        let clear = shears_only && r.remedy == FbarRate && matches!(r.basis, Gimp | Bspline2);
+        let clear = shears_only && r.remedy() == FbarRate && matches!(r.basis(), Gimp | Bspline2);
         return if clear {
             Claim::Stalls(1.0, NULL_SPACE)
         } else {
             Claim::Open(NULL_SPACE)
         };
     }
-    if is_sound(r.remedy) {
+    if is_sound(r.remedy()) {
         Claim::Observed(
             [0.8, 2.6],
             "second order until the quadrature error of sheared particles shows",
         )
-    } else if r.remedy == RemedyName::None {
+    } else if r.remedy() == RemedyName::None {
         Claim::Open("without a remedy the error is that of locking until the cells resolve it")
     } else {
         Claim::Open("Eq. (26) diffuses J; of an isochoric motion it has little to diffuse")
@@ -148,7 +151,7 @@ pub(super) fn claim(r: &Record) -> Claim {
 }
 
 /// The gates on refinement and on locking.
-pub(super) fn judge_study(records: &[Record]) -> Vec<crate::check::Verdict> {
+pub(super) fn judge_study(records: &[Record]) -> Vec<crate::verdict::Verdict> {
     let mut verdicts = checks::orders_of(records, "displacement_l2", claim);
     verdicts.extend(checks::locking(records));
     verdicts

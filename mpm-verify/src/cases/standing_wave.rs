@@ -6,7 +6,6 @@ use super::manufactured::checks;
 use super::manufactured::plan::{REMEDIES, ladder, levels, pairs, union};
 use super::manufactured::{Boundary, Manufactured, numerical, parameters};
 use crate::case::{CheckInfo, Headline, Quantity, RunSpec, Tier, error, headline};
-use crate::check::{Kind, Verdict};
 use crate::error::Error;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{ENTRY, StandingWave};
@@ -14,6 +13,7 @@ use crate::exact::{Exact, Material};
 use crate::parameter::{Domain, Parameter, Parameters};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName};
+use crate::verdict::{Kind, Verdict};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -116,8 +116,8 @@ pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
     headlines: HEADLINES,
     quantities: QUANTITIES,
     breaks_down: |r| {
-        let averaged = r.remedy != RemedyName::None;
-        let early = r.basis == Gimp && r.level == "n16" && r.remedy == RemedyName::FbarTotal;
+        let averaged = r.remedy() != RemedyName::None;
+        let early = r.basis() == Gimp && r.level == "n16" && r.remedy() == RemedyName::FbarTotal;
         let long = r.parameters.number("duration") > TWO_PERIODS && !survives(r);
         (averaged && (early || long)).then_some(
             "what Π can't see has next to no stiffness: particles lose their order, then J or the walls (docs/modes.md)",
@@ -208,7 +208,7 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
 
 /// Whether twenty periods are run through although the particles have lost their order.
 fn survives(r: &Record) -> bool {
-    r.remedy == RemedyName::FbarConsistent && (r.basis == Gimp || r.level == "n8")
+    r.remedy() == RemedyName::FbarConsistent && (r.basis() == Gimp || r.level == "n8")
 }
 
 /// rms ln(J/J̄) that no motion of this steepness explains.
@@ -225,7 +225,7 @@ fn judge(r: &Record) -> Vec<Verdict> {
     let mut verdicts = vec![checks::mass(r)];
     let (metric, error) = ("frequency_error", r.metric("frequency_error"));
     let short = r.parameters.number("duration") <= TWO_PERIODS;
-    if r.remedy == RemedyName::None && r.basis == Gimp {
+    if r.remedy() == RemedyName::None && r.basis() == Gimp {
         verdicts.push(Verdict::above(
             "locks",
             Kind::KnownLimit,
@@ -234,7 +234,7 @@ fn judge(r: &Record) -> Vec<Verdict> {
             tolerance(r),
             "every particle's volume is a constraint",
         ));
-    } else if r.remedy != RemedyName::None && short {
+    } else if r.remedy() != RemedyName::None && short {
         verdicts.push(Verdict::at_most(
             "frequency",
             Kind::Truth,
@@ -244,7 +244,7 @@ fn judge(r: &Record) -> Vec<Verdict> {
             "½ (kh)² + 1 %",
         ));
     }
-    if r.remedy != RemedyName::None && !short {
+    if r.remedy() != RemedyName::None && !short {
         verdicts.push(Verdict::above(
             "loses-order",
             Kind::KnownLimit,
@@ -254,7 +254,7 @@ fn judge(r: &Record) -> Vec<Verdict> {
             "what Π can't see has little stiffness: J parts from J̄ (docs/modes.md)",
         ));
     }
-    if matches!(r.remedy, RemedyName::None | RemedyName::FbarConsistent) {
+    if matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent) {
         verdicts.push(Verdict::at_most(
             "no-energy-gain",
             Kind::Truth,

@@ -7,11 +7,11 @@ use super::manufactured::plan::{ladder, levels, union};
 use super::manufactured::{Manufactured, numerical, parameters};
 use super::mms_vortex_box::{NULL_SPACE, feeds_null_space};
 use crate::case::{CheckInfo, Headline, Quantity, RunSpec, Tier, error};
-use crate::check::{Kind, Verdict};
 use crate::exact::vibrating_bar::{ENTRY, VibratingBar};
 use crate::parameter::Parameters;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName};
+use crate::verdict::{Kind, Verdict};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
@@ -129,8 +129,8 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
 /// (1 − square of the frequency over that without a remedy)/(kh)², to leading order, with two particles
 /// per cell: from the dispersion of docs/modes.md. None where a wall's functions spoil it.
 fn softening(r: &Record) -> Option<f64> {
-    let consistent = r.remedy == RemedyName::FbarConsistent;
-    match r.basis {
+    let consistent = r.remedy() == RemedyName::FbarConsistent;
+    match r.basis() {
         BasisName::Linear | BasisName::Gimp => Some(if consistent { 0.064 } else { 0.25 }),
         BasisName::Bspline2 => Some(if consistent { 0.0 } else { 0.25 }),
         BasisName::Bspline3 => None,
@@ -146,7 +146,7 @@ fn judge(r: &Record) -> Vec<Verdict> {
     let kh = resolution(r);
     let omega = frequency(&r.parameters);
     let phase = omega * r.discretisation.dt;
-    if r.remedy == RemedyName::FbarRecursive {
+    if r.remedy() == RemedyName::FbarRecursive {
         return vec![
             checks::mass(r),
             Verdict::above(
@@ -160,7 +160,7 @@ fn judge(r: &Record) -> Vec<Verdict> {
         ];
     }
     let mut verdicts = vec![checks::mass(r)];
-    let cubic = r.basis == BasisName::Bspline3 && checks::is_sound(r.remedy);
+    let cubic = r.basis() == BasisName::Bspline3 && checks::is_sound(r.remedy());
     if cubic && !feeds_null_space(r) {
         verdicts.push(Verdict::at_most(
             "cubic-walls-damp",
@@ -186,7 +186,7 @@ fn judge(r: &Record) -> Vec<Verdict> {
             "½ (kh)²",
         )
     });
-    if matches!(r.remedy, RemedyName::None | RemedyName::FbarConsistent) {
+    if matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent) {
         verdicts.push(Verdict::at_most(
             "no-energy-gain",
             Kind::Truth,
@@ -200,7 +200,7 @@ fn judge(r: &Record) -> Vec<Verdict> {
 }
 
 fn judge_study(records: &[Record]) -> Vec<Verdict> {
-    let claim = |r: &Record| match (r.remedy, r.basis) {
+    let claim = |r: &Record| match (r.remedy(), r.basis()) {
         (RemedyName::FbarRecursive, _) => Claim::Open("the strain fades within periods"),
         _ if feeds_null_space(r) => Claim::Open(NULL_SPACE),
         (remedy, BasisName::Bspline3) if checks::is_sound(remedy) => {
@@ -213,17 +213,17 @@ fn judge_study(records: &[Record]) -> Vec<Verdict> {
         _ => Claim::Second,
     };
     let mut verdicts = checks::orders_of(records, "frequency_error", claim);
-    verdicts.extend(checks::orders_of(records, "damping", |r| match r.basis {
-        BasisName::Linear | BasisName::Gimp if r.remedy == RemedyName::None => Claim::Second,
+    verdicts.extend(checks::orders_of(records, "damping", |r| match r.basis() {
+        BasisName::Linear | BasisName::Gimp if r.remedy() == RemedyName::None => Claim::Second,
         _ => Claim::Open(
             "judged of linear functions and GIMP without a remedy; the others are in the table",
         ),
     }));
-    let judged = |r: &&Record| checks::is_sound(r.remedy) && !feeds_null_space(r);
+    let judged = |r: &&Record| checks::is_sound(r.remedy()) && !feeds_null_space(r);
     for soft in records.iter().filter(judged) {
         let hard = records.iter().find(|r| {
-            r.remedy == RemedyName::None
-                && r.basis == soft.basis
+            r.remedy() == RemedyName::None
+                && r.basis() == soft.basis()
                 && r.level == soft.level
                 && r.set == soft.set
         });

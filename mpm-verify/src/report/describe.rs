@@ -1,11 +1,11 @@
 //! Text for the terminal: lists, explanations, verdicts.
 
 use crate::case::{Case, Tier};
-use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::metric::Headline;
 use crate::record::{Record, Status};
 use crate::study::{CaseStudy, Summary};
+use crate::verdict::{Kind, Outcome, Verdict};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -137,16 +137,18 @@ pub fn kind(kind: Kind) -> &'static str {
         Kind::Truth => "TRUTH",
         Kind::KnownLimit => "known limit",
         Kind::Drift => "DRIFT",
+        Kind::Bookkeeping => "bookkeeping",
     }
 }
 
 /// Outcome of a verdict in a word or two.
 #[must_use]
 pub fn outcome(verdict: &Verdict) -> &'static str {
-    match verdict.pass {
-        Some(true) => "pass",
-        Some(false) => "FAIL",
-        None => "not applicable",
+    match verdict.outcome {
+        Outcome::Right => "right",
+        Outcome::WrongAsKnown => "wrong as known",
+        Outcome::NotJudged => "not judged",
+        Outcome::Failed => "FAILED",
     }
 }
 

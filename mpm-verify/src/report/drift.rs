@@ -1,12 +1,12 @@
 //! Pictures of what has drifted: golden | now | difference.
 
 use super::triptych::triptych;
-use crate::check::Verdict;
 use crate::error::Error;
 use crate::files::write_picture;
 use crate::gallery::Picture;
 use crate::golden::{Golden, home};
 use crate::study::{CaseStudy, Gathered};
+use crate::verdict::Verdict;
 use std::path::Path;
 
 /// Draws, for each run of a case that has drifted from its golden, its watched series beside the golden's.

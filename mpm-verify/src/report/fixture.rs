@@ -1,11 +1,11 @@
 //! A small summary with every outcome, and texts that break what does not escape them.
 
-use crate::check::{Kind, Verdict};
 use crate::night::Night;
 use crate::parameter::{Parameter, Parameters};
 use crate::record::{Failure, Measured, Record, Status};
-use crate::scheme::{BasisName, RemedyName};
+use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::study::{CaseStudy, Counts, Summary};
+use crate::verdict::{Kind, Verdict};
 
 /// Markup, if it is not escaped.
 pub(super) const NASTY: &str = "</td><script>\"'&amp;";
@@ -15,7 +15,7 @@ pub(super) fn summary() -> Summary {
     let pass = Verdict::close("at-rest", "at_rest", 1.0, 1.0, 0.0, "");
     let fail = Verdict::at_most("mid-edge", Kind::Truth, "mid_edge_uy", 2.0, 1.0, NASTY);
     let skipped = Verdict::not_applicable("tip", "tip_uy", NASTY);
-    let broke = Verdict::close("completes", "run", 0.0, 1.0, 0.0, NASTY);
+    let broke = Verdict::close("completes", "run", 0.0, 1.0, 0.0, NASTY).bookkeeping();
     let mut failed = record("h2", vec![pass.clone(), fail]);
     failed.set = vec!["cfl=0.1".to_owned(), NASTY.to_owned()];
     let mut broken = record("h0.5", vec![broke]);
@@ -56,7 +56,7 @@ pub(super) fn summary() -> Summary {
 /// A run of standard MPM with GIMP at the case's own parameters.
 pub(crate) fn record(level: &str, verdicts: Vec<Verdict>) -> Record {
     let record = serde_json::json!({
-        "schema": 1, "case": "cook", "basis": "gimp", "remedy": "none", "transfer": "flip",
+        "schema": 2, "case": "cook", "scheme": "gimp-none-flip", "solver": "explicit",
         "level": level, "set": [], "status": "ok", "error": null, "perturbed": false,
         "discretisation": {"dim": 2, "h": 1.0, "ppc": 4, "dt": 0.001, "wall": "open-knot"},
         "parameters": {}, "metrics": {}, "verdicts": verdicts,
@@ -80,7 +80,7 @@ pub(crate) fn run(
     metrics: &[(&str, f64)],
 ) -> Record {
     let mut record = record(level, Vec::new());
-    (record.basis, record.remedy) = (basis, remedy);
+    record.scheme = Scheme::flip(basis, remedy);
     record.discretisation.h = h;
     record.set = set.iter().map(|s| (*s).to_owned()).collect();
     record.parameters = Parameters::new(parameters, &record.set).unwrap();
@@ -97,5 +97,5 @@ pub(crate) fn run(
 /// The outcomes of a check, in their order.
 pub(crate) fn outcomes(verdicts: &[Verdict], check: &str) -> Vec<Option<bool>> {
     let of_check = verdicts.iter().filter(|v| v.check == check);
-    of_check.map(|v| v.pass).collect()
+    of_check.map(|v| v.holds()).collect()
 }

@@ -4,7 +4,6 @@ use super::describe::{self, headline, kind, local_orders, made_by, number, order
 use super::price::{Price, Prices};
 use crate::case::Case;
 use crate::cases;
-use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::distinct;
 use crate::draw::sketch;
@@ -15,6 +14,7 @@ use crate::metric::Quantity;
 use crate::record::Record;
 use crate::scheme::Scheme;
 use crate::study::{CaseStudy, Summary};
+use crate::verdict::{Kind, Verdict};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{Environment, UndefinedBehavior, Value, context};
 use std::path::Path;
@@ -237,7 +237,7 @@ fn run(case: &Case, r: &Record) -> Value {
     let undrifted = r
         .verdicts
         .iter()
-        .filter(|v| v.kind == Kind::Drift && v.pass == Some(true));
+        .filter(|v| v.kind == Kind::Drift && v.holds() == Some(true));
     context! {
         id => anchor(r),
         name => name(r),
@@ -256,7 +256,7 @@ fn run(case: &Case, r: &Record) -> Value {
 }
 
 fn verdict(v: &Verdict) -> Value {
-    let (class, symbol) = match v.pass {
+    let (class, symbol) = match v.holds() {
         Some(true) => ("pass", "✓"),
         Some(false) if v.kind == Kind::Drift => ("drift", "≠"),
         Some(false) => ("fail", "✗"),
@@ -297,7 +297,7 @@ fn tally(broken: usize, failed: usize, drifted: usize, held: usize) -> Value {
 
 fn outcome_of(verdicts: &[Verdict], broken: usize) -> Value {
     let count = |which: fn(&Verdict) -> bool| verdicts.iter().filter(|v| which(v)).count();
-    let held = count(|v| v.pass == Some(true));
+    let held = count(|v| v.holds() == Some(true));
     tally(
         broken,
         count(Verdict::misses_the_truth),
@@ -321,7 +321,7 @@ fn checks(case: &Case, study: &CaseStudy) -> Vec<Value> {
     let row = |(name, of, statement): (&str, Kind, &str)| {
         let mut counts = [0, 0, 0];
         let mut count = |verdicts: &[&Verdict]| {
-            let any = |pass| verdicts.iter().any(|v| v.pass == pass);
+            let any = |pass| verdicts.iter().any(|v| v.holds() == pass);
             let worst = [Some(false), Some(true), None].into_iter().position(any);
             if let Some(k) = worst {
                 counts[k] += 1;

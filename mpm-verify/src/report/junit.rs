@@ -1,11 +1,11 @@
 //! The verdicts in the format of JUnit, which continuous integration servers show.
 
 use super::describe::{kind, number};
-use crate::check::Verdict;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::{Failure, Record};
 use crate::study::{CaseStudy, Summary};
+use crate::verdict::Verdict;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::path::Path;
 use std::time::Duration;
@@ -63,7 +63,7 @@ fn name(verdict: &Verdict) -> String {
 }
 
 fn status(verdict: &Verdict) -> TestCaseStatus {
-    let mut status = match verdict.pass {
+    let mut status = match verdict.holds() {
         Some(true) => return TestCaseStatus::success(),
         Some(false) => TestCaseStatus::non_success(NonSuccessKind::Failure),
         None => TestCaseStatus::skipped(),

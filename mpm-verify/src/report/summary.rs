@@ -3,13 +3,13 @@
 use super::describe::{self, bless_commands, headline, kind, local_orders, number, order, outcome};
 use super::{price, remedies};
 use crate::cases;
-use crate::check::{Kind, Verdict};
 use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::metric::Headline;
 use crate::record::Record;
 use crate::study::Summary;
+use crate::verdict::{Kind, Verdict};
 use std::fmt::Write;
 use std::path::Path;
 

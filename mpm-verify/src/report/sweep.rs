@@ -171,7 +171,7 @@ mod tests {
 
     fn run(level: &str, remedy: RemedyName, set: &[&str]) -> Record {
         let mut run = record(level, Vec::new());
-        run.remedy = remedy;
+        run.scheme = Scheme::flip(run.basis(), remedy);
         run.set = set.iter().map(|s| (*s).to_owned()).collect();
         run.parameters = Parameters::new(&cook().parameters, &run.set).unwrap();
         let (value, unit) = (Some(0.01), "-".to_owned());

@@ -3,12 +3,12 @@
 use super::SUMMARY;
 use crate::case::Case;
 use crate::cases;
-use crate::check::Kind;
 use crate::error::Error;
 use crate::files::read_versioned;
 use crate::gallery::Picture;
 use crate::run::judge;
 use crate::study::{CaseStudy, SCHEMA, Summary, of_one_program};
+use crate::verdict::Kind;
 use std::path::Path;
 
 /// Reads what the report in `out` says.
@@ -71,9 +71,9 @@ fn judged_again(case: &Case, mut study: CaseStudy) -> CaseStudy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::Verdict;
     use crate::night::Night;
     use crate::report::fixture::record;
+    use crate::verdict::Verdict;
 
     fn study(case: &str, commit: &str) -> CaseStudy {
         let mut run = record("h2", Vec::new());

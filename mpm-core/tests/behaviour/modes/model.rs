@@ -1,8 +1,9 @@
 //! The linear model: waves on the particles of a periodic axis, in closed form for a step.
 
 use mpm_core::basis::WallTreatment;
+use mpm_core::explicit::Remedy;
 use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
-use mpm_core::{Axis, Basis, Remedy};
+use mpm_core::{Axis, Basis};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 

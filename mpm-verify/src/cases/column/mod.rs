@@ -6,10 +6,10 @@ use super::manufactured::checks;
 use super::manufactured::plan::{REMEDIES, ladder, levels, pairs, union};
 use super::manufactured::{Boundary, Manufactured, numerical, parameters};
 use crate::case::{CheckInfo, Headline, RunSpec, Tier};
-use crate::check::{Kind, Verdict};
 use crate::exact::hydrostatic::ENTRY;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName};
+use crate::verdict::{Kind, Verdict};
 use std::sync::LazyLock;
 
 use BasisName::{Bspline2, Bspline3, Gimp};
@@ -148,7 +148,7 @@ fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
 
 /// Whether a mode that the average can't see grows with this scheme until it rules the motion.
 fn grows(r: &Record) -> bool {
-    r.basis == Gimp && matches!(r.remedy, FbarTotal | FbarRate)
+    r.basis() == Gimp && matches!(r.remedy(), FbarTotal | FbarRate)
 }
 
 fn judge(r: &Record) -> Vec<Verdict> {
@@ -156,7 +156,7 @@ fn judge(r: &Record) -> Vec<Verdict> {
     let head = number("density") * number("gravity");
     let long = r.work.steps >= ENOUGH;
     let mut verdicts = vec![checks::mass(r)];
-    verdicts.push(if long && (grows(r) || r.remedy == FbarRecursive) {
+    verdicts.push(if long && (grows(r) || r.remedy() == FbarRecursive) {
         let why = "the column no longer rests: see creep and null-mode-grows";
         Verdict::not_applicable("base-pressure", "base_pressure", why)
     } else {
@@ -169,10 +169,10 @@ fn judge(r: &Record) -> Vec<Verdict> {
             "ρ g H; a quarter of a cell's head, by which an average moves the pressure at a wall",
         )
     });
-    if r.basis == Bspline3 {
+    if r.basis() == Bspline3 {
         return verdicts;
     }
-    if r.remedy == FbarRecursive {
+    if r.remedy() == FbarRecursive {
         verdicts.push(Verdict::above(
             "creep",
             Kind::KnownLimit,

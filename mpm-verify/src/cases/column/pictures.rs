@@ -20,7 +20,7 @@ pub(super) fn draw(
     let mut charts = Vec::new();
     for basis in [BasisName::Gimp, BasisName::Bspline2] {
         let of_basis = |r: &&Record| {
-            r.basis == basis && r.status == Status::Ok && r.transfer == TransferName::Flip
+            r.basis() == basis && r.status == Status::Ok && r.transfer() == TransferName::Flip
         };
         let runs = || study.records.iter().filter(of_basis);
         let longest = runs().map(|r| r.work.steps).max().unwrap_or(0);

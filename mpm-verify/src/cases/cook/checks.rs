@@ -4,9 +4,9 @@ use super::reference::{
     Field, LoadShift, Solution, StressPoint, load_shift, solution, stress_scale,
 };
 use crate::case::{CheckInfo, check};
-use crate::check::{Kind, Verdict};
 use crate::record::{Record, of_own_parameters};
 use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::verdict::{Kind, Verdict};
 use std::collections::BTreeMap;
 
 /// Relative tolerance of mid-edge and edge mean at h ≤ 1 m, per metre of cell size.
@@ -51,7 +51,7 @@ const COUNTS: [(f64, f64); 4] = [
 pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "particle-count",
-        Kind::Truth,
+        Kind::Bookkeeping,
         "1,448, 5,776, 23,072 and 92,224 particles at h = 2, 1, ½ and ¼ with two per direction; the second and third are the paper's",
     ),
     check(
@@ -163,7 +163,7 @@ pub(super) const CHECKS: &[CheckInfo] = &[
 
 fn is_free_of_locking(record: &Record) -> bool {
     matches!(
-        record.remedy,
+        record.remedy(),
         RemedyName::FbarTotal | RemedyName::FbarRate | RemedyName::FbarConsistent
     )
 }
@@ -179,14 +179,14 @@ pub(super) fn judge(record: &Record) -> Vec<Verdict> {
         GAIN,
         "energy balance; symplectic Euler oscillates by ½ Δt times the power",
     ));
-    if record.remedy == RemedyName::FbarRecursive {
+    if record.remedy() == RemedyName::FbarRecursive {
         creep(record, &mut verdicts);
     } else {
         rest(record, &mut verdicts);
     }
     let (least, most) = NEARLY_INCOMPRESSIBLE;
     let nu = record.parameters.number("poisson_ratio");
-    if record.remedy == RemedyName::None && record.basis == BasisName::Gimp && nu >= least {
+    if record.remedy() == RemedyName::None && record.basis() == BasisName::Gimp && nu >= least {
         verdicts.push(Verdict::above(
             "locked",
             Kind::KnownLimit,
@@ -264,7 +264,7 @@ pub(super) fn judge(record: &Record) -> Vec<Verdict> {
 fn count(record: &Record, verdicts: &mut Vec<Verdict>) {
     let h = record.discretisation.h;
     let expected = COUNTS.iter().find(|(size, _)| *size == h);
-    verdicts.push(match expected {
+    let counted = match expected {
         Some((_, count)) if record.discretisation.ppc == 4 => Verdict::close(
             "particle-count",
             "particles",
@@ -278,13 +278,14 @@ fn count(record: &Record, verdicts: &mut Vec<Verdict>) {
             "particles",
             "counted for two particles per direction only",
         ),
-    });
+    };
+    verdicts.push(counted.bookkeeping());
 }
 
 fn rest(record: &Record, verdicts: &mut Vec<Verdict>) {
     let (metric, at_rest) = ("at_rest", record.metric("at_rest"));
-    let spline = record.basis == BasisName::Bspline2;
-    let filtered = record.transfer == TransferName::Xpic2 && spline;
+    let spline = record.basis() == BasisName::Bspline2;
+    let filtered = record.transfer() == TransferName::Xpic2 && spline;
     verdicts.push(if filtered && record.discretisation.h == COARSEST {
         Verdict::at_most(
             "rests-late",
@@ -455,12 +456,12 @@ fn against_reference(record: &Record, reference: &Solution, verdicts: &mut Vec<V
 
 /// Whether the body has so many particles that it is known to be too stiff.
 fn too_stiff(record: &Record) -> bool {
-    record.basis == BasisName::Gimp && record.parameters.number("ppc_per_direction") > 2.0
+    record.basis() == BasisName::Gimp && record.parameters.number("ppc_per_direction") > 2.0
 }
 
 /// Where the pressure of GIMP with F̄ is known to be off by more than a cell would explain.
 fn off_near_free_side(record: &Record, point: &StressPoint) -> bool {
-    record.basis == BasisName::Gimp
+    record.basis() == BasisName::Gimp
         && record.discretisation.h == RESOLVED
         && record.parameters.number("poisson_ratio") > NEARLY_INCOMPRESSIBLE.1
         && (point.x, point.y) == NEAR_FREE_SIDE
@@ -505,7 +506,7 @@ pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
     }
     let mut ladders: BTreeMap<_, Vec<&Record>> = BTreeMap::new();
     for record in standard {
-        if record.remedy != RemedyName::FbarRecursive {
+        if record.remedy() != RemedyName::FbarRecursive {
             ladders.entry(record.scheme()).or_default().push(record);
         }
     }

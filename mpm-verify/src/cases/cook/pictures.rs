@@ -35,7 +35,7 @@ pub(super) fn draw(
     let mut runs = Runs {
         records: of_own_parameters(&study.records)
             .into_iter()
-            .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
+            .filter(|r| r.status == Status::Ok && r.transfer() == TransferName::Flip)
             .collect(),
         gathered,
         out,
@@ -62,7 +62,7 @@ impl Runs<'_> {
     fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
         self.records
             .iter()
-            .find(|r| r.basis == basis && r.remedy == remedy && r.level == level)
+            .find(|r| r.basis() == basis && r.remedy() == remedy && r.level == level)
             .copied()
     }
 
@@ -82,7 +82,7 @@ impl Runs<'_> {
                 let mut points: Vec<(f64, f64)> = self
                     .records
                     .iter()
-                    .filter(|r| r.basis == basis && r.remedy == remedy)
+                    .filter(|r| r.basis() == basis && r.remedy() == remedy)
                     .map(|r| measure(r))
                     .filter(|(x, y)| x.is_finite() && y.is_finite())
                     .collect();

@@ -2,7 +2,7 @@
 
 use super::METRICS;
 use super::checks::CREEP;
-use super::reference::{Field, solution, stress_points, stress_scale};
+use super::reference::{self, solution, stress_points, stress_scale};
 use crate::case::{Column, Job, RunSpec, observed};
 use crate::error::Error;
 use crate::parameter::Parameters;
@@ -11,14 +11,15 @@ use crate::record::{Discretisation, Metric, WorkDone};
 use crate::scheme::RemedyName;
 use crate::statistics::{Line, fit_line, rms};
 use mpm_core::basis::WallTreatment;
-use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{
-    DeadForce, End, ForceFilter, KineticDamping, Load, LocalDamping, Observation, ParticleFilter,
-    RestCriterion, Wall, WallKind,
+    DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion, Wall, WallKind,
 };
-use mpm_core::{Axis, Grid, Memory, MemoryError, Particles, Saved, Scene, Side, Simulation};
+use mpm_core::{
+    Axis, Body, Field, Grid, Memory, MemoryError, Particles, Saved, Scene, Side, Simulation,
+};
 use mpm_solvers::solver;
 use std::collections::BTreeMap;
 
@@ -148,36 +149,24 @@ impl Simulated {
         } else {
             WallTreatment::OpenKnot
         };
-        let mut force_filters: Vec<Box<dyn ForceFilter>> = Vec::new();
+        let mut settings = Settings::new(dt)
+            .wall(wall)
+            .transfer(Flip::new(number("flip"))?)
+            .remedy(spec.scheme.remedy().build());
         if number("damping") > 0.0 {
-            force_filters.push(Box::new(LocalDamping::new(number("damping"))?));
+            settings = settings.filter_forces(LocalDamping::new(number("damping"))?);
         }
-        let mut particle_filters: Vec<Box<dyn ParticleFilter<2>>> = Vec::new();
         if parameters.boolean("kinetic_damping") {
-            particle_filters.push(Box::new(KineticDamping::default()));
+            settings = settings.filter_particles(KineticDamping::default());
         }
         let loads = loads(parameters, period, spacing, &particles);
-        let simulation = solver(
-            spec.scheme,
-            Scene {
-                grid,
-                wall,
-                law,
-                particles,
-                remedy: spec.scheme.remedy().build(),
-                loads,
-                contacts: Vec::new(),
-                force_filters,
-                constraints: vec![Box::new(Wall {
-                    axis: 0,
-                    end: End::Lo,
-                    kind: WallKind::Fixed,
-                })],
-                particle_filters,
-                transfer: Flip::new(number("flip"))?,
-                dt,
-            },
-        )?;
+        let scene = Scene::new(grid, Body::new(law, particles)?).constrain(Wall {
+            axis: 0,
+            end: End::Lo,
+            kind: WallKind::Fixed,
+        });
+        let scene = loads.into_iter().fold(scene, Scene::load);
+        let simulation = solver(spec.scheme, scene, settings)?;
         let (force_ratio, energy_ratio, drift) = REST;
         Ok(Self {
             simulation,
@@ -246,10 +235,8 @@ impl Simulated {
 
     /// Mean normal stress as it enters the forces and its average Π, in seeding order.
     fn mean_stress(&mut self) -> (Vec<f64>, Vec<f64>) {
-        let stress = self.simulation.force_stress();
-        let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
-        let mut averaged = mean.clone();
-        self.simulation.average(&mut averaged);
+        let mean = self.simulation.field(Field::MeanStress);
+        let averaged = self.simulation.field(Field::AveragedMeanStress);
         let p = self.simulation.particles();
         (p.seeded(|k| mean[k]), p.seeded(|k| averaged[k]))
     }
@@ -277,7 +264,7 @@ impl Simulated {
 
     fn stress_error(&self, mean_stress: &[f64]) -> f64 {
         if solution(&self.parameters).is_ok_and(|s| s.poisson_ratio == 0.499) {
-            let (field, scale) = (Field::stored(), stress_scale(&self.parameters));
+            let (field, scale) = (reference::Field::stored(), stress_scale(&self.parameters));
             rms(self
                 .references
                 .iter()
@@ -302,16 +289,13 @@ fn loads(
     period: f64,
     spacing: f64,
     particles: &Particles<2>,
-) -> Vec<Box<dyn Load<2>>> {
+) -> Vec<DeadForce<2>> {
     let total = parameters.number("load");
     let ramp = parameters.number("load_ramp") * period;
-    let column = |share: f64, from_edge: f64| -> Box<dyn Load<2>> {
-        Box::new(DeadForce::shared(
-            [0.0, share * total],
-            ramp,
-            particles,
-            |x| (x[0] - (LENGTH - from_edge * spacing)).abs() < 0.25 * spacing,
-        ))
+    let column = |share: f64, from_edge: f64| {
+        DeadForce::shared([0.0, share * total], ramp, particles, |x| {
+            (x[0] - (LENGTH - from_edge * spacing)).abs() < 0.25 * spacing
+        })
     };
     if parameters.is("load_at", "column") {
         vec![column(1.0, 0.5)]
@@ -566,6 +550,7 @@ impl Job for Simulated {
 mod tests {
     use super::super::PARAMETERS;
     use super::*;
+    use mpm_core::stage::Load;
 
     #[test]
     fn the_papers_particle_counts_are_met_exactly() {

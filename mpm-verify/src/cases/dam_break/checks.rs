@@ -8,9 +8,9 @@ use super::reference::{
     DEPTH, GRAVITY, LENGTH, TANK, elastic_energy, energies, greatest_speed, passage, uncertainty,
 };
 use crate::case::{CheckInfo, check};
-use crate::check::{Kind, Verdict};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::verdict::{Kind, Verdict};
 
 /// Relative tolerance of the forces at rest: of the exact start, and after the gravity stage.
 const AT_REST: (f64, f64) = (1e-3, 5e-3);
@@ -22,12 +22,12 @@ const ROUNDING: f64 = 1e-9;
 pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "particle-count",
-        Kind::Truth,
+        Kind::Bookkeeping,
         "L H / (h/n)² particles at n per direction: the paper's 3,200 at h = 0.25 m and five",
     ),
     check(
         "mass",
-        Kind::Truth,
+        Kind::Bookkeeping,
         "all: the mass at the end is ρ L H to rounding",
     ),
     check(
@@ -152,10 +152,13 @@ fn has_small_steps(record: &Record) -> bool {
 
 /// Whether a scheme has force and rate of volume from different averages, and nothing that dissipates enough.
 fn makes_energy(record: &Record) -> bool {
-    let differ = matches!(record.remedy, RemedyName::FbarTotal | RemedyName::FbarRate);
+    let differ = matches!(
+        record.remedy(),
+        RemedyName::FbarTotal | RemedyName::FbarRate
+    );
     // What a step takes, ½ Σ m |Δv|², grows with it: large ones take more than little that is made.
-    let little = record.remedy == RemedyName::FbarRate
-        && record.basis == BasisName::Bspline2
+    let little = record.remedy() == RemedyName::FbarRate
+        && record.basis() == BasisName::Bspline2
         && record.discretisation.h > COARSE;
     let outweighed = little && !has_small_steps(record);
     differ && !outweighed && (is_flip(record) || is_fine(record))
@@ -166,25 +169,25 @@ pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
     if record.parameters.number("duration") < 2.0 {
         return None;
     }
-    let gimp = record.basis == BasisName::Gimp;
+    let gimp = record.basis() == BasisName::Gimp;
     // On coarse cells quadratic splines, and on the coarsest fbar-rate with small steps, make energy too, but keep the
     // water in the tank.
     let coarsest = record.discretisation.h > COARSE;
-    let keeps_it = record.remedy == RemedyName::FbarRate && coarsest && has_small_steps(record);
+    let keeps_it = record.remedy() == RemedyName::FbarRate && coarsest && has_small_steps(record);
     let leaves_it = gimp && !keeps_it || is_flip(record) && is_fine(record);
     if makes_energy(record) && leaves_it {
         return Some(MAKES_ENERGY);
     }
-    let printed = record.remedy == RemedyName::FbarRecursive;
+    let printed = record.remedy() == RemedyName::FbarRecursive;
     (printed && gimp && is_flip(record) && is_fine(record)).then_some(DRIFTS)
 }
 
 fn is_flip(record: &Record) -> bool {
-    record.transfer == TransferName::Flip && record.parameters.number("pic_rate") == 0.0
+    record.transfer() == TransferName::Flip && record.parameters.number("pic_rate") == 0.0
 }
 
 fn is_averaged(record: &Record) -> bool {
-    record.remedy != RemedyName::None
+    record.remedy() != RemedyName::None
 }
 
 /// Tolerance of forces at rest.
@@ -208,23 +211,29 @@ pub(super) fn judge(record: &Record) -> Vec<Verdict> {
 fn water(record: &Record, verdicts: &mut Vec<Verdict>) {
     let per_cell = f64::from(record.discretisation.ppc);
     let cells = LENGTH * DEPTH / record.discretisation.h.powi(2);
-    verdicts.push(Verdict::close(
-        "particle-count",
-        "particles",
-        record.work.particles as f64,
-        per_cell * cells,
-        0.0,
-        "Zhao et al. 2022, section 4.3: 3,200 at h = 0.25 m",
-    ));
+    verdicts.push(
+        Verdict::close(
+            "particle-count",
+            "particles",
+            record.work.particles as f64,
+            per_cell * cells,
+            0.0,
+            "Zhao et al. 2022, section 4.3: 3,200 at h = 0.25 m",
+        )
+        .bookkeeping(),
+    );
     let mass = record.parameters.number("density") * LENGTH * DEPTH;
-    verdicts.push(Verdict::close(
-        "mass",
-        "mass",
-        record.metric("mass"),
-        mass,
-        ROUNDING * mass,
-        "conservation of mass",
-    ));
+    verdicts.push(
+        Verdict::close(
+            "mass",
+            "mass",
+            record.metric("mass"),
+            mass,
+            ROUNDING * mass,
+            "conservation of mass",
+        )
+        .bookkeeping(),
+    );
     let covered = record.metric("covered_0.4s");
     verdicts.push(if covered.is_nan() {
         Verdict::not_applicable("volume", "covered_0.4s", "the run ends before 0.4 s")
@@ -280,7 +289,7 @@ fn start(record: &Record, verdicts: &mut Vec<Verdict>) {
 /// Whether the first step replaces the exact J by its average.
 fn smooths(record: &Record) -> bool {
     matches!(
-        record.remedy,
+        record.remedy(),
         RemedyName::FbarRecursive | RemedyName::FbarTotal
     )
 }
@@ -294,7 +303,7 @@ fn diffuses(record: &Record) -> bool {
 fn rest(record: &Record, verdicts: &mut Vec<Verdict>) {
     let tolerance = at_rest(record);
     let reaction = record.metric("base_reaction_ratio");
-    if record.remedy == RemedyName::FbarRecursive && diffuses(record) {
+    if record.remedy() == RemedyName::FbarRecursive && diffuses(record) {
         verdicts.push(Verdict::above(
             "creeps",
             Kind::KnownLimit,
@@ -345,7 +354,7 @@ fn energy(record: &Record, verdicts: &mut Vec<Verdict>) {
         ));
     };
     gained("energy_excess");
-    if record.transfer != TransferName::Apic {
+    if record.transfer() != TransferName::Apic {
         gained("energy_gain");
     }
     let number = |name| record.parameters.number(name);
@@ -400,9 +409,9 @@ fn front(record: &Record, verdicts: &mut Vec<Verdict>) {
         None
     };
     let bound = h + uncertainty();
-    match record.remedy {
+    match record.remedy() {
         RemedyName::None => {
-            if why.is_none() && record.basis == BasisName::Gimp {
+            if why.is_none() && record.basis() == BasisName::Gimp {
                 verdicts.push(Verdict::above(
                     "locked",
                     Kind::KnownLimit,

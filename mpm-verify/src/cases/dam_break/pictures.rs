@@ -69,7 +69,7 @@ pub(super) fn draw(
         records: study
             .records
             .iter()
-            .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
+            .filter(|r| r.status == Status::Ok && r.transfer() == TransferName::Flip)
             .filter(own)
             .collect(),
         ladder: cases::find(&study.case)?.ladder,
@@ -91,13 +91,13 @@ impl Runs<'_> {
     fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
         self.records
             .iter()
-            .find(|r| r.basis == basis && r.remedy == remedy && r.level == level)
+            .find(|r| r.basis() == basis && r.remedy() == remedy && r.level == level)
             .copied()
     }
 
     /// Our run among those that are compared over the levels.
     fn on_the_ladder(&self, basis: BasisName, level: &str) -> Option<&Record> {
-        let ours = |r: &&&Record| (r.basis, r.remedy) == (basis, RemedyName::FbarConsistent);
+        let ours = |r: &&&Record| (r.basis(), r.remedy()) == (basis, RemedyName::FbarConsistent);
         let mut own = self.records.iter().filter(ours).copied();
         own.find(|r| r.level == level && r.set == self.ladder)
     }

@@ -11,15 +11,12 @@ use crate::record::{Discretisation, Metric, WorkDone};
 use crate::scheme::BasisName;
 use crate::statistics::{fit_line, rms};
 use mpm_core::basis::WallTreatment;
-use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NewtonianFluid};
 use mpm_core::memory::{Memory, MemoryError, Saved};
-use mpm_core::stage::{
-    BodyForce, Constraint, End, ForceFilter, Load, LocalDamping, RigidNodes, Wall, WallKind,
-    smooth_rise,
-};
-use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
+use mpm_core::stage::{BodyForce, End, LocalDamping, RigidNodes, Wall, WallKind, smooth_rise};
+use mpm_core::{Axis, Body, Field, Grid, Part, Particles, Scene, Side, Simulation};
 use mpm_solvers::solver;
 use nalgebra::{SMatrix, Vector3};
 use std::collections::BTreeMap;
@@ -99,29 +96,22 @@ impl Simulated {
         };
         let build = |gate: bool| -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
             let rise = if gate && staged { RISE } else { 0.0 };
-            let scene = Scene {
-                grid: tank(h)?,
-                wall: if parameters.is("wall", "wall-line") {
+            let scene = Scene::new(tank(h)?, Body::new(law, at_rest(staged)?)?)
+                .load(weight(rise))
+                .constrain_all(walls(parameters))
+                .constrain_all(gate.then(|| gate_of(spec.scheme.basis(), h)));
+            let mut settings = Settings::new(dt)
+                .wall(if parameters.is("wall", "wall-line") {
                     WallTreatment::WallLine
                 } else {
                     WallTreatment::OpenKnot
-                },
-                law,
-                particles: at_rest(staged)?,
-                remedy: spec.scheme.remedy().build(),
-                loads: vec![weight(rise)],
-                contacts: Vec::new(),
-                force_filters: if gate && staged {
-                    damping()?
-                } else {
-                    Vec::new()
-                },
-                constraints: walls(parameters, gate.then(|| gate_of(spec.scheme.basis(), h))),
-                particle_filters: Vec::new(),
-                transfer: Flip::new((-number("pic_rate") * dt).exp())?,
-                dt,
-            };
-            solver(spec.scheme, scene)
+                })
+                .transfer(Flip::new((-number("pic_rate") * dt).exp())?)
+                .remedy(spec.scheme.remedy().build());
+            if gate && staged {
+                settings = settings.filter_forces(LocalDamping::new(DAMPING)?);
+            }
+            solver(spec.scheme, scene, settings)
         };
         let period = 4.0 * DEPTH / law.wave_speed(water.density);
         let run = Self {
@@ -177,13 +167,12 @@ impl Simulated {
 
     /// Pressure (Pa) as it enters the forces, in the particles' order.
     fn pressures(&mut self) -> Vec<f64> {
-        let stress = self.simulation.force_stress();
-        stress.iter().map(|s| -s.mean()).collect()
+        negated(self.simulation.field(Field::MeanStress))
     }
 
     /// Impulses (N s/m) on floor, back wall, front wall and gate so far.
     fn impulses(&self) -> [[f64; 3]; 4] {
-        [FLOOR, BACK, FRONT, GATE].map(|place| self.simulation.impulse_on(place))
+        [FLOOR, BACK, FRONT, GATE].map(|place| self.simulation.on(Part::Constraint(place)).impulse)
     }
 
     /// The mean forces behind the gate since the impulses were `before`, `span` (s) ago.
@@ -217,8 +206,7 @@ impl Simulated {
         let now = self.impulses();
         let force = |place: usize, axis: usize| (now[place][axis] - before[place][axis]) / ROW;
         let pressures = self.pressures();
-        let mut averaged = pressures.clone();
-        self.simulation.average(&mut averaged);
+        let averaged = negated(self.simulation.field(Field::AveragedMeanStress));
         let board = rms(pressures.iter().zip(&averaged).map(|(p, a)| p - a));
         let in_tension = pressures.iter().filter(|p| **p < 0.0).count();
         let totals = self.simulation.totals();
@@ -328,49 +316,43 @@ fn compressed(water: &Hydrostatic, x: &[f64; 2]) -> ([f64; 2], SMatrix<f64, 2, 2
     ([moved.x, moved.y], f.fixed_view::<2, 2>(0, 0).into_owned())
 }
 
+fn negated(mean_stress: Vec<f64>) -> Vec<f64> {
+    mean_stress.into_iter().map(|s| -s).collect()
+}
+
 /// Gravity, which rises over `rise` (s).
-fn weight(rise: f64) -> Box<dyn Load<2>> {
-    Box::new(BodyForce(Box::new(move |_, time| {
+fn weight(rise: f64) -> BodyForce<2> {
+    BodyForce(Box::new(move |_, time| {
         [0.0, -GRAVITY * smooth_rise(time, rise)]
-    })))
+    }))
 }
 
-fn damping() -> Result<Vec<Box<dyn ForceFilter>>, mpm_core::Error> {
-    Ok(vec![Box::new(LocalDamping::new(DAMPING)?)])
-}
-
-/// Floor, back and front wall, then the gate, if there is one.
-fn walls(
-    parameters: &Parameters,
-    gate: Option<Box<dyn Constraint<2>>>,
-) -> Vec<Box<dyn Constraint<2>>> {
+/// Floor, back and front wall.
+fn walls(parameters: &Parameters) -> [Wall; 3] {
     let kind = if parameters.is("wall_contact", "sticky") {
         WallKind::Roller
     } else {
         WallKind::Separable
     };
-    let wall = |axis, end| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
-    let mut walls = vec![wall(1, End::Lo), wall(0, End::Lo), wall(0, End::Hi)];
-    walls.extend(gate);
-    walls
+    [(1, End::Lo), (0, End::Lo), (0, End::Hi)].map(|(axis, end)| Wall { axis, end, kind })
 }
 
 /// The gate: it holds, across, all functions that reach it. Nothing flows through it then, and in water at rest, whose
 /// pressure is the same all along a cell, the force on it is exact.
-fn gate_of(basis: BasisName, h: f64) -> Box<dyn Constraint<2>> {
+fn gate_of(basis: BasisName, h: f64) -> RigidNodes<2> {
     let reach = match basis {
         BasisName::Linear | BasisName::Gimp => 0.0,
         BasisName::Bspline2 => 0.5 * h,
         BasisName::Bspline3 => h,
     };
-    Box::new(RigidNodes {
+    RigidNodes {
         extent: [
             [LENGTH - reach, f64::INFINITY],
             [f64::NEG_INFINITY, f64::INFINITY],
         ],
         velocity: [Some(0.0), None],
         ramp: 0.0,
-    })
+    }
 }
 
 impl Memory for Simulated {
@@ -458,8 +440,7 @@ impl Job for Simulated {
     fn particles(&mut self) -> Vec<Column> {
         let column = |name, unit, values| Column { name, unit, values };
         let pressures = self.pressures();
-        let mut averaged = pressures.clone();
-        self.simulation.average(&mut averaged);
+        let averaged = negated(self.simulation.field(Field::AveragedMeanStress));
         let p = self.simulation.particles();
         vec![
             column("x", "m", p.seeded(|k| p.position[k][0])),

@@ -3,10 +3,10 @@
 use super::reference::{CURVE, EXACT, curve, elastic_slope, has_the_curve_of, mean_stresses};
 use super::simulation::{WIDTH, effective_width, mechanism_extent};
 use crate::case::{CheckInfo, check};
-use crate::check::{Kind, Verdict};
 use crate::order::fit_order;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::verdict::{Kind, Verdict};
 
 /// Relative tolerance of the limit load against Prandtl's at h ≤ B/20, by the width that the footing acts with.
 const PRANDTL: f64 = 0.01;
@@ -51,7 +51,7 @@ const UNKNOWN_WIDTH: &str =
 pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "particle-count",
-        Kind::Truth,
+        Kind::Bookkeeping,
         "57,600 · (h/(B/20))⁻² particles at two per direction, four times as many at four: the paper's 230,400 at B/20",
     ),
     check(
@@ -143,7 +143,7 @@ fn coarseness(record: &Record) -> f64 {
 
 fn is_free_of_locking(record: &Record) -> bool {
     matches!(
-        record.remedy,
+        record.remedy(),
         RemedyName::FbarRate | RemedyName::FbarConsistent
     )
 }
@@ -170,7 +170,7 @@ fn why_shown_only(record: &Record) -> Option<String> {
     let rate = record.parameters.number("penetration_rate");
     if rate > SLOW {
         Some(format!("pressed faster than {SLOW} m/s, the ground rings"))
-    } else if record.transfer != TransferName::Flip {
+    } else if record.transfer() != TransferName::Flip {
         Some("what this transfer takes from the motion every step resists the footing as a viscosity does".to_owned())
     } else {
         None
@@ -204,7 +204,7 @@ pub(super) fn judge(record: &Record) -> Vec<Verdict> {
         INERTIA,
         "linear momentum of a body that is pressed slowly",
     ));
-    match record.remedy {
+    match record.remedy() {
         RemedyName::None => locked(record, &mut verdicts),
         _ if is_free_of_locking(record) => limit(record, &mut verdicts),
         _ => {}
@@ -217,7 +217,7 @@ fn count(record: &Record, verdicts: &mut Vec<Verdict>) {
     let own = number("domain_width") == 6.0 && number("domain_depth") == 6.0;
     let per_cell = f64::from(record.discretisation.ppc);
     let cells = 6.0 / record.discretisation.h;
-    verdicts.push(if own && [4.0, 16.0].contains(&per_cell) {
+    let counted = if own && [4.0, 16.0].contains(&per_cell) {
         Verdict::close(
             "particle-count",
             "particles",
@@ -232,7 +232,8 @@ fn count(record: &Record, verdicts: &mut Vec<Verdict>) {
             "particles",
             "counted for two or four particles per direction in a domain of 6B × 6B only",
         )
-    });
+    };
+    verdicts.push(counted.bookkeeping());
 }
 
 fn slope(record: &Record, verdicts: &mut Vec<Verdict>) {
@@ -262,7 +263,7 @@ fn slope(record: &Record, verdicts: &mut Vec<Verdict>) {
 /// By how much (relative) an elastic footing may be softer than one of its width. Splines are exactly rigid up to a cell
 /// inside of its edge only. To a plastic jump of velocity that matters little, but elastic pressures peak at the edge.
 fn soft_edge(record: &Record) -> f64 {
-    match record.basis {
+    match record.basis() {
         BasisName::Linear | BasisName::Gimp => 0.0,
         BasisName::Bspline2 | BasisName::Bspline3 => {
             WIDTH_TO_SLOPE * 2.0 * record.discretisation.h / WIDTH
@@ -297,7 +298,7 @@ fn locked(record: &Record, verdicts: &mut Vec<Verdict>) {
         "nc_effective",
         (1.0 + LOCKED * PRANDTL * coarseness(record)) * EXACT,
     ));
-    if record.basis == BasisName::Gimp {
+    if record.basis() == BasisName::Gimp {
         verdicts.push(limit("checkerboard", "checkerboard_ratio", BOARD.1));
     }
 }
@@ -356,7 +357,7 @@ fn prandtl(record: &Record, verdicts: &mut Vec<Verdict>) {
         return;
     }
     let h = record.discretisation.h;
-    let (width, uncertainty) = effective_width(record.basis, h);
+    let (width, uncertainty) = effective_width(record.basis(), h);
     verdicts.push(Verdict::close(
         "prandtl",
         "nc_effective",
@@ -485,7 +486,7 @@ fn rates(records: &[Record]) -> Vec<Verdict> {
             run.scheme(),
             run.level
         );
-        match run.remedy {
+        match run.remedy() {
             // Faster ones ring: they are there to show it.
             RemedyName::FbarConsistent if run.is_default() => verdicts.push(Verdict::at_most(
                 "rate-independent",
@@ -543,7 +544,7 @@ fn orders(records: &[Record]) -> Vec<Verdict> {
             .iter()
             .filter(|r| r.scheme() == scheme && is_free_of_locking(r))
             .filter(|r| r.is_default() || r.changes_only("penetration"))
-            .filter(|r| effective_width(r.basis, r.discretisation.h).0 > WIDTH)
+            .filter(|r| effective_width(r.basis(), r.discretisation.h).0 > WIDTH)
             .map(|r| (r.discretisation.h, r.metric("prandtl_error")))
             .collect();
         points.sort_by(|a, b| b.0.total_cmp(&a.0));

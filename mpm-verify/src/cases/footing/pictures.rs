@@ -56,7 +56,7 @@ pub(super) fn draw(
         records: study
             .records
             .iter()
-            .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
+            .filter(|r| r.status == Status::Ok && r.transfer() == TransferName::Flip)
             .filter(|r| r.is_default() || r.changes_only("penetration"))
             .collect(),
         gathered,
@@ -75,7 +75,7 @@ impl Runs<'_> {
     fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
         self.records
             .iter()
-            .find(|r| r.basis == basis && r.remedy == remedy && r.level == level)
+            .find(|r| r.basis() == basis && r.remedy() == remedy && r.level == level)
             .copied()
     }
 

@@ -155,7 +155,7 @@ fn elements(record: &Record) -> Result<Elements, String> {
     if record.parameters.is("contact", "barrier") {
         return Err("no elements press through a barrier: see contacts-agree".to_owned());
     }
-    match effective_width(record.basis, h).0 {
+    match effective_width(record.basis(), h).0 {
         width if width == WIDTH => Ok(Elements::Vanishing),
         width if width == WIDTH + h => Ok(Elements::OfCells),
         _ => Err("no elements act as wide as cubic splines".to_owned()),

@@ -11,14 +11,12 @@ use crate::scheme::BasisName;
 use crate::statistics::{fit_line, rms};
 use mpm_core::basis::WallTreatment;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{HenckyJ2, Law, Strength};
 use mpm_core::memory::{Memory, MemoryError, Saved};
-use mpm_core::stage::{
-    Constraint, End, ForceFilter, LocalDamping, RigidNodes, Wall, WallKind, smooth_stroke,
-};
-use mpm_core::{Axis, Grid, Particles, Scene, Side, Simulation};
+use mpm_core::stage::{End, LocalDamping, RigidNodes, Wall, WallKind, smooth_stroke};
+use mpm_core::{Axis, Body, Field, Grid, Part, Particles, Scene, Side, Simulation};
 use mpm_solvers::solver;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -127,48 +125,37 @@ impl Simulated {
             [0.5 * spacing; 2],
         )?;
         let rate = number("penetration_rate");
-        let mut constraints = walls();
-        let mut contacts = Vec::new();
-        let press = if parameters.is("contact", "barrier") {
+        let mut settings = Settings::new(dt)
+            .wall(if parameters.is("wall", "wall-line") {
+                WallTreatment::WallLine
+            } else {
+                WallTreatment::OpenKnot
+            })
+            .transfer(Flip::new(number("flip"))?)
+            .remedy(spec.scheme.remedy().build());
+        if number("damping") > 0.0 {
+            settings = settings.filter_forces(LocalDamping::new(number("damping"))?);
+        }
+        let ground = Scene::new(grid, Body::new(law, particles)?).constrain_all(walls());
+        let (scene, press) = if parameters.is("contact", "barrier") {
             let force = EXACT * number("undrained_strength") * spacing;
             let reach = REACH * h;
             let gap = (1.0 - GIVES_WAY) * reach;
             let barrier = Barrier::carrying_at(force, gap, reach)?;
             let face = RigidFace::half_space(1, End::Hi, 0.0)?
                 .within([[f64::NEG_INFINITY, 0.5 * WIDTH], [0.0; 2]])
-                .touching(&particles, reach)
+                .touching(&ground.body.particles, reach)
                 .moving([0.0, -rate], number("ramp"))?;
             let mut contact = RigidContact::new(face, barrier);
             if parameters.boolean("rough") {
                 contact = contact.with_friction(Friction::rough(barrier.stiffness(gap))?);
             }
-            contacts.push(contact);
-            Press::Barrier(barrier, (0.5 * WIDTH / spacing).round())
+            let pressing = (0.5 * WIDTH / spacing).round();
+            (ground.contact(contact), Press::Barrier(barrier, pressing))
         } else {
-            constraints.push(footing(parameters, h));
-            Press::RigidNodes
+            (ground.constrain(footing(parameters, h)), Press::RigidNodes)
         };
-        let simulation = solver(
-            spec.scheme,
-            Scene {
-                grid,
-                wall: if parameters.is("wall", "wall-line") {
-                    WallTreatment::WallLine
-                } else {
-                    WallTreatment::OpenKnot
-                },
-                law,
-                particles,
-                remedy: spec.scheme.remedy().build(),
-                loads: Vec::new(),
-                contacts,
-                force_filters: filters(number("damping"))?,
-                constraints,
-                particle_filters: Vec::new(),
-                transfer: Flip::new(number("flip"))?,
-                dt,
-            },
-        )?;
+        let simulation = solver(spec.scheme, scene, settings)?;
         Ok(Self {
             simulation,
             press,
@@ -207,8 +194,8 @@ impl Simulated {
     /// Force of the ground on the footing in the last step, upward (N/m).
     fn force_on_footing(&self) -> f64 {
         match self.press {
-            Press::RigidNodes => self.simulation.force_on(FOOTING)[1],
-            Press::Barrier(..) => self.simulation.reaction(0)[1],
+            Press::RigidNodes => self.simulation.on(Part::Constraint(FOOTING)).force[1],
+            Press::Barrier(..) => self.simulation.on(Part::Contact(0)).force[1],
         }
     }
 
@@ -312,10 +299,8 @@ impl Simulated {
 
     /// Mean normal stress as it enters the forces and its average Π, in seeding order.
     fn mean_stress(&mut self) -> (Vec<f64>, Vec<f64>) {
-        let stress = self.simulation.force_stress();
-        let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
-        let mut averaged = mean.clone();
-        self.simulation.average(&mut averaged);
+        let mean = self.simulation.field(Field::MeanStress);
+        let averaged = self.simulation.field(Field::AveragedMeanStress);
         let p = self.simulation.particles();
         (p.seeded(|k| mean[k]), p.seeded(|k| averaged[k]))
     }
@@ -329,18 +314,10 @@ fn seed(across: usize, down: usize, per_direction: usize, spacing: f64) -> Vec<[
         .collect()
 }
 
-fn filters(damping: f64) -> Result<Vec<Box<dyn ForceFilter>>, Error> {
-    Ok(if damping > 0.0 {
-        vec![Box::new(LocalDamping::new(damping)?)]
-    } else {
-        Vec::new()
-    })
-}
-
 /// The fixed base and rollers at the sides.
-fn walls() -> Vec<Box<dyn Constraint<2>>> {
-    let wall = |axis, end, kind| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
-    vec![
+fn walls() -> [Wall; 3] {
+    let wall = |axis, end, kind| Wall { axis, end, kind };
+    [
         wall(1, End::Lo, WallKind::Fixed),
         wall(0, End::Lo, WallKind::Roller),
         wall(0, End::Hi, WallKind::Roller),
@@ -349,15 +326,15 @@ fn walls() -> Vec<Box<dyn Constraint<2>>> {
 
 /// The footing as held nodes: those on and above the surface, and those of the splines with nodes in the middle of
 /// cells that lie half a cell below, without which the surface would not be rigid.
-fn footing(parameters: &Parameters, h: f64) -> Box<dyn Constraint<2>> {
-    Box::new(RigidNodes {
+fn footing(parameters: &Parameters, h: f64) -> RigidNodes<2> {
+    RigidNodes {
         extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * h, f64::INFINITY]],
         velocity: [
             parameters.boolean("rough").then_some(0.0),
             Some(-parameters.number("penetration_rate")),
         ],
         ramp: parameters.number("ramp"),
-    })
+    }
 }
 
 impl Memory for Simulated {
@@ -399,7 +376,7 @@ impl Job for Simulated {
             time += self.simulation.time();
             self.simulation.step()?;
             force += self.force_on_footing();
-            base -= self.simulation.force_on(BASE)[1];
+            base -= self.simulation.on(Part::Constraint(BASE)).force[1];
         }
         let steps = self.steps_per_row as f64;
         // Forces are those at the start of a step.
@@ -441,7 +418,7 @@ impl Job for Simulated {
     fn particles(&mut self) -> Vec<Column> {
         let column = |name, unit, values| Column { name, unit, values };
         let (mean_stress, averaged) = self.mean_stress();
-        let plastic_strain = self.simulation.plastic_strain();
+        let plastic_strain = self.simulation.field(Field::PlasticStrain);
         let flow = self.flow();
         let p = self.simulation.particles();
         let of = |axis: usize| flow.iter().map(|u| u[axis]).collect();
@@ -493,7 +470,7 @@ impl Job for Simulated {
             (
                 "plastic_strain_max".to_owned(),
                 self.simulation
-                    .plastic_strain()
+                    .field(Field::PlasticStrain)
                     .into_iter()
                     .fold(0.0, f64::max),
             ),

@@ -2,9 +2,9 @@
 
 use super::ground::{RISE, STABILITY, factor_of_safety, longest_period};
 use crate::case::{CheckInfo, check};
-use crate::check::{Kind, Verdict};
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::verdict::{Kind, Verdict};
 
 /// Relative tolerance of the force on the base.
 const WEIGHT: f64 = 5e-3;
@@ -36,12 +36,12 @@ const CHECKERBOARD: f64 = 0.05;
 pub(super) const CHECKS: &[CheckInfo] = &[
     check(
         "particle-count",
-        Kind::Truth,
+        Kind::Bookkeeping,
         "as many particles as have their centres strictly inside of the face: the paper's 311,250 at h = 0.2 m",
     ),
     check(
         "mass",
-        Kind::Truth,
+        Kind::Bookkeeping,
         "all: the mass at the end is that of the particles, to rounding",
     ),
     check(
@@ -135,7 +135,7 @@ pub(super) const CHECKS: &[CheckInfo] = &[
 pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
     let number = |name| record.parameters.number(name);
     let (reduction, h, time) = THROWN;
-    let printed = record.remedy == RemedyName::FbarRecursive && record.basis == BasisName::Gimp;
+    let printed = record.remedy() == RemedyName::FbarRecursive && record.basis() == BasisName::Gimp;
     let flat = record.discretisation.dim == 2 && record.discretisation.h <= h;
     let far = number("reduction") >= reduction && number("duration") >= time;
     (printed && flat && far).then_some(THROWS)
@@ -162,23 +162,29 @@ fn ground(record: &Record, verdicts: &mut Vec<Verdict>) {
     if number("face_angle") == 45.0 && whole(rows) && whole(columns) {
         let section = rows * (columns + rows - 1.0) - 0.5 * rows * (rows - 1.0);
         let count = (section * record.metric("particles_across")).round();
-        verdicts.push(Verdict::close(
-            "particle-count",
-            "particles",
-            record.metric("particles"),
-            count,
-            0.0,
-            "Zhao et al. 2022, section 4.4: 311,250 at h = 0.2 m",
-        ));
+        verdicts.push(
+            Verdict::close(
+                "particle-count",
+                "particles",
+                record.metric("particles"),
+                count,
+                0.0,
+                "Zhao et al. 2022, section 4.4: 311,250 at h = 0.2 m",
+            )
+            .bookkeeping(),
+        );
         let mass = number("density") * section * spacing * spacing;
-        verdicts.push(Verdict::close(
-            "mass",
-            "mass",
-            record.metric("mass"),
-            mass,
-            ROUNDING * mass,
-            "conservation of mass",
-        ));
+        verdicts.push(
+            Verdict::close(
+                "mass",
+                "mass",
+                record.metric("mass"),
+                mass,
+                ROUNDING * mass,
+                "conservation of mass",
+            )
+            .bookkeeping(),
+        );
     }
 }
 
@@ -195,7 +201,7 @@ fn rest(record: &Record, verdicts: &mut Vec<Verdict>) {
     verdicts.push(if longest_period(&record.parameters) > RISE {
         let why = "the ground's longest period is longer than the rise of gravity";
         Verdict::not_applicable("at-rest", "kinetic_share_at_rest", why)
-    } else if record.transfer == TransferName::Xpic2 {
+    } else if record.transfer() == TransferName::Xpic2 {
         let why = "what XPIC filters from the velocity every step can only creep: docs/cook.md";
         Verdict::not_applicable("at-rest", "kinetic_share_at_rest", why)
     } else if let Some((check, why)) = keeps_moving(record) {
@@ -226,7 +232,7 @@ fn rest(record: &Record, verdicts: &mut Vec<Verdict>) {
             "overburden_error",
             why,
         ));
-    } else if record.remedy == RemedyName::None && record.basis == BasisName::Gimp {
+    } else if record.remedy() == RemedyName::None && record.basis() == BasisName::Gimp {
         for (metric, bound) in [
             ("overburden_error", OVERBURDEN),
             ("checkerboard_at_rest", CHECKERBOARD),
@@ -255,7 +261,7 @@ fn rest(record: &Record, verdicts: &mut Vec<Verdict>) {
 /// What keeps the ground moving under its weight, if it is known to; the check's name and the reason.
 fn keeps_moving(record: &Record) -> Option<(&'static str, &'static str)> {
     let coarse = record.level == COARSE && record.metric("yielded_at_rest") > 0.0;
-    match (record.remedy, record.basis) {
+    match (record.remedy(), record.basis()) {
         (RemedyName::FbarRecursive, _) => Some((
             "creeps",
             "averages of averages diffuse the volume: docs/column.md",
@@ -268,7 +274,7 @@ fn keeps_moving(record: &Record) -> Option<(&'static str, &'static str)> {
 }
 
 fn energy(record: &Record, verdicts: &mut Vec<Verdict>) {
-    verdicts.push(if record.transfer != TransferName::Flip {
+    verdicts.push(if record.transfer() != TransferName::Flip {
         let why = "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'";
         Verdict::not_applicable("energy-not-gained", "energy_gain", why)
     } else {
@@ -282,7 +288,7 @@ fn energy(record: &Record, verdicts: &mut Vec<Verdict>) {
         )
     });
     let (metric, unaccounted) = ("unaccounted_energy", record.metric("unaccounted_energy"));
-    if record.remedy == RemedyName::FbarConsistent {
+    if record.remedy() == RemedyName::FbarConsistent {
         verdicts.push(Verdict::at_most(
             "energy-not-made",
             Kind::Truth,
@@ -351,7 +357,7 @@ fn slide(record: &Record, verdicts: &mut Vec<Verdict>) {
     // Records of programs that knew no gradual release have none.
     let reduced_for = number("duration") - number("release").max(0.0);
     if reduction > beyond && reduced_for >= 2.5 {
-        if record.remedy != RemedyName::None {
+        if record.remedy() != RemedyName::None {
             let metric = "failed_share_end";
             verdicts.push(Verdict::above(
                 "fails",
@@ -361,7 +367,7 @@ fn slide(record: &Record, verdicts: &mut Vec<Verdict>) {
                 0.01,
                 source,
             ));
-        } else if record.basis == BasisName::Gimp {
+        } else if record.basis() == BasisName::Gimp {
             verdicts.push(Verdict::at_most(
                 "locked",
                 Kind::KnownLimit,
@@ -401,7 +407,7 @@ fn across(record: &Record, verdicts: &mut Vec<Verdict>) {
         )
     };
     let metric = "off_plane_strain_at_rest";
-    verdicts.push(match record.remedy {
+    verdicts.push(match record.remedy() {
         RemedyName::None => plane_strain(metric, GROWN_ROUNDING),
         RemedyName::FbarRecursive => {
             let why = "it creeps, with either scaling at a pace of its own";
@@ -409,7 +415,7 @@ fn across(record: &Record, verdicts: &mut Vec<Verdict>) {
         }
         _ => plane_strain(metric, OTHER_SCALING),
     });
-    if unbroken && record.remedy == RemedyName::None {
+    if unbroken && record.remedy() == RemedyName::None {
         verdicts.push(plane_strain("off_plane_strain_0.5s", GROWN_ROUNDING));
     }
 }
@@ -431,7 +437,7 @@ pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
     }
     // Where the slope fails at once: at the paper's reduction the onset itself is at stake.
     let halved = |(run, _): &(&Record, &Record)| {
-        run.remedy == RemedyName::FbarConsistent && run.parameters.number("cfl") < 0.2
+        run.remedy() == RemedyName::FbarConsistent && run.parameters.number("cfl") < 0.2
     };
     for (run, own) in pairs(records, "cfl").into_iter().filter(halved) {
         let metric = "runout_2.5s";

@@ -5,13 +5,10 @@ use crate::case::RunSpec;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use mpm_core::basis::WallTreatment;
-use mpm_core::explicit::courant_time_step;
-use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{HenckyJ2, Law, Strength};
-use mpm_core::stage::{
-    BodyForce, Constraint, End, ForceFilter, LocalDamping, Wall, WallKind, smooth_rise,
-};
-use mpm_core::{Axis, Grid, Particles, Scene, Side};
+use mpm_core::stage::{BodyForce, End, LocalDamping, Wall, WallKind, smooth_rise};
+use mpm_core::{Axis, Body, Grid, Particles, Scene, Side};
 use std::f64::consts::SQRT_2;
 
 /// Time (s) between two rows of the series.
@@ -147,14 +144,14 @@ impl<const D: usize> Ground<D> {
             .collect()
     }
 
-    /// A scene of it at rest and without stress, under gravity that rises over `rise` (s), with local damping.
+    /// A scene of it at rest and without stress, under gravity that rises over `rise` (s), to be solved with local damping.
     pub(crate) fn scene(
         &self,
         spec: &RunSpec,
         parameters: &Parameters,
         strength: Strength,
         (rise, damping): (f64, f64),
-    ) -> Result<Scene<D, HenckyJ2, Flip>, mpm_core::Error> {
+    ) -> Result<(Scene<D, HenckyJ2>, Settings<D>), mpm_core::Error> {
         let volume = self.spacing.powi(D as i32);
         let half_size = [0.5 * self.spacing; D];
         let places = spec.start_at(self.seed());
@@ -164,24 +161,22 @@ impl<const D: usize> Ground<D> {
             g[1] = -GRAVITY * smooth_rise(time, rise);
             g
         }));
-        Ok(Scene {
-            grid: self.grid(parameters.number("floor"))?,
-            wall: if parameters.is("wall", "wall-line") {
+        let law = Self::law(parameters, strength)?;
+        let grid = self.grid(parameters.number("floor"))?;
+        let scene = Scene::new(grid, Body::new(law, particles)?)
+            .load(weight)
+            .constrain_all(walls::<D>());
+        let mut settings = Settings::new(self.dt)
+            .wall(if parameters.is("wall", "wall-line") {
                 WallTreatment::WallLine
             } else {
                 WallTreatment::OpenKnot
-            },
-            law: Self::law(parameters, strength)?,
-            particles,
-            remedy: spec.scheme.remedy().build(),
-            loads: vec![Box::new(weight)],
-            contacts: Vec::new(),
-            force_filters: filters(damping)?,
-            constraints: walls(),
-            particle_filters: Vec::new(),
-            transfer: Flip::default(),
-            dt: self.dt,
-        })
+            })
+            .remedy(spec.scheme.remedy().build());
+        if damping > 0.0 {
+            settings = settings.filter_forces(LocalDamping::new(damping)?);
+        }
+        Ok((scene, settings))
     }
 }
 
@@ -202,17 +197,9 @@ fn width(spec: &RunSpec, parameters: &Parameters) -> Result<f64, Error> {
     Ok(width)
 }
 
-fn filters(damping: f64) -> Result<Vec<Box<dyn ForceFilter>>, mpm_core::Error> {
-    Ok(if damping > 0.0 {
-        vec![Box::new(LocalDamping::new(damping)?)]
-    } else {
-        Vec::new()
-    })
-}
-
 /// The fixed base, then rollers at the back and, in three dimensions, at the sides.
-fn walls<const D: usize>() -> Vec<Box<dyn Constraint<D>>> {
-    let wall = |axis, end, kind| -> Box<dyn Constraint<D>> { Box::new(Wall { axis, end, kind }) };
+fn walls<const D: usize>() -> Vec<Wall> {
+    let wall = |axis, end, kind| Wall { axis, end, kind };
     let mut walls = vec![
         wall(1, End::Lo, WallKind::Fixed),
         wall(0, End::Lo, WallKind::Roller),

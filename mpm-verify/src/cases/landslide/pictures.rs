@@ -124,7 +124,7 @@ pub(super) fn draw(
     let mut runs = Runs {
         case: &study.case,
         records: (study.records.iter())
-            .filter(|r| r.status == Status::Ok && r.transfer == TransferName::Flip)
+            .filter(|r| r.status == Status::Ok && r.transfer() == TransferName::Flip)
             .filter(own)
             .collect(),
         gathered,
@@ -163,7 +163,7 @@ impl Runs<'_> {
     fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
         self.records
             .iter()
-            .find(|r| r.basis == basis && r.remedy == remedy && r.level == level)
+            .find(|r| r.basis() == basis && r.remedy() == remedy && r.level == level)
             .copied()
     }
 
@@ -179,7 +179,7 @@ impl Runs<'_> {
 
     /// The finest level of the longest runs with a basis and a remedy.
     fn level_of(&self, basis: BasisName, remedy: RemedyName) -> Option<String> {
-        let own = |r: &&&Record| r.basis == basis && r.remedy == remedy;
+        let own = |r: &&&Record| r.basis() == basis && r.remedy() == remedy;
         self.records.iter().find(own).map(|r| r.level.clone())
     }
 

@@ -9,9 +9,9 @@ use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::record::{Discretisation, Metric, WorkDone};
 use crate::statistics::rms;
-use mpm_core::Simulation;
 use mpm_core::material::{HenckyJ2, Strength};
 use mpm_core::memory::{Memory, MemoryError, Saved};
+use mpm_core::{Field, Part, Simulation};
 use mpm_solvers::{Solvable, solver};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -86,8 +86,8 @@ where
         // What is wrong with the reduced strength is said before anything moves.
         strength(parameters, parameters.number("reduction"))?;
         let strength = strength(parameters, 1.0)?;
-        let scene = ground.scene(spec, parameters, strength, (RISE, DAMPING))?;
-        let simulation = solver(spec.scheme, scene)?;
+        let (scene, settings) = ground.scene(spec, parameters, strength, (RISE, DAMPING))?;
+        let simulation = solver(spec.scheme, scene, settings)?;
         let p = simulation.particles();
         let reference: Vec<[f64; 2]> = p.seeded(|k| section_of(&p.reference[k]));
         Ok(Self {
@@ -112,12 +112,14 @@ where
     }
 
     fn step_row(&mut self) -> Result<Row, mpm_core::Error> {
-        let before = self.simulation.impulse_on(BASE)[1];
+        let before = self.simulation.on(Part::Constraint(BASE)).impulse[1];
         for _ in 0..self.ground.steps_per_row {
             self.simulation.step().map_err(|e| self.since_release(e))?;
         }
         let mut row = self.observe();
-        row.base_force = -(self.simulation.impulse_on(BASE)[1] - before) / ROW / self.ground.width;
+        row.base_force = -(self.simulation.on(Part::Constraint(BASE)).impulse[1] - before)
+            / ROW
+            / self.ground.width;
         if self.reduction.is_none() {
             row.time -= STAGE;
             self.at_rest.row = row;
@@ -202,10 +204,10 @@ where
         self.reduction = Some(reduction);
         self.strength = strength(&self.parameters, reduction)?;
         let stages = (0.0, self.parameters.number("damping"));
-        let scene = self
-            .ground
-            .scene(&self.spec, &self.parameters, self.strength, stages)?;
-        self.simulation = solver(self.spec.scheme, scene)?;
+        let (scene, settings) =
+            self.ground
+                .scene(&self.spec, &self.parameters, self.strength, stages)?;
+        self.simulation = solver(self.spec.scheme, scene, settings)?;
         Ok(())
     }
 
@@ -214,8 +216,8 @@ where
         p.seeded(|k| section_of(&p.position[k]))
     }
 
-    fn plastic_strain(&self) -> Vec<f64> {
-        let strain = self.simulation.plastic_strain();
+    fn plastic_strain(&mut self) -> Vec<f64> {
+        let strain = self.simulation.field(Field::PlasticStrain);
         self.simulation.particles().seeded(|k| strain[k])
     }
 
@@ -244,7 +246,7 @@ where
         }
     }
 
-    fn observe(&self) -> Row {
+    fn observe(&mut self) -> Row {
         let (positions, plastic_strain) = (self.positions(), self.plastic_strain());
         let look = self.look(&positions, &plastic_strain);
         let totals = self.simulation.totals();
@@ -285,10 +287,8 @@ where
 
     /// Rms of σ_m − Πσ_m over γ H.
     fn checkerboard(&mut self) -> f64 {
-        let stress = self.simulation.force_stress();
-        let mean: Vec<f64> = stress.iter().map(|s| s.mean()).collect();
-        let mut averaged = mean.clone();
-        self.simulation.average(&mut averaged);
+        let mean = self.simulation.field(Field::MeanStress);
+        let averaged = self.simulation.field(Field::AveragedMeanStress);
         let scale = self.ground.density * GRAVITY * self.ground.section.height;
         rms(mean.iter().zip(&averaged).map(|(s, a)| s - a)) / scale
     }
@@ -319,10 +319,10 @@ where
         now.after(self.before.work)
     }
 
-    fn metrics(&self) -> Vec<(&'static str, f64)> {
+    fn metrics(&mut self) -> Vec<(&'static str, f64)> {
+        let (positions, plastic_strain) = (self.positions(), self.plastic_strain());
         let (rest, totals) = (&self.at_rest, self.simulation.totals());
         let weight = totals.mass * GRAVITY / self.ground.width;
-        let (positions, plastic_strain) = (self.positions(), self.plastic_strain());
         let bands = self.look(&positions, &plastic_strain).bands();
         let mut values = self.series.metrics(&self.ground.section, &rest.row);
         values.extend([
@@ -440,7 +440,7 @@ where
     fn columns(&mut self) -> Vec<Column> {
         let column = |name, unit, values| Column { name, unit, values };
         let plastic_strain = self.slide.plastic_strain();
-        let stress = self.slide.simulation.force_stress();
+        let mean_stress = self.slide.simulation.field(Field::MeanStress);
         let p = self.slide.simulation.particles();
         let mut columns: Vec<Column> = ["x", "y", "z"]
             .into_iter()
@@ -449,7 +449,7 @@ where
             .map(|(a, name)| column(name, "m", p.seeded(|k| p.position[k][a])))
             .collect();
         columns.push(column("plastic_strain", "-", plastic_strain));
-        columns.push(column("mean_stress", "Pa", p.seeded(|k| stress[k].mean())));
+        columns.push(column("mean_stress", "Pa", p.seeded(|k| mean_stress[k])));
         columns
     }
 }

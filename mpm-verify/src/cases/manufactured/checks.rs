@@ -4,7 +4,7 @@ use super::metrics::{
     BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_RATIO, DISPLACEMENT_SCALE, MASS, STRESS_L2,
 };
 use crate::cases::parameters::{CFL, DENSITY, POISSON_RATIO, YOUNG_MODULUS};
-use crate::claim::{Check, Finding, On, run, study};
+use crate::check::{Check, Finding, On, run, study};
 use crate::exact::ANGULAR_FREQUENCY;
 use crate::metric::Metric;
 use crate::order::{fit_order, richardson};

@@ -8,12 +8,12 @@ use crate::parameter::{Parameter, Parameters};
 use crate::scheme::RemedyName;
 use crate::spec::{Level, RunSpec};
 use mpm_core::basis::WallTreatment;
-use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::remedy::FbarConsistent;
 use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Remedy, Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
-use mpm_core::stage::{BodyForce, Constraint, End, Load, Wall, WallKind};
-use mpm_core::{Axis, Grid, Particles, Remedy, Scene, Side, Simulation};
+use mpm_core::stage::{BodyForce, End, Wall, WallKind};
+use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
 use mpm_solvers::{Solvable, solver};
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -42,7 +42,7 @@ impl Timing {
     ) -> Result<Self, Error> {
         let number = |p| parameters.number(p);
         let density = solution.material().density;
-        let mut speed = Body::new(case, solution).wave_speed(density);
+        let mut speed = Medium::new(case, solution).wave_speed(density);
         let ratio = number(STEP_POISSON_RATIO);
         if !ratio.is_nan() {
             let stiff = NeoHookean::new(number(YOUNG_MODULUS), ratio)?;
@@ -102,32 +102,35 @@ where
     NewtonianFluid: Solvable<D>,
 {
     let number = |p| parameters.number(p);
-    let (grid, constraints) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
+    let (grid, walls) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
     let remedy: Box<dyn Remedy<D>> = match spec.scheme.remedy() {
         RemedyName::FbarConsistent => Box::new(FbarConsistent::new(number(RELAXATION))),
         other => other.build(),
     };
-    let forcing = Arc::clone(solution);
-    let body = Body::new(case, solution.as_ref());
-    let scene = Setting {
-        grid,
-        wall: if parameters.is(WALL, WALL_LINE) {
+    let exact = Arc::clone(solution);
+    let forcing = BodyForce(Box::new(move |x: &[f64; D], t| {
+        components(&exact.body_force(&vector(x), t))
+    }));
+    let settings = Settings::new(dt)
+        .wall(if parameters.is(WALL, WALL_LINE) {
             WallTreatment::WallLine
         } else {
             WallTreatment::OpenKnot
-        },
-        transfer: Flip::new(number(FLIP))?,
-        particles: seed(spec, number(PPC_PER_DIRECTION), solution.as_ref(), dt)?,
-        remedy,
-        loads: vec![Box::new(BodyForce(Box::new(move |x: &[f64; D], t| {
-            components(&forcing.body_force(&vector(x), t))
-        })))],
-        constraints,
-        dt,
-    };
-    Ok(match body {
-        Body::Solid(law) => solver(spec.scheme, scene.of(law))?,
-        Body::Fluid(law) => solver(spec.scheme, scene.of(law))?,
+        })
+        .transfer(Flip::new(number(FLIP))?)
+        .remedy(remedy);
+    let particles = seed(spec, number(PPC_PER_DIRECTION), solution.as_ref(), dt)?;
+    Ok(match Medium::new(case, solution.as_ref()) {
+        Medium::Solid(law) => {
+            let scene = Scene::new(grid, Body::new(law, particles)?);
+            let scene = scene.load(forcing).constrain_all(walls);
+            solver(spec.scheme, scene, settings)?
+        }
+        Medium::Fluid(law) => {
+            let scene = Scene::new(grid, Body::new(law, particles)?);
+            let scene = scene.load(forcing).constrain_all(walls);
+            solver(spec.scheme, scene, settings)?
+        }
     })
 }
 
@@ -153,9 +156,9 @@ fn surroundings<const D: usize>(
     boundary: Boundary,
     solution: &dyn Exact,
     h: f64,
-) -> Result<(Grid<D>, Vec<Box<dyn Constraint<D>>>), mpm_core::Error> {
-    let mut walls: Vec<Box<dyn Constraint<D>>> = Vec::new();
-    let mut hold = |axis, end, kind| walls.push(Box::new(Wall { axis, end, kind }));
+) -> Result<(Grid<D>, Vec<Wall>), mpm_core::Error> {
+    let mut walls = Vec::new();
+    let mut hold = |axis, end, kind| walls.push(Wall { axis, end, kind });
     let extent = solution.extent();
     let axes = std::array::from_fn(|axis| {
         let (lo, n) = (extent[axis][0], cells(extent[axis], h));
@@ -222,12 +225,12 @@ fn seed<const D: usize>(
 }
 
 /// The law of the body.
-enum Body {
+enum Medium {
     Solid(NeoHookean),
     Fluid(NewtonianFluid),
 }
 
-impl Body {
+impl Medium {
     fn new(case: Manufactured, solution: &dyn Exact) -> Self {
         let Material { mu, lambda, .. } = solution.material();
         if case.fluid {
@@ -244,37 +247,6 @@ impl Body {
         match self {
             Self::Solid(law) => law.wave_speed(density),
             Self::Fluid(law) => law.wave_speed(density),
-        }
-    }
-}
-
-/// A scene without its law.
-struct Setting<const D: usize> {
-    grid: Grid<D>,
-    wall: WallTreatment,
-    transfer: Flip,
-    particles: Particles<D>,
-    remedy: Box<dyn Remedy<D>>,
-    loads: Vec<Box<dyn Load<D>>>,
-    constraints: Vec<Box<dyn Constraint<D>>>,
-    dt: f64,
-}
-
-impl<const D: usize> Setting<D> {
-    fn of<M: Law>(self, law: M) -> Scene<D, M> {
-        Scene {
-            grid: self.grid,
-            wall: self.wall,
-            law,
-            transfer: self.transfer,
-            particles: self.particles,
-            remedy: self.remedy,
-            loads: self.loads,
-            contacts: Vec::new(),
-            force_filters: Vec::new(),
-            constraints: self.constraints,
-            particle_filters: Vec::new(),
-            dt: self.dt,
         }
     }
 }

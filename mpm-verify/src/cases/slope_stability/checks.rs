@@ -2,9 +2,9 @@
 
 use super::super::landslide::{STABILITY, factor_of_safety};
 use crate::case::{CheckInfo, check};
-use crate::check::{Kind, Verdict};
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName};
+use crate::verdict::{Kind, Verdict};
 
 /// What a slope may exceed its limit by and still be called standing.
 const SLOW: f64 = 0.005;
@@ -51,7 +51,7 @@ fn resolution(record: &Record) -> f64 {
 
 fn locks(record: &Record) -> bool {
     let coarse = record.discretisation.h > FINE;
-    record.remedy == RemedyName::None && (record.basis == BasisName::Gimp || coarse)
+    record.remedy() == RemedyName::None && (record.basis() == BasisName::Gimp || coarse)
 }
 
 pub(super) fn judge(record: &Record) -> Vec<Verdict> {
@@ -98,7 +98,7 @@ pub(super) fn judge(record: &Record) -> Vec<Verdict> {
 pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
     let metric = "strength_reduction_factor";
     let ours = |r: &&Record| {
-        r.remedy == RemedyName::FbarConsistent && r.status == Status::Ok && r.is_default()
+        r.remedy() == RemedyName::FbarConsistent && r.status == Status::Ok && r.is_default()
     };
     let schemes = crate::distinct(records.iter().filter(ours).map(Record::scheme));
     let mut verdicts = Vec::new();

@@ -10,12 +10,12 @@ use crate::case::{
     Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
     headline, metric, runs,
 };
-use crate::check::Verdict;
 use crate::error::Error;
 use crate::parameter::{Domain, Parameter, Parameters, number, parameter};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::sketch::Sketch;
+use crate::verdict::Verdict;
 use simulation::Simulated;
 
 /// The stability of the landslide's slope.

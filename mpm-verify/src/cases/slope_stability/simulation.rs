@@ -6,9 +6,9 @@ use crate::cases::landslide::{DAMPING, Ground, RISE, STABILITY, STAGE, factor_of
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::record::{Discretisation, Metric, WorkDone};
-use mpm_core::Simulation;
 use mpm_core::material::Strength;
 use mpm_core::memory::{Memory, MemoryError, Saved};
+use mpm_core::{Field, Simulation};
 use mpm_solvers::solver;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -53,9 +53,9 @@ impl Simulated {
     pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
         let ground = Ground::new(spec, parameters)?;
         let strength = Strength::perfect(parameters.number("strength"))?;
-        let scene = ground.scene(spec, parameters, strength, (RISE, DAMPING))?;
+        let (scene, settings) = ground.scene(spec, parameters, strength, (RISE, DAMPING))?;
         Ok(Self {
-            simulation: solver(spec.scheme, scene)?,
+            simulation: solver(spec.scheme, scene, settings)?,
             at_rest: None,
             trials: Vec::new(),
             done: WorkDone::default(),
@@ -115,10 +115,10 @@ impl Simulated {
     fn scene_of(&self, factor: f64) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let strength = Strength::perfect(self.parameters.number("strength") / factor)?;
         let stages = (0.0, TRIAL_DAMPING);
-        let scene = self
-            .ground
-            .scene(&self.spec, &self.parameters, strength, stages)?;
-        solver(self.spec.scheme, scene)
+        let (scene, settings) =
+            self.ground
+                .scene(&self.spec, &self.parameters, strength, stages)?;
+        solver(self.spec.scheme, scene, settings)
     }
 
     fn positions(&self) -> Vec<[f64; 2]> {
@@ -224,7 +224,7 @@ impl Job for Simulated {
 
     fn particles(&mut self) -> Vec<Column> {
         let column = |name, unit, values| Column { name, unit, values };
-        let strain = self.simulation.plastic_strain();
+        let strain = self.simulation.field(Field::PlasticStrain);
         let p = self.simulation.particles();
         vec![
             column("x", "m", p.seeded(|k| p.position[k][0])),

@@ -2,9 +2,9 @@
 
 use super::{is_averaged, is_flip};
 use crate::cases::dam_break::reference::LENGTH;
-use crate::check::{Kind, Verdict};
 use crate::record::{Record, Status};
 use crate::scheme::RemedyName;
+use crate::verdict::{Kind, Verdict};
 
 /// Share of the front's error, a cell, that the time step may add to it.
 const TIME_STEP: f64 = 0.1;
@@ -110,8 +110,8 @@ fn against_standard(records: &[Record]) -> Vec<Verdict> {
     for run in records.iter().filter(|r| is_averaged(r)) {
         let standard = records.iter().find(|r| {
             let scheme = run.scheme();
-            r.remedy == RemedyName::None
-                && (r.basis, r.transfer) == (scheme.basis(), scheme.transfer())
+            r.remedy() == RemedyName::None
+                && (r.basis(), r.transfer()) == (scheme.basis(), scheme.transfer())
                 && (&r.level, &r.set) == (&run.level, &run.set)
         });
         let Some(standard) = standard else {
@@ -152,7 +152,7 @@ fn starts(records: &[Record]) -> Vec<Verdict> {
 
 /// What the time step changes.
 fn time_steps(records: &[Record]) -> Vec<Verdict> {
-    let ours = |r: &&Record| r.remedy == RemedyName::FbarConsistent && is_flip(r);
+    let ours = |r: &&Record| r.remedy() == RemedyName::FbarConsistent && is_flip(r);
     changed(records, ours, "cfl")
         .into_iter()
         .map(|(run, own)| {

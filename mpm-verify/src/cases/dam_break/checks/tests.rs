@@ -107,7 +107,7 @@ fn energy_may_be_lost_down_to_water_at_rest_and_not_gained() {
         &[],
         &[("energy_excess", 0.0), ("energy_gain", 1e-3)],
     );
-    apic.transfer = TransferName::Apic;
+    apic.scheme = crate::scheme::Scheme::explicit(apic.basis(), apic.remedy(), TransferName::Apic);
     assert_eq!(outcomes(&judge(&apic), "energy-not-gained"), [Some(true)]);
 }
 
