@@ -2,20 +2,27 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-axis.md`.
 
-use super::manufactured::checks::{self, Claim, Wave};
-use super::manufactured::plan::{
-    BASES, REMEDIES, ladder, more_particles, other_transfers, pairs, union,
+use super::family::{BASES, REMEDIES, family, more_particles, other_transfers, pairs};
+use super::manufactured::checks::{
+    Claim, Claims, STALLED, TRANSFER, Wave, is_sound, of_motion, order_in_time, stress_order,
 };
-use super::manufactured::{Manufactured, numerical, parameters};
-use crate::case::{RunSpec, Sweep, Tier};
+use super::manufactured::metrics::DISPLACEMENT_L2;
+use super::manufactured::{
+    CFL, Manufactured, PPC_PER_DIRECTION, STEP_SCALING, all_parameters, levels,
+};
+use super::parameters::{WALL, WALL_LINE};
+use crate::case::{Case, Family, Tier};
 use crate::exact::axis_aligned::ENTRY;
+use crate::exact::parameters::{AMPLITUDE, DIMENSION};
+use crate::metric::{Metric, Sweep};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::spec::Level;
 use std::f64::consts::TAU;
-use std::sync::LazyLock;
 
 use BasisName::{Bspline2, Bspline3, Gimp, Linear};
 use RemedyName::{FbarConsistent, FbarRate, FbarRecursive};
+use Tier::{Nightly, Pr, Quick};
 
 /// Displacements (m) beyond this cross cells that the levels have.
 const CROSSING: f64 = 0.01;
@@ -26,124 +33,128 @@ const WAVE: Wave = Wave {
     shear: false,
 };
 
-pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
-    references: &[
-        "Exact solution: Wallstedt & Guilkey 2008, doi:10.1016/j.jcp.2008.07.019, with a phase per axis; the balance of momentum is tested by eighth-order differences at random points.",
-    ],
-    limits: &[
-        "∂J/∂n = 0 at the walls: mms-wall-pressure tests what this problem hides there.",
-        "At ν = 0.3 nothing locks; what averaging costs shows, what it is for doesn't.",
-        "Two particles per direction leave a floor once they cross cells, and cubic splines with F̄ and two per direction break the pattern at large strain.",
-    ],
-    schemes: [pairs(&BASES, &REMEDIES), other_transfers()].concat(),
-    plan,
-    checks: checks::CHECKS,
-    judge: |record| checks::of_run(record, &claim(record), &WAVE),
-    judge_study,
-    sweeps: &[
-        Sweep {
-            parameter: "ppc_per_direction",
-            label: "particles per direction",
-            abscissa: |n| n,
-            logarithmic: false,
-        },
-        Sweep {
-            parameter: "cfl",
-            label: "CFL number",
-            abscissa: |c| c,
-            logarithmic: true,
-        },
-    ],
-    ..Manufactured::solid(
-        [
-            "mms-axis",
-            "Axis-aligned displacement",
-            "A neo-Hookean body between rollers is stretched and compressed along its axes by a body force that makes the motion known. Orders of accuracy in space and time for every basis, remedy and transfer; small displacements and forced crossing of cells.",
-        ],
-        ENTRY.build,
-        parameters(
-            ENTRY.parameters,
-            &[("amplitude", "0.001")],
-            numerical("0.013"),
-        ),
-    )
-});
+pub(super) const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
 
-fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
-    let levels = &case.levels;
-    let main = [RemedyName::None, FbarRecursive, FbarRate, FbarConsistent];
-    let sound = pairs(
-        &[Gimp, Bspline2],
-        &[RemedyName::None, FbarRate, FbarConsistent],
-    );
-    match tier {
-        Tier::Quick => ladder(&levels[..1], &pairs(&[Gimp], &[RemedyName::None]), &[]),
-        Tier::Pr => union([
-            ladder(&levels[..3], &pairs(&[Gimp, Bspline2], &main), &[]),
-            ladder(
-                &levels[..3],
-                &pairs(&[Gimp], &[FbarRecursive, FbarConsistent]),
-                &["step_scaling=h2"],
-            ),
-            // Only so large a motion tells where a body force is evaluated; no particle crosses yet.
-            ladder(
-                &levels[..3],
-                &pairs(&[Gimp, Bspline2], &[RemedyName::None]),
-                &["amplitude=0.005"],
-            ),
-        ]),
-        Tier::Nightly => {
-            let pair = pairs(&[Gimp, Bspline2], &REMEDIES);
-            let crossing = pairs(&BASES, &[RemedyName::None, FbarRate, FbarConsistent]);
-            let mut parts = vec![
-                plan(case, Tier::Pr),
-                ladder(levels, &case.schemes, &[]),
-                ladder(&levels[..4], &pair, &["step_scaling=h2"]),
-                ladder(&levels[..4], &crossing, &["amplitude=0.02"]),
-                ladder(
-                    &levels[..4],
-                    &crossing[3..],
-                    &["amplitude=0.02", "ppc_per_direction=4"],
-                ),
-                ladder(&levels[..4], &pairs(&BASES, &REMEDIES), &["dimension=1"]),
-                ladder(&levels[..3], &sound, &["dimension=3"]),
-                more_particles(&levels[..3]),
-            ];
-            for cfl in ["cfl=0.15", "cfl=0.075", "cfl=0.0375"] {
-                parts.push(ladder(&levels[1..2], &pair, &[cfl]));
-            }
-            for ppc in [
-                "ppc_per_direction=1",
-                "ppc_per_direction=3",
-                "ppc_per_direction=4",
-            ] {
-                parts.push(ladder(
-                    &levels[2..3],
-                    &pairs(&BASES, &[RemedyName::None, FbarRate, FbarConsistent]),
-                    &[ppc],
-                ));
-            }
-            union(parts)
-        }
-        Tier::Long => Vec::new(),
+pub(super) fn case() -> Case {
+    let levels = levels();
+    let names = [
+        "mms-axis",
+        "Axis-aligned displacement",
+        "A neo-Hookean body between rollers is stretched and compressed along its axes by a body force that makes the motion known. Orders of accuracy in space and time for every basis, remedy and transfer; small displacements and forced crossing of cells.",
+    ];
+    let parameters = all_parameters(ENTRY.parameters, &[(AMPLITUDE, "0.001")], "0.013", &[]);
+    let mut checks = of_motion(ORDERS, WAVE);
+    checks.extend([stress_order(ORDERS), order_in_time()]);
+    Case {
+        references: vec![
+            "Exact solution: Wallstedt & Guilkey 2008, doi:10.1016/j.jcp.2008.07.019, with a phase per axis; the balance of momentum is tested by eighth-order differences at random points.".to_owned(),
+        ],
+        limits: &[
+            "∂J/∂n = 0 at the walls: mms-wall-pressure tests what this problem hides there.",
+            "At ν = 0.3 nothing locks; what averaging costs shows, what it is for doesn't.",
+            "Two particles per direction leave a floor once they cross cells, and cubic splines with F̄ and two per direction break the pattern at large strain.",
+        ],
+        plan: plan(&levels),
+        levels,
+        checks,
+        sweeps: vec![
+            Sweep {
+                parameter: PPC_PER_DIRECTION,
+                label: "particles per direction",
+                abscissa: |n| n,
+                logarithmic: false,
+            },
+            Sweep {
+                parameter: CFL,
+                label: "CFL number",
+                abscissa: |c| c,
+                logarithmic: true,
+            },
+        ],
+        ..Manufactured::solid(ENTRY.build).case(names, parameters)
     }
+}
+
+fn plan(levels: &[Level]) -> Vec<Family> {
+    let none = RemedyName::None;
+    let main = pairs(
+        &[Gimp, Bspline2],
+        &[none, FbarRecursive, FbarRate, FbarConsistent],
+    );
+    let sound = |bases: &[BasisName]| pairs(bases, &[none, FbarRate, FbarConsistent]);
+    let all = pairs(&BASES, &REMEDIES);
+    let pair = pairs(&[Gimp, Bspline2], &REMEDIES);
+    let large = pairs(&[Gimp, Bspline2], &[none]);
+    let [three, four] = more_particles(Nightly, &levels[..3]);
+    vec![
+        family(Quick, &levels[..1], &pairs(&[Gimp], &[none]), &[]),
+        family(Pr, &levels[..3], &main, &[]),
+        family(
+            Pr,
+            &levels[..3],
+            &pairs(&[Gimp], &[FbarRecursive, FbarConsistent]),
+            &["step_scaling=h2"],
+        ),
+        // Only so large a motion tells where a body force is evaluated; no particle crosses yet.
+        family(Pr, &levels[..3], &large, &["amplitude=0.005"]),
+        family(Nightly, levels, &all, &[]),
+        family(Nightly, levels, &other_transfers(), &[]),
+        family(Nightly, &levels[..4], &pair, &["step_scaling=h2"]),
+        family(Nightly, &levels[..4], &sound(&BASES), &["amplitude=0.02"]),
+        family(
+            Nightly,
+            &levels[..4],
+            &sound(&BASES[1..]),
+            &["amplitude=0.02", "ppc_per_direction=4"],
+        ),
+        family(Nightly, &levels[..4], &all, &["dimension=1"]),
+        family(
+            Nightly,
+            &levels[..3],
+            &sound(&[Gimp, Bspline2]),
+            &["dimension=3"],
+        ),
+        three,
+        four,
+        family(Nightly, &levels[1..2], &pair, &["cfl=0.15"]),
+        family(Nightly, &levels[1..2], &pair, &["cfl=0.075"]),
+        family(Nightly, &levels[1..2], &pair, &["cfl=0.0375"]),
+        family(
+            Nightly,
+            &levels[2..3],
+            &sound(&BASES),
+            &["ppc_per_direction=1"],
+        ),
+        family(
+            Nightly,
+            &levels[2..3],
+            &sound(&BASES),
+            &["ppc_per_direction=3"],
+        ),
+        family(
+            Nightly,
+            &levels[2..3],
+            &sound(&BASES),
+            &["ppc_per_direction=4"],
+        ),
+    ]
 }
 
 /// What is known of convergence between rollers, with or without a pressure gradient at the walls.
 pub(super) fn claim(r: &Record) -> Claim {
-    let amplitude = r.parameters.number("amplitude");
-    let ppc = r.parameters.number("ppc_per_direction");
+    let amplitude = r.parameters.number(AMPLITUDE);
+    let ppc = r.parameters.number(PPC_PER_DIRECTION);
     if ppc == 1.0 {
         return Claim::Open("one particle per cell doesn't integrate what the basis can represent");
     }
-    if r.parameters.is("wall", "wall-line") {
+    if r.parameters.is(WALL, WALL_LINE) {
         return Claim::Stalls(
-            checks::STALLED,
+            STALLED,
             "splines that are not interpolatory at a wall meet it with first order",
         );
     }
     if r.remedy() == FbarRecursive {
-        return if r.parameters.is("step_scaling", "h2") {
+        return if r.parameters.is(STEP_SCALING, "h2") {
             Claim::Stalls(
                 0.5,
                 "Eq. (26) diffuses J with D = ½ s² h²/Δt, which Δt ∝ h² keeps constant",
@@ -170,9 +181,9 @@ pub(super) fn claim(r: &Record) -> Claim {
         };
     }
     if r.transfer() != TransferName::Flip {
-        return Claim::Open(checks::TRANSFER);
+        return Claim::Open(TRANSFER);
     }
-    if r.parameters.number("dimension") == 1.0 {
+    if r.parameters.number(DIMENSION) == 1.0 {
         match (r.basis(), r.remedy()) {
             (Gimp, RemedyName::None) => {
                 return Claim::Observed(
@@ -180,7 +191,7 @@ pub(super) fn claim(r: &Record) -> Claim {
                     "within a cell GIMP's weights are hats: displaced particles shift its quadrature, a floor of about A² k",
                 );
             }
-            (Bspline3, remedy) if checks::is_sound(remedy) => {
+            (Bspline3, remedy) if is_sound(remedy) => {
                 return Claim::Open(
                     "in one dimension F̄ averages all of the stress, next to walls where cubics lack an order",
                 );
@@ -198,12 +209,4 @@ pub(super) fn claim(r: &Record) -> Claim {
         ),
         _ => Claim::Second,
     }
-}
-
-/// The gates on refinement in space and time.
-pub(super) fn judge_study(records: &[Record]) -> Vec<crate::verdict::Verdict> {
-    let mut verdicts = checks::orders_of(records, "displacement_l2", claim);
-    verdicts.extend(checks::stress_orders(records, claim));
-    verdicts.extend(checks::time_orders(records));
-    verdicts
 }

@@ -2,91 +2,83 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-double-shear.md`.
 
-use super::manufactured::checks::{self, Claim, Wave, is_sound};
-use super::manufactured::plan::{
-    BASES, REMEDIES, ladder, levels, more_particles, other_transfers, pairs, union,
-};
-use super::manufactured::{Boundary, Manufactured, numerical, parameters, step_poisson_ratio};
+use super::family::{BASES, REMEDIES, family, levels, more_particles, other_transfers, pairs};
+use super::manufactured::checks::{Claim, Claims, TRANSFER, Wave, is_sound, locking, of_motion};
+use super::manufactured::metrics::DISPLACEMENT_L2;
+use super::manufactured::{Boundary, Manufactured, STEP_POISSON_RATIO, all_parameters};
 use super::mms_vortex_box::{LOCKING_CURVE, NULL_SPACE, feeds_null_space};
-use crate::case::{RunSpec, Tier};
+use super::parameters::POISSON_RATIO;
+use crate::case::{Case, Family, Tier};
 use crate::exact::double_shear::ENTRY;
+use crate::metric::Metric;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::spec::Level;
 use std::f64::consts::TAU;
-use std::sync::LazyLock;
 
 use BasisName::{Bspline2, Gimp, Linear};
 use RemedyName::{FbarConsistent, FbarRate};
+use Tier::{Nightly, Pr, Quick};
 
-/// The motion: a wave across the cell.
+/// The motion: one wave across the body.
 const WAVE: Wave = Wave {
     number: TAU,
     shear: true,
 };
 
-pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
-    references: &[
-        "Exact solution: two shears in turn, x = X + A sin kY s, y = Y + A sin kx s; J = 1 exactly. The balance of momentum is tested by eighth-order differences at random points.",
-    ],
-    limits: &[
-        "No boundary: mms-vortex-box has walls.",
-        "As in mms-vortex-box, all runs take the steps of ν = 0.4999.",
-    ],
-    boundary: Boundary::Periodic,
-    schemes: [pairs(&BASES, &REMEDIES), other_transfers()].concat(),
-    levels: levels(
+const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
+
+pub(super) fn case() -> Case {
+    let levels = levels(
         1.0,
         [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)],
-    ),
-    plan,
-    checks: checks::CHECKS,
-    judge: |record| checks::of_run(record, &claim(record), &WAVE),
-    judge_study: |records| {
-        let mut verdicts = checks::orders_of(records, "displacement_l2", claim);
-        verdicts.extend(checks::locking(records));
-        verdicts
-    },
-    sweeps: LOCKING_CURVE,
-    ..Manufactured::solid(
-        [
-            "mms-double-shear",
-            "Double shear",
-            "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
-        ],
-        ENTRY.build,
-        parameters(
-            ENTRY.parameters,
-            &[("poisson_ratio", "0.4999")],
-            numerical("0.5")
-                .into_iter()
-                .chain([step_poisson_ratio("0.4999")]),
-        ),
-    )
-});
-
-fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
-    let levels = &case.levels;
-    let few = pairs(
-        &[Gimp, Bspline2],
-        &[RemedyName::None, FbarRate, FbarConsistent],
     );
-    match tier {
-        Tier::Quick => ladder(&levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
-        Tier::Pr => ladder(&levels[..3], &[few[1], few[2], few[5]], &[]),
-        Tier::Nightly => union([
-            plan(case, Tier::Pr),
-            ladder(levels, &case.schemes, &[]),
-            more_particles(&levels[..3]),
-            ladder(
-                &levels[..3],
-                &pairs(&BASES, &REMEDIES),
-                &["poisson_ratio=0.3"],
-            ),
-            ladder(&levels[..2], &few, &["poisson_ratio=0.49"]),
-            ladder(&levels[..2], &few, &["poisson_ratio=0.499"]),
-        ]),
-        Tier::Long => Vec::new(),
+    let names = [
+        "mms-double-shear",
+        "Double shear",
+        "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
+    ];
+    let motion = Manufactured {
+        boundary: Boundary::Periodic,
+        ..Manufactured::solid(ENTRY.build)
+    };
+    let own = [STEP_POISSON_RATIO.with_default("0.4999")];
+    let defaults = [(POISSON_RATIO, "0.4999")];
+    let parameters = all_parameters(ENTRY.parameters, &defaults, "0.5", &own);
+    let mut checks = of_motion(ORDERS, WAVE);
+    checks.extend(locking());
+    Case {
+        references: vec![
+            "Exact solution: two shears in turn, x = X + A sin kY s, y = Y + A sin kx s; J = 1 exactly. The balance of momentum is tested by eighth-order differences at random points.".to_owned(),
+        ],
+        limits: &[
+            "No boundary: mms-vortex-box has walls.",
+            "As in mms-vortex-box, all runs take the steps of ν = 0.4999.",
+        ],
+        plan: plan(&levels),
+        levels,
+        checks,
+        sweeps: vec![LOCKING_CURVE],
+        ..motion.case(names, parameters)
     }
+}
+
+fn plan(levels: &[Level]) -> Vec<Family> {
+    let none = RemedyName::None;
+    let few = pairs(&[Gimp, Bspline2], &[none, FbarRate, FbarConsistent]);
+    let all = pairs(&BASES, &REMEDIES);
+    let [three, four] = more_particles(Nightly, &levels[..3]);
+    vec![
+        family(Quick, &levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
+        family(Pr, &levels[..3], &[few[1], few[2], few[5]], &[]),
+        family(Nightly, levels, &all, &[]),
+        family(Nightly, levels, &other_transfers(), &[]),
+        three,
+        four,
+        family(Nightly, &levels[..3], &all, &["poisson_ratio=0.3"]),
+        family(Nightly, &levels[..2], &few, &["poisson_ratio=0.49"]),
+        family(Nightly, &levels[..2], &few, &["poisson_ratio=0.499"]),
+    ]
 }
 
 fn claim(r: &Record) -> Claim {
@@ -94,7 +86,7 @@ fn claim(r: &Record) -> Claim {
         return Claim::Open("the gradient of a linear basis jumps where particles cross cells");
     }
     if r.transfer() != TransferName::Flip {
-        return Claim::Open(checks::TRANSFER);
+        return Claim::Open(TRANSFER);
     }
     if feeds_null_space(r) {
         return if r.basis() == Gimp {

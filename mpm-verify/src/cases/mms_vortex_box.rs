@@ -2,26 +2,23 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-vortex-box.md`.
 
-use super::manufactured::checks::{self, Claim, Wave, is_sound};
-use super::manufactured::plan::{
-    BASES, REMEDIES, ladder, more_particles, other_transfers, pairs, union,
-};
-use super::manufactured::{Manufactured, numerical, parameters, step_poisson_ratio};
-use crate::case::{RunSpec, Sweep, Tier};
+use super::family::{BASES, REMEDIES, family, more_particles, other_transfers, pairs};
+use super::manufactured::checks::{Claim, Claims, TRANSFER, Wave, is_sound, locking, of_motion};
+use super::manufactured::metrics::DISPLACEMENT_L2;
+use super::manufactured::{Manufactured, STEP_POISSON_RATIO, all_parameters, levels};
+use super::parameters::POISSON_RATIO;
+use crate::case::{Case, Family, Tier};
 use crate::exact::vortex_box::ENTRY;
+use crate::exact::vortex_pressure::PRESSURE;
+use crate::metric::{Metric, Sweep};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
-use std::sync::LazyLock;
+use crate::spec::Level;
 
 use BasisName::{Bspline2, Gimp, Linear};
 use RemedyName::{FbarConsistent, FbarRate, FbarTotal};
+use Tier::{Long, Nightly, Pr, Quick};
 
-/// Poisson's ratios of the curve of locking, besides the case's own.
-const RATIOS: [&str; 3] = [
-    "poisson_ratio=0.3",
-    "poisson_ratio=0.49",
-    "poisson_ratio=0.499",
-];
 /// The vortex: its profile falls from one to a half over 0.16 m, a sixth of a wave.
 pub(super) const WAVE: Wave = Wave {
     number: 6.5,
@@ -31,80 +28,73 @@ pub(super) const WAVE: Wave = Wave {
 const FLOOR: f64 = 0.01;
 /// Below this one (m) fbar-total and fbar-rate take enough steps to feed the null space.
 const FED: f64 = 0.02;
-/// How errors are drawn over Poisson's ratio.
-pub(super) const LOCKING_CURVE: &[Sweep] = &[Sweep {
-    parameter: "poisson_ratio",
+
+pub(super) const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
+
+/// Errors over the distance from incompressibility.
+pub(super) const LOCKING_CURVE: Sweep = Sweep {
+    parameter: POISSON_RATIO,
     label: "0.5 − ν",
     abscissa: |nu| 0.5 - nu,
     logarithmic: true,
-}];
+};
 
-pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
-    references: &[
-        "Exact solution: a vortex after Kamojjala et al. 2015, doi:10.1007/s00366-013-0342-x, with a profile that is smooth and ends within the box; the balance of momentum is tested by eighth-order differences at random points.",
-    ],
-    limits: &[
-        "Rotation by up to one radian with F updated by I + Δt ∇v: the error in time is first order. All runs take the steps of ν = 0.4999, so that it is small and alike.",
-        "fbar-total and fbar-rate lose convergence, and some runs their life, at n64 and beyond.",
-        "The spurious pressure at ν = 0.4999 is λ ln J of errors in J of 10⁻⁴ and doesn't fall over these levels.",
-    ],
-    schemes: [pairs(&BASES, &REMEDIES), other_transfers()].concat(),
-    plan,
-    checks: checks::CHECKS,
-    judge: |record| checks::of_run(record, &claim(record), &WAVE),
-    judge_study,
-    sweeps: LOCKING_CURVE,
-    breaks_down: |r| {
-        let known = [(Bspline2, FbarRate, "n128"), (Linear, FbarTotal, "n64")];
-        let breaks = r.is_default()
-            && known
-                .iter()
-                .any(|k| *k == (r.basis(), r.remedy(), &r.level));
-        breaks.then_some(NULL_SPACE)
-    },
-    ..Manufactured::solid(
-        [
-            "mms-vortex-box",
-            "Vortex in a box",
-            "The middle of a square turns by a radian while its sides stay: no volume changes, so the exact motion doesn't depend on Poisson's ratio, and the error at ν = 0.4999 over that at 0.3 is locking and nothing else.",
+pub(super) fn case() -> Case {
+    let levels = levels();
+    let names = [
+        "mms-vortex-box",
+        "Vortex in a box",
+        "The middle of a square turns by a radian while its sides stay: no volume changes, so the exact motion doesn't depend on Poisson's ratio, and the error at ν = 0.4999 over that at 0.3 is locking and nothing else.",
+    ];
+    let own = [STEP_POISSON_RATIO.with_default("0.4999")];
+    let defaults = [(POISSON_RATIO, "0.4999")];
+    let parameters = all_parameters(ENTRY.parameters, &defaults, "0.5", &own);
+    let mut checks = of_motion(ORDERS, WAVE);
+    checks.extend(locking());
+    Case {
+        references: vec![
+            "Exact solution: a vortex after Kamojjala et al. 2015, doi:10.1007/s00366-013-0342-x, with a profile that is smooth and ends within the box; the balance of momentum is tested by eighth-order differences at random points.".to_owned(),
         ],
-        ENTRY.build,
-        parameters(
-            ENTRY.parameters,
-            &[("poisson_ratio", "0.4999")],
-            numerical("0.5")
-                .into_iter()
-                .chain([step_poisson_ratio("0.4999")]),
-        ),
-    )
-});
+        limits: &[
+            "Rotation by up to one radian with F updated by I + Δt ∇v: the error in time is first order. All runs take the steps of ν = 0.4999, so that it is small and alike.",
+            "fbar-total and fbar-rate lose convergence, and some runs their life, at n64 and beyond.",
+            "The spurious pressure at ν = 0.4999 is λ ln J of errors in J of 10⁻⁴ and doesn't fall over these levels.",
+        ],
+        plan: plan(&levels),
+        levels,
+        checks,
+        sweeps: vec![LOCKING_CURVE],
+        breaks_down: |r| {
+            let known = [(Bspline2, FbarRate, "n128"), (Linear, FbarTotal, "n64")];
+            let this = |k: &(_, _, &str)| *k == (r.basis(), r.remedy(), &r.level);
+            (r.is_default() && known.iter().any(this)).then_some(NULL_SPACE)
+        },
+        ..Manufactured::solid(ENTRY.build).case(names, parameters)
+    }
+}
 
-fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
-    let levels = &case.levels;
+fn plan(levels: &[Level]) -> Vec<Family> {
     let few = pairs(
         &[Gimp, Bspline2],
         &[RemedyName::None, FbarRate, FbarConsistent],
     );
-    match tier {
-        Tier::Quick => ladder(&levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
-        Tier::Pr => union([
-            ladder(&levels[..3], &few, &[]),
-            ladder(&levels[..2], &few, &RATIOS[..1]),
-        ]),
-        Tier::Nightly => {
-            let mut parts = vec![
-                plan(case, Tier::Pr),
-                ladder(&levels[..4], &case.schemes, &[]),
-                ladder(&levels[4..], &few[3..], &[]),
-                more_particles(&levels[..3]),
-            ];
-            for ratio in RATIOS {
-                parts.push(ladder(&levels[..3], &pairs(&BASES, &REMEDIES), &[ratio]));
-            }
-            union(parts)
-        }
-        Tier::Long => ladder(&levels[4..], &case.schemes, &[]),
-    }
+    let all = pairs(&BASES, &REMEDIES);
+    let [three, four] = more_particles(Nightly, &levels[..3]);
+    vec![
+        family(Quick, &levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
+        family(Pr, &levels[..3], &few, &[]),
+        family(Pr, &levels[..2], &few, &["poisson_ratio=0.3"]),
+        family(Nightly, &levels[..4], &all, &[]),
+        family(Nightly, &levels[..4], &other_transfers(), &[]),
+        family(Nightly, &levels[4..], &few[3..], &[]),
+        three,
+        four,
+        family(Nightly, &levels[..3], &all, &["poisson_ratio=0.3"]),
+        family(Nightly, &levels[..3], &all, &["poisson_ratio=0.49"]),
+        family(Nightly, &levels[..3], &all, &["poisson_ratio=0.499"]),
+        family(Long, &levels[4..], &all, &[]),
+        family(Long, &levels[4..], &other_transfers(), &[]),
+    ]
 }
 
 /// Why fbar-total and fbar-rate stop converging.
@@ -122,7 +112,7 @@ pub(super) fn claim(r: &Record) -> Claim {
         return Claim::Open("the gradient of a linear basis jumps where particles cross cells");
     }
     if r.transfer() != TransferName::Flip {
-        return Claim::Open(checks::TRANSFER);
+        return Claim::Open(TRANSFER);
     }
     if r.discretisation.h < FLOOR {
         return Claim::Open(
@@ -130,7 +120,7 @@ pub(super) fn claim(r: &Record) -> Claim {
         );
     }
     if feeds_null_space(r) {
-        let shears_only = r.parameters.number("pressure").is_nan();
+        let shears_only = r.parameters.number(PRESSURE).is_nan();
         let clear = shears_only && r.remedy() == FbarRate && matches!(r.basis(), Gimp | Bspline2);
         return if clear {
             Claim::Stalls(1.0, NULL_SPACE)
@@ -148,11 +138,4 @@ pub(super) fn claim(r: &Record) -> Claim {
     } else {
         Claim::Open("Eq. (26) diffuses J; of an isochoric motion it has little to diffuse")
     }
-}
-
-/// The gates on refinement and on locking.
-pub(super) fn judge_study(records: &[Record]) -> Vec<crate::verdict::Verdict> {
-    let mut verdicts = checks::orders_of(records, "displacement_l2", claim);
-    verdicts.extend(checks::locking(records));
-    verdicts
 }

@@ -2,83 +2,69 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-vortex-pressure.md`.
 
-use super::manufactured::checks;
-use super::manufactured::plan::{
-    REMEDIES, ladder, levels, more_particles, other_transfers, pairs, union,
-};
-use super::manufactured::{Manufactured, numerical, parameters, step_poisson_ratio};
-use super::mms_vortex_box::{LOCKING_CURVE, WAVE, claim, judge_study};
-use crate::case::{RunSpec, Tier};
+use super::family::{REMEDIES, family, levels, more_particles, other_transfers, pairs};
+use super::manufactured::checks::{locking, of_motion};
+use super::manufactured::{Manufactured, STEP_POISSON_RATIO, all_parameters};
+use super::mms_vortex_box::{LOCKING_CURVE, ORDERS, WAVE};
+use super::parameters::POISSON_RATIO;
+use crate::case::{Case, Family, Tier};
 use crate::exact::vortex_pressure::ENTRY;
 use crate::scheme::{BasisName, RemedyName};
-use std::sync::LazyLock;
+use crate::spec::Level;
 
 use BasisName::{Bspline2, Gimp};
 use RemedyName::{FbarConsistent, FbarRate};
+use Tier::{Nightly, Pr, Quick};
 
-pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
-    references: &[
-        "Exact solution: the vortex in a box after a volume change whose pressure tends to p₀ sin ωt (cos 2πX + cos 2πY) as ν → ½; body force from the general formula, tested by eighth-order differences at random points.",
-    ],
-    limits: &[
-        "The pressure is 100 Pa; at ν = 0.4999 an error of 10⁻⁴ in J is worth more.",
-        "As in mms-vortex-box, all runs take the steps of ν = 0.4999.",
-    ],
-    schemes: [pairs(&[Gimp, Bspline2], &REMEDIES), other_transfers()].concat(),
-    levels: levels(
+pub(super) fn case() -> Case {
+    let levels = levels(
         1.0,
         [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)],
-    ),
-    plan,
-    checks: checks::CHECKS,
-    judge: |record| checks::of_run(record, &claim(record), &WAVE),
-    judge_study,
-    sweeps: LOCKING_CURVE,
-    ..Manufactured::solid(
-        [
-            "mms-vortex-pressure",
-            "Vortex with a bounded pressure",
-            "The vortex in a box, with a pressure that stays bounded as the body becomes incompressible: a remedy must not only remove the spurious pressure but leave the true one.",
+    );
+    let names = [
+        "mms-vortex-pressure",
+        "Vortex with a bounded pressure",
+        "The vortex in a box, with a pressure that stays bounded as the body becomes incompressible: a remedy must not only remove the spurious pressure but leave the true one.",
+    ];
+    let own = [STEP_POISSON_RATIO.with_default("0.4999")];
+    let defaults = [(POISSON_RATIO, "0.499")];
+    let parameters = all_parameters(ENTRY.parameters, &defaults, "0.5", &own);
+    let mut checks = of_motion(ORDERS, WAVE);
+    checks.extend(locking());
+    Case {
+        references: vec![
+            "Exact solution: the vortex in a box after a volume change whose pressure tends to p₀ sin ωt (cos 2πX + cos 2πY) as ν → ½; body force from the general formula, tested by eighth-order differences at random points.".to_owned(),
         ],
-        ENTRY.build,
-        parameters(
-            ENTRY.parameters,
-            &[("poisson_ratio", "0.499")],
-            numerical("0.5")
-                .into_iter()
-                .chain([step_poisson_ratio("0.4999")]),
-        ),
-    )
-});
+        limits: &[
+            "The pressure is 100 Pa; at ν = 0.4999 an error of 10⁻⁴ in J is worth more.",
+            "As in mms-vortex-box, all runs take the steps of ν = 0.4999.",
+        ],
+        plan: plan(&levels),
+        levels,
+        checks,
+        sweeps: vec![LOCKING_CURVE],
+        ..Manufactured::solid(ENTRY.build).case(names, parameters)
+    }
+}
 
-fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
-    let levels = &case.levels;
-    match tier {
-        Tier::Quick => ladder(&levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
-        Tier::Pr => ladder(
+fn plan(levels: &[Level]) -> Vec<Family> {
+    let two = [Gimp, Bspline2];
+    let all = pairs(&two, &REMEDIES);
+    let [three, four] = more_particles(Nightly, &levels[..3]);
+    vec![
+        family(Quick, &levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
+        family(
+            Pr,
             &levels[..2],
-            &pairs(&[Gimp, Bspline2], &[FbarRate, FbarConsistent]),
+            &pairs(&two, &[FbarRate, FbarConsistent]),
             &[],
         ),
-        Tier::Nightly => {
-            let mut parts = vec![
-                plan(case, Tier::Pr),
-                ladder(levels, &case.schemes, &[]),
-                more_particles(&levels[..3]),
-            ];
-            for ratio in [
-                "poisson_ratio=0.3",
-                "poisson_ratio=0.49",
-                "poisson_ratio=0.4999",
-            ] {
-                parts.push(ladder(
-                    &levels[..2],
-                    &pairs(&[Gimp, Bspline2], &REMEDIES),
-                    &[ratio],
-                ));
-            }
-            union(parts)
-        }
-        Tier::Long => Vec::new(),
-    }
+        family(Nightly, levels, &all, &[]),
+        family(Nightly, levels, &other_transfers(), &[]),
+        three,
+        four,
+        family(Nightly, &levels[..2], &all, &["poisson_ratio=0.3"]),
+        family(Nightly, &levels[..2], &all, &["poisson_ratio=0.49"]),
+        family(Nightly, &levels[..2], &all, &["poisson_ratio=0.4999"]),
+    ]
 }

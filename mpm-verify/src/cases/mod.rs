@@ -6,10 +6,26 @@ use std::sync::LazyLock;
 
 mod family;
 mod manufactured;
+mod mms_axis;
+mod mms_double_shear;
+mod mms_swirl;
+mod mms_vortex_box;
+mod mms_vortex_pressure;
 mod mms_vortex_ring;
+mod mms_wall_pressure;
 mod parameters;
 
-static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| vec![mms_vortex_ring::case()]);
+static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
+    vec![
+        mms_axis::case(),
+        mms_wall_pressure::case(),
+        mms_vortex_ring::case(),
+        mms_vortex_box::case(),
+        mms_vortex_pressure::case(),
+        mms_double_shear::case(),
+        mms_swirl::case(),
+    ]
+});
 
 /// All problems.
 #[must_use]

@@ -2,30 +2,11 @@
 
 use crate::parameter::{Domain, Parameter, number, parameter};
 
+pub(super) use crate::exact::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
+
 /// Words of [`WALL`].
 pub(super) const WALL_LINE: &str = "wall-line";
 
-pub(super) const YOUNG_MODULUS: Parameter = parameter(
-    "young_modulus",
-    "Pa",
-    "1e6",
-    number(1e-3, 1e12, false),
-    "Young's modulus E",
-);
-pub(super) const POISSON_RATIO: Parameter = parameter(
-    "poisson_ratio",
-    "-",
-    "0.49",
-    number(0.0, 0.5, true),
-    "Poisson's ratio ν",
-);
-pub(super) const DENSITY: Parameter = parameter(
-    "density",
-    "kg/m³",
-    "1000",
-    number(1e-6, 1e6, false),
-    "density ρ",
-);
 pub(super) const CFL: Parameter = parameter(
     "cfl",
     "-",

@@ -4,7 +4,8 @@
 //! u_i = A sin(k X_i) T_i, T_i = sin(ωt + φ_i) − sin φ_i, φ = 0, 2π/3, 4π/3 on the cube \[0, 1\]^d. F is
 //! diagonal and so is P; u_i = 0 where X_i = 0 or 1: rollers on all sides are exact.
 
-use super::{DIMENSION, Entry, Exact, INVERTS, Material, angular_frequency, number, require_below};
+use super::parameters::{AMPLITUDE, ANGULAR_FREQUENCY, DIMENSION};
+use super::{Entry, Exact, INVERTS, Material, require_below};
 use crate::error::Error;
 use crate::parameter::{Domain, Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
@@ -32,6 +33,14 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(AxisAligned::new(p)?)),
 };
 
+pub(crate) const HALF_WAVES: Parameter = Parameter {
+    name: "half_waves",
+    unit: "-",
+    default: "2",
+    domain: Domain::Integer { least: 1, most: 16 },
+    meaning: "number of half waves m across the body, k = mπ",
+};
+
 const PARAMETERS: [Parameter; 7] = {
     let [e, nu, rho] = Material::parameters("1e7", "0.3");
     [
@@ -39,16 +48,10 @@ const PARAMETERS: [Parameter; 7] = {
         nu,
         rho,
         DIMENSION,
-        number(["amplitude", "m", "0.05"], [0.0, 1.0], "amplitude A"),
-        Parameter {
-            name: "half_waves",
-            unit: "-",
-            default: "2",
-            domain: Domain::Integer { least: 1, most: 16 },
-            meaning: "number of half waves m across the body, k = mπ",
-        },
+        AMPLITUDE,
+        HALF_WAVES,
         // π √(E/ρ₀): one period of 0.02 s.
-        angular_frequency("314.1592653589793"),
+        ANGULAR_FREQUENCY.with_default("314.1592653589793"),
     ]
 };
 
@@ -60,10 +63,10 @@ impl AxisAligned {
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         let solution = Self {
             material: Material::new(p)?,
-            dimension: p.number("dimension") as usize,
-            amplitude: p.number("amplitude"),
-            wave_number: p.number("half_waves") * PI,
-            angular_frequency: p.number("angular_frequency"),
+            dimension: p.number(DIMENSION) as usize,
+            amplitude: p.number(AMPLITUDE),
+            wave_number: p.number(HALF_WAVES) * PI,
+            angular_frequency: p.number(ANGULAR_FREQUENCY),
         };
         // |T_i| ≤ 1 + |sin φ_i|, and cos kX reaches ±1.
         let largest = (0..solution.dimension).map(|i| 1.0 + phase(i).sin().abs());

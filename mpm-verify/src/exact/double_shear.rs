@@ -8,7 +8,8 @@
 //!
 //! The cell is periodic in both directions; no amplitude inverts it.
 
-use super::{Entry, Exact, Material, angular_frequency, number, sine};
+use super::parameters::{AMPLITUDE, ANGULAR_FREQUENCY};
+use super::{Entry, Exact, Material, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
@@ -38,8 +39,8 @@ const PARAMETERS: [Parameter; 5] = {
         e,
         nu,
         rho,
-        number(["amplitude", "m", "0.05"], [0.0, 1.0], "amplitude A"),
-        angular_frequency("3.141592653589793"),
+        AMPLITUDE,
+        ANGULAR_FREQUENCY.with_default("3.141592653589793"),
     ]
 };
 
@@ -54,8 +55,8 @@ impl DoubleShear {
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         Ok(Self {
             material: Material::new(p)?,
-            amplitude: p.number("amplitude"),
-            angular_frequency: p.number("angular_frequency"),
+            amplitude: p.number(AMPLITUDE),
+            angular_frequency: p.number(ANGULAR_FREQUENCY),
         })
     }
 

@@ -1,6 +1,7 @@
 //! Free fall from rest: u = −½ g t² along the last axis; no strain, no stress, whatever the law.
 
-use super::{DIMENSION, Entry, Exact, GRAVITY, Material};
+use super::parameters::{DIMENSION, GRAVITY};
+use super::{Entry, Exact, Material};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
@@ -36,8 +37,8 @@ impl FreeFall {
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         Ok(Self {
             material: Material::new(p)?,
-            dimension: p.number("dimension") as usize,
-            gravity: p.number("gravity"),
+            dimension: p.number(DIMENSION) as usize,
+            gravity: p.number(GRAVITY),
         })
     }
 }

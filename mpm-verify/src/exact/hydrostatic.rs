@@ -8,8 +8,8 @@
 //!
 //! Rollers on the floor and the sides, a free surface. J > 0 as long as ρ₀ g H < K.
 
-use super::material::density;
-use super::{Entry, Exact, GRAVITY, INVERTS, Material, number, require_below};
+use super::parameters::{DENSITY, GRAVITY, number};
+use super::{Entry, Exact, INVERTS, Material, require_below};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
@@ -36,20 +36,24 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(Hydrostatic::new(p)?)),
 };
 
+pub(crate) const BULK_MODULUS: Parameter = number(
+    ["bulk_modulus", "Pa", "2e9"],
+    [1e-3, 1e12],
+    "bulk modulus K",
+);
+pub(crate) const WIDTH: Parameter = number(["width", "m", "1"], [1e-3, 1e3], "width");
+pub(crate) const HEIGHT: Parameter = number(
+    ["height", "m", "2"],
+    [1e-3, 1e3],
+    "height H without gravity",
+);
+
 const PARAMETERS: [Parameter; 5] = [
-    number(
-        ["bulk_modulus", "Pa", "2e9"],
-        [1e-3, 1e12],
-        "bulk modulus K",
-    ),
-    density("997.5"),
+    BULK_MODULUS,
+    DENSITY.with_default("997.5"),
     GRAVITY,
-    number(["width", "m", "1"], [1e-3, 1e3], "width"),
-    number(
-        ["height", "m", "2"],
-        [1e-3, 1e3],
-        "height H without gravity",
-    ),
+    WIDTH,
+    HEIGHT,
 ];
 
 impl Hydrostatic {
@@ -59,11 +63,11 @@ impl Hydrostatic {
     /// A height at which the floor would carry more than K.
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         let column = Self {
-            density: p.number("density"),
-            bulk_modulus: p.number("bulk_modulus"),
-            gravity: p.number("gravity"),
-            width: p.number("width"),
-            height: p.number("height"),
+            density: p.number(DENSITY),
+            bulk_modulus: p.number(BULK_MODULUS),
+            gravity: p.number(GRAVITY),
+            width: p.number(WIDTH),
+            height: p.number(HEIGHT),
         };
         let limit = column.bulk_modulus / (column.density * column.gravity);
         require_below(["height", "m", INVERTS], column.height, limit)?;

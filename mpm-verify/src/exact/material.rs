@@ -5,9 +5,9 @@
 //! b = a − Div P/ρ₀ of a motion that is chosen (the method of manufactured solutions, Roache 2002,
 //! doi:10.1115/1.1436090).
 
-use super::number;
+use super::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters};
+use crate::parameter::{Parameter, Parameters};
 use mpm_core::material::NeoHookean;
 use nalgebra::{Matrix3, Vector3};
 
@@ -29,11 +29,11 @@ impl Material {
     /// Moduli that the law does not allow.
     pub(super) fn new(parameters: &Parameters) -> Result<Self, Error> {
         let law = NeoHookean::new(
-            parameters.number("young_modulus"),
-            parameters.number("poisson_ratio"),
+            parameters.number(YOUNG_MODULUS),
+            parameters.number(POISSON_RATIO),
         )?;
         Ok(Self {
-            density: parameters.number("density"),
+            density: parameters.number(DENSITY),
             mu: law.mu,
             lambda: law.lambda,
         })
@@ -45,23 +45,9 @@ impl Material {
         poisson_ratio: &'static str,
     ) -> [Parameter; 3] {
         [
-            number(
-                ["young_modulus", "Pa", young_modulus],
-                [1e-3, 1e12],
-                "Young's modulus E",
-            ),
-            Parameter {
-                name: "poisson_ratio",
-                unit: "-",
-                default: poisson_ratio,
-                domain: Domain::Number {
-                    least: 0.0,
-                    most: 0.5,
-                    below: true,
-                },
-                meaning: "Poisson's ratio ν",
-            },
-            density("1000"),
+            YOUNG_MODULUS.with_default(young_modulus),
+            POISSON_RATIO.with_default(poisson_ratio),
+            DENSITY,
         ]
     }
 
@@ -118,15 +104,6 @@ fn inverse_transpose(f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
     ]);
     let j = columns[0].dot(&cofactor.column(0));
     (cofactor / j, j.ln())
-}
-
-/// The density ρ₀ with its default.
-pub(super) const fn density(default: &'static str) -> Parameter {
-    number(
-        ["density", "kg/m³", default],
-        [1e-6, 1e6],
-        "density ρ₀ in the reference configuration",
-    )
 }
 
 #[cfg(test)]

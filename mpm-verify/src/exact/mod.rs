@@ -12,6 +12,7 @@ pub(crate) mod double_shear;
 mod free_fall;
 pub(crate) mod hydrostatic;
 mod material;
+pub(crate) mod parameters;
 mod patch;
 mod rigid;
 pub mod slope;
@@ -41,8 +42,9 @@ pub use vortex_ring::VortexRing;
 pub use wall_pressure::WallPressure;
 
 use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters, Value};
+use crate::parameter::{Parameter, Parameters, Value};
 use nalgebra::{Matrix3, Vector3};
+use parameters::number;
 use serde::Serialize;
 use std::fmt;
 
@@ -223,52 +225,6 @@ fn read(what: &Parameter, text: &str) -> Result<f64, Error> {
         _ => Err(Error::Input(format!("{} is not a number", what.name))),
     }
 }
-
-/// A number, given by name, unit and default, within a closed range.
-const fn number(
-    [name, unit, default]: [&'static str; 3],
-    [least, most]: [f64; 2],
-    meaning: &'static str,
-) -> Parameter {
-    Parameter {
-        name,
-        unit,
-        default,
-        domain: Domain::Number {
-            least,
-            most,
-            below: false,
-        },
-        meaning,
-    }
-}
-
-/// The dimension of a motion that comes in one, two and three.
-const DIMENSION: Parameter = Parameter {
-    name: "dimension",
-    unit: "-",
-    default: "2",
-    domain: Domain::Integer { least: 1, most: 3 },
-    meaning: "dimension: 1 uniaxial strain, 2 plane strain, 3",
-};
-
-/// The angular frequency ω.
-pub(crate) const ANGULAR_FREQUENCY: Parameter = number(
-    ["angular_frequency", "rad/s", "1"],
-    [1e-6, 1e6],
-    "angular frequency ω",
-);
-
-const fn angular_frequency(default: &'static str) -> Parameter {
-    ANGULAR_FREQUENCY.with_default(default)
-}
-
-/// Gravity g.
-const GRAVITY: Parameter = number(
-    ["gravity", "m/s²", "9.81"],
-    [0.0, 1e4],
-    "acceleration of gravity g, downwards",
-);
 
 /// Refuses the parameter `name` if its size is not below `limit`, with what happens otherwise.
 fn require_below([name, unit, otherwise]: [&str; 3], value: f64, limit: f64) -> Result<(), Error> {

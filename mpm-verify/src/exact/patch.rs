@@ -4,7 +4,8 @@
 //! so Div P = 0 and b = a = −ω² u: any scheme that reproduces linear fields gets the stress right. The
 //! sides follow the motion. det F = 1 + s tr G + s² det G must stay positive for −1 ≤ s ≤ 1.
 
-use super::{Entry, Exact, INVERTS, Material, angular_frequency, number, sine};
+use super::parameters::{ANGULAR_FREQUENCY, number};
+use super::{Entry, Exact, INVERTS, Material, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
@@ -27,17 +28,22 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(Patch::new(p)?)),
 };
 
+pub(crate) const G_XX: Parameter = number(["g_xx", "-", "0.2"], [-1e2, 1e2], "G_xx");
+pub(crate) const G_XY: Parameter = number(["g_xy", "-", "0.3"], [-1e2, 1e2], "G_xy = ∂u_x/∂Y");
+pub(crate) const G_YX: Parameter = number(["g_yx", "-", "-0.1"], [-1e2, 1e2], "G_yx = ∂u_y/∂X");
+pub(crate) const G_YY: Parameter = number(["g_yy", "-", "0.1"], [-1e2, 1e2], "G_yy");
+
 const PARAMETERS: [Parameter; 8] = {
     let [e, nu, rho] = Material::parameters("1e6", "0.3");
     [
         e,
         nu,
         rho,
-        number(["g_xx", "-", "0.2"], [-1e2, 1e2], "G_xx"),
-        number(["g_xy", "-", "0.3"], [-1e2, 1e2], "G_xy = ∂u_x/∂Y"),
-        number(["g_yx", "-", "-0.1"], [-1e2, 1e2], "G_yx = ∂u_y/∂X"),
-        number(["g_yy", "-", "0.1"], [-1e2, 1e2], "G_yy"),
-        angular_frequency("6.283185307179586"),
+        G_XX,
+        G_XY,
+        G_YX,
+        G_YY,
+        ANGULAR_FREQUENCY.with_default("6.283185307179586"),
     ]
 };
 
@@ -47,7 +53,7 @@ impl Patch {
     /// # Errors
     /// A gradient with which J reaches zero.
     pub fn new(p: &Parameters) -> Result<Self, Error> {
-        let [xx, xy, yx, yy] = ["g_xx", "g_xy", "g_yx", "g_yy"].map(|g| p.number(g));
+        let [xx, xy, yx, yy] = [G_XX, G_XY, G_YX, G_YY].map(|g| p.number(g));
         let gradient = Matrix2::new(xx, xy, yx, yy);
         let least = least_jacobian(gradient.trace(), gradient.determinant());
         if least <= 0.0 {
@@ -59,7 +65,7 @@ impl Patch {
         Ok(Self {
             material: Material::new(p)?,
             gradient,
-            angular_frequency: p.number("angular_frequency"),
+            angular_frequency: p.number(ANGULAR_FREQUENCY),
         })
     }
 

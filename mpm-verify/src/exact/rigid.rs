@@ -3,7 +3,8 @@
 //! Translation x = X + v t needs no force. Rotation about c with the angular velocity Ω,
 //! x = c + Q(Ωt) (X − c), needs the centripetal b = −Ω² (x − c).
 
-use super::{Entry, Exact, Material, number};
+use super::parameters::number;
+use super::{Entry, Exact, Material};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
@@ -42,31 +43,28 @@ pub(crate) const ROTATION: Entry = Entry {
     build: |p| Ok(Box::new(Rotation::new(p)?)),
 };
 
+pub(crate) const VELOCITY_X: Parameter =
+    number(["velocity_x", "m/s", "1"], [-1e4, 1e4], "velocity in x");
+pub(crate) const VELOCITY_Y: Parameter =
+    number(["velocity_y", "m/s", "0.5"], [-1e4, 1e4], "velocity in y");
+pub(crate) const ANGULAR_VELOCITY: Parameter = number(
+    ["angular_velocity", "rad/s", "1"],
+    [-1e4, 1e4],
+    "angular velocity Ω, counter-clockwise",
+);
+pub(crate) const CENTRE_X: Parameter =
+    number(["centre_x", "m", "0.5"], [-1e3, 1e3], "centre c in x");
+pub(crate) const CENTRE_Y: Parameter =
+    number(["centre_y", "m", "0.5"], [-1e3, 1e3], "centre c in y");
+
 const TRANSLATION_PARAMETERS: [Parameter; 5] = {
     let [e, nu, rho] = Material::parameters("1e6", "0.3");
-    [
-        e,
-        nu,
-        rho,
-        number(["velocity_x", "m/s", "1"], [-1e4, 1e4], "velocity in x"),
-        number(["velocity_y", "m/s", "0.5"], [-1e4, 1e4], "velocity in y"),
-    ]
+    [e, nu, rho, VELOCITY_X, VELOCITY_Y]
 };
 
 const ROTATION_PARAMETERS: [Parameter; 6] = {
     let [e, nu, rho] = Material::parameters("1e6", "0.3");
-    [
-        e,
-        nu,
-        rho,
-        number(
-            ["angular_velocity", "rad/s", "1"],
-            [-1e4, 1e4],
-            "angular velocity Ω, counter-clockwise",
-        ),
-        number(["centre_x", "m", "0.5"], [-1e3, 1e3], "centre c in x"),
-        number(["centre_y", "m", "0.5"], [-1e3, 1e3], "centre c in y"),
-    ]
+    [e, nu, rho, ANGULAR_VELOCITY, CENTRE_X, CENTRE_Y]
 };
 
 impl Translation {
@@ -77,7 +75,7 @@ impl Translation {
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         Ok(Self {
             material: Material::new(p)?,
-            velocity: Vector3::new(p.number("velocity_x"), p.number("velocity_y"), 0.0),
+            velocity: Vector3::new(p.number(VELOCITY_X), p.number(VELOCITY_Y), 0.0),
         })
     }
 }
@@ -120,8 +118,8 @@ impl Rotation {
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         Ok(Self {
             material: Material::new(p)?,
-            angular_velocity: p.number("angular_velocity"),
-            centre: Vector3::new(p.number("centre_x"), p.number("centre_y"), 0.0),
+            angular_velocity: p.number(ANGULAR_VELOCITY),
+            centre: Vector3::new(p.number(CENTRE_X), p.number(CENTRE_Y), 0.0),
         })
     }
 

@@ -15,8 +15,8 @@
 //! 0.1; in deep water the true frequency is then lower by (ak)²/8 (Tadjbakhsh & Keller 1960, J. Fluid
 //! Mech. 8, 442–451), about 0.1 %. J = det F is 1 to first order.
 
-use super::material::density;
-use super::{Entry, Exact, GRAVITY, Material, number, require_below, sine};
+use super::parameters::{DENSITY, GRAVITY, number};
+use super::{Entry, Exact, Material, require_below, sine};
 use crate::error::Error;
 use crate::parameter::{Domain, Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
@@ -46,23 +46,28 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(StandingWave::new(p)?)),
 };
 
+pub(crate) const WIDTH: Parameter = number(["width", "m", "1"], [1e-3, 1e3], "width L of the box");
+pub(crate) const DEPTH: Parameter = number(["depth", "m", "0.5"], [1e-3, 1e3], "depth H at rest");
+pub(crate) const AMPLITUDE: Parameter = number(
+    ["amplitude", "m", "0.01"],
+    [0.0, 1e2],
+    "amplitude a of the surface",
+);
+pub(crate) const HALF_WAVES: Parameter = Parameter {
+    name: "half_waves",
+    unit: "-",
+    default: "1",
+    domain: Domain::Integer { least: 1, most: 16 },
+    meaning: "number n of half waves across the box, k = nπ/L",
+};
+
 const PARAMETERS: [Parameter; 6] = [
-    density("997.5"),
+    DENSITY.with_default("997.5"),
     GRAVITY,
-    number(["width", "m", "1"], [1e-3, 1e3], "width L of the box"),
-    number(["depth", "m", "0.5"], [1e-3, 1e3], "depth H at rest"),
-    number(
-        ["amplitude", "m", "0.01"],
-        [0.0, 1e2],
-        "amplitude a of the surface",
-    ),
-    Parameter {
-        name: "half_waves",
-        unit: "-",
-        default: "1",
-        domain: Domain::Integer { least: 1, most: 16 },
-        meaning: "number n of half waves across the box, k = nπ/L",
-    },
+    WIDTH,
+    DEPTH,
+    AMPLITUDE,
+    HALF_WAVES,
 ];
 
 /// The largest displacement gradient for which the linear theory is taken as exact.
@@ -75,12 +80,12 @@ impl StandingWave {
     /// An amplitude that is too large for linear waves.
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         let wave = Self {
-            density: p.number("density"),
-            gravity: p.number("gravity"),
-            width: p.number("width"),
-            depth: p.number("depth"),
-            amplitude: p.number("amplitude"),
-            wave_number: p.number("half_waves") * PI / p.number("width"),
+            density: p.number(DENSITY),
+            gravity: p.number(GRAVITY),
+            width: p.number(WIDTH),
+            depth: p.number(DEPTH),
+            amplitude: p.number(AMPLITUDE),
+            wave_number: p.number(HALF_WAVES) * PI / p.number(WIDTH),
         };
         require_below(
             ["amplitude", "m", "is too large for linear waves"],

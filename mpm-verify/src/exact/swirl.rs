@@ -5,9 +5,10 @@
 //! In cylindrical coordinates P = μ \[R α_R (e_r E_Θ + e_θ E_R) + R α_Z (e_θ E_Z + e_z E_Θ)\], and
 //! b_r = −R α_t² + (μ/ρ₀) R (α_R² + α_Z²), b_θ = R α_tt − (μ/ρ₀) (3 α_R + R α_RR + R α_ZZ), b_z = 0.
 
+use super::parameters::ANGULAR_FREQUENCY;
 use super::twist::{Angle, Twist, Vortex};
 use super::vortex_box::{ANGLE, profile};
-use super::{Entry, Material, angular_frequency, sine};
+use super::{Entry, Material, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::Vector3;
@@ -33,7 +34,13 @@ pub(crate) const ENTRY: Entry = Entry {
 
 const PARAMETERS: [Parameter; 5] = {
     let [e, nu, rho] = Material::parameters("1e3", "0.3");
-    [e, nu, rho, ANGLE, angular_frequency("3.141592653589793")]
+    [
+        e,
+        nu,
+        rho,
+        ANGLE,
+        ANGULAR_FREQUENCY.with_default("3.141592653589793"),
+    ]
 };
 
 impl Swirl {
@@ -44,8 +51,8 @@ impl Swirl {
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         Ok(Self {
             material: Material::new(p)?,
-            angle: p.number("angle"),
-            angular_frequency: p.number("angular_frequency"),
+            angle: p.number(ANGLE),
+            angular_frequency: p.number(ANGULAR_FREQUENCY),
         })
     }
 }

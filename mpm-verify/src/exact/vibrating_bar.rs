@@ -9,7 +9,8 @@
 //! amount ε of the largest strain kA, which is held below 0.01; the deviation of the frequency, an
 //! even function of the amplitude, is of order (kA)².
 
-use super::{Entry, Exact, Material, number, require_below, sine};
+use super::parameters::{AMPLITUDE, number};
+use super::{Entry, Exact, Material, require_below, sine};
 use crate::error::Error;
 use crate::parameter::{Domain, Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
@@ -35,28 +36,32 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(VibratingBar::new(p)?)),
 };
 
+pub(crate) const LENGTH: Parameter = number(["length", "m", "1"], [1e-3, 1e3], "length L");
+pub(crate) const MODE: Parameter = Parameter {
+    name: "mode",
+    unit: "-",
+    default: "1",
+    domain: Domain::Integer { least: 1, most: 16 },
+    meaning: "number n of the mode",
+};
+pub(crate) const ENDS: Parameter = Parameter {
+    name: "ends",
+    unit: "-",
+    default: "fixed-fixed",
+    domain: Domain::Choice(&["fixed-fixed", "fixed-free"]),
+    meaning: "what holds the ends X = 0 and X = L",
+};
+
 const PARAMETERS: [Parameter; 7] = {
     let [e, nu, rho] = Material::parameters("1e7", "0.3");
     [
         e,
         nu,
         rho,
-        number(["length", "m", "1"], [1e-3, 1e3], "length L"),
-        number(["amplitude", "m", "1e-4"], [0.0, 1.0], "amplitude A"),
-        Parameter {
-            name: "mode",
-            unit: "-",
-            default: "1",
-            domain: Domain::Integer { least: 1, most: 16 },
-            meaning: "number n of the mode",
-        },
-        Parameter {
-            name: "ends",
-            unit: "-",
-            default: "fixed-fixed",
-            domain: Domain::Choice(&["fixed-fixed", "fixed-free"]),
-            meaning: "what holds the ends X = 0 and X = L",
-        },
+        LENGTH,
+        AMPLITUDE.with_default("1e-4"),
+        MODE,
+        ENDS,
     ]
 };
 
@@ -69,12 +74,12 @@ impl VibratingBar {
     /// # Errors
     /// An amplitude that is too large for linear elasticity.
     pub fn new(p: &Parameters) -> Result<Self, Error> {
-        let half_waves = p.number("mode") - if p.is("ends", "fixed-free") { 0.5 } else { 0.0 };
+        let half_waves = p.number(MODE) - if p.is(ENDS, "fixed-free") { 0.5 } else { 0.0 };
         let bar = Self {
             material: Material::new(p)?,
-            length: p.number("length"),
-            amplitude: p.number("amplitude"),
-            wave_number: half_waves * PI / p.number("length"),
+            length: p.number(LENGTH),
+            amplitude: p.number(AMPLITUDE),
+            wave_number: half_waves * PI / p.number(LENGTH),
         };
         require_below(
             ["amplitude", "m", "is too large for linear elasticity"],

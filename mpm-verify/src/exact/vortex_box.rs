@@ -6,8 +6,9 @@
 //! ν → ½ over that at ν = 0.3 is a direct measure of locking, and σ_m − μ (R α_R)²/3, zero in the exact
 //! solution, is another.
 
+use super::parameters::{ANGULAR_FREQUENCY, number};
 use super::twist::{Angle, PLANE, Twist, Vortex};
-use super::{Entry, Material, angular_frequency, number, sine};
+use super::{Entry, Material, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::Vector3;
@@ -33,7 +34,13 @@ pub(crate) const ENTRY: Entry = Entry {
 
 const PARAMETERS: [Parameter; 5] = {
     let [e, nu, rho] = Material::parameters("1e3", "0.3");
-    [e, nu, rho, ANGLE, angular_frequency("3.141592653589793")]
+    [
+        e,
+        nu,
+        rho,
+        ANGLE,
+        ANGULAR_FREQUENCY.with_default("3.141592653589793"),
+    ]
 };
 
 /// α₀.
@@ -63,8 +70,8 @@ impl VortexBox {
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         Ok(Self {
             material: Material::new(p)?,
-            angle: p.number("angle"),
-            angular_frequency: p.number("angular_frequency"),
+            angle: p.number(ANGLE),
+            angular_frequency: p.number(ANGULAR_FREQUENCY),
         })
     }
 }

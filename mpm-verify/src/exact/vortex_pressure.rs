@@ -9,9 +9,10 @@
 //!
 //! x,AB = Σ_ab x,ab X̂_a,A X̂_b,B + Σ_a x,a X̂_a,AB.
 
+use super::parameters::{ANGULAR_FREQUENCY, number};
 use super::twist::Vortex;
 use super::vortex_box::{ANGLE, VortexBox};
-use super::{Entry, Exact, INVERTS, Material, angular_frequency, number, require_below, sine};
+use super::{Entry, Exact, INVERTS, Material, require_below, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3};
@@ -33,6 +34,12 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(VortexPressure::new(p)?)),
 };
 
+pub(crate) const PRESSURE: Parameter = number(
+    ["pressure", "Pa", "100"],
+    [0.0, 1e12],
+    "amplitude p₀ of λ ln J",
+);
+
 const PARAMETERS: [Parameter; 6] = {
     let [e, nu, rho] = Material::parameters("1e3", "0.499");
     [
@@ -40,12 +47,8 @@ const PARAMETERS: [Parameter; 6] = {
         nu,
         rho,
         ANGLE,
-        angular_frequency("3.141592653589793"),
-        number(
-            ["pressure", "Pa", "100"],
-            [0.0, 1e12],
-            "amplitude p₀ of λ ln J",
-        ),
+        ANGULAR_FREQUENCY.with_default("3.141592653589793"),
+        PRESSURE,
     ]
 };
 
@@ -65,7 +68,7 @@ impl VortexPressure {
     /// A pressure of λ or more.
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         let vortex = VortexBox::new(p)?;
-        let pressure = p.number("pressure");
+        let pressure = p.number(PRESSURE);
         require_below(
             ["pressure", "Pa", INVERTS],
             pressure,

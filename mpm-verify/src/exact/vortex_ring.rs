@@ -7,8 +7,9 @@
 //! material at rest, its sides are fixed. h″, and with it b, jumps at the circles. u, b and P do not
 //! depend on λ.
 
+use super::parameters::{ANGULAR_FREQUENCY, number};
 use super::twist::{Angle, PLANE, Twist, Vortex};
-use super::{Entry, Material, angular_frequency, number, sine};
+use super::{Entry, Material, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::Vector3;
@@ -41,7 +42,13 @@ pub(crate) const ANGLE: Parameter = number(
 
 const PARAMETERS: [Parameter; 5] = {
     let [e, nu, rho] = Material::parameters("1e3", "0.3");
-    [e, nu, rho, ANGLE, angular_frequency("3.141592653589793")]
+    [
+        e,
+        nu,
+        rho,
+        ANGLE,
+        ANGULAR_FREQUENCY.with_default("3.141592653589793"),
+    ]
 };
 
 impl VortexRing {
@@ -53,7 +60,7 @@ impl VortexRing {
         Ok(Self {
             material: Material::new(p)?,
             angle: p.number(ANGLE),
-            angular_frequency: p.number("angular_frequency"),
+            angular_frequency: p.number(ANGULAR_FREQUENCY),
         })
     }
 }

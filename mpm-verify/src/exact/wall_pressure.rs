@@ -14,9 +14,8 @@
 //! u_i = 0 where X_i = 0 or 1, and no shear traction acts: rollers on all sides are exact. F_ii > 0
 //! as long as 4A < 1.
 
-use super::{
-    DIMENSION, Entry, Exact, INVERTS, Material, angular_frequency, number, require_below, sine,
-};
+use super::parameters::{AMPLITUDE, ANGULAR_FREQUENCY, DIMENSION};
+use super::{Entry, Exact, INVERTS, Material, require_below, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
@@ -48,8 +47,8 @@ const PARAMETERS: [Parameter; 6] = {
         nu,
         rho,
         DIMENSION,
-        number(["amplitude", "m", "0.05"], [0.0, 1.0], "amplitude A"),
-        angular_frequency("314.1592653589793"),
+        AMPLITUDE,
+        ANGULAR_FREQUENCY.with_default("314.1592653589793"),
     ]
 };
 
@@ -59,13 +58,13 @@ impl WallPressure {
     /// # Errors
     /// An amplitude with which F_ii reaches zero.
     pub fn new(p: &Parameters) -> Result<Self, Error> {
-        let amplitude = p.number("amplitude");
+        let amplitude = p.number(AMPLITUDE);
         require_below(["amplitude", "m", INVERTS], amplitude, 0.25)?;
         Ok(Self {
             material: Material::new(p)?,
-            dimension: p.number("dimension") as usize,
+            dimension: p.number(DIMENSION) as usize,
             amplitude,
-            angular_frequency: p.number("angular_frequency"),
+            angular_frequency: p.number(ANGULAR_FREQUENCY),
         })
     }
 

@@ -5,7 +5,7 @@ use super::metrics::{
 };
 use crate::cases::parameters::{CFL, DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::check::{Check, Finding, On, run, study};
-use crate::exact::ANGULAR_FREQUENCY;
+use crate::exact::parameters::ANGULAR_FREQUENCY;
 use crate::metric::Metric;
 use crate::order::{fit_order, richardson};
 use crate::record::Record;
