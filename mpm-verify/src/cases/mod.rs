@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::error::Error;
 use std::sync::LazyLock;
 
+mod column;
 mod family;
 mod manufactured;
 mod mms_axis;
@@ -14,6 +15,8 @@ mod mms_vortex_pressure;
 mod mms_vortex_ring;
 mod mms_wall_pressure;
 mod parameters;
+mod standing_wave;
+mod vibrating_bar;
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
     vec![
@@ -24,6 +27,9 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         mms_vortex_pressure::case(),
         mms_double_shear::case(),
         mms_swirl::case(),
+        vibrating_bar::case(),
+        column::case(),
+        standing_wave::case(),
     ]
 });
 

@@ -2,23 +2,28 @@
 //!
 //! Set-up, choices and tolerances: `docs/standing-wave.md`.
 
-use super::manufactured::checks;
-use super::manufactured::plan::{REMEDIES, ladder, levels, pairs, union};
-use super::manufactured::{Boundary, Manufactured, numerical, parameters};
-use crate::case::{CheckInfo, Headline, Quantity, RunSpec, Tier, error, headline};
+use super::family::{REMEDIES, family, levels, pairs};
+use super::manufactured::checks::mass;
+use super::manufactured::metrics::{
+    AMPLITUDE_RATIO, DISPLACEMENT_L2, ENERGY_GAIN, ENERGY_LOSS, FREQUENCY_ERROR, FREQUENCY_RATIO,
+    LOG_JACOBIAN_GAP,
+};
+use super::manufactured::{Boundary, DURATION, Manufactured, PPC_PER_DIRECTION, all_parameters};
+use crate::case::{Case, Tier};
+use crate::check::{Check, Finding, run};
 use crate::error::Error;
 use crate::exact::hydrostatic::Hydrostatic;
-use crate::exact::standing_wave::{ENTRY, StandingWave};
+use crate::exact::standing_wave::{ENTRY, HALF_WAVES, StandingWave, WIDTH};
 use crate::exact::{Exact, Material};
-use crate::parameter::{Domain, Parameter, Parameters};
+use crate::metric::{error, headline};
+use crate::parameter::{Parameter, Parameters, number, parameter};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName};
-use crate::verdict::{Kind, Verdict};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
-use std::sync::LazyLock;
 
 use BasisName::{Bspline2, Gimp};
+use Tier::{Nightly, Pr};
 
 /// The linear wave on top of the exact state of rest of a compressible liquid: to first order in the
 /// wave's steepness and in gH/c² an exact solution.
@@ -33,7 +38,7 @@ impl CompressibleWave {
         let wave = StandingWave::new(p)?;
         let rest = Hydrostatic {
             density: wave.density,
-            bulk_modulus: p.number("bulk_modulus"),
+            bulk_modulus: p.number(BULK_MODULUS),
             gravity: wave.gravity,
             width: wave.width,
             height: wave.depth,
@@ -76,134 +81,79 @@ impl Exact for CompressibleWave {
     }
 }
 
-const BULK_MODULUS: Parameter = Parameter {
-    name: "bulk_modulus",
-    unit: "Pa",
-    default: "2.5e6",
-    domain: Domain::Number {
-        least: 1e4,
-        most: 1e12,
-        below: false,
-    },
-    meaning: "bulk modulus K; sound then travels at √(K/ρ), 50 m/s unless changed",
-};
+const BULK_MODULUS: Parameter = parameter(
+    "bulk_modulus",
+    "Pa",
+    "2.5e6",
+    number(1e4, 1e12, false),
+    "bulk modulus K; sound then travels at √(K/ρ), 50 m/s unless changed",
+);
 
 /// ω of the wave (rad/s); NaN of parameters that make none.
 fn frequency(p: &Parameters) -> f64 {
     StandingWave::new(p).map_or(f64::NAN, |wave| wave.angular_frequency())
 }
 
-const QUANTITIES: &[Quantity] = &[error("frequency_error", "relative error of the frequency")];
-
-pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
-    references: &[
-        "Exact to first order in the steepness: Lamb 1932, §228, on top of the exact state of rest of a compressible liquid. Frequency ω² = g k tanh kH; the compressibility lowers it by about gH/(2c²) = 0.1 %.",
-    ],
-    limits: &[
-        "The steepest slope of the wave is 3 %; terms of second order are left out of the exact solution.",
-        "Sound travels at 50 m/s, not at 1,416 m/s.",
-        "No remedy carries the wave through twenty periods with both bases: docs/remedy.md says what breaks.",
-    ],
-    boundary: Boundary::Vessel,
-    fluid: true,
-    frequency: Some(frequency),
-    schemes: pairs(&[Gimp, Bspline2], &REMEDIES),
-    levels: levels(1.0, [("n8", 8.0), ("n16", 16.0)]),
-    plan,
-    checks: CHECKS,
-    judge,
-    judge_study: |_| Vec::new(),
-    headlines: HEADLINES,
-    quantities: QUANTITIES,
-    breaks_down: |r| {
-        let averaged = r.remedy() != RemedyName::None;
-        let early = r.basis() == Gimp && r.level == "n16" && r.remedy() == RemedyName::FbarTotal;
-        let long = r.parameters.number("duration") > TWO_PERIODS && !survives(r);
-        (averaged && (early || long)).then_some(
-            "what Π can't see has next to no stiffness: particles lose their order, then J or the walls (docs/modes.md)",
-        )
-    },
-    ..Manufactured::solid(
-        [
-            "standing-wave",
-            "Standing wave",
-            "Half a metre of water sways in a box for twenty periods without viscosity: the frequency is known, the energy must not grow, and particles have time to lose their order.",
-        ],
-        |p| Ok(Box::new(CompressibleWave::new(p)?)),
-        parameters(
-            ENTRY.parameters,
-            &[],
-            [BULK_MODULUS]
-                .into_iter()
-                .chain(numerical("2.4").map(|mut p| {
-                    if p.name == "ppc_per_direction" {
-                        p.default = "4";
-                    }
-                    p
-                })),
-        ),
-    )
-});
-
 /// Two periods of 1.18 s (s), and twenty.
 const TWO_PERIODS: f64 = 2.4;
-const TWENTY_PERIODS: &str = "duration=24";
+const TWENTY_PERIODS: &[&str] = &["duration=24"];
 
-const HEADLINES: &[Headline] = &[
-    headline("frequency_ratio", "frequency / exact (–)", 1.0, 4),
-    headline(
-        "amplitude_ratio",
-        "amplitude, last / first period (–)",
-        1.0,
-        3,
-    ),
-    headline("energy_gain", "energy gain (–)", 1.0, 5),
-    headline("energy_loss", "energy loss (–)", 1.0, 4),
-    headline("displacement_l2", "u rms error (m)", 1.0, 5),
-    headline("log_jacobian_gap", "ln(J/J̄) (–)", 1.0, 4),
-];
-
-const CHECKS: &[CheckInfo] = &[
-    checks::MASS,
-    CheckInfo {
-        name: "frequency",
-        kind: Kind::Truth,
-        statement: "F̄ over two periods: relative error of the frequency at most ½ (kh)² + 1 %, the error of the discretisation and of the linear theory of slight compressibility",
-    },
-    CheckInfo {
-        name: "no-energy-gain",
-        kind: Kind::Truth,
-        statement: "none and fbar-consistent: kinetic + stored − gravity's energy never above its start by more than 2 % of the largest kinetic energy: the offset by half a step and the sound of the start",
-    },
-    CheckInfo {
-        name: "locks",
-        kind: Kind::KnownLimit,
-        statement: "none with GIMP: the frequency is off by more than ½ (kh)² + 1 %",
-    },
-    CheckInfo {
-        name: "breaks-down",
-        kind: Kind::KnownLimit,
-        statement: "F̄ over twenty periods, and fbar-total with GIMP at n16 over two: breaks down; fbar-consistent with GIMP, and with quadratic splines at n8, is judged by loses-order instead",
-    },
-    CheckInfo {
-        name: "loses-order",
-        kind: Kind::KnownLimit,
-        statement: "F̄ over twenty periods, where it doesn't break down: rms ln(J/J̄) above 0.1 at the end",
-    },
-];
-
-fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
-    let levels = &case.levels;
-    match tier {
-        Tier::Quick => Vec::new(),
-        Tier::Pr => ladder(&levels[..1], &case.schemes, &[]),
-        Tier::Nightly => union([
-            plan(case, Tier::Pr),
-            ladder(levels, &case.schemes, &[]),
-            ladder(levels, &case.schemes, &[TWENTY_PERIODS]),
-        ]),
-        Tier::Long => Vec::new(),
+pub(super) fn case() -> Case {
+    let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0)]);
+    let names = [
+        "standing-wave",
+        "Standing wave",
+        "Half a metre of water sways in a box for twenty periods without viscosity: the frequency is known, the energy must not grow, and particles have time to lose their order.",
+    ];
+    let motion = Manufactured {
+        boundary: Boundary::Vessel,
+        fluid: true,
+        frequency: Some(frequency),
+        ..Manufactured::solid(|p| Ok(Box::new(CompressibleWave::new(p)?)))
+    };
+    let of_solution = [ENTRY.parameters, &[BULK_MODULUS]].concat();
+    let parameters = all_parameters(&of_solution, &[(PPC_PER_DIRECTION, "4")], "2.4", &[]);
+    let all = pairs(&[Gimp, Bspline2], &REMEDIES);
+    Case {
+        references: vec![
+            "Exact to first order in the steepness: Lamb 1932, §228, on top of the exact state of rest of a compressible liquid. Frequency ω² = g k tanh kH; the compressibility lowers it by about gH/(2c²) = 0.1 %.".to_owned(),
+        ],
+        limits: &[
+            "The steepest slope of the wave is 3 %; terms of second order are left out of the exact solution.",
+            "Sound travels at 50 m/s, not at 1,416 m/s.",
+            "No remedy carries the wave through twenty periods with both bases: docs/remedy.md says what breaks.",
+        ],
+        plan: vec![
+            family(Pr, &levels[..1], &all, &[]),
+            family(Nightly, &levels, &all, &[]),
+            family(Nightly, &levels, &all, TWENTY_PERIODS),
+        ],
+        levels,
+        checks: checks(),
+        headlines: vec![
+            headline(FREQUENCY_RATIO, "frequency / exact (–)", 1.0, 4),
+            headline(AMPLITUDE_RATIO, "amplitude, last / first period (–)", 1.0, 3),
+            headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5),
+            headline(ENERGY_LOSS, "energy loss (–)", 1.0, 4),
+            headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 5),
+            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4),
+        ],
+        quantities: vec![error(FREQUENCY_ERROR, "relative error of the frequency")],
+        // F̄ over twenty periods, and fbar-total with GIMP at n16 over two; the others lose their order.
+        breaks_down: |r| {
+            let averaged = r.remedy() != RemedyName::None;
+            let early =
+                r.basis() == Gimp && r.level == "n16" && r.remedy() == RemedyName::FbarTotal;
+            (averaged && (early || !is_short(r) && !survives(r))).then_some(
+                "what Π can't see has next to no stiffness: particles lose their order, then J or the walls (docs/modes.md)",
+            )
+        },
+        ..motion.case(names, parameters)
     }
+}
+
+fn is_short(r: &Record) -> bool {
+    r.parameters.number(DURATION) <= TWO_PERIODS
 }
 
 /// Whether twenty periods are run through although the particles have lost their order.
@@ -216,53 +166,58 @@ const PARTED: f64 = 0.1;
 
 /// Largest error of the frequency of a scheme that does not lock.
 fn tolerance(r: &Record) -> f64 {
-    let kh =
-        PI * r.parameters.number("half_waves") / r.parameters.number("width") * r.discretisation.h;
+    let kh = PI * r.parameters.number(HALF_WAVES) / r.parameters.number(WIDTH) * r.discretisation.h;
     0.5 * kh * kh + 0.01
 }
 
-fn judge(r: &Record) -> Vec<Verdict> {
-    let mut verdicts = vec![checks::mass(r)];
-    let (metric, error) = ("frequency_error", r.metric("frequency_error"));
-    let short = r.parameters.number("duration") <= TWO_PERIODS;
-    if r.remedy() == RemedyName::None && r.basis() == Gimp {
-        verdicts.push(Verdict::above(
+fn checks() -> Vec<Check> {
+    vec![
+        mass(),
+        Check::known_limit(
             "locks",
-            Kind::KnownLimit,
-            metric,
-            error,
-            tolerance(r),
-            "every particle's volume is a constraint",
-        ));
-    } else if r.remedy() != RemedyName::None && short {
-        verdicts.push(Verdict::at_most(
+            "none with GIMP: the frequency is off by more than ½ (kh)² + 1 %",
+            run(|r| {
+                let why = "every particle's volume is a constraint";
+                let found = Finding::above(
+                    FREQUENCY_ERROR,
+                    r.metric(FREQUENCY_ERROR),
+                    tolerance(r),
+                    why,
+                );
+                let locks = r.remedy() == RemedyName::None && r.basis() == Gimp;
+                locks.then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::truth(
             "frequency",
-            Kind::Truth,
-            metric,
-            error,
-            tolerance(r),
-            "½ (kh)² + 1 %",
-        ));
-    }
-    if r.remedy() != RemedyName::None && !short {
-        verdicts.push(Verdict::above(
+            "F̄ over two periods: relative error of the frequency at most ½ (kh)² + 1 %, the error of the discretisation and of the linear theory of slight compressibility",
+            run(|r| {
+                let error = r.metric(FREQUENCY_ERROR);
+                let found = Finding::at_most(FREQUENCY_ERROR, error, tolerance(r), "½ (kh)² + 1 %");
+                let judged = r.remedy() != RemedyName::None && is_short(r);
+                judged.then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::known_limit(
             "loses-order",
-            Kind::KnownLimit,
-            "log_jacobian_gap",
-            r.metric("log_jacobian_gap"),
-            PARTED,
-            "what Π can't see has little stiffness: J parts from J̄ (docs/modes.md)",
-        ));
-    }
-    if matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent) {
-        verdicts.push(Verdict::at_most(
+            "F̄ over twenty periods, where it doesn't break down: rms ln(J/J̄) above 0.1 at the end",
+            run(|r| {
+                let why = "what Π can't see has little stiffness: J parts from J̄ (docs/modes.md)";
+                let found =
+                    Finding::above(LOG_JACOBIAN_GAP, r.metric(LOG_JACOBIAN_GAP), PARTED, why);
+                let long = r.remedy() != RemedyName::None && !is_short(r);
+                long.then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::truth(
             "no-energy-gain",
-            Kind::Truth,
-            "energy_gain",
-            r.metric("energy_gain"),
-            0.02,
-            "the force takes what is stored",
-        ));
-    }
-    verdicts
+            "none and fbar-consistent: kinetic + stored − gravity's energy never above its start by more than 2 % of the largest kinetic energy: the offset by half a step and the sound of the start",
+            run(|r| {
+                let why = "the force takes what is stored";
+                let found = Finding::at_most(ENERGY_GAIN, r.metric(ENERGY_GAIN), 0.02, why);
+                let keeps = matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent);
+                keeps.then_some(found).into_iter().collect()
+            }),
+        ),
+    ]
 }

@@ -2,108 +2,74 @@
 //!
 //! Set-up, choices and tolerances: `docs/vibrating-bar.md`.
 
-use super::manufactured::checks::{self, Claim};
-use super::manufactured::plan::{ladder, levels, union};
-use super::manufactured::{Manufactured, numerical, parameters};
+use super::family::{BASES, REMEDIES, family, levels, pairs};
+use super::manufactured::checks::{Claim, Claims, is_sound, mass, orders};
+use super::manufactured::metrics::{
+    AMPLITUDE_RATIO, DAMPING, ENERGY_GAIN, ENERGY_LOSS, FREQUENCY_ERROR, FREQUENCY_RATIO,
+};
+use super::manufactured::{Manufactured, all_parameters};
 use super::mms_vortex_box::{NULL_SPACE, feeds_null_space};
-use crate::case::{CheckInfo, Headline, Quantity, RunSpec, Tier, error};
-use crate::exact::vibrating_bar::{ENTRY, VibratingBar};
+use crate::case::{Case, Tier};
+use crate::check::{Check, Finding, run, study};
+use crate::exact::vibrating_bar::{ENTRY, LENGTH, VibratingBar};
+use crate::metric::{Metric, error, headline};
 use crate::parameter::Parameters;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName};
-use crate::verdict::{Kind, Verdict};
 use std::f64::consts::PI;
-use std::sync::LazyLock;
 
-const QUANTITIES: &[Quantity] = &[
-    error("frequency_error", "relative error of the frequency"),
-    error("damping", "−ln of the amplitude's ratio"),
+use Tier::{Nightly, Pr, Quick};
+
+const ORDERS: &[(Metric, Claims)] = &[
+    (FREQUENCY_ERROR, claim_of_frequency),
+    (DAMPING, claim_of_damping),
 ];
 
-pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
-    references: &[
-        "Exact frequency: ω = k c of uniaxial strain (Achenbach 1973); of the amplitude kA = 3·10⁻⁴ the frequency of the neo-Hookean bar depends by 10⁻⁷.",
-        "What averaging does: the symbol of Π, docs/modes.md.",
-    ],
-    limits: &[
-        "One mode of small amplitude: no particle crosses a cell.",
-        "FLIP with lumped masses damps even at η = 1, by ¼ s² (kh)² (ωΔt)² a step; the amplitude falls accordingly.",
-    ],
-    frequency: Some(frequency),
-    levels: levels(
+pub(super) fn case() -> Case {
+    let levels = levels(
         1.0,
         [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)],
-    ),
-    plan,
-    checks: CHECKS,
-    judge,
-    judge_study,
-    headlines: HEADLINES,
-    quantities: QUANTITIES,
-    ..Manufactured::solid(
-        [
-            "vibrating-bar",
-            "Vibrating bar",
-            "A bar between rigid ends vibrates in its first mode over a hundred periods without any load: the frequency tells the stiffness that a basis and an average leave, the amplitude what a transfer takes.",
+    );
+    let names = [
+        "vibrating-bar",
+        "Vibrating bar",
+        "A bar between rigid ends vibrates in its first mode over a hundred periods without any load: the frequency tells the stiffness that a basis and an average leave, the amplitude what a transfer takes.",
+    ];
+    let motion = Manufactured {
+        frequency: Some(frequency),
+        ..Manufactured::solid(ENTRY.build)
+    };
+    // A hundred periods of 2L/c, c = √((λ + 2μ)/ρ₀), and a little more.
+    let parameters = all_parameters(ENTRY.parameters, &[], "1.73", &[]);
+    let all = pairs(&BASES, &REMEDIES);
+    Case {
+        references: vec![
+            "Exact frequency: ω = k c of uniaxial strain (Achenbach 1973); of the amplitude kA = 3·10⁻⁴ the frequency of the neo-Hookean bar depends by 10⁻⁷.".to_owned(),
+            "What averaging does: the symbol of Π, docs/modes.md.".to_owned(),
         ],
-        ENTRY.build,
-        // A hundred periods of 2L/c, c = √((λ + 2μ)/ρ₀), and a little more.
-        parameters(ENTRY.parameters, &[], numerical("1.73")),
-    )
-});
-
-const HEADLINES: &[Headline] = &[
-    Headline {
-        metric: "frequency_ratio",
-        heading: "frequency / exact (–)",
-        factor: 1.0,
-        decimals: 6,
-    },
-    Headline {
-        metric: "amplitude_ratio",
-        heading: "amplitude, last / first period (–)",
-        factor: 1.0,
-        decimals: 4,
-    },
-    Headline {
-        metric: "energy_gain",
-        heading: "energy gain (–)",
-        factor: 1.0,
-        decimals: 5,
-    },
-];
-
-const CHECKS: &[CheckInfo] = &[
-    checks::MASS,
-    checks::ORDER,
-    checks::FALLS,
-    checks::OBSERVED,
-    CheckInfo {
-        name: "frequency",
-        kind: Kind::Truth,
-        statement: "relative error of the frequency at most ½ (kh)², but for fbar-recursive and for waves of cubic splines with F̄ of which less than a twentieth is left",
-    },
-    CheckInfo {
-        name: "cubic-walls-damp",
-        kind: Kind::KnownLimit,
-        statement: "cubic splines with F̄ but fbar-recursive: less than half of the amplitude is left after a hundred periods",
-    },
-    CheckInfo {
-        name: "no-energy-gain",
-        kind: Kind::Truth,
-        statement: "kinetic + stored energy never above its start by more than ½ ωΔt of the largest kinetic energy, the offset by half a step of velocities and positions; remedies that store what their force takes",
-    },
-    CheckInfo {
-        name: "averaging-softens",
-        kind: Kind::Truth,
-        statement: "linear functions, GIMP and quadratic splines: the square of the frequency over that without a remedy is 1 − ¼ (kh)² with fbar-total and fbar-rate, 1 − 0.064 (kh)² (quadratic splines: 1) with fbar-consistent, within (kh)³/(2π): the average acts once, with the spread of the basis",
-    },
-    CheckInfo {
-        name: "fades",
-        kind: Kind::KnownLimit,
-        statement: "fbar-recursive: nine tenths of the energy are gone after a hundred periods",
-    },
-];
+        limits: &[
+            "One mode of small amplitude: no particle crosses a cell.",
+            "FLIP with lumped masses damps even at η = 1, by ¼ s² (kh)² (ωΔt)² a step; the amplitude falls accordingly.",
+        ],
+        plan: vec![
+            family(Quick, &levels[..1], &all[..1], &[]),
+            family(Pr, &levels[..3], &all, &[]),
+            family(Nightly, &levels, &all, &[]),
+        ],
+        levels,
+        checks: checks(),
+        headlines: vec![
+            headline(FREQUENCY_RATIO, "frequency / exact (–)", 1.0, 6),
+            headline(AMPLITUDE_RATIO, "amplitude, last / first period (–)", 1.0, 4),
+            headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5),
+        ],
+        quantities: vec![
+            error(FREQUENCY_ERROR, "relative error of the frequency"),
+            error(DAMPING, "−ln of the amplitude's ratio"),
+        ],
+        ..motion.case(names, parameters)
+    }
+}
 
 /// Shares of the amplitude: half of it, and what counts as gone.
 const HALF: f64 = 0.5;
@@ -112,18 +78,6 @@ const GONE: f64 = 0.05;
 /// ω of the wave (rad/s); NaN of parameters that make none.
 fn frequency(p: &Parameters) -> f64 {
     VibratingBar::new(p).map_or(f64::NAN, |bar| bar.angular_frequency())
-}
-
-fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
-    match tier {
-        Tier::Quick => ladder(&case.levels[..1], &case.schemes[..1], &[]),
-        Tier::Pr => ladder(&case.levels[..3], &case.schemes, &[]),
-        Tier::Nightly => union([
-            plan(case, Tier::Pr),
-            ladder(&case.levels, &case.schemes, &[]),
-        ]),
-        Tier::Long => Vec::new(),
-    }
 }
 
 /// (1 − square of the frequency over that without a remedy)/(kh)², to leading order, with two particles
@@ -139,71 +93,86 @@ fn softening(r: &Record) -> Option<f64> {
 
 /// kh of the first mode.
 fn resolution(r: &Record) -> f64 {
-    PI / r.parameters.number("length") * r.discretisation.h
+    PI / r.parameters.number(LENGTH) * r.discretisation.h
 }
 
-fn judge(r: &Record) -> Vec<Verdict> {
-    let kh = resolution(r);
-    let omega = frequency(&r.parameters);
-    let phase = omega * r.discretisation.dt;
-    if r.remedy() == RemedyName::FbarRecursive {
-        return vec![
-            checks::mass(r),
-            Verdict::above(
-                "fades",
-                Kind::KnownLimit,
-                "energy_loss",
-                r.metric("energy_loss"),
-                0.9,
-                "Eq. (26) diffuses J with D = ½ s² h²/Δt: the strain fades at the rate D k²",
-            ),
-        ];
-    }
-    let mut verdicts = vec![checks::mass(r)];
-    let cubic = r.basis() == BasisName::Bspline3 && checks::is_sound(r.remedy());
-    if cubic && !feeds_null_space(r) {
-        verdicts.push(Verdict::at_most(
+/// Whether walls damp a wave of cubic splines with F̄, which are judged by that.
+fn is_cubic(r: &Record) -> bool {
+    r.basis() == BasisName::Bspline3 && is_sound(r.remedy())
+}
+
+fn checks() -> Vec<Check> {
+    let mut checks = vec![
+        mass(),
+        Check::known_limit(
+            "fades",
+            "fbar-recursive: nine tenths of the energy are gone after a hundred periods",
+            run(|r| {
+                let why =
+                    "Eq. (26) diffuses J with D = ½ s² h²/Δt: the strain fades at the rate D k²";
+                let found = Finding::above(ENERGY_LOSS, r.metric(ENERGY_LOSS), 0.9, why);
+                let fades = r.remedy() == RemedyName::FbarRecursive;
+                fades.then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::known_limit(
             "cubic-walls-damp",
-            Kind::KnownLimit,
-            "amplitude_ratio",
-            r.metric("amplitude_ratio"),
-            HALF,
-            "the lumped mass of cubics next to a wall has its centre off the node",
-        ));
-    }
-    verdicts.push(if feeds_null_space(r) {
-        Verdict::not_applicable("frequency", "frequency_error", NULL_SPACE)
-    } else if cubic && r.metric("amplitude_ratio") < GONE {
-        let why = "less than a twentieth of the wave is left: its late zeros are those of what rings beside it";
-        Verdict::not_applicable("frequency", "frequency_error", why)
-    } else {
-        Verdict::at_most(
+            "cubic splines with F̄ but fbar-recursive: less than half of the amplitude is left after a hundred periods",
+            run(|r| {
+                let why = "the lumped mass of cubics next to a wall has its centre off the node";
+                let found = Finding::at_most(AMPLITUDE_RATIO, r.metric(AMPLITUDE_RATIO), HALF, why);
+                (is_cubic(r) && !feeds_null_space(r))
+                    .then_some(found)
+                    .into_iter()
+                    .collect()
+            }),
+        ),
+        Check::truth(
             "frequency",
-            Kind::Truth,
-            "frequency_error",
-            r.metric("frequency_error"),
-            0.5 * kh * kh,
-            "½ (kh)²",
-        )
-    });
-    if matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent) {
-        verdicts.push(Verdict::at_most(
+            "relative error of the frequency at most ½ (kh)², but for fbar-recursive and for waves of cubic splines with F̄ of which less than a twentieth is left",
+            run(|r| {
+                let judged = r.remedy() != RemedyName::FbarRecursive;
+                judged.then(|| of_frequency(r)).into_iter().collect()
+            }),
+        ),
+        Check::truth(
             "no-energy-gain",
-            Kind::Truth,
-            "energy_gain",
-            r.metric("energy_gain"),
-            0.5 * phase,
-            "velocities live half a step before positions: ½ ωΔt",
-        ));
-    }
-    verdicts
+            "kinetic + stored energy never above its start by more than ½ ωΔt of the largest kinetic energy, the offset by half a step of velocities and positions; remedies that store what their force takes",
+            run(|r| {
+                let phase = frequency(&r.parameters) * r.discretisation.dt;
+                let why = "velocities live half a step before positions: ½ ωΔt";
+                let found = Finding::at_most(ENERGY_GAIN, r.metric(ENERGY_GAIN), 0.5 * phase, why);
+                let keeps = matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent);
+                keeps.then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::truth(
+            "averaging-softens",
+            "linear functions, GIMP and quadratic splines: the square of the frequency over that without a remedy is 1 − ¼ (kh)² with fbar-total and fbar-rate, 1 − 0.064 (kh)² (quadratic splines: 1) with fbar-consistent, within (kh)³/(2π): the average acts once, with the spread of the basis",
+            study(averaging_softens),
+        ),
+    ];
+    checks.extend(orders(ORDERS));
+    checks
 }
 
-fn judge_study(records: &[Record]) -> Vec<Verdict> {
-    let claim = |r: &Record| match (r.remedy(), r.basis()) {
+fn of_frequency(r: &Record) -> Finding {
+    if feeds_null_space(r) {
+        return Finding::not_applicable(FREQUENCY_ERROR, NULL_SPACE);
+    }
+    if is_cubic(r) && r.metric(AMPLITUDE_RATIO) < GONE {
+        let why = "less than a twentieth of the wave is left: its late zeros are those of what rings beside it";
+        return Finding::not_applicable(FREQUENCY_ERROR, why);
+    }
+    let bound = 0.5 * resolution(r).powi(2);
+    Finding::at_most(FREQUENCY_ERROR, r.metric(FREQUENCY_ERROR), bound, "½ (kh)²")
+}
+
+fn claim_of_frequency(r: &Record) -> Claim {
+    match (r.remedy(), r.basis()) {
         (RemedyName::FbarRecursive, _) => Claim::Open("the strain fades within periods"),
         _ if feeds_null_space(r) => Claim::Open(NULL_SPACE),
-        (remedy, BasisName::Bspline3) if checks::is_sound(remedy) => {
+        (remedy, BasisName::Bspline3) if is_sound(remedy) => {
             Claim::Open("too little of the wave is left: see cubic-walls-damp")
         }
         (_, BasisName::Bspline3) => Claim::Observed(
@@ -211,35 +180,37 @@ fn judge_study(records: &[Record]) -> Vec<Verdict> {
             "the lumped mass of cubics next to a wall has its centre off the node: between first and second order",
         ),
         _ => Claim::Second,
-    };
-    let mut verdicts = checks::orders_of(records, "frequency_error", claim);
-    verdicts.extend(checks::orders_of(records, "damping", |r| match r.basis() {
+    }
+}
+
+fn claim_of_damping(r: &Record) -> Claim {
+    match r.basis() {
         BasisName::Linear | BasisName::Gimp if r.remedy() == RemedyName::None => Claim::Second,
         _ => Claim::Open(
             "judged of linear functions and GIMP without a remedy; the others are in the table",
         ),
-    }));
-    let judged = |r: &&Record| checks::is_sound(r.remedy()) && !feeds_null_space(r);
-    for soft in records.iter().filter(judged) {
+    }
+}
+
+fn averaging_softens(records: &[Record]) -> Vec<Finding> {
+    let judged = |r: &&Record| is_sound(r.remedy()) && !feeds_null_space(r);
+    let found = records.iter().filter(judged).filter_map(|soft| {
         let hard = records.iter().find(|r| {
             r.remedy() == RemedyName::None
                 && r.basis() == soft.basis()
                 && r.level == soft.level
                 && r.set == soft.set
-        });
-        let (Some(hard), Some(softening)) = (hard, softening(soft)) else {
-            continue;
-        };
+        })?;
         let kh = resolution(soft);
-        let found = soft.metric("frequency_ratio") / hard.metric("frequency_ratio");
-        verdicts.push(Verdict::close(
-            "averaging-softens",
-            &format!("(frequency of {} over that of none)² at {}", soft.scheme(), soft.level),
+        let found = soft.metric(FREQUENCY_RATIO) / hard.metric(FREQUENCY_RATIO);
+        let (scheme, level) = (soft.scheme(), &soft.level);
+        Some(Finding::within(
+            format!("(frequency of {scheme} over that of none)² at {level}"),
             found * found,
-            1.0 - softening * kh * kh,
+            1.0 - softening(soft)? * kh * kh,
             0.5 * kh.powi(3) / PI,
             "dispersion of the average, docs/modes.md; in the cells next to the walls, 2kh/π of the bar, it may be off by all of ¼ (kh)²",
-        ));
-    }
-    verdicts
+        ))
+    });
+    found.collect()
 }

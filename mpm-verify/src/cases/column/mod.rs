@@ -2,18 +2,29 @@
 //!
 //! Set-up, choices and tolerances: `docs/column.md`.
 
-use super::manufactured::checks;
-use super::manufactured::plan::{REMEDIES, ladder, levels, pairs, union};
-use super::manufactured::{Boundary, Manufactured, numerical, parameters};
-use crate::case::{CheckInfo, Headline, RunSpec, Tier};
-use crate::exact::hydrostatic::ENTRY;
+mod pictures;
+
+use super::family::{REMEDIES, family, levels, pairs};
+use super::manufactured::metrics::{
+    BASE_PRESSURE, J_DRIFT_PER_1E5_STEPS, KINETIC_ENERGY_PEAK, KINETIC_GROWTH,
+    TRUE_J_DRIFT_PER_1E5_STEPS,
+};
+use super::manufactured::{
+    Boundary, CFL, Manufactured, PPC_PER_DIRECTION, all_parameters, checks::mass,
+};
+use super::parameters::DENSITY;
+use crate::case::{Case, Family, Tier};
+use crate::check::{Check, Finding, run};
+use crate::exact::hydrostatic::{ENTRY, HEIGHT};
+use crate::exact::parameters::GRAVITY;
+use crate::metric::headline;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName};
-use crate::verdict::{Kind, Verdict};
-use std::sync::LazyLock;
+use crate::spec::Level;
 
 use BasisName::{Bspline2, Bspline3, Gimp};
 use RemedyName::{FbarRate, FbarRecursive, FbarTotal};
+use Tier::{Nightly, Pr};
 
 /// Largest drift of a cell's mean J̄ per 10⁵ steps.
 const DRIFT: f64 = 1e-6;
@@ -25,125 +36,72 @@ const GROWN: f64 = 100.0;
 /// ½ m (ε L/Δt)² times the number of steps.
 const ROUNDING: f64 = 1e-12;
 
-pub(super) static CASE: LazyLock<Manufactured> = LazyLock::new(|| Manufactured {
-    references: &[
-        "Exact state of rest at finite compression, docs/exact.md.",
-        "Creep of fbar-recursive: (D/K) ∂p/∂z with D = ½ s² h²/Δt, docs/method.md.",
-    ],
-    limits: &[
-        "Nothing mixes here: what moving particles bring about shows in standing-wave.",
-        "Cubic splines on this lattice are not in balance with the exact pressure to 10⁻³ of the weight; the column circulates slowly with every remedy and is judged no further.",
-    ],
-    boundary: Boundary::Vessel,
-    fluid: true,
-    rests: true,
-    schemes: pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES),
-    levels: levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]),
-    plan,
-    checks: CHECKS,
-    judge,
-    judge_study: |_| Vec::new(),
-    headlines: HEADLINES,
-    quantities: &[],
-    ..Manufactured::solid(
-        [
-            "column",
-            "Hydrostatic column",
-            "Two metres of water at rest in the exact state of equilibrium, without damping. The printed F̄ creeps at a speed that is known in closed form; a sound remedy neither creeps nor grows anything over half a million steps.",
+pub(super) fn case() -> Case {
+    let levels = levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
+    let names = [
+        "column",
+        "Hydrostatic column",
+        "Two metres of water at rest in the exact state of equilibrium, without damping. The printed F̄ creeps at a speed that is known in closed form; a sound remedy neither creeps nor grows anything over half a million steps.",
+    ];
+    let motion = Manufactured {
+        boundary: Boundary::Vessel,
+        fluid: true,
+        rests: true,
+        ..Manufactured::solid(ENTRY.build)
+    };
+    let defaults = [(CFL, "0.057"), (PPC_PER_DIRECTION, "5")];
+    let parameters = all_parameters(ENTRY.parameters, &defaults, "0.2", &[]);
+    Case {
+        references: vec![
+            "Exact state of rest at finite compression, docs/exact.md.".to_owned(),
+            "Creep of fbar-recursive: (D/K) ∂p/∂z with D = ½ s² h²/Δt, docs/method.md.".to_owned(),
         ],
-        ENTRY.build,
-        parameters(
-            ENTRY.parameters,
-            &[],
-            numerical("0.2").map(|mut p| {
-                match p.name {
-                    "cfl" => p.default = "0.057",
-                    "ppc_per_direction" => p.default = "5",
-                    _ => {}
-                }
-                p
-            }),
-        ),
-    )
-});
+        limits: &[
+            "Nothing mixes here: what moving particles bring about shows in standing-wave.",
+            "Cubic splines on this lattice are not in balance with the exact pressure to 10⁻³ of the weight; the column circulates slowly with every remedy and is judged no further.",
+        ],
+        plan: plan(&levels),
+        levels,
+        checks: checks(),
+        headlines: vec![
+            headline(
+                J_DRIFT_PER_1E5_STEPS,
+                "drift of J̄ per 10⁵ steps (10⁻⁶)",
+                1e6,
+                4,
+            ),
+            headline(
+                TRUE_J_DRIFT_PER_1E5_STEPS,
+                "drift of J per 10⁵ steps (10⁻⁶)",
+                1e6,
+                3,
+            ),
+            headline(
+                KINETIC_GROWTH,
+                "kinetic energy, last / middle third (–)",
+                1.0,
+                3,
+            ),
+            headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (µJ/m)", 1e6, 4),
+            headline(BASE_PRESSURE, "pressure at the floor (Pa)", 1.0, 1),
+        ],
+        quantities: Vec::new(),
+        pictures: pictures::draw,
+        ..motion.case(names, parameters)
+    }
+}
 
 /// Half a million steps at h = 0.25 m.
-const LONG: &str = "duration=5.04";
+const LONG: &[&str] = &["duration=5.04"];
 
-const HEADLINES: &[Headline] = &[
-    Headline {
-        metric: "j_drift_per_1e5_steps",
-        heading: "drift of J̄ per 10⁵ steps (10⁻⁶)",
-        factor: 1e6,
-        decimals: 4,
-    },
-    Headline {
-        metric: "true_j_drift_per_1e5_steps",
-        heading: "drift of J per 10⁵ steps (10⁻⁶)",
-        factor: 1e6,
-        decimals: 3,
-    },
-    Headline {
-        metric: "kinetic_growth",
-        heading: "kinetic energy, last / middle third (–)",
-        factor: 1.0,
-        decimals: 3,
-    },
-    Headline {
-        metric: "kinetic_energy_peak",
-        heading: "largest kinetic energy (µJ/m)",
-        factor: 1e6,
-        decimals: 4,
-    },
-    Headline {
-        metric: "base_pressure",
-        heading: "pressure at the floor (Pa)",
-        factor: 1.0,
-        decimals: 1,
-    },
-];
-
-const CHECKS: &[CheckInfo] = &[
-    checks::MASS,
-    CheckInfo {
-        name: "no-creep",
-        kind: Kind::Truth,
-        statement: "GIMP and quadratic splines but fbar-recursive, at least 10⁵ steps: the mean J̄ of no cell drifts by more than 10⁻⁶ per 10⁵ steps",
-    },
-    CheckInfo {
-        name: "no-growth",
-        kind: Kind::Truth,
-        statement: "likewise, but where null-mode-grows: the largest kinetic energy of the last third of the run does not exceed that of the middle third, when the start has rung down, but for what last bits can walk to",
-    },
-    CheckInfo {
-        name: "null-mode-grows",
-        kind: Kind::KnownLimit,
-        statement: "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: the kinetic energy of the last third is more than 100 times that of the middle third",
-    },
-    CheckInfo {
-        name: "base-pressure",
-        kind: Kind::Truth,
-        statement: "pressure at the floor ρ g H within a quarter of a cell's head, by which an average moves the pressure at a wall",
-    },
-    CheckInfo {
-        name: "creep",
-        kind: Kind::KnownLimit,
-        statement: "fbar-recursive: mean J of some cell drifts by more than 10⁻³ per 10⁵ steps",
-    },
-];
-
-fn plan(case: &Manufactured, tier: Tier) -> Vec<RunSpec> {
-    let levels = &case.levels;
-    match tier {
-        Tier::Quick => Vec::new(),
-        Tier::Pr => ladder(&levels[..1], &case.schemes[..10], &[]),
-        Tier::Nightly => union([
-            plan(case, Tier::Pr),
-            ladder(levels, &case.schemes, &[]),
-            ladder(&levels[..1], &case.schemes[..10], &[LONG]),
-        ]),
-        Tier::Long => Vec::new(),
-    }
+fn plan(levels: &[Level]) -> Vec<Family> {
+    let few = pairs(&[Gimp, Bspline2], &REMEDIES);
+    let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
+    vec![
+        family(Pr, &levels[..1], &few, &[]),
+        family(Nightly, levels, &all, &[]),
+        family(Nightly, &levels[..1], &few, LONG),
+    ]
 }
 
 /// Whether a mode that the average can't see grows with this scheme until it rules the motion.
@@ -151,74 +109,90 @@ fn grows(r: &Record) -> bool {
     r.basis() == Gimp && matches!(r.remedy(), FbarTotal | FbarRate)
 }
 
-fn judge(r: &Record) -> Vec<Verdict> {
-    let number = |name| r.parameters.number(name);
-    let head = number("density") * number("gravity");
-    let long = r.work.steps >= ENOUGH;
-    let mut verdicts = vec![checks::mass(r)];
-    verdicts.push(if long && (grows(r) || r.remedy() == FbarRecursive) {
-        let why = "the column no longer rests: see creep and null-mode-grows";
-        Verdict::not_applicable("base-pressure", "base_pressure", why)
-    } else {
-        Verdict::close(
+/// Whether a run is long enough that a drift can be told from the ringing of the start.
+fn is_long(r: &Record) -> bool {
+    r.work.steps >= ENOUGH
+}
+
+/// Whether the column rests with this scheme: GIMP and quadratic splines, but for the remedy that creeps.
+fn rests(r: &Record) -> bool {
+    r.basis() != Bspline3 && r.remedy() != FbarRecursive
+}
+
+fn checks() -> Vec<Check> {
+    vec![
+        mass(),
+        Check::truth(
             "base-pressure",
-            "base_pressure",
-            r.metric("base_pressure"),
-            head * number("height"),
-            0.25 * r.discretisation.h * head,
-            "ρ g H; a quarter of a cell's head, by which an average moves the pressure at a wall",
-        )
-    });
-    if r.basis() == Bspline3 {
-        return verdicts;
-    }
-    if r.remedy() == FbarRecursive {
-        verdicts.push(Verdict::above(
+            "pressure at the floor ρ g H within a quarter of a cell's head, by which an average moves the pressure at a wall",
+            run(|r| vec![base_pressure(r)]),
+        ),
+        Check::known_limit(
             "creep",
-            Kind::KnownLimit,
-            "true_j_drift_per_1e5_steps",
-            r.metric("true_j_drift_per_1e5_steps"),
-            1e-3,
-            "Eq. (26) diffuses J with D = ½ s² h²/Δt",
-        ));
-        return verdicts;
-    }
-    let metric = "j_drift_per_1e5_steps";
-    if !long {
-        verdicts.push(Verdict::not_applicable(
+            "fbar-recursive: mean J of some cell drifts by more than 10⁻³ per 10⁵ steps",
+            run(|r| {
+                let creeps = r.basis() != Bspline3 && r.remedy() == FbarRecursive;
+                let (metric, why) = (
+                    TRUE_J_DRIFT_PER_1E5_STEPS,
+                    "Eq. (26) diffuses J with D = ½ s² h²/Δt",
+                );
+                let found = Finding::above(metric, r.metric(metric), 1e-3, why);
+                creeps.then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::truth(
             "no-creep",
-            metric,
-            "the ringing of the start is not a drift",
-        ));
-        return verdicts;
-    }
-    verdicts.push(Verdict::at_most(
-        "no-creep",
-        Kind::Truth,
-        metric,
-        r.metric(metric),
-        DRIFT,
-        "the state of rest is one of the equations",
-    ));
-    let (metric, growth) = ("kinetic_growth", r.metric("kinetic_growth"));
-    verdicts.push(if grows(r) {
-        Verdict::above(
+            "GIMP and quadratic splines but fbar-recursive, at least 10⁵ steps: the mean J̄ of no cell drifts by more than 10⁻⁶ per 10⁵ steps",
+            run(|r| {
+                let metric = J_DRIFT_PER_1E5_STEPS;
+                let found = if is_long(r) {
+                    let why = "the state of rest is one of the equations";
+                    Finding::at_most(metric, r.metric(metric), DRIFT, why)
+                } else {
+                    Finding::not_applicable(metric, "the ringing of the start is not a drift")
+                };
+                rests(r).then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::known_limit(
             "null-mode-grows",
-            Kind::KnownLimit,
-            metric,
-            growth,
-            GROWN,
-            "what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/modes.md)",
-        )
-    } else {
-        Verdict::at_most(
+            "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: the kinetic energy of the last third is more than 100 times that of the middle third",
+            run(|r| {
+                let why = "what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/modes.md)";
+                let found = Finding::above(KINETIC_GROWTH, r.metric(KINETIC_GROWTH), GROWN, why);
+                (rests(r) && is_long(r) && grows(r))
+                    .then_some(found)
+                    .into_iter()
+                    .collect()
+            }),
+        ),
+        Check::truth(
             "no-growth",
-            Kind::Truth,
-            metric,
-            growth,
-            1.0 + ROUNDING / r.metric("kinetic_energy_peak"),
-            "nothing feeds a motion; a random walk of last bits excepted",
-        )
-    });
-    verdicts
+            "likewise, but where null-mode-grows: the largest kinetic energy of the last third of the run does not exceed that of the middle third, when the start has rung down, but for what last bits can walk to",
+            run(|r| {
+                let bound = 1.0 + ROUNDING / r.metric(KINETIC_ENERGY_PEAK);
+                let why = "nothing feeds a motion; a random walk of last bits excepted";
+                let found = Finding::at_most(KINETIC_GROWTH, r.metric(KINETIC_GROWTH), bound, why);
+                (rests(r) && is_long(r) && !grows(r))
+                    .then_some(found)
+                    .into_iter()
+                    .collect()
+            }),
+        ),
+    ]
+}
+
+fn base_pressure(r: &Record) -> Finding {
+    let head = r.parameters.number(DENSITY) * r.parameters.number(GRAVITY);
+    if is_long(r) && (grows(r) || r.remedy() == FbarRecursive) {
+        let why = "the column no longer rests: see creep and null-mode-grows";
+        return Finding::not_applicable(BASE_PRESSURE, why);
+    }
+    Finding::within(
+        BASE_PRESSURE,
+        r.metric(BASE_PRESSURE),
+        head * r.parameters.number(HEIGHT),
+        0.25 * r.discretisation.h * head,
+        "ρ g H; a quarter of a cell's head, by which an average moves the pressure at a wall",
+    )
 }

@@ -1,32 +1,24 @@
 //! The picture of the hydrostatic column: who creeps.
 
-use super::Picture;
 use crate::draw::style::{Colour, series};
 use crate::draw::{Chart, Scale, draw_charts};
 use crate::error::Error;
+use crate::gallery::Gallery;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, TransferName};
-use crate::study::{CaseStudy, Gathered};
-use crate::table::Table;
-use std::path::Path;
 
-/// A chart per basis of the longest runs at the coarsest level: how far particles are from rest, over
-/// the steps.
-pub(super) fn draw(
-    study: &CaseStudy,
-    gathered: &Gathered,
-    out: &Path,
-) -> Result<Vec<Picture>, Error> {
+/// A chart per basis of the longest runs at the coarsest level: how far particles are from rest, over the steps.
+pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let mut charts = Vec::new();
     for basis in [BasisName::Gimp, BasisName::Bspline2] {
         let of_basis = |r: &&Record| {
             r.basis() == basis && r.status == Status::Ok && r.transfer() == TransferName::Flip
         };
-        let runs = || study.records.iter().filter(of_basis);
+        let runs = || gallery.records.iter().filter(of_basis);
         let longest = runs().map(|r| r.work.steps).max().unwrap_or(0);
         let mut curves = Vec::new();
         for record in runs().filter(|r| r.work.steps == longest) {
-            let table = Table::read(&gathered.folder(record)?.join("series.csv"))?;
+            let table = gallery.table(record, "series.csv")?;
             let steps = |t: f64| t / record.discretisation.dt / 1e5;
             let points = table.points("time", "displacement_l2").into_iter();
             // The start itself has no logarithm.
@@ -50,15 +42,13 @@ pub(super) fn draw(
         }
     }
     if charts.is_empty() {
-        return Ok(Vec::new());
+        return Ok(());
     }
-    let file = format!("{}/creep.png", study.case);
-    draw_charts(&out.join(&file), &charts, 2)?;
-    Ok(vec![Picture {
-        file,
-        caption: format!(
-            "Distance of the particles from their places at rest: {} creeps; with GIMP a mode that no average sees grows from rounding with every F̄.",
-            RemedyName::FbarRecursive
-        ),
-    }])
+    draw_charts(&gallery.place("creep.png"), &charts, 2)?;
+    let creeps = RemedyName::FbarRecursive;
+    gallery.hang(
+        "creep.png",
+        format!("Distance of the particles from their places at rest: {creeps} creeps; with GIMP a mode that no average sees grows from rounding with every F̄."),
+    );
+    Ok(())
 }
