@@ -71,3 +71,92 @@ pub(super) fn more_particles(tier: Tier, levels: &[Level]) -> [Family; 2] {
     let sets: [&'static [&'static str]; 2] = [&["ppc_per_direction=3"], &["ppc_per_direction=4"]];
     sets.map(|set| family(tier, levels, &main_pairs(), set))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases;
+    use crate::parameter::Parameters;
+    use crate::spec::RunSpec;
+
+    #[test]
+    fn cases_in_the_plane_run_with_other_transfers_and_more_particles() {
+        let names = [
+            "mms-axis",
+            "mms-wall-pressure",
+            "mms-vortex-ring",
+            "mms-vortex-box",
+            "mms-vortex-pressure",
+            "mms-double-shear",
+        ];
+        for name in names {
+            let night = cases::find(name).unwrap().runs(Tier::Nightly);
+            for scheme in main_pairs() {
+                let levels = |transfer, set: &[&str]| {
+                    let scheme = Scheme::explicit(scheme.basis(), scheme.remedy(), transfer);
+                    let like = |s: &&RunSpec| s.scheme == scheme && s.set == set;
+                    night.iter().filter(like).count()
+                };
+                for transfer in [TransferName::Apic, TransferName::Xpic2] {
+                    assert!(levels(transfer, &[]) >= 4, "{name} {scheme} {transfer}");
+                }
+                for ppc in ["ppc_per_direction=3", "ppc_per_direction=4"] {
+                    let found = levels(TransferName::Flip, &[ppc]);
+                    assert_eq!(found, 3, "{name} {scheme} {ppc}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn problems_in_the_plane_run_with_other_transfers_at_two_levels() {
+        for (name, per_direction) in [("cook", 2), ("footing", 1), ("landslide-2d", 2)] {
+            let long = cases::find(name).unwrap().runs(Tier::Long);
+            for scheme in other_transfers() {
+                let own = |s: &&RunSpec| s.scheme == scheme && s.set.is_empty();
+                assert!(long.iter().filter(own).count() >= 2, "{name} {scheme}");
+            }
+            for scheme in main_pairs() {
+                let of = |s: &&RunSpec| {
+                    let changed = s.set.iter().any(|s| s.starts_with("ppc_per_direction="));
+                    s.scheme == scheme && s.set.len() == 1 && changed
+                };
+                let numbers = crate::distinct(long.iter().filter(of).map(|s| &s.set[..]));
+                assert_eq!(numbers.len(), per_direction, "{name} {scheme}");
+            }
+        }
+    }
+
+    /// Why a run with APIC and a changed parameter does not begin.
+    fn refusal(case: &str, set: &str) -> String {
+        let case = cases::find(case).unwrap();
+        let spec = RunSpec {
+            scheme: other_transfers()[0],
+            level: case.levels[0],
+            set: vec![set.to_owned()],
+            perturbed: false,
+        };
+        let parameters = Parameters::new(&case.parameters, &spec.set).unwrap();
+        let begun = (case.begin)(&spec, &parameters);
+        begun.err().unwrap().to_string()
+    }
+
+    #[test]
+    fn another_transfer_is_refused_where_it_would_be_flip() {
+        for dimension in ["dimension=1", "dimension=3"] {
+            let refused = refusal("mms-axis", dimension);
+            let said = refused.contains("dimension") && refused.contains("flip");
+            assert!(said, "{refused}");
+        }
+    }
+
+    #[test]
+    fn a_blend_is_refused_where_it_would_not_be_seen() {
+        for case in ["cook", "footing", "mms-axis"] {
+            let refused = refusal(case, "flip=0.9");
+            let said = refused.contains("share of FLIP") && refused.contains("0.9");
+            assert!(said, "{refused}");
+        }
+        assert!(refusal("dam-break", "pic_rate=1").contains("share of FLIP"));
+    }
+}

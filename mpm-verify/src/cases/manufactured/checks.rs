@@ -420,3 +420,6 @@ fn pairs_of_ratios(records: &[Record]) -> Vec<Pair<'_>> {
     let stiff = records.iter().filter(|r| ratio(r) != COMPRESSIBLE);
     stiff.filter_map(pair).collect()
 }
+
+#[cfg(test)]
+mod tests;
