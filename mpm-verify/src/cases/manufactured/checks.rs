@@ -100,7 +100,7 @@ pub(in crate::cases) fn of_motion(of: &'static [(Metric, Claims)], wave: Wave) -
 /// The particles have the mass of the body.
 pub(in crate::cases) fn mass() -> Check {
     let statement = "the particles have the mass of the body, to rounding";
-    Check::truth(
+    Check::bookkeeping(
         "mass",
         statement,
         run(|r| {
