@@ -5,7 +5,16 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Folder of a run's snapshots, below its own.
+pub(crate) const SNAPSHOTS: &str = "snapshots";
+
+/// File of the snapshot at `time` (s) of the run in `folder`.
+#[must_use]
+pub fn snapshot_file(folder: &Path, time: f64) -> PathBuf {
+    folder.join(SNAPSHOTS).join(format!("{time:07.3}.csv"))
+}
 
 /// Makes a folder and its parents.
 ///

@@ -1,6 +1,8 @@
 //! What a case draws its pictures from: the records of a report, and what the runs have written.
 
+use crate::draw::Chart;
 use crate::error::Error;
+use crate::files::{snapshot_file, write_csv};
 use crate::record::Record;
 use crate::table::Table;
 use serde::{Deserialize, Serialize};
@@ -58,10 +60,38 @@ impl<'a> Gallery<'a> {
         Ok((self.folder)(record)?.join(file).exists())
     }
 
+    /// The particles that a run has kept at `time` (s), if it has.
+    ///
+    /// # Errors
+    /// The run is not of this report, or the file is damaged.
+    pub fn snapshot(&self, record: &Record, time: f64) -> Result<Option<Table>, Error> {
+        let file = snapshot_file(&(self.folder)(record)?, time);
+        file.exists().then(|| Table::read(&file)).transpose()
+    }
+
     /// Where a file of the case's folder goes.
     #[must_use]
     pub fn place(&self, file: &str) -> PathBuf {
         self.out.join(self.case).join(file)
+    }
+
+    /// Writes every point of every curve: chart, quantity, series, abscissa, ordinate.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn write_curves(&self, file: &str, charts: &[Chart]) -> Result<(), Error> {
+        let abscissa = charts.first().map_or("", |chart| &chart.x_label);
+        let header = ["chart", "quantity", "series", abscissa, "value"].map(str::to_owned);
+        let rows = charts.iter().flat_map(|chart| {
+            chart.series.iter().flat_map(move |s| {
+                s.points.iter().map(move |(x, y)| {
+                    let cells = [chart.title.clone(), chart.y_label.clone(), s.name.clone()];
+                    let numbers = [format!("{x:.6}"), format!("{y:.6}")];
+                    [&cells[..], &numbers[..]].concat()
+                })
+            })
+        });
+        write_csv(&self.place(file), &header, rows)
     }
 
     /// Hangs a picture that was drawn at [`Gallery::place`].

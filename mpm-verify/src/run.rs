@@ -3,7 +3,9 @@
 use crate::case::Case;
 use crate::checkpoint::{self, Checkpoint, Identity, Keeper, Refusal, Saving};
 use crate::error::Error;
-use crate::files::{discard, discard_folder, require_writable, write_csv, write_json};
+use crate::files::{
+    SNAPSHOTS, discard, discard_folder, require_writable, snapshot_file, write_csv, write_json,
+};
 use crate::job::{Column, Job, Snapshot};
 use crate::parameter::Parameters;
 use crate::record::{BREAKS_DOWN, Failure, Machine, Record, SCHEMA, Status, Timing, Version};
@@ -295,15 +297,8 @@ fn write_particles(folder: &Path, columns: &[Column]) -> Result<(), Error> {
     write_vtu(&folder.join("particles.vtu"), columns)
 }
 
-/// Folder of the snapshots of a run, and the file that names those for ParaView with their times.
-const SNAPSHOTS: &str = "snapshots";
+/// File that names the snapshots of a run for ParaView, with their times.
 const COLLECTION: &str = "snapshots.pvd";
-
-/// File of the snapshot at `time` (s) of the run in `folder`.
-#[must_use]
-pub fn snapshot_file(folder: &Path, time: f64) -> PathBuf {
-    folder.join(SNAPSHOTS).join(format!("{time:07.3}.csv"))
-}
 
 /// Writes a snapshot as CSV and for ParaView, and then the collection with it.
 fn write_snapshot(folder: &Path, snapshot: &Snapshot) -> Result<(), Error> {

@@ -3,7 +3,6 @@
 //! Everything here is made from records and CSV files on disk, never from a running simulation.
 
 mod convergence;
-mod curves;
 pub mod describe;
 pub mod diff;
 mod drift;
