@@ -279,7 +279,9 @@ impl Record {
         self.changes_none_but(&DISCRETISATION)
     }
 
-    fn changes_none_but(&self, names: &[&str]) -> bool {
+    /// Whether no other parameters than those of these names were changed.
+    #[must_use]
+    pub fn changes_none_but(&self, names: &[&str]) -> bool {
         let mut changed = self.set.iter().filter_map(|set| set.split('=').next());
         changed.all(|name| names.contains(&name))
     }

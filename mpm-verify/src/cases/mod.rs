@@ -5,6 +5,7 @@ use crate::error::Error;
 use std::sync::LazyLock;
 
 mod column;
+mod dam_break;
 mod family;
 mod manufactured;
 mod mms_axis;
@@ -20,6 +21,7 @@ mod vibrating_bar;
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
     vec![
+        dam_break::case(),
         mms_axis::case(),
         mms_wall_pressure::case(),
         mms_vortex_ring::case(),

@@ -1,6 +1,8 @@
 //! What is observed of the flow, and the metrics made of it.
 
+use super::metrics as m;
 use super::reference::{COMPARED, TANK, energies, front, passage, time_scale};
+use crate::metric::Metric;
 use crate::statistics::rms;
 use serde::{Deserialize, Serialize};
 
@@ -20,14 +22,14 @@ pub(super) struct Start {
 }
 
 impl Start {
-    pub(super) fn metrics(&self, weight: f64) -> Vec<(&'static str, f64)> {
+    pub(super) fn metrics(&self, weight: f64) -> Vec<(Metric, f64)> {
         vec![
-            ("base_reaction_ratio", self.base_reaction / weight),
-            ("gate_force", self.gate_force),
-            ("back_force", self.back_force),
-            ("base_pressure", self.base_pressure),
-            ("pressure_profile_error", self.profile_error),
-            ("start_kinetic_energy", self.kinetic_energy),
+            (m::BASE_REACTION_RATIO, self.base_reaction / weight),
+            (m::GATE_FORCE, self.gate_force),
+            (m::BACK_FORCE, self.back_force),
+            (m::BASE_PRESSURE, self.base_pressure),
+            (m::PRESSURE_PROFILE_ERROR, self.profile_error),
+            (m::START_KINETIC_ENERGY, self.kinetic_energy),
         ]
     }
 }
@@ -66,50 +68,31 @@ pub(super) struct Row {
 }
 
 impl Row {
-    pub(super) const COLUMNS: [&'static str; 19] = [
-        "time (s)",
-        "front (m)",
-        "back_level (m)",
-        "centre_x (m)",
-        "centre_y (m)",
-        "kinetic_energy (J/m)",
-        "potential_energy (J/m)",
-        "stress_work (J/m)",
-        "energy (J/m)",
-        "stored_energy (J/m)",
-        "floor_force (N/m)",
-        "back_force (N/m)",
-        "front_force (N/m)",
-        "pressure_rms (Pa)",
-        "checkerboard_rms (Pa)",
-        "tension (-)",
-        "covered (m²)",
-        "jacobian_min (-)",
-        "jacobian_max (-)",
+    /// Columns of the series, with units.
+    pub(super) const COLUMNS: [(&'static str, fn(&Self) -> f64); 19] = [
+        ("time (s)", |r| r.time),
+        ("front (m)", |r| r.front),
+        ("back_level (m)", |r| r.back_level),
+        ("centre_x (m)", |r| r.centre[0]),
+        ("centre_y (m)", |r| r.centre[1]),
+        ("kinetic_energy (J/m)", |r| r.kinetic),
+        ("potential_energy (J/m)", |r| r.potential),
+        ("stress_work (J/m)", |r| r.stress_work),
+        ("energy (J/m)", Self::energy),
+        ("stored_energy (J/m)", |r| r.stored),
+        ("floor_force (N/m)", |r| r.floor_force),
+        ("back_force (N/m)", |r| r.back_force),
+        ("front_force (N/m)", |r| r.front_force),
+        ("pressure_rms (Pa)", |r| r.pressure_rms),
+        ("checkerboard_rms (Pa)", |r| r.checkerboard_rms),
+        ("tension (-)", |r| r.tension),
+        ("covered (m²)", |r| r.covered),
+        ("jacobian_min (-)", |r| r.jacobian.0),
+        ("jacobian_max (-)", |r| r.jacobian.1),
     ];
 
     pub(super) fn values(&self) -> Vec<f64> {
-        vec![
-            self.time,
-            self.front,
-            self.back_level,
-            self.centre[0],
-            self.centre[1],
-            self.kinetic,
-            self.potential,
-            self.stress_work,
-            self.energy(),
-            self.stored,
-            self.floor_force,
-            self.back_force,
-            self.front_force,
-            self.pressure_rms,
-            self.checkerboard_rms,
-            self.tension,
-            self.covered,
-            self.jacobian.0,
-            self.jacobian.1,
-        ]
+        Self::COLUMNS.map(|(_, value)| value(self)).to_vec()
     }
 
     /// Kinetic and potential energy (J/m).
@@ -169,7 +152,7 @@ impl Flow {
     }
 
     /// Metrics of water of a density, on cells of size `h` (m).
-    pub(super) fn metrics(&self, density: f64, h: f64) -> Vec<(&'static str, f64)> {
+    pub(super) fn metrics(&self, density: f64, h: f64) -> Vec<(Metric, f64)> {
         let at = |time: f64, f: fn(&Row) -> f64| self.at(time).map_or(f64::NAN, f);
         let (at_start, _) = energies(density);
         let errors = self.front_errors();
@@ -189,45 +172,45 @@ impl Flow {
         let gains = energy.windows(2).map(|pair| pair[1] - pair[0]);
         let all = |f: fn(&Row) -> f64| self.rows.iter().map(f);
         vec![
-            ("front_x_0.4s", at(0.4, |r| r.front)),
-            ("front_rms_error", rms(errors)),
-            ("front_speed_max", speeds.fold(0.0, f64::max)),
-            ("arrival_time", arrival),
+            (m::FRONT_X_EARLY, at(0.4, |r| r.front)),
+            (m::FRONT_RMS_ERROR, rms(errors)),
+            (m::FRONT_SPEED_MAX, speeds.fold(0.0, f64::max)),
+            (m::ARRIVAL_TIME, arrival),
             (
-                "arrival_error",
+                m::ARRIVAL_ERROR,
                 passage(near_end).map_or(f64::NAN, |(time, _)| (arrival - time).abs()),
             ),
-            ("back_level_0.4s", at(0.4, |r| r.back_level)),
-            ("energy_ratio", at(0.4, Row::energy) / at_start),
-            ("energy_ratio_2s", at(2.0, Row::energy) / at_start),
-            ("energy_gain", gains.fold(0.0, f64::max) / at_start),
+            (m::BACK_LEVEL_EARLY, at(0.4, |r| r.back_level)),
+            (m::ENERGY_RATIO, at(0.4, Row::energy) / at_start),
+            (m::ENERGY_RATIO_2S, at(2.0, Row::energy) / at_start),
+            (m::ENERGY_GAIN, gains.fold(0.0, f64::max) / at_start),
             (
-                "energy_excess",
+                m::ENERGY_EXCESS,
                 energy.iter().copied().fold(0.0, f64::max) / at_start - 1.0,
             ),
-            ("motion_ratio_2s", at(2.0, Row::motion) / at_start),
+            (m::MOTION_RATIO_2S, at(2.0, Row::motion) / at_start),
             (
-                "motion_excess",
+                m::MOTION_EXCESS,
                 motion().fold(0.0, f64::max) / at_start - 1.0,
             ),
             (
-                "motion_loss",
+                m::MOTION_LOSS,
                 1.0 - motion().fold(f64::INFINITY, f64::min) / at_start,
             ),
-            ("pressure_rms", at(0.4, |r| r.pressure_rms)),
-            ("checkerboard_rms", at(0.4, |r| r.checkerboard_rms)),
-            ("tension_share", at(0.4, |r| r.tension)),
-            ("covered_0.4s", at(0.4, |r| r.covered)),
-            ("centre_x_0.4s", at(0.4, |r| r.centre[0])),
-            ("centre_x_mean", self.mean(2.0, |r| r.centre[0])),
-            ("centre_y_mean", self.mean(2.0, |r| r.centre[1])),
-            ("wall_impulse", 2.0 * self.mean(2.0, |r| r.front_force)),
+            (m::PRESSURE_RMS, at(0.4, |r| r.pressure_rms)),
+            (m::CHECKERBOARD_RMS, at(0.4, |r| r.checkerboard_rms)),
+            (m::TENSION_SHARE, at(0.4, |r| r.tension)),
+            (m::COVERED_EARLY, at(0.4, |r| r.covered)),
+            (m::CENTRE_X_EARLY, at(0.4, |r| r.centre[0])),
+            (m::CENTRE_X_MEAN, self.mean(2.0, |r| r.centre[0])),
+            (m::CENTRE_Y_MEAN, self.mean(2.0, |r| r.centre[1])),
+            (m::WALL_IMPULSE, 2.0 * self.mean(2.0, |r| r.front_force)),
             (
-                "jacobian_min",
+                m::JACOBIAN_MIN,
                 all(|r| r.jacobian.0).fold(f64::INFINITY, f64::min),
             ),
-            ("jacobian_max", all(|r| r.jacobian.1).fold(0.0, f64::max)),
-            ("log_jacobian_gap", at(0.4, |r| r.log_jacobian_gap)),
+            (m::JACOBIAN_MAX, all(|r| r.jacobian.1).fold(0.0, f64::max)),
+            (m::LOG_JACOBIAN_GAP, at(0.4, |r| r.log_jacobian_gap)),
         ]
     }
 }
@@ -252,37 +235,37 @@ mod tests {
         }
     }
 
-    fn metric(flow: &Flow, name: &str) -> f64 {
+    fn metric(flow: &Flow, of: Metric) -> f64 {
         let metrics = flow.metrics(997.5, 0.25);
-        metrics.iter().find(|(n, _)| *n == name).unwrap().1
+        metrics.iter().find(|(m, _)| *m == of).unwrap().1
     }
 
     #[test]
     fn the_inviscid_front_has_no_error_and_another_its_distance() {
-        assert!(metric(&flow(0.0), "front_rms_error") < 1e-12);
-        assert!((metric(&flow(0.1), "front_rms_error") - 0.1).abs() < 1e-12);
-        assert!(metric(&flow(0.0), "arrival_error") < 1e-5);
+        assert!(metric(&flow(0.0), m::FRONT_RMS_ERROR) < 1e-12);
+        assert!((metric(&flow(0.1), m::FRONT_RMS_ERROR) - 0.1).abs() < 1e-12);
+        assert!(metric(&flow(0.0), m::ARRIVAL_ERROR) < 1e-5);
         let (_, speed) = passage(5.5).unwrap();
-        assert!((metric(&flow(0.1), "arrival_error") - 0.1 / speed).abs() < 1e-3);
+        assert!((metric(&flow(0.1), m::ARRIVAL_ERROR) - 0.1 / speed).abs() < 1e-3);
     }
 
     #[test]
     fn a_flow_that_ends_early_has_no_late_metrics() {
         let mut early = flow(0.0);
         early.rows.truncate(60);
-        for name in ["front_rms_error", "front_x_0.4s", "centre_x_mean"] {
-            assert!(metric(&early, name).is_nan(), "{name}");
+        for of in [m::FRONT_RMS_ERROR, m::FRONT_X_EARLY, m::CENTRE_X_MEAN] {
+            assert!(metric(&early, of).is_nan(), "{}", of.name);
         }
-        assert!(metric(&flow(0.0), "wall_impulse").is_nan());
+        assert!(metric(&flow(0.0), m::WALL_IMPULSE).is_nan());
     }
 
     #[test]
     fn energy_is_lost_once_and_never_gained() {
-        assert!((metric(&flow(0.0), "motion_loss") - 1e-3).abs() < 1e-12);
-        assert_eq!(metric(&flow(0.0), "motion_excess"), 0.0);
-        assert_eq!(metric(&flow(0.0), "energy_gain"), 0.0);
+        assert!((metric(&flow(0.0), m::MOTION_LOSS) - 1e-3).abs() < 1e-12);
+        assert_eq!(metric(&flow(0.0), m::MOTION_EXCESS), 0.0);
+        assert_eq!(metric(&flow(0.0), m::ENERGY_GAIN), 0.0);
         let mut gaining = flow(0.0);
         gaining.rows[50].kinetic = 78.2838;
-        assert!((metric(&gaining, "energy_gain") - 1e-3).abs() < 1e-6);
+        assert!((metric(&gaining, m::ENERGY_GAIN) - 1e-3).abs() < 1e-6);
     }
 }

@@ -4,272 +4,71 @@
 
 mod checks;
 mod flow;
+mod metrics;
+mod parameters;
+mod pictures;
 mod reference;
-mod simulation;
+mod scene;
 mod sketch;
+mod watch;
 
-use crate::case::{
-    Case, CheckInfo, Headline, Job, Level, MetricInfo, Quantity, RunSpec, Sweep, Tier, error,
-    headline, metric, runs,
-};
-use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters, number, parameter};
-use crate::record::Record;
+use super::family::{family, pairs};
+use crate::case::{Case, Family, Tier};
+use crate::drive::Drive;
+use crate::metric::{Headline, Quantity, Sweep, error, headline};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use crate::sketch::Sketch;
-use crate::verdict::Verdict;
-use simulation::Simulated;
+use crate::spec::{Level, RunSpec};
+use metrics as m;
+use parameters::{CFL, PIC_RATE};
+use scene::Dam;
+use watch::Seen;
 
-pub(crate) use reference::dam_break_front;
-
-/// The dam break.
-pub(super) struct DamBreak;
+use BasisName::{Bspline2, Bspline3, Gimp};
+use RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal};
 
 const LEVELS: [Level; 4] = [
-    Level {
-        name: "h0.5",
-        h: 0.5,
-    },
-    Level {
-        name: "h0.25",
-        h: 0.25,
-    },
-    Level {
-        name: "h0.125",
-        h: 0.125,
-    },
-    Level {
-        name: "h0.0625",
-        h: 0.0625,
-    },
+    level("h0.5", 0.5),
+    level("h0.25", 0.25),
+    level("h0.125", 0.125),
+    level("h0.0625", 0.0625),
 ];
 
-const BASES: [BasisName; 2] = [BasisName::Gimp, BasisName::Bspline2];
-const REMEDIES: [RemedyName; 4] = [
-    RemedyName::None,
-    RemedyName::FbarRecursive,
-    RemedyName::FbarTotal,
-    RemedyName::FbarConsistent,
-];
+const fn level(name: &'static str, h: f64) -> Level {
+    Level { name, h }
+}
 
-const PARAMETERS: [Parameter; 11] = [
-    parameter(
-        "bulk_modulus",
-        "Pa",
-        "2e9",
-        number(1e5, 1e12, false),
-        "bulk modulus K",
-    ),
-    parameter(
-        "density",
-        "kg/m³",
-        "997.5",
-        number(1e-3, 1e5, false),
-        "density ρ without pressure",
-    ),
-    parameter(
-        "viscosity",
-        "Pa s",
-        "0.001",
-        number(0.0, 1e6, false),
-        "dynamic viscosity μ",
-    ),
-    parameter(
-        "duration",
-        "s",
-        "2",
-        number(0.01, 10.0, false),
-        "time after the removal of the gate",
-    ),
-    parameter(
-        "start",
-        "-",
-        "exact",
-        Domain::Choice(&["exact", "gravity-stage"]),
-        "how the water comes to rest behind the gate: exactly, or by gravity that rises from zero, with damping",
-    ),
-    parameter(
-        "wall_contact",
-        "-",
-        "separable",
-        Domain::Choice(&["separable", "sticky"]),
-        "whether water comes off the walls freely or they bear tension; it slides freely along either",
-    ),
-    parameter(
-        "cfl",
-        "-",
-        "0.0567",
-        number(1e-3, 1.0, true),
-        "largest CFL number c Δt / h of pressure waves; Δt is a whole fraction of 0.005 s, 10⁻⁵ s at h = 0.25 m",
-    ),
-    parameter(
-        "pic_rate",
-        "1/s",
-        "0",
-        number(0.0, 1e6, false),
-        "share of PIC per unit of time, r: η = exp(−r Δt); 0 is FLIP",
-    ),
-    parameter(
-        "wall",
-        "-",
-        "open-knot",
-        Domain::Choice(&["open-knot", "wall-line"]),
-        "how B-splines meet floor and walls",
-    ),
-    parameter(
-        "ppc_per_direction",
-        "-",
-        "5",
-        Domain::Integer { least: 1, most: 8 },
-        "particles per cell and direction",
-    ),
-    parameter(
-        "seed",
-        "-",
-        "0",
-        Domain::Integer {
-            least: 0,
-            most: 1000,
-        },
-        "which member of an ensemble whose starts differ in last bits; 0 is the undisturbed one",
-    ),
-];
+const BASES: [BasisName; 2] = [Gimp, Bspline2];
 
-const METRICS: &[MetricInfo] = &[
-    metric(
-        "base_reaction_ratio",
-        "-",
-        "force on the floor over the weight of the water, behind the gate: mean over three of the water's longest periods from the exact start, over 0.005 s after a gravity stage",
-    ),
-    metric("gate_force", "N/m", "force on the gate, likewise"),
-    metric("back_force", "N/m", "force on the back wall, likewise"),
-    metric(
-        "base_pressure",
-        "Pa",
-        "pressure at the floor behind the gate, one step from the exact start or after the gravity stage, by a line through the particles of the lower half",
-    ),
-    metric(
-        "pressure_profile_error",
-        "-",
-        "rms over the particles of the pressure less the hydrostatic one, over that at the floor, then",
-    ),
-    metric(
-        "start_kinetic_energy",
-        "J/m",
-        "kinetic energy behind the gate when the forces have been measured",
-    ),
-    metric(
-        "front_x_0.4s",
-        "m",
-        "outermost particle and half its spacing, 0.4 s after the removal",
-    ),
-    metric(
-        "front_rms_error",
-        "m",
-        "rms distance of the front from the inviscid one, t √(g/H) from 0.2 to 0.9",
-    ),
-    metric(
-        "front_speed_max",
-        "m/s",
-        "largest speed of the front until it is two cells off the wall",
-    ),
-    metric(
-        "arrival_time",
-        "s",
-        "when the front is two cells off the wall",
-    ),
-    metric(
-        "arrival_error",
-        "s",
-        "distance of that time from the inviscid one",
-    ),
-    metric(
-        "back_level_0.4s",
-        "m",
-        "highest particle within a cell of the back wall and half its spacing, at 0.4 s",
-    ),
-    metric(
-        "energy_ratio",
-        "-",
-        "kinetic and potential energy and stress work at 0.4 s over those at the start",
-    ),
-    metric("energy_ratio_2s", "-", "likewise at 2 s"),
-    metric(
-        "energy_gain",
-        "-",
-        "largest growth of that energy in 0.005 s, over its start",
-    ),
-    metric(
-        "energy_excess",
-        "-",
-        "largest excess of it over its start, relative",
-    ),
-    metric(
-        "motion_ratio_2s",
-        "-",
-        "kinetic and potential energy at 2 s over those at the start",
-    ),
-    metric(
-        "motion_excess",
-        "-",
-        "largest excess of kinetic and potential energy over their start, relative",
-    ),
-    metric("motion_loss", "-", "largest loss of them, over their start"),
-    metric(
-        "pressure_rms",
-        "Pa",
-        "rms over the particles of the pressure at 0.4 s",
-    ),
-    metric(
-        "checkerboard_rms",
-        "Pa",
-        "rms over the particles of p − Πp at 0.4 s",
-    ),
-    metric(
-        "tension_share",
-        "-",
-        "share of the particles in tension at 0.4 s",
-    ),
-    metric(
-        "covered_0.4s",
-        "m²",
-        "area under the highest particles at 0.4 s, in strips two particles wide",
-    ),
-    metric("centre_x_0.4s", "m", "centre of mass at 0.4 s"),
-    metric("centre_x_mean", "m", "centre of mass, mean over 2 s"),
-    metric("centre_y_mean", "m", "its height, likewise"),
-    metric("wall_impulse", "N s/m", "impulse on the front wall in 2 s"),
-    metric("jacobian_min", "-", "least J of a particle at any time"),
-    metric("jacobian_max", "-", "greatest J of a particle at any time"),
-    metric("log_jacobian_gap", "-", "rms ln(J/J̄) at 0.4 s"),
-    metric("mass", "kg/m", "mass of the water at the end"),
-];
+/// Runs over the levels take larger steps than the case's own.
+const LADDER: &[&str] = &["cfl=0.3"];
+/// Until the front has met the wall.
+const SHORT: &[&str] = &["cfl=0.3", "duration=0.6"];
 
 const HEADLINES: &[Headline] = &[
-    headline("front_x_0.4s", "front at 0.4 s (m)", 1.0, 3),
-    headline("front_rms_error", "front, rms error (m)", 1.0, 3),
-    headline("arrival_error", "arrival, error (ms)", 1e3, 1),
-    headline("energy_ratio", "energy at 0.4 s (–)", 1.0, 4),
-    headline("energy_ratio_2s", "energy at 2 s (–)", 1.0, 3),
-    headline("motion_ratio_2s", "without stress work (–)", 1.0, 3),
-    headline("pressure_rms", "p rms at 0.4 s (kPa)", 1e-3, 1),
-    headline("checkerboard_rms", "p − Πp rms (kPa)", 1e-3, 2),
-    headline("tension_share", "in tension (%)", 100.0, 1),
-    headline("covered_0.4s", "covered at 0.4 s (m²)", 1.0, 2),
-    headline("wall_impulse", "wall impulse (kN s/m)", 1e-3, 2),
-    headline("log_jacobian_gap", "ln(J/J̄) at 0.4 s (–)", 1.0, 4),
+    headline(m::FRONT_X_EARLY, "front at 0.4 s (m)", 1.0, 3),
+    headline(m::FRONT_RMS_ERROR, "front, rms error (m)", 1.0, 3),
+    headline(m::ARRIVAL_ERROR, "arrival, error (ms)", 1e3, 1),
+    headline(m::ENERGY_RATIO, "energy at 0.4 s (–)", 1.0, 4),
+    headline(m::ENERGY_RATIO_2S, "energy at 2 s (–)", 1.0, 3),
+    headline(m::MOTION_RATIO_2S, "without stress work (–)", 1.0, 3),
+    headline(m::PRESSURE_RMS, "p rms at 0.4 s (kPa)", 1e-3, 1),
+    headline(m::CHECKERBOARD_RMS, "p − Πp rms (kPa)", 1e-3, 2),
+    headline(m::TENSION_SHARE, "in tension (%)", 100.0, 1),
+    headline(m::COVERED_EARLY, "covered at 0.4 s (m²)", 1.0, 2),
+    headline(m::WALL_IMPULSE, "wall impulse (kN s/m)", 1e-3, 2),
+    headline(m::LOG_JACOBIAN_GAP, "ln(J/J̄) at 0.4 s (–)", 1.0, 4),
 ];
 
 const QUANTITIES: &[Quantity] = &[
-    error("front_rms_error", "rms error of the front (m)"),
-    error("arrival_error", "error of the arrival (s)"),
+    error(m::FRONT_RMS_ERROR, "rms error of the front (m)"),
+    error(m::ARRIVAL_ERROR, "error of the arrival (s)"),
     Quantity {
-        metric: "wall_impulse",
+        metric: m::WALL_IMPULSE,
         label: "impulse on the wall (N s/m)",
         is_error: false,
     },
     Quantity {
-        metric: "centre_x_mean",
+        metric: m::CENTRE_X_MEAN,
         label: "mean centre of mass (m)",
         is_error: false,
     },
@@ -277,179 +76,107 @@ const QUANTITIES: &[Quantity] = &[
 
 const SWEEPS: &[Sweep] = &[
     Sweep {
-        parameter: "cfl",
+        parameter: CFL,
         label: "CFL number (–)",
         abscissa: |cfl| cfl,
         logarithmic: true,
     },
     Sweep {
-        parameter: "pic_rate",
+        parameter: PIC_RATE,
         label: "PIC share per unit of time (1/s)",
         abscissa: |rate| rate,
         logarithmic: true,
     },
 ];
 
-impl Case for DamBreak {
-    fn name(&self) -> &'static str {
-        "dam-break"
-    }
-
-    fn title(&self) -> &'static str {
-        "Dam break"
-    }
-
-    fn description(&self) -> &'static str {
-        "Water, nearly incompressible, 4 m × 2 m behind a gate that is removed at once; it runs along the floor of a \
+/// The dam break.
+pub(super) fn case() -> Case {
+    Case {
+        name: "dam-break",
+        title: "Dam break",
+        description: "Water, nearly incompressible, 4 m × 2 m behind a gate that is removed at once; it runs along the floor of a \
          tank 6 m long and climbs the wall. The front is known from inviscid flow, energy may only be lost. \
-         Standard MPM locks: it flows too slowly, with a pressure that is noise."
-    }
-
-    fn references(&self) -> Vec<String> {
-        reference::describe()
-    }
-
-    fn limits(&self) -> &'static [&'static str] {
-        &[
+         Standard MPM locks: it flows too slowly, with a pressure that is noise.",
+        references: reference::describe(),
+        limits: &[
             "Tension is allowed: water that is pulled apart holds together by cells.",
             "After the front has met the wall single particles are chaotic; only sums over the water, compared over levels and ensembles, mean something.",
             "There is no air and no surface tension: jets are not those of water.",
-        ]
-    }
-
-    fn parameters(&self) -> &[Parameter] {
-        &PARAMETERS
-    }
-
-    fn schemes(&self) -> Vec<Scheme> {
-        let with = |transfer| {
-            BASES.into_iter().flat_map(move |basis| {
-                REMEDIES.map(move |remedy| Scheme::explicit(basis, remedy, transfer))
-            })
-        };
-        let mut schemes: Vec<Scheme> = with(TransferName::Flip).collect();
-        schemes.extend(with(TransferName::Apic));
-        schemes.extend(BASES.map(|basis| Scheme::flip(basis, RemedyName::FbarRate)));
-        schemes.push(Scheme::flip(
-            BasisName::Bspline3,
-            RemedyName::FbarConsistent,
-        ));
-        schemes
-    }
-
-    fn levels(&self) -> &[Level] {
-        &LEVELS
-    }
-
-    fn metrics(&self) -> &'static [MetricInfo] {
-        METRICS
-    }
-
-    fn checks(&self) -> &'static [CheckInfo] {
-        checks::CHECKS
-    }
-
-    fn headlines(&self) -> &'static [Headline] {
-        HEADLINES
-    }
-
-    fn quantities(&self) -> &'static [Quantity] {
-        QUANTITIES
-    }
-
-    fn ladder(&self) -> &'static [&'static str] {
-        &["cfl=0.3"]
-    }
-
-    fn sweeps(&self) -> &'static [Sweep] {
-        SWEEPS
-    }
-
-    fn watched(&self) -> &'static [&'static str] {
-        &["front", "energy", "front_force", "pressure_rms"]
-    }
-
-    fn sketch(&self) -> Sketch {
-        sketch::sketch()
-    }
-
-    fn plan(&self, tier: Tier) -> Vec<RunSpec> {
-        plan(tier)
-    }
-
-    fn golden_tier(&self) -> Tier {
-        Tier::Pr
-    }
-
-    fn cost(&self, spec: &RunSpec) -> f64 {
-        let sweep = match spec.scheme.remedy() {
-            RemedyName::None => 1.0,
-            RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => 1.4,
-            RemedyName::FbarConsistent => 1.9,
-        };
-        sweep / spec.level.h.powi(3)
-    }
-
-    fn start(&self, spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
-        Ok(Box::new(Simulated::new(spec, parameters)?))
-    }
-
-    fn breaks_down(&self, record: &Record) -> Option<&'static str> {
-        checks::breaks_down(record)
-    }
-
-    fn judge(&self, record: &Record) -> Vec<Verdict> {
-        checks::judge(record)
-    }
-
-    fn judge_study(&self, records: &[Record]) -> Vec<Verdict> {
-        checks::judge_study(records)
+        ],
+        parameters: parameters::ALL.to_vec(),
+        levels: LEVELS.to_vec(),
+        plan: plan(),
+        metrics: m::ALL.to_vec(),
+        checks: checks::checks(),
+        headlines: HEADLINES.to_vec(),
+        quantities: QUANTITIES.to_vec(),
+        sweeps: SWEEPS.to_vec(),
+        watched: &["front", "energy", "front_force", "pressure_rms"],
+        sketch: sketch::sketch(),
+        golden_tier: Tier::Pr,
+        cost: Box::new(cost),
+        ladder: LADDER,
+        settles: false,
+        begin: Box::new(|spec, parameters| {
+            let dam = Dam::new(spec, parameters)?;
+            Ok(Box::new(Drive::new(dam, Seen::default())?))
+        }),
+        pictures: pictures::draw,
+        breaks_down: checks::breaks_down,
     }
 }
 
-fn plan(tier: Tier) -> Vec<RunSpec> {
-    use RemedyName::{FbarConsistent, FbarRecursive, None};
+fn cost(spec: &RunSpec) -> f64 {
+    let sweep = match spec.scheme.remedy() {
+        RemedyName::None => 1.0,
+        FbarRecursive | FbarTotal | FbarRate => 1.4,
+        FbarConsistent => 1.9,
+    };
+    sweep / spec.level.h.powi(3)
+}
+
+fn plan() -> Vec<Family> {
+    use Tier::{Long, Nightly, Pr};
     let [h50, h25, h12, h06] = LEVELS;
-    let flip = |remedies: &[RemedyName]| -> Vec<Scheme> {
-        let of = |&basis: &BasisName| remedies.iter().map(move |&r| Scheme::flip(basis, r));
-        BASES.iter().flat_map(of).collect()
-    };
-    let three = flip(&[None, FbarRecursive, FbarConsistent]);
+    let flip = |remedies: &[RemedyName]| pairs(&BASES, remedies);
+    let remedies = [RemedyName::None, FbarRecursive, FbarTotal, FbarConsistent];
+    let apic = |s: &Scheme| Scheme::explicit(s.basis(), s.remedy(), TransferName::Apic);
+    let mut all = flip(&remedies);
+    all.extend(all.clone().iter().map(apic));
+    all.extend(flip(&[FbarRate]));
+    all.push(Scheme::flip(Bspline3, FbarConsistent));
     let ours = flip(&[FbarConsistent]);
-    let all = DamBreak.schemes();
     let finest = flip(&[FbarRecursive, FbarConsistent]);
-    let fewer = ["cfl=0.3", "ppc_per_direction=3"];
-    let studies = |sets: &[&str]| -> Vec<RunSpec> {
-        let of = |set: &&str| runs(h25, &ours, &[*set]);
-        sets.iter().flat_map(of).collect()
-    };
-    match tier {
-        Tier::Quick => Vec::new(),
-        Tier::Pr => [h50, h25]
-            .iter()
-            .flat_map(|&level| runs(level, &three, &["duration=0.6"]))
-            .collect(),
-        Tier::Nightly => [
-            plan(Tier::Pr),
-            runs(h50, &all, &[]),
-            runs(h25, &all, &[]),
-            runs(h50, &all, &["cfl=0.3"]),
-            runs(h25, &all, &["cfl=0.3"]),
-            runs(h12, &all, &["cfl=0.3"]),
-            runs(h06, &finest, &["cfl=0.3"]),
-            runs(h50, &ours, &fewer),
-            runs(h25, &ours, &fewer),
-            runs(h12, &ours, &fewer),
-            studies(&["cfl=0.15", "start=gravity-stage"]),
-            studies(&["pic_rate=0.1", "pic_rate=1", "pic_rate=10", "pic_rate=100"]),
-            studies(&["wall_contact=sticky", "seed=1", "seed=2", "seed=3"]),
-        ]
-        .concat(),
-        Tier::Long => {
-            let others: Vec<Scheme> = (all.into_iter())
-                .filter(|scheme| !finest.contains(scheme))
-                .collect();
-            runs(h06, &others, &["cfl=0.3"])
-        }
-    }
+    let others: Vec<Scheme> = all
+        .iter()
+        .filter(|s| !finest.contains(s))
+        .copied()
+        .collect();
+    let three = flip(&[RemedyName::None, FbarRecursive, FbarConsistent]);
+    let make_energy = pairs(&[Gimp], &[FbarTotal, FbarRate]);
+    let fewer = &["cfl=0.3", "ppc_per_direction=3"];
+    let studies: [&'static [&'static str]; 10] = [
+        &["cfl=0.15"],
+        &["start=gravity-stage"],
+        &["pic_rate=0.1"],
+        &["pic_rate=1"],
+        &["pic_rate=10"],
+        &["pic_rate=100"],
+        &["wall_contact=sticky"],
+        &["seed=1"],
+        &["seed=2"],
+        &["seed=3"],
+    ];
+    let mut plan = vec![
+        family(Pr, &[h50, h25], &three, SHORT),
+        family(Pr, &[h50], &make_energy, SHORT),
+        family(Pr, &[h50], &finest, &["duration=0.6"]),
+        family(Nightly, &[h50, h25], &all, &[]),
+        family(Nightly, &[h50, h25, h12], &all, LADDER),
+        family(Nightly, &[h06], &finest, LADDER),
+        family(Nightly, &[h50, h25, h12], &ours, fewer),
+    ];
+    plan.extend(studies.map(|set| family(Nightly, &[h25], &ours, set)));
+    plan.push(family(Long, &[h06], &others, LADDER));
+    plan
 }

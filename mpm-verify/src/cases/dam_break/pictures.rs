@@ -1,20 +1,17 @@
 //! The pictures of the dam break: the paper's Figure 12, the flow against time, an animation.
 
-use super::Picture;
-use super::curves::write_curves;
-use crate::cases::{self, dam_break_front};
+use super::LADDER;
+use super::parameters::{CFL, DURATION};
+use super::reference::{TANK, front_curve, time_scale};
 use crate::draw::style::{Colour, series};
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, animate_fields, draw_charts,
     draw_fields, share_ranges,
 };
 use crate::error::Error;
+use crate::gallery::Gallery;
 use crate::record::{Record, Status};
-use crate::run::snapshot_file;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use crate::study::{CaseStudy, Gathered};
-use crate::table::Table;
-use std::path::Path;
 
 const BASES: [(BasisName, &str); 2] = [
     (BasisName::Gimp, "GIMP"),
@@ -41,52 +38,32 @@ const FRAME: f64 = 0.05;
 const DELAY: u16 = 15;
 /// Height (m) of what is drawn of the tank, and its outline (m).
 const HEIGHT: f64 = 3.2;
-const TANK: [(f64, f64); 4] = [(0.0, HEIGHT), (0.0, 0.0), (6.0, 0.0), (6.0, HEIGHT)];
-const WINDOW: ((f64, f64), (f64, f64)) = ((0.0, 6.0), (0.0, HEIGHT));
+const OUTLINE: [(f64, f64); 4] = [(0.0, HEIGHT), (0.0, 0.0), (TANK, 0.0), (TANK, HEIGHT)];
+const WINDOW: ((f64, f64), (f64, f64)) = ((0.0, TANK), (0.0, HEIGHT));
 /// Pressures (kPa) of the colour scale.
 const PRESSURES: (f64, f64) = (0.0, 20.0);
-/// Scales of time (s) and length (m).
-const TIME_SCALE: f64 = 0.451_523_6;
 const LEVELS: [&str; 4] = ["h0.0625", "h0.125", "h0.25", "h0.5"];
 
-struct Runs<'a> {
+struct Runs<'a, 'b> {
     records: Vec<&'a Record>,
-    /// The parameters at which levels are compared.
-    ladder: &'static [&'static str],
-    gathered: &'a Gathered,
-    out: &'a Path,
-    pictures: Vec<Picture>,
+    gallery: &'b mut Gallery<'a>,
 }
 
 /// Draws everything there are runs for.
-pub(super) fn draw(
-    study: &CaseStudy,
-    gathered: &Gathered,
-    out: &Path,
-) -> Result<Vec<Picture>, Error> {
-    let own = |r: &&Record| r.is_default() || r.changes_only("cfl") || r.changes_only("duration");
-    let mut runs = Runs {
-        records: study
-            .records
-            .iter()
-            .filter(|r| r.status == Status::Ok && r.transfer() == TransferName::Flip)
-            .filter(own)
-            .collect(),
-        ladder: cases::find(&study.case)?.ladder,
-        gathered,
-        out,
-        pictures: Vec::new(),
-    };
-    runs.records.sort_by_key(|r| r.set.len());
+pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
+    let own = |r: &&Record| r.changes_none_but(&[CFL.name, DURATION.name]);
+    let flip = |r: &&Record| r.status == Status::Ok && r.transfer() == TransferName::Flip;
+    let mut records: Vec<&Record> = gallery.records.iter().filter(flip).filter(own).collect();
+    records.sort_by_key(|r| r.set.len());
+    let mut runs = Runs { records, gallery };
     for (basis, title) in BASES {
         runs.snapshots(basis, title)?;
         runs.flow(basis, title)?;
     }
-    runs.animation()?;
-    Ok(runs.pictures)
+    runs.animation()
 }
 
-impl Runs<'_> {
+impl Runs<'_, '_> {
     /// Of several the one that changes least.
     fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
         self.records
@@ -99,7 +76,7 @@ impl Runs<'_> {
     fn on_the_ladder(&self, basis: BasisName, level: &str) -> Option<&Record> {
         let ours = |r: &&&Record| (r.basis(), r.remedy()) == (basis, RemedyName::FbarConsistent);
         let mut own = self.records.iter().filter(ours).copied();
-        own.find(|r| r.level == level && r.set == self.ladder)
+        own.find(|r| r.level == level && LADDER.iter().all(|set| r.set.iter().any(|s| s == set)))
     }
 
     /// The level at which the remedies are compared, if there is one that has all.
@@ -111,13 +88,6 @@ impl Runs<'_> {
         PREFERRED.into_iter().find(has_all)
     }
 
-    fn picture(&mut self, name: &str, caption: String) {
-        self.pictures.push(Picture {
-            file: format!("dam-break/{name}.png"),
-            caption,
-        });
-    }
-
     /// The water at `time` (s) in colours of its pressure, if the run has kept it.
     fn panel(
         &self,
@@ -125,11 +95,9 @@ impl Runs<'_> {
         time: f64,
         title: String,
     ) -> Result<Option<FieldPanel>, Error> {
-        let file = snapshot_file(self.gathered.folder(record)?, time);
-        if !file.exists() {
+        let Some(table) = self.gallery.snapshot(record, time)? else {
             return Ok(None);
-        }
-        let table = Table::read(&file)?;
+        };
         let visible = |(_, y): &(f64, f64)| *y <= HEIGHT;
         let kept: Vec<(usize, (f64, f64))> = (table.points("x", "y").into_iter())
             .enumerate()
@@ -141,7 +109,7 @@ impl Runs<'_> {
             values: kept.iter().map(|(k, _)| 1e-3 * pressure[*k]).collect(),
             points: kept.into_iter().map(|(_, x)| x).collect(),
             size: record.discretisation.h / f64::from(record.discretisation.ppc).sqrt(),
-            outline: TANK.to_vec(),
+            outline: OUTLINE.to_vec(),
         }))
     }
 
@@ -200,11 +168,11 @@ impl Runs<'_> {
         let panels = (0..SHOWN.len() * count)
             .map(|k| columns[k % count][k / count].clone())
             .collect();
-        let name = format!("snapshots-{basis}");
+        let file = format!("snapshots-{basis}.png");
         let figure = Self::figure(format!("{of}, h = {} m", &level[1..]), panels, count);
-        draw_fields(&self.out.join(format!("dam-break/{name}.png")), &figure)?;
-        self.picture(
-            &name,
+        draw_fields(&self.gallery.place(&file), &figure)?;
+        self.gallery.hang(
+            &file,
             format!("The water with {of} in colours of its pressure: standard MPM, the paper's F̄, ours. The paper's Figure 12 (data: snapshots of each run; jets above {HEIGHT} m are cut off)."),
         );
         Ok(())
@@ -225,9 +193,9 @@ impl Runs<'_> {
         if frames.is_empty() {
             return Ok(());
         }
-        animate_fields(&self.out.join("dam-break/flow.png"), &frames, DELAY)?;
-        self.picture(
-            "flow",
+        animate_fields(&self.gallery.place("flow.png"), &frames, DELAY)?;
+        self.gallery.hang(
+            "flow.png",
             format!(
                 "The flow with GIMP at h = {} m, a third of its speed: standard MPM, the paper's F̄, ours.",
                 &level[1..]
@@ -243,7 +211,7 @@ impl Runs<'_> {
         column: &str,
         factor: f64,
     ) -> Result<Vec<(f64, f64)>, Error> {
-        let table = Table::read(&self.gathered.folder(record)?.join("series.csv"))?;
+        let table = self.gallery.table(record, "series.csv")?;
         let points = table.points("time", column);
         Ok(points.into_iter().map(|(t, v)| (t, factor * v)).collect())
     }
@@ -283,7 +251,7 @@ impl Runs<'_> {
                     });
                 }
             }
-            let title = format!("fbar-consistent, {}", self.ladder.join(" "));
+            let title = format!("fbar-consistent, {}", LADDER.join(" "));
             by_level.push(chart(&title, label, column, curves));
         }
         let mut charts = [by_remedy, by_level].concat();
@@ -293,8 +261,8 @@ impl Runs<'_> {
         {
             return Ok(());
         }
-        let name = format!("flow-{basis}");
-        let path = self.out.join(format!("dam-break/{name}.png"));
+        let file = format!("flow-{basis}.png");
+        let path = self.gallery.place(&file);
         charts.retain(Chart::shows_something);
         let columns = quantities.len();
         for k in 0..columns {
@@ -304,10 +272,10 @@ impl Runs<'_> {
                 *chart = ranged;
             }
         }
-        write_curves(&path.with_extension("csv"), &charts)?;
+        (self.gallery).write_curves(&format!("flow-{basis}.csv"), &charts)?;
         draw_charts(&path, &charts, columns)?;
-        self.picture(
-            &name,
+        self.gallery.hang(
+            &file,
             format!("Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at h = {} m; below, fbar-consistent at all levels with one CFL number. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m.", &shared[1..]),
         );
         Ok(())
@@ -318,9 +286,9 @@ fn chart(title: &str, label: &str, column: &str, mut curves: Vec<Series>) -> Cha
     if column == "front" {
         curves.push(Series {
             name: "inviscid".to_owned(),
-            points: dam_break_front()
+            points: front_curve()
                 .into_iter()
-                .filter(|(t, _)| *t <= 1.05 * TIME_SCALE)
+                .filter(|(t, _)| *t <= 1.05 * time_scale())
                 .collect(),
             colour: 7,
             marker: Marker::Circle,

@@ -98,7 +98,7 @@ fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
 }
 
 /// The inviscid front as points t (s), x (m).
-pub(crate) fn dam_break_front() -> Vec<(f64, f64)> {
+pub(super) fn front_curve() -> Vec<(f64, f64)> {
     let s = solution();
     let columns = s.time.iter().zip(&s.front);
     columns

@@ -1,10 +1,14 @@
-//! Verdicts on runs of the dam break together: over levels, against standard MPM, against one change.
+//! Checks on runs of the dam break together: over levels, against standard MPM, against one change.
 
 use super::{is_averaged, is_flip};
+use crate::cases::dam_break::metrics as m;
+use crate::cases::dam_break::parameters::{CFL, DURATION, GRAVITY_STAGE, SEED, START};
 use crate::cases::dam_break::reference::LENGTH;
+use crate::check::{Check, Finding, On, study};
+use crate::metric::Metric;
+use crate::parameter::Parameter;
 use crate::record::{Record, Status};
-use crate::scheme::RemedyName;
-use crate::verdict::{Kind, Verdict};
+use crate::scheme::{RemedyName, Scheme};
 
 /// Share of the front's error, a cell, that the time step may add to it.
 const TIME_STEP: f64 = 0.1;
@@ -13,56 +17,84 @@ const STARTS: f64 = 2.5e-3;
 /// Largest pressure and checkerboard of F̄ over those of standard MPM.
 const SMOOTHER: f64 = 0.5;
 
-pub(in crate::cases::dam_break) fn judge_study(records: &[Record]) -> Vec<Verdict> {
-    let finished = |r: &&Record| r.status == Status::Ok;
-    let records: Vec<Record> = records.iter().filter(finished).cloned().collect();
-    let mut verdicts = levels(&records);
-    verdicts.extend(against_standard(&records));
-    verdicts.extend(starts(&records));
-    verdicts.extend(time_steps(&records));
-    verdicts
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check::truth(
+            "front-converges",
+            "F̄ with FLIP: the rms error of the front falls from level to level, with one CFL number",
+            of_finished(|records| falls(records, m::FRONT_RMS_ERROR)),
+        ),
+        Check::truth(
+            "start-converges",
+            "F̄ with FLIP: the rms error of the pressure behind the gate falls from level to level, with one CFL number",
+            of_finished(|records| falls(records, m::PRESSURE_PROFILE_ERROR)),
+        ),
+        Check::truth(
+            "late-converges",
+            "fbar-consistent with FLIP: from level to level, with one CFL number, impulse on the wall and mean centre of mass over 2 s change less, or by less than an ensemble spreads",
+            of_finished(late),
+        ),
+        Check::truth(
+            "smoother",
+            "F̄: rms and checkerboard of the pressure at 0.4 s are less than half of standard MPM's",
+            of_finished(against_standard),
+        ),
+        Check::truth(
+            "starts-agree",
+            "all: after a gravity stage the front advances as from the exact start within 0.25 %",
+            of_finished(starts),
+        ),
+        Check::truth(
+            "time-step",
+            "fbar-consistent with FLIP: a CFL number up to 0.3 moves the front at 0.4 s by less than a tenth of a cell",
+            of_finished(time_steps),
+        ),
+    ]
 }
 
-/// Whether a run is of the case's own parameters, but for its time step.
+/// A check on the runs that have come to their end.
+fn of_finished(found: fn(&[&Record]) -> Vec<Finding>) -> On {
+    study(move |records| {
+        let finished = records.iter().filter(|r| r.status == Status::Ok);
+        found(&finished.collect::<Vec<_>>())
+    })
+}
+
+/// Whether a run is of the case's own problem, but for its time step and for how long it goes on.
 fn is_own(record: &Record) -> bool {
-    record.is_default() || record.changes_only("cfl")
+    record.changes_none_but(&[CFL.name, DURATION.name])
 }
 
-/// Whether the runs of a scheme with one time step converge over the levels.
-fn levels(records: &[Record]) -> Vec<Verdict> {
-    let judged = |r: &&Record| is_own(r) && is_averaged(r) && is_flip(r);
-    let mut own: Vec<&Record> = records.iter().filter(judged).collect();
+/// Whether an assignment `name=value` is of a parameter.
+fn sets(assignment: &str, parameter: Parameter) -> bool {
+    assignment.split('=').next() == Some(parameter.name)
+}
+
+/// The runs of each scheme of F̄ with FLIP that are divided in time in one way, coarsest first.
+fn ladders<'a>(records: &[&'a Record]) -> Vec<(Scheme, Vec<&'a Record>)> {
+    let judged = |r: &&&Record| is_own(r) && is_averaged(r) && is_flip(r);
+    let mut own: Vec<&Record> = records.iter().filter(judged).copied().collect();
     own.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
-    let mut verdicts = Vec::new();
-    for (scheme, set) in crate::distinct(own.iter().map(|r| (r.scheme(), &r.set))) {
+    let kinds = crate::distinct(own.iter().map(|r| (r.scheme(), &r.set)));
+    let of_kind = |(scheme, set)| {
         let same = |r: &&&Record| (r.scheme(), &r.set) == (scheme, set);
-        let runs: Vec<&Record> = own.iter().filter(same).copied().collect();
-        for (check, metric) in [
-            ("front-converges", "front_rms_error"),
-            ("start-converges", "pressure_profile_error"),
-        ] {
-            for pair in runs.windows(2) {
-                let (coarse, fine) = (pair[0].metric(metric), pair[1].metric(metric));
-                verdicts.push(Verdict::at_most(
-                    check,
-                    Kind::Truth,
-                    metric,
-                    fine,
-                    coarse,
-                    format!(
-                        "{}: {} against {}",
-                        name(pair[0]),
-                        pair[1].level,
-                        pair[0].level
-                    ),
-                ));
-            }
-        }
-        if scheme.remedy() == RemedyName::FbarConsistent {
-            late(records, &runs, &mut verdicts);
+        (scheme, own.iter().filter(same).copied().collect())
+    };
+    kinds.into_iter().map(of_kind).collect()
+}
+
+/// Whether an error falls from level to level.
+fn falls(records: &[&Record], metric: Metric) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for (_, runs) in ladders(records) {
+        for pair in runs.windows(2) {
+            let (coarse, fine) = (pair[0].metric(metric), pair[1].metric(metric));
+            let levels = format!("{} against {}", pair[1].level, pair[0].level);
+            let source = format!("{}: {levels}", name(pair[0]));
+            found.push(Finding::at_most(metric, fine, coarse, source));
         }
     }
-    verdicts
+    found
 }
 
 /// Scheme and changed parameters of a run.
@@ -73,54 +105,58 @@ fn name(run: &Record) -> String {
 }
 
 /// Whether what is summed over the whole flow converges.
-fn late(records: &[Record], runs: &[&Record], verdicts: &mut Vec<Verdict>) {
-    for metric in ["wall_impulse", "centre_x_mean"] {
-        for three in runs.windows(3) {
-            let change = |k: usize| (three[k + 1].metric(metric) - three[k].metric(metric)).abs();
-            verdicts.push(Verdict::at_most(
-                "late-converges",
-                Kind::Truth,
-                metric,
-                change(1),
-                change(0) + spread(records, three[0], metric),
-                format!(
-                    "{}: from {} to {}, against from {} to {}",
-                    name(three[0]),
-                    three[1].level,
-                    three[2].level,
-                    three[0].level,
-                    three[1].level
-                ),
-            ));
+fn late(records: &[&Record]) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for (scheme, runs) in ladders(records) {
+        let whole = runs.iter().all(|r| !r.metric(m::WALL_IMPULSE).is_nan());
+        if scheme.remedy() != RemedyName::FbarConsistent || !whole {
+            continue;
+        }
+        for metric in [m::WALL_IMPULSE, m::CENTRE_X_MEAN] {
+            for three in runs.windows(3) {
+                let [a, b, c] = [0, 1, 2].map(|k: usize| three[k].metric(metric));
+                let levels = [0, 1, 2].map(|k: usize| &three[k].level);
+                found.push(Finding::at_most(
+                    metric,
+                    (c - b).abs(),
+                    (b - a).abs() + spread(records, three[0], metric),
+                    format!(
+                        "{}: from {} to {}, against from {} to {}",
+                        name(three[0]),
+                        levels[1],
+                        levels[2],
+                        levels[0],
+                        levels[1]
+                    ),
+                ));
+            }
         }
     }
+    found
 }
 
 /// The range of a metric over an ensemble of the scheme, of the level and the time step that have one.
-fn spread(records: &[Record], like: &Record, metric: &str) -> f64 {
-    let members = |r: &&Record| r.scheme() == like.scheme() && r.changes_only("seed");
+fn spread(records: &[&Record], like: &Record, metric: Metric) -> f64 {
+    let members = |r: &&&Record| r.scheme() == like.scheme() && r.changes_only(SEED.name);
     let values = || records.iter().filter(members).map(|r| r.metric(metric));
     let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
     range.max(0.0)
 }
 
 /// What the average of the volume does to the pressure.
-fn against_standard(records: &[Record]) -> Vec<Verdict> {
-    let mut verdicts = Vec::new();
+fn against_standard(records: &[&Record]) -> Vec<Finding> {
+    let mut found = Vec::new();
     for run in records.iter().filter(|r| is_averaged(r)) {
         let standard = records.iter().find(|r| {
-            let scheme = run.scheme();
-            r.remedy() == RemedyName::None
-                && (r.basis(), r.transfer()) == (scheme.basis(), scheme.transfer())
+            !is_averaged(r)
+                && (r.basis(), r.transfer()) == (run.basis(), run.transfer())
                 && (&r.level, &r.set) == (&run.level, &run.set)
         });
         let Some(standard) = standard else {
             continue;
         };
-        for metric in ["pressure_rms", "checkerboard_rms"] {
-            verdicts.push(Verdict::at_most(
-                "smoother",
-                Kind::Truth,
+        for metric in [m::PRESSURE_RMS, m::CHECKERBOARD_RMS] {
+            found.push(Finding::at_most(
                 metric,
                 run.metric(metric),
                 SMOOTHER * standard.metric(metric),
@@ -128,65 +164,59 @@ fn against_standard(records: &[Record]) -> Vec<Verdict> {
             ));
         }
     }
-    verdicts
+    found
 }
 
 /// What the start changes.
-fn starts(records: &[Record]) -> Vec<Verdict> {
-    let staged = |r: &&Record| r.parameters.is("start", "gravity-stage");
-    changed(records, staged, "start")
-        .into_iter()
-        .map(|(run, own)| {
-            let metric = "front_x_0.4s";
-            Verdict::close(
-                "starts-agree",
-                metric,
-                run.metric(metric),
-                own.metric(metric),
-                STARTS * (own.metric(metric) - LENGTH),
-                format!("{} {}: the exact start", run.scheme(), run.level),
-            )
-        })
-        .collect()
+fn starts(records: &[&Record]) -> Vec<Finding> {
+    let staged = |r: &Record| r.parameters.is(START, GRAVITY_STAGE);
+    let metric = m::FRONT_X_EARLY;
+    let found = |(run, own): (&Record, &Record)| {
+        Finding::within(
+            metric,
+            run.metric(metric),
+            own.metric(metric),
+            STARTS * (own.metric(metric) - LENGTH),
+            format!("{} {}: the exact start", run.scheme(), run.level),
+        )
+    };
+    changed(records, staged, START).map(found).collect()
 }
 
 /// What the time step changes.
-fn time_steps(records: &[Record]) -> Vec<Verdict> {
-    let ours = |r: &&Record| r.remedy() == RemedyName::FbarConsistent && is_flip(r);
-    changed(records, ours, "cfl")
-        .into_iter()
-        .map(|(run, own)| {
-            let metric = "front_x_0.4s";
-            Verdict::close(
-                "time-step",
-                metric,
-                run.metric(metric),
-                own.metric(metric),
-                TIME_STEP * run.discretisation.h,
-                format!(
-                    "{} {}: CFL number {} against {}",
-                    run.scheme(),
-                    run.level,
-                    run.parameters.number("cfl"),
-                    own.parameters.number("cfl")
-                ),
-            )
-        })
-        .collect()
+fn time_steps(records: &[&Record]) -> Vec<Finding> {
+    let ours = |r: &Record| r.remedy() == RemedyName::FbarConsistent && is_flip(r);
+    let metric = m::FRONT_X_EARLY;
+    let found = |(run, own): (&Record, &Record)| {
+        let [cfl, of_own] = [run, own].map(|r| r.parameters.number(CFL));
+        let name = format!("{} {}", run.scheme(), run.level);
+        Finding::within(
+            metric,
+            run.metric(metric),
+            own.metric(metric),
+            TIME_STEP * run.discretisation.h,
+            format!("{name}: CFL number {cfl} against {of_own}"),
+        )
+    };
+    changed(records, ours, CFL).map(found).collect()
 }
 
-/// Runs that differ from those of the case's own parameters in `parameter` alone, with these.
+/// Runs with a `parameter` of their own, each with the run that differs from it in that alone; how long they go on
+/// aside, the latter is of the case's own parameters.
 fn changed<'a>(
-    records: &'a [Record],
-    which: impl Fn(&&Record) -> bool,
-    parameter: &str,
-) -> Vec<(&'a Record, &'a Record)> {
-    let runs = records.iter().filter(|r| r.changes_only(parameter));
-    runs.filter(|r| which(r))
-        .filter_map(|run| {
-            let same =
-                |r: &&Record| r.is_default() && r.scheme() == run.scheme() && r.level == run.level;
-            Some((run, records.iter().find(same)?))
-        })
-        .collect()
+    records: &[&'a Record],
+    which: impl Fn(&Record) -> bool,
+    parameter: Parameter,
+) -> impl Iterator<Item = (&'a Record, &'a Record)> {
+    let runs = records.iter().copied();
+    let runs = runs.filter(move |r| which(r) && r.set.iter().any(|set| sets(set, parameter)));
+    runs.filter_map(move |run| {
+        let rest = || run.set.iter().filter(|set| !sets(set, parameter));
+        let same = |r: &&&Record| {
+            (r.scheme(), &r.level) == (run.scheme(), &run.level) && r.set.iter().eq(rest())
+        };
+        let own = records.iter().find(same)?;
+        let is_own = own.set.iter().all(|set| sets(set, DURATION));
+        is_own.then_some((run, *own))
+    })
 }

@@ -1,23 +1,35 @@
 //! The checks turn red when they should.
 
-use super::super::PARAMETERS;
 use super::*;
+use crate::cases::dam_break::{self, parameters};
+use crate::metric::Metric;
 use crate::report::fixture::{self, outcomes};
+use crate::scheme::Scheme;
+use crate::verdict::Verdict;
 
 const OURS: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarConsistent);
 const STANDARD: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::None);
 const PRINTED: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarRecursive);
 
 /// A run of a scheme on cells of size `h` (m), with metrics.
-fn run(scheme: (BasisName, RemedyName), h: f64, set: &[&str], metrics: &[(&str, f64)]) -> Record {
+fn run(scheme: (BasisName, RemedyName), h: f64, set: &[&str], metrics: &[(Metric, f64)]) -> Record {
     let level = format!("h{h}");
-    fixture::run(&PARAMETERS, scheme, (&level, h), set, metrics)
+    let metrics: Vec<_> = metrics.iter().map(|(m, value)| (m.name, *value)).collect();
+    fixture::run(&parameters::ALL, scheme, (&level, h), set, &metrics)
+}
+
+fn judge(record: &Record) -> Vec<Verdict> {
+    dam_break::case().judge(record)
+}
+
+fn judge_study(records: &[Record]) -> Vec<Verdict> {
+    dam_break::case().judge_study(records)
 }
 
 fn judged(
     scheme: (BasisName, RemedyName),
     set: &[&str],
-    (metric, value): (&str, f64),
+    (metric, value): (Metric, f64),
     check: &str,
 ) -> Vec<Option<bool>> {
     outcomes(&judge(&run(scheme, 0.25, set, &[(metric, value)])), check)
@@ -26,7 +38,12 @@ fn judged(
 #[test]
 fn the_water_weighs_what_it_weighs() {
     let ratio = |scheme, set: &[&str], value| {
-        judged(scheme, set, ("base_reaction_ratio", value), "base-reaction")
+        judged(
+            scheme,
+            set,
+            (m::BASE_REACTION_RATIO, value),
+            "base-reaction",
+        )
     };
     let staged = ["start=gravity-stage"];
     assert_eq!(ratio(OURS, &[], 1.0009), [Some(true)]);
@@ -35,12 +52,12 @@ fn the_water_weighs_what_it_weighs() {
     assert_eq!(ratio(OURS, &staged, 0.9940), [Some(false)]);
     // The printed algorithm sinks: a known limit, red when it vanishes.
     assert_eq!(ratio(PRINTED, &[], 0.95), [None]);
-    let creeps = |value| judged(PRINTED, &[], ("base_reaction_ratio", value), "creeps");
+    let creeps = |value| judged(PRINTED, &[], (m::BASE_REACTION_RATIO, value), "creeps");
     assert_eq!(
         (creeps(0.95), creeps(1.0)),
         (vec![Some(true)], vec![Some(false)])
     );
-    let force = |value| judged(OURS, &[], ("gate_force", value), "gate-force");
+    let force = |value| judged(OURS, &[], (m::GATE_FORCE, value), "gate-force");
     assert_eq!(
         (force(19_571.0), force(9_785.0)),
         (vec![Some(true)], vec![Some(false)])
@@ -50,7 +67,7 @@ fn the_water_weighs_what_it_weighs() {
 #[test]
 fn the_front_is_judged_by_a_cell_where_nothing_dissipates() {
     let front = |scheme, set: &[&str], error| {
-        let metrics = [("front_rms_error", error), ("arrival_error", error / 6.0)];
+        let metrics = [(m::FRONT_RMS_ERROR, error), (m::ARRIVAL_ERROR, error / 6.0)];
         judge(&run(scheme, 0.25, set, &metrics))
     };
     let of = |verdicts: &[Verdict], check| outcomes(verdicts, check);
@@ -66,17 +83,20 @@ fn the_front_is_judged_by_a_cell_where_nothing_dissipates() {
 #[test]
 fn energy_may_be_lost_down_to_water_at_rest_and_not_gained() {
     let at = |metric, value, check| judged(OURS, &[], (metric, value), check);
-    assert_eq!(at("motion_loss", 0.3, "dissipation"), [Some(true)]);
-    assert_eq!(at("motion_loss", 0.34, "dissipation"), [Some(false)]);
-    assert_eq!(at("motion_excess", 3e-6, "motion-not-gained"), [Some(true)]);
+    assert_eq!(at(m::MOTION_LOSS, 0.3, "dissipation"), [Some(true)]);
+    assert_eq!(at(m::MOTION_LOSS, 0.34, "dissipation"), [Some(false)]);
     assert_eq!(
-        at("motion_excess", 4e-6, "motion-not-gained"),
+        at(m::MOTION_EXCESS, 3e-6, "motion-not-gained"),
+        [Some(true)]
+    );
+    assert_eq!(
+        at(m::MOTION_EXCESS, 4e-6, "motion-not-gained"),
         [Some(false)]
     );
     let total = (BasisName::Gimp, RemedyName::FbarTotal);
     let made = |value| {
         let early = ["duration=0.6"];
-        judged(total, &early, ("motion_excess", value), "makes-energy")
+        judged(total, &early, (m::MOTION_EXCESS, value), "makes-energy")
     };
     assert_eq!(
         (made(1.0), made(0.0)),
@@ -90,30 +110,30 @@ fn energy_may_be_lost_down_to_water_at_rest_and_not_gained() {
     assert!(breaks_down(&run(rate, 0.5, &["cfl=0.3"], &[])).is_some());
     let splines = (BasisName::Bspline2, RemedyName::FbarRate);
     let still = |set: &[&str], check| {
-        let verdicts = judge(&run(splines, 0.5, set, &[("motion_excess", 0.0)]));
+        let verdicts = judge(&run(splines, 0.5, set, &[(m::MOTION_EXCESS, 0.0)]));
         outcomes(&verdicts, check)
     };
     assert_eq!(still(&[], "makes-energy"), [Some(false)]);
     assert_eq!(still(&["cfl=0.3"], "makes-energy"), []);
     assert_eq!(still(&["cfl=0.3"], "motion-not-gained"), [Some(true)]);
-    let gained = at("energy_excess", 1e-6, "energy-not-gained");
+    let gained = at(m::ENERGY_EXCESS, 1e-6, "energy-not-gained");
     assert_eq!(gained[0], Some(false));
-    let grown = at("energy_gain", 1e-6, "energy-not-gained");
+    let grown = at(m::ENERGY_GAIN, 1e-6, "energy-not-gained");
     assert_eq!(grown[1], Some(false));
     // Affine motion may come back as motion of the particles, but not above the start.
     let mut apic = run(
         OURS,
         0.25,
         &[],
-        &[("energy_excess", 0.0), ("energy_gain", 1e-3)],
+        &[(m::ENERGY_EXCESS, 0.0), (m::ENERGY_GAIN, 1e-3)],
     );
-    apic.scheme = crate::scheme::Scheme::explicit(apic.basis(), apic.remedy(), TransferName::Apic);
+    apic.scheme = Scheme::explicit(apic.basis(), apic.remedy(), TransferName::Apic);
     assert_eq!(outcomes(&judge(&apic), "energy-not-gained"), [Some(true)]);
 }
 
 #[test]
 fn water_that_grows_or_shrinks_is_seen() {
-    let at = |area| judged(OURS, &[], ("covered_0.4s", area), "volume");
+    let at = |area| judged(OURS, &[], (m::COVERED_EARLY, area), "volume");
     // Strips of 0.1 m over a drop of 2 m, an edge known to 0.025 m over 6 m: 0.25 m².
     let record = run(OURS, 0.25, &[], &[]);
     let resolved = resolved_area(&record);
@@ -133,13 +153,13 @@ fn sums_have_to_converge_unless_an_ensemble_spreads_as_far() {
                     OURS,
                     h,
                     &[],
-                    &[("wall_impulse", value), ("centre_x_mean", 3.0)],
+                    &[(m::WALL_IMPULSE, value), (m::CENTRE_X_MEAN, 3.0)],
                 )
             })
             .collect();
         for (k, value) in members.iter().enumerate() {
             let seed = format!("seed={k}");
-            runs.push(run(OURS, 0.25, &[&seed], &[("wall_impulse", *value)]));
+            runs.push(run(OURS, 0.25, &[&seed], &[(m::WALL_IMPULSE, *value)]));
         }
         outcomes(&judge_study(&runs), "late-converges")[0]
     };
@@ -151,7 +171,7 @@ fn sums_have_to_converge_unless_an_ensemble_spreads_as_far() {
 #[test]
 fn averages_have_to_smooth_and_errors_to_fall() {
     let smoother = |ours: f64| {
-        let pressures = |p| [("pressure_rms", p), ("checkerboard_rms", p)];
+        let pressures = |p| [(m::PRESSURE_RMS, p), (m::CHECKERBOARD_RMS, p)];
         let runs = [
             run(STANDARD, 0.25, &[], &pressures(700.0)),
             run(OURS, 0.25, &[], &pressures(ours)),
@@ -162,7 +182,7 @@ fn averages_have_to_smooth_and_errors_to_fall() {
     assert_eq!(smoother(360.0), [Some(false), Some(false)]);
     let falls = |fine: f64| {
         let runs =
-            [(0.5, 0.3), (0.25, fine)].map(|(h, e)| run(OURS, h, &[], &[("front_rms_error", e)]));
+            [(0.5, 0.3), (0.25, fine)].map(|(h, e)| run(OURS, h, &[], &[(m::FRONT_RMS_ERROR, e)]));
         outcomes(&judge_study(&runs), "front-converges")
     };
     assert_eq!(
@@ -173,7 +193,7 @@ fn averages_have_to_smooth_and_errors_to_fall() {
 
 #[test]
 fn levels_with_different_time_steps_are_not_compared() {
-    let front = |h, set: &[&str], error| run(OURS, h, set, &[("front_rms_error", error)]);
+    let front = |h, set: &[&str], error| run(OURS, h, set, &[(m::FRONT_RMS_ERROR, error)]);
     let runs = [
         front(0.5, &[], 0.3),
         front(0.25, &["cfl=0.3"], 0.31),
@@ -187,8 +207,8 @@ fn levels_with_different_time_steps_are_not_compared() {
 fn start_and_time_step_hardly_matter() {
     let moved = |set: &str, x: f64| {
         let runs = [
-            run(OURS, 0.25, &[], &[("front_x_0.4s", 5.4)]),
-            run(OURS, 0.25, &[set], &[("front_x_0.4s", x)]),
+            run(OURS, 0.25, &[], &[(m::FRONT_X_EARLY, 5.4)]),
+            run(OURS, 0.25, &[set], &[(m::FRONT_X_EARLY, x)]),
         ];
         judge_study(&runs)
     };
