@@ -101,6 +101,13 @@ impl<const D: usize, W: Watch<D>> Drive<D, W> {
     }
 }
 
+impl<const D: usize, W: Watch<D>> Drive<D, W> {
+    /// What has been seen so far.
+    pub(crate) fn seen(&self) -> &W::Seen {
+        &self.seen
+    }
+}
+
 impl<const D: usize, W: Watch<D>> Memory for Drive<D, W> {
     fn save(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(&self.seen, self.stage.before, self.stage.run.save()?))
@@ -156,8 +163,8 @@ impl<const D: usize, W: Watch<D>> Job for Drive<D, W> {
     }
 }
 
-/// What is not finite has no value.
-fn measured((metric, value): (Metric, f64)) -> (String, Measured) {
+/// A metric as a record has it: what is not finite has no value.
+pub(crate) fn measured((metric, value): (Metric, f64)) -> (String, Measured) {
     let measured = Measured {
         value: value.is_finite().then_some(value),
         unit: metric.unit.to_owned(),

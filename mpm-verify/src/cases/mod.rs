@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 mod column;
 mod dam_break;
 mod family;
+mod landslide;
 mod manufactured;
 mod mms_axis;
 mod mms_double_shear;
@@ -16,12 +17,16 @@ mod mms_vortex_pressure;
 mod mms_vortex_ring;
 mod mms_wall_pressure;
 mod parameters;
+mod slope_stability;
 mod standing_wave;
 mod vibrating_bar;
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
     vec![
         dam_break::case(),
+        landslide::case(),
+        landslide::plane_case(),
+        slope_stability::case(),
         mms_axis::case(),
         mms_wall_pressure::case(),
         mms_vortex_ring::case(),

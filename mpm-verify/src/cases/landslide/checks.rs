@@ -1,10 +1,16 @@
-//! Verdicts on the landslide. The tolerances are derived in `docs/landslide.md`.
+//! Checks of the landslide. The tolerances are derived in `docs/landslide.md`.
 
 use super::ground::{RISE, STABILITY, factor_of_safety, longest_period};
-use crate::case::{CheckInfo, check};
+use super::metrics as m;
+use super::parameters::{
+    CFL, CREST, DENSITY, DURATION, FACE_ANGLE, HEIGHT, PEAK_STRENGTH, PPC_PER_DIRECTION, REDUCTION,
+    RELEASE, WIDTH,
+};
+use crate::check::{Check, Finding, run, study};
+use crate::metric::Metric;
+use crate::parameter::Parameter;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, TransferName};
-use crate::verdict::{Kind, Verdict};
 
 /// Relative tolerance of the force on the base.
 const WEIGHT: f64 = 5e-3;
@@ -32,430 +38,400 @@ const THROWN: (f64, f64, f64) = (2.0, 0.2, 5.3);
 const THROWS: &str = "a grain is thrown off, likely as averages of averages let the true volumes drift: docs/landslide.md";
 /// Rms of σ_m − Πσ_m over γ H that locking exceeds.
 const CHECKERBOARD: f64 = 0.05;
-
-pub(super) const CHECKS: &[CheckInfo] = &[
-    check(
-        "particle-count",
-        Kind::Bookkeeping,
-        "as many particles as have their centres strictly inside of the face: the paper's 311,250 at h = 0.2 m",
-    ),
-    check(
-        "mass",
-        Kind::Bookkeeping,
-        "all: the mass at the end is that of the particles, to rounding",
-    ),
-    check(
-        "base-reaction",
-        Kind::Truth,
-        "all: after the gravity stage the force on the base is the weight within 0.5 %",
-    ),
-    check(
-        "at-rest",
-        Kind::Truth,
-        "none, fbar-consistent, FLIP and APIC, but for that: after the gravity stage the kinetic energy of the nodes is below 10⁻⁶ of the stored energy",
-    ),
-    check(
-        "breaks-down",
-        Kind::KnownLimit,
-        "fbar-recursive with GIMP in plane strain, h ≤ 0.2 m, reductions of 2 and more: a grain leaves the grid before 5.3 s",
-    ),
-    check(
-        "creeps",
-        Kind::KnownLimit,
-        "fbar-recursive: it is above, because averages of averages diffuse the volume",
-    ),
-    check(
-        "slow-motion",
-        Kind::KnownLimit,
-        "fbar-consistent with quadratic splines at h = 0.5 m, where the toe has yielded: it is above",
-    ),
-    check(
-        "overburden",
-        Kind::Truth,
-        "all but none with GIMP: far from the face the vertical stress is the weight above, rms within 2 % of γ H",
-    ),
-    check(
-        "locked-stress",
-        Kind::KnownLimit,
-        "none with GIMP: it is not, and the mean stress alternates from particle to particle by more than 5 % of γ H",
-    ),
-    check(
-        "energy-not-gained",
-        Kind::Truth,
-        "all with FLIP: kinetic and potential energy and stress work never grow",
-    ),
-    check(
-        "energy-closure",
-        Kind::Truth,
-        "all that fall, runs of 1.5 s and less: kinetic, potential and stored energy and dissipation are those at the reduction within h/H of the fallen energy",
-    ),
-    check(
-        "energy-not-made",
-        Kind::Truth,
-        "fbar-consistent: at the end they are not more than those",
-    ),
-    check(
-        "stands",
-        Kind::Truth,
-        "all, with a reduction below the lower bound of limit analysis by a tenth: less than a hundredth of the ground moves by H/20",
-    ),
-    check(
-        "fails",
-        Kind::Truth,
-        "F̄, with a reduction beyond the upper bound of limit analysis and what a band of cells bears besides, h/H: it does",
-    ),
-    check(
-        "locked",
-        Kind::KnownLimit,
-        "none with GIMP, likewise: it does not",
-    ),
-    check(
-        "uniform",
-        Kind::Truth,
-        "in three dimensions: what was in one place of the section has moved alike over the width at rest and 0.5 s after the reduction, within 10⁻⁴",
-    ),
-    check(
-        "plane-strain",
-        Kind::Truth,
-        "in three dimensions: at rest the crest has sunk as in plane strain, within 10⁻⁴ without F̄ and 2 % with fbar-consistent; without F̄ also 0.5 s after the reduction",
-    ),
-    check(
-        "slice",
-        Kind::Truth,
-        "in three dimensions: at rest the crest of a slice has sunk as that of the full width, within 10⁻⁴",
-    ),
-    check(
-        "time-step",
-        Kind::Truth,
-        "fbar-consistent: half the time step moves the toe at 2.5 s by less than a cell",
-    ),
-];
+/// Share of the ground that has moved from which on the slope has failed.
+const FAILED: f64 = 0.01;
 
 /// Why a run is known to break down before its end, if it is.
 pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
-    let number = |name| record.parameters.number(name);
+    let number = |p| record.parameters.number(p);
     let (reduction, h, time) = THROWN;
     let printed = record.remedy() == RemedyName::FbarRecursive && record.basis() == BasisName::Gimp;
     let flat = record.discretisation.dim == 2 && record.discretisation.h <= h;
-    let far = number("reduction") >= reduction && number("duration") >= time;
+    let far = number(REDUCTION) >= reduction && number(DURATION) >= time;
     (printed && flat && far).then_some(THROWS)
 }
 
-pub(super) fn judge(record: &Record) -> Vec<Verdict> {
-    let mut verdicts = Vec::new();
-    ground(record, &mut verdicts);
-    rest(record, &mut verdicts);
-    energy(record, &mut verdicts);
-    slide(record, &mut verdicts);
-    if record.discretisation.dim == 3 {
-        across(record, &mut verdicts);
-    }
-    verdicts
+/// The checks of both cases.
+pub(super) fn checks() -> Vec<Check> {
+    [of_ground(), of_rest(), of_energy(), of_slide(), of_width(), of_studies()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
-fn ground(record: &Record, verdicts: &mut Vec<Verdict>) {
-    let number = |name| record.parameters.number(name);
-    let spacing = record.discretisation.h / number("ppc_per_direction");
-    // Row j from the base holds columns i with i + j < columns + rows − 1.
-    let (rows, columns) = (number("height") / spacing, number("crest") / spacing);
+/// Particles of the section, where their number is known: row j from the base holds columns i with
+/// i + j < columns + rows − 1.
+fn in_section(record: &Record) -> Option<f64> {
+    let number = |p| record.parameters.number(p);
+    let spacing = record.discretisation.h / number(PPC_PER_DIRECTION);
+    let (rows, columns) = (number(HEIGHT) / spacing, number(CREST) / spacing);
     let whole = |count: f64| (count - count.round()).abs() < 1e-6;
-    if number("face_angle") == 45.0 && whole(rows) && whole(columns) {
-        let section = rows * (columns + rows - 1.0) - 0.5 * rows * (rows - 1.0);
-        let count = (section * record.metric("particles_across")).round();
-        verdicts.push(
-            Verdict::close(
-                "particle-count",
-                "particles",
-                record.metric("particles"),
-                count,
-                0.0,
-                "Zhao et al. 2022, section 4.4: 311,250 at h = 0.2 m",
-            )
-            .bookkeeping(),
-        );
-        let mass = number("density") * section * spacing * spacing;
-        verdicts.push(
-            Verdict::close(
-                "mass",
-                "mass",
-                record.metric("mass"),
-                mass,
-                ROUNDING * mass,
-                "conservation of mass",
-            )
-            .bookkeeping(),
-        );
-    }
+    let known = number(FACE_ANGLE) == 45.0 && whole(rows) && whole(columns);
+    known.then(|| rows * (columns + rows - 1.0) - 0.5 * rows * (rows - 1.0))
 }
 
-fn rest(record: &Record, verdicts: &mut Vec<Verdict>) {
-    verdicts.push(Verdict::close(
-        "base-reaction",
-        "base_reaction_ratio",
-        record.metric("base_reaction_ratio"),
-        1.0,
-        WEIGHT,
-        "weight of the ground",
-    ));
-    let kinetic = record.metric("kinetic_share_at_rest");
-    verdicts.push(if longest_period(&record.parameters) > RISE {
-        let why = "the ground's longest period is longer than the rise of gravity";
-        Verdict::not_applicable("at-rest", "kinetic_share_at_rest", why)
-    } else if record.transfer() == TransferName::Xpic2 {
-        let why = "what XPIC filters from the velocity every step can only creep: docs/cook.md";
-        Verdict::not_applicable("at-rest", "kinetic_share_at_rest", why)
-    } else if let Some((check, why)) = keeps_moving(record) {
-        Verdict::above(
-            check,
-            Kind::KnownLimit,
-            "kinetic_share_at_rest",
-            kinetic,
-            AT_REST,
-            why,
-        )
-    } else {
-        Verdict::at_most(
+fn of_ground() -> Vec<Check> {
+    vec![
+        Check::bookkeeping(
+            "particle-count",
+            "as many particles as have their centres strictly inside of the face: the paper's 311,250 at h = 0.2 m",
+            run(|r| {
+                let found = in_section(r).map(|section| {
+                    let count = (section * r.metric(m::PARTICLES_ACROSS)).round();
+                    let why = "Zhao et al. 2022, section 4.4: 311,250 at h = 0.2 m";
+                    Finding::within(m::PARTICLES, r.metric(m::PARTICLES), count, 0.0, why)
+                });
+                found.into_iter().collect()
+            }),
+        ),
+        Check::bookkeeping(
+            "mass",
+            "all: the mass at the end is that of the particles, to rounding",
+            run(|r| {
+                let spacing = r.discretisation.h / r.parameters.number(PPC_PER_DIRECTION);
+                let found = in_section(r).map(|section| {
+                    let mass = r.parameters.number(DENSITY) * section * spacing * spacing;
+                    let why = "conservation of mass";
+                    Finding::within(m::MASS, r.metric(m::MASS), mass, ROUNDING * mass, why)
+                });
+                found.into_iter().collect()
+            }),
+        ),
+    ]
+}
+
+fn of_rest() -> Vec<Check> {
+    vec![
+        Check::truth(
+            "base-reaction",
+            "all: after the gravity stage the force on the base is the weight within 0.5 %",
+            run(|r| {
+                let metric = m::BASE_REACTION_RATIO;
+                let why = "weight of the ground";
+                vec![Finding::within(metric, r.metric(metric), 1.0, WEIGHT, why)]
+            }),
+        ),
+        Check::truth(
             "at-rest",
-            Kind::Truth,
-            "kinetic_share_at_rest",
-            kinetic,
-            AT_REST,
-            "velocities a thousandth of elastic ones",
-        )
-    });
-    let overburden = record.metric("overburden_error");
-    let long = LONG_CREST * record.parameters.number("height");
-    if record.parameters.number("crest") < long {
-        let why = "the face is felt at the back wall";
-        verdicts.push(Verdict::not_applicable(
+            "none, fbar-consistent, FLIP and APIC, but for that: after the gravity stage the kinetic energy of the nodes is below 10⁻⁶ of the stored energy",
+            run(at_rest),
+        ),
+        Check::known_limit(
+            "creeps",
+            "fbar-recursive: it is above, because averages of averages diffuse the volume",
+            run(|r| moves_on(r, Moves::Creeps)),
+        ),
+        Check::known_limit(
+            "slow-motion",
+            "fbar-consistent with quadratic splines at h = 0.5 m, where the toe has yielded: it is above",
+            run(|r| moves_on(r, Moves::Slowly)),
+        ),
+        Check::truth(
             "overburden",
-            "overburden_error",
-            why,
-        ));
-    } else if record.remedy() == RemedyName::None && record.basis() == BasisName::Gimp {
-        for (metric, bound) in [
-            ("overburden_error", OVERBURDEN),
-            ("checkerboard_at_rest", CHECKERBOARD),
-        ] {
-            verdicts.push(Verdict::above(
-                "locked-stress",
-                Kind::KnownLimit,
-                metric,
-                record.metric(metric),
-                bound,
-                "standard MPM locks: Zhao et al. 2022, Figure 15",
-            ));
-        }
+            "all but none with GIMP: far from the face the vertical stress is the weight above, rms within 2 % of γ H",
+            run(|r| {
+                let metric = m::OVERBURDEN_ERROR;
+                if feels_the_face(r) {
+                    let why = "the face is felt at the back wall";
+                    return vec![Finding::not_applicable(metric, why)];
+                }
+                let found = Finding::at_most(metric, r.metric(metric), OVERBURDEN, "level ground");
+                (!is_locked(r)).then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::known_limit(
+            "locked-stress",
+            "none with GIMP: it is not, and the mean stress alternates from particle to particle by more than 5 % of γ H",
+            run(|r| {
+                if feels_the_face(r) || !is_locked(r) {
+                    return Vec::new();
+                }
+                let above = |metric: Metric, bound| {
+                    let why = "standard MPM locks: Zhao et al. 2022, Figure 15";
+                    Finding::above(metric, r.metric(metric), bound, why)
+                };
+                vec![
+                    above(m::OVERBURDEN_ERROR, OVERBURDEN),
+                    above(m::CHECKERBOARD_AT_REST, CHECKERBOARD),
+                ]
+            }),
+        ),
+    ]
+}
+
+/// Standard MPM with GIMP: every particle's volume is a constraint.
+fn is_locked(r: &Record) -> bool {
+    r.remedy() == RemedyName::None && r.basis() == BasisName::Gimp
+}
+
+fn feels_the_face(r: &Record) -> bool {
+    r.parameters.number(CREST) < LONG_CREST * r.parameters.number(HEIGHT)
+}
+
+/// Why rest is not judged, if it isn't.
+fn why_no_rest(r: &Record) -> Option<&'static str> {
+    if longest_period(&r.parameters) > RISE {
+        Some("the ground's longest period is longer than the rise of gravity")
+    } else if r.transfer() == TransferName::Xpic2 {
+        Some("what XPIC filters from the velocity every step can only creep: docs/cook.md")
     } else {
-        verdicts.push(Verdict::at_most(
-            "overburden",
-            Kind::Truth,
-            "overburden_error",
-            overburden,
-            OVERBURDEN,
-            "level ground",
-        ));
+        None
     }
 }
 
-/// What keeps the ground moving under its weight, if it is known to; the check's name and the reason.
-fn keeps_moving(record: &Record) -> Option<(&'static str, &'static str)> {
-    let coarse = record.level == COARSE && record.metric("yielded_at_rest") > 0.0;
-    match (record.remedy(), record.basis()) {
-        (RemedyName::FbarRecursive, _) => Some((
-            "creeps",
-            "averages of averages diffuse the volume: docs/column.md",
-        )),
-        (RemedyName::FbarConsistent, BasisName::Bspline2) if coarse => {
-            Some(("slow-motion", "seen where the toe has yielded"))
-        }
+/// How a ground is known to keep moving under its weight.
+#[derive(Clone, Copy, PartialEq)]
+enum Moves {
+    Creeps,
+    Slowly,
+}
+
+fn keeps_moving(r: &Record) -> Option<Moves> {
+    let coarse = r.level == COARSE && r.metric(m::YIELDED_AT_REST) > 0.0;
+    match (r.remedy(), r.basis()) {
+        (RemedyName::FbarRecursive, _) => Some(Moves::Creeps),
+        (RemedyName::FbarConsistent, BasisName::Bspline2) if coarse => Some(Moves::Slowly),
         _ => None,
     }
 }
 
-fn energy(record: &Record, verdicts: &mut Vec<Verdict>) {
-    verdicts.push(if record.transfer() != TransferName::Flip {
-        let why = "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'";
-        Verdict::not_applicable("energy-not-gained", "energy_gain", why)
-    } else {
-        Verdict::at_most(
-            "energy-not-gained",
-            Kind::Truth,
-            "energy_gain",
-            record.metric("energy_gain"),
-            ROUNDING,
-            "explicit steps with lumped masses take energy from the motion, never give it: docs/dam-break.md",
-        )
-    });
-    let (metric, unaccounted) = ("unaccounted_energy", record.metric("unaccounted_energy"));
-    if record.remedy() == RemedyName::FbarConsistent {
-        verdicts.push(Verdict::at_most(
-            "energy-not-made",
-            Kind::Truth,
-            metric,
-            unaccounted,
-            ROUNDING,
-            "what is stored and dissipated has fallen before",
-        ));
+fn at_rest(r: &Record) -> Vec<Finding> {
+    let metric = m::KINETIC_SHARE_AT_REST;
+    if let Some(why) = why_no_rest(r) {
+        return vec![Finding::not_applicable(metric, why)];
     }
-    verdicts.push(if record.parameters.number("duration") > EARLY_SLIDE {
-        let why = "the ground flows: steps lose on the grid, and the share is reported";
-        Verdict::not_applicable("energy-closure", metric, why)
-    } else if stands(record) {
-        let why = "the slope stands: next to nothing falls";
-        Verdict::not_applicable("energy-closure", metric, why)
-    } else {
-        Verdict::close(
+    let why = "velocities a thousandth of elastic ones";
+    let found = Finding::at_most(metric, r.metric(metric), AT_REST, why);
+    keeps_moving(r).is_none().then_some(found).into_iter().collect()
+}
+
+fn moves_on(r: &Record, how: Moves) -> Vec<Finding> {
+    if why_no_rest(r).is_some() || keeps_moving(r) != Some(how) {
+        return Vec::new();
+    }
+    let metric = m::KINETIC_SHARE_AT_REST;
+    let why = match how {
+        Moves::Creeps => "averages of averages diffuse the volume: docs/column.md",
+        Moves::Slowly => "seen where the toe has yielded",
+    };
+    vec![Finding::above(metric, r.metric(metric), AT_REST, why)]
+}
+
+fn of_energy() -> Vec<Check> {
+    vec![
+        Check::truth(
+            "energy-not-gained",
+            "all with FLIP: kinetic and potential energy and stress work never grow",
+            run(|r| {
+                if r.transfer() != TransferName::Flip {
+                    let why = "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'";
+                    return vec![Finding::not_applicable(m::ENERGY_GAIN, why)];
+                }
+                let why = "explicit steps with lumped masses take energy from the motion, never give it: docs/dam-break.md";
+                let gain = r.metric(m::ENERGY_GAIN);
+                vec![Finding::at_most(m::ENERGY_GAIN, gain, ROUNDING, why)]
+            }),
+        ),
+        Check::truth(
+            "energy-not-made",
+            "fbar-consistent: at the end they are not more than those",
+            run(|r| {
+                let made = r.metric(m::UNACCOUNTED_ENERGY);
+                let why = "what is stored and dissipated has fallen before";
+                let found = Finding::at_most(m::UNACCOUNTED_ENERGY, made, ROUNDING, why);
+                let ours = r.remedy() == RemedyName::FbarConsistent;
+                ours.then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::truth(
             "energy-closure",
-            metric,
-            unaccounted / record.metric("fallen_energy"),
-            0.0,
-            record.discretisation.h / record.parameters.number("height"),
-            "a band of cells smears what it shears over its width",
-        )
-    });
+            "all that fall, runs of 1.5 s and less: kinetic, potential and stored energy and dissipation are those at the reduction within h/H of the fallen energy",
+            run(|r| {
+                let metric = m::UNACCOUNTED_ENERGY;
+                let why = if r.parameters.number(DURATION) > EARLY_SLIDE {
+                    "the ground flows: steps lose on the grid, and the share is reported"
+                } else if stands(r) {
+                    "the slope stands: next to nothing falls"
+                } else {
+                    let share = r.metric(metric) / r.metric(m::FALLEN_ENERGY);
+                    let band = r.discretisation.h / r.parameters.number(HEIGHT);
+                    let why = "a band of cells smears what it shears over its width";
+                    return vec![Finding::within(metric, share, 0.0, band, why)];
+                };
+                vec![Finding::not_applicable(metric, why)]
+            }),
+        ),
+    ]
 }
 
 /// Least and largest factor of safety of the unreduced slope, where limit analysis knows them.
 fn bounds(record: &Record) -> Option<(f64, f64)> {
-    let number = |name| record.parameters.number(name);
-    if number("face_angle") != 45.0 || number("crest") < LONG_CREST * number("height") {
+    let number = |p| record.parameters.number(p);
+    if number(FACE_ANGLE) != 45.0 || number(CREST) < LONG_CREST * number(HEIGHT) {
         return None;
     }
     let (_, least, most) = STABILITY;
-    let of = |stability| factor_of_safety(&record.parameters, number("peak_strength"), stability);
+    let of = |stability| factor_of_safety(&record.parameters, number(PEAK_STRENGTH), stability);
     Some((of(least), of(most)))
 }
 
 /// Whether the reduction is a tenth and more below the lower bound.
 fn stands(record: &Record) -> bool {
-    bounds(record).is_some_and(|(least, _)| record.parameters.number("reduction") < 0.9 * least)
+    bounds(record).is_some_and(|(least, _)| record.parameters.number(REDUCTION) < 0.9 * least)
 }
 
-/// Whether the slope stands or fails where limit analysis knows.
-fn slide(record: &Record, verdicts: &mut Vec<Verdict>) {
-    let number = |name| record.parameters.number(name);
-    let reduction = number("reduction");
-    let failed = record.metric("failed_share_end");
-    let source = "limit analysis: docs/exact.md";
-    let Some((_, most)) = bounds(record) else {
-        let why = "the bounds of limit analysis are those of a face at 45° under a long crest";
-        verdicts.push(Verdict::not_applicable("stands", "failed_share_end", why));
-        return;
-    };
-    if stands(record) {
-        verdicts.push(Verdict::at_most(
-            "stands",
-            Kind::Truth,
-            "failed_share_end",
-            failed,
-            0.01,
-            source,
-        ));
-    }
-    let beyond = most * (1.0 + record.discretisation.h / number("height"));
+/// Whether the slope must fail: the reduction is beyond the upper bound and what a band of cells bears besides, for
+/// long enough.
+fn must_fail(r: &Record) -> bool {
+    let number = |p| r.parameters.number(p);
+    let band = 1.0 + r.discretisation.h / number(HEIGHT);
     // Records of programs that knew no gradual release have none.
-    let reduced_for = number("duration") - number("release").max(0.0);
-    if reduction > beyond && reduced_for >= 2.5 {
-        if record.remedy() != RemedyName::None {
-            let metric = "failed_share_end";
-            verdicts.push(Verdict::above(
-                "fails",
-                Kind::Truth,
-                metric,
-                failed,
-                0.01,
-                source,
-            ));
-        } else if record.basis() == BasisName::Gimp {
-            verdicts.push(Verdict::at_most(
-                "locked",
-                Kind::KnownLimit,
-                "failed_share_end",
-                failed,
-                0.01,
-                "standard MPM locks: Zhao et al. 2022, Figure 14",
-            ));
-        }
-    }
+    let reduced_for = number(DURATION) - number(RELEASE).max(0.0);
+    let beyond = bounds(r).is_some_and(|(_, most)| number(REDUCTION) > most * band);
+    beyond && reduced_for >= 2.5
+}
+
+fn of_slide() -> Vec<Check> {
+    const METRIC: Metric = m::FAILED_SHARE_END;
+    const LIMIT: &str = "limit analysis: docs/exact.md";
+    vec![
+        Check::truth(
+            "stands",
+            "all, with a reduction below the lower bound of limit analysis by a tenth: less than a hundredth of the ground moves by H/20",
+            run(|r| {
+                if bounds(r).is_none() {
+                    let why = "the bounds of limit analysis are those of a face at 45° under a long crest";
+                    return vec![Finding::not_applicable(METRIC, why)];
+                }
+                let found = Finding::at_most(METRIC, r.metric(METRIC), FAILED, LIMIT);
+                stands(r).then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::truth(
+            "fails",
+            "F̄, with a reduction beyond the upper bound of limit analysis and what a band of cells bears besides, h/H: it does",
+            run(|r| {
+                let found = Finding::above(METRIC, r.metric(METRIC), FAILED, LIMIT);
+                let judged = must_fail(r) && r.remedy() != RemedyName::None;
+                judged.then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::known_limit(
+            "locked",
+            "none with GIMP, likewise: it does not",
+            run(|r| {
+                let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
+                let found = Finding::at_most(METRIC, r.metric(METRIC), FAILED, why);
+                let judged = must_fail(r) && is_locked(r);
+                judged.then_some(found).into_iter().collect()
+            }),
+        ),
+    ]
+}
+
+/// Whether no band has formed 0.5 s after the reduction.
+fn is_unbroken(r: &Record) -> bool {
+    let number = |p| r.parameters.number(p);
+    number(DURATION) >= EARLY && number(REDUCTION) <= PAPERS_REDUCTION
 }
 
 /// What three dimensions must not change until shear bands are there.
-fn across(record: &Record, verdicts: &mut Vec<Verdict>) {
-    let number = |name| record.parameters.number(name);
-    let unbroken = number("duration") >= EARLY && number("reduction") <= PAPERS_REDUCTION;
-    let metrics = ["width_spread_at_rest", "width_spread_0.5s"];
-    for metric in &metrics[..if unbroken { 2 } else { 1 }] {
-        verdicts.push(Verdict::at_most(
+fn of_width() -> Vec<Check> {
+    let in_space = |r: &Record| r.discretisation.dim == 3;
+    vec![
+        Check::truth(
             "uniform",
-            Kind::Truth,
-            metric,
-            record.metric(metric),
-            GROWN_ROUNDING,
-            "the problem is that of its section",
-        ));
-    }
-    let plane_strain = |metric, tolerance| {
-        let source = "the same section in plane strain";
-        Verdict::close(
+            "in three dimensions: what was in one place of the section has moved alike over the width at rest and 0.5 s after the reduction, within 10⁻⁴",
+            run(move |r| {
+                let metrics = [m::WIDTH_SPREAD_AT_REST, m::WIDTH_SPREAD_0_5S];
+                let known = match (in_space(r), is_unbroken(r)) {
+                    (false, _) => 0,
+                    (true, false) => 1,
+                    (true, true) => 2,
+                };
+                let alike = |metric: &Metric| {
+                    let why = "the problem is that of its section";
+                    Finding::at_most(*metric, r.metric(*metric), GROWN_ROUNDING, why)
+                };
+                metrics[..known].iter().map(alike).collect()
+            }),
+        ),
+        Check::truth(
             "plane-strain",
-            metric,
-            record.metric(metric),
-            0.0,
-            tolerance,
-            source,
-        )
+            "in three dimensions: at rest the crest has sunk as in plane strain, within 10⁻⁴ without F̄ and 2 % with fbar-consistent; without F̄ also 0.5 s after the reduction",
+            run(move |r| if in_space(r) { plane_strain(r) } else { Vec::new() }),
+        ),
+    ]
+}
+
+fn plane_strain(r: &Record) -> Vec<Finding> {
+    let like = |metric: Metric, tolerance| {
+        let why = "the same section in plane strain";
+        Finding::within(metric, r.metric(metric), 0.0, tolerance, why)
     };
-    let metric = "off_plane_strain_at_rest";
-    verdicts.push(match record.remedy() {
-        RemedyName::None => plane_strain(metric, GROWN_ROUNDING),
+    let metric = m::OFF_PLANE_STRAIN_AT_REST;
+    let mut found = vec![match r.remedy() {
+        RemedyName::None => like(metric, GROWN_ROUNDING),
         RemedyName::FbarRecursive => {
             let why = "it creeps, with either scaling at a pace of its own";
-            Verdict::not_applicable("plane-strain", metric, why)
+            Finding::not_applicable(metric, why)
         }
-        _ => plane_strain(metric, OTHER_SCALING),
-    });
-    if unbroken && record.remedy() == RemedyName::None {
-        verdicts.push(plane_strain("off_plane_strain_0.5s", GROWN_ROUNDING));
+        _ => like(metric, OTHER_SCALING),
+    }];
+    if is_unbroken(r) && r.remedy() == RemedyName::None {
+        found.push(like(m::OFF_PLANE_STRAIN_0_5S, GROWN_ROUNDING));
     }
+    found
 }
 
 /// What the width and the time step change.
-pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
-    let mut verdicts = Vec::new();
-    for (slice, whole) in pairs(records, "width") {
-        let metric = "settlement_at_rest";
-        let expected = whole.metric(metric);
-        verdicts.push(Verdict::close(
+fn of_studies() -> Vec<Check> {
+    vec![
+        Check::truth(
             "slice",
-            metric,
-            slice.metric(metric),
-            expected,
-            GROWN_ROUNDING * expected,
-            format!("{} {}: the full width", slice.scheme(), slice.folder()),
-        ));
-    }
-    // Where the slope fails at once: at the paper's reduction the onset itself is at stake.
-    let halved = |(run, _): &(&Record, &Record)| {
-        run.remedy() == RemedyName::FbarConsistent && run.parameters.number("cfl") < 0.2
-    };
-    for (run, own) in pairs(records, "cfl").into_iter().filter(halved) {
-        let metric = "runout_2.5s";
-        verdicts.push(Verdict::close(
+            "in three dimensions: at rest the crest of a slice has sunk as that of the full width, within 10⁻⁴",
+            study(|records| {
+                let like = |(slice, whole): (&Record, &Record)| {
+                    let expected = whole.metric(m::SETTLEMENT_AT_REST);
+                    Finding::within(
+                        m::SETTLEMENT_AT_REST,
+                        slice.metric(m::SETTLEMENT_AT_REST),
+                        expected,
+                        GROWN_ROUNDING * expected,
+                        format!("{} {}: the full width", slice.scheme(), slice.folder()),
+                    )
+                };
+                pairs(records, WIDTH).into_iter().map(like).collect()
+            }),
+        ),
+        // Where the slope fails at once: at the paper's reduction the onset itself is at stake.
+        Check::truth(
             "time-step",
-            metric,
-            run.metric(metric),
-            own.metric(metric),
-            run.discretisation.h,
-            format!("{} {}: twice the step", run.scheme(), run.folder()),
-        ));
-    }
-    verdicts
+            "fbar-consistent: half the time step moves the toe at 2.5 s by less than a cell",
+            study(|records| {
+                let halved = |(run, _): &(&Record, &Record)| {
+                    let finer = run.parameters.number(CFL) < 0.2;
+                    run.remedy() == RemedyName::FbarConsistent && finer
+                };
+                let like = |(run, own): (&Record, &Record)| {
+                    Finding::within(
+                        m::RUNOUT_2_5S,
+                        run.metric(m::RUNOUT_2_5S),
+                        own.metric(m::RUNOUT_2_5S),
+                        run.discretisation.h,
+                        format!("{} {}: twice the step", run.scheme(), run.folder()),
+                    )
+                };
+                let runs = pairs(records, CFL).into_iter();
+                runs.filter(halved).map(like).collect()
+            }),
+        ),
+    ]
 }
 
 /// Runs that change a parameter, each with the run that differs in nothing else.
-fn pairs<'a>(records: &'a [Record], parameter: &str) -> Vec<(&'a Record, &'a Record)> {
-    let changes = |set: &&String| set.split('=').next() == Some(parameter);
+fn pairs<'a>(records: &'a [Record], parameter: Parameter) -> Vec<(&'a Record, &'a Record)> {
+    let changes = |set: &&String| set.split('=').next() == Some(parameter.name);
     let ended = || records.iter().filter(|r| r.status == Status::Ok);
     let own = |run: &&'a Record| {
         let others = || run.set.iter().filter(|set| !changes(set));

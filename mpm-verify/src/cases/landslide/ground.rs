@@ -1,7 +1,9 @@
 //! The ground of the landslide: particles, floor and walls, strengths, the stage in which gravity rises.
 
+use super::parameters::{CFL, DENSITY, FLOOR, HEIGHT, PEAK_STRENGTH, POISSON_RATIO, PPC_PER_DIRECTION, RESIDUAL_STRENGTH, SOFTENING, WALL, WIDTH, YOUNG_MODULUS};
 use super::section::{GRAVITY, Section};
-use crate::case::RunSpec;
+use crate::cases::parameters::WALL_LINE;
+use crate::spec::RunSpec;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use mpm_core::basis::WallTreatment;
@@ -18,7 +20,7 @@ pub(crate) const ROW: f64 = 0.01;
 pub(crate) const STAGE: f64 = 1.0;
 pub(crate) const RISE: f64 = 0.4;
 /// Local damping of the gravity stage.
-pub(crate) const DAMPING: f64 = 0.7;
+pub(crate) const STAGE_DAMPING: f64 = 0.7;
 /// Height (m) of the grid above the crest.
 const ROOM: f64 = 1.0;
 /// Width (m) in full, and cells across a slice.
@@ -32,15 +34,15 @@ pub(crate) const STABILITY: (f64, f64, f64) = (6.04, 6.015, 6.078);
 
 /// Factor of safety of the slope of `parameters` with the strength κ (Pa), if the stability number is this.
 pub(crate) fn factor_of_safety(parameters: &Parameters, strength: f64, stability: f64) -> f64 {
-    let number = |name| parameters.number(name);
-    stability * strength / SQRT_2 / (number("density") * GRAVITY * number("height"))
+    let number = |p| parameters.number(p);
+    stability * strength / SQRT_2 / (number(DENSITY) * GRAVITY * number(HEIGHT))
 }
 
 /// The longest period (s) of shear waves in the slope, 4H/c_s.
 pub(crate) fn longest_period(parameters: &Parameters) -> f64 {
-    let number = |name| parameters.number(name);
-    let shear_modulus = 0.5 * number("young_modulus") / (1.0 + number("poisson_ratio"));
-    4.0 * number("height") / (shear_modulus / number("density")).sqrt()
+    let number = |p| parameters.number(p);
+    let shear_modulus = 0.5 * number(YOUNG_MODULUS) / (1.0 + number(POISSON_RATIO));
+    4.0 * number(HEIGHT) / (shear_modulus / number(DENSITY)).sqrt()
 }
 
 /// The strength with its peak, and only that, divided by `reduction`.
@@ -48,12 +50,12 @@ pub(crate) fn strength(
     parameters: &Parameters,
     reduction: f64,
 ) -> Result<Strength, mpm_core::Error> {
-    let number = |name| parameters.number(name);
-    let peak = number("peak_strength") / reduction;
+    let number = |p| parameters.number(p);
+    let peak = number(PEAK_STRENGTH) / reduction;
     Strength::softening(
         peak,
-        number("residual_strength").min(peak),
-        number("softening"),
+        number(RESIDUAL_STRENGTH).min(peak),
+        number(SOFTENING),
     )
 }
 
@@ -85,13 +87,13 @@ impl<const D: usize> Ground<D> {
         } else {
             1.0
         };
-        let spacing = h / parameters.number("ppc_per_direction");
+        let spacing = h / parameters.number(PPC_PER_DIRECTION);
         // The speed of waves doesn't ask for the strength.
         let law = Self::law(parameters, Strength::perfect(1.0)?)?;
-        let density = parameters.number("density");
+        let density = parameters.number(DENSITY);
         let wave_speed = law.wave_speed(density);
         // The largest step of the CFL number of which a whole number makes a row.
-        let most = courant_time_step(parameters.number("cfl"), h, wave_speed);
+        let most = courant_time_step(parameters.number(CFL), h, wave_speed);
         let steps_per_row = (ROW / most).ceil().max(1.0);
         Ok(Self {
             section,
@@ -113,8 +115,8 @@ impl<const D: usize> Ground<D> {
         parameters: &Parameters,
         strength: Strength,
     ) -> Result<HenckyJ2, mpm_core::Error> {
-        let number = |name| parameters.number(name);
-        HenckyJ2::new(number("young_modulus"), number("poisson_ratio"), strength)
+        let number = |p| parameters.number(p);
+        HenckyJ2::new(number(YOUNG_MODULUS), number(POISSON_RATIO), strength)
     }
 
     fn grid(&self, floor: f64) -> Result<Grid<D>, mpm_core::Error> {
@@ -134,7 +136,7 @@ impl<const D: usize> Ground<D> {
     }
 
     /// The particles: places of the section in their order, at each those across the width.
-    fn seed(&self) -> Vec<[f64; D]> {
+    pub(super) fn seed(&self) -> Vec<[f64; D]> {
         let coordinate = |k: usize| (k as f64 + 0.5) * self.spacing;
         let section = self.section.seed(self.spacing).into_iter();
         section
@@ -162,12 +164,12 @@ impl<const D: usize> Ground<D> {
             g
         }));
         let law = Self::law(parameters, strength)?;
-        let grid = self.grid(parameters.number("floor"))?;
+        let grid = self.grid(parameters.number(FLOOR))?;
         let scene = Scene::new(grid, Body::new(law, particles)?)
             .load(weight)
             .constrain_all(walls::<D>());
         let mut settings = Settings::new(self.dt)
-            .wall(if parameters.is("wall", "wall-line") {
+            .wall(if parameters.is(WALL, WALL_LINE) {
                 WallTreatment::WallLine
             } else {
                 WallTreatment::OpenKnot
@@ -182,7 +184,7 @@ impl<const D: usize> Ground<D> {
 
 /// Width (m) of a run in three dimensions: a whole number of cells.
 fn width(spec: &RunSpec, parameters: &Parameters) -> Result<f64, Error> {
-    let (h, given) = (spec.level.h, parameters.number("width"));
+    let (h, given) = (spec.level.h, parameters.number(WIDTH));
     let width = match spec.level.name.starts_with("slice") {
         _ if given > 0.0 => given,
         true => SLICE * h,
@@ -213,19 +215,19 @@ fn walls<const D: usize>() -> Vec<Wall> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{LEVELS, PARAMETERS_3D};
+    use super::super::{levels_3d, parameters_3d};
     use super::*;
     use crate::scheme::{BasisName, RemedyName, Scheme};
 
     fn parameters(set: &[&str]) -> Parameters {
         let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        Parameters::new(&PARAMETERS_3D, &set).unwrap()
+        Parameters::new(&parameters_3d(), &set).unwrap()
     }
 
     fn spec(level: &str) -> RunSpec {
         RunSpec {
             scheme: Scheme::flip(BasisName::Gimp, RemedyName::None),
-            level: *LEVELS.iter().find(|l| l.name == level).unwrap(),
+            level: *levels_3d().iter().find(|l| l.name == level).unwrap(),
             set: Vec::new(),
             perturbed: false,
         }

@@ -1,6 +1,8 @@
 //! What is observed of a slide, and the metrics made of it.
 
+use super::metrics as m;
 use super::section::{GRAVITY, Section};
+use crate::metric::Metric;
 use mpm_core::Particles;
 use serde::{Deserialize, Serialize};
 
@@ -240,7 +242,7 @@ impl Series {
     }
 
     /// Metrics of a slide of `section` that begins with `start`.
-    pub(super) fn metrics(&self, section: &Section, start: &Row) -> Vec<(&'static str, f64)> {
+    pub(super) fn metrics(&self, section: &Section, start: &Row) -> Vec<(Metric, f64)> {
         let runout = |row: &Row| row.toe - section.toe();
         let bulk = |row: &Row| row.bulk_toe - section.toe();
         let at = |time: f64, f: &dyn Fn(&Row) -> f64| self.at(time).map_or(f64::NAN, f);
@@ -251,41 +253,41 @@ impl Series {
         let falls = end(&|row| start.potential - row.potential);
         let gains = || energies().zip(energies().skip(1)).map(|(a, b)| b - a);
         vec![
-            ("runout_1s", at(1.0, &runout)),
-            ("runout_2.5s", at(2.5, &runout)),
-            ("runout_end", end(&runout)),
-            ("bulk_runout_2.5s", at(2.5, &bulk)),
-            ("bulk_runout_end", end(&bulk)),
-            ("settlement_2.5s", at(2.5, &|row| row.settlement)),
-            ("settlement_end", end(&|row| row.settlement)),
-            ("failed_share_2.5s", at(2.5, &|row| row.failed)),
-            ("failed_share_end", end(&|row| row.failed)),
-            ("failure_time", failure.map_or(f64::NAN, |row| row.time)),
-            ("retrogression_end", end(&|row| row.retrogression)),
-            ("shear_bands_end", end(&|row| row.bands)),
+            (m::RUNOUT_1S, at(1.0, &runout)),
+            (m::RUNOUT_2_5S, at(2.5, &runout)),
+            (m::RUNOUT_END, end(&runout)),
+            (m::BULK_RUNOUT_2_5S, at(2.5, &bulk)),
+            (m::BULK_RUNOUT_END, end(&bulk)),
+            (m::SETTLEMENT_2_5S, at(2.5, &|row| row.settlement)),
+            (m::SETTLEMENT_END, end(&|row| row.settlement)),
+            (m::FAILED_SHARE_2_5S, at(2.5, &|row| row.failed)),
+            (m::FAILED_SHARE_END, end(&|row| row.failed)),
+            (m::FAILURE_TIME, failure.map_or(f64::NAN, |row| row.time)),
+            (m::RETROGRESSION_END, end(&|row| row.retrogression)),
+            (m::SHEAR_BANDS_END, end(&|row| row.bands)),
             (
-                "plastic_dissipation",
+                m::PLASTIC_DISSIPATION,
                 end(&|row| row.dissipated - start.dissipated),
             ),
             (
-                "kinetic_energy_max",
+                m::KINETIC_ENERGY_MAX,
                 all(|row| row.kinetic).fold(0.0, f64::max),
             ),
-            ("energy_gain", gains().fold(0.0, f64::max) / start.potential),
+            (m::ENERGY_GAIN, gains().fold(0.0, f64::max) / start.potential),
             (
-                "unaccounted_energy",
+                m::UNACCOUNTED_ENERGY,
                 end(&|row| (row.accounted() - start.accounted()) / start.potential),
             ),
-            ("fallen_energy", falls / start.potential),
+            (m::FALLEN_ENERGY, falls / start.potential),
             (
-                "jacobian_min",
+                m::JACOBIAN_MIN,
                 all(|row| row.jacobian.0).fold(f64::INFINITY, f64::min),
             ),
             (
-                "jacobian_max",
+                m::JACOBIAN_MAX,
                 all(|row| row.jacobian.1).fold(0.0, f64::max),
             ),
-            ("log_jacobian_gap", end(&|row| row.log_jacobian_gap)),
+            (m::LOG_JACOBIAN_GAP, end(&|row| row.log_jacobian_gap)),
         ]
     }
 }

@@ -1,19 +1,18 @@
 //! The pictures of the landslide: the paper's Figures 14 to 16, in plane strain and in three dimensions.
 
-use super::Picture;
-use super::curves::write_curves;
+use super::metrics::PARTICLES_ACROSS;
+use super::parameters::DURATION;
 use crate::draw::style::{Colour, series};
 use crate::draw::{
     Camera, Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, SolidFigure, SolidPanel,
     Up, animate_fields, animate_solids, draw_charts, draw_fields, draw_solids, share_ranges,
 };
 use crate::error::Error;
+use crate::gallery::Gallery;
 use crate::record::{Record, Status};
-use crate::run::snapshot_file;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use crate::study::{CaseStudy, Gathered};
 use crate::table::Table;
-use std::path::Path;
+use std::path::PathBuf;
 
 const BASES: [(BasisName, &str); 2] = [
     (BasisName::Gimp, "GIMP"),
@@ -106,31 +105,17 @@ impl Shown {
     }
 }
 
-struct Runs<'a> {
-    case: &'a str,
-    records: Vec<&'a Record>,
-    gathered: &'a Gathered,
-    out: &'a Path,
-    pictures: Vec<Picture>,
+struct Runs<'a, 'g> {
+    gallery: &'a mut Gallery<'g>,
+    records: Vec<&'g Record>,
 }
 
 /// Draws everything there are runs for.
-pub(super) fn draw(
-    study: &CaseStudy,
-    gathered: &Gathered,
-    out: &Path,
-) -> Result<Vec<Picture>, Error> {
-    let own = |r: &&Record| r.is_default() || r.changes_only("duration");
-    let mut runs = Runs {
-        case: &study.case,
-        records: (study.records.iter())
-            .filter(|r| r.status == Status::Ok && r.transfer() == TransferName::Flip)
-            .filter(own)
-            .collect(),
-        gathered,
-        out,
-        pictures: Vec::new(),
-    };
+pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
+    let own = |r: &&Record| r.is_default() || r.changes_only(DURATION.name);
+    let ended = |r: &&Record| r.status == Status::Ok && r.transfer() == TransferName::Flip;
+    let records = gallery.records.iter().filter(ended).filter(own).collect();
+    let mut runs = Runs { gallery, records };
     // Of several the one that changes least, and the finest first.
     runs.records.sort_by(|a, b| {
         let key = |r: &Record| (r.set.len(), r.discretisation.h);
@@ -155,12 +140,11 @@ pub(super) fn draw(
         }
     }
     runs.run_out()?;
-    runs.animation()?;
-    Ok(runs.pictures)
+    runs.animation()
 }
 
-impl Runs<'_> {
-    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
+impl<'g> Runs<'_, 'g> {
+    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&'g Record> {
         self.records
             .iter()
             .find(|r| r.basis() == basis && r.remedy() == remedy && r.level == level)
@@ -183,15 +167,12 @@ impl Runs<'_> {
         self.records.iter().find(own).map(|r| r.level.clone())
     }
 
-    fn path(&self, name: &str) -> std::path::PathBuf {
-        self.out.join(format!("{}/{name}.png", self.case))
+    fn path(&self, name: &str) -> PathBuf {
+        self.gallery.place(&format!("{name}.png"))
     }
 
     fn picture(&mut self, name: &str, caption: String) {
-        self.pictures.push(Picture {
-            file: format!("{}/{name}.png", self.case),
-            caption,
-        });
+        self.gallery.hang(&format!("{name}.png"), caption);
     }
 
     /// All that has run with a basis at a level, at `time` (s); none if a run has not kept it.
@@ -201,15 +182,14 @@ impl Runs<'_> {
             let Some(record) = self.find(basis, remedy, level) else {
                 continue;
             };
-            let file = snapshot_file(self.gathered.folder(record)?, time);
-            if !file.exists() {
+            let Some(particles) = self.gallery.snapshot(record, time)? else {
                 return Ok(Vec::new());
-            }
+            };
             shown.push(Shown {
                 title: format!("{}, {time:.1} s", name_of(remedy)),
                 spacing: spacing(record),
-                across: record.metric("particles_across").max(1.0) as usize,
-                particles: Table::read(&file)?,
+                across: record.metric(PARTICLES_ACROSS).max(1.0) as usize,
+                particles,
             });
         }
         Ok(shown)
@@ -277,7 +257,7 @@ impl Runs<'_> {
         column: &str,
         (factor, start): (f64, f64),
     ) -> Result<Vec<(f64, f64)>, Error> {
-        let table = Table::read(&self.gathered.folder(record)?.join("series.csv"))?;
+        let table = self.gallery.table(record, "series.csv")?;
         let points = table.points("time", column).into_iter();
         Ok(points
             .filter(|(time, _)| *time >= 0.0)
@@ -334,7 +314,7 @@ impl Runs<'_> {
                 charts[i] = ranged;
             }
         }
-        write_curves(&path.with_extension("csv"), &charts)?;
+        self.gallery.write_curves("run-out.csv", &charts)?;
         draw_charts(&path, &charts, quantities.len())?;
         self.picture(
             name,

@@ -1,5 +1,6 @@
 //! The section of the slope, and the particles in it.
 
+use super::parameters::{CREST, FACE_ANGLE, HEIGHT};
 use crate::parameter::Parameters;
 
 /// Gravity (m/s²).
@@ -18,11 +19,11 @@ pub(crate) struct Section {
 
 impl Section {
     pub(crate) fn of(parameters: &Parameters) -> Self {
-        let height = parameters.number("height");
+        let height = parameters.number(HEIGHT);
         Self {
             height,
-            crest: parameters.number("crest"),
-            run: height / parameters.number("face_angle").to_radians().tan(),
+            crest: parameters.number(CREST),
+            run: height / parameters.number(FACE_ANGLE).to_radians().tan(),
         }
     }
 

@@ -1,52 +1,89 @@
-//! Verdicts on the stability of the slope. The tolerances are derived in `docs/slope-stability.md`.
+//! Checks of the stability of the slope. The tolerances are derived in `docs/slope-stability.md`.
 
+use super::super::landslide::parameters::{FACE_ANGLE, HEIGHT};
 use super::super::landslide::{STABILITY, factor_of_safety};
-use crate::case::{CheckInfo, check};
+use super::{MOST, STANDS_AT, STRENGTH, STRENGTH_REDUCTION_FACTOR, TRIALS};
+use crate::check::{Check, Finding, run, study};
+use crate::metric::Metric;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName};
-use crate::verdict::{Kind, Verdict};
 
+const METRIC: Metric = STRENGTH_REDUCTION_FACTOR;
 /// What a slope may exceed its limit by and still be called standing.
 const SLOW: f64 = 0.005;
 /// Cells (m) up to which standard quadratic splines no longer lock beyond what a band of cells explains.
 const FINE: f64 = 0.2;
 
-pub(super) const CHECKS: &[CheckInfo] = &[
-    check(
-        "limit-load",
-        Kind::Truth,
-        "F̄, and standard quadratic splines at h ≤ 0.2 m: the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure",
-    ),
-    check(
-        "lower-bound",
-        Kind::Truth,
-        "all: the factor is above the lower bound of limit analysis less half the last bracket",
-    ),
-    check(
-        "locked",
-        Kind::KnownLimit,
-        "none with GIMP, and with quadratic splines at h > 0.2 m: the slope still stands at a factor above all that",
-    ),
-    check(
-        "factor-converges",
-        Kind::Truth,
-        "fbar-consistent: from level to level the factor comes nearer to that of limit analysis, or stays within the uncertainty of both",
-    ),
-];
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check::truth(
+            "lower-bound",
+            "all: the factor is above the lower bound of limit analysis less half the last bracket",
+            run(|r| {
+                let why = "lower bound of limit analysis: docs/exact.md";
+                let found = bounds(r).map(|(lower, _)| Finding::above(METRIC, r.metric(METRIC), lower, why));
+                found.into_iter().collect()
+            }),
+        ),
+        Check::truth(
+            "limit-load",
+            "F̄, and standard quadratic splines at h ≤ 0.2 m: the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure",
+            run(|r| {
+                let Some((lower, upper)) = bounds(r) else {
+                    let why = "the bounds of limit analysis are those for 45°";
+                    return vec![Finding::not_applicable(METRIC, why)];
+                };
+                let (middle, half) = (0.5 * (lower + upper), 0.5 * (upper - lower));
+                let why = "limit analysis: docs/exact.md";
+                let found = Finding::within(METRIC, r.metric(METRIC), middle, half, why);
+                (!locks(r)).then_some(found).into_iter().collect()
+            }),
+        ),
+        Check::known_limit(
+            "locked",
+            "none with GIMP, and with quadratic splines at h > 0.2 m: the slope still stands at a factor above all that",
+            run(|r| {
+                let found = bounds(r).filter(|_| locks(r)).map(|(_, upper)| {
+                    let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
+                    let bound = upper - resolution(r);
+                    Finding::above(STANDS_AT, r.metric(STANDS_AT), bound, why)
+                });
+                found.into_iter().collect()
+            }),
+        ),
+        Check::truth(
+            "factor-converges",
+            "fbar-consistent: from level to level the factor comes nearer to that of limit analysis, or stays within the uncertainty of both",
+            study(converges),
+        ),
+    ]
+}
+
+/// Between which the factor may lie, where limit analysis knows.
+fn bounds(r: &Record) -> Option<(f64, f64)> {
+    if r.parameters.number(FACE_ANGLE) != 45.0 {
+        return None;
+    }
+    let (_, least, most) = STABILITY;
+    let too_strong = 1.0 + r.discretisation.h / r.parameters.number(HEIGHT);
+    let lower = factor(r, least) - resolution(r);
+    let upper = (1.0 + SLOW) * too_strong * factor(r, most) + resolution(r);
+    Some((lower, upper))
+}
 
 /// Factor of safety of the run's slope for a stability number.
 fn factor(record: &Record, stability: f64) -> f64 {
     factor_of_safety(
         &record.parameters,
-        record.parameters.number("strength"),
+        record.parameters.number(STRENGTH),
         stability,
     )
 }
 
 /// Half of the bracket that the trials leave.
 fn resolution(record: &Record) -> f64 {
-    let number = |name| record.parameters.number(name);
-    0.5 * (number("most") - 1.0) / 2.0_f64.powf(number("trials") - 1.0)
+    let number = |p| record.parameters.number(p);
+    0.5 * (number(MOST) - 1.0) / 2.0_f64.powf(number(TRIALS) - 1.0)
 }
 
 fn locks(record: &Record) -> bool {
@@ -54,75 +91,28 @@ fn locks(record: &Record) -> bool {
     record.remedy() == RemedyName::None && (record.basis() == BasisName::Gimp || coarse)
 }
 
-pub(super) fn judge(record: &Record) -> Vec<Verdict> {
-    let metric = "strength_reduction_factor";
-    if record.parameters.number("face_angle") != 45.0 {
-        let why = "the bounds of limit analysis are those for 45°";
-        return vec![Verdict::not_applicable("limit-load", metric, why)];
-    }
-    let (_, least, most) = STABILITY;
-    let too_strong = 1.0 + record.discretisation.h / record.parameters.number("height");
-    let lower = factor(record, least) - resolution(record);
-    let upper = (1.0 + SLOW) * too_strong * factor(record, most) + resolution(record);
-    let value = record.metric(metric);
-    let not_weaker = Verdict::above(
-        "lower-bound",
-        Kind::Truth,
-        metric,
-        value,
-        lower,
-        "lower bound of limit analysis: docs/exact.md",
-    );
-    let judged = if locks(record) {
-        Verdict::above(
-            "locked",
-            Kind::KnownLimit,
-            "stands_at",
-            record.metric("stands_at"),
-            upper - resolution(record),
-            "standard MPM locks: Zhao et al. 2022, Figure 14",
-        )
-    } else {
-        Verdict::close(
-            "limit-load",
-            metric,
-            value,
-            0.5 * (lower + upper),
-            0.5 * (upper - lower),
-            "limit analysis: docs/exact.md",
-        )
-    };
-    vec![not_weaker, judged]
-}
-
-pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
-    let metric = "strength_reduction_factor";
+fn converges(records: &[Record]) -> Vec<Finding> {
     let ours = |r: &&Record| {
         r.remedy() == RemedyName::FbarConsistent && r.status == Status::Ok && r.is_default()
     };
     let schemes = crate::distinct(records.iter().filter(ours).map(Record::scheme));
-    let mut verdicts = Vec::new();
+    let mut found = Vec::new();
     for scheme in schemes {
-        let mut runs: Vec<&Record> = records
-            .iter()
-            .filter(ours)
-            .filter(|r| r.scheme() == scheme)
-            .collect();
+        let of_scheme = records.iter().filter(ours).filter(|r| r.scheme() == scheme);
+        let mut runs: Vec<&Record> = of_scheme.collect();
         runs.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
         for pair in runs.windows(2) {
-            let off = |r: &Record| (r.metric(metric) - factor(r, STABILITY.0)).abs();
+            let off = |r: &Record| (r.metric(METRIC) - factor(r, STABILITY.0)).abs();
             let known_to = resolution(pair[1]) + factor(pair[1], STABILITY.2 - STABILITY.0);
-            verdicts.push(Verdict::at_most(
-                "factor-converges",
-                Kind::Truth,
-                metric,
+            found.push(Finding::at_most(
+                METRIC,
                 off(pair[1]),
                 off(pair[0]).max(known_to),
                 format!("{scheme}: {} against {}", pair[1].level, pair[0].level),
             ));
         }
     }
-    verdicts
+    found
 }
 
 #[cfg(test)]
