@@ -106,6 +106,12 @@ impl<const D: usize, W: Watch<D>> Drive<D, W> {
     pub(crate) fn seen(&self) -> &W::Seen {
         &self.seen
     }
+
+    /// What a test looks into.
+    #[cfg(test)]
+    pub(crate) fn parts(&mut self) -> (&W, &mut W::Seen, &mut Stage<D>) {
+        (&self.watch, &mut self.seen, &mut self.stage)
+    }
 }
 
 impl<const D: usize, W: Watch<D>> Memory for Drive<D, W> {

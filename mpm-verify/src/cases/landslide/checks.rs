@@ -53,10 +53,17 @@ pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
 
 /// The checks of both cases.
 pub(super) fn checks() -> Vec<Check> {
-    [of_ground(), of_rest(), of_energy(), of_slide(), of_width(), of_studies()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        of_ground(),
+        of_rest(),
+        of_energy(),
+        of_slide(),
+        of_width(),
+        of_studies(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// Particles of the section, where their number is known: row j from the base holds columns i with
@@ -202,7 +209,11 @@ fn at_rest(r: &Record) -> Vec<Finding> {
     }
     let why = "velocities a thousandth of elastic ones";
     let found = Finding::at_most(metric, r.metric(metric), AT_REST, why);
-    keeps_moving(r).is_none().then_some(found).into_iter().collect()
+    keeps_moving(r)
+        .is_none()
+        .then_some(found)
+        .into_iter()
+        .collect()
 }
 
 fn moves_on(r: &Record, how: Moves) -> Vec<Finding> {
@@ -359,7 +370,13 @@ fn of_width() -> Vec<Check> {
         Check::truth(
             "plane-strain",
             "in three dimensions: at rest the crest has sunk as in plane strain, within 10⁻⁴ without F̄ and 2 % with fbar-consistent; without F̄ also 0.5 s after the reduction",
-            run(move |r| if in_space(r) { plane_strain(r) } else { Vec::new() }),
+            run(move |r| {
+                if in_space(r) {
+                    plane_strain(r)
+                } else {
+                    Vec::new()
+                }
+            }),
         ),
     ]
 }

@@ -1,11 +1,14 @@
 //! The ground of the landslide: particles, floor and walls, strengths, the stage in which gravity rises.
 
-use super::parameters::{CFL, DENSITY, FLOOR, HEIGHT, PEAK_STRENGTH, POISSON_RATIO, PPC_PER_DIRECTION, RESIDUAL_STRENGTH, SOFTENING, WALL, WIDTH, YOUNG_MODULUS};
+use super::parameters::{
+    CFL, DENSITY, FLOOR, HEIGHT, PEAK_STRENGTH, POISSON_RATIO, PPC_PER_DIRECTION,
+    RESIDUAL_STRENGTH, SOFTENING, WALL, WIDTH, YOUNG_MODULUS,
+};
 use super::section::{GRAVITY, Section};
 use crate::cases::parameters::WALL_LINE;
-use crate::spec::RunSpec;
 use crate::error::Error;
 use crate::parameter::Parameters;
+use crate::spec::RunSpec;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{HenckyJ2, Law, Strength};
@@ -52,11 +55,7 @@ pub(crate) fn strength(
 ) -> Result<Strength, mpm_core::Error> {
     let number = |p| parameters.number(p);
     let peak = number(PEAK_STRENGTH) / reduction;
-    Strength::softening(
-        peak,
-        number(RESIDUAL_STRENGTH).min(peak),
-        number(SOFTENING),
-    )
+    Strength::softening(peak, number(RESIDUAL_STRENGTH).min(peak), number(SOFTENING))
 }
 
 /// The ground, its floor and its walls, on a grid with room for the slide.

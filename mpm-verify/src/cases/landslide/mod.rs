@@ -74,7 +74,11 @@ fn cost(spec: &RunSpec, dimension: i32) -> f64 {
         RemedyName::FbarConsistent => 1.7,
     };
     let short = spec.set.iter().any(|set| set.starts_with("duration="));
-    let across = if spec.level.name.starts_with("slice") { 0.3 } else { 1.0 };
+    let across = if spec.level.name.starts_with("slice") {
+        0.3
+    } else {
+        1.0
+    };
     across * sweep / spec.level.h.powi(dimension + 1) / if short { 3.0 } else { 1.0 }
 }
 
@@ -191,7 +195,10 @@ fn plan_2d() -> Vec<Family> {
 fn plan_3d() -> Vec<Family> {
     let [h50, slice, h25, h20] = levels_3d();
     let all = schemes();
-    let early = pairs(&[BasisName::Gimp], &[RemedyName::None, RemedyName::FbarConsistent]);
+    let early = pairs(
+        &[BasisName::Gimp],
+        &[RemedyName::None, RemedyName::FbarConsistent],
+    );
     vec![
         family(Pr, &[h50], &early, SHORT),
         family(Nightly, &[slice], &early, &["duration=0.5"]),

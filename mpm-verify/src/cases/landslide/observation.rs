@@ -273,7 +273,10 @@ impl Series {
                 m::KINETIC_ENERGY_MAX,
                 all(|row| row.kinetic).fold(0.0, f64::max),
             ),
-            (m::ENERGY_GAIN, gains().fold(0.0, f64::max) / start.potential),
+            (
+                m::ENERGY_GAIN,
+                gains().fold(0.0, f64::max) / start.potential,
+            ),
             (
                 m::UNACCOUNTED_ENERGY,
                 end(&|row| (row.accounted() - start.accounted()) / start.potential),

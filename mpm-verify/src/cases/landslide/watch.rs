@@ -114,10 +114,7 @@ where
     ///
     /// # Errors
     /// The parameters don't make a scene.
-    pub(super) fn drive(
-        spec: &RunSpec,
-        parameters: &Parameters,
-    ) -> Result<Drive<D, Self>, Error> {
+    pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<D, Self>, Error> {
         let ground = Ground::new(spec, parameters)?;
         // What is wrong with the reduced strength is said before anything moves.
         strength(parameters, parameters.number(REDUCTION))?;
@@ -191,11 +188,7 @@ impl<const D: usize> Slide<D> {
         }
     }
 
-    fn observe(
-        &self,
-        seen: &Seen,
-        run: &mut dyn Simulation<D>,
-    ) -> Result<Row, mpm_core::Error> {
+    fn observe(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Result<Row, mpm_core::Error> {
         let (positions, plastic_strain) = (positions(run), plastic_strain(run));
         let look = self.look(&positions, &plastic_strain);
         let totals = run.totals();
@@ -225,7 +218,11 @@ impl<const D: usize> Slide<D> {
     fn dissipated(&self, seen: &Seen, now: &[f64]) -> Result<Vec<f64>, mpm_core::Error> {
         let strength = self.strength(seen)?;
         let work = |strain: f64| strength.plastic_work(strain);
-        let before = seen.before.dissipated.iter().zip(&seen.before.plastic_strain);
+        let before = seen
+            .before
+            .dissipated
+            .iter()
+            .zip(&seen.before.plastic_strain);
         let added = before.zip(now);
         Ok(added
             .map(|((dissipated, before), now)| dissipated + work(*now) - work(*before))
@@ -344,9 +341,9 @@ where
             Some(_) => (0.0, self.parameters.number(DAMPING)),
         };
         let strength = self.strength(seen)?;
-        let (scene, settings) = self
-            .ground
-            .scene(&self.spec, &self.parameters, strength, stages)?;
+        let (scene, settings) =
+            self.ground
+                .scene(&self.spec, &self.parameters, strength, stages)?;
         solver(self.spec.scheme, scene, settings)
     }
 

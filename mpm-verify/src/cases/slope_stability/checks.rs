@@ -21,7 +21,8 @@ pub(super) fn checks() -> Vec<Check> {
             "all: the factor is above the lower bound of limit analysis less half the last bracket",
             run(|r| {
                 let why = "lower bound of limit analysis: docs/exact.md";
-                let found = bounds(r).map(|(lower, _)| Finding::above(METRIC, r.metric(METRIC), lower, why));
+                let found = bounds(r)
+                    .map(|(lower, _)| Finding::above(METRIC, r.metric(METRIC), lower, why));
                 found.into_iter().collect()
             }),
         ),

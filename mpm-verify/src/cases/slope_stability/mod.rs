@@ -60,11 +60,23 @@ const PARAMETERS: [Parameter; 13] = [
     PPC_PER_DIRECTION,
 ];
 
-const STRENGTH_REDUCTION_FACTOR: Metric = metric("strength_reduction_factor", "-", "middle of the factors between which the slope first fails; the largest tried, if it stands");
-const FACTOR_ERROR: Metric = metric("factor_error", "-", "relative distance of that from the factor of limit analysis, which is known to half a per cent; none where the slope stands at the largest factor or has another angle than 45°");
+const STRENGTH_REDUCTION_FACTOR: Metric = metric(
+    "strength_reduction_factor",
+    "-",
+    "middle of the factors between which the slope first fails; the largest tried, if it stands",
+);
+const FACTOR_ERROR: Metric = metric(
+    "factor_error",
+    "-",
+    "relative distance of that from the factor of limit analysis, which is known to half a per cent; none where the slope stands at the largest factor or has another angle than 45°",
+);
 const STANDS_AT: Metric = metric("stands_at", "-", "largest factor at which the slope stands");
 const FAILS_AT: Metric = metric("fails_at", "-", "least factor at which it fails");
-const MOVED_STANDING: Metric = metric("moved_standing", "m", "largest displacement since the reduction at the largest factor at which it stands");
+const MOVED_STANDING: Metric = metric(
+    "moved_standing",
+    "m",
+    "largest displacement since the reduction at the largest factor at which it stands",
+);
 const MASS: Metric = metric("mass", "kg/m", "mass of the ground");
 
 fn levels() -> [Level; 3] {

@@ -5,9 +5,7 @@ use super::{
     STRENGTH_REDUCTION_FACTOR, TRIALS,
 };
 use crate::cases::landslide::parameters::{FACE_ANGLE, PPC_PER_DIRECTION, WALL};
-use crate::cases::landslide::{
-    Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety,
-};
+use crate::cases::landslide::{Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -57,7 +55,12 @@ pub(super) struct Seen {
 impl Seen {
     /// Largest factor at which it stands and least at which it fails, of those tried.
     fn bracket(&self) -> (f64, f64) {
-        let of = |fails| self.trials.iter().filter(move |t| t.fails == fails).map(|t| t.factor);
+        let of = |fails| {
+            self.trials
+                .iter()
+                .filter(move |t| t.fails == fails)
+                .map(|t| t.factor)
+        };
         let stands = of(false).fold(1.0, f64::max);
         (stands, of(true).fold(f64::INFINITY, f64::min))
     }
@@ -75,10 +78,7 @@ impl Trials {
     ///
     /// # Errors
     /// The parameters don't make a scene.
-    pub(super) fn drive(
-        spec: &RunSpec,
-        parameters: &Parameters,
-    ) -> Result<Drive<2, Self>, Error> {
+    pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
         let trials = Self {
             ground: Ground::new(spec, parameters)?,
             spec: spec.clone(),
@@ -192,9 +192,9 @@ impl Watch<2> for Trials {
         };
         let strength = self.parameters.number(STRENGTH) / seen.factor.unwrap_or(1.0);
         let strength = Strength::perfect(strength)?;
-        let (scene, settings) = self
-            .ground
-            .scene(&self.spec, &self.parameters, strength, stages)?;
+        let (scene, settings) =
+            self.ground
+                .scene(&self.spec, &self.parameters, strength, stages)?;
         solver(self.spec.scheme, scene, settings)
     }
 

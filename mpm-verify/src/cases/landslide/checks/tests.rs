@@ -1,12 +1,21 @@
 //! The checks turn red when they should.
 
-use super::super::{PARAMETERS, PARAMETERS_3D};
+use super::super::parameters::{PARAMETERS, parameters_3d};
 use super::*;
 use crate::report::fixture::{self, outcomes};
+use crate::verdict::Verdict;
 
 const OURS: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarConsistent);
 const PRINTED: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarRecursive);
 const STANDARD: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::None);
+
+fn judge(record: &Record) -> Vec<Verdict> {
+    checks().iter().flat_map(|c| c.of_run(record)).collect()
+}
+
+fn judge_study(records: &[Record]) -> Vec<Verdict> {
+    checks().iter().flat_map(|c| c.of_study(records)).collect()
+}
 
 /// A run in plane strain on cells of 0.4 m, with metrics.
 fn run(scheme: (BasisName, RemedyName), set: &[&str], metrics: &[(&str, f64)]) -> Record {
@@ -42,7 +51,7 @@ fn the_ground_is_all_there() {
 #[test]
 fn the_papers_count_is_that_of_its_grid() {
     let metrics = [("particles", 311_250.0), ("particles_across", 50.0)];
-    let record = fixture::run(&PARAMETERS_3D, OURS, ("h0.2", 0.2), &[], &metrics);
+    let record = fixture::run(&parameters_3d(), OURS, ("h0.2", 0.2), &[], &metrics);
     assert_eq!(outcomes(&judge(&record), "particle-count"), [Some(true)]);
 }
 
@@ -145,7 +154,7 @@ fn three_dimensions_are_those_of_the_section() {
             ("off_plane_strain_at_rest", off),
             ("off_plane_strain_0.5s", off),
         ];
-        let mut record = fixture::run(&PARAMETERS_3D, scheme, ("h0.5", 0.5), &[], &metrics);
+        let mut record = fixture::run(&parameters_3d(), scheme, ("h0.5", 0.5), &[], &metrics);
         record.discretisation.dim = 3;
         outcomes(&judge(&record), check)
     };
@@ -185,7 +194,7 @@ fn a_slice_sinks_as_the_full_width() {
     let of = |settlement| {
         let at = |set: &[&str], value| {
             let metrics = [("settlement_at_rest", value)];
-            fixture::run(&PARAMETERS_3D, OURS, ("h0.5", 0.5), set, &metrics)
+            fixture::run(&parameters_3d(), OURS, ("h0.5", 0.5), set, &metrics)
         };
         let records = [
             at(&[], 0.01),

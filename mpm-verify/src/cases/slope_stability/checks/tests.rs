@@ -3,11 +3,20 @@
 use super::super::PARAMETERS;
 use super::*;
 use crate::report::fixture::{self, outcomes};
+use crate::verdict::Verdict;
 use crate::scheme::BasisName;
 
 const METRIC: &str = "strength_reduction_factor";
 const OURS: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarConsistent);
 const STANDARD: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::None);
+
+fn judge(record: &Record) -> Vec<Verdict> {
+    checks().iter().flat_map(|c| c.of_run(record)).collect()
+}
+
+fn judge_study(records: &[Record]) -> Vec<Verdict> {
+    checks().iter().flat_map(|c| c.of_study(records)).collect()
+}
 
 fn run(scheme: (BasisName, RemedyName), level: (&str, f64), set: &[&str], factor: f64) -> Record {
     fixture::run(&PARAMETERS, scheme, level, set, &[(METRIC, factor)])

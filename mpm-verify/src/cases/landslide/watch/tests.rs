@@ -1,30 +1,33 @@
 //! Strengths that fall at once or by rows.
 
-use super::super::{LEVELS_2D, PARAMETERS};
+use super::super::levels_2d;
+use super::super::parameters::PARAMETERS;
 use super::*;
+use crate::job::Job;
 use crate::scheme::{BasisName, RemedyName, Scheme};
+use mpm_core::Memory;
 
 /// A small slope with a factor of safety of eight, whose strength is divided by twelve: it flows at once.
-fn small(release: &str) -> Simulated<2> {
+fn small(release: &str) -> Drive<2, Slide<2>> {
     let slope = ["height=1", "crest=2", "floor=2", "duration=0.1"];
     let set: Vec<String> = (slope.iter().chain(&["reduction=12", release]))
         .map(|s| (*s).to_owned())
         .collect();
     let spec = RunSpec {
         scheme: Scheme::flip(BasisName::Gimp, RemedyName::FbarConsistent),
-        level: LEVELS_2D[0],
+        level: levels_2d()[0],
         set: set.clone(),
         perturbed: false,
     };
-    Simulated::new(&spec, &Parameters::new(&PARAMETERS, &set).unwrap()).unwrap()
+    Slide::drive(&spec, &Parameters::new(&PARAMETERS, &set).unwrap()).unwrap()
 }
 
 /// The factor in force after every row from the end of the gravity stage on.
-fn reductions(job: &mut Simulated<2>) -> Vec<f64> {
+fn reductions(job: &mut Drive<2, Slide<2>>) -> Vec<f64> {
     let mut reductions = Vec::new();
     while !job.finished() {
         job.advance().unwrap();
-        reductions.extend(job.slide.reduction);
+        reductions.extend(job.seen().reduction);
     }
     reductions
 }
@@ -40,21 +43,19 @@ fn the_strength_falls_at_once_or_by_rows() {
         let share = f64::min(1.0, 0.2 * (k + 1) as f64);
         assert!((factor - (1.0 + 11.0 * share)).abs() < 1e-9, "{factor}");
     }
-    for job in [&at_once, &gradual] {
-        let rows = &job.slide.series.rows;
-        assert!((rows[9].time - 0.1).abs() < 1e-9 && rows.len() == 10);
+    for job in [&mut at_once, &mut gradual] {
+        let steps_per_row = (ROW / job.discretisation().dt).round() as u64;
         // A second of gravity and a tenth after it.
-        assert_eq!(job.work().steps, 110 * job.slide.ground.steps_per_row);
+        assert_eq!(job.work().steps, 110 * steps_per_row);
+        let rows = &job.seen().series.rows;
+        assert!((rows[9].time - 0.1).abs() < 1e-9 && rows.len() == 10);
         assert!(rows[9].dissipated > 0.0);
         let grows = |pair: &[Row]| pair[1].dissipated >= pair[0].dissipated;
         assert!(rows.windows(2).all(grows));
-        let metrics = job
-            .slide
-            .series
-            .metrics(&job.slide.ground.section, &job.slide.at_rest.row);
-        for of in ["energy_gain", "unaccounted_energy"] {
-            let (_, value) = metrics.iter().find(|(name, _)| *name == of).unwrap();
-            assert!(*value <= 1e-9, "{of}: {value}");
+        let metrics = job.metrics();
+        for of in [m::ENERGY_GAIN, m::UNACCOUNTED_ENERGY] {
+            let value = metrics[of.name].value.unwrap();
+            assert!(value <= 1e-9, "{}: {value}", of.name);
         }
     }
 }
@@ -65,11 +66,11 @@ fn nothing_jumps_when_the_strength_falls() {
     for _ in 0..104 {
         job.advance().unwrap();
     }
-    let slide = &mut job.slide;
-    let before = slide.observe();
+    let (slide, seen, stage) = job.parts();
+    let before = slide.observe(seen, stage.run.as_mut()).unwrap();
     assert!(before.dissipated > 0.0 && before.stress_work != 0.0);
-    slide.reduce().unwrap();
-    let after = slide.observe();
+    slide.reduce(seen, stage).unwrap();
+    let after = slide.observe(seen, stage.run.as_mut()).unwrap();
     for (a, b) in [
         (before.time, after.time),
         (before.dissipated, after.dissipated),
