@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 mod column;
 mod dam_break;
 mod family;
+mod footing;
 mod landslide;
 mod manufactured;
 mod mms_axis;
@@ -23,6 +24,7 @@ mod vibrating_bar;
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
     vec![
+        footing::case(),
         dam_break::case(),
         landslide::case(),
         landslide::plane_case(),

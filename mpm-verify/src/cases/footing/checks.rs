@@ -1,12 +1,17 @@
-//! Verdicts on the strip footing. The tolerances are derived in `docs/footing.md`.
+//! Checks of the strip footing. The tolerances are derived in `docs/footing.md`.
 
-use super::reference::{CURVE, EXACT, curve, elastic_slope, has_the_curve_of, mean_stresses};
-use super::simulation::{WIDTH, effective_width, mechanism_extent};
-use crate::case::{CheckInfo, check};
+use super::geometry::{WIDTH, effective_width, mechanism_extent};
+use super::metrics::{self as m, CURVE, MEAN_STRESSES};
+use super::parameters::{
+    BARRIER, CONTACT, DOMAIN_DEPTH, DOMAIN_WIDTH, PENETRATION, PENETRATION_RATE, ROUGH,
+    UNDRAINED_STRENGTH, YOUNG_MODULUS,
+};
+use super::reference::{EXACT, curve, elastic_slope, has_the_curve_of, mean_stress_at};
+use crate::check::{Check, Finding, run, study};
+use crate::metric::Metric;
 use crate::order::fit_order;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
-use crate::verdict::{Kind, Verdict};
 
 /// Relative tolerance of the limit load against Prandtl's at h ≤ B/20, by the width that the footing acts with.
 const PRANDTL: f64 = 0.01;
@@ -48,93 +53,173 @@ const ELASTIC: f64 = 10.0;
 const UNKNOWN_WIDTH: &str =
     "how wide a footing acts through a barrier is not known beforehand: see contacts-agree";
 
-pub(super) const CHECKS: &[CheckInfo] = &[
-    check(
-        "particle-count",
-        Kind::Bookkeeping,
-        "57,600 · (h/(B/20))⁻² particles at two per direction, four times as many at four: the paper's 230,400 at B/20",
-    ),
-    check(
-        "quasi-static",
-        Kind::Truth,
-        "all with FLIP, as all that follows but elastic-slope: the force on the base is that on the footing within 0.5 %, mean over the last quarter of the penetration (linear momentum)",
-    ),
-    check(
-        "prandtl",
-        Kind::Truth,
-        "fbar-rate, fbar-consistent: the limit load by the width that the footing acts with is 2 + π within 1 % at h ≤ B/20, within 2 % at B/10",
-    ),
-    check(
-        "fem-plateau",
-        Kind::Truth,
-        "fbar-rate, fbar-consistent: the limit load by B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
-    ),
-    check(
-        "curve",
-        Kind::Truth,
-        "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
-    ),
-    check(
-        "limit-load",
-        Kind::Truth,
-        "fbar-rate, fbar-consistent: the load grows by less than 0.5 % and falls by less than 1 % per 10⁻³ of s/B over the last quarter of the penetration",
-    ),
-    check(
-        "mechanism",
-        Kind::Truth,
-        "fbar-rate, fbar-consistent: the surface rises out to 1.5 times the width that the footing acts with, once the width if it is smooth, within 2h",
-    ),
-    check(
-        "mean-stress",
-        Kind::Truth,
-        "fbar-rate, fbar-consistent: σ_m at five points is that of the finite elements of vanishing size within h |∇σ_m|",
-    ),
-    check(
-        "smooth-pressure",
-        Kind::Truth,
-        "fbar-rate, fbar-consistent at h ≤ B/20: rms(σ_m − Πσ_m) below 0.2 rms σ_m",
-    ),
-    check(
-        "elastic-slope",
-        Kind::Truth,
-        "all, of a strength beyond reach: d(q/s_u)/d(s/B) is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
-    ),
-    check(
-        "no-limit-load",
-        Kind::KnownLimit,
-        "none: the load still grows by more than 0.5 % per 10⁻³ of s/B at the end",
-    ),
-    check(
-        "locked",
-        Kind::KnownLimit,
-        "none: the load by the width that the footing acts with exceeds 2 + π by twice the tolerance of prandtl",
-    ),
-    check(
-        "checkerboard",
-        Kind::KnownLimit,
-        "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m",
-    ),
-    check(
-        "rate-independent",
-        Kind::Truth,
-        "fbar-consistent: the limit load changes by less than 0.5 % when the rate is halved",
-    ),
-    check(
-        "rate-dependent",
-        Kind::KnownLimit,
-        "fbar-recursive: the load changes by more than 0.5 % when the rate is halved",
-    ),
-    check(
-        "contacts-agree",
-        Kind::Truth,
-        "all: the load through the barrier is that of held nodes within 2h/B",
-    ),
-    check(
-        "pressure-order",
-        Kind::Truth,
-        "fbar-rate, fbar-consistent with nodes on grid lines, over three levels: the error of the contact pressure by B falls with an order of 0.85 to 1.1 (the paper's Figure 9: slightly below one)",
-    ),
-];
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check::bookkeeping(
+            "particle-count",
+            "57,600 · (h/(B/20))⁻² particles at two per direction, four times as many at four: the paper's 230,400 at B/20",
+            run(|r| vec![particle_count(r)]),
+        ),
+        Check::truth(
+            "elastic-slope",
+            "all, of a strength beyond reach: d(q/s_u)/d(s/B) is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
+            run(|r| vec![slope(r)]),
+        ),
+        Check::truth(
+            "quasi-static",
+            "all with FLIP, as all that follows but elastic-slope: the force on the base is that on the footing within 0.5 %, mean over the last quarter of the penetration (linear momentum)",
+            run(|r| {
+                if let Some(why) = why_shown_only(r) {
+                    return vec![Finding::not_applicable(m::FORCE_IMBALANCE, why)];
+                }
+                let imbalance = r.metric(m::FORCE_IMBALANCE).abs();
+                let why = "linear momentum of a body that is pressed slowly";
+                vec![Finding::at_most(
+                    m::FORCE_IMBALANCE,
+                    imbalance,
+                    INERTIA,
+                    why,
+                )]
+            }),
+        ),
+        Check::truth(
+            "prandtl",
+            "fbar-rate, fbar-consistent: the limit load by the width that the footing acts with is 2 + π within 1 % at h ≤ B/20, within 2 % at B/10",
+            run(|r| {
+                let shown_only =
+                    why_shown_only(r).map(|why| Finding::not_applicable(m::NC_EFFECTIVE, why));
+                shown_only.map_or_else(|| limit(r, m::NC_EFFECTIVE, prandtl), |found| vec![found])
+            }),
+        ),
+        Check::truth(
+            "limit-load",
+            "fbar-rate, fbar-consistent: the load grows by less than 0.5 % and falls by less than 1 % per 10⁻³ of s/B over the last quarter of the penetration",
+            run(|r| {
+                limit(r, m::PLATEAU_RISE, |r| {
+                    let (fall, growth) = FLAT;
+                    let (middle, half) = (0.5 * (growth - fall), 0.5 * (growth + fall));
+                    let why = "a perfectly plastic body has a limit load";
+                    vec![Finding::within(
+                        m::PLATEAU_RISE,
+                        r.metric(m::PLATEAU_RISE),
+                        middle,
+                        half,
+                        why,
+                    )]
+                })
+            }),
+        ),
+        Check::truth(
+            "smooth-pressure",
+            "fbar-rate, fbar-consistent at h ≤ B/20: rms(σ_m − Πσ_m) below 0.2 rms σ_m",
+            run(|r| {
+                if why_no_limit(r).is_some() {
+                    return Vec::new();
+                }
+                limit(r, m::CHECKERBOARD_RATIO, |r| {
+                    let metric = m::CHECKERBOARD_RATIO;
+                    vec![if coarseness(r) > 1.0 {
+                        let why = "five cells under half of the footing don't resolve the pressure's edge";
+                        Finding::not_applicable(metric, why)
+                    } else {
+                        let why = "a pressure that is resolved is close to its average";
+                        Finding::at_most(metric, r.metric(metric), BOARD.0, why)
+                    }]
+                })
+            }),
+        ),
+        Check::truth(
+            "mechanism",
+            "fbar-rate, fbar-consistent: the surface rises out to 1.5 times the width that the footing acts with, once the width if it is smooth, within 2h",
+            run(|r| limit(r, m::MECHANISM_WIDTH, mechanism)),
+        ),
+        Check::truth(
+            "mean-stress",
+            "fbar-rate, fbar-consistent: σ_m at five points is that of the finite elements of vanishing size within h |∇σ_m|",
+            run(|r| {
+                if why_no_limit(r).is_some() {
+                    return Vec::new();
+                }
+                limit(r, MEAN_STRESSES[0].0, mean_stress)
+            }),
+        ),
+        Check::truth(
+            "fem-plateau",
+            "fbar-rate, fbar-consistent: the limit load by B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
+            run(|r| limit(r, m::NC_B, plateau)),
+        ),
+        Check::truth(
+            "curve",
+            "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
+            run(|r| {
+                if why_no_limit(r).is_some() {
+                    return Vec::new();
+                }
+                limit(r, CURVE[2].0, load_curve)
+            }),
+        ),
+        Check::known_limit(
+            "no-limit-load",
+            "none: the load still grows by more than 0.5 % per 10⁻³ of s/B at the end",
+            run(|r| locked(r, Locks::Load, m::PLATEAU_RISE, FLAT.1)),
+        ),
+        Check::known_limit(
+            "locked",
+            "none: the load by the width that the footing acts with exceeds 2 + π by twice the tolerance of prandtl",
+            run(|r| {
+                let bound = (1.0 + LOCKED * PRANDTL * coarseness(r)) * EXACT;
+                locked(r, Locks::Bearing, m::NC_EFFECTIVE, bound)
+            }),
+        ),
+        Check::known_limit(
+            "checkerboard",
+            "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m",
+            run(|r| {
+                let gimp = r.basis() == BasisName::Gimp;
+                let found = || locked(r, Locks::Load, m::CHECKERBOARD_RATIO, BOARD.1);
+                if gimp { found() } else { Vec::new() }
+            }),
+        ),
+        Check::truth(
+            "rate-independent",
+            "fbar-consistent: the limit load changes by less than 0.5 % when the rate is halved",
+            study(|records| {
+                let law = "a rate-independent law, pressed slowly";
+                let found = |(change, what)| {
+                    Finding::at_most(m::NC_B, change, RATE, format!("{law}: {what}"))
+                };
+                rates(records, RemedyName::FbarConsistent)
+                    .into_iter()
+                    .map(found)
+                    .collect()
+            }),
+        ),
+        Check::known_limit(
+            "rate-dependent",
+            "fbar-recursive: the load changes by more than 0.5 % when the rate is halved",
+            study(|records| {
+                let law = "Eq. (26) averages the average and so diffuses J̄ in time";
+                let found = |(change, what)| {
+                    Finding::above(m::NC_B, change, RATE, format!("{law}: {what}"))
+                };
+                rates(records, RemedyName::FbarRecursive)
+                    .into_iter()
+                    .map(found)
+                    .collect()
+            }),
+        ),
+        Check::truth(
+            "contacts-agree",
+            "all: the load through the barrier is that of held nodes within 2h/B",
+            study(contacts),
+        ),
+        Check::truth(
+            "pressure-order",
+            "fbar-rate, fbar-consistent with nodes on grid lines, over three levels: the error of the contact pressure by B falls with an order of 0.85 to 1.1 (the paper's Figure 9: slightly below one)",
+            study(orders),
+        ),
+    ]
+}
 
 /// By how much tolerances grow on coarse cells, whose errors are of first order.
 fn coarseness(record: &Record) -> f64 {
@@ -150,9 +235,9 @@ fn is_free_of_locking(record: &Record) -> bool {
 
 /// Why there is no limit load to compare with, if there is none.
 fn why_no_limit(record: &Record) -> Option<String> {
-    let number = |name| record.parameters.number(name);
-    let ratio = number("undrained_strength") / number("young_modulus");
-    let penetration = number("penetration");
+    let number = |p| record.parameters.number(p);
+    let ratio = number(UNDRAINED_STRENGTH) / number(YOUNG_MODULUS);
+    let penetration = number(PENETRATION);
     if 0.75 * penetration < PLASTIC * ratio {
         Some(format!(
             "the ground is fully plastic from s/B = {PLASTIC} s_u/E = {} on only",
@@ -167,7 +252,7 @@ fn why_no_limit(record: &Record) -> Option<String> {
 
 /// Why nothing is said of a run but that it is one: it is there to show how it rings, or resists.
 fn why_shown_only(record: &Record) -> Option<String> {
-    let rate = record.parameters.number("penetration_rate");
+    let rate = record.parameters.number(PENETRATION_RATE);
     if rate > SLOW {
         Some(format!("pressed faster than {SLOW} m/s, the ground rings"))
     } else if record.transfer() != TransferName::Flip {
@@ -178,86 +263,41 @@ fn why_shown_only(record: &Record) -> Option<String> {
 }
 
 fn is_elastic(record: &Record) -> bool {
-    let number = |name| record.parameters.number(name);
-    number("undrained_strength") > ELASTIC * number("penetration") * number("young_modulus")
+    let number = |p| record.parameters.number(p);
+    number(UNDRAINED_STRENGTH) > ELASTIC * number(PENETRATION) * number(YOUNG_MODULUS)
 }
 
-pub(super) fn judge(record: &Record) -> Vec<Verdict> {
-    let mut verdicts = Vec::new();
-    count(record, &mut verdicts);
-    slope(record, &mut verdicts);
-    if let Some(why) = why_shown_only(record) {
-        for (name, metric) in [
-            ("quasi-static", "force_imbalance"),
-            ("prandtl", "nc_effective"),
-        ] {
-            verdicts.push(Verdict::not_applicable(name, metric, why.clone()));
-        }
-        return verdicts;
-    }
-    let imbalance = record.metric("force_imbalance");
-    verdicts.push(Verdict::at_most(
-        "quasi-static",
-        Kind::Truth,
-        "force_imbalance",
-        imbalance.abs(),
-        INERTIA,
-        "linear momentum of a body that is pressed slowly",
-    ));
-    match record.remedy() {
-        RemedyName::None => locked(record, &mut verdicts),
-        _ if is_free_of_locking(record) => limit(record, &mut verdicts),
-        _ => {}
-    }
-    verdicts
-}
-
-fn count(record: &Record, verdicts: &mut Vec<Verdict>) {
-    let number = |name| record.parameters.number(name);
-    let own = number("domain_width") == 6.0 && number("domain_depth") == 6.0;
+fn particle_count(record: &Record) -> Finding {
+    const METRIC: &str = "particles";
+    let number = |p| record.parameters.number(p);
+    let own = number(DOMAIN_WIDTH) == 6.0 && number(DOMAIN_DEPTH) == 6.0;
     let per_cell = f64::from(record.discretisation.ppc);
+    if !own || ![4.0, 16.0].contains(&per_cell) {
+        let why = "counted for two or four particles per direction in a domain of 6B × 6B only";
+        return Finding::not_applicable(METRIC, why);
+    }
     let cells = 6.0 / record.discretisation.h;
-    let counted = if own && [4.0, 16.0].contains(&per_cell) {
-        Verdict::close(
-            "particle-count",
-            "particles",
-            record.work.particles as f64,
-            (per_cell * cells * cells).round(),
-            0.0,
-            "Zhao et al. 2022, section 4.2: 230,400 at B/20 with 4 × 4; 57,600 with 2 × 2",
-        )
-    } else {
-        Verdict::not_applicable(
-            "particle-count",
-            "particles",
-            "counted for two or four particles per direction in a domain of 6B × 6B only",
-        )
-    };
-    verdicts.push(counted.bookkeeping());
+    let count = (per_cell * cells * cells).round();
+    let why = "Zhao et al. 2022, section 4.2: 230,400 at B/20 with 4 × 4; 57,600 with 2 × 2";
+    Finding::within(METRIC, record.work.particles as f64, count, 0.0, why)
 }
 
-fn slope(record: &Record, verdicts: &mut Vec<Verdict>) {
-    let not_applicable =
-        |why: String| Verdict::not_applicable("elastic-slope", "elastic_slope", why);
-    verdicts.push(if !is_elastic(record) {
-        not_applicable("the ground yields: see the runs of great strength".to_owned())
-    } else {
-        match elastic_slope(record) {
-            Err(why) => not_applicable(why),
-            Ok(slope) => {
-                let number = |name| record.parameters.number(name);
-                let expected = slope * number("young_modulus") / number("undrained_strength");
-                Verdict::close(
-                    "elastic-slope",
-                    "elastic_slope",
-                    record.metric("elastic_slope"),
-                    expected,
-                    (FEM * coarseness(record) + soft_edge(record)) * expected,
-                    "finite elements that act as wide",
-                )
-            }
+fn slope(record: &Record) -> Finding {
+    const METRIC: Metric = m::ELASTIC_SLOPE;
+    if !is_elastic(record) {
+        let why = "the ground yields: see the runs of great strength";
+        return Finding::not_applicable(METRIC, why);
+    }
+    match elastic_slope(record) {
+        Err(why) => Finding::not_applicable(METRIC, why),
+        Ok(slope) => {
+            let number = |p| record.parameters.number(p);
+            let expected = slope * number(YOUNG_MODULUS) / number(UNDRAINED_STRENGTH);
+            let tolerance = (FEM * coarseness(record) + soft_edge(record)) * expected;
+            let why = "finite elements that act as wide";
+            Finding::within(METRIC, record.metric(METRIC), expected, tolerance, why)
         }
-    });
+    }
 }
 
 /// By how much (relative) an elastic footing may be softer than one of its width. Splines are exactly rigid up to a cell
@@ -271,194 +311,137 @@ fn soft_edge(record: &Record) -> f64 {
     }
 }
 
-fn locked(record: &Record, verdicts: &mut Vec<Verdict>) {
-    if is_elastic(record) {
-        return;
+/// What is said of standard MPM.
+#[derive(PartialEq)]
+enum Locks {
+    /// Of its load or stress.
+    Load,
+    /// Of its bearing capacity, for which the others stand back.
+    Bearing,
+}
+
+/// A known limit of standard MPM: it locks.
+fn locked(record: &Record, what: Locks, metric: Metric, bound: f64) -> Vec<Finding> {
+    let standard = record.remedy() == RemedyName::None && !is_elastic(record);
+    if !standard || why_shown_only(record).is_some() {
+        return Vec::new();
     }
-    let why = "standard MPM locks: Zhao et al. 2022, Figure 8";
-    let through_barrier = record.parameters.is("contact", "barrier");
+    let through_barrier = record.parameters.is(CONTACT, BARRIER);
     let through_barrier = through_barrier.then(|| UNKNOWN_WIDTH.to_owned());
     if let Some(why) = why_no_limit(record).or(through_barrier) {
-        verdicts.push(Verdict::not_applicable("locked", "nc_effective", why));
-        return;
+        let found = Finding::not_applicable(metric, why);
+        return (what == Locks::Bearing)
+            .then_some(found)
+            .into_iter()
+            .collect();
     }
-    let limit = |name, metric: &str, bound| {
-        Verdict::above(
-            name,
-            Kind::KnownLimit,
-            metric,
-            record.metric(metric),
-            bound,
-            why,
-        )
-    };
-    verdicts.push(limit("no-limit-load", "plateau_rise", FLAT.1));
-    verdicts.push(limit(
-        "locked",
-        "nc_effective",
-        (1.0 + LOCKED * PRANDTL * coarseness(record)) * EXACT,
-    ));
-    if record.basis() == BasisName::Gimp {
-        verdicts.push(limit("checkerboard", "checkerboard_ratio", BOARD.1));
+    let why = "standard MPM locks: Zhao et al. 2022, Figure 8";
+    vec![Finding::above(metric, record.metric(metric), bound, why)]
+}
+
+/// What is found of a run that is to have a limit load; why it has none, if it hasn't.
+fn limit(record: &Record, metric: Metric, found: fn(&Record) -> Vec<Finding>) -> Vec<Finding> {
+    let judged = is_free_of_locking(record) && !is_elastic(record);
+    if !judged || why_shown_only(record).is_some() {
+        return Vec::new();
+    }
+    match why_no_limit(record) {
+        Some(why) => vec![Finding::not_applicable(metric, why)],
+        None => found(record),
     }
 }
 
-fn limit(record: &Record, verdicts: &mut Vec<Verdict>) {
-    if is_elastic(record) {
-        return;
+/// The limit load by the width that the footing acts with.
+fn prandtl(record: &Record) -> Vec<Finding> {
+    const METRIC: Metric = m::NC_EFFECTIVE;
+    if record.parameters.is(CONTACT, BARRIER) {
+        return vec![Finding::not_applicable(METRIC, UNKNOWN_WIDTH)];
     }
-    if let Some(why) = why_no_limit(record) {
-        for (name, metric) in [
-            ("prandtl", "nc_effective"),
-            ("fem-plateau", "nc_b"),
-            ("limit-load", "plateau_rise"),
-            ("mechanism", "mechanism_width"),
-        ] {
-            verdicts.push(Verdict::not_applicable(name, metric, why.clone()));
-        }
-        return;
-    }
-    let (fall, growth) = FLAT;
-    verdicts.push(Verdict::close(
-        "limit-load",
-        "plateau_rise",
-        record.metric("plateau_rise"),
-        0.5 * (growth - fall),
-        0.5 * (growth + fall),
-        "a perfectly plastic body has a limit load",
-    ));
-    verdicts.push(if coarseness(record) > 1.0 {
-        Verdict::not_applicable(
-            "smooth-pressure",
-            "checkerboard_ratio",
-            "five cells under half of the footing don't resolve the pressure's edge",
-        )
-    } else {
-        Verdict::at_most(
-            "smooth-pressure",
-            Kind::Truth,
-            "checkerboard_ratio",
-            record.metric("checkerboard_ratio"),
-            BOARD.0,
-            "a pressure that is resolved is close to its average",
-        )
-    });
-    prandtl(record, verdicts);
-    mean_stress(record, verdicts);
-    against_elements(record, verdicts);
+    let (width, uncertainty) = effective_width(record.basis(), record.discretisation.h);
+    let tolerance = (PRANDTL * coarseness(record) + uncertainty / width) * EXACT;
+    vec![Finding::within(
+        METRIC,
+        record.metric(METRIC),
+        EXACT,
+        tolerance,
+        "Prandtl 1920",
+    )]
 }
 
-/// Limit load and mechanism by the width that the footing acts with.
-fn prandtl(record: &Record, verdicts: &mut Vec<Verdict>) {
-    if record.parameters.is("contact", "barrier") {
-        let why = UNKNOWN_WIDTH;
-        verdicts.push(Verdict::not_applicable("prandtl", "nc_effective", why));
-        verdicts.push(Verdict::not_applicable("mechanism", "mechanism_width", why));
-        return;
+/// The mechanism by the width that the footing acts with.
+fn mechanism(record: &Record) -> Vec<Finding> {
+    const METRIC: Metric = m::MECHANISM_WIDTH;
+    if record.parameters.is(CONTACT, BARRIER) {
+        return vec![Finding::not_applicable(METRIC, UNKNOWN_WIDTH)];
     }
     let h = record.discretisation.h;
     let (width, uncertainty) = effective_width(record.basis(), h);
-    verdicts.push(Verdict::close(
-        "prandtl",
-        "nc_effective",
-        record.metric("nc_effective"),
-        EXACT,
-        (PRANDTL * coarseness(record) + uncertainty / width) * EXACT,
-        "Prandtl 1920",
-    ));
-    let rough = record.parameters.boolean("rough");
+    let rough = record.parameters.boolean(ROUGH);
     let extent = mechanism_extent(rough) / WIDTH;
     let whose = if rough { "Prandtl's" } else { "Hill's" };
-    verdicts.push(Verdict::close(
-        "mechanism",
-        "mechanism_width",
-        record.metric("mechanism_width"),
+    vec![Finding::within(
+        METRIC,
+        record.metric(METRIC),
         extent * width,
         SMEARED * h + extent * uncertainty,
         format!("{whose} mechanism; a jump of velocity is smeared over a cell on either side"),
-    ));
+    )]
 }
 
-fn mean_stress(record: &Record, verdicts: &mut Vec<Verdict>) {
-    let why = if !record.parameters.boolean("rough") {
-        Some("the reference is that of a rough footing")
-    } else if record.parameters.is("contact", "barrier") {
-        Some(UNKNOWN_WIDTH)
+fn mean_stress(record: &Record) -> Vec<Finding> {
+    let why = if !record.parameters.boolean(ROUGH) {
+        "the reference is that of a rough footing"
+    } else if record.parameters.is(CONTACT, BARRIER) {
+        UNKNOWN_WIDTH
     } else {
-        None
+        let found = MEAN_STRESSES.iter().filter_map(|(metric, point)| {
+            let known = mean_stress_at(*point)?;
+            let tolerance = GRADIENT * record.discretisation.h + known.uncertainty;
+            let why = "finite elements of vanishing size";
+            let value = record.metric(*metric);
+            Some(Finding::within(*metric, value, known.value, tolerance, why))
+        });
+        return found.collect();
     };
-    if let Some(why) = why {
-        verdicts.push(Verdict::not_applicable(
-            "mean-stress",
-            "mean_stress_0.25_0.25",
-            why,
-        ));
-        return;
-    }
-    for point in mean_stresses() {
-        let metric = point.metric();
-        verdicts.push(Verdict::close(
-            "mean-stress",
-            &metric,
-            record.metric(&metric),
-            point.value,
-            GRADIENT * record.discretisation.h + point.uncertainty,
-            "finite elements of vanishing size",
-        ));
-    }
+    vec![Finding::not_applicable(MEAN_STRESSES[0].0, why)]
 }
 
-fn against_elements(record: &Record, verdicts: &mut Vec<Verdict>) {
-    match curve(record) {
-        Err(why) => {
-            verdicts.push(Verdict::not_applicable("fem-plateau", "nc_b", why.clone()));
-            verdicts.push(Verdict::not_applicable("curve", "nc_0.001", why));
-        }
+/// The limit load against finite elements that act as wide.
+fn plateau(record: &Record) -> Vec<Finding> {
+    const METRIC: Metric = m::NC_B;
+    vec![match curve(record) {
+        Err(why) => Finding::not_applicable(METRIC, why),
         Ok(reference) => {
-            verdicts.push(Verdict::close(
-                "fem-plateau",
-                "nc_b",
-                record.metric("nc_b"),
-                reference.limit,
-                FEM * coarseness(record) * reference.limit,
-                reference.name.clone(),
-            ));
-            if let Err(why) = has_the_curve_of(&record.parameters) {
-                verdicts.push(Verdict::not_applicable("curve", "nc_0.001", why));
-                return;
-            }
-            for (metric, penetration) in CURVE {
-                let Some(expected) = reference.at(*penetration) else {
-                    continue;
-                };
-                let value = record.metric(metric);
-                verdicts.push(if value.is_nan() {
-                    Verdict::not_applicable("curve", metric, "the run ends before")
-                } else {
-                    Verdict::close(
-                        "curve",
-                        metric,
-                        value,
-                        expected,
-                        FEM * coarseness(record) * expected,
-                        reference.name.clone(),
-                    )
-                });
-            }
+            let tolerance = FEM * coarseness(record) * reference.limit;
+            let value = record.metric(METRIC);
+            Finding::within(METRIC, value, reference.limit, tolerance, reference.name)
         }
-    }
+    }]
 }
 
-pub(super) fn judge_study(records: &[Record]) -> Vec<Verdict> {
-    let mut verdicts = rates(records);
-    verdicts.extend(contacts(records));
-    verdicts.extend(orders(records));
-    verdicts
+/// The load on the way against finite elements that act as wide.
+fn load_curve(record: &Record) -> Vec<Finding> {
+    let known = curve(record).and_then(|c| has_the_curve_of(&record.parameters).map(|()| c));
+    let reference = match known {
+        Err(why) => return vec![Finding::not_applicable(CURVE[2].0, why)],
+        Ok(reference) => reference,
+    };
+    let found = CURVE.iter().filter_map(|&(metric, penetration)| {
+        let expected = reference.at(penetration)?;
+        let value = record.metric(metric);
+        if value.is_nan() {
+            return Some(Finding::not_applicable(metric, "the run ends before"));
+        }
+        let tolerance = FEM * coarseness(record) * expected;
+        let name = reference.name.clone();
+        Some(Finding::within(metric, value, expected, tolerance, name))
+    });
+    found.collect()
 }
 
 /// The same run at half the rate.
 fn halved<'a>(records: &'a [Record], run: &Record) -> Option<&'a Record> {
-    let rate = |r: &Record| r.parameters.number("penetration_rate");
+    let rate = |r: &Record| r.parameters.number(PENETRATION_RATE);
     records.iter().find(|r| {
         let others = |r: &Record| {
             let mut set = r.set.clone();
@@ -472,98 +455,69 @@ fn halved<'a>(records: &'a [Record], run: &Record) -> Option<&'a Record> {
     })
 }
 
-/// What halving the rate does to the limit load.
-fn rates(records: &[Record]) -> Vec<Verdict> {
-    let mut verdicts = Vec::new();
-    for run in records.iter().filter(|r| !is_elastic(r)) {
-        let Some(slower) = halved(records, run) else {
-            continue;
-        };
-        let change = (slower.metric("nc_b") / run.metric("nc_b") - 1.0).abs();
-        let rate = run.parameters.number("penetration_rate");
-        let what = format!(
-            "{} {} from {rate} m/s to half of it",
-            run.scheme(),
-            run.level
-        );
-        match run.remedy() {
-            // Faster ones ring: they are there to show it.
-            RemedyName::FbarConsistent if run.is_default() => verdicts.push(Verdict::at_most(
-                "rate-independent",
-                Kind::Truth,
-                "nc_b",
-                change,
-                RATE,
-                format!("a rate-independent law, pressed slowly: {what}"),
-            )),
-            RemedyName::FbarRecursive if run.is_default() => verdicts.push(Verdict::above(
-                "rate-dependent",
-                Kind::KnownLimit,
-                "nc_b",
-                change,
-                RATE,
-                format!("Eq. (26) averages the average and so diffuses J̄ in time: {what}"),
-            )),
-            _ => {}
-        }
-    }
-    verdicts
+/// What halving the rate does to the limit load of a remedy: relative change, and what was run. Faster runs than the
+/// case's own ring: they are there to show it.
+fn rates(records: &[Record], remedy: RemedyName) -> Vec<(f64, String)> {
+    let own = |r: &&Record| r.is_default() && r.remedy() == remedy && !is_elastic(r);
+    let change = |run: &Record| {
+        let slower = halved(records, run)?;
+        let change = (slower.metric(m::NC_B) / run.metric(m::NC_B) - 1.0).abs();
+        let rate = run.parameters.number(PENETRATION_RATE);
+        let (scheme, level) = (run.scheme(), &run.level);
+        Some((
+            change,
+            format!("{scheme} {level} from {rate} m/s to half of it"),
+        ))
+    };
+    records.iter().filter(own).filter_map(change).collect()
 }
 
 /// What the barrier changes against held nodes.
-fn contacts(records: &[Record]) -> Vec<Verdict> {
-    let mut verdicts = Vec::new();
-    for run in records.iter().filter(|r| r.changes_only("contact")) {
+fn contacts(records: &[Record]) -> Vec<Finding> {
+    let found = |run: &Record| {
         let same =
             |r: &&Record| r.is_default() && r.scheme() == run.scheme() && r.level == run.level;
-        let Some(held) = records.iter().find(same) else {
-            continue;
-        };
-        verdicts.push(Verdict::close(
-            "contacts-agree",
-            "nc_b",
-            run.metric("nc_b"),
-            held.metric("nc_b"),
-            2.0 * run.discretisation.h / WIDTH * held.metric("nc_b"),
+        let held = records.iter().find(same)?.metric(m::NC_B);
+        let (scheme, level) = (run.scheme(), &run.level);
+        Some(Finding::within(
+            m::NC_B,
+            run.metric(m::NC_B),
+            held,
+            2.0 * run.discretisation.h / WIDTH * held,
             format!(
-                "{} {}: a barrier on particles and held nodes; the edges of either are known to half a cell",
-                run.scheme(),
-                run.level
+                "{scheme} {level}: a barrier on particles and held nodes; the edges of either are known to half a cell"
             ),
-        ));
-    }
-    verdicts
+        ))
+    };
+    let through_barrier = records.iter().filter(|r| r.changes_only(CONTACT.name));
+    through_barrier.filter_map(found).collect()
 }
 
 /// The order of the contact pressure's error by B, over runs of the case's own parameters; when they end changes nothing.
-fn orders(records: &[Record]) -> Vec<Verdict> {
-    let mut verdicts = Vec::new();
-    let schemes = crate::distinct(records.iter().map(Record::scheme));
-    for scheme in schemes {
+fn orders(records: &[Record]) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for scheme in crate::distinct(records.iter().map(Record::scheme)) {
         let mut points: Vec<(f64, f64)> = records
             .iter()
             .filter(|r| r.scheme() == scheme && is_free_of_locking(r))
-            .filter(|r| r.is_default() || r.changes_only("penetration"))
+            .filter(|r| r.is_default() || r.changes_only(PENETRATION.name))
             .filter(|r| effective_width(r.basis(), r.discretisation.h).0 > WIDTH)
-            .map(|r| (r.discretisation.h, r.metric("prandtl_error")))
+            .map(|r| (r.discretisation.h, r.metric(m::PRANDTL_ERROR)))
             .collect();
         points.sort_by(|a, b| b.0.total_cmp(&a.0));
         if points.len() < 3 {
             continue;
         }
         let (least, most) = ORDER;
-        let middle = 0.5 * (least + most);
-        let order = fit_order(&points).map_or(f64::NAN, |o| o.order);
-        verdicts.push(Verdict::close(
-            "pressure-order",
-            "prandtl_error",
-            order,
-            middle,
+        found.push(Finding::within(
+            m::PRANDTL_ERROR,
+            fit_order(&points).map_or(f64::NAN, |o| o.order),
+            0.5 * (least + most),
             0.5 * (most - least),
             format!("{scheme}: the error is the footing's excess width h/B, to first order"),
         ));
     }
-    verdicts
+    found
 }
 
 #[cfg(test)]

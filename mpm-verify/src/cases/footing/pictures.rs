@@ -1,19 +1,17 @@
 //! The pictures of the strip footing: the paper's Figures 8 and 10, and Prandtl's mechanism.
 
-use super::Picture;
-use super::curves::write_curves;
-use crate::cases::footing_limit;
+use super::parameters::PENETRATION;
+use super::reference::{EXACT, limit_curve};
 use crate::draw::style::{Colour, series};
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Scale, Series, draw_charts,
     draw_fields, share_ranges,
 };
 use crate::error::Error;
+use crate::gallery::Gallery;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use crate::study::{CaseStudy, Gathered};
 use crate::table::Table;
-use std::path::Path;
 
 const BASES: [(BasisName, &str); 2] = [
     (BasisName::Gimp, "GIMP"),
@@ -39,40 +37,27 @@ const STRAINS: (f64, f64) = (-5.0, -2.0);
 /// The footing (m).
 const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.08), (0.0, 0.08)];
 
-struct Runs<'a> {
-    records: Vec<&'a Record>,
-    gathered: &'a Gathered,
-    out: &'a Path,
-    pictures: Vec<Picture>,
+struct Runs<'a, 'g> {
+    gallery: &'a mut Gallery<'g>,
+    records: Vec<&'g Record>,
 }
 
 /// Draws everything there are runs for.
-pub(super) fn draw(
-    study: &CaseStudy,
-    gathered: &Gathered,
-    out: &Path,
-) -> Result<Vec<Picture>, Error> {
-    let mut runs = Runs {
-        records: study
-            .records
-            .iter()
-            .filter(|r| r.status == Status::Ok && r.transfer() == TransferName::Flip)
-            .filter(|r| r.is_default() || r.changes_only("penetration"))
-            .collect(),
-        gathered,
-        out,
-        pictures: Vec::new(),
-    };
+pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
+    let own = |r: &&Record| r.is_default() || r.changes_only(PENETRATION.name);
+    let ended = |r: &&Record| r.status == Status::Ok && r.transfer() == TransferName::Flip;
+    let records = gallery.records.iter().filter(ended).filter(own).collect();
+    let mut runs = Runs { gallery, records };
     runs.curves()?;
     for (basis, title) in BASES {
         runs.mean_stress(basis, title)?;
         runs.mechanism(basis, title)?;
     }
-    Ok(runs.pictures)
+    Ok(())
 }
 
-impl Runs<'_> {
-    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
+impl<'g> Runs<'_, 'g> {
+    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&'g Record> {
         self.records
             .iter()
             .find(|r| r.basis() == basis && r.remedy() == remedy && r.level == level)
@@ -88,12 +73,8 @@ impl Runs<'_> {
         LEVELS.into_iter().find(there)
     }
 
-    fn table(&self, record: &Record, file: &str) -> Result<Table, Error> {
-        Table::read(&self.gathered.folder(record)?.join(file))
-    }
-
     fn curve(&self, record: &Record) -> Result<Vec<(f64, f64)>, Error> {
-        let table = self.table(record, "series.csv")?;
+        let table = self.gallery.table(record, "series.csv")?;
         let points = table.points("penetration", "pressure_over_strength");
         // What rings at the start is inertia, and would hide the elastic branch.
         Ok(points
@@ -156,9 +137,9 @@ impl Runs<'_> {
         if charts.is_empty() {
             return Ok(());
         }
-        let path = self.out.join("footing/load-settlement.png");
+        let path = self.gallery.place("load-settlement.png");
         share_ranges(&path, &mut charts)?;
-        write_curves(&self.out.join("footing/load-settlement.csv"), &charts)?;
+        self.gallery.write_curves("load-settlement.csv", &charts)?;
         let about: Vec<Chart> = charts
             .iter()
             .take(BASES.len())
@@ -176,7 +157,7 @@ impl Runs<'_> {
     fn chart(&self, title: String, mut curves: Vec<Series>) -> Chart {
         curves.push(Series {
             name: "finite elements, h → 0".to_owned(),
-            points: (footing_limit().into_iter())
+            points: (limit_curve().into_iter())
                 .map(|(s, q)| (1e3 * s, q))
                 .filter(|(s, _)| *s <= 4.0)
                 .collect(),
@@ -193,7 +174,7 @@ impl Runs<'_> {
             series: curves,
             reference_lines: vec![ReferenceLine {
                 name: "2 + π".to_owned(),
-                value: 2.0 + std::f64::consts::PI,
+                value: EXACT,
                 band: None,
             }],
             slope_triangle: None,
@@ -203,10 +184,7 @@ impl Runs<'_> {
     }
 
     fn picture(&mut self, name: &str, caption: &str) {
-        self.pictures.push(Picture {
-            file: format!("footing/{name}.png"),
-            caption: caption.to_owned(),
-        });
+        self.gallery.hang(&format!("{name}.png"), caption);
     }
 
     fn panel(
@@ -215,7 +193,7 @@ impl Runs<'_> {
         title: String,
         value: impl Fn(&Table, usize) -> f64,
     ) -> Result<FieldPanel, Error> {
-        let table = self.table(record, "particles.csv")?;
+        let table = self.gallery.table(record, "particles.csv")?;
         let near = |(x, y): &(f64, f64)| *x <= NEAR.0 && *y >= -NEAR.1;
         let kept: Vec<(usize, (f64, f64))> = (table.points("reference_x", "reference_y"))
             .into_iter()
@@ -239,7 +217,7 @@ impl Runs<'_> {
         (range, label): ((f64, f64), &str),
     ) -> Result<(), Error> {
         draw_fields(
-            &self.out.join(format!("footing/{name}.png")),
+            &self.gallery.place(&format!("{name}.png")),
             &FieldFigure {
                 title,
                 panels,
@@ -292,7 +270,7 @@ impl Runs<'_> {
         let Some(record) = self.find(basis, remedy, level) else {
             return Ok(());
         };
-        let stroke = 0.25 * record.parameters.number("penetration");
+        let stroke = 0.25 * record.parameters.number(PENETRATION);
         let speed = |table: &Table, k: usize| {
             table.column("plateau_ux")[k].hypot(table.column("plateau_uy")[k]) / stroke
         };

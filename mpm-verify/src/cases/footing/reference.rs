@@ -1,6 +1,10 @@
 //! The references: Prandtl's limit load and an independent finite-element solution.
 
-use super::simulation::{WIDTH, effective_width};
+use super::geometry::{WIDTH, effective_width};
+use super::parameters::{
+    BARRIER, CONTACT, DOMAIN_DEPTH, DOMAIN_WIDTH, POISSON_RATIO, ROUGH, UNDRAINED_STRENGTH,
+    YOUNG_MODULUS,
+};
 use crate::parameter::Parameters;
 use crate::record::Record;
 use serde::Deserialize;
@@ -10,16 +14,6 @@ const SOLUTIONS: &str = include_str!("../../../references/footing.json");
 
 /// Prandtl's bearing capacity factor of a strip footing (1920), smooth or rough.
 pub(super) const EXACT: f64 = 2.0 + std::f64::consts::PI;
-
-/// Metrics of the curve and the penetrations over B at which they are measured.
-pub(super) const CURVE: &[(&str, f64)] = &[
-    ("nc_0.0003", 3e-4),
-    ("nc_0.0005", 5e-4),
-    ("nc_0.001", 1e-3),
-    ("nc_0.0015", 1.5e-3),
-    ("nc_0.002", 2e-3),
-    ("nc_0.003", 3e-3),
-];
 
 #[derive(Debug, Deserialize)]
 struct Document {
@@ -81,17 +75,10 @@ struct Pressure {
 /// Mean normal stress over the strength at the limit load, at a material point (in B, the surface at zero).
 #[derive(Debug, Deserialize)]
 pub(super) struct MeanStress {
-    pub(super) x: f64,
-    pub(super) y: f64,
+    x: f64,
+    y: f64,
     pub(super) value: f64,
     pub(super) uncertainty: f64,
-}
-
-impl MeanStress {
-    /// Name of the metric that measures it.
-    pub(super) fn metric(&self) -> String {
-        format!("mean_stress_{}_{}", self.x, -self.y)
-    }
 }
 
 /// What a run is held against: pressures over the strength for F/(B/2).
@@ -122,7 +109,7 @@ fn document() -> Option<&'static Document> {
 }
 
 /// The curve of vanishing elements as (s/B, q/s_u), to be drawn.
-pub(crate) fn footing_limit() -> Vec<(f64, f64)> {
+pub(super) fn limit_curve() -> Vec<(f64, f64)> {
     let curve = document().map(|d| &d.extrapolated.curve);
     let points = curve.into_iter().flatten();
     points.map(|p| (p.settlement, p.pressure)).collect()
@@ -133,9 +120,10 @@ pub(super) fn strength_ratio() -> f64 {
     document().map_or(f64::NAN, |d| d.strength / d.young_modulus)
 }
 
-/// Where mean stresses are known.
-pub(super) fn mean_stresses() -> &'static [MeanStress] {
-    document().map_or(&[], |d| &d.extrapolated.mean_stress)
+/// The mean normal stress at a material point (in B), where it is known.
+pub(super) fn mean_stress_at(point: [f64; 2]) -> Option<&'static MeanStress> {
+    let known = &document()?.extrapolated.mean_stress;
+    known.iter().find(|s| [s.x, s.y] == point)
 }
 
 fn close(a: f64, b: f64) -> bool {
@@ -152,7 +140,7 @@ enum Elements {
 
 fn elements(record: &Record) -> Result<Elements, String> {
     let h = record.discretisation.h;
-    if record.parameters.is("contact", "barrier") {
+    if record.parameters.is(CONTACT, BARRIER) {
         return Err("no elements press through a barrier: see contacts-agree".to_owned());
     }
     match effective_width(record.basis(), h).0 {
@@ -170,13 +158,13 @@ pub(super) fn curve(record: &Record) -> Result<Curve, String> {
     let Some(document) = document() else {
         return Err("the stored reference can't be read".to_owned());
     };
-    for name in ["domain_width", "domain_depth"] {
-        if record.parameters.number(name) < ROOM {
+    for extent in [DOMAIN_WIDTH, DOMAIN_DEPTH] {
+        if record.parameters.number(extent) < ROOM {
             return Err(format!("the ground is less than {ROOM} B wide or deep"));
         }
     }
     let h = record.discretisation.h;
-    let rough = record.parameters.boolean("rough");
+    let rough = record.parameters.boolean(ROUGH);
     if let Elements::Vanishing = elements(record)? {
         if !rough {
             return Err("the extrapolated reference is that of a rough footing".to_owned());
@@ -216,19 +204,19 @@ pub(super) fn has_the_curve_of(parameters: &Parameters) -> Result<(), String> {
     let Some(document) = document() else {
         return Err("the stored reference can't be read".to_owned());
     };
-    let number = |name| parameters.number(name);
+    let number = |p| parameters.number(p);
     let wanted = [
-        ("poisson_ratio", document.poisson_ratio),
-        ("domain_width", document.domain),
-        ("domain_depth", document.domain),
+        (POISSON_RATIO, document.poisson_ratio),
+        (DOMAIN_WIDTH, document.domain),
+        (DOMAIN_DEPTH, document.domain),
     ];
-    for (name, value) in wanted {
-        if !close(number(name), value) {
-            let own = number(name);
+    for (of, value) in wanted {
+        let (own, name) = (number(of), of.name);
+        if !close(own, value) {
             return Err(format!("the curve is for {name} = {value}, not {own}"));
         }
     }
-    let ratio = number("undrained_strength") / number("young_modulus");
+    let ratio = number(UNDRAINED_STRENGTH) / number(YOUNG_MODULUS);
     if close(ratio, strength_ratio()) {
         Ok(())
     } else {
@@ -244,15 +232,15 @@ pub(super) fn elastic_slope(record: &Record) -> Result<f64, String> {
     let Some(document) = document() else {
         return Err("the stored reference can't be read".to_owned());
     };
-    let number = |name| record.parameters.number(name);
-    if !record.parameters.boolean("rough") {
+    let number = |p| record.parameters.number(p);
+    if !record.parameters.boolean(ROUGH) {
         return Err("the slopes are those of a rough footing".to_owned());
     }
-    let (ratio, width) = (number("poisson_ratio"), number("domain_width"));
+    let (ratio, width) = (number(POISSON_RATIO), number(DOMAIN_WIDTH));
     let found = document.slopes.iter().find(|s| {
         close(s.poisson_ratio, ratio)
             && close(s.domain, width)
-            && close(s.domain, number("domain_depth"))
+            && close(s.domain, number(DOMAIN_DEPTH))
     });
     let Some(slopes) = found else {
         return Err(format!("no slope for ν = {ratio} and this domain"));

@@ -1,6 +1,6 @@
 //! The geometry of the strip footing.
 
-use super::simulation::WIDTH;
+use super::geometry::WIDTH;
 use crate::sketch::{Shape, Sketch};
 
 /// Width and depth of the ground in widths of the footing.

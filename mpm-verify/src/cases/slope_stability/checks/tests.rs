@@ -3,8 +3,8 @@
 use super::super::PARAMETERS;
 use super::*;
 use crate::report::fixture::{self, outcomes};
-use crate::verdict::Verdict;
 use crate::scheme::BasisName;
+use crate::verdict::Verdict;
 
 const METRIC: &str = "strength_reduction_factor";
 const OURS: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarConsistent);

@@ -1,0 +1,160 @@
+//! Where the footing begins: ground, sides, base, and what presses.
+
+use super::geometry::WIDTH;
+use super::parameters::{
+    BARRIER, CFL, CONTACT, DAMPING, DENSITY, DOMAIN_DEPTH, DOMAIN_WIDTH, FLIP, PENETRATION_RATE,
+    POISSON_RATIO, PPC_PER_DIRECTION, RAMP, ROUGH, UNDRAINED_STRENGTH, WALL, WALL_LINE,
+    YOUNG_MODULUS,
+};
+use super::reference::EXACT;
+use crate::parameter::Parameters;
+use crate::spec::RunSpec;
+use mpm_core::basis::WallTreatment;
+use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
+use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Settings, courant_time_step};
+use mpm_core::material::{HenckyJ2, Law, Strength};
+use mpm_core::stage::{End, LocalDamping, RigidNodes, Wall, WallKind};
+use mpm_core::{Axis, Body, Error, Grid, Particles, Scene, Side, Simulation};
+use mpm_solvers::solver;
+
+/// Cells of the grid above the surface.
+const ROOM: usize = 3;
+/// Places of constraints in the scene's list.
+pub(super) const BASE: usize = 0;
+pub(super) const FOOTING: usize = 3;
+/// Reach d̂ of the barrier over the cell size.
+const REACH: f64 = 0.25;
+/// Share of its reach by which the barrier gives way under Prandtl's pressure.
+const GIVES_WAY: f64 = 0.002;
+
+/// What presses on the ground.
+pub(super) enum Press {
+    /// Held nodes.
+    RigidNodes,
+    /// A barrier on so many particles.
+    Barrier(Barrier, f64),
+}
+
+impl Press {
+    /// On cells of size `h` (m).
+    pub(super) fn new(h: f64, parameters: &Parameters) -> Result<Self, Error> {
+        if !parameters.is(CONTACT, BARRIER) {
+            return Ok(Self::RigidNodes);
+        }
+        let spacing = h / parameters.number(PPC_PER_DIRECTION);
+        let force = EXACT * parameters.number(UNDRAINED_STRENGTH) * spacing;
+        let reach = REACH * h;
+        let barrier = Barrier::carrying_at(force, (1.0 - GIVES_WAY) * reach, reach)?;
+        Ok(Self::Barrier(barrier, (0.5 * WIDTH / spacing).round()))
+    }
+}
+
+fn law(parameters: &Parameters) -> Result<HenckyJ2, Error> {
+    let number = |p| parameters.number(p);
+    let strength = Strength::undrained(number(UNDRAINED_STRENGTH))?;
+    HenckyJ2::new(number(YOUNG_MODULUS), number(POISSON_RATIO), strength)
+}
+
+/// The time step (s) on cells of size `h` (m).
+pub(super) fn time_step(h: f64, parameters: &Parameters) -> Result<f64, Error> {
+    let speed = law(parameters)?.wave_speed(parameters.number(DENSITY));
+    Ok(courant_time_step(parameters.number(CFL), h, speed))
+}
+
+/// The simulation at its start.
+///
+/// # Errors
+/// The parameters don't make a scene.
+pub(super) fn begin(
+    spec: &RunSpec,
+    parameters: &Parameters,
+    press: &Press,
+) -> Result<Box<dyn Simulation<2>>, Error> {
+    let h = spec.level.h;
+    let number = |p| parameters.number(p);
+    let cells = |widths: f64| (widths * WIDTH / h).round() as usize;
+    let (across, down) = (cells(number(DOMAIN_WIDTH)), cells(number(DOMAIN_DEPTH)));
+    let upward = Axis::bounded(-(down as f64) * h, down + ROOM, (Side::Wall, Side::Open));
+    let grid = Grid::new(h, [Axis::walls(0.0, across), upward])?;
+    let per_direction = number(PPC_PER_DIRECTION);
+    let spacing = h / per_direction;
+    let particles = Particles::new(
+        spec.start_at(seed(across, down, per_direction as usize, spacing)),
+        spacing * spacing,
+        number(DENSITY),
+        [0.5 * spacing; 2],
+    )?;
+    let ground = Scene::new(grid, Body::new(law(parameters)?, particles)?).constrain_all(walls());
+    let scene = match press {
+        Press::RigidNodes => ground.constrain(held_nodes(parameters, h)),
+        Press::Barrier(barrier, _) => {
+            let contact = barrier_contact(*barrier, parameters, h, &ground.body.particles)?;
+            ground.contact(contact)
+        }
+    };
+    let mut settings = Settings::new(time_step(h, parameters)?)
+        .wall(if parameters.is(WALL, WALL_LINE) {
+            WallTreatment::WallLine
+        } else {
+            WallTreatment::OpenKnot
+        })
+        .transfer(Flip::new(number(FLIP))?)
+        .remedy(spec.scheme.remedy().build());
+    if number(DAMPING) > 0.0 {
+        settings = settings.filter_forces(LocalDamping::new(number(DAMPING))?);
+    }
+    solver(spec.scheme, scene, settings)
+}
+
+/// Particles row by row from the surface down, in columns from the axis of symmetry.
+fn seed(across: usize, down: usize, per_direction: usize, spacing: f64) -> Vec<[f64; 2]> {
+    let coordinate = |k: usize| (k as f64 + 0.5) * spacing;
+    (0..across * per_direction)
+        .flat_map(|i| (0..down * per_direction).map(move |j| [coordinate(i), -coordinate(j)]))
+        .collect()
+}
+
+/// The fixed base and rollers at the sides.
+fn walls() -> [Wall; 3] {
+    let wall = |axis, end, kind| Wall { axis, end, kind };
+    [
+        wall(1, End::Lo, WallKind::Fixed),
+        wall(0, End::Lo, WallKind::Roller),
+        wall(0, End::Hi, WallKind::Roller),
+    ]
+}
+
+/// The footing as held nodes: those on and above the surface, and those of the splines with nodes in the middle of
+/// cells that lie half a cell below, without which the surface would not be rigid.
+fn held_nodes(parameters: &Parameters, h: f64) -> RigidNodes<2> {
+    RigidNodes {
+        extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * h, f64::INFINITY]],
+        velocity: [
+            parameters.boolean(ROUGH).then_some(0.0),
+            Some(-parameters.number(PENETRATION_RATE)),
+        ],
+        ramp: parameters.number(RAMP),
+    }
+}
+
+/// The footing as a barrier on the particles that come near it.
+fn barrier_contact(
+    barrier: Barrier,
+    parameters: &Parameters,
+    h: f64,
+    particles: &Particles<2>,
+) -> Result<RigidContact<2>, Error> {
+    let reach = REACH * h;
+    let rate = parameters.number(PENETRATION_RATE);
+    let face = RigidFace::half_space(1, End::Hi, 0.0)?
+        .within([[f64::NEG_INFINITY, 0.5 * WIDTH], [0.0; 2]])
+        .touching(particles, reach)
+        .moving([0.0, -rate], parameters.number(RAMP))?;
+    let contact = RigidContact::new(face, barrier);
+    if !parameters.boolean(ROUGH) {
+        return Ok(contact);
+    }
+    let stiffness = barrier.stiffness((1.0 - GIVES_WAY) * reach);
+    Ok(contact.with_friction(Friction::rough(stiffness)?))
+}
