@@ -212,6 +212,6 @@ fn plan_3d() -> Vec<Family> {
     ]
 }
 
-/// Of the pull request in three dimensions: a narrow slice of a short crest before a short floor, just after the
-/// gravity stage.
-const SHORT: &[&str] = &["width=2", "floor=3", "duration=0.1"];
+/// Of the pull request in three dimensions: a narrow slice before a short floor, from under rising gravity to just
+/// after the reduction, by long steps.
+const SHORT: &[&str] = &["width=2", "floor=3", "duration=0.1", "cfl=0.7"];

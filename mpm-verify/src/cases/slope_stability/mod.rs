@@ -99,7 +99,7 @@ pub(super) fn case() -> Case {
         ],
         parameters: PARAMETERS.to_vec(),
         plan: vec![
-            family(Pr, &levels[..1], &pairs(&[Gimp], &[none, FbarRecursive, FbarConsistent]), &["trials=5"]),
+            family(Pr, &levels[..1], &pairs(&[Gimp], &[none, FbarRecursive, FbarConsistent]), &["most=2", "trials=3"]),
             family(Nightly, &levels[..2], &all, &[]),
             family(Long, &levels[2..], &all, &[]),
         ],
