@@ -94,14 +94,25 @@ fn energy_may_be_lost_down_to_water_at_rest_and_not_gained() {
         [Some(false)]
     );
     let total = (BasisName::Gimp, RemedyName::FbarTotal);
-    let made = |value| {
-        let early = ["duration=0.6"];
-        judged(total, &early, (m::MOTION_EXCESS, value), "makes-energy")
-    };
-    assert_eq!(
-        (made(1.0), made(0.0)),
-        (vec![Some(true)], vec![Some(false)])
-    );
+    let made = |set: &[&str], value, check| judged(total, set, (m::MOTION_EXCESS, value), check);
+    assert_eq!(made(&[], 1.0, "makes-energy"), [Some(true)]);
+    assert_eq!(made(&[], 0.0, "makes-energy"), [Some(false)]);
+    // Whatever is changed, energy that is made is seen, and none is demanded.
+    for changed in ["duration=0.6", "pic_rate=1", "bulk_modulus=1e6"] {
+        let set = [changed];
+        assert_eq!(made(&set, 1.0, "makes-energy"), [Some(true)], "{changed}");
+        assert_eq!(made(&set, 1.0, "motion-not-gained"), [], "{changed}");
+        assert_eq!(made(&set, 0.0, "makes-energy"), [], "{changed}");
+        assert_eq!(made(&set, 0.0, "motion-not-gained"), [Some(true)]);
+    }
+    // Only the remedies that are known for it may make any.
+    for scheme in [OURS, STANDARD, PRINTED] {
+        for set in [&[][..], &["pic_rate=1"], &["bulk_modulus=1e6"]] {
+            let of = |check| judged(scheme, set, (m::MOTION_EXCESS, 436.0), check);
+            assert_eq!(of("makes-energy"), []);
+            assert_eq!(of("motion-not-gained"), [Some(false)]);
+        }
+    }
     assert!(breaks_down(&run(total, 0.25, &[], &[])).is_some());
     assert!(breaks_down(&run(total, 0.25, &["duration=0.6"], &[])).is_none());
     // On the coarsest cells it takes small steps to keep water that makes energy, and large ones to make none.
@@ -189,6 +200,26 @@ fn averages_have_to_smooth_and_errors_to_fall() {
         (falls(0.2), falls(0.31)),
         (vec![Some(true)], vec![Some(false)])
     );
+}
+
+#[test]
+fn short_runs_are_compared_with_their_like() {
+    let short = ["cfl=0.3", "duration=0.6"];
+    let front = |h, set: &[&str], x: f64| {
+        let metrics = [(m::FRONT_RMS_ERROR, 6.0 - x), (m::FRONT_X_EARLY, x)];
+        run(OURS, h, set, &metrics)
+    };
+    let runs = [
+        front(0.5, &["duration=0.6"], 5.1),
+        front(0.5, &short, 5.12),
+        front(0.25, &short, 5.3),
+        front(0.125, &short, 5.2),
+    ];
+    let verdicts = judge_study(&runs);
+    let falls = outcomes(&verdicts, "front-converges");
+    assert_eq!(falls, [Some(true), Some(false)]);
+    assert_eq!(outcomes(&verdicts, "time-step"), [Some(true)]);
+    assert_eq!(outcomes(&verdicts, "late-converges"), []);
 }
 
 #[test]
