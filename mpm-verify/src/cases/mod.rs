@@ -5,6 +5,7 @@ use crate::error::Error;
 use std::sync::LazyLock;
 
 mod column;
+mod cook;
 mod dam_break;
 mod family;
 mod footing;
@@ -24,6 +25,7 @@ mod vibrating_bar;
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
     vec![
+        cook::case(),
         footing::case(),
         dam_break::case(),
         landslide::case(),

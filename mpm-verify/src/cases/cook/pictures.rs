@@ -1,17 +1,15 @@
 //! The pictures of Cook's membrane.
 
-use super::Picture;
+use super::metrics::{FEM_MID_EDGE_ERROR, FEM_TIP_ERROR, MID_EDGE_UY, TIP_UY};
 use crate::draw::style::{Colour, series};
 use crate::draw::{
     Chart, FieldFigure, FieldPanel, ReferenceLine, Scale, Series, draw_charts, draw_fields,
 };
 use crate::error::Error;
-use crate::files::write_csv;
+use crate::gallery::Gallery;
+use crate::metric::Metric;
 use crate::record::{Record, Status, of_own_parameters};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use crate::study::{CaseStudy, Gathered};
-use crate::table::Table;
-use std::path::Path;
 
 /// The mean normal stress is drawn between plus and minus this (Pa); the reference reaches 0.127 Pa
 /// away from the corners.
@@ -19,34 +17,24 @@ const STRESS_RANGE: f64 = 0.15;
 const BASES: [BasisName; 3] = [BasisName::Gimp, BasisName::Bspline2, BasisName::Bspline3];
 const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (48.0, 44.0), (48.0, 60.0), (0.0, 44.0)];
 
-struct Runs<'a> {
-    records: Vec<&'a Record>,
-    gathered: &'a Gathered,
-    out: &'a Path,
-    pictures: Vec<Picture>,
+struct Runs<'a, 'g> {
+    gallery: &'a mut Gallery<'g>,
+    records: Vec<&'g Record>,
 }
 
 /// Draws everything there are runs for.
-pub(super) fn draw(
-    study: &CaseStudy,
-    gathered: &Gathered,
-    out: &Path,
-) -> Result<Vec<Picture>, Error> {
-    let mut runs = Runs {
-        records: of_own_parameters(&study.records)
-            .into_iter()
-            .filter(|r| r.status == Status::Ok && r.transfer() == TransferName::Flip)
-            .collect(),
-        gathered,
-        out,
-        pictures: Vec::new(),
-    };
+pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
+    let ended = |r: &&Record| r.status == Status::Ok && r.transfer() == TransferName::Flip;
+    let records = of_own_parameters(gallery.records)
+        .into_iter()
+        .filter(ended)
+        .collect();
+    let mut runs = Runs { gallery, records };
     for basis in BASES {
         runs.fields(basis)?;
     }
     runs.displacement()?;
-    runs.rest()?;
-    Ok(runs.pictures)
+    runs.rest()
 }
 
 fn basis_title(basis: BasisName) -> &'static str {
@@ -58,16 +46,12 @@ fn basis_title(basis: BasisName) -> &'static str {
     }
 }
 
-impl Runs<'_> {
-    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&Record> {
+impl<'g> Runs<'_, 'g> {
+    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&'g Record> {
         self.records
             .iter()
             .find(|r| r.basis() == basis && r.remedy() == remedy && r.level == level)
             .copied()
-    }
-
-    fn table(&self, record: &Record, file: &str) -> Result<Table, Error> {
-        Table::read(&self.gathered.folder(record)?.join(file))
     }
 
     /// One series per scheme over the levels, of records for which `measure` is finite.
@@ -99,40 +83,24 @@ impl Runs<'_> {
         if charts.iter().any(|c| c.series.is_empty()) {
             return Ok(());
         }
-        let rows = charts.iter().flat_map(|chart| {
-            chart.series.iter().flat_map(move |s| {
-                s.points.iter().map(move |(x, y)| {
-                    vec![
-                        chart.title.clone(),
-                        s.name.clone(),
-                        x.to_string(),
-                        y.to_string(),
-                    ]
-                })
-            })
-        });
-        let header = ["chart", "series", "x", "y"].map(str::to_owned);
-        write_csv(&self.out.join(format!("cook/{name}.csv")), &header, rows)?;
-        draw_charts(&self.out.join(format!("cook/{name}.png")), charts, 2)?;
+        self.gallery.write_curves(&format!("{name}.csv"), charts)?;
+        draw_charts(&self.gallery.place(&format!("{name}.png")), charts, 2)?;
         self.picture(name, caption);
         Ok(())
     }
 
     fn picture(&mut self, name: &str, caption: &str) {
-        self.pictures.push(Picture {
-            file: format!("cook/{name}.png"),
-            caption: caption.to_owned(),
-        });
+        self.gallery.hang(&format!("{name}.png"), caption);
     }
 
     fn fields(&mut self, basis: BasisName) -> Result<(), Error> {
         let mut panels = Vec::new();
         for level in ["h1", "h0.5"] {
-            for remedy in [RemedyName::None, RemedyName::FbarRate] {
+            for remedy in [RemedyName::None, RemedyName::FbarConsistent] {
                 let Some(record) = self.find(basis, remedy, level) else {
                     continue;
                 };
-                let table = self.table(record, "particles.csv")?;
+                let table = self.gallery.table(record, "particles.csv")?;
                 let spacing = record.discretisation.h / f64::from(record.discretisation.ppc).sqrt();
                 panels.push(FieldPanel {
                     title: match remedy {
@@ -151,7 +119,7 @@ impl Runs<'_> {
         }
         let name = format!("mean-stress-{basis}");
         draw_fields(
-            &self.out.join(format!("cook/{name}.png")),
+            &self.gallery.place(&format!("{name}.png")),
             &FieldFigure {
                 title: format!("Cook's membrane at rest, {}", basis_title(basis)),
                 panels,
@@ -179,7 +147,7 @@ impl Runs<'_> {
             RemedyName::FbarTotal,
             RemedyName::FbarRate,
         ];
-        let chart = |title: &str, metric: &'static str, error: &'static str| {
+        let chart = |title: &str, metric: Metric, error: Metric| {
             let series = self.over_levels(&at_rest, |r| (r.discretisation.h, r.metric(metric)));
             let reference = self.records.iter().find_map(|r| {
                 let exact = r.metric(metric) / (1.0 + r.metric(error));
@@ -206,12 +174,8 @@ impl Runs<'_> {
             }
         };
         let charts = [
-            chart(
-                "Middle of the right side",
-                "mid_edge_uy",
-                "fem_mid_edge_error",
-            ),
-            chart("Upper right corner", "tip_uy", "fem_tip_error"),
+            chart("Middle of the right side", MID_EDGE_UY, FEM_MID_EDGE_ERROR),
+            chart("Upper right corner", TIP_UY, FEM_TIP_ERROR),
         ];
         self.charts(
             "displacement",
@@ -240,7 +204,7 @@ impl Runs<'_> {
             let Some(record) = self.find(BasisName::Gimp, remedy, level) else {
                 continue;
             };
-            let table = self.table(record, "series.csv")?;
+            let table = self.gallery.table(record, "series.csv")?;
             let scheme = record.scheme();
             tip.push(series(
                 scheme,

@@ -1,6 +1,7 @@
 //! The reference: an independent finite-element solution, valid for stated parameters.
 
-use super::simulation::away_from_singularities;
+use super::geometry::away_from_singularities;
+use super::parameters::{LOAD, POISSON_RATIO, YOUNG_MODULUS};
 use crate::parameter::Parameters;
 use crate::statistics::rms;
 use serde::Deserialize;
@@ -40,16 +41,9 @@ pub(super) struct Displacement {
 /// Mean normal stress at a material point.
 #[derive(Debug, Clone, Copy, Deserialize)]
 pub(super) struct StressPoint {
-    pub(super) x: f64,
-    pub(super) y: f64,
+    x: f64,
+    y: f64,
     pub(super) value: f64,
-}
-
-impl StressPoint {
-    /// Name of the metric that measures it.
-    pub(super) fn metric(&self) -> String {
-        format!("mean_stress_{}_{}", self.x, self.y)
-    }
 }
 
 /// The solution at one Poisson's ratio.
@@ -60,8 +54,15 @@ pub(super) struct Solution {
     pub(super) mid_edge: Displacement,
     pub(super) edge_mean_uy: f64,
     pub(super) uncertainty_displacement: f64,
-    pub(super) mean_stress: Vec<StressPoint>,
+    mean_stress: Vec<StressPoint>,
     pub(super) uncertainty_mean_stress: f64,
+}
+
+impl Solution {
+    /// The mean normal stress at a material point (m), where it is known.
+    pub(super) fn mean_stress_at(&self, point: [f64; 2]) -> Option<&StressPoint> {
+        self.mean_stress.iter().find(|s| [s.x, s.y] == point)
+    }
 }
 
 fn document() -> Option<&'static Document> {
@@ -76,23 +77,18 @@ pub(super) fn load_shift(h: f64) -> Option<&'static LoadShift> {
     document()?.load_inset.iter().find(|s| s.h == h)
 }
 
-/// Where mean stresses are probed.
-pub(super) fn stress_points() -> &'static [StressPoint] {
-    document().map_or(&[], |d| &d.solutions[0].mean_stress)
-}
-
 /// The solution for `parameters`, if the reference covers them: displacements depend on ν and on
 /// load over E alone, so both must be those of a stored solution.
 pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, String> {
     let Some(document) = document() else {
         return Err("the stored reference can't be read".to_owned());
     };
-    let ratio = parameters.number("load") / parameters.number("young_modulus");
+    let ratio = parameters.number(LOAD) / parameters.number(YOUNG_MODULUS);
     let stored = document.load_over_young_modulus;
     if (ratio - stored).abs() > 1e-9 * stored {
         return Err(format!("the reference is for load/E = 1/70, not {ratio}"));
     }
-    let nu = parameters.number("poisson_ratio");
+    let nu = parameters.number(POISSON_RATIO);
     document
         .solutions
         .iter()
@@ -102,7 +98,7 @@ pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, Str
 
 /// What the stored stresses are to be multiplied with for `parameters`.
 pub(super) fn stress_scale(parameters: &Parameters) -> f64 {
-    parameters.number("young_modulus") / MODULUS
+    parameters.number(YOUNG_MODULUS) / MODULUS
 }
 
 /// The references in words.

@@ -1,7 +1,7 @@
 //! The geometry of Cook's membrane, drawn.
 
-use super::reference::stress_points;
-use super::simulation::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT};
+use super::geometry::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT};
+use super::metrics::MEAN_STRESSES;
 use crate::sketch::{Shape, Sketch};
 
 /// The membrane as it is drawn.
@@ -41,7 +41,7 @@ pub(super) fn sketch() -> Sketch {
         [LENGTH, LEFT_HEIGHT + 0.5 * RIGHT_HEIGHT],
         "mid-edge",
     ));
-    shapes.extend(stress_points().iter().map(|p| probe([p.x, p.y], "σ_m")));
+    shapes.extend(MEAN_STRESSES.iter().map(|(_, x)| probe(*x, "σ_m")));
     Sketch {
         shapes,
         description: "A trapezoid 48 m long, 44 m high at its clamped left side and 16 m at its right side, which carries an upward load.",

@@ -1,0 +1,164 @@
+//! Where Cook's membrane begins: grid, clamp, load and damping.
+
+use super::geometry::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT, seed};
+use super::parameters::{
+    CFL, COLUMN, DAMPING, DENSITY, FLIP, KINETIC_DAMPING, LOAD, LOAD_AT, LOAD_RAMP, MAX_PERIODS,
+    POISSON_RATIO, PPC_PER_DIRECTION, REST_WINDOW, WALL, WALL_LINE, YOUNG_MODULUS,
+};
+use crate::error::Error;
+use crate::parameter::Parameters;
+use crate::spec::RunSpec;
+use mpm_core::basis::WallTreatment;
+use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Settings, courant_time_step};
+use mpm_core::material::{Law, NeoHookean};
+use mpm_core::stage::{DeadForce, End, KineticDamping, LocalDamping, Wall, WallKind};
+use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
+use mpm_solvers::solver;
+
+/// Room of the grid beyond the membrane (m): right, below, above.
+const MARGIN: (f64, f64, f64) = (2.0, 2.0, 6.0);
+/// The fundamental period (s) at E = 70 Pa and ρ = 1 kg/m³, rounded; it scales as √(ρ/E).
+const PERIOD: f64 = 60.0;
+/// Allowed load per metre of depth over Young's modulus (m).
+const LOAD_OVER_MODULUS: (f64, f64) = (1e-7, 100.0);
+
+/// The fundamental period (s).
+pub(super) fn period(parameters: &Parameters) -> f64 {
+    let number = |p| parameters.number(p);
+    PERIOD * (number(DENSITY) * 70.0 / number(YOUNG_MODULUS)).sqrt()
+}
+
+fn law(parameters: &Parameters) -> Result<NeoHookean, mpm_core::Error> {
+    NeoHookean::new(
+        parameters.number(YOUNG_MODULUS),
+        parameters.number(POISSON_RATIO),
+    )
+}
+
+/// The time step (s) on cells of size `h` (m).
+pub(super) fn time_step(h: f64, parameters: &Parameters) -> Result<f64, mpm_core::Error> {
+    let speed = law(parameters)?.wave_speed(parameters.number(DENSITY));
+    Ok(courant_time_step(parameters.number(CFL), h, speed))
+}
+
+/// What must hold of parameters together.
+pub(super) fn check_together(parameters: &Parameters) -> Result<(), Error> {
+    let number = |p| parameters.number(p);
+    let strain = number(LOAD) / number(YOUNG_MODULUS);
+    let (least, most) = LOAD_OVER_MODULUS;
+    if !(least..=most).contains(&strain) {
+        return Err(Error::Input(format!(
+            "load / young_modulus = {strain} m; allowed: {least} to {most} m, below which rounding hides the answer"
+        )));
+    }
+    for of in [REST_WINDOW, LOAD_RAMP] {
+        if number(of) >= number(MAX_PERIODS) {
+            return Err(Error::Input(format!(
+                "{} = {} is not below max_periods = {}",
+                of.name,
+                number(of),
+                number(MAX_PERIODS)
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The simulation at its start.
+///
+/// # Errors
+/// The parameters don't make a scene.
+pub(super) fn begin(
+    spec: &RunSpec,
+    parameters: &Parameters,
+) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    let h = spec.level.h;
+    let number = |p| parameters.number(p);
+    let spacing = h / number(PPC_PER_DIRECTION);
+    let cells = |length: f64| (length / h).ceil() as usize;
+    let (right, below, above) = MARGIN;
+    let below = cells(below) as f64 * h;
+    let grid = Grid::new(
+        h,
+        [
+            Axis::bounded(0.0, cells(LENGTH + right), (Side::Wall, Side::Open)),
+            Axis::open(-below, cells(below + LEFT_HEIGHT + RIGHT_HEIGHT + above)),
+        ],
+    )?;
+    let particles = Particles::new(
+        spec.start_at(seed(spacing)),
+        spacing * spacing,
+        number(DENSITY),
+        [0.5 * spacing; 2],
+    )?;
+    let wall = if parameters.is(WALL, WALL_LINE) {
+        WallTreatment::WallLine
+    } else {
+        WallTreatment::OpenKnot
+    };
+    let mut settings = Settings::new(time_step(h, parameters)?)
+        .wall(wall)
+        .transfer(Flip::new(number(FLIP))?)
+        .remedy(spec.scheme.remedy().build());
+    if number(DAMPING) > 0.0 {
+        settings = settings.filter_forces(LocalDamping::new(number(DAMPING))?);
+    }
+    if parameters.boolean(KINETIC_DAMPING) {
+        settings = settings.filter_particles(KineticDamping::default());
+    }
+    let loads = loads(parameters, spacing, &particles);
+    let scene = Scene::new(grid, Body::new(law(parameters)?, particles)?).constrain(Wall {
+        axis: 0,
+        end: End::Lo,
+        kind: WallKind::Fixed,
+    });
+    let scene = loads.into_iter().fold(scene, Scene::load);
+    solver(spec.scheme, scene, settings)
+}
+
+/// The dead load: on the last column of particles, or on the last two with shares 3/2 and −1/2,
+/// whose resultant acts on the side itself.
+fn loads(parameters: &Parameters, spacing: f64, particles: &Particles<2>) -> Vec<DeadForce<2>> {
+    let total = parameters.number(LOAD);
+    let ramp = parameters.number(LOAD_RAMP) * period(parameters);
+    let column = |share: f64, from_edge: f64| {
+        DeadForce::shared([0.0, share * total], ramp, particles, |x| {
+            (x[0] - (LENGTH - from_edge * spacing)).abs() < 0.25 * spacing
+        })
+    };
+    if parameters.is(LOAD_AT, COLUMN) {
+        vec![column(1.0, 0.5)]
+    } else {
+        vec![column(1.5, 0.5), column(-0.5, 1.5)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parameters::ALL;
+    use super::*;
+    use mpm_core::stage::Load;
+
+    #[test]
+    fn the_edge_load_has_its_resultant_on_the_side() {
+        for name in ["edge", "column"] {
+            let set = [format!("load_at={name}"), "load_ramp=0".to_owned()];
+            let parameters = Parameters::new(&ALL, &set).unwrap();
+            let mut particles = Particles::new(seed(0.5), 0.25, 1.0, [0.25; 2]).unwrap();
+            for load in loads(&parameters, 0.5, &particles.clone()) {
+                load.add(0.0, &mut particles);
+            }
+            let force: f64 = particles.external_force.iter().map(|f| f[1]).sum();
+            let moment: f64 = particles
+                .external_force
+                .iter()
+                .zip(&particles.reference)
+                .map(|(f, x)| f[1] * x[0])
+                .sum();
+            let arm = if name == "edge" { 48.0 } else { 47.75 };
+            assert!((force - 1.0).abs() < 1e-12);
+            assert!((moment - arm).abs() < 1e-10);
+        }
+    }
+}

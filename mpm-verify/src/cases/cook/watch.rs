@@ -1,0 +1,376 @@
+//! What is seen of the membrane on its way to rest.
+
+use super::geometry::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT, away_from_singularities, seed};
+use super::metrics::{self as m, MEAN_STRESSES};
+use super::parameters::{DENSITY, LOAD_RAMP, MAX_PERIODS, PPC_PER_DIRECTION, REST_WINDOW, WALL};
+use super::reference::{Field as Reference, solution, stress_scale};
+use super::scene::{begin, check_together, period, time_step};
+use crate::drive::{Drive, Stage, Watch};
+use crate::error::Error;
+use crate::job::Column;
+use crate::metric::Metric;
+use crate::parameter::Parameters;
+use crate::probe::{PointProbe, nearest};
+use crate::record::Discretisation;
+use crate::scheme::RemedyName;
+use crate::spec::RunSpec;
+use crate::statistics::{Line, fit_line, rms};
+use mpm_core::stage::{Observation, RestCriterion};
+use mpm_core::{Field, Memory, Saved, Simulation};
+use serde::{Deserialize, Serialize};
+
+/// Strain per period that counts as creep.
+pub(super) const CREEP: f64 = 1e-4;
+/// Observations per period.
+const OBSERVATIONS: f64 = 240.0;
+/// Criterion of rest: relative out-of-balance virtual work, kinetic over stored energy, relative
+/// drift of the tip over the window.
+const REST: (f64, f64, f64) = (1e-3, 1e-5, 1e-4);
+/// Points on the right side whose mean is `edge_mean_uy`.
+const EDGE_POINTS: usize = 8;
+
+struct Probes {
+    mid_edge: PointProbe,
+    tip: PointProbe,
+    edge: Vec<PointProbe>,
+    stress: Vec<(Metric, PointProbe)>,
+    tip_particle: usize,
+}
+
+/// What has been seen of the membrane.
+#[derive(Default, Serialize, Deserialize)]
+pub(super) struct Seen {
+    /// The criterion of rest, as it was; none before the first row.
+    rest: Option<Saved>,
+    at_rest: bool,
+    /// (time, rms ln(J/J̄)).
+    gaps: Vec<(f64, f64)>,
+    /// Largest gain and largest loss of energy that nothing accounts for (J/m).
+    energy_defect: (f64, f64),
+    work_residuals: Vec<f64>,
+}
+
+/// A membrane that comes to rest, or doesn't.
+pub(super) struct Loaded {
+    spec: RunSpec,
+    parameters: Parameters,
+    discretisation: Discretisation,
+    references: Vec<[f64; 2]>,
+    probes: Probes,
+    max_time: f64,
+    steps_per_observation: u64,
+    period: f64,
+}
+
+impl Loaded {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// The parameters don't make a scene.
+    pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
+        check_together(parameters)?;
+        let number = |p| parameters.number(p);
+        let (h, per_direction) = (spec.level.h, number(PPC_PER_DIRECTION));
+        let (dt, period) = (time_step(h, parameters)?, period(parameters));
+        let references = spec.start_at(seed(h / per_direction));
+        let loaded = Self {
+            spec: spec.clone(),
+            parameters: parameters.clone(),
+            discretisation: Discretisation {
+                dim: 2,
+                h,
+                ppc: (per_direction * per_direction) as u32,
+                dt,
+                wall: parameters.text(WALL),
+            },
+            probes: Probes::new(&references, 2.0 * h)?,
+            references,
+            max_time: number(MAX_PERIODS) * period,
+            steps_per_observation: ((period / OBSERVATIONS / dt).round() as u64).max(1),
+            period,
+        };
+        Ok(Drive::new(loaded, Seen::default())?)
+    }
+
+    /// The criterion of rest, with what it has seen.
+    fn rest(&self, seen: &Seen) -> Result<RestCriterion, mpm_core::Error> {
+        let (force_ratio, energy_ratio, drift) = REST;
+        let window = self.parameters.number(REST_WINDOW) * self.period;
+        let mut rest = RestCriterion::new(force_ratio, energy_ratio, drift, window);
+        if let Some(saved) = &seen.rest {
+            rest.restore(saved)?;
+        }
+        Ok(rest)
+    }
+
+    /// The time (s) over which the load grows.
+    fn ramp(&self) -> f64 {
+        self.parameters.number(LOAD_RAMP) * self.period
+    }
+
+    /// Whether the run has shown, over a whole period, that it will never rest.
+    fn creeps(&self, seen: &Seen, time: f64) -> bool {
+        self.spec.scheme.remedy() == RemedyName::FbarRecursive
+            && time >= self.period.max(2.0 * self.ramp())
+            && creep(seen, time).is_some_and(|line| line.slope * self.period > CREEP)
+    }
+
+    fn stress_error(&self, mean_stress: &[f64]) -> f64 {
+        if !solution(&self.parameters).is_ok_and(|s| s.poisson_ratio == 0.499) {
+            return f64::NAN;
+        }
+        let (field, scale) = (Reference::stored(), stress_scale(&self.parameters));
+        let counted = self.references.iter().zip(mean_stress);
+        let off = counted
+            .filter(|(x, _)| away_from_singularities(x))
+            .filter_map(|(x, s)| Some(s - scale * field.interpolate(*x)?));
+        rms(off)
+    }
+}
+
+/// Displacement (m) along an axis, in seeding order.
+fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
+    let p = run.particles();
+    p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
+}
+
+/// One step, and the out-of-balance virtual work in it: Σ m a·u over Σ f·u of the load. In a
+/// linear body this is the relative error of the displacement under the load (Betti).
+fn step_and_weigh(run: &mut dyn Simulation<2>, dt: f64) -> Result<f64, mpm_core::Error> {
+    let p = run.particles();
+    let before = [0, 1].map(|a| p.seeded(|k| p.velocity[k][a]));
+    run.step()?;
+    let p = run.particles();
+    let (mut imbalance, mut load) = (0.0, 0.0);
+    for (k, id) in p.id.iter().enumerate() {
+        for a in 0..2 {
+            let u = p.position[k][a] - p.reference[k][a];
+            let acceleration = (p.velocity[k][a] - before[a][*id as usize]) / dt;
+            imbalance += p.mass[k] * acceleration * u;
+            load += p.external_force[k][a] * u;
+        }
+    }
+    Ok((imbalance / load).abs())
+}
+
+fn has_stopped(run: &dyn Simulation<2>) -> bool {
+    let mut velocities = run.particles().velocity.iter().flatten();
+    velocities.all(|v| *v == 0.0)
+}
+
+/// Mean normal stress as it enters the forces and its average Π, in seeding order.
+fn mean_stress(run: &mut dyn Simulation<2>) -> (Vec<f64>, Vec<f64>) {
+    let mean = run.field(Field::MeanStress);
+    let averaged = run.field(Field::AveragedMeanStress);
+    let p = run.particles();
+    (p.seeded(|k| mean[k]), p.seeded(|k| averaged[k]))
+}
+
+/// The growth of rms ln(J/J̄) over the second half of the time (s) so far.
+fn creep(seen: &Seen, time: f64) -> Option<Line> {
+    let later = seen.gaps.iter().copied().filter(|(t, _)| *t >= 0.5 * time);
+    fit_line(&later.collect::<Vec<_>>())
+}
+
+impl Probes {
+    fn new(references: &[[f64; 2]], radius: f64) -> Result<Self, Error> {
+        let at = |x: f64, y: f64| {
+            PointProbe::new(references, [x, y], radius)
+                .ok_or_else(|| Error::Input(format!("no particles near ({x}, {y}) m to probe")))
+        };
+        let tip = LEFT_HEIGHT + RIGHT_HEIGHT;
+        let share = |k: usize| (k as f64 + 0.5) / EDGE_POINTS as f64;
+        Ok(Self {
+            mid_edge: at(LENGTH, LEFT_HEIGHT + 0.5 * RIGHT_HEIGHT)?,
+            tip: at(LENGTH, tip)?,
+            edge: (0..EDGE_POINTS)
+                .map(|k| at(LENGTH, LEFT_HEIGHT + RIGHT_HEIGHT * share(k)))
+                .collect::<Result<_, _>>()?,
+            stress: MEAN_STRESSES
+                .iter()
+                .map(|(metric, [x, y])| Ok((*metric, at(*x, *y)?)))
+                .collect::<Result<_, Error>>()?,
+            tip_particle: nearest(references, [LENGTH, tip]),
+        })
+    }
+
+    fn edge_mean(&self, uy: &[f64]) -> f64 {
+        self.edge.iter().map(|p| p.value(uy)).sum::<f64>() / EDGE_POINTS as f64
+    }
+}
+
+impl Watch<2> for Loaded {
+    type Seen = Seen;
+
+    fn discretisation(&self) -> Discretisation {
+        self.discretisation.clone()
+    }
+
+    fn scene(&self, _: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        begin(&self.spec, &self.parameters)
+    }
+
+    fn columns(&self) -> Vec<&'static str> {
+        vec![
+            "time (s)",
+            "tip_uy (m)",
+            "mid_edge_uy (m)",
+            "kinetic_energy (J/m)",
+            "nodal_kinetic_energy (J/m)",
+            "stored_energy (J/m)",
+            "stress_work (J/m)",
+            "load_work (J/m)",
+            "damping_losses (J/m)",
+            "momentum_x (kg/s)",
+            "momentum_y (kg/s)",
+            "mass (kg/m)",
+            "jacobian_min (-)",
+            "jacobian_max (-)",
+            "log_jacobian_gap_rms (-)",
+            "log_jacobian_gap_max (-)",
+            "work_residual (-)",
+            "free_force (N/m)",
+            "reaction_y (N/m)",
+        ]
+    }
+
+    fn row(&self, seen: &mut Seen, stage: &mut Stage<2>) -> Result<Vec<f64>, mpm_core::Error> {
+        let mut rest = self.rest(seen)?;
+        stage.steps(self.steps_per_observation - 1)?;
+        let run = stage.run.as_mut();
+        let dt = self.discretisation.dt;
+        let mut work_residual = step_and_weigh(run, dt)?;
+        if has_stopped(run) {
+            // Kinetic damping struck in this very step: weigh the next one.
+            work_residual = step_and_weigh(run, dt)?;
+        }
+        let (totals, residual) = (run.totals(), run.residual());
+        let (uy, time) = (displacement(run, 1), run.time());
+        let tip = self.probes.tip.value(&uy);
+        let rests = rest.observe(Observation {
+            time,
+            force_ratio: work_residual,
+            energy_ratio: residual.kinetic_energy / totals.stored_energy,
+            displacement: tip,
+        });
+        seen.rest = Some(rest.save()?);
+        seen.at_rest = rests && time >= self.ramp();
+        seen.work_residuals.push(work_residual);
+        seen.gaps.push((time, totals.log_jacobian_gap_rms));
+        let work = totals.accumulated;
+        let losses = work.damping + work.filter_loss + work.constraint_loss;
+        let defect = totals.kinetic_energy + work.stress_work + losses - work.load_work;
+        let (gain, loss) = seen.energy_defect;
+        seen.energy_defect = (gain.max(defect), loss.max(-defect));
+        Ok(vec![
+            time,
+            tip,
+            self.probes.mid_edge.value(&uy),
+            totals.kinetic_energy,
+            residual.kinetic_energy,
+            totals.stored_energy,
+            work.stress_work,
+            work.load_work,
+            losses,
+            totals.momentum[0],
+            totals.momentum[1],
+            totals.mass,
+            totals.jacobian.0,
+            totals.jacobian.1,
+            totals.log_jacobian_gap_rms,
+            totals.log_jacobian_gap_max,
+            work_residual,
+            residual.free_force,
+            -residual.held_force[1],
+        ])
+    }
+
+    fn progress(&self, seen: &Seen, stage: &Stage<2>) -> f64 {
+        let time = stage.run.time();
+        if seen.at_rest || self.creeps(seen, time) {
+            return 1.0;
+        }
+        (time / self.max_time).min(1.0)
+    }
+
+    fn particles(&self, _: &Seen, stage: &mut Stage<2>) -> Vec<Column> {
+        let column = |name, unit, values| Column { name, unit, values };
+        let run = stage.run.as_mut();
+        let (mean_stress, averaged) = mean_stress(run);
+        let [ux, uy] = [0, 1].map(|axis| displacement(run, axis));
+        let p = run.particles();
+        let averaged_jacobian = |k: usize| p.j_bar.get(k).copied().unwrap_or(p.jacobian[k]);
+        vec![
+            column("x", "m", p.seeded(|k| p.position[k][0])),
+            column("y", "m", p.seeded(|k| p.position[k][1])),
+            column("reference_x", "m", p.seeded(|k| p.reference[k][0])),
+            column("reference_y", "m", p.seeded(|k| p.reference[k][1])),
+            column("ux", "m", ux),
+            column("uy", "m", uy),
+            column("mean_stress", "Pa", mean_stress),
+            column("averaged_mean_stress", "Pa", averaged),
+            column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
+            column("averaged_jacobian", "-", p.seeded(averaged_jacobian)),
+        ]
+    }
+
+    fn metrics(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<(Metric, f64)> {
+        let run = stage.run.as_mut();
+        let [ux, uy] = [0, 1].map(|axis| displacement(run, axis));
+        let (mean_stress, averaged) = mean_stress(run);
+        let (totals, time) = (run.totals(), run.time());
+        let creep = creep(seen, time);
+        let stress_rms = rms(mean_stress.iter().copied());
+        let board = rms(mean_stress.iter().zip(&averaged).map(|(s, a)| s - a));
+        let window = self.parameters.number(REST_WINDOW) * self.period;
+        let residuals = &seen.work_residuals;
+        let in_window = (window / time * residuals.len() as f64) as usize;
+        let last = &residuals[residuals.len().saturating_sub(in_window + 1)..];
+        let mid_edge = self.probes.mid_edge.value(&uy);
+        let edge_mean = self.probes.edge_mean(&uy);
+        let tip = self.probes.tip.value(&uy);
+        let load_work = totals.accumulated.load_work;
+        let mut values = vec![
+            (m::MID_EDGE_UY, mid_edge),
+            (m::EDGE_MEAN_UY, edge_mean),
+            (m::TIP_UY, tip),
+            (m::TIP_UY_NEAREST, uy[self.probes.tip_particle]),
+            (m::TIP_UX, self.probes.tip.value(&ux)),
+            (m::MEAN_STRESS_RMS_ERROR, self.stress_error(&mean_stress)),
+            (m::MEAN_STRESS_RMS, stress_rms),
+            (m::CHECKERBOARD_RMS, board),
+            (m::CHECKERBOARD_RATIO, board / stress_rms),
+            (m::CREEP_RATE, creep.map_or(f64::NAN, |l| l.slope)),
+            (m::CREEP_LINEARITY, creep.map_or(f64::NAN, |l| l.r_squared)),
+            (m::LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
+            (m::AT_REST, f64::from(u8::from(seen.at_rest))),
+            (m::REST_TIME, time),
+            (m::WORK_RESIDUAL, last.iter().copied().fold(0.0, f64::max)),
+            (m::REACTION_UY, -run.residual().held_force[1]),
+            (m::MASS, totals.mass),
+            (
+                m::SEEDED_VOLUME,
+                totals.mass / self.parameters.number(DENSITY),
+            ),
+            (m::ENERGY_GAIN, seen.energy_defect.0 / load_work),
+            (m::ENERGY_LOSS, seen.energy_defect.1 / load_work),
+            (m::PERIOD, self.period),
+        ];
+        let probed = self.probes.stress.iter();
+        values.extend(probed.map(|(metric, probe)| (*metric, probe.value(&mean_stress))));
+        if let Ok(reference) = solution(&self.parameters) {
+            values.extend([
+                (
+                    m::FEM_MID_EDGE_ERROR,
+                    mid_edge / reference.mid_edge.uy - 1.0,
+                ),
+                (
+                    m::FEM_EDGE_MEAN_ERROR,
+                    edge_mean / reference.edge_mean_uy - 1.0,
+                ),
+                (m::FEM_TIP_ERROR, tip / reference.tip.uy - 1.0),
+            ]);
+        }
+        values
+    }
+}
