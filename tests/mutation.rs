@@ -248,8 +248,8 @@ const FAULTS: [Fault; 23] = [
     Fault {
         name: "the water's pressure is a tenth too low",
         file: "material/newtonian_fluid.rs",
-        sound: "self.bulk_modulus * (j - 1.0) - viscous * rate.mean()",
-        broken: "0.9 * self.bulk_modulus * (j - 1.0) - viscous * rate.mean()",
+        sound: "T::splat(self.bulk_modulus) * (j - T::splat(1.0))",
+        broken: "T::splat(0.9 * self.bulk_modulus) * (j - T::splat(1.0))",
         seen_by: &[(RESTING, "pressure-profile")],
     },
     Fault {
