@@ -329,8 +329,6 @@ pub trait Case: Sync {
         }
         runs
     }
-    /// The largest tier whose runs carry goldens.
-    fn golden_tier(&self) -> Tier;
     /// Relative cost of a run, to start the longest first.
     fn cost(&self, spec: &RunSpec) -> f64;
     /// The parameters, as `name=value`, at which schemes are run at the most levels: those of its convergence and trends.

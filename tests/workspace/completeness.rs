@@ -1,10 +1,9 @@
-//! Nothing is forgotten: every case, scheme and level is run, measured, judged, blessed and described.
+//! Nothing is forgotten: every case, scheme and level is run, measured, judged and described.
 
-use super::{golden, workspace};
+use super::workspace;
 use mpm_verify::case::{Case, RunSpec, Tier};
 use mpm_verify::cases;
 use mpm_verify::files::read_versioned;
-use mpm_verify::golden::{Golden, MARGIN, why_none};
 use mpm_verify::record::Record;
 use mpm_verify::run::judge;
 use mpm_verify::study::{SCHEMA, Summary, has_truth};
@@ -24,13 +23,6 @@ fn last_night(case: &dyn Case) -> Vec<Record> {
     let summary: Summary = read_versioned(&path, SCHEMA).unwrap();
     let study = summary.cases.into_iter().find(|s| s.case == case.name());
     study.unwrap().records
-}
-
-/// Runs with a golden: of the case's golden tier, and not too long to be run twice.
-fn gated(case: &dyn Case) -> BTreeSet<String> {
-    let records = last_night(case);
-    let carries = |r: &&Record| why_none(case, r).is_none();
-    records.iter().filter(carries).map(Record::folder).collect()
 }
 
 #[test]
@@ -62,39 +54,6 @@ fn every_scheme_and_level_belongs_to_a_tier() {
             pr.is_subset(&nightly),
             "what a change is judged by, a night is too"
         );
-    }
-}
-
-#[test]
-fn every_gated_run_has_a_golden_and_every_golden_a_run() {
-    for case in cases::all() {
-        let root = golden().join(case.name());
-        let gated = gated(case);
-        for run in &gated {
-            let golden = Golden::read(&root.join(run)).unwrap_or_else(|e| panic!("{e}"));
-            for t in golden.tolerances() {
-                assert!(
-                    t.tolerance >= t.response && t.tolerance <= MARGIN * t.response,
-                    "{run} {} {}",
-                    t.table,
-                    t.column
-                );
-            }
-        }
-        let mut kept = BTreeSet::new();
-        if gated.is_empty() {
-            assert!(!root.exists());
-            continue;
-        }
-        for scheme in std::fs::read_dir(&root).unwrap() {
-            let scheme: PathBuf = scheme.unwrap().path();
-            for level in std::fs::read_dir(&scheme).unwrap() {
-                let level = level.unwrap().path();
-                kept.insert(level.strip_prefix(&root).unwrap().display().to_string());
-            }
-        }
-        let orphans: Vec<_> = kept.difference(&gated).collect();
-        assert!(orphans.is_empty(), "goldens of no run: {orphans:?}");
     }
 }
 

@@ -390,10 +390,6 @@ impl Case for Cook {
         plan(tier)
     }
 
-    fn golden_tier(&self) -> Tier {
-        Tier::Nightly
-    }
-
     fn cost(&self, spec: &RunSpec) -> f64 {
         let sweep = match spec.scheme.remedy() {
             RemedyName::None => 1.0,

@@ -377,10 +377,6 @@ impl Case for DamBreak {
         plan(tier)
     }
 
-    fn golden_tier(&self) -> Tier {
-        Tier::Pr
-    }
-
     fn cost(&self, spec: &RunSpec) -> f64 {
         let sweep = match spec.scheme.remedy() {
             RemedyName::None => 1.0,

@@ -349,10 +349,6 @@ impl Case for Footing {
         plan(tier)
     }
 
-    fn golden_tier(&self) -> Tier {
-        Tier::Pr
-    }
-
     fn cost(&self, spec: &RunSpec) -> f64 {
         let sweep = match spec.scheme.remedy() {
             RemedyName::None => 1.0,

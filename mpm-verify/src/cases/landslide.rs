@@ -417,10 +417,6 @@ macro_rules! shared {
             &["toe", "settlement", "kinetic_energy", "failed_share"]
         }
 
-        fn golden_tier(&self) -> Tier {
-            Tier::Pr
-        }
-
         fn breaks_down(&self, record: &Record) -> Option<&'static str> {
             checks::breaks_down(record)
         }

@@ -236,10 +236,6 @@ impl Case for SlopeStability {
         }
     }
 
-    fn golden_tier(&self) -> Tier {
-        Tier::Pr
-    }
-
     fn cost(&self, spec: &RunSpec) -> f64 {
         spec.level.h.powi(-3)
     }

@@ -370,10 +370,6 @@ impl Case for Manufactured {
         self.sweeps
     }
 
-    fn golden_tier(&self) -> Tier {
-        Tier::Pr
-    }
-
     fn watched(&self) -> &'static [&'static str] {
         &["displacement_l2", "log_jacobian_gap_rms"]
     }
