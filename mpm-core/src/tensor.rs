@@ -6,6 +6,14 @@ use crate::number::Real;
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
+/// The determinant of `m`.
+#[must_use]
+#[inline]
+pub fn determinant<T: Real>(m: &Matrix3<T>) -> T {
+    let minor = |j: usize, k: usize| m[(1, j)] * m[(2, k)] - m[(2, j)] * m[(1, k)];
+    m[(0, 0)] * minor(1, 2) - m[(0, 1)] * minor(0, 2) + m[(0, 2)] * minor(0, 1)
+}
+
 /// A symmetric 3×3 tensor (a stress in Pa, a left Cauchy–Green tensor), or eight of them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SymmetricTensor<T = f64> {
@@ -24,20 +32,6 @@ pub struct SymmetricTensor<T = f64> {
 }
 
 impl SymmetricTensor {
-    /// The symmetric part of `m`.
-    #[must_use]
-    #[inline]
-    pub fn symmetric_part(m: &Matrix3<f64>) -> Self {
-        Self {
-            xx: m[(0, 0)],
-            yy: m[(1, 1)],
-            zz: m[(2, 2)],
-            xy: 0.5 * (m[(0, 1)] + m[(1, 0)]),
-            yz: 0.5 * (m[(1, 2)] + m[(2, 1)]),
-            xz: 0.5 * (m[(0, 2)] + m[(2, 0)]),
-        }
-    }
-
     /// As a full matrix.
     #[must_use]
     pub fn to_matrix(&self) -> Matrix3<f64> {
@@ -73,6 +67,21 @@ impl<T: Real> SymmetricTensor<T> {
             xy: self.xy.part(k),
             yz: self.yz.part(k),
             xz: self.xz.part(k),
+        }
+    }
+
+    /// The symmetric part of `m`.
+    #[must_use]
+    #[inline]
+    pub fn symmetric_part(m: &Matrix3<T>) -> Self {
+        let half = T::splat(0.5);
+        Self {
+            xx: m[(0, 0)],
+            yy: m[(1, 1)],
+            zz: m[(2, 2)],
+            xy: half * (m[(0, 1)] + m[(1, 0)]),
+            yz: half * (m[(1, 2)] + m[(2, 1)]),
+            xz: half * (m[(0, 2)] + m[(2, 0)]),
         }
     }
 

@@ -2,14 +2,13 @@
 
 use crate::checkpoint::Saving;
 use crate::error::Error;
-use crate::golden::{Golden, home, leaves_numbers};
+use crate::golden::{Goldens, Run};
 use crate::plan::PlannedRun;
 use crate::record::{Record, Status, Version};
 use crate::report::describe::{drift_line, verdict_line};
 use crate::study::{CaseStudy, Gathered, Listener, Task, has_truth, run_all};
 use crate::verdict::Verdict;
 use std::fmt::Write;
-use std::path::Path;
 
 /// The runs of a case that have drifted, and what speaks against blessing them.
 pub struct Candidates<'a> {
@@ -80,39 +79,31 @@ impl<'a> Candidates<'a> {
         Some(t)
     }
 
-    /// Those whose numbers have drifted: their tolerances are measured again.
-    fn measured(&self) -> impl Iterator<Item = &&'a Record> {
-        self.drifted.iter().filter(|r| {
-            let mut drifting = r.verdicts.iter().filter(|v| v.drifts());
-            !drifting.all(leaves_numbers)
-        })
-    }
-
     /// Names of the perturbed twins that blessing runs.
     #[must_use]
     pub fn twin_names(&self) -> Vec<String> {
-        self.measured()
-            .map(|r| format!("{}/{}/twin", r.case, r.folder()))
-            .collect()
+        let name = |r: &&Record| format!("{}/{}/twin", r.case, r.folder());
+        self.drifted.iter().map(name).collect()
     }
 
-    /// Blesses every candidate, running a perturbed twin of those whose numbers have drifted (beside
-    /// the run itself; one that is there already is kept). Nothing is written before everything is
-    /// measured. Returns how many were blessed, or which twin broke down.
+    /// Blesses every candidate, running a perturbed twin of each beside the run itself (one that is there already is
+    /// kept). Nothing is written before everything is measured. Returns how many were blessed, or which twin broke down.
     ///
     /// # Errors
     /// A file can't be read or written.
     pub fn bless(
         &self,
         gathered: &Gathered,
-        root: &Path,
+        goldens: &Goldens,
         reason: &str,
         workers: usize,
         listener: &dyn Listener,
     ) -> Result<Result<usize, String>, Error> {
-        let measured: Vec<&Record> = self.measured().copied().collect();
+        let Some(first) = self.drifted.first() else {
+            return Ok(Ok(0));
+        };
         let mut tasks = Vec::new();
-        for record in &measured {
+        for record in &self.drifted {
             let run = PlannedRun {
                 case: record.case.clone(),
                 scheme: record.scheme(),
@@ -129,8 +120,8 @@ impl<'a> Candidates<'a> {
             });
         }
         let twins = run_all(&tasks, Saving::resuming(), workers, listener)?;
-        let mut goldens = Vec::new();
-        for ((record, twin), task) in measured.iter().zip(&twins).zip(&tasks) {
+        let mut runs = Vec::new();
+        for ((record, twin), task) in self.drifted.iter().zip(&twins).zip(&tasks) {
             if let (Status::Failed, Some(error)) = (twin.status, &twin.error) {
                 let run = record.folder();
                 return Ok(Err(format!(
@@ -139,19 +130,9 @@ impl<'a> Candidates<'a> {
                 )));
             }
             let folder = gathered.folder(record)?;
-            let golden = Golden::of_run(record, folder, twin, &task.folder, reason)?;
-            goldens.push((home(root, record), golden));
+            runs.push(Run::of((record, folder), (twin, &task.folder))?);
         }
-        for record in &self.drifted {
-            if !measured.iter().any(|m| std::ptr::eq(*m, *record)) {
-                let folder = home(root, record);
-                let renewed = Golden::read(&folder)?.renewed(record, reason)?;
-                goldens.push((folder, renewed));
-            }
-        }
-        for (folder, golden) in &goldens {
-            golden.write(folder)?;
-        }
-        Ok(Ok(goldens.len()))
+        goldens.bless(first, runs, reason)?;
+        Ok(Ok(self.drifted.len()))
     }
 }

@@ -73,8 +73,6 @@ pub struct Case {
     pub watched: &'static [&'static str],
     /// The geometry.
     pub sketch: Sketch,
-    /// The largest tier whose runs carry goldens.
-    pub golden_tier: Tier,
     /// Relative cost of a run, to start the longest first.
     pub cost: Box<dyn Fn(&RunSpec) -> f64 + Send + Sync>,
     /// The parameters, as `name=value`, at which schemes are run at the most levels: those of its convergence and

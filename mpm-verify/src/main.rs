@@ -12,6 +12,7 @@ use mpm_verify::checkpoint::{self, Identity, Saving};
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::exact;
 use mpm_verify::files::read_versioned;
+use mpm_verify::golden::Goldens;
 use mpm_verify::night::Night;
 use mpm_verify::parameter::Parameters;
 use mpm_verify::plan::{Plan, Shard};
@@ -21,7 +22,7 @@ use mpm_verify::report::{describe, discard_report, update_report, write_report};
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
 use mpm_verify::study::{Gathered, has_truth, make_runs};
-use mpm_verify::{cases, golden, run};
+use mpm_verify::{cases, run};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -161,7 +162,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 false => Gathered::read,
             };
             let gather = || read(&folders);
-            report_on(gather, &out, how, &golden, night.as_ref())
+            report_on(gather, &out, how, &Goldens::open(&golden)?, night.as_ref())
         }
         Command::Bless {
             case,
@@ -345,12 +346,14 @@ fn verify(
 ) -> Result<ExitCode, Error> {
     let names = plan.own().map(|run| run.folder().display().to_string());
     let listener = progress::Runs::new(names.collect());
+    // A folder of goldens that is not there is told before hours of runs.
+    let goldens = Goldens::open(golden)?;
     discard_report(out)?;
     let records = make_runs(plan, out, saving, workers, &listener)?;
     listener.finish();
     if plan.shard == Shard::WHOLE {
         let gather = || Gathered::read(&[out.to_path_buf()]);
-        return report_on(gather, out, How::Whole, golden, None);
+        return report_on(gather, out, How::Whole, &goldens, None);
     }
     let failed = records.iter().filter(|r| exit_code(r) != ExitCode::Good);
     for record in failed {
@@ -382,7 +385,7 @@ fn report_on(
     gather: impl Fn() -> Result<Gathered, Error>,
     out: &Path,
     how: How,
-    golden: &Path,
+    goldens: &Goldens,
     night: Option<&Night>,
 ) -> Result<ExitCode, Error> {
     let write = match how {
@@ -394,8 +397,8 @@ fn report_on(
         How::Update => update_report,
     };
     let gathered = gather()?;
-    let judged = gathered.judge(|r| golden::compare(golden, r, gathered.folder(r)?))?;
-    let summary = write(&gathered, judged, golden, night, out)?;
+    let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
+    let summary = write(&gathered, judged, goldens, night, out)?;
     say(&describe::verdict_summary(&summary))?;
     say(&format!("Report: {}\n", out.join("index.html").display()))?;
     Ok(summary.exit_code())
@@ -413,8 +416,9 @@ fn bless(
             "--reason is empty; say why the results have changed".to_owned(),
         ));
     }
+    let goldens = Goldens::open(root)?;
     let gathered = Gathered::read(from)?;
-    let summary = gathered.judge(|r| golden::compare(root, r, gathered.folder(r)?))?;
+    let summary = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
     let Some(study) = summary.cases.into_iter().find(|s| s.case == case.name) else {
         let name = case.name;
         return Err(Error::Input(format!("the folder has no runs of {name}")));
@@ -426,7 +430,7 @@ fn bless(
         return Ok(ExitCode::TruthFailed);
     }
     let listener = progress::Runs::new(candidates.twin_names());
-    let blessed = candidates.bless(&gathered, root, reason, workers, &listener)?;
+    let blessed = candidates.bless(&gathered, &goldens, reason, workers, &listener)?;
     listener.finish();
     let blessed = match blessed {
         Ok(count) => count,

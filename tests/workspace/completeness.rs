@@ -1,173 +1,80 @@
-//! Nothing is forgotten: every case, scheme and level is run, measured, judged, blessed and described.
+//! Nothing is forgotten: every case, scheme and level is planned, measured, judged and described. Judged by the plans;
+//! that all has been run is what ends a night.
 
-use super::{golden, workspace};
+use super::workspace;
 use mpm_verify::case::{Case, Tier};
 use mpm_verify::cases;
-use mpm_verify::files::read_versioned;
-use mpm_verify::golden::{Golden, MARGIN, why_none};
-use mpm_verify::record::Record;
-use mpm_verify::run::judge;
+use mpm_verify::parameter::Parameters;
 use mpm_verify::spec::RunSpec;
-use mpm_verify::study::{SCHEMA, Summary, has_truth};
 use mpm_verify::verdict::Kind;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
-const TIERS: [Tier; 4] = [Tier::Quick, Tier::Pr, Tier::Nightly, Tier::Long];
-
-fn planned(case: &Case) -> Vec<RunSpec> {
-    TIERS.iter().flat_map(|tier| case.plan(*tier)).collect()
-}
-
-/// The records of the committed nightly report.
-fn last_night(case: &Case) -> Vec<Record> {
-    let path = workspace().join("reports/nightly/summary.json");
-    let summary: Summary = read_versioned(&path, SCHEMA).unwrap();
-    let study = summary.cases.into_iter().find(|s| s.case == case.name);
-    study.unwrap().records
-}
-
-/// Runs with a golden: of the case's golden tier, and not too long to be run twice.
-fn gated(case: &Case) -> BTreeSet<String> {
-    let records = last_night(case);
-    let carries = |r: &&Record| why_none(case, r).is_none();
-    records.iter().filter(carries).map(Record::folder).collect()
+fn folders(case: &Case, tier: Tier) -> BTreeSet<String> {
+    case.runs(tier).iter().map(RunSpec::folder).collect()
 }
 
 #[test]
 fn every_scheme_and_level_belongs_to_a_tier() {
     for case in cases::all() {
-        let plan = planned(case);
+        let plan = case.runs(Tier::Long);
         for scheme in case.schemes() {
-            for level in case.levels {
+            for level in &case.levels {
                 let there = plan.iter().any(|s| s.scheme == scheme && s.level == *level);
                 assert!(there, "{} {scheme} {} is in no tier", case.name, level.name);
             }
         }
-        for spec in &plan {
-            assert!(case.schemes().contains(&spec.scheme));
-            assert!(case.levels.contains(&spec.level));
+        assert!(plan.iter().all(|s| case.levels.contains(&s.level)));
+        for (less, more) in [(Tier::Quick, Tier::Pr), (Tier::Pr, Tier::Nightly)] {
+            let (less, more) = (folders(case, less), folders(case, more));
+            assert!(less.is_subset(&more), "{}", case.name);
         }
-        let pr: BTreeSet<String> = case.plan(Tier::Pr).iter().map(RunSpec::folder).collect();
-        let nightly: BTreeSet<String> = case
-            .plan(Tier::Nightly)
-            .iter()
-            .map(RunSpec::folder)
-            .collect();
-        assert!(
-            pr.is_subset(&nightly),
-            "what a change is judged by, a night is too"
-        );
+        assert!(!case.runs(Tier::Pr).is_empty(), "{}", case.name);
     }
 }
 
 #[test]
-fn every_gated_run_has_a_golden_and_every_golden_a_run() {
+fn every_planned_run_has_parameters_that_are_allowed() {
     for case in cases::all() {
-        let root = golden().join(case.name);
-        let gated = gated(case);
-        for run in &gated {
-            let golden = Golden::read(&root.join(run)).unwrap_or_else(|e| panic!("{e}"));
-            for t in golden.tolerances() {
-                assert!(
-                    t.tolerance >= t.response && t.tolerance <= MARGIN * t.response,
-                    "{run} {} {}",
-                    t.table,
-                    t.column
-                );
-            }
+        for spec in case.runs(Tier::Long) {
+            let parameters = Parameters::new(&case.parameters, &spec.set);
+            assert!(parameters.is_ok(), "{} {}", case.name, spec.folder());
         }
-        let mut kept = BTreeSet::new();
-        if gated.is_empty() {
-            assert!(!root.exists());
-            continue;
-        }
-        for scheme in std::fs::read_dir(&root).unwrap() {
-            let scheme: PathBuf = scheme.unwrap().path();
-            for level in std::fs::read_dir(&scheme).unwrap() {
-                let level = level.unwrap().path();
-                kept.insert(level.strip_prefix(&root).unwrap().display().to_string());
-            }
-        }
-        let orphans: Vec<_> = kept.difference(&gated).collect();
-        assert!(orphans.is_empty(), "goldens of no run: {orphans:?}");
     }
 }
 
-/// By the checks as they are now, on the metrics of last night.
 #[test]
-fn every_run_is_measured_and_judged_against_the_truth() {
+fn every_case_is_described_measured_and_checked_against_the_truth() {
     for case in cases::all() {
-        assert!(case.checks.iter().any(|c| c.kind == Kind::Truth));
-        let known: Vec<&str> = case.metrics.iter().map(|m| m.name).collect();
-        for name in case.headlines.iter().map(|h| h.metric) {
-            assert!(known.contains(&name), "headline {name} is no metric");
+        let name = case.name;
+        assert!(!case.title.is_empty() && !case.description.is_empty());
+        assert!(!case.references.is_empty() && !case.limits.is_empty());
+        assert!(!case.metrics.is_empty() && !case.headlines.is_empty());
+        assert!(!case.watched.is_empty(), "{name}");
+        assert!(case.checks.iter().any(|c| c.kind == Kind::Truth), "{name}");
+        assert!(!case.sketch.shapes.is_empty(), "{name}");
+        let names: BTreeSet<&str> = case.metrics.iter().map(|m| m.name).collect();
+        assert_eq!(names.len(), case.metrics.len(), "{name}: a metric twice");
+        for headline in &case.headlines {
+            assert!(case.metrics.contains(&headline.metric), "{name}");
         }
-        for name in case.quantities.iter().map(|q| q.metric) {
-            assert!(known.contains(&name), "quantity {name} is no metric");
+        for quantity in &case.quantities {
+            assert!(case.metrics.contains(&quantity.metric), "{name}");
         }
-        let records = last_night(case);
-        let ran: BTreeSet<String> = records.iter().map(Record::folder).collect();
-        let plan = case.plan(Tier::Nightly);
-        let planned: BTreeSet<String> = plan.iter().map(RunSpec::folder).collect();
-        assert_eq!(ran, planned, "the committed report is of another plan");
-        for mut record in records {
-            record.verdicts = judge(case, &record);
-            assert!(has_truth(&record), "no check: {}", record.folder());
-            for name in record.metrics.keys() {
-                assert!(known.contains(&name.as_str()), "{name} is not explained");
-            }
+        for sweep in &case.sweeps {
+            let known = case.parameters.iter().any(|p| *p == sweep.parameter);
+            assert!(known, "{name}: {}", sweep.parameter.name);
         }
+        let checks: BTreeSet<&str> = case.checks.iter().map(|c| c.name).collect();
+        assert_eq!(checks.len(), case.checks.len(), "{name}: a check twice");
+        let parameters: BTreeSet<&str> = case.parameters.iter().map(|p| p.name).collect();
+        assert_eq!(parameters.len(), case.parameters.len(), "{name}");
     }
 }
 
 #[test]
-fn every_case_has_a_page_that_names_what_it_checks() {
+fn every_case_has_a_page() {
     for case in cases::all() {
-        let path = workspace().join(format!("docs/{}.md", case.name));
-        let page = std::fs::read_to_string(&path).unwrap();
-        for part in [
-            "## Set-up",
-            "## Reference",
-            "## Tolerances",
-            "## Results",
-            "## Limits",
-        ] {
-            assert!(page.contains(part), "{}: no {part}", path.display());
-        }
-        assert!(page.contains("!["), "{}: no picture", path.display());
-        assert!(!case.limits.is_empty() && !case.references.is_empty());
-        assert!(!case.sketch.shapes.is_empty());
-    }
-}
-
-/// Of the long tier some runs have ended and the others are said not to have.
-#[test]
-fn the_report_of_long_runs_is_of_the_plan() {
-    let path = workspace().join("reports/long/summary.json");
-    let summary: Summary = read_versioned(&path, SCHEMA).unwrap();
-    assert_eq!(summary.tier, "long");
-    for study in &summary.cases {
-        let case = cases::find(&study.case).unwrap();
-        let ended = study.records.iter().map(Record::folder);
-        let told: BTreeSet<String> = ended.chain(study.pending.iter().cloned()).collect();
-        let plan = case.runs(Tier::Long);
-        let planned: BTreeSet<String> = plan.iter().map(RunSpec::folder).collect();
-        assert_eq!(told, planned, "{} is of another plan", study.case);
-        let long: BTreeSet<String> = case.plan(Tier::Long).iter().map(RunSpec::folder).collect();
-        let is_long = |r: &Record| long.contains(&r.folder());
-        assert!(study.records.iter().any(is_long), "no long run has ended");
-    }
-}
-
-#[test]
-fn the_committed_reports_are_small_and_hold_no_particles() {
-    for (report, most) in [("nightly", 100_000_000), ("long", 40_000_000)] {
-        let all = super::files(&workspace().join("reports").join(report));
-        let bytes: usize = all.values().map(Vec::len).sum();
-        assert!(bytes <= most, "{report}: {bytes} bytes");
-        let are_particles = |name: &PathBuf| name.extension().is_some_and(|e| e == "vtu");
-        assert!(!all.keys().any(are_particles), "{report}");
-        assert!(all.contains_key(&PathBuf::from("summary.md")), "{report}");
+        let page = workspace().join(format!("docs/{}.md", case.name));
+        assert!(page.exists(), "{} is missing", page.display());
     }
 }

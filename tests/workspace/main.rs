@@ -8,6 +8,7 @@
 )]
 
 mod browser;
+mod budget;
 mod checkpoint;
 mod cli;
 mod completeness;
@@ -18,6 +19,7 @@ mod shards;
 mod update;
 mod verify;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -43,29 +45,69 @@ fn workspace() -> PathBuf {
         .unwrap()
 }
 
-/// The goldens of the repository.
-fn golden() -> PathBuf {
-    workspace().join("golden")
+/// What is made once of the quick tier: its report, the goldens that were blessed of it, and the output of verifying it
+/// against them.
+struct Quick {
+    report: tempfile::TempDir,
+    golden: tempfile::TempDir,
+    output: Output,
 }
 
-/// The report of the quick tier, made once, and the output of making it. Tests work on copies.
-fn quick() -> (&'static Path, &'static Output) {
-    static REPORT: OnceLock<(tempfile::TempDir, Output)> = OnceLock::new();
-    let (folder, output) = REPORT.get_or_init(|| {
-        let folder = tempfile::tempdir().unwrap();
-        let golden = golden();
-        let output = mpm_verify(&[
-            "verify",
-            "--tier",
-            "quick",
+fn made() -> &'static Quick {
+    static QUICK: OnceLock<Quick> = OnceLock::new();
+    QUICK.get_or_init(|| {
+        let [report, golden] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+        let places = [
             "--out",
-            text(folder.path()),
+            text(report.path()),
             "--golden",
-            text(&golden),
-        ]);
-        (folder, output)
-    });
-    (folder.path(), output)
+            text(golden.path()),
+        ];
+        let verify = [&["verify", "--tier", "quick"], &places[..]].concat();
+        let new = mpm_verify(&verify);
+        assert_eq!(code(&new), 3, "{}{}", stdout(&new), stderr(&new));
+        let plan = json(&report.path().join("plan.json"));
+        let runs = plan["runs"].as_array().unwrap().iter();
+        let cases: BTreeSet<&str> = runs.map(|run| run["case"].as_str().unwrap()).collect();
+        for case in cases {
+            let places = [
+                "--from",
+                text(report.path()),
+                "--golden",
+                text(golden.path()),
+            ];
+            let bless = [&["bless", case, "--reason", "first"], &places[..]].concat();
+            let blessed = mpm_verify(&bless);
+            assert_eq!(
+                code(&blessed),
+                0,
+                "{}{}",
+                stdout(&blessed),
+                stderr(&blessed)
+            );
+        }
+        for twin in files(report.path()).keys().filter_map(|f| f.parent()) {
+            if twin.ends_with("twin") {
+                let _ = fs::remove_dir_all(report.path().join(twin));
+            }
+        }
+        let output = mpm_verify(&[&verify[..], &["--resume"]].concat());
+        Quick {
+            report,
+            golden,
+            output,
+        }
+    })
+}
+
+/// The goldens of the quick tier.
+fn golden() -> PathBuf {
+    made().golden.path().to_path_buf()
+}
+
+/// The report of the quick tier and the output of making it. Tests work on copies.
+fn quick() -> (&'static Path, &'static Output) {
+    (made().report.path(), &made().output)
 }
 
 fn copy_tree(from: &Path, to: &Path) {

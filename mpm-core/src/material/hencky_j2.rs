@@ -10,9 +10,9 @@
 //! along a radius, for any size of the step: exact where the direction of flow doesn't turn, of first order in
 //! the step where it does.
 
-use super::{Law, NeoHookean, side_by_side};
+use super::{Law, NeoHookean, State};
 use crate::error::{Error, require};
-use crate::number::{Eight, Real};
+use crate::number::Real;
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
@@ -108,11 +108,31 @@ pub struct HenckyJ2 {
 
 /// What a particle of a [`HenckyJ2`] remembers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct ElastoplasticState {
+pub struct ElastoplasticState<T = f64> {
     /// Elastic left Cauchy–Green tensor b_e.
-    pub elastic: SymmetricTensor,
+    pub elastic: SymmetricTensor<T>,
     /// Equivalent plastic strain ε.
-    pub plastic_strain: f64,
+    pub plastic_strain: T,
+}
+
+impl State for ElastoplasticState {
+    type Of<T: Real> = ElastoplasticState<T>;
+
+    #[inline(always)]
+    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> ElastoplasticState<T> {
+        ElastoplasticState {
+            elastic: SymmetricTensor::pack(|k| of(k).elastic),
+            plastic_strain: T::pack(|k| of(k).plastic_strain),
+        }
+    }
+
+    #[inline(always)]
+    fn part<T: Real>(of: &ElastoplasticState<T>, k: usize) -> Self {
+        Self {
+            elastic: of.elastic.part(k),
+            plastic_strain: of.plastic_strain.part(k),
+        }
+    }
 }
 
 impl HenckyJ2 {
@@ -162,34 +182,6 @@ impl HenckyJ2 {
         }
         flow
     }
-
-    /// Stress, elastic left Cauchy–Green tensor and equivalent plastic strain after a relative deformation: of one
-    /// particle, or of eight.
-    #[inline(always)]
-    fn advance<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        elastic: &SymmetricTensor<T>,
-        plastic_strain: T,
-    ) -> (SymmetricTensor<T>, SymmetricTensor<T>, T) {
-        let mut elastic = elastic.push_forward(delta_f);
-        // Flow keeps the volume: the elastic Jacobian is the whole one.
-        let inverse_jacobian = T::splat(1.0) / elastic.determinant().sqrt();
-        let logarithm = elastic.ln();
-        let direction = logarithm.deviator();
-        let (norm, mut shear) = (direction.norm(), T::splat(self.shear_modulus));
-        let flow = self.flow(shear * norm, plastic_strain);
-        if flow.any_positive() {
-            let share = T::splat(2.0) * flow / norm.at_least(f64::MIN_POSITIVE);
-            let back = direction.scale_add_identity(-share, T::default());
-            elastic = elastic.times_commuting(&back.exp());
-            shear -= shear * share;
-        }
-        let pressure_part = T::splat(0.5 * self.bulk_modulus) * logarithm.trace();
-        let stress = direction
-            .scale_add_identity(shear * inverse_jacobian, pressure_part * inverse_jacobian);
-        (stress, elastic, plastic_strain + T::splat(PER_FLOW) * flow)
-    }
 }
 
 impl Law for HenckyJ2 {
@@ -207,53 +199,35 @@ impl Law for HenckyJ2 {
         self.update(f, 1.0, &self.initial_state())
     }
 
-    #[inline]
-    fn update(
+    #[inline(always)]
+    fn response<T: Real>(
         &self,
-        delta_f: &Matrix3<f64>,
+        delta_f: &Matrix3<T>,
         _dt: f64,
-        state: &ElastoplasticState,
-    ) -> (SymmetricTensor, ElastoplasticState) {
-        let (stress, elastic, plastic_strain) =
-            self.advance(delta_f, &state.elastic, state.plastic_strain);
-        (
-            stress,
-            ElastoplasticState {
-                elastic,
-                plastic_strain,
-            },
-        )
-    }
-
-    #[inline]
-    fn update_all(
-        &self,
-        delta_f: impl Fn(usize) -> Matrix3<f64>,
-        dt: f64,
-        states: &mut [ElastoplasticState],
-        stresses: &mut [SymmetricTensor],
-    ) {
-        side_by_side(
-            self,
-            |deformation, states| {
-                let (stress, elastic, plastic_strain) = self.advance(
-                    deformation,
-                    &SymmetricTensor::pack(|k| states[k].elastic),
-                    Eight::pack(|k| states[k].plastic_strain),
-                );
-                for (k, state) in states.iter_mut().enumerate() {
-                    *state = ElastoplasticState {
-                        elastic: elastic.part(k),
-                        plastic_strain: plastic_strain.part(k),
-                    };
-                }
-                stress
-            },
-            delta_f,
-            dt,
-            states,
-            stresses,
-        );
+        state: &ElastoplasticState<T>,
+    ) -> (SymmetricTensor<T>, ElastoplasticState<T>) {
+        let mut elastic = state.elastic.push_forward(delta_f);
+        let plastic_strain = state.plastic_strain;
+        // Flow keeps the volume: the elastic Jacobian is the whole one.
+        let inverse_jacobian = T::splat(1.0) / elastic.determinant().sqrt();
+        let logarithm = elastic.ln();
+        let direction = logarithm.deviator();
+        let (norm, mut shear) = (direction.norm(), T::splat(self.shear_modulus));
+        let flow = self.flow(shear * norm, plastic_strain);
+        if flow.any_positive() {
+            let share = T::splat(2.0) * flow / norm.at_least(f64::MIN_POSITIVE);
+            let back = direction.scale_add_identity(-share, T::default());
+            elastic = elastic.times_commuting(&back.exp());
+            shear -= shear * share;
+        }
+        let pressure_part = T::splat(0.5 * self.bulk_modulus) * logarithm.trace();
+        let stress = direction
+            .scale_add_identity(shear * inverse_jacobian, pressure_part * inverse_jacobian);
+        let after = ElastoplasticState {
+            elastic,
+            plastic_strain: plastic_strain + T::splat(PER_FLOW) * flow,
+        };
+        (stress, after)
     }
 
     fn plastic_strain(&self, state: &ElastoplasticState) -> f64 {

@@ -13,11 +13,55 @@ use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::fmt::Debug;
+
+/// What a particle remembers: numbers, and nothing more than its law needs.
+pub trait State: Copy + Send + Sync + PartialEq + Debug + Serialize + DeserializeOwned {
+    /// The same made of numbers `T`.
+    type Of<T: Real>;
+
+    /// The states `of(0)`, `of(1)`, …, as [`Real::pack`] packs numbers.
+    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> Self::Of<T>;
+
+    /// The `k`-th of the states.
+    fn part<T: Real>(of: &Self::Of<T>, k: usize) -> Self;
+}
+
+impl State for f64 {
+    type Of<T: Real> = T;
+
+    #[inline(always)]
+    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> T {
+        T::pack(of)
+    }
+
+    #[inline(always)]
+    fn part<T: Real>(of: &T, k: usize) -> Self {
+        of.part(k)
+    }
+}
+
+impl State for SymmetricTensor {
+    type Of<T: Real> = SymmetricTensor<T>;
+
+    #[inline(always)]
+    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> SymmetricTensor<T> {
+        SymmetricTensor::pack(of)
+    }
+
+    #[inline(always)]
+    fn part<T: Real>(of: &SymmetricTensor<T>, k: usize) -> Self {
+        of.part(k)
+    }
+}
+
+/// The state of a law `M`, made of numbers `T`.
+pub type StateOf<M, T> = <<M as Law>::State as State>::Of<T>;
 
 /// A constitutive law.
 pub trait Law: Send + Sync {
-    /// What a particle remembers; nothing more than the law needs.
-    type State: Copy + Send + Sync + PartialEq + std::fmt::Debug + Serialize + DeserializeOwned;
+    /// What a particle remembers.
+    type State: State;
 
     /// The state of undeformed material.
     fn initial_state(&self) -> Self::State;
@@ -25,16 +69,29 @@ pub trait Law: Send + Sync {
     /// Cauchy stress (Pa) and state of a body that rests at the deformation gradient `f` and came there at no rate.
     fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State);
 
-    /// Cauchy stress (Pa) and state after the relative deformation `delta_f` over `dt` (s).
+    /// Cauchy stress (Pa) and state after the relative deformation `delta_f` over `dt` (s): the law, of one particle
+    /// or of eight.
+    fn response<T: Real>(
+        &self,
+        delta_f: &Matrix3<T>,
+        dt: f64,
+        state: &StateOf<Self, T>,
+    ) -> (SymmetricTensor<T>, StateOf<Self, T>);
+
+    /// [`Law::response`] of one particle.
+    #[inline]
     fn update(
         &self,
         delta_f: &Matrix3<f64>,
         dt: f64,
         state: &Self::State,
-    ) -> (SymmetricTensor, Self::State);
+    ) -> (SymmetricTensor, Self::State) {
+        let (stress, state) = self.response(delta_f, dt, &State::pack::<f64>(|_| *state));
+        (stress, State::part::<f64>(&state, 0))
+    }
 
-    /// The same of many particles, the `k`-th of which deforms by `delta_f(k)`. A law for which it pays computes
-    /// [`EIGHT`] of them side by side.
+    /// [`Law::response`] of many particles, the `k`-th of which deforms by `delta_f(k)`: eight of them side by side,
+    /// and those that are left over one by one.
     #[inline]
     fn update_all(
         &self,
@@ -43,8 +100,20 @@ pub trait Law: Send + Sync {
         states: &mut [Self::State],
         stresses: &mut [SymmetricTensor],
     ) {
-        for (k, (state, stress)) in states.iter_mut().zip(stresses).enumerate() {
-            (*stress, *state) = self.update(&delta_f(k), dt, state);
+        let (blocks, rest) = states.as_chunks_mut::<EIGHT>();
+        let (of_blocks, of_rest) = stresses.as_chunks_mut::<EIGHT>();
+        let first_of_rest = blocks.len() * EIGHT;
+        for (block, (states, stresses)) in blocks.iter_mut().zip(of_blocks).enumerate() {
+            let each: [_; EIGHT] = std::array::from_fn(|k| delta_f(block * EIGHT + k));
+            let deformation = Matrix3::from_fn(|i, j| Eight::pack(|k| each[k][(i, j)]));
+            let before = State::pack::<Eight>(|k| states[k]);
+            let (stress, after) = self.response(&deformation, dt, &before);
+            for (k, (state, one)) in states.iter_mut().zip(stresses).enumerate() {
+                (*one, *state) = (stress.part(k), State::part::<Eight>(&after, k));
+            }
+        }
+        for (k, (state, stress)) in rest.iter_mut().zip(of_rest).enumerate() {
+            (*stress, *state) = self.update(&delta_f(first_of_rest + k), dt, state);
         }
     }
 
@@ -58,47 +127,6 @@ pub trait Law: Send + Sync {
 
     /// Speed of pressure waves (m/s) in undeformed material of the given density (kg/m³).
     fn wave_speed(&self, density: f64) -> f64;
-}
-
-/// [`Law::update_all`] of a law with a formula for eight: `eight` gives the stresses (Pa) of eight particles after
-/// their relative deformation, and changes their states. Those that are left over go one by one.
-#[inline(always)]
-fn side_by_side<M: Law>(
-    law: &M,
-    eight: impl Fn(&Matrix3<Eight>, &mut [M::State; EIGHT]) -> SymmetricTensor<Eight>,
-    delta_f: impl Fn(usize) -> Matrix3<f64>,
-    dt: f64,
-    states: &mut [M::State],
-    stresses: &mut [SymmetricTensor],
-) {
-    let (blocks, rest) = states.as_chunks_mut::<EIGHT>();
-    let (of_blocks, of_rest) = stresses.as_chunks_mut::<EIGHT>();
-    let first_of_rest = blocks.len() * EIGHT;
-    for (block, (states, stresses)) in blocks.iter_mut().zip(of_blocks).enumerate() {
-        let mut each = [Matrix3::identity(); EIGHT];
-        for (k, one) in each.iter_mut().enumerate() {
-            *one = delta_f(block * EIGHT + k);
-        }
-        let packed = |i: usize, j: usize| Eight::pack(|k| each[k][(i, j)]);
-        let deformation = Matrix3::new(
-            packed(0, 0),
-            packed(0, 1),
-            packed(0, 2),
-            packed(1, 0),
-            packed(1, 1),
-            packed(1, 2),
-            packed(2, 0),
-            packed(2, 1),
-            packed(2, 2),
-        );
-        let stress = eight(&deformation, states);
-        for (k, one) in stresses.iter_mut().enumerate() {
-            *one = stress.part(k);
-        }
-    }
-    for (k, (state, stress)) in rest.iter_mut().zip(of_rest).enumerate() {
-        (*stress, *state) = law.update(&delta_f(first_of_rest + k), dt, state);
-    }
 }
 
 #[cfg(test)]

@@ -3,9 +3,9 @@
 //! W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 (ln J)², hence P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ and
 //! σ = \[μ (b − I) + λ ln J I\]/J with b = F Fᵀ.
 
-use super::{Law, side_by_side};
+use super::Law;
 use crate::error::{Error, require};
-use crate::number::{EIGHT, Eight, Real};
+use crate::number::Real;
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 
@@ -44,20 +44,6 @@ impl NeoHookean {
     }
 }
 
-impl NeoHookean {
-    /// Cauchy stress (Pa) at the left Cauchy–Green tensor `b`: of one particle, or of eight.
-    #[inline(always)]
-    fn stress<T: Real>(&self, b: &SymmetricTensor<T>) -> SymmetricTensor<T> {
-        let squared_jacobian = b.determinant();
-        let inverse_jacobian = T::splat(1.0) / squared_jacobian.sqrt();
-        let pressure_part = T::splat(0.5 * self.lambda) * squared_jacobian.ln() - T::splat(self.mu);
-        b.scale_add_identity(
-            T::splat(self.mu) * inverse_jacobian,
-            pressure_part * inverse_jacobian,
-        )
-    }
-}
-
 impl Law for NeoHookean {
     type State = SymmetricTensor;
 
@@ -70,33 +56,22 @@ impl Law for NeoHookean {
         self.update(f, 1.0, &self.initial_state())
     }
 
-    #[inline]
-    fn update(
+    #[inline(always)]
+    fn response<T: Real>(
         &self,
-        delta_f: &Matrix3<f64>,
+        delta_f: &Matrix3<T>,
         _dt: f64,
-        state: &SymmetricTensor,
-    ) -> (SymmetricTensor, SymmetricTensor) {
+        state: &SymmetricTensor<T>,
+    ) -> (SymmetricTensor<T>, SymmetricTensor<T>) {
         let b = state.push_forward(delta_f);
-        (self.stress(&b), b)
-    }
-
-    #[inline]
-    fn update_all(
-        &self,
-        delta_f: impl Fn(usize) -> Matrix3<f64>,
-        dt: f64,
-        states: &mut [SymmetricTensor],
-        stresses: &mut [SymmetricTensor],
-    ) {
-        let eight = |deformation: &Matrix3<Eight>, states: &mut [SymmetricTensor; EIGHT]| {
-            let b = SymmetricTensor::pack(|k| states[k]).push_forward(deformation);
-            for (k, state) in states.iter_mut().enumerate() {
-                *state = b.part(k);
-            }
-            self.stress(&b)
-        };
-        side_by_side(self, eight, delta_f, dt, states, stresses);
+        let squared_jacobian = b.determinant();
+        let inverse_jacobian = T::splat(1.0) / squared_jacobian.sqrt();
+        let pressure_part = T::splat(0.5 * self.lambda) * squared_jacobian.ln() - T::splat(self.mu);
+        let stress = b.scale_add_identity(
+            T::splat(self.mu) * inverse_jacobian,
+            pressure_part * inverse_jacobian,
+        );
+        (stress, b)
     }
 
     fn energy(&self, b: &SymmetricTensor) -> f64 {

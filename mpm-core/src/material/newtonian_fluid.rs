@@ -5,7 +5,8 @@
 
 use super::Law;
 use crate::error::{Error, require};
-use crate::tensor::SymmetricTensor;
+use crate::number::Real;
+use crate::tensor::{SymmetricTensor, determinant};
 use nalgebra::Matrix3;
 
 /// A Newtonian fluid. Its state is J and nothing else; it stores ½ K (J − 1)² per reference volume.
@@ -58,13 +59,37 @@ impl Law for NewtonianFluid {
         )
     }
 
-    #[inline]
-    fn update(&self, delta_f: &Matrix3<f64>, dt: f64, state: &f64) -> (SymmetricTensor, f64) {
-        let j = state * delta_f.determinant();
-        let rate = SymmetricTensor::symmetric_part(&((delta_f - Matrix3::identity()) / dt));
-        let viscous = 2.0 * self.viscosity;
-        let pressure_part = self.bulk_modulus * (j - 1.0) - viscous * rate.mean();
+    #[inline(always)]
+    fn response<T: Real>(
+        &self,
+        delta_f: &Matrix3<T>,
+        dt: f64,
+        state: &T,
+    ) -> (SymmetricTensor<T>, T) {
+        let j = *state * determinant(delta_f);
+        let velocity_gradient = Matrix3::from_fn(|a, b| {
+            let identity = f64::from(u8::from(a == b));
+            (delta_f[(a, b)] - T::splat(identity)) / T::splat(dt)
+        });
+        let rate = SymmetricTensor::symmetric_part(&velocity_gradient);
+        let viscous = T::splat(2.0 * self.viscosity);
+        let pressure_part =
+            T::splat(self.bulk_modulus) * (j - T::splat(1.0)) - viscous * rate.mean();
         (rate.scale_add_identity(viscous, pressure_part), j)
+    }
+
+    /// One by one: so little is computed that eight side by side cost more than they save, 3 % of a step.
+    #[inline]
+    fn update_all(
+        &self,
+        delta_f: impl Fn(usize) -> Matrix3<f64>,
+        dt: f64,
+        states: &mut [f64],
+        stresses: &mut [SymmetricTensor],
+    ) {
+        for (k, (state, stress)) in states.iter_mut().zip(stresses).enumerate() {
+            (*stress, *state) = self.update(&delta_f(k), dt, state);
+        }
     }
 
     fn energy(&self, j: &f64) -> f64 {

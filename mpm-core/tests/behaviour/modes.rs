@@ -8,6 +8,7 @@ use model::{
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::{Settings, Solver, courant_time_step};
 use mpm_core::material::NewtonianFluid;
+use mpm_core::number::Real;
 use mpm_core::{Axis, Basis, Body, Grid, Law, Particles, Scene, Simulation, SymmetricTensor};
 use nalgebra::{Complex, Matrix3};
 use std::f64::consts::TAU;
@@ -34,9 +35,15 @@ impl Law for Prestressed {
         (stress.scale_add_identity(1.0, self.mean), state)
     }
 
-    fn update(&self, delta_f: &Matrix3<f64>, dt: f64, state: &f64) -> (SymmetricTensor, f64) {
-        let (stress, state) = self.bulk.update(delta_f, dt, state);
-        (stress.scale_add_identity(1.0, self.mean), state)
+    fn response<T: Real>(
+        &self,
+        delta_f: &Matrix3<T>,
+        dt: f64,
+        state: &T,
+    ) -> (SymmetricTensor<T>, T) {
+        let (stress, state) = self.bulk.response(delta_f, dt, state);
+        let mean = T::splat(self.mean);
+        (stress.scale_add_identity(T::splat(1.0), mean), state)
     }
 
     fn energy(&self, state: &f64) -> f64 {

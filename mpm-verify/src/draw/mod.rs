@@ -11,6 +11,7 @@ mod field;
 pub(crate) mod sketch;
 mod solid;
 pub(crate) mod style;
+pub(crate) mod triptych;
 
 pub use chart::{
     Chart, Dash, Marker, ReferenceLine, Scale, Series, SlopeTriangle, draw_charts, share_ranges,

@@ -3,7 +3,7 @@
 use super::convergence::{CPU_PICTURE, CPU_VALUE_PICTURE};
 use super::describe::{number, outcome};
 use super::history::TRENDS;
-use super::triptych::{different_pixels, triptych};
+use crate::draw::triptych::{different_pixels, triptych};
 use crate::error::{Error, ExitCode};
 use crate::files::{make_folder, read_versioned, write_picture, write_whole};
 use crate::study::{SCHEMA, Summary};

@@ -1,10 +1,10 @@
 //! Pictures of what has drifted: golden | now | difference.
 
-use super::triptych::triptych;
+use crate::draw::triptych::triptych;
 use crate::error::Error;
 use crate::files::write_picture;
 use crate::gallery::Picture;
-use crate::golden::{Golden, home};
+use crate::golden::Goldens;
 use crate::study::{CaseStudy, Gathered};
 use crate::verdict::Verdict;
 use std::path::Path;
@@ -13,7 +13,7 @@ use std::path::Path;
 pub(super) fn draw(
     study: &CaseStudy,
     gathered: &Gathered,
-    root: &Path,
+    goldens: &Goldens,
     out: &Path,
 ) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
@@ -23,8 +23,7 @@ pub(super) fn draw(
         }
         // A golden that is missing or damaged, or a run without its rows, has nothing to show.
         let folder = gathered.folder(record)?;
-        let both = Golden::read(&home(root, record)).and_then(|g| g.pictures(record, folder));
-        if let Ok((golden, now)) = both {
+        if let Ok([golden, now]) = goldens.pictures(record, folder) {
             let file = format!("{}/drift/{}.png", record.case, record.folder());
             write_picture(&out.join(&file), &triptych(&golden, &now))?;
             pictures.push(Picture {

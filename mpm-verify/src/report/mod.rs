@@ -15,14 +15,13 @@ mod price;
 mod remedies;
 mod summary;
 mod sweep;
-pub(crate) mod triptych;
 mod update;
-pub mod watched;
 
 use crate::cases;
 use crate::error::Error;
 use crate::files::{discard, discard_all, discard_folder, write_dense_json};
 use crate::gallery::{Gallery, Picture};
+use crate::golden::Goldens;
 use crate::night::Night;
 use crate::record::Record;
 use crate::study::{CaseStudy, Gathered, Summary};
@@ -31,20 +30,20 @@ use std::path::Path;
 const SUMMARY: &str = "summary.json";
 
 /// Writes the pictures of every case, the CSV of everything plotted, `summary.json`, `summary.md`,
-/// `junit.xml` and the pages: `index.html` and one per case; what has drifted from its golden below
-/// `golden` is drawn beside it. With a night, it enters the history, and the trends are drawn.
+/// `junit.xml` and the pages: `index.html` and one per case; what has drifted from its golden
+/// is drawn beside it. With a night, it enters the history, and the trends are drawn.
 ///
 /// # Errors
 /// A record's files can't be read, or a picture can't be written.
 pub fn write_report(
     gathered: &Gathered,
     judged: Summary,
-    golden: &Path,
+    goldens: &Goldens,
     night: Option<&Night>,
     out: &Path,
 ) -> Result<Summary, Error> {
     discard_report(out)?;
-    write(gathered, judged, golden, night, out)
+    write(gathered, judged, goldens, night, out)
 }
 
 /// Brings the report in `out` up to date, likewise: the cases that are gathered are drawn anew, the others
@@ -56,7 +55,7 @@ pub fn write_report(
 pub fn update_report(
     gathered: &Gathered,
     judged: Summary,
-    golden: &Path,
+    goldens: &Goldens,
     night: Option<&Night>,
     out: &Path,
 ) -> Result<Summary, Error> {
@@ -69,21 +68,21 @@ pub fn update_report(
     for case in &stale {
         discard_case(case, out)?;
     }
-    write(gathered, summary, golden, night, out)
+    write(gathered, summary, goldens, night, out)
 }
 
 /// Draws the cases and writes what tells of all.
 fn write(
     gathered: &Gathered,
     mut summary: Summary,
-    golden: &Path,
+    goldens: &Goldens,
     night: Option<&Night>,
     out: &Path,
 ) -> Result<Summary, Error> {
     for study in &mut summary.cases {
         if gathered.has(&study.case) {
             study.night = night.cloned();
-            study.pictures = draw(study, gathered, golden, out)?;
+            study.pictures = draw(study, gathered, goldens, out)?;
         } else {
             let drawn = draw_from_records(study, out)?;
             update::replace(&mut study.pictures, drawn);
@@ -101,10 +100,10 @@ fn write(
 fn draw(
     study: &CaseStudy,
     gathered: &Gathered,
-    golden: &Path,
+    goldens: &Goldens,
     out: &Path,
 ) -> Result<Vec<Picture>, Error> {
-    let mut pictures = drift::draw(study, gathered, golden, out)?;
+    let mut pictures = drift::draw(study, gathered, goldens, out)?;
     pictures.extend(draw_own(study, gathered, out)?);
     pictures.extend(draw_from_records(study, out)?);
     if let Some(night) = &study.night {

@@ -23,7 +23,7 @@ use crate::scheme::{BasisName, RemedyName};
 use crate::spec::Level;
 
 use BasisName::{Bspline2, Bspline3, Gimp};
-use RemedyName::{FbarRate, FbarRecursive, FbarTotal};
+use RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal};
 use Tier::{Nightly, Pr};
 
 /// Largest drift of a cell's mean J̄ per 10⁵ steps.
@@ -97,8 +97,10 @@ const LONG: &[&str] = &["duration=5.04"];
 fn plan(levels: &[Level]) -> Vec<Family> {
     let few = pairs(&[Gimp, Bspline2], &REMEDIES);
     let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
+    let mut pr = pairs(&[Gimp], &[RemedyName::None, FbarRecursive, FbarConsistent]);
+    pr.extend(pairs(&[Bspline2], &[FbarConsistent]));
     vec![
-        family(Pr, &levels[..1], &few, &[]),
+        family(Pr, &levels[..1], &pr, &[]),
         family(Nightly, levels, &all, &[]),
         family(Nightly, &levels[..1], &few, LONG),
     ]

@@ -63,7 +63,6 @@ pub(super) fn case() -> Case {
         }],
         watched: &["tip_uy", "log_jacobian_gap_rms"],
         sketch: sketch::sketch(),
-        golden_tier: Pr,
         cost: Box::new(cost),
         ladder: &[],
         settles: true,
@@ -102,14 +101,12 @@ fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
     vec![
         family(Quick, &[h2], &gimp(&REMEDIES), &[]),
         family(Quick, &[h2], &gimp(&[FbarRecursive]), HALVED),
-        family(Pr, &[h2], &all, &[]),
-        family(
-            Pr,
-            &[h1],
-            &gimp(&[none, FbarRecursive, FbarConsistent]),
-            &[],
-        ),
-        family(Pr, &[h1], &pairs(&[Bspline2], &[none, FbarConsistent]), &[]),
+        family(Pr, &[h2], &two(&REMEDIES), &[]),
+        family(Pr, &[h2], &pairs(&[Bspline3], &REMEDIES[..4]), &[]),
+        family(Pr, &[h1], &gimp(&[none, FbarRecursive]), &[]),
+        family(Pr, &[h1], &pairs(&[Bspline2], &[none]), &[]),
+        family(Pr, &[h1], &gimp(&[FbarConsistent]), LARGE),
+        family(Nightly, &[h2], &all, &[]),
         family(Nightly, &[h1], &all, &[]),
         family(Nightly, &[half, quarter], &gimp(&[none]), GIMPS),
         family(

@@ -113,7 +113,6 @@ pub(super) fn case() -> Case {
         sweeps: SWEEPS.to_vec(),
         watched: &["front", "energy", "front_force", "pressure_rms"],
         sketch: sketch::sketch(),
-        golden_tier: Tier::Pr,
         cost: Box::new(cost),
         ladder: LADDER,
         settles: false,

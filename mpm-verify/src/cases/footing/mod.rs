@@ -61,7 +61,6 @@ pub(super) fn case() -> Case {
         }],
         watched: &["pressure_over_strength", "jacobian_max"],
         sketch: sketch::sketch(),
-        golden_tier: Pr,
         cost: Box::new(cost),
         ladder: &[],
         settles: false,
@@ -89,7 +88,8 @@ fn plan([b10, b20, b40, b80]: [Level; 4]) -> Vec<Family> {
     let dense: &[&str] = &["ppc_per_direction=4"];
     vec![
         family(Pr, &[b10], &three, SMALL),
-        family(Pr, &[b20], &two, SMALL),
+        family(Pr, &[b20], &pairs(&[Gimp], &[none, FbarConsistent]), SMALL),
+        family(Nightly, &[b20], &two, SMALL),
         family(Nightly, &[b10, b20], &all, &[]),
         family(Nightly, &[b20], &all, dense),
         family(Nightly, &[b20], &cubic, &[]),

@@ -124,7 +124,6 @@ fn slope(
         ],
         watched: &["toe", "settlement", "kinetic_energy", "failed_share"],
         sketch: sketch(size),
-        golden_tier: Pr,
         cost: Box::new(move |spec| cost(spec, dimension)),
         ladder: &[],
         settles: false,

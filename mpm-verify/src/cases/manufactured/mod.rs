@@ -9,7 +9,7 @@ mod sketch;
 mod watch;
 
 use super::parameters;
-use crate::case::{Case, Tier};
+use crate::case::Case;
 use crate::error::Error;
 use crate::exact::Exact;
 use crate::job::Job;
@@ -79,7 +79,6 @@ impl Manufactured {
             sweeps: Vec::new(),
             watched: &["displacement_l2", "log_jacobian_gap_rms"],
             sketch: sketch::sketch(&self, &parameters),
-            golden_tier: Tier::Pr,
             cost: Box::new(move |spec| scene::cost(&self, &known, spec)),
             ladder: &[],
             settles: false,

@@ -86,7 +86,11 @@ fn levels() -> [Level; 3] {
 pub(super) fn case() -> Case {
     let levels = levels();
     let none = RemedyName::None;
-    let all = pairs(&[Gimp, Bspline2], &[none, FbarRecursive, FbarConsistent]);
+    let remedies = [none, FbarRecursive, FbarConsistent];
+    let (gimp, all) = (
+        pairs(&[Gimp], &remedies),
+        pairs(&[Gimp, Bspline2], &remedies),
+    );
     Case {
         name: "slope-stability",
         title: "Stability of the slope",
@@ -99,7 +103,7 @@ pub(super) fn case() -> Case {
         ],
         parameters: PARAMETERS.to_vec(),
         plan: vec![
-            family(Pr, &levels[..1], &pairs(&[Gimp], &[none, FbarRecursive, FbarConsistent]), &["most=2", "trials=3"]),
+            family(Pr, &levels[..1], &gimp, &["most=2", "trials=3"]),
             family(Nightly, &levels[..2], &all, &[]),
             family(Long, &levels[2..], &all, &[]),
         ],
@@ -123,7 +127,6 @@ pub(super) fn case() -> Case {
         sweeps: Vec::new(),
         watched: &["factor", "moved"],
         sketch: super::landslide::sketch("5 m"),
-        golden_tier: Pr,
         cost: Box::new(|spec| spec.level.h.powi(-3)),
         ladder: &[],
         settles: false,

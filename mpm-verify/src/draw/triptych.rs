@@ -27,7 +27,7 @@ fn differ(old: &RgbImage, new: &RgbImage, x: u32, y: u32) -> bool {
 
 /// Old, new, and the new one faded with what differs in red, from left to right.
 #[must_use]
-pub(super) fn triptych(old: &RgbImage, new: &RgbImage) -> RgbImage {
+pub(crate) fn triptych(old: &RgbImage, new: &RgbImage) -> RgbImage {
     let (width, height) = joint_size(old, new);
     let mut all = RgbImage::from_pixel(3 * width + 2 * GAP, height, WHITE);
     imageops::replace(&mut all, old, 0, 0);

@@ -1,0 +1,235 @@
+//! Drift of a run from its golden.
+
+use super::format::{Column, Golden, Point, Run};
+use super::picture::{curves, write_small};
+use super::{file, picture_file, runs, why_none};
+use crate::cases;
+use crate::draw::triptych::different_pixels;
+use crate::error::Error;
+use crate::record::Record;
+use crate::series;
+use crate::table::Table;
+use crate::verdict::{Kind, Outcome, Verdict};
+use image::RgbImage;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Name of the check.
+const CHECK: &str = "golden";
+/// Largest distance of a row's time from that of its golden, over the latest time of the series.
+const SAME_TIME: f64 = 1e-9;
+
+/// The goldens of all cases.
+pub struct Goldens {
+    root: PathBuf,
+    cases: BTreeMap<&'static str, Result<Golden, String>>,
+}
+
+impl Goldens {
+    /// Reads the goldens below `root`.
+    ///
+    /// # Errors
+    /// There is no such folder. A file that is missing or damaged is drift of its case.
+    pub fn open(root: &Path) -> Result<Self, Error> {
+        if !root.is_dir() {
+            return Err(Error::file(root, "no folder of goldens"));
+        }
+        let read = |name| match file(root, name) {
+            path if path.exists() => Golden::read(&path).map_err(|e| e.to_string()),
+            _ => Ok(Golden::default()),
+        };
+        let names = cases::all().into_iter().map(|case| case.name);
+        Ok(Self {
+            root: root.to_path_buf(),
+            cases: names.map(|name| (name, read(name))).collect(),
+        })
+    }
+
+    /// Puts runs of one case, that of `record`, in the place of what is kept of them, and draws its picture anew. Other
+    /// runs of the plan stay; where the file was damaged nothing does.
+    ///
+    /// # Errors
+    /// The case is not known, or a file can't be written.
+    pub fn bless(&self, record: &Record, new: Vec<Run>, reason: &str) -> Result<(), Error> {
+        let planned = runs(cases::find(&record.case)?);
+        let kept = self.cases.get(&*record.case);
+        let mut golden = match kept {
+            Some(Ok(golden)) => golden.clone(),
+            _ => Golden::default(),
+        };
+        golden.bless(new, &planned, record, reason);
+        golden.write(&file(&self.root, &record.case))?;
+        let shown = planned.first().and_then(|run| golden.run(run));
+        match shown.filter(|run| run.has_series()) {
+            Some(run) => write_small(&curves(run)?, &picture_file(&self.root, &record.case)),
+            None => Ok(()),
+        }
+    }
+
+    /// What is kept of a run, and the last line of its file's blessings; or why nothing is.
+    fn find(&self, record: &Record) -> Result<(&Run, &str), &str> {
+        let golden = self.cases.get(&*record.case).ok_or("no such case")?;
+        let golden = golden.as_ref().map_err(String::as_str)?;
+        let run = golden.run(&record.folder());
+        let run = run.ok_or("new: not yet blessed")?;
+        Ok((run, golden.blessings.last().map_or("", String::as_str)))
+    }
+
+    /// Verdicts on the drift of a run whose outputs lie in `folder`.
+    ///
+    /// # Errors
+    /// The case is not known, the run's series can't be read, or a picture can't be drawn.
+    pub fn compare(&self, record: &Record, folder: &Path) -> Result<Vec<Verdict>, Error> {
+        if record.broke_down() {
+            let why = "the run broke down: nothing to compare";
+            return Ok(vec![mismatch("run", why)]);
+        }
+        if let Some(why) = why_none(cases::find(&record.case)?, record) {
+            return Ok(vec![of_drift(Verdict::not_applicable(CHECK, "run", why))]);
+        }
+        let (golden, blessing) = match self.find(record) {
+            Ok(found) => found,
+            Err(why) => return Ok(vec![mismatch("run", why)]),
+        };
+        let now = Now::read(record, folder)?;
+        let columns = golden.columns.iter();
+        let mut verdicts: Vec<Verdict> = columns.map(|c| now.judge(c, blessing)).collect();
+        if is_shown(record)? && golden.has_series() {
+            verdicts.push(self.judge_picture(record, &now.snapped(golden), blessing));
+        }
+        Ok(verdicts)
+    }
+
+    /// Whether the picture of the case's first run, drawn from numbers that have not drifted as they were blessed, is
+    /// that which is kept.
+    fn judge_picture(&self, record: &Record, now: &Run, blessing: &str) -> Verdict {
+        let path = picture_file(&self.root, &record.case);
+        let metric = "different pixels of the picture";
+        let kept = match image::open(&path) {
+            Ok(kept) => kept.to_rgb8(),
+            Err(error) => return mismatch(metric, &Error::file(&path, error).to_string()),
+        };
+        let drawn = match curves(now) {
+            Ok(drawn) => drawn,
+            Err(error) => return mismatch(metric, &error.to_string()),
+        };
+        let different = different_pixels(&kept, &drawn) as f64;
+        of_drift(Verdict::close(CHECK, metric, different, 0.0, 0.0, blessing))
+    }
+
+    /// The watched columns of a run as they were blessed, and as they are.
+    ///
+    /// # Errors
+    /// The run has no golden or no series, or a picture can't be drawn.
+    pub fn pictures(&self, record: &Record, folder: &Path) -> Result<[RgbImage; 2], Error> {
+        let found = self.find(record);
+        let (golden, _) = found.map_err(|why| Error::file(&self.root, why))?;
+        let now = Now::read(record, folder)?.snapped(golden);
+        Ok([curves(golden)?, curves(&now)?])
+    }
+}
+
+/// Whether the picture of a run's case is of this run.
+pub(crate) fn is_shown(record: &Record) -> Result<bool, Error> {
+    let runs = runs(cases::find(&record.case)?);
+    Ok(runs.first() == Some(&record.folder()))
+}
+
+fn of_drift(verdict: Verdict) -> Verdict {
+    Verdict {
+        kind: Kind::Drift,
+        ..verdict
+    }
+}
+
+/// A failed comparison that has no numbers.
+fn mismatch(metric: &str, why: &str) -> Verdict {
+    Verdict {
+        outcome: Outcome::Failed,
+        ..of_drift(Verdict::not_applicable(CHECK, metric, why))
+    }
+}
+
+/// What a run has now.
+struct Now<'a> {
+    record: &'a Record,
+    series: Table,
+}
+
+impl<'a> Now<'a> {
+    fn read(record: &'a Record, folder: &Path) -> Result<Self, Error> {
+        let series = Table::read(&folder.join(series::FILE))?;
+        Ok(Self { record, series })
+    }
+
+    /// The number that stands in the place of a golden one.
+    fn find(&self, quantity: &str, point: &Point) -> Option<f64> {
+        let (kind, name) = quantity.split_once('/')?;
+        match kind {
+            "metric" => {
+                let mut metrics = self.record.metrics.iter();
+                metrics
+                    .find(|(n, m)| format!("{n} ({})", m.unit) == name)?
+                    .1
+                    .value
+            }
+            "work" => {
+                let mut counts = self.record.work.counts().into_iter();
+                Some(counts.find(|(n, _)| *n == name)?.1 as f64)
+            }
+            _ => {
+                let (_, times) = self.series.iter().next()?;
+                let time = point.time?;
+                let near =
+                    |t: &f64| (t - time).abs() <= SAME_TIME * times.last().map_or(0.0, |t| t.abs());
+                let row = times.iter().position(near)?;
+                Some(self.series.get(name)?[row])
+            }
+        }
+    }
+
+    /// The verdict on the point of a column that uses most of its tolerance.
+    fn judge(&self, column: &Column, blessing: &str) -> Verdict {
+        let label = match column.quantity.split_once('/') {
+            Some(("series", name)) => format!("series {name}"),
+            Some(("work", name)) => format!("count of {name}"),
+            Some((_, name)) => name.to_owned(),
+            None => column.quantity.clone(),
+        };
+        let mut worst = (
+            f64::NEG_INFINITY,
+            mismatch(&label, "the golden has no number"),
+        );
+        for point in &column.points {
+            let place = point
+                .time
+                .map_or(String::new(), |t| format!("at time {t}; "));
+            let Some(value) = self.find(&column.quantity, point) else {
+                return mismatch(&label, &format!("{place}the run has no such number"));
+            };
+            let tolerance = column.tolerance(point);
+            let excess = (value - point.value).abs() - tolerance;
+            // What is not a number exceeds everything.
+            if worst.0.total_cmp(&excess).is_lt() {
+                let source = format!("{place}blessed {blessing}");
+                let close = Verdict::close(CHECK, &label, value, point.value, tolerance, source);
+                worst = (excess, of_drift(close));
+            }
+        }
+        worst.1
+    }
+
+    /// The run as its golden has it, with the present number wherever it has drifted.
+    fn snapped(&self, golden: &Run) -> Run {
+        let mut run = golden.clone();
+        for (column, kept) in run.columns.iter_mut().zip(&golden.columns) {
+            for (point, old) in column.points.iter_mut().zip(&kept.points) {
+                let now = self.find(&kept.quantity, old).unwrap_or(f64::NAN);
+                if !((now - old.value).abs() <= kept.tolerance(old)) {
+                    point.value = now;
+                }
+            }
+        }
+        run
+    }
+}

@@ -1,0 +1,123 @@
+//! The golden numbers of a run, from its files and those of its perturbed twin.
+
+use super::bare;
+use super::format::{Column, Point, Run, SERIES, WORK};
+use crate::cases;
+use crate::error::Error;
+use crate::record::Record;
+use crate::series;
+use crate::table::Table;
+use std::path::Path;
+
+/// Rows of a series that are kept of each watched column.
+const ROWS: usize = 8;
+
+impl Run {
+    /// Of a run whose outputs lie in `folder`, and its perturbed twin.
+    ///
+    /// # Errors
+    /// The case is not known, or a series can't be read.
+    pub fn of(
+        (record, folder): (&Record, &Path),
+        (twin, twin_folder): (&Record, &Path),
+    ) -> Result<Self, Error> {
+        let mut columns = metrics(record, twin);
+        let [of_run, of_twin] = [folder, twin_folder].map(|f| Table::read(&f.join(series::FILE)));
+        let (of_run, of_twin) = (of_run?, of_twin?);
+        for (header, values) in of_run.iter() {
+            if cases::find(&record.case)?.watched.contains(&bare(header)) {
+                let others = of_twin.get(header).unwrap_or_default();
+                let times = [&of_run, &of_twin].map(first);
+                columns.extend(rows(header, times, [values, others]));
+            }
+        }
+        columns.extend(counts(record, twin));
+        Ok(Self {
+            name: record.folder(),
+            columns,
+        })
+    }
+}
+
+fn first(table: &Table) -> &[f64] {
+    table.iter().next().map_or(&[], |(_, times)| times)
+}
+
+/// A quantity of one number.
+fn single(quantity: String, value: f64, response: f64) -> Column {
+    let (time, value, response) = (None, rounded::<10>(value), rounded::<2>(response));
+    Column {
+        quantity,
+        points: vec![Point {
+            time,
+            value,
+            response,
+        }],
+    }
+}
+
+/// The metrics that both have.
+fn metrics(record: &Record, twin: &Record) -> Vec<Column> {
+    let both = record.metrics.iter().filter_map(|(name, metric)| {
+        let value = metric.value?;
+        let response = (value - twin.metrics.get(name)?.value?).abs();
+        let quantity = format!("metric/{name} ({})", metric.unit);
+        Some(single(quantity, value, response))
+    });
+    both.filter(|column| !column.is_blunt()).collect()
+}
+
+/// Counts of work: a run that ends by a criterion may take a row more than its twin.
+fn counts(record: &Record, twin: &Record) -> Vec<Column> {
+    let both = record.work.counts().into_iter().zip(twin.work.counts());
+    both.map(|((name, count), (_, of_twin))| {
+        let response = count.abs_diff(of_twin) as f64;
+        Column {
+            quantity: format!("{WORK}{name}"),
+            points: vec![Point {
+                time: None,
+                value: count as f64,
+                response,
+            }],
+        }
+    })
+    .collect()
+}
+
+/// Evenly spaced rows of a column and the last, as far as none of them responds too strongly. What a row responds by is
+/// the most of all rows up to it, the kept ones and the others: a difference may pass through zero.
+fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column> {
+    let total = values[0].len();
+    let mut kept: Vec<usize> = (1..=ROWS).map(|k| (k * total).div_ceil(ROWS)).collect();
+    kept.dedup();
+    let mut response: f64 = 0.0;
+    let mut points = Vec::new();
+    for k in 0..total.min(values[1].len()) {
+        let difference = (values[0][k] - values[1][k]).abs();
+        if times[0][k] != times[1][k] || !difference.is_finite() {
+            break;
+        }
+        response = response.max(difference);
+        if kept.contains(&(k + 1)) {
+            points.push(Point {
+                time: Some(rounded::<10>(times[0][k])),
+                value: rounded::<10>(values[0][k]),
+                response: rounded::<2>(response),
+            });
+        }
+    }
+    let mut column = Column {
+        quantity: format!("{SERIES}{header}"),
+        points,
+    };
+    while column.is_blunt() {
+        column.points.pop();
+    }
+    (!column.points.is_empty()).then_some(column)
+}
+
+/// A number to so many significant digits: what is beyond them is far below any tolerance.
+fn rounded<const DIGITS: usize>(number: f64) -> f64 {
+    let text = format!("{number:.*e}", DIGITS - 1);
+    text.parse().unwrap_or(number)
+}

@@ -1,0 +1,85 @@
+//! Goldens: blessed results, so that drift is seen. They never stand in for the truth.
+//!
+//! `golden/<case>.csv` holds, run by run, the metrics, a few rows of the watched columns of the time series and the
+//! counts of work, each with its measured response to a last-bit perturbation of the starting positions, below the
+//! lines of the blessings. `golden/<case>.png` shows the watched columns of one run. A number may move by [`FLOOR`] of
+//! its column's scale, which leaves room for another order of the same sums; one that responds by more than
+//! [`BLUNT`] of it is no golden and is left out. A count may not move, unless the perturbation moves it.
+
+mod compare;
+mod format;
+mod measure;
+mod picture;
+
+pub use compare::Goldens;
+pub use format::{Column, Golden, Point, Run};
+
+use crate::case::{Case, Tier};
+use crate::cases;
+use crate::error::Error;
+use crate::record::Record;
+use crate::spec::RunSpec;
+use std::path::{Path, PathBuf};
+
+/// The tier whose runs carry goldens.
+pub const TIER: Tier = Tier::Pr;
+/// Tolerance of a number over the scale of its column.
+pub const FLOOR: f64 = 1e-7;
+/// Largest response of a golden number over the scale of its column.
+pub const BLUNT: f64 = FLOOR / 100.0;
+/// Tolerance of a count over its response.
+pub const MARGIN: f64 = 10.0;
+/// The count that stands for the cost of a run, and that is told where none has changed.
+const PAIRS: &str = "work/particle_node_pairs";
+
+/// File of the goldens of a case.
+#[must_use]
+pub fn file(root: &Path, case: &str) -> PathBuf {
+    root.join(format!("{case}.csv"))
+}
+
+/// Picture of the first run of a case.
+#[must_use]
+pub fn picture_file(root: &Path, case: &str) -> PathBuf {
+    root.join(format!("{case}.png"))
+}
+
+/// The runs of a case that carry goldens, in the order of the plan.
+#[must_use]
+pub fn runs(case: &Case) -> Vec<String> {
+    case.runs(TIER).iter().map(RunSpec::folder).collect()
+}
+
+/// Why no golden is kept of a run, if none is.
+#[must_use]
+pub fn why_none(case: &Case, record: &Record) -> Option<String> {
+    if (case.breaks_down)(record).is_some() {
+        Some("the run breaks down as it is known to: nothing to compare".to_owned())
+    } else if !runs(case).contains(&record.folder()) {
+        Some(format!("goldens are kept of the runs of tier {TIER} only"))
+    } else {
+        None
+    }
+}
+
+/// Particle–node pairs of all golden runs of a case.
+///
+/// # Errors
+/// The case is not known, or a run has no golden.
+pub fn pairs(root: &Path, case: &str) -> Result<u64, Error> {
+    let path = file(root, case);
+    let golden = Golden::read(&path)?;
+    let pairs_of = |run: String| {
+        let columns = golden.run(&run).map_or(&[][..], |run| &run.columns);
+        match columns.iter().find(|c| c.quantity == PAIRS) {
+            Some(column) => Ok(column.points[0].value as u64),
+            None => Err(Error::file(&path, format!("no {PAIRS} of {run}"))),
+        }
+    };
+    runs(cases::find(case)?).into_iter().map(pairs_of).sum()
+}
+
+/// The name of a column without its unit.
+fn bare(column: &str) -> &str {
+    column.split(" (").next().unwrap_or(column)
+}

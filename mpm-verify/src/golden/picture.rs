@@ -1,0 +1,66 @@
+//! The picture of a run: the watched columns of its series.
+
+use super::bare;
+use super::format::{Column, Run, SERIES};
+use crate::draw::{Chart, Dash, Marker, Scale, Series, draw_charts};
+use crate::error::Error;
+use crate::files::write_whole;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{RgbImage, imageops};
+use std::path::Path;
+
+/// Width of a picture, in pixels.
+const WIDTH: u32 = 480;
+
+/// Draws the watched columns of a run, a chart each.
+///
+/// # Errors
+/// There are none, or the picture can't be drawn.
+pub(super) fn curves(run: &Run) -> Result<RgbImage, Error> {
+    let charts: Vec<Chart> = run.columns.iter().filter_map(chart).collect();
+    let folder = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
+    let path = folder.path().join("curves.png");
+    draw_charts(&path, &charts, charts.len().min(2))?;
+    let picture = image::open(&path).map_err(|e| Error::file(&path, e))?;
+    let height = picture.height() * WIDTH / picture.width();
+    Ok(imageops::thumbnail(&picture.to_rgb8(), WIDTH, height))
+}
+
+fn chart(column: &Column) -> Option<Chart> {
+    let header = column.quantity.strip_prefix(SERIES)?;
+    let points = column
+        .points
+        .iter()
+        .filter_map(|p| Some((p.time?, p.value)));
+    Some(Chart {
+        title: String::new(),
+        x_label: "time (s)".to_owned(),
+        y_label: header.to_owned(),
+        x_scale: Scale::Linear,
+        y_scale: Scale::Linear,
+        series: vec![Series {
+            name: bare(header).to_owned(),
+            points: points.collect(),
+            colour: 0,
+            marker: Marker::Circle,
+            dash: Dash::Solid,
+        }],
+        reference_lines: Vec::new(),
+        slope_triangle: None,
+        x_range: None,
+        y_range: None,
+    })
+}
+
+/// Writes a PNG file as small as it gets.
+///
+/// # Errors
+/// It can't be written.
+pub(super) fn write_small(picture: &RgbImage, path: &Path) -> Result<(), Error> {
+    let mut bytes = Vec::new();
+    let encoder =
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+    let written = picture.write_with_encoder(encoder);
+    written.map_err(|e| Error::file(path, e))?;
+    write_whole(path, &bytes)
+}
