@@ -1,7 +1,12 @@
-//! Numbers: one, or eight side by side.
+//! Numbers: one, eight side by side, or one with its derivatives.
 //!
-//! A formula that is written for any [`Real`] serves one particle and, in one go, eight of them. It must not
-//! branch on a value, but may do less where *all* of its numbers allow it.
+//! A formula that is written for any [`Real`] serves one particle and, in one go, eight of them, and of a [`Dual`]
+//! number it gives the derivatives as well. It must not branch on a value, but may do less where *all* of its numbers
+//! allow it. What takes numbers apart loses their derivatives: it asks for [`Lanes`], which a dual number doesn't have.
+
+mod dual;
+
+pub use dual::Dual;
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -19,7 +24,7 @@ pub fn indices(of: Eight) -> [usize; EIGHT] {
     of.fast_trunc_int().to_array().map(|index| index as usize)
 }
 
-/// One number or several.
+/// One number or several, with or without derivatives.
 pub trait Real:
     Copy
     + Debug
@@ -35,17 +40,11 @@ pub trait Real:
     + Neg<Output = Self>
     + 'static
 {
-    /// How many.
-    const COUNT: usize;
-
-    /// `x`, so often.
+    /// `x` in every lane, a constant.
     fn splat(x: f64) -> Self;
 
-    /// The numbers `of(0)`, `of(1)`, ….
+    /// `of(k)` in lane `k`, constants.
     fn pack(of: impl FnMut(usize) -> f64) -> Self;
-
-    /// The `k`-th of the numbers.
-    fn part(&self, k: usize) -> f64;
 
     /// `self` `a` + `b`, rounded once where the processor can.
     #[must_use]
@@ -84,11 +83,27 @@ pub trait Real:
 
     /// Whether one is above zero.
     fn any_positive(self) -> bool;
+
+    /// `then` where this number is above zero, `otherwise` elsewhere.
+    #[must_use]
+    fn if_positive(self, then: Self, otherwise: Self) -> Self;
+
+    /// This number, to whose derivatives those of `correction` are added: one more step of an iteration whose value
+    /// has converged, while its derivatives lag by one.
+    #[must_use]
+    #[inline(always)]
+    fn with_slopes_of(self, _correction: Self) -> Self {
+        self
+    }
+}
+
+/// Numbers that can be taken apart.
+pub trait Lanes: Real {
+    /// The number in lane `k`.
+    fn part(&self, k: usize) -> f64;
 }
 
 impl Real for f64 {
-    const COUNT: usize = 1;
-
     #[inline(always)]
     fn splat(x: f64) -> Self {
         x
@@ -97,11 +112,6 @@ impl Real for f64 {
     #[inline(always)]
     fn pack(mut of: impl FnMut(usize) -> f64) -> Self {
         of(0)
-    }
-
-    #[inline(always)]
-    fn part(&self, _k: usize) -> f64 {
-        *self
     }
 
     #[inline(always)]
@@ -153,11 +163,21 @@ impl Real for f64 {
     fn any_positive(self) -> bool {
         self > 0.0
     }
+
+    #[inline(always)]
+    fn if_positive(self, then: Self, otherwise: Self) -> Self {
+        if self > 0.0 { then } else { otherwise }
+    }
+}
+
+impl Lanes for f64 {
+    #[inline(always)]
+    fn part(&self, _k: usize) -> f64 {
+        *self
+    }
 }
 
 impl Real for Eight {
-    const COUNT: usize = EIGHT;
-
     #[inline(always)]
     fn splat(x: f64) -> Self {
         f64x8::splat(x)
@@ -166,11 +186,6 @@ impl Real for Eight {
     #[inline(always)]
     fn pack(of: impl FnMut(usize) -> f64) -> Self {
         f64x8::new(std::array::from_fn(of))
-    }
-
-    #[inline(always)]
-    fn part(&self, k: usize) -> f64 {
-        self.as_array()[k]
     }
 
     #[inline(always)]
@@ -221,6 +236,18 @@ impl Real for Eight {
     #[inline(always)]
     fn any_positive(self) -> bool {
         self.simd_gt(f64x8::ZERO).any()
+    }
+
+    #[inline(always)]
+    fn if_positive(self, then: Self, otherwise: Self) -> Self {
+        self.simd_gt(f64x8::ZERO).select(then, otherwise)
+    }
+}
+
+impl Lanes for Eight {
+    #[inline(always)]
+    fn part(&self, k: usize) -> f64 {
+        self.as_array()[k]
     }
 }
 

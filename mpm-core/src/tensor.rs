@@ -2,7 +2,7 @@
 
 mod function;
 
-use crate::number::Real;
+use crate::number::{Lanes, Real};
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub fn determinant<T: Real>(m: &Matrix3<T>) -> T {
     m[(0, 0)] * minor(1, 2) - m[(0, 1)] * minor(0, 2) + m[(0, 2)] * minor(0, 1)
 }
 
-/// A symmetric 3×3 tensor (a stress in Pa, a left Cauchy–Green tensor), or eight of them.
+/// A symmetric 3×3 tensor (a stress in Pa, a left Cauchy–Green tensor), or eight of them, or one with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SymmetricTensor<T = f64> {
     /// Component 11.
@@ -41,6 +41,22 @@ impl SymmetricTensor {
     }
 }
 
+impl<T: Lanes> SymmetricTensor<T> {
+    /// The `k`-th of the tensors.
+    #[inline(always)]
+    #[must_use]
+    pub fn part(&self, k: usize) -> SymmetricTensor {
+        SymmetricTensor {
+            xx: self.xx.part(k),
+            yy: self.yy.part(k),
+            zz: self.zz.part(k),
+            xy: self.xy.part(k),
+            yz: self.yz.part(k),
+            xz: self.xz.part(k),
+        }
+    }
+}
+
 impl<T: Real> SymmetricTensor<T> {
     /// The tensors `of(0)`, `of(1)`, ….
     #[inline(always)]
@@ -53,20 +69,6 @@ impl<T: Real> SymmetricTensor<T> {
             xy: T::pack(|k| of(k).xy),
             yz: T::pack(|k| of(k).yz),
             xz: T::pack(|k| of(k).xz),
-        }
-    }
-
-    /// The `k`-th of the tensors.
-    #[inline(always)]
-    #[must_use]
-    pub fn part(&self, k: usize) -> SymmetricTensor {
-        SymmetricTensor {
-            xx: self.xx.part(k),
-            yy: self.yy.part(k),
-            zz: self.zz.part(k),
-            xy: self.xy.part(k),
-            yz: self.yz.part(k),
-            xz: self.xz.part(k),
         }
     }
 

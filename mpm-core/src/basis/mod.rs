@@ -13,7 +13,7 @@ pub use gimp::Gimp;
 pub use linear::Linear;
 
 use crate::grid::Axis;
-use crate::number::{EIGHT, Eight, Real};
+use crate::number::{EIGHT, Eight, Lanes, Real};
 
 /// The non-zero functions of one axis at a point: `first`, `first + 1`, …, with their values and
 /// derivatives (1/m).

@@ -12,7 +12,7 @@
 
 use super::{Law, NeoHookean, State};
 use crate::error::{Error, require};
-use crate::number::Real;
+use crate::number::{Lanes, Real};
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
@@ -127,7 +127,7 @@ impl State for ElastoplasticState {
     }
 
     #[inline(always)]
-    fn part<T: Real>(of: &ElastoplasticState<T>, k: usize) -> Self {
+    fn part<T: Lanes>(of: &ElastoplasticState<T>, k: usize) -> Self {
         Self {
             elastic: of.elastic.part(k),
             plastic_strain: of.plastic_strain.part(k),
@@ -164,23 +164,21 @@ impl HenckyJ2 {
         let per_flow = T::splat(PER_FLOW);
         let stiffness = T::splat(2.0 * self.shear_modulus);
         let (mut kappa, mut slope) = self.strength.at(plastic_strain);
-        let excess = (trial - kappa).at_least(0.0);
+        let mut excess = (trial - kappa).at_least(0.0);
         let mut flow = T::default();
         if !excess.any_positive() {
             return flow;
         }
-        // Where nothing flows every excess below is made zero by this.
-        let flows = T::pack(|k| f64::from(u8::from(excess.part(k) > 0.0)));
-        let mut excess = excess;
+        let yields = excess;
         for _ in 0..MOST_STEPS {
             if !(excess.abs() - T::splat(ACCURACY) * kappa).any_positive() {
                 break;
             }
             flow += excess / (stiffness + per_flow * slope);
             (kappa, slope) = self.strength.at(plastic_strain + per_flow * flow);
-            excess = flows * (trial - stiffness * flow - kappa);
+            excess = yields.if_positive(trial - stiffness * flow - kappa, T::default());
         }
-        flow
+        flow.with_slopes_of(excess / (stiffness + per_flow * slope))
     }
 }
 

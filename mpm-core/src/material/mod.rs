@@ -8,7 +8,7 @@ pub use hencky_j2::{ElastoplasticState, HenckyJ2, Strength};
 pub use neo_hookean::NeoHookean;
 pub use newtonian_fluid::NewtonianFluid;
 
-use crate::number::{EIGHT, Eight, Real};
+use crate::number::{Dual, EIGHT, Eight, Lanes, Real};
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 use serde::Serialize;
@@ -24,7 +24,7 @@ pub trait State: Copy + Send + Sync + PartialEq + Debug + Serialize + Deserializ
     fn pack<T: Real>(of: impl Fn(usize) -> Self) -> Self::Of<T>;
 
     /// The `k`-th of the states.
-    fn part<T: Real>(of: &Self::Of<T>, k: usize) -> Self;
+    fn part<T: Lanes>(of: &Self::Of<T>, k: usize) -> Self;
 }
 
 impl State for f64 {
@@ -36,7 +36,7 @@ impl State for f64 {
     }
 
     #[inline(always)]
-    fn part<T: Real>(of: &T, k: usize) -> Self {
+    fn part<T: Lanes>(of: &T, k: usize) -> Self {
         of.part(k)
     }
 }
@@ -50,7 +50,7 @@ impl State for SymmetricTensor {
     }
 
     #[inline(always)]
-    fn part<T: Real>(of: &SymmetricTensor<T>, k: usize) -> Self {
+    fn part<T: Lanes>(of: &SymmetricTensor<T>, k: usize) -> Self {
         of.part(k)
     }
 }
@@ -70,7 +70,7 @@ pub trait Law: Send + Sync {
     fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State);
 
     /// Cauchy stress (Pa) and state after the relative deformation `delta_f` over `dt` (s): the law, of one particle
-    /// or of eight.
+    /// or of eight, or with derivatives.
     fn response<T: Real>(
         &self,
         delta_f: &Matrix3<T>,
@@ -115,6 +115,24 @@ pub trait Law: Send + Sync {
         for (k, (state, stress)) in rest.iter_mut().zip(of_rest).enumerate() {
             (*stress, *state) = self.update(&delta_f(first_of_rest + k), dt, state);
         }
+    }
+
+    /// The consistent tangent: the Cauchy stress σ (Pa) of [`Law::update`] and in `slope[3 i + j]` of its components
+    /// the derivatives ∂σ/∂ΔF_ij, while the state of the step's start stays.
+    ///
+    /// An implicit step differentiates P_rel = ΔJ σ ΔF⁻ᵀ, the stress per area at the step's start, whose derivative
+    /// A_ijkl = ∂P_rel,ij/∂ΔF_kl has the geometric part as well: a node's force is Σ V P_rel ∇w and the stiffness
+    /// between two nodes K_ik = Σ V ∂_j w A_ijkl ∂_l w′, with volumes and gradients of the step's start. P_rel of dual
+    /// numbers, from this σ and ΔF of the same variables, is A.
+    fn tangent(
+        &self,
+        delta_f: &Matrix3<f64>,
+        dt: f64,
+        state: &Self::State,
+    ) -> SymmetricTensor<Dual<9>> {
+        let variables = Matrix3::from_fn(|i, j| Dual::variable(delta_f[(i, j)], 3 * i + j));
+        self.response(&variables, dt, &State::pack::<Dual<9>>(|_| *state))
+            .0
     }
 
     /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that doesn't flow.

@@ -5,6 +5,8 @@ use crate::number::EIGHT;
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 
+mod tangent;
+
 /// Deformation gradients with stretches near one and a positive determinant.
 fn deformations() -> impl Strategy<Value = Matrix3<f64>> {
     prop::array::uniform9(-0.2..0.2_f64)

@@ -1,7 +1,7 @@
 //! Plastic flow against closed forms.
 
 use super::*;
-use crate::number::EIGHT;
+use crate::number::{Dual, EIGHT};
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 
@@ -237,6 +237,22 @@ fn softening_is_integrated_exactly_where_the_direction_stays() {
             let kappa = law.strength.at(lo).0;
             assert!(((stress.yy - stress.xx) / (2.0_f64.sqrt() * kappa) - 1.0).abs() < 1e-10);
         }
+    }
+}
+
+/// The flow's derivative is that of its equation, dγ (2μ + √(2/3) κ′) = dτ, however far from it Newton's last step began.
+#[test]
+fn the_slope_of_the_flow_does_not_lag() {
+    // Almost as steep as the elastic slope: Newton's steps are many.
+    let strength = Strength::softening(KAPPA, 0.06 * KAPPA, 240.0).unwrap();
+    let law = HenckyJ2::new(YOUNG, RATIO, strength).unwrap();
+    for k in 1..200 {
+        let trial = KAPPA * (1.0 + 1.05_f64.powi(k - 150));
+        let flow = law.flow(Dual::<1>::variable(trial, 0), Dual::splat(0.0));
+        assert_eq!(flow.value, law.flow(trial, 0.0));
+        let slope = law.strength.at(PER_FLOW * flow.value).1;
+        let exact = 1.0 / (2.0 * law.shear_modulus + PER_FLOW * slope);
+        assert!((flow.slope[0] / exact - 1.0).abs() < 1e-9, "{trial}");
     }
 }
 

@@ -1,0 +1,170 @@
+//! The consistent tangent against difference quotients.
+
+use super::*;
+
+/// Largest change of a component of ΔF.
+const STEP: f64 = 1e-3;
+/// Units in the last place by which rounding may move a stress.
+const UNITS: f64 = 20.0;
+/// Duration (s).
+const DT: f64 = 1e-3;
+
+/// By how much `f` multiplies rounding: by the condition of its left Cauchy–Green tensor in the inverse or logarithm of
+/// that, by 1/J in what is a stress of the Kirchhoff stress, by J in a pressure K (J − 1).
+fn condition(f: &Matrix3<f64>) -> f64 {
+    let j = f.determinant();
+    (f.norm() * f.try_inverse().unwrap().norm()).powi(2) * j.max(1.0 / j)
+}
+
+/// ∂σ/∂ΔF_ij is what central differences of three steps extrapolate to, as closely as the last extrapolation changes
+/// it, and as rounding of the stress, in units of `scale` (Pa), allows at the smallest step. The stress beside
+/// it has the bits of the update.
+fn tangent_is_the_slope<M: Law>(law: &M, delta_f: &Matrix3<f64>, state: &M::State, scale: f64) {
+    let tangent = law.tangent(delta_f, DT, state);
+    let stress = |f: &Matrix3<f64>| law.update(f, DT, state).0;
+    let slope = |k: usize| Matrix3::from_fn(|i, j| tangent.get(i, j).slope[k]);
+    for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)] {
+        assert_eq!(tangent.get(i, j).value, stress(delta_f).get(i, j));
+    }
+    for (i, j) in [0, 1, 2].into_iter().flat_map(|i| [(i, 0), (i, 1), (i, 2)]) {
+        let quotient = |step: f64| {
+            let mut change = Matrix3::zeros();
+            change[(i, j)] = step;
+            let ends = [delta_f + change, delta_f - change].map(|f| stress(&f).to_matrix());
+            (ends[0] - ends[1]) / (2.0 * step)
+        };
+        let [coarse, middle, fine] = [STEP, STEP / 2.0, STEP / 4.0].map(quotient);
+        let [first, second] = [(middle * 4.0 - coarse) / 3.0, (fine * 4.0 - middle) / 3.0];
+        let exact = (second * 16.0 - first) / 15.0;
+        let uncertain = (exact - second).norm() + UNITS * f64::EPSILON * scale / (STEP / 4.0);
+        let error = (slope(3 * i + j) - exact).norm();
+        assert!(
+            error <= uncertain,
+            "{i}{j}: off by {error}, known to {uncertain}"
+        );
+    }
+}
+
+/// Without strain, with equal stretches, and far away: along axes and in planes, where some of σ vanishes but not its
+/// derivative.
+fn special() -> Vec<Matrix3<f64>> {
+    let mut shear = Matrix3::identity();
+    shear[(0, 1)] = 0.7;
+    let axes = [
+        [1.0, 1.0, 1.0],
+        [1.0001, 1.0, 1.0],
+        [1.2, 1.2, 1.2],
+        [1.3, 1.3, 0.8],
+        [0.2, 1.0, 5.0],
+        [5.0, 0.2, 0.2],
+    ];
+    let stretched = axes.map(|a| Matrix3::from_diagonal(&Vector3::from(a)));
+    stretched.into_iter().chain([shear]).collect()
+}
+
+/// Stretches from 0.2 to 5 along any axes, and turned.
+fn far() -> impl Strategy<Value = Matrix3<f64>> {
+    let stretches = prop::array::uniform3(-5.0_f64.ln()..5.0_f64.ln());
+    (rotations(), stretches, rotations())
+        .prop_map(|(q, e, r)| q * Matrix3::from_diagonal(&Vector3::from(e).map(f64::exp)) * r)
+}
+
+/// Of an elastic law: after a deformation and a further one.
+fn elastic<M: Law>(law: &M, first: &Matrix3<f64>, second: &Matrix3<f64>) {
+    let scale = modulus(law) * condition(&(second * first));
+    tangent_is_the_slope(law, second, &deform(law, first).1, scale);
+}
+
+macro_rules! every_law_has_a_tangent {
+    ($name:ident, $law:expr) => {
+        mod $name {
+            use super::*;
+
+            #[test]
+            fn at_special_strains() {
+                for f in special() {
+                    elastic(&$law, &Matrix3::identity(), &f);
+                    elastic(&$law, &f, &Matrix3::identity());
+                }
+            }
+
+            proptest! {
+                #[test]
+                fn near_and_far(f in deformations(), g in deformations(), far in far()) {
+                    elastic(&$law, &f, &g);
+                    elastic(&$law, &Matrix3::identity(), &far);
+                }
+            }
+        }
+    };
+}
+
+every_law_has_a_tangent!(
+    neo_hookean,
+    NeoHookean {
+        lambda: 5.0,
+        mu: 2.0
+    }
+);
+every_law_has_a_tangent!(
+    hencky_solid,
+    HenckyJ2::new(70.0, 0.4, Strength::perfect(1e9).unwrap()).unwrap()
+);
+every_law_has_a_tangent!(inviscid_fluid, NewtonianFluid::new(5.0, 0.0).unwrap());
+
+#[test]
+fn of_a_viscous_fluid() {
+    let law = NewtonianFluid::new(5.0, 0.3).unwrap();
+    for f in special() {
+        tangent_is_the_slope(&law, &f, &1.1, condition(&f) * (modulus(&law) + 0.6 / DT));
+    }
+}
+
+/// Ground that yields at an elastic strain of half a percent.
+fn ground() -> [HenckyJ2; 2] {
+    [
+        Strength::perfect(0.4).unwrap(),
+        Strength::softening(0.4, 0.024, 5.0).unwrap(),
+    ]
+    .map(|strength| HenckyJ2::new(100.0, 0.3, strength).unwrap())
+}
+
+/// Of ground that flows on the way there.
+fn plastic(law: &HenckyJ2, first: &Matrix3<f64>, second: &Matrix3<f64>) -> bool {
+    let before = deform(law, first).1;
+    let flow = law.update(second, DT, &before).1.plastic_strain - before.plastic_strain;
+    // Far enough from the yield surface for differences.
+    if flow > 4.0 * STEP {
+        tangent_is_the_slope(law, second, &before, modulus(law) * condition(second));
+    }
+    flow > 4.0 * STEP
+}
+
+/// Ground that has not yielded yet, the norm of whose deviator is zero.
+#[test]
+fn of_ground_at_rest() {
+    for law in ground() {
+        let initial = law.initial_state();
+        tangent_is_the_slope(&law, &Matrix3::identity(), &initial, modulus(&law));
+    }
+}
+
+#[test]
+fn of_flow_along_axes_and_in_planes() {
+    for law in ground() {
+        let flown = special()
+            .iter()
+            .filter(|f| plastic(&law, &Matrix3::identity(), f))
+            .count();
+        assert_eq!(flown, 4);
+    }
+}
+
+proptest! {
+    #[test]
+    fn of_flow(f in deformations(), g in deformations(), far in far()) {
+        for law in ground() {
+            prop_assume!(plastic(&law, &f, &g) && plastic(&law, &f, &far));
+        }
+    }
+}

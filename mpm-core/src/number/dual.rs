@@ -1,0 +1,262 @@
+//! A number and its derivatives.
+
+use super::Real;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// A number and its derivatives by `N` variables. Its value has the bits that the formula gives for one number.
+///
+/// Branches decide on values. Equality asks for equal slopes too, so that what is zero has no slope either.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dual<const N: usize> {
+    /// The number.
+    pub value: f64,
+    /// Its derivatives.
+    pub slope: [f64; N],
+}
+
+impl<const N: usize> Dual<N> {
+    /// The `k`-th variable, at `value`.
+    #[must_use]
+    pub fn variable(value: f64, k: usize) -> Self {
+        let slope = std::array::from_fn(|j| f64::from(u8::from(j == k)));
+        Self { value, slope }
+    }
+
+    /// `value`, a function of this number with the given derivative.
+    #[inline]
+    fn map(self, value: f64, derivative: f64) -> Self {
+        let slope = self.slope.map(|slope| derivative * slope);
+        Self { value, slope }
+    }
+
+    /// `value`, a function of this number and `other` with the given derivatives by both.
+    #[inline]
+    fn join(self, other: Self, value: f64, [by_this, by_other]: [f64; 2]) -> Self {
+        let slope = |k: usize| by_this * self.slope[k] + by_other * other.slope[k];
+        Self {
+            value,
+            slope: std::array::from_fn(slope),
+        }
+    }
+}
+
+impl<const N: usize> Default for Dual<N> {
+    fn default() -> Self {
+        Self::splat(0.0)
+    }
+}
+
+impl<const N: usize> Add for Dual<N> {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        self.join(other, self.value + other.value, [1.0, 1.0])
+    }
+}
+
+impl<const N: usize> Sub for Dual<N> {
+    type Output = Self;
+
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        self.join(other, self.value - other.value, [1.0, -1.0])
+    }
+}
+
+impl<const N: usize> Mul for Dual<N> {
+    type Output = Self;
+
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        self.join(other, self.value * other.value, [other.value, self.value])
+    }
+}
+
+impl<const N: usize> Div for Dual<N> {
+    type Output = Self;
+
+    #[inline]
+    fn div(self, other: Self) -> Self {
+        let quotient = self.value / other.value;
+        let by_this = 1.0 / other.value;
+        self.join(other, quotient, [by_this, -quotient * by_this])
+    }
+}
+
+impl<const N: usize> Neg for Dual<N> {
+    type Output = Self;
+
+    #[inline]
+    fn neg(self) -> Self {
+        self.map(-self.value, -1.0)
+    }
+}
+
+impl<const N: usize> AddAssign for Dual<N> {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<const N: usize> SubAssign for Dual<N> {
+    #[inline]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<const N: usize> MulAssign for Dual<N> {
+    #[inline]
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl<const N: usize> Real for Dual<N> {
+    #[inline]
+    fn splat(value: f64) -> Self {
+        let slope = [0.0; N];
+        Self { value, slope }
+    }
+
+    #[inline]
+    fn pack(mut of: impl FnMut(usize) -> f64) -> Self {
+        Self::splat(of(0))
+    }
+
+    #[inline]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        let value = self.value.mul_add(a.value, b.value);
+        Self {
+            value,
+            ..self * a + b
+        }
+    }
+
+    /// At zero, where a norm has no derivative, the slope is zero.
+    #[inline]
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.map(root, if root == 0.0 { 0.0 } else { 0.5 / root })
+    }
+
+    #[inline]
+    fn exp(self) -> Self {
+        let value = self.value.exp();
+        self.map(value, value)
+    }
+
+    #[inline]
+    fn ln(self) -> Self {
+        self.map(self.value.ln(), 1.0 / self.value)
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        if self.value < 0.0 { -self } else { self }
+    }
+
+    #[inline]
+    fn floor(self) -> Self {
+        Self::splat(self.value.floor())
+    }
+
+    #[inline]
+    fn at_least(self, limit: f64) -> Self {
+        if self.value > limit {
+            self
+        } else {
+            Self::splat(limit)
+        }
+    }
+
+    #[inline]
+    fn at_most(self, limit: f64) -> Self {
+        if self.value < limit {
+            self
+        } else {
+            Self::splat(limit)
+        }
+    }
+
+    #[inline]
+    fn all_below(self, limit: f64) -> bool {
+        self.value < limit
+    }
+
+    #[inline]
+    fn any_positive(self) -> bool {
+        self.value > 0.0
+    }
+
+    #[inline]
+    fn if_positive(self, then: Self, otherwise: Self) -> Self {
+        if self.value > 0.0 { then } else { otherwise }
+    }
+
+    #[inline]
+    fn with_slopes_of(self, correction: Self) -> Self {
+        self.join(correction, self.value, [1.0, 1.0])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Functions of two variables and what their derivatives are.
+    #[test]
+    fn derivatives_are_those_of_analysis() {
+        let (a, b) = (1.7, 0.6);
+        let (x, y) = (Dual::<2>::variable(a, 0), Dual::variable(b, 1));
+        let two = Dual::splat(2.0);
+        let mut in_place = x;
+        in_place += y;
+        in_place -= two;
+        in_place *= x;
+        for (found, value, slope) in [
+            (x + y, a + b, [1.0, 1.0]),
+            (x - y * two, a - 2.0 * b, [1.0, -2.0]),
+            (x * y, a * b, [b, a]),
+            (x / y, a / b, [1.0 / b, -a / (b * b)]),
+            (-x, -a, [-1.0, 0.0]),
+            (x.mul_add(y, two), a * b + 2.0, [b, a]),
+            (in_place, (a + b - 2.0) * a, [2.0 * a + b - 2.0, a]),
+            (x.sqrt(), a.sqrt(), [0.5 / a.sqrt(), 0.0]),
+            (
+                (x * y).exp(),
+                (a * b).exp(),
+                [b, a].map(|s| s * (a * b).exp()),
+            ),
+            (x.ln(), a.ln(), [1.0 / a, 0.0]),
+            ((y - x).abs(), a - b, [1.0, -1.0]),
+            (x.floor(), 1.0, [0.0, 0.0]),
+            (x.at_least(1.0), a, [1.0, 0.0]),
+            (x.at_least(2.0), 2.0, [0.0, 0.0]),
+            (y.at_most(1.0), b, [0.0, 1.0]),
+            (y.at_most(0.5), 0.5, [0.0, 0.0]),
+            ((x - y).if_positive(x, y), a, [1.0, 0.0]),
+            ((y - x).if_positive(x, y), b, [0.0, 1.0]),
+            (x.with_slopes_of(y), a, [1.0, 1.0]),
+        ] {
+            assert!((found.value - value).abs() < 1e-15 * value.abs().max(1.0));
+            for (found, slope) in found.slope.into_iter().zip(slope) {
+                assert!((found - slope).abs() < 4e-15, "{found} {slope}");
+            }
+        }
+    }
+
+    /// The norm of nothing has an infinite slope times zero in it.
+    #[test]
+    fn the_root_of_zero_has_no_slope() {
+        let x = Dual::<1>::variable(0.0, 0);
+        assert_eq!((x * x).sqrt(), Dual::default());
+    }
+
+    #[test]
+    fn what_is_zero_but_moves_is_not_zero() {
+        assert!(Dual::<1>::variable(0.0, 0) != Dual::default());
+    }
+}
