@@ -117,18 +117,6 @@ fn readable_draft(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// Writes a picture as PNG.
-///
-/// # Errors
-/// The file can't be written.
-pub fn write_picture(path: &Path, picture: &image::RgbImage) -> Result<(), Error> {
-    let mut png = std::io::Cursor::new(Vec::new());
-    picture
-        .write_to(&mut png, image::ImageFormat::Png)
-        .map_err(|e| Error::file(path, e))?;
-    write_whole(path, png.get_ref())
-}
-
 /// Writes JSON, indented, with a final newline.
 ///
 /// # Errors

@@ -1,6 +1,9 @@
 //! Axes: ranges, ticks and their labels, and the box that they make.
 
-use super::canvas::{Block, Canvas, Frame, INK, LABEL, Point, Rgb, SMALL, largest};
+use super::canvas::{Canvas, Frame, Point};
+use super::colour::{INK, Rgb};
+use super::font::{Block, LABEL, SMALL};
+use super::largest;
 
 const GRID: Rgb = 0xE2E2E2;
 const MINOR_GRID: Rgb = 0xF1F1F1;

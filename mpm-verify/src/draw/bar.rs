@@ -2,7 +2,9 @@
 
 use super::SOLID;
 use super::axes::{Axis, TICK};
-use super::canvas::{Canvas, INK, Point, Rgb, SMALL};
+use super::canvas::{Canvas, Point};
+use super::colour::{INK, Rgb};
+use super::font::SMALL;
 
 /// Width of the colour bar and height of its triangular ends, in pixels.
 pub(super) const BAR: f64 = 36.0;

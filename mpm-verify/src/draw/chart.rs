@@ -1,9 +1,10 @@
 //! Grids of line charts.
 
 use super::axes::{Axes, Axis, extent, widen};
-use super::canvas::between;
-use super::canvas::{Block, Canvas, Frame, INK, LINE, PALETTE, Point, Rgb, SMALL, TITLE, largest};
-use super::{EDGE, PlotError, SOLID, finite, nothing};
+use super::canvas::{Canvas, Frame, LINE, Point};
+use super::colour::{INK, PALETTE, Rgb};
+use super::font::{Block, SMALL, TITLE};
+use super::{EDGE, PlotError, SOLID, between, finite, largest, nothing};
 use std::path::Path;
 
 /// Scale of an axis.
@@ -132,7 +133,8 @@ struct Entry<'a> {
     name: &'a str,
     colour: Rgb,
     marker: Marker,
-    pattern: &'static [f64],
+    /// Lengths of dashes and gaps, if there is a line.
+    pattern: Option<&'static [f64]>,
     hollow: bool,
     band: bool,
 }
@@ -142,7 +144,7 @@ fn entries(chart: &Chart) -> Vec<Entry<'_>> {
         name: &line.name,
         colour: INK,
         marker: Marker::None,
-        pattern: DASH_DOT,
+        pattern: Some(DASH_DOT),
         hollow: false,
         band: line.band.is_some(),
     });
@@ -151,10 +153,10 @@ fn entries(chart: &Chart) -> Vec<Entry<'_>> {
         colour: PALETTE[series.colour % PALETTE.len()],
         marker: series.marker,
         pattern: match series.dash {
-            Dash::Solid => SOLID,
-            Dash::Dashed => DASHED,
-            Dash::Dotted => DOTTED,
-            Dash::None => &[],
+            Dash::Solid => Some(SOLID),
+            Dash::Dashed => Some(DASHED),
+            Dash::Dotted => Some(DOTTED),
+            Dash::None => None,
         },
         hollow: matches!(series.dash, Dash::Dashed | Dash::Dotted),
         band: false,
@@ -197,7 +199,9 @@ impl<'a> Legend<'a> {
                 canvas.rectangle([x, y - 13.0, end, y + 13.0], INK, 0.12);
             }
             let line = [(x + 2.0, y), (end - 2.0, y)];
-            canvas.stroke(&line, LINE, entry.colour, entry.pattern);
+            if let Some(pattern) = entry.pattern {
+                canvas.stroke(&line, LINE, entry.colour, pattern);
+            }
             canvas.marker(entry.marker, (middle, y), entry.colour, entry.hollow);
             canvas.text(entry.name, (end + 14.0, y), SMALL, (0.0, 0.5), false);
         }
@@ -329,47 +333,49 @@ impl<'a> Plan<'a> {
     fn draw(&self, canvas: &mut Canvas, frame: Frame) {
         let (left, top, x, y) = (frame[0], frame[1], &self.axes.x, &self.axes.y);
         self.axes.draw_grid(canvas, frame);
-        let mut inner = canvas.cut(frame);
-        let place = |p: &Point| (x.at(p.0), y.length - y.at(p.1));
+        canvas.clip(Some(frame));
+        let bottom = frame[3];
+        let place = |p: &Point| (left + x.at(p.0), bottom - y.at(p.1));
         for line in &self.chart.reference_lines {
             // The logarithm of a lower end that is not positive is none: the axis cuts it off.
-            let down = |v: f64| y.length - y.at(v).max(0.0).min(y.length);
+            let down = |v: f64| bottom - y.at(v).max(0.0).min(y.length);
             if let Some(half) = line.band.filter(|half| (line.value + half).is_finite()) {
                 let (upper, lower) = (down(line.value + half), down(line.value - half));
-                inner.rectangle([0.0, upper, x.length, lower], INK, 0.12);
+                canvas.rectangle([left, upper, frame[2], lower], INK, 0.12);
             }
-            let down = y.length - y.at(line.value);
-            inner.stroke(&[(0.0, down), (x.length, down)], LINE, INK, DASH_DOT);
+            let down = bottom - y.at(line.value);
+            canvas.stroke(&[(left, down), (frame[2], down)], LINE, INK, DASH_DOT);
         }
         let curves = || self.chart.series.iter().zip(&self.entries);
         for (series, entry) in curves() {
             let points: Vec<Point> = series.points.iter().map(place).collect();
-            inner.stroke(&points, LINE, entry.colour, entry.pattern);
+            if let Some(pattern) = entry.pattern {
+                canvas.stroke(&points, LINE, entry.colour, pattern);
+            }
         }
         if let Some(corners) = self.chart.triangle() {
             let [a, b, c] = corners.map(|p| place(&p));
-            inner.stroke(&[a, b, c, a], 2.4, INK, SOLID);
+            canvas.stroke(&[a, b, c, a], 2.4, INK, SOLID);
             let slope = self.chart.slope_triangle.map_or(0.0, |t| t.slope);
             let (label, side) = (slope.to_string().replace('-', "−"), between(b, c, 0.5));
-            inner.text(&label, (b.0 + 10.0, side.1), SMALL, (0.0, 0.5), false);
+            canvas.text(&label, (b.0 + 10.0, side.1), SMALL, (0.0, 0.5), false);
             let (gap, anchor) = if c.1 < b.1 { (9.0, 0.0) } else { (-9.0, 1.0) };
             let below = (between(a, b, 0.5).0, a.1 + gap);
-            inner.text("1", below, SMALL, (0.5, anchor), false);
+            canvas.text("1", below, SMALL, (0.5, anchor), false);
         }
-        canvas.paste(inner, (left, top));
+        canvas.clip(None);
         self.axes.draw(canvas, frame, &self.title, [true, true]);
         for (series, entry) in curves() {
-            let thin = !entry.pattern.is_empty() && series.points.len() > 40;
+            let thin = entry.pattern.is_some() && series.points.len() > 40;
             let mut drawn: Vec<Point> = Vec::new();
-            let inside = |v: f64, length: f64| (-1.0..=length + 1.0).contains(&v);
+            let inside = |(x, y): Point| {
+                let across = (left - 1.0..=frame[2] + 1.0).contains(&x);
+                across && (top - 1.0..=bottom + 1.0).contains(&y)
+            };
             for p in series.points.iter().map(place) {
                 let near = |d: &Point| (p.0 - d.0).hypot(p.1 - d.1) < 60.0;
-                if inside(p.0, x.length)
-                    && inside(p.1, y.length)
-                    && !(thin && drawn.iter().any(near))
-                {
-                    let at = (left + p.0, top + p.1);
-                    canvas.marker(entry.marker, at, entry.colour, entry.hollow);
+                if inside(p) && !(thin && drawn.iter().any(near)) {
+                    canvas.marker(entry.marker, p, entry.colour, entry.hollow);
                     drawn.push(p);
                 }
             }
@@ -377,7 +383,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Draws a grid of charts, `columns` in a row, as one PNG file.
+/// Draws a grid of charts, `columns` in a row, as one PNG file, and the same as SVG beside it.
 ///
 /// Charts with the same series share one legend; otherwise each has its own. It lies below the axes,
 /// or to the right of at most two columns if it is a single one of more than six entries.
@@ -443,5 +449,6 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
             legend.draw(&mut canvas, (EDGE + inset, EDGE + height + 16.0));
         }
     }
+    canvas.save_svg(&path.with_extension("svg"))?;
     canvas.save(path)
 }

@@ -2,9 +2,13 @@
 
 use super::axes::{Axes, Axis, TICK, extent, widen};
 use super::bar::{BAR, BAR_TIP, draw_bar};
-use super::canvas::{Block, Canvas, HEADING, INK, LABEL, Point, TITLE};
-use super::canvas::{colour_of, largest, save_animation};
-use super::{EDGE, NO_VALUE, PlotError, SOLID, finite, nothing};
+use super::canvas::{Canvas, Point};
+use super::colour::{INK, channels, colour_of};
+use super::font::{Block, HEADING, LABEL, TITLE};
+use super::png_file::save_animation;
+use super::raster::FINE;
+use super::{EDGE, PlotError, SOLID, finite, largest, nothing};
+use image::RgbImage;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -139,19 +143,9 @@ fn compose_fields(path: &Path, figure: &FieldFigure) -> Result<Canvas, PlotError
         let down = row as f64 * (top + y.length + ROW_GAP);
         let down = down + if row + 1 == rows { extra } else { 0.0 };
         let frame = axes.frame((middle - x.length / 2.0, head + down + top));
+        let image = squares(panel, &axes, bar.range);
+        canvas.image(image, (frame[0], frame[1]));
         let place = |p: &Point| (frame[0] + x.at(p.0), frame[3] - y.at(p.1));
-        let half = panel.size / 2.0;
-        let particles = panel.points.iter().zip(&panel.values);
-        for (point, value) in particles.filter(|(p, _)| finite(p)) {
-            let [(left, bottom), (right, top)] = corners(point, half).map(|c| place(&c));
-            let colour = match value.is_nan() {
-                true => NO_VALUE,
-                false => colour_of(*value, bar.range),
-            };
-            // A little larger, so that rounding leaves no gap between neighbours.
-            let square = [left - 0.15, top - 0.15, right + 0.15, bottom + 0.15];
-            canvas.rectangle(square, colour, 1.0);
-        }
         let outline = panel.outline.iter().chain(panel.outline.first());
         let outline: Vec<Point> = outline.map(place).collect();
         canvas.stroke(&outline, 2.0, INK, SOLID);
@@ -168,4 +162,34 @@ fn compose_fields(path: &Path, figure: &FieldFigure) -> Result<Canvas, PlotError
     draw_bar(&mut canvas, (&bar, colour_of), beyond, corner);
     canvas.block(&bar_label, (bar_label_left, middle), true);
     Ok(canvas)
+}
+
+/// The particles of a panel within its axes' box, in an image of [`FINE`] times the pixels.
+fn squares(panel: &FieldPanel, axes: &Axes, range: Point) -> RgbImage {
+    let fine = |v: f64| (f64::from(FINE) * v).round();
+    let (width, height) = (fine(axes.x.length) as u32, fine(axes.y.length) as u32);
+    let mut image = RgbImage::from_pixel(width, height, image::Rgb([255; 3]));
+    let (row, half) = (3 * width as usize, panel.size / 2.0);
+    for (at, value) in panel
+        .points
+        .iter()
+        .zip(&panel.values)
+        .filter(|p| finite(p.0))
+    {
+        let colour = channels(colour_of(*value, range));
+        // A little larger, so that rounding leaves no gap between neighbours.
+        let ends = |low: f64, high: f64, most: u32| {
+            let end = |v: f64| fine(v).clamp(0.0, f64::from(most)) as usize;
+            (end(low - 0.15), end(high + 0.15))
+        };
+        let (left, right) = ends(axes.x.at(at.0 - half), axes.x.at(at.0 + half), width);
+        let down = |v: f64| axes.y.length - axes.y.at(v);
+        let (top, bottom) = ends(down(at.1 + half), down(at.1 - half), height);
+        for line in image.chunks_exact_mut(row).take(bottom).skip(top) {
+            for pixel in line[3 * left..3 * right].chunks_exact_mut(3) {
+                pixel.copy_from_slice(&colour);
+            }
+        }
+    }
+    image
 }

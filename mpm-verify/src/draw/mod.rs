@@ -1,4 +1,4 @@
-//! Pictures: grids of line charts and panels of particle fields, as PNG files.
+//! Pictures: grids of line charts, as PNG and SVG files, panels of particle fields and bodies in space, as PNG files.
 //!
 //! Everything is laid out in pixels around axes boxes of fixed size, so that no label can be
 //! clipped and no legend can hide data. The same input gives the same bytes.
@@ -7,19 +7,26 @@ mod axes;
 mod bar;
 mod canvas;
 mod chart;
+mod colour;
 mod field;
+mod font;
+mod png_file;
+mod raster;
 pub(crate) mod sketch;
 mod solid;
 pub(crate) mod style;
+mod svg;
 pub(crate) mod triptych;
 
 pub use chart::{
     Chart, Dash, Marker, ReferenceLine, Scale, Series, SlopeTriangle, draw_charts, share_ranges,
 };
 pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
-pub use solid::{Camera, SolidFigure, SolidPanel, Up, animate_solids, draw_solids};
+pub use png_file::write_small_png;
+pub use solid::{Camera, SolidFigure, SolidPanel, animate_solids, draw_solids};
 
-use canvas::{Point, Rgb};
+use canvas::Point;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// Why a picture could not be drawn.
@@ -73,12 +80,27 @@ impl From<PlotError> for crate::error::Error {
     }
 }
 
+impl PlotError {
+    fn write(path: &Path, cause: &dyn Display) -> Self {
+        Self::Write {
+            path: path.into(),
+            cause: cause.to_string(),
+        }
+    }
+}
+
 /// Margin of a picture, in pixels.
 const EDGE: f64 = 28.0;
-/// Colour of a value that is not a number.
-const NO_VALUE: Rgb = 0xB0B0B0;
 /// A line without gaps.
-const SOLID: &[f64] = &[f64::INFINITY];
+const SOLID: &[f64] = &[];
+
+fn between(a: Point, b: Point, t: f64) -> Point {
+    (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1))
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, f64::max)
+}
 
 fn finite(point: &Point) -> bool {
     point.0.is_finite() && point.1.is_finite()
@@ -153,7 +175,7 @@ mod tests {
             (std::fs::read(a).unwrap(), std::fs::read(b).unwrap())
         };
         assert!(draw("a.png", "b.png") == draw("c.png", "d.png"));
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6);
     }
 
     #[test]

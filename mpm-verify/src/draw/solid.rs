@@ -1,26 +1,20 @@
-//! Bodies of particles in three dimensions, as solids with hidden surfaces and light, in panels of one scale.
-//!
-//! A particle is drawn as a sphere a little larger than its share of space, and the nearest sphere at a pixel gives its
-//! colour. Light comes from how full space is: the body's smoothed density gives the direction of its surface, a wide
-//! average of it (with the ground) how much of the sky is hidden.
+//! Bodies of particles in three dimensions, in panels of one scale: a particle is a sphere a little larger than its
+//! share of space, and the nearest sphere at a pixel gives its colour.
 
-mod bulk;
-mod camera;
 mod rulers;
 mod surface;
 
-pub use camera::{Camera, Up};
-
-use super::axes::{Axis, TICK, extent, widen};
+use super::axes::{Axis, TICK, widen};
 use super::bar::{BAR, BAR_TIP, draw_bar};
-use super::canvas::{Block, Canvas, FINE, HEADING, LABEL, Point, Rgb, SMALL, TITLE};
-use super::canvas::{largest, save_animation, stone_of};
-use super::{EDGE, NO_VALUE, PlotError, nothing};
-use camera::{Place, View};
+use super::canvas::{Canvas, Point};
+use super::colour::{Rgb, stone_of};
+use super::font::{Block, HEADING, LABEL, SMALL, TITLE};
+use super::png_file::save_animation;
+use super::{EDGE, PlotError, largest, nothing};
 use rayon::prelude::*;
 use rulers::Ruler;
 use std::path::Path;
-use surface::{Cloud, Ground, Screen};
+use surface::{Cloud, Place, Screen};
 
 /// A body at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,11 +29,21 @@ pub struct SolidPanel {
     pub size: f64,
 }
 
+/// Where a body is seen from. The projection is orthographic: a length along an axis is the same everywhere in the
+/// picture. The axis y points up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Angle (degrees) by which the eye has turned about y: at 0 it looks straight at the plane of x and y, with x to
+    /// the right; at 90 from the positive end of x along it.
+    pub azimuth: f64,
+    /// Angle (degrees) of the eye above the horizontal plane.
+    pub elevation: f64,
+}
+
 /// Bodies seen by one camera, at one scale, with one colour scale.
 ///
 /// The colours diverge from a neutral zero as those of a [`FieldFigure`](super::FieldFigure); else they run from the
-/// lightest at the lower end to the darkest. Every pixel of a body has that of the particle nearest to the eye, and
-/// light, which changes its brightness alone.
+/// lightest at the lower end to the darkest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidFigure {
     /// Title above the panels; may be empty.
@@ -57,8 +61,8 @@ pub struct SolidFigure {
     /// Names of the axes x, y, z, with unit.
     pub axes: [String; 3],
     /// What is shown of each axis (m): particles beyond, by more than half their size, are left out, and the marks run
-    /// along its edges. Its lower end on the vertical axis is the ground. Without, all particles are shown.
-    pub window: Option<[(f64, f64); 3]>,
+    /// along its edges. The ground lies at the lower end of y.
+    pub window: [(f64, f64); 3],
 }
 
 /// Widths of panels by their number in a row, and the largest height, in pixels.
@@ -93,291 +97,162 @@ pub fn animate_solids(path: &Path, figures: &[SolidFigure], delay: u16) -> Resul
     save_animation(path, &frames?, delay)
 }
 
-/// What is drawn of a panel: the particles in the window, with their colours.
-struct Body {
-    points: Vec<Place>,
-    colours: Vec<Rgb>,
-    size: f64,
-}
-
-impl Body {
-    fn new(panel: &SolidPanel, window: &[(f64, f64); 3], range: Point) -> Self {
-        // A particle on the ground may have sunk in a little.
-        let half = panel.size / 2.0;
-        let inside = |(lo, hi): Point, v: f64| (lo - half..=hi + half).contains(&v);
-        let shown = |p: &Place| (0..3).all(|k| inside(window[k], p[k]));
-        let colour = |value: f64| match value.is_nan() {
-            true => NO_VALUE,
-            false => stone_of(value, range),
-        };
-        let particles = panel.points.iter().zip(&panel.values);
-        let particles = particles.filter(|(p, _)| shown(p));
-        let (points, colours) = particles.map(|(p, v)| (*p, colour(*v))).unzip();
-        Self {
-            points,
-            colours,
+/// The particles of a panel that lie in the window, with their colours.
+fn cloud(path: &Path, figure: &SolidFigure, panel: &SolidPanel) -> Result<Cloud, PlotError> {
+    if panel.points.len() != panel.values.len() {
+        return Err(PlotError::Lengths {
+            path: path.into(),
+            title: panel.title.clone(),
+            points: panel.points.len(),
+            values: panel.values.len(),
+        });
+    }
+    // A particle on the ground may have sunk in a little.
+    let half = panel.size / 2.0;
+    let inside = |(lo, hi): Point, v: f64| (lo - half..=hi + half).contains(&v);
+    let shown = |p: &Place| (0..3).all(|k| inside(figure.window[k], p[k]));
+    let range = widen(figure.range, 0.0);
+    let particles = panel.points.iter().zip(&panel.values);
+    let particles: Vec<(Place, Rgb)> = particles
+        .filter(|(p, _)| shown(p))
+        .map(|(p, v)| (*p, stone_of(*v, range)))
+        .collect();
+    let drawable = panel.size.is_finite() && panel.size > 0.0 && !particles.is_empty();
+    drawable
+        .then_some(Cloud {
+            particles,
             size: panel.size,
-        }
-    }
-
-    fn cloud(&self) -> Cloud<'_> {
-        Cloud {
-            points: &self.points,
-            colours: &self.colours,
-            size: self.size,
-        }
-    }
-}
-
-/// The window, given or about all particles, if there is something to see in it.
-fn window(path: &Path, figure: &SolidFigure) -> Result<[(f64, f64); 3], PlotError> {
-    let angles = [figure.camera.azimuth, figure.camera.elevation];
-    if figure.panels.is_empty() || !angles.iter().all(|angle| angle.is_finite()) {
-        return Err(nothing(path, &figure.title));
-    }
-    if let Some(window) = figure.window {
-        let sound = |(lo, hi): &Point| lo < hi && (hi - lo).is_finite();
-        let sound = window.iter().all(sound);
-        return sound
-            .then_some(window)
-            .ok_or_else(|| nothing(path, &figure.title));
-    }
-    let mut window = [(0.0, 0.0); 3];
-    for (axis, ends) in window.iter_mut().enumerate() {
-        let ends_of = |panel: &SolidPanel| {
-            let finite = panel
-                .points
-                .iter()
-                .filter(|p| p.iter().all(|v| v.is_finite()));
-            let half = panel.size / 2.0;
-            extent(finite.flat_map(|p| [p[axis] - half, p[axis] + half]))
-        };
-        let all = figure.panels.iter().filter_map(ends_of);
-        let all = extent(all.flat_map(|(lo, hi)| [lo, hi]));
-        *ends = all.ok_or_else(|| nothing(path, &figure.title))?;
-    }
-    Ok(window)
-}
-
-/// The bodies of a figure that can be drawn.
-fn bodies(
-    path: &Path,
-    figure: &SolidFigure,
-    window: &[(f64, f64); 3],
-) -> Result<Vec<Body>, PlotError> {
-    let range = extent([figure.range.0, figure.range.1].into_iter());
-    let range = range.ok_or_else(|| nothing(path, &figure.title))?;
-    let body = |panel: &SolidPanel| {
-        if panel.points.len() != panel.values.len() {
-            return Err(PlotError::Lengths {
-                path: path.into(),
-                title: panel.title.clone(),
-                points: panel.points.len(),
-                values: panel.values.len(),
-            });
-        }
-        let body = Body::new(panel, window, widen(range, 0.0));
-        let drawable = panel.size.is_finite() && panel.size > 0.0 && !body.points.is_empty();
-        drawable
-            .then_some(body)
-            .ok_or_else(|| nothing(path, &panel.title))
-    };
-    figure.panels.iter().map(body).collect()
-}
-
-/// Places of all that a figure shows.
-struct Layout {
-    screen: Screen,
-    rulers: [Ruler; 3],
-    ground: Ground,
-    /// Size of a panel, and room left of the first column, right of the last and below the last row.
-    panel: Point,
-    room: [f64; 3],
-    columns: usize,
-    rows: usize,
-    /// Room for a panel's title.
-    title: f64,
-}
-
-impl Layout {
-    fn new(figure: &SolidFigure, window: &[(f64, f64); 3], titles: &[Block]) -> Self {
-        let columns = figure.columns.min(figure.panels.len()).max(1);
-        let mut screen = screen(figure.camera, window, WIDTHS[columns.min(4) - 1]);
-        let panel = (screen.size.0 as f64, screen.size.1 as f64);
-        let rulers = Ruler::all(&screen, window, figure.camera.up);
-        let mut lines = [const { Vec::new() }; 3];
-        let up = figure.camera.up.index();
-        for ruler in rulers.iter().filter(|ruler| ruler.axis != up) {
-            lines[ruler.axis] = ruler.values();
-        }
-        screen.scale *= FINE;
-        screen.size = (screen.size.0 * FINE as usize, screen.size.1 * FINE as usize);
-        let rooms = rulers
-            .each_ref()
-            .map(|ruler| ruler.room(&figure.axes[ruler.axis], panel));
-        let room = [0, 1, 2].map(|side| largest(rooms.iter().map(|room| room[side])));
-        Self {
-            screen,
-            rulers,
-            ground: Ground {
-                up,
-                height: window[up].0,
-                ends: *window,
-                lines,
-            },
-            panel,
-            room,
-            columns,
-            rows: figure.panels.len().div_ceil(columns),
-            title: largest(titles.iter().map(Block::height)) + TITLE_GAP,
-        }
-    }
-
-    /// Left upper corner of a panel, from that of all.
-    fn corner(&self, k: usize) -> Point {
-        let (row, column) = ((k / self.columns) as f64, (k % self.columns) as f64);
-        let across = self.room[0] + column * (self.panel.0 + PANEL_GAP);
-        let down = self.title + row * (self.title + self.panel.1 + PANEL_GAP);
-        (across.round(), down.round())
-    }
-
-    /// Size of all panels with their labels.
-    fn size(&self) -> Point {
-        let (left, top) = self.corner(self.columns * self.rows - 1);
-        let [_, right, below] = self.room;
-        (left + self.panel.0 + right, top + self.panel.1 + below)
-    }
-
-    /// Draws the rulers of a panel whose corner is given, with labels at the rim of the figure.
-    fn draw_rulers(&self, canvas: &mut Canvas, k: usize, corner: Point, figure: &SolidFigure) {
-        let last = (k % self.columns) + 1 == self.columns;
-        let labelled = [
-            k + self.columns >= figure.panels.len(),
-            last,
-            k.is_multiple_of(self.columns),
-        ];
-        for (ruler, labelled) in self.rulers.iter().zip(labelled) {
-            let label = labelled.then_some(&*figure.axes[ruler.axis]);
-            ruler.draw(canvas, corner, label);
-        }
-    }
-}
-
-/// The screen on which a window is at most so wide, in pixels of the picture.
-fn screen(camera: Camera, window: &[(f64, f64); 3], width: f64) -> Screen {
-    let view = View::new(camera);
-    let corners = (0..8).map(|k| {
-        let end = |axis: usize| match k >> axis & 1 {
-            0 => window[axis].0,
-            _ => window[axis].1,
-        };
-        view.project([end(0), end(1), end(2)])
-    });
-    let corners: Vec<Place> = corners.collect();
-    let ends = |k: usize| extent(corners.iter().map(|c| c[k])).unwrap_or_default();
-    let (across, upwards) = (ends(0), ends(1));
-    let least = 1e-9;
-    let (wide, high) = (
-        (across.1 - across.0).max(least),
-        (upwards.1 - upwards.0).max(least),
-    );
-    // Spheres at the rim reach a little beyond.
-    let margin = 6.0;
-    let scale = f64::min(
-        (width - 2.0 * margin) / wide,
-        (HEIGHT - 2.0 * margin) / high,
-    );
-    let side = |length: f64| (scale * length + 2.0 * margin).ceil() as usize;
-    Screen {
-        view,
-        corner: (across.0 - margin / scale, upwards.1 + margin / scale),
-        scale,
-        size: (side(wide), side(high)),
-    }
-}
-
-/// The colour bar with its label.
-struct Bar {
-    scale: Axis,
-    label: Block,
-}
-
-impl Bar {
-    /// Beside panels of a height.
-    fn new(figure: &SolidFigure, height: f64) -> Self {
-        let length = height - 2.0 * BAR_TIP;
-        let length = length.clamp(BAR_LENGTH.0, BAR_LENGTH.1).floor();
-        Self {
-            scale: Axis::new(widen(figure.range, 0.0), false, length, true),
-            label: Block::new(&figure.label, LABEL, length + 2.0 * BAR_TIP),
-        }
-    }
-
-    fn label_left(&self) -> f64 {
-        BAR + TICK + self.scale.label_width() + 12.0
-    }
-
-    fn width(&self) -> f64 {
-        self.label_left() + self.label.height()
-    }
-
-    fn height(&self) -> f64 {
-        self.scale.length + 2.0 * BAR_TIP
-    }
-
-    /// Draws it right of a place, centred there.
-    fn draw(&self, canvas: &mut Canvas, figure: &SolidFigure, (left, middle): Point) {
-        let values = || figure.panels.iter().flat_map(|p| &p.values);
-        let (lo, hi) = self.scale.range;
-        let beyond = [values().any(|v| *v < lo), values().any(|v| *v > hi)];
-        let foot = (middle + self.scale.length / 2.0).round();
-        draw_bar(
-            canvas,
-            (&self.scale, stone_of),
-            beyond,
-            (left.round(), foot),
-        );
-        canvas.block(&self.label, (left + self.label_left(), middle), true);
-    }
+        })
+        .ok_or_else(|| nothing(path, &panel.title))
 }
 
 fn compose(path: &Path, figure: &SolidFigure) -> Result<Canvas, PlotError> {
-    let window = window(path, figure)?;
-    let bodies = bodies(path, figure, &window)?;
-    let width = WIDTHS[figure.columns.clamp(1, 4) - 1];
-    let titles = (figure.panels.iter()).map(|p| Block::new(&p.title, TITLE, width));
-    let titles: Vec<Block> = titles.collect();
-    let layout = Layout::new(figure, &window, &titles);
-    let images: Vec<_> = (bodies.par_iter())
-        .map(|body| surface::draw(&body.cloud(), &layout.screen, Some(&layout.ground)))
-        .collect();
-
-    let (wide, high) = layout.size();
-    let bar = Bar::new(figure, high);
-    let bar_left = EDGE + wide + BAR_GAP;
-    let width = bar_left + bar.width() + EDGE;
-    let heading = Block::new(&figure.title, HEADING, width - 2.0 * EDGE);
-    let head = EDGE + heading.height() * 1.2;
-    let foot = head + high.max(bar.height()) + NOTE / 2.0;
-    let mut canvas = Canvas::new((width, foot + NOTE / 2.0 + EDGE));
-    canvas.block(&heading, (width / 2.0, EDGE), false);
-    for (k, (image, title)) in images.iter().zip(&titles).enumerate() {
-        let (left, top) = layout.corner(k);
-        let corner = (EDGE + left, head + top);
-        canvas.picture(image, corner);
-        layout.draw_rulers(&mut canvas, k, corner, figure);
-        let over = corner.1 - TITLE_GAP - title.height();
-        canvas.block(title, (corner.0 + layout.panel.0 / 2.0, over), false);
+    let Camera { azimuth, elevation } = figure.camera;
+    let numbers = [azimuth, elevation, figure.range.0, figure.range.1];
+    let sound = |(lo, hi): &Point| lo < hi && (hi - lo).is_finite();
+    let sound = figure.window.iter().all(sound) && numbers.iter().all(|v| v.is_finite());
+    if figure.panels.is_empty() || !sound {
+        return Err(nothing(path, &figure.title));
     }
-    let middle = head + high.max(bar.height()) / 2.0;
-    bar.draw(&mut canvas, figure, (bar_left, middle));
-    let Camera {
-        azimuth, elevation, ..
-    } = figure.camera;
+    let columns = figure.columns.min(figure.panels.len()).max(1);
+    let rows = figure.panels.len().div_ceil(columns);
+    let width = WIDTHS[columns.min(4) - 1];
+    let screen = Screen::new(figure.camera, &figure.window, (width, HEIGHT));
+    let draw = |panel| Ok(surface::draw(&cloud(path, figure, panel)?, &screen));
+    let images: Result<Vec<_>, PlotError> = figure.panels.par_iter().map(draw).collect();
+
+    let rulers = Ruler::all(&screen, &figure.window, &figure.axes);
+    let titles = figure.panels.iter();
+    let titles: Vec<Block> = titles.map(|p| Block::new(&p.title, TITLE, width)).collect();
+    let above = largest(titles.iter().map(Block::height)) + TITLE_GAP;
+    let (wide, high) = screen.size;
+    let room = |side: usize| largest(rulers.iter().map(|r| r.room((wide, high))[side])).ceil();
+    let (left, right, below) = (room(0), room(1), room(2));
+    let all = |count: usize, one: f64| count as f64 * (one + PANEL_GAP) - PANEL_GAP;
+    let across = left + all(columns, wide) + right;
+    let down = all(rows, above + high) + below;
+
+    let bar_length = (down - 2.0 * BAR_TIP).clamp(BAR_LENGTH.0, BAR_LENGTH.1);
+    let bar = Axis::new(widen(figure.range, 0.0), false, bar_length.floor(), true);
+    let bar_label = Block::new(&figure.label, LABEL, bar_length + 2.0 * BAR_TIP);
+    let bar_left = (EDGE + across + BAR_GAP).round();
+    let bar_label_left = bar_left + BAR + TICK + bar.label_width() + 12.0;
+    let full_width = bar_label_left + bar_label.height() + EDGE;
+    let heading = Block::new(&figure.title, HEADING, full_width - 2.0 * EDGE);
+    let head = (EDGE + heading.height() * 1.2).round();
+    let full = down.max(bar_length + 2.0 * BAR_TIP);
+    let mut canvas = Canvas::new((full_width, head + full + NOTE + EDGE));
+    canvas.block(&heading, (full_width / 2.0, EDGE), false);
+    for (k, (image, title)) in images?.into_iter().zip(&titles).enumerate() {
+        let (row, column) = (k / columns, k % columns);
+        let x = EDGE + left + column as f64 * (wide + PANEL_GAP);
+        let y = (head + above + row as f64 * (above + high + PANEL_GAP)).round();
+        canvas.image(image, (x, y));
+        let last_row = k + columns >= figure.panels.len();
+        let labelled = [last_row, column == 0, column + 1 == columns];
+        for (ruler, labelled) in rulers.iter().zip(labelled) {
+            ruler.draw(&mut canvas, (x, y), labelled);
+        }
+        let over = y - TITLE_GAP - title.height();
+        canvas.block(title, (x + wide / 2.0, over), false);
+    }
+    let values = || figure.panels.iter().flat_map(|p| &p.values);
+    let (lo, hi) = bar.range;
+    let beyond = [values().any(|v| *v < lo), values().any(|v| *v > hi)];
+    let middle = head + full / 2.0;
+    let foot = (middle + bar.length / 2.0).round();
+    draw_bar(&mut canvas, (&bar, stone_of), beyond, (bar_left, foot));
+    canvas.block(&bar_label, (bar_label_left, middle), true);
     let note = format!("orthographic, azimuth {azimuth}°, elevation {elevation}°");
-    canvas.text(&note, (EDGE, foot), SMALL, (0.0, 0.5), false);
+    let at = (EDGE, head + full + NOTE / 2.0);
+    canvas.text(&note, at, SMALL, (0.0, 0.5), false);
     Ok(canvas)
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    /// A block of particles on the ground, and a figure that shows it.
+    fn figure() -> SolidFigure {
+        let place = |n: usize| [n / 6, n / 3 % 2, n % 3].map(|k| k as f64 + 0.5);
+        SolidFigure {
+            title: "A slope".into(),
+            panels: vec![SolidPanel {
+                title: "block".into(),
+                points: (0..36).map(place).collect(),
+                values: vec![1.0; 36],
+                size: 1.0,
+            }],
+            columns: 1,
+            range: (0.0, 2.0),
+            label: "equivalent plastic strain (-)".into(),
+            camera: Camera {
+                azimuth: 35.0,
+                elevation: 28.0,
+            },
+            axes: ["x (m)", "y (m)", "z (m)"].map(str::to_owned),
+            window: [(0.0, 30.0), (0.0, 3.0), (0.0, 3.0)],
+        }
+    }
+
+    #[test]
+    fn pixels_follow_from_the_input_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut figure = figure();
+        figure.panels.push(figure.panels[0].clone());
+        let draw = |threads: usize| {
+            let path = folder.path().join(format!("{threads}.png"));
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            let pool = pool.build().unwrap();
+            pool.install(|| draw_solids(&path, &figure)).unwrap();
+            std::fs::read(path).unwrap()
+        };
+        assert!(draw(1) == draw(3));
+        let frames = [figure.clone(), figure.clone()];
+        animate_solids(&folder.path().join("moving.png"), &frames, 8).unwrap();
+    }
+
+    #[test]
+    fn what_is_not_there_to_be_drawn_is_an_error() {
+        type Spoil = fn(&mut SolidFigure);
+        let cases: [(&str, Spoil); 7] = [
+            ("A slope", |f| f.panels.clear()),
+            ("A slope", |f| f.range = (f64::NAN, f64::NAN)),
+            ("A slope", |f| f.camera.azimuth = f64::NAN),
+            ("A slope", |f| f.window[1] = (1.0, 1.0)),
+            ("block", |f| f.window[0] = (10.0, 20.0)),
+            ("block", |f| f.panels[0].size = 0.0),
+            ("36 points but 35 values", |f| {
+                f.panels[0].values.truncate(35)
+            }),
+        ];
+        for (name, spoil) in cases {
+            let mut spoilt = figure();
+            spoil(&mut spoilt);
+            let path = Path::new("no such folder/picture.png");
+            let error = draw_solids(path, &spoilt).unwrap_err().to_string();
+            assert!(error.contains(name), "{error}");
+        }
+    }
+}

@@ -8,46 +8,40 @@ use std::path::Path;
 /// More curves than this can't be told apart on one pair of axes.
 const MOST_CURVES: usize = 8;
 
-/// What the colour of a curve tells.
+/// What the markers of curves tell.
 #[derive(Clone, Copy)]
-pub(crate) enum Colour {
-    /// The basis; remedies differ in marker and line.
+pub(crate) enum Markers {
+    /// Nothing: the curves have too many points for markers.
+    None,
+    /// The basis.
     Basis,
-    /// The remedy, for curves of one basis with too many points for markers.
-    Remedy,
-    /// The remedy, for curves of one basis; transfers, if there are several, differ in marker.
-    Marked {
-        /// Whether there are several transfers.
-        transfers: bool,
-    },
+    /// The transfer, of curves of one basis.
+    Transfer,
 }
 
-/// The curve of a scheme.
-pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>, colour: Colour) -> Series {
+/// The curve of a scheme: colour and line tell the remedy.
+pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>, markers: Markers) -> Series {
     // Total and rate nearly coincide: the dashed line and the hollow marker let the other show.
-    let (of_remedy, dash, by_remedy) = match scheme.remedy() {
-        RemedyName::None => (Marker::Cross, Dash::Dotted, 6),
-        RemedyName::FbarRecursive => (Marker::Triangle, Dash::Solid, 1),
-        RemedyName::FbarTotal => (Marker::Square, Dash::Solid, 2),
-        RemedyName::FbarRate => (Marker::Circle, Dash::Dashed, 0),
-        RemedyName::FbarConsistent => (Marker::Diamond, Dash::Solid, 3),
+    let (colour, dash) = match scheme.remedy() {
+        RemedyName::None => (6, Dash::Dotted),
+        RemedyName::FbarRecursive => (1, Dash::Solid),
+        RemedyName::FbarTotal => (2, Dash::Solid),
+        RemedyName::FbarRate => (0, Dash::Dashed),
+        RemedyName::FbarConsistent => (3, Dash::Solid),
     };
-    let by_basis = match scheme.basis() {
-        BasisName::Gimp => 0,
-        BasisName::Bspline2 => 1,
-        BasisName::Bspline3 => 2,
-        BasisName::Linear => 3,
-    };
-    let of_transfer = match scheme.transfer() {
-        TransferName::Flip => Marker::Circle,
-        TransferName::Apic => Marker::Square,
-        TransferName::Xpic2 => Marker::Triangle,
-    };
-    let (colour, marker) = match colour {
-        Colour::Basis => (by_basis, of_remedy),
-        Colour::Remedy => (by_remedy, Marker::None),
-        Colour::Marked { transfers: false } => (by_remedy, of_remedy),
-        Colour::Marked { transfers: true } => (by_remedy, of_transfer),
+    let marker = match markers {
+        Markers::None => Marker::None,
+        Markers::Basis => match scheme.basis() {
+            BasisName::Gimp => Marker::Circle,
+            BasisName::Bspline2 => Marker::Square,
+            BasisName::Bspline3 => Marker::Triangle,
+            BasisName::Linear => Marker::Diamond,
+        },
+        Markers::Transfer => match scheme.transfer() {
+            TransferName::Flip => Marker::Circle,
+            TransferName::Apic => Marker::Square,
+            TransferName::Xpic2 => Marker::Triangle,
+        },
     };
     Series {
         name: scheme.title(),
@@ -63,14 +57,14 @@ pub(crate) struct Panel {
     /// What they have in common; may be empty.
     pub(crate) title: String,
     pub(crate) schemes: Vec<Scheme>,
-    colour: Colour,
+    markers: Markers,
 }
 
 impl Panel {
     /// The curve of every scheme.
     pub(crate) fn curves(&self, points: impl Fn(Scheme) -> Vec<(f64, f64)>) -> Vec<Series> {
         let curve = |scheme: &Scheme| {
-            let mut curve = series(*scheme, points(*scheme), self.colour);
+            let mut curve = series(*scheme, points(*scheme), self.markers);
             // What the title says already would keep panels from sharing a legend.
             let common = format!("{} ", self.title);
             if let Some(rest) = curve.name.strip_prefix(&common) {
@@ -91,12 +85,15 @@ impl Panels {
         let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis()).collect();
         let others: BTreeSet<_> = schemes.iter().map(|s| (s.remedy(), s.transfer())).collect();
         let transfers: BTreeSet<_> = others.iter().map(|(_, transfer)| transfer).collect();
-        let transfers = transfers.len() > 1;
-        if schemes.len() <= MOST_CURVES && !transfers {
+        let markers = match transfers.len() {
+            1 => Markers::Basis,
+            _ => Markers::Transfer,
+        };
+        if schemes.len() <= MOST_CURVES && transfers.len() == 1 {
             return Self(vec![Panel {
                 title: String::new(),
                 schemes: schemes.iter().copied().collect(),
-                colour: Colour::Basis,
+                markers,
             }]);
         }
         // Each panel has the same curves, be they empty, and so all have one legend.
@@ -106,7 +103,7 @@ impl Panels {
                 .iter()
                 .map(|&(remedy, transfer)| Scheme::explicit(basis, remedy, transfer))
                 .collect(),
-            colour: Colour::Marked { transfers },
+            markers,
         };
         Self(bases.into_iter().map(of_basis).collect())
     }
@@ -192,7 +189,7 @@ mod tests {
         assert_eq!(panels[0], panels[1]);
         let look = |s: &Series| (s.colour, format!("{:?} {:?}", s.marker, s.dash));
         let looks: BTreeSet<_> = panels[0].iter().map(look).collect();
-        assert_eq!(looks.len(), 16);
+        assert_eq!(looks.len(), 12);
         assert_eq!(panels[0][1].name, "none apic");
     }
 }

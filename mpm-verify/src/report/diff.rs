@@ -4,8 +4,9 @@ use super::convergence::{CPU_PICTURE, CPU_VALUE_PICTURE};
 use super::describe::{number, outcome};
 use super::history::TRENDS;
 use crate::draw::triptych::{different_pixels, triptych};
+use crate::draw::write_small_png;
 use crate::error::{Error, ExitCode};
-use crate::files::{make_folder, read_versioned, write_picture, write_whole};
+use crate::files::{make_folder, read_versioned, write_whole};
 use crate::study::{SCHEMA, Summary};
 use crate::verdict::Verdict;
 use image::RgbImage;
@@ -124,7 +125,7 @@ impl Difference {
         make_folder(out)?;
         for change in &self.pictures {
             if let (Some(old), Some(new)) = (&change.old, &change.new) {
-                write_picture(&out.join(&change.file), &triptych(old, new))?;
+                write_small_png(&out.join(&change.file), &triptych(old, new))?;
             }
         }
         write_whole(&out.join("diff.md"), self.text().as_bytes())

@@ -1,8 +1,8 @@
 //! Pictures of what has drifted: golden | now | difference.
 
 use crate::draw::triptych::triptych;
+use crate::draw::write_small_png;
 use crate::error::Error;
-use crate::files::write_picture;
 use crate::gallery::Picture;
 use crate::golden::Goldens;
 use crate::study::{CaseStudy, Gathered};
@@ -25,7 +25,7 @@ pub(super) fn draw(
         let folder = gathered.folder(record)?;
         if let Ok([golden, now]) = goldens.pictures(record, folder) {
             let file = format!("{}/drift/{}.png", record.case, record.folder());
-            write_picture(&out.join(&file), &triptych(&golden, &now))?;
+            write_small_png(&out.join(&file), &triptych(&golden, &now))?;
             pictures.push(Picture {
                 file,
                 caption: format!(

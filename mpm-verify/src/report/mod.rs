@@ -144,9 +144,11 @@ pub fn discard_report(out: &Path) -> Result<(), Error> {
 /// Removes from `out` what an earlier report has drawn and written of a case alone.
 fn discard_case(name: &str, out: &Path) -> Result<(), Error> {
     discard(&out.join(format!("{name}.html")))?;
-    discard(&out.join(format!("{}{name}.png", history::TRENDS)))?;
+    for extension in ["png", "svg"] {
+        discard(&out.join(format!("{}{name}.{extension}", history::TRENDS)))?;
+    }
     let folder = out.join(name);
     discard_folder(&folder.join("drift"))?;
     discard(&folder.join("study.json"))?;
-    discard_all(&folder, &["png", "csv"])
+    discard_all(&folder, &["png", "svg", "csv"])
 }

@@ -1,6 +1,6 @@
 //! The picture of the hydrostatic column: who creeps.
 
-use crate::draw::style::{Colour, series};
+use crate::draw::style::{Markers, series};
 use crate::draw::{Chart, Scale, draw_charts};
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -24,7 +24,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
             // The start itself has no logarithm.
             let points = points.filter(|(t, u)| *t > 0.0 && *u > 0.0);
             let points = points.map(|(t, u)| (steps(t), u)).collect();
-            curves.push(series(record.scheme(), points, Colour::Remedy));
+            curves.push(series(record.scheme(), points, Markers::None));
         }
         if !curves.is_empty() {
             charts.push(Chart {

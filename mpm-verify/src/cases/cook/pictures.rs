@@ -1,7 +1,7 @@
 //! The pictures of Cook's membrane.
 
 use super::metrics::{FEM_MID_EDGE_ERROR, FEM_TIP_ERROR, MID_EDGE_UY, TIP_UY};
-use crate::draw::style::{Colour, series};
+use crate::draw::style::{Markers, series};
 use crate::draw::{
     Chart, FieldFigure, FieldPanel, ReferenceLine, Scale, Series, draw_charts, draw_fields,
 };
@@ -72,7 +72,7 @@ impl<'g> Runs<'_, 'g> {
                     .collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 if !points.is_empty() {
-                    all.push(series(Scheme::flip(basis, remedy), points, Colour::Basis));
+                    all.push(series(Scheme::flip(basis, remedy), points, Markers::Basis));
                 }
             }
         }
@@ -209,11 +209,11 @@ impl<'g> Runs<'_, 'g> {
             tip.push(series(
                 scheme,
                 table.points("time", "tip_uy"),
-                Colour::Remedy,
+                Markers::None,
             ));
             if remedy != RemedyName::None {
                 let points = table.points("time", "log_jacobian_gap_rms");
-                gap.push(series(scheme, points, Colour::Remedy));
+                gap.push(series(scheme, points, Markers::None));
             }
         }
         let chart = |title: &str, y_label: &str, series| Chart {

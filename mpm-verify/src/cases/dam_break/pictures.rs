@@ -3,7 +3,7 @@
 use super::LADDER;
 use super::parameters::{CFL, DURATION};
 use super::reference::{TANK, front_curve, time_scale};
-use crate::draw::style::{Colour, series};
+use crate::draw::style::{Markers, series};
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, animate_fields, draw_charts,
     draw_fields, share_ranges,
@@ -232,7 +232,7 @@ impl Runs<'_, '_> {
             for remedy in REMEDIES {
                 if let Some(record) = self.find(basis, remedy, shared) {
                     let points = self.history(record, column, factor)?;
-                    let mut curve = series(Scheme::flip(basis, remedy), points, Colour::Remedy);
+                    let mut curve = series(Scheme::flip(basis, remedy), points, Markers::None);
                     curve.name = remedy.to_string();
                     curves.push(curve);
                 }

@@ -2,7 +2,7 @@
 
 use super::parameters::PENETRATION;
 use super::reference::{EXACT, limit_curve};
-use crate::draw::style::{Colour, series};
+use crate::draw::style::{Markers, series};
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Scale, Series, draw_charts,
     draw_fields, share_ranges,
@@ -115,7 +115,7 @@ impl<'g> Runs<'_, 'g> {
             for remedy in REMEDIES {
                 if let Some(record) = self.find(basis, remedy, level) {
                     let points = self.curve(record)?;
-                    let mut curve = series(Scheme::flip(basis, remedy), points, Colour::Remedy);
+                    let mut curve = series(Scheme::flip(basis, remedy), points, Markers::None);
                     curve.name = remedy.to_string();
                     curves.push(curve);
                 }

@@ -2,10 +2,10 @@
 
 use super::metrics::PARTICLES_ACROSS;
 use super::parameters::DURATION;
-use crate::draw::style::{Colour, series};
+use crate::draw::style::{Markers, series};
 use crate::draw::{
     Camera, Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, SolidFigure, SolidPanel,
-    Up, animate_fields, animate_solids, draw_charts, draw_fields, draw_solids, share_ranges,
+    animate_fields, animate_solids, draw_charts, draw_fields, draw_solids, share_ranges,
 };
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -282,7 +282,7 @@ impl<'g> Runs<'_, 'g> {
                 for remedy in REMEDIES {
                     if let Some(record) = self.find(basis, remedy, &level) {
                         let points = self.history(record, column, scale)?;
-                        let mut curve = series(Scheme::flip(basis, remedy), points, Colour::Remedy);
+                        let mut curve = series(Scheme::flip(basis, remedy), points, Markers::None);
                         curve.name = name_of(remedy);
                         curves.push(curve);
                     }
@@ -441,14 +441,13 @@ fn solids(title: String, panels: &[&Shown], columns: usize, field: &Field) -> So
         camera: Camera {
             azimuth: 35.0,
             elevation: 28.0,
-            up: Up::Y,
         },
         axes: ["x (m)", "y (m)", "z (m)"].map(str::to_owned),
-        window: Some([
+        window: [
             WINDOW.0,
             WINDOW.1,
             (0.0, panels.iter().map(width).fold(0.0, f64::max)),
-        ]),
+        ],
     }
 }
 
