@@ -9,18 +9,19 @@ use crate::files::{discard, discard_folder, read_versioned, require_writable};
 use crate::gallery::Picture;
 use crate::night::Night;
 use crate::plan::{Plan, PlannedRun};
-use crate::record::{self, BREAKS_DOWN, Record, Version};
+use crate::record::{self, Record, Status, Version};
 use crate::run::{execute, judge};
 use crate::spec::{RunSpec, run_folder};
 use crate::verdict::{Kind, Outcome, Verdict};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Version of the summary's format.
-pub const SCHEMA: u32 = 3;
+pub const SCHEMA: u32 = 4;
 
 /// Hears of the progress of runs. `run` is the run's place in the plan.
 pub trait Listener: Sync {
@@ -74,25 +75,56 @@ impl CaseStudy {
     }
 }
 
-/// Counts over all verdicts.
+/// Counts over all runs and verdicts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Counts {
     /// Runs.
     pub runs: usize,
-    /// Runs that broke down.
-    pub failed_runs: usize,
-    /// Runs without a single applicable check against the truth.
-    pub runs_without_truth: usize,
-    /// Checks against the truth and of known limits that hold.
-    pub passed: usize,
-    /// Those that don't.
+    /// Runs that broke down and were not known to.
+    pub broke_down: usize,
+    /// Runs that broke down as they are known to.
+    pub broke_down_as_known: usize,
+    /// Runs of which bookkeeping alone says anything.
+    pub not_judged_runs: usize,
+    /// Checks against the truth that hold.
+    pub right: usize,
+    /// Known limits that are there.
+    pub wrong_as_known: usize,
+    /// Checks that do not apply.
+    pub not_judged: usize,
+    /// Checks against the truth that don't hold, and known limits that have vanished.
     pub failed: usize,
-    /// Those that don't apply.
-    pub not_applicable: usize,
+    /// Bookkeeping that holds.
+    pub bookkeeping_right: usize,
+    /// Bookkeeping that doesn't.
+    pub bookkeeping_failed: usize,
     /// Comparisons with goldens that hold.
     pub undrifted: usize,
     /// Those that don't.
     pub drifted: usize,
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} runs, of which bookkeeping alone judges {}; broke down: {} unexpectedly, {} as known. \
+             Checks: {} right, {} wrong as known, {} not judged, {} failed. \
+             Bookkeeping: {} right, {} failed. Against goldens: {} hold, {} drift.",
+            self.runs,
+            self.not_judged_runs,
+            self.broke_down,
+            self.broke_down_as_known,
+            self.right,
+            self.wrong_as_known,
+            self.not_judged,
+            self.failed,
+            self.bookkeeping_right,
+            self.bookkeeping_failed,
+            self.undrifted,
+            self.drifted
+        )
+    }
 }
 
 /// What a verification found.
@@ -126,9 +158,9 @@ impl Summary {
     /// How the program should end.
     #[must_use]
     pub fn exit_code(&self) -> ExitCode {
-        if self.counts.failed_runs > 0 {
+        if self.counts.broke_down > 0 {
             ExitCode::RunFailed
-        } else if self.counts.failed > 0 || self.counts.runs_without_truth > 0 {
+        } else if self.counts.failed + self.counts.bookkeeping_failed > 0 {
             ExitCode::TruthFailed
         } else if self.counts.drifted > 0 {
             ExitCode::Drift
@@ -427,20 +459,23 @@ impl Task {
 
 fn count(summary: &Summary) -> Counts {
     let mut counts = Counts::default();
-    for study in &summary.cases {
-        for record in &study.records {
-            counts.runs += 1;
-            counts.failed_runs += usize::from(record.broke_down());
-            counts.runs_without_truth += usize::from(!has_truth(record));
-        }
+    for record in summary.cases.iter().flat_map(|study| &study.records) {
+        let unexpected = record.broke_down();
+        counts.runs += 1;
+        counts.broke_down += usize::from(unexpected);
+        counts.broke_down_as_known += usize::from(record.status == Status::Failed && !unexpected);
+        counts.not_judged_runs += usize::from(!has_truth(record));
     }
     for (_, _, verdict) in summary.verdicts() {
-        *match (verdict.kind, verdict.holds()) {
-            (Kind::Drift, Some(true)) => &mut counts.undrifted,
-            (Kind::Drift, Some(false)) => &mut counts.drifted,
-            (_, Some(true)) => &mut counts.passed,
-            (_, Some(false)) => &mut counts.failed,
-            (_, None) => &mut counts.not_applicable,
+        *match (verdict.kind, verdict.outcome) {
+            (Kind::Drift, Outcome::Failed) => &mut counts.drifted,
+            (Kind::Drift, _) => &mut counts.undrifted,
+            (_, Outcome::NotJudged) => &mut counts.not_judged,
+            (Kind::Bookkeeping, Outcome::Failed) => &mut counts.bookkeeping_failed,
+            (Kind::Bookkeeping, _) => &mut counts.bookkeeping_right,
+            (_, Outcome::Right) => &mut counts.right,
+            (_, Outcome::WrongAsKnown) => &mut counts.wrong_as_known,
+            (_, Outcome::Failed) => &mut counts.failed,
         } += 1;
     }
     counts
@@ -450,11 +485,9 @@ fn count(summary: &Summary) -> Counts {
 /// down as it is known to.
 #[must_use]
 pub fn has_truth(record: &Record) -> bool {
-    record.verdicts.iter().any(|v| match v.kind {
-        Kind::Truth => v.outcome != Outcome::NotJudged,
-        Kind::KnownLimit => v.check == BREAKS_DOWN,
-        Kind::Drift | Kind::Bookkeeping => false,
-    })
+    let judges = |kind| matches!(kind, Kind::Truth | Kind::KnownLimit);
+    let mut verdicts = record.verdicts.iter();
+    verdicts.any(|v| judges(v.kind) && v.outcome != Outcome::NotJudged)
 }
 
 /// Runs tasks side by side, the longest first; the records come back in the order of the tasks.

@@ -40,8 +40,27 @@ fn unknown_names_are_refused_with_those_that_exist() {
         &["transfer", "flip", "apic"],
     );
     refused(
-        &["run", "cook", "--transfer", "apic"],
+        &["run", "cook", "--remedy", "fbar-rate", "--transfer", "apic"],
         &["scheme", "gimp-fbar-rate-apic", "gimp-none-flip"],
+    );
+    refused(
+        &["run", "cook", "--scheme", "gimp-none"],
+        &["gimp-none", "basis-remedy-transfer"],
+    );
+    refused(
+        &["run", "cook", "--solver", "newmark"],
+        &["solver", "explicit"],
+    );
+    refused(
+        &[
+            "run",
+            "cook",
+            "--scheme",
+            "gimp-none-flip",
+            "--basis",
+            "gimp",
+        ],
+        &["--scheme", "--basis"],
     );
     refused(
         &["run", "cook", "--basis", "linear"],

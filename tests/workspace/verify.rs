@@ -19,12 +19,11 @@ fn a_run_writes_a_complete_record_and_passes() {
     assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
 
     let record = json(&folder.path().join("record.json"));
-    assert_eq!(record["schema"], 1);
+    assert_eq!(record["schema"], 2);
     for (field, value) in [
         ("case", "cook"),
-        ("basis", "gimp"),
-        ("remedy", "fbar-total"),
-        ("transfer", "flip"),
+        ("scheme", "gimp-fbar-total-flip"),
+        ("solver", "explicit"),
         ("level", "h2"),
         ("status", "ok"),
     ] {
@@ -263,13 +262,14 @@ fn the_quick_tier_verifies_and_reports() {
     assert_eq!(code(output), 0, "{}{}", stdout(output), stderr(output));
     copy_tree(made, out);
     let summary = json(&out.join("summary.json"));
-    assert_eq!(summary["schema"], 3);
+    assert_eq!(summary["schema"], 4);
     assert_eq!(summary["tier"], "quick");
     assert_eq!(summary["counts"]["failed"], 0);
     assert_eq!(summary["counts"]["drifted"], 0);
     assert!(summary["counts"]["undrifted"].as_u64().unwrap() > 100);
-    assert_eq!(summary["counts"]["runs_without_truth"], 0);
-    assert!(summary["counts"]["passed"].as_u64().unwrap() > 40);
+    assert_eq!(summary["counts"]["broke_down"], 0);
+    assert!(summary["counts"]["right"].as_u64().unwrap() > 30);
+    assert!(summary["counts"]["wrong_as_known"].as_u64().unwrap() >= 4);
     let limits = |check: &str| {
         summary["cases"][0]["records"]
             .as_array()
@@ -291,7 +291,7 @@ fn the_quick_tier_verifies_and_reports() {
     assert!(written.contains("| gimp fbar-rate | h2 |"));
     is_picture(&out.join("cook/rest.png"));
     let data = std::fs::read_to_string(out.join("cook/rest.csv")).unwrap();
-    assert!(data.starts_with("chart,series,x,y"));
+    assert!(data.starts_with("chart,quantity,series,"));
     for line in stderr(output).lines() {
         assert!(line.starts_with('['), "plain progress lines only: {line}");
     }

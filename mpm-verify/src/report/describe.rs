@@ -303,19 +303,7 @@ pub fn verdict_summary(summary: &Summary) -> String {
             );
         }
     }
-    let c = summary.counts;
-    let _ = writeln!(
-        t,
-        "{} runs ({} broke down, {} without an applicable check): {} checks passed, {} failed, {} not applicable; against goldens {} hold, {} drift",
-        c.runs,
-        c.failed_runs,
-        c.runs_without_truth,
-        c.passed,
-        c.failed,
-        c.not_applicable,
-        c.undrifted,
-        c.drifted
-    );
+    let _ = writeln!(t, "{}", summary.counts);
     for command in bless_commands(summary) {
         let _ = writeln!(t, "If the drift is meant: {command}");
     }

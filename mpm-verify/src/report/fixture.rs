@@ -33,10 +33,11 @@ pub(super) fn summary() -> Summary {
         tier: NASTY.to_owned(),
         counts: Counts {
             runs: 3,
-            failed_runs: 1,
-            passed: 2,
-            failed: 2,
-            not_applicable: 1,
+            broke_down: 1,
+            right: 3,
+            failed: 1,
+            bookkeeping_failed: 1,
+            not_judged: 1,
             ..Counts::default()
         },
         cases: vec![CaseStudy {

@@ -14,7 +14,7 @@ use crate::metric::Quantity;
 use crate::record::Record;
 use crate::scheme::Scheme;
 use crate::study::{CaseStudy, Summary};
-use crate::verdict::{Kind, Verdict};
+use crate::verdict::{Kind, Outcome, Verdict};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{Environment, UndefinedBehavior, Value, context};
 use std::path::Path;
@@ -104,14 +104,26 @@ fn index(summary: &Summary) -> Result<Value, Error> {
     let c = summary.counts;
     Ok(context! {
         tier => &summary.tier,
-        outcome => tally(c.failed_runs, c.failed, c.drifted, c.passed + c.undrifted),
+        outcome => Tally {
+            broken: c.broke_down,
+            failed: c.failed + c.bookkeeping_failed,
+            drifted: c.drifted,
+            known: c.wrong_as_known,
+            right: c.right,
+            held: c.bookkeeping_right + c.undrifted,
+        }
+        .worst(),
         counts => context! {
             runs => c.runs,
-            failed_runs => c.failed_runs,
-            runs_without_truth => c.runs_without_truth,
-            passed => c.passed,
+            broke_down => c.broke_down,
+            broke_down_as_known => c.broke_down_as_known,
+            not_judged_runs => c.not_judged_runs,
+            right => c.right,
+            wrong_as_known => c.wrong_as_known,
+            not_judged => c.not_judged,
             failed => c.failed,
-            not_applicable => c.not_applicable,
+            bookkeeping_right => c.bookkeeping_right,
+            bookkeeping_failed => c.bookkeeping_failed,
             undrifted => c.undrifted,
             drifted => c.drifted,
         },
@@ -256,11 +268,12 @@ fn run(case: &Case, r: &Record) -> Value {
 }
 
 fn verdict(v: &Verdict) -> Value {
-    let (class, symbol) = match v.holds() {
-        Some(true) => ("pass", "✓"),
-        Some(false) if v.kind == Kind::Drift => ("drift", "≠"),
-        Some(false) => ("fail", "✗"),
-        None => ("none", "–"),
+    let (class, symbol) = match v.outcome {
+        Outcome::Right => ("pass", "✓"),
+        Outcome::WrongAsKnown => ("known", "≈"),
+        Outcome::Failed if v.kind == Kind::Drift => ("drift", "≠"),
+        Outcome::Failed => ("fail", "✗"),
+        Outcome::NotJudged => ("none", "–"),
     };
     // A drift may lie beyond the digits that are shown elsewhere.
     let shown = |x: Option<f64>| match (v.kind, x) {
@@ -279,31 +292,61 @@ fn verdict(v: &Verdict) -> Value {
     }
 }
 
-/// The worst that happened, in a word with a symbol and a class that gives its colour.
-fn tally(broken: usize, failed: usize, drifted: usize, held: usize) -> Value {
-    let (class, symbol, text) = if broken > 0 {
-        ("broke", "⚠", "broke down".to_owned())
-    } else if failed > 0 {
-        ("fail", "✗", format!("{failed} failed"))
-    } else if drifted > 0 {
-        ("drift", "≠", format!("{drifted} drifted"))
-    } else if held > 0 {
-        ("pass", "✓", "pass".to_owned())
-    } else {
-        ("none", "–", "nothing applies".to_owned())
-    };
-    context! { class, symbol, text }
+/// What happened in some runs, counted.
+struct Tally {
+    broken: usize,
+    failed: usize,
+    drifted: usize,
+    known: usize,
+    right: usize,
+    /// Bookkeeping and comparisons with goldens that hold.
+    held: usize,
+}
+
+impl Tally {
+    /// The worst of it, in a word with a symbol and a class that gives its colour.
+    fn worst(&self) -> Value {
+        let (class, symbol, text) = if self.broken > 0 {
+            ("broke", "⚠", "broke down".to_owned())
+        } else if self.failed > 0 {
+            ("fail", "✗", format!("{} failed", self.failed))
+        } else if self.drifted > 0 {
+            ("drift", "≠", format!("{} drifted", self.drifted))
+        } else if self.known > 0 {
+            let also = match self.right {
+                0 => String::new(),
+                right => format!(", {right} right"),
+            };
+            ("known", "≈", format!("{} wrong as known{also}", self.known))
+        } else if self.right > 0 {
+            ("pass", "✓", "right".to_owned())
+        } else if self.held > 0 {
+            ("none", "–", "not judged".to_owned())
+        } else {
+            ("none", "–", "nothing applies".to_owned())
+        };
+        context! { class, symbol, text }
+    }
 }
 
 fn outcome_of(verdicts: &[Verdict], broken: usize) -> Value {
     let count = |which: fn(&Verdict) -> bool| verdicts.iter().filter(|v| which(v)).count();
-    let held = count(|v| v.holds() == Some(true));
-    tally(
+    let judges = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::KnownLimit);
+    let right = verdicts
+        .iter()
+        .filter(|v| judges(v) && v.outcome == Outcome::Right);
+    let held = verdicts
+        .iter()
+        .filter(|v| !judges(v) && v.outcome == Outcome::Right);
+    Tally {
         broken,
-        count(Verdict::misses_the_truth),
-        count(Verdict::drifts),
-        held,
-    )
+        failed: count(Verdict::misses_the_truth),
+        drifted: count(Verdict::drifts),
+        known: count(|v| v.outcome == Outcome::WrongAsKnown),
+        right: right.count(),
+        held: held.count(),
+    }
+    .worst()
 }
 
 fn outcome_of_run(record: &Record) -> Value {
