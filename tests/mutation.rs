@@ -240,7 +240,7 @@ const FAULTS: [Fault; 23] = [
     },
     Fault {
         name: "a wall throws back twice what it stops",
-        file: "explicit/mod.rs",
+        file: "explicit/stages.rs",
         sound: "*change += held - free",
         broken: "*change += 3.0 * (held - free)",
         seen_by: &[(DAM, "energy-not-gained")],

@@ -1,18 +1,23 @@
-//! Explicit finite-strain material point method (MPM) with the F̄ family of locking remedies.
+//! Finite-strain material point method (MPM) with the F̄ family of locking remedies.
 //!
 //! The method is that of Zhao, Jiang & Choo, "Circumventing volumetric locking in explicit
-//! material point methods" (2022); equation numbers in this crate are theirs. The step is
-//! [`Solver::step`]; everything else is what it calls:
+//! material point methods" (2022); equation numbers in this crate are theirs. A [`Scene`] is a [`Grid`], a [`Body`] and
+//! what acts on it; a solver, behind [`Simulation`], moves it. There is one kind so far, the explicit
+//! [`Solver`](explicit::Solver), whose `step` is the algorithm. What is shared:
 //!
-//! * [`Grid`] and [`Lattice`]: cells, axes and the nodes of a basis;
+//! * [`Grid`], [`Lattice`] and [`nodes`]: cells, axes, the nodes of a basis and what they hold in a step;
 //! * [`basis`]: linear, uGIMP, quadratic and cubic B-splines, one-dimensional factors of a tensor product;
-//! * [`explicit::transfer`]: particle–grid transfers (PIC/FLIP blend, APIC, XPIC);
 //! * [`material`]: constitutive laws, pure functions in three dimensions;
-//! * [`explicit::remedy`]: how the averaged Jacobian J̄ is formed;
-//! * [`stage`]: loads, force filters, constraints and particle filters that a scene may have;
+//! * [`body`]: one law, its [`Particles`] and their states;
+//! * [`stage`]: loads, force filters, constraints and particle filters;
 //! * [`contact`]: barrier contact with rigid bodies, with friction;
-//! * [`monitor`]: mass, momentum, the energy budget, J and ln(J/J̄);
+//! * [`projection`]: the volume average Π;
+//! * [`monitor`]: mass, momentum, the energy budget, J and ln(J/J̄), reactions;
 //! * [`memory`]: how a run is stopped and goes on as if it had not been.
+//!
+//! What only the explicit step needs, in [`explicit`]: its [`Settings`](explicit::Settings), particle–grid transfers
+//! ([`explicit::transfer`]: PIC/FLIP blend, APIC, XPIC) and remedies ([`explicit::remedy`]: how the averaged Jacobian J̄
+//! is formed).
 //!
 //! All quantities are in SI units. The dimension is a const generic: 1 (uniaxial strain),
 //! 2 (plane strain) or 3.

@@ -39,7 +39,7 @@ pub struct Particles<const D: usize> {
     pub jacobian: Vec<f64>,
     /// Averaged Jacobian J̄.
     pub j_bar: Vec<f64>,
-    /// Cauchy stress that enters the force (Pa).
+    /// Cauchy stress (Pa), as the law gives it.
     pub stress: Vec<SymmetricTensor>,
     /// External force (N).
     #[serde(with = "rows")]

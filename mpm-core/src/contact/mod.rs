@@ -23,6 +23,8 @@ pub struct RigidContact<const D: usize> {
     friction: Option<Friction>,
     /// Stretch of the stick of every particle (m), by id; empty without friction.
     stretch: Vec<[f64; D]>,
+    /// The same at the end of the step that was tried last.
+    tried: Vec<[f64; D]>,
     /// What the particles do to the body.
     reaction: Reaction,
 }
@@ -45,6 +47,7 @@ impl<const D: usize> RigidContact<D> {
             barrier,
             friction: None,
             stretch: Vec::new(),
+            tried: Vec::new(),
             reaction: Reaction::default(),
         }
     }
@@ -74,39 +77,47 @@ impl<const D: usize> RigidContact<D> {
     pub(crate) fn attach(&mut self, particles: usize) {
         if self.friction.is_some() {
             self.stretch.resize(particles, [0.0; D]);
+            self.tried.resize(particles, [0.0; D]);
         }
     }
 
-    /// Adds the contact forces at `time` (s), the end of a step of `dt` (s), to the particles' external forces.
-    pub(crate) fn add(&mut self, time: f64, dt: f64, particles: &mut Particles<D>) -> Stiffest {
+    /// Adds the contact forces at `time` (s), the end of a step of `dt` (s), to the particles' external forces. The sticks
+    /// start from where the last [`commit`](Self::commit) left them, however often a step is tried.
+    pub(crate) fn try_step(
+        &mut self,
+        time: f64,
+        dt: f64,
+        particles: &mut Particles<D>,
+    ) -> Stiffest {
         let moved = self.face.displacement(time);
         let carried = difference(&moved, &self.face.displacement(time - dt));
         let (axis, sign) = (self.face.axis(), self.face.sign());
         let mut stiffest = Stiffest::default();
         self.reaction.force = [0.0; 3];
         for k in 0..particles.len() {
-            let stretch = self.stretch.get_mut(particles.id[k] as usize);
+            let id = particles.id[k] as usize;
+            let tried = self.tried.get_mut(id);
             let gap = self.face.gap(&difference(&particles.position[k], &moved));
             let Some(gap) = gap.filter(|&gap| gap < self.barrier.distance()) else {
-                stretch.into_iter().for_each(|u| *u = [0.0; D]);
+                tried.into_iter().for_each(|u| *u = [0.0; D]);
                 continue;
             };
             let normal = self.barrier.force(gap);
             let mut stiffness = self.barrier.stiffness(gap);
             let mut force = [0.0; D];
-            if let (Some(friction), Some(stretch)) = (&self.friction, stretch) {
+            if let (Some(friction), Some(tried)) = (&self.friction, tried) {
+                *tried = self.stretch[id];
                 let slid = difference(&particles.increment[k], &carried);
                 for a in (0..D).filter(|&a| a != axis) {
-                    stretch[a] += slid[a];
+                    tried[a] += slid[a];
                 }
-                force = friction.force(stretch, normal);
+                force = friction.force(tried, normal);
                 stiffness = stiffness.max(friction.stiffness());
             }
             force[axis] = sign * normal;
             for a in 0..D {
                 particles.external_force[k][a] += force[a];
                 self.reaction.force[a] -= force[a];
-                self.reaction.impulse[a] -= dt * force[a];
             }
             let ratio = stiffness / particles.mass[k];
             if ratio > stiffest.ratio {
@@ -114,6 +125,14 @@ impl<const D: usize> RigidContact<D> {
             }
         }
         stiffest
+    }
+
+    /// Takes the step of `dt` (s) that was tried last.
+    pub(crate) fn commit(&mut self, dt: f64) {
+        std::mem::swap(&mut self.stretch, &mut self.tried);
+        for (impulse, force) in self.reaction.impulse.iter_mut().zip(self.reaction.force) {
+            *impulse += dt * force;
+        }
     }
 
     /// The first particle whose gap the displacement of the present step would close, at its end at `time` (s).
@@ -173,43 +192,61 @@ mod tests {
         (contact, particles)
     }
 
+    fn committed(contact: &mut RigidContact<2>, particles: &mut Particles<2>) -> Vec<[f64; 2]> {
+        let tried = forces(contact, particles);
+        contact.commit(0.1);
+        tried
+    }
+
     fn forces(contact: &mut RigidContact<2>, particles: &mut Particles<2>) -> Vec<[f64; 2]> {
         particles.external_force.fill([0.0; 2]);
-        contact.add(0.0, 0.1, particles);
+        contact.try_step(0.0, 0.1, particles);
         particles.external_force.clone()
     }
 
     #[test]
     fn sticks_remember_their_particle_when_particles_are_sorted() {
         let (mut contact, mut particles) = touching();
-        let before = forces(&mut contact, &mut particles);
+        let before = committed(&mut contact, &mut particles);
         assert_eq!((before[0][0], before[1][0]), (-1.0, -2.0));
         particles.permute(&[1, 0]);
         particles.increment.fill([0.0; 2]);
-        let after = forces(&mut contact, &mut particles);
+        let after = committed(&mut contact, &mut particles);
         assert_eq!((after[0], after[1]), (before[1], before[0]));
     }
 
     #[test]
     fn an_open_gap_forgets_the_stick() {
         let (mut contact, mut particles) = touching();
-        forces(&mut contact, &mut particles);
+        committed(&mut contact, &mut particles);
         particles.position[0][1] = 1.0;
-        assert_eq!(forces(&mut contact, &mut particles)[0], [0.0; 2]);
+        assert_eq!(committed(&mut contact, &mut particles)[0], [0.0; 2]);
         particles.position[0][1] = 0.5;
         particles.increment.fill([0.0; 2]);
-        let after = forces(&mut contact, &mut particles);
+        let after = committed(&mut contact, &mut particles);
         assert_eq!((after[0][0], after[1][0]), (0.0, -4.0));
+    }
+
+    #[test]
+    fn a_step_can_be_tried_again_until_it_is_taken() {
+        let (mut contact, mut particles) = touching();
+        let first = forces(&mut contact, &mut particles);
+        assert_eq!(forces(&mut contact, &mut particles), first);
+        assert_eq!(contact.reaction().impulse, [0.0; 3]);
+        contact.commit(0.1);
+        assert_eq!(contact.reaction().impulse[0], 0.1 * 3.0);
+        let next = forces(&mut contact, &mut particles);
+        assert_eq!((next[0][0], next[1][0]), (-2.0, -4.0));
     }
 
     #[test]
     fn the_stiffest_is_named_with_what_it_feels() {
         let (mut contact, mut particles) = touching();
-        let stiffest = contact.add(0.0, 0.1, &mut particles);
+        let stiffest = contact.try_step(0.0, 0.1, &mut particles);
         assert_eq!(stiffest.particle, 0);
         assert_eq!(stiffest.ratio, contact.barrier.stiffness(0.5));
         particles.mass[1] = 1e-3;
-        let stiffest = contact.add(0.0, 0.1, &mut particles);
+        let stiffest = contact.try_step(0.0, 0.1, &mut particles);
         assert_eq!(stiffest.particle, 1);
         assert_eq!(stiffest.ratio, 10.0 / 1e-3);
     }

@@ -52,6 +52,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             declared: Vec::new(),
             prescribed: Vec::new(),
             held: vec![Held::default(); scene.constraints.len()],
+            adjusted_stress: Vec::new(),
             chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
             node_sums: vec![NodeSums::default(); lattice.len().div_ceil(NODE_CHUNK)],
             drift: 0.0,

@@ -349,15 +349,23 @@ struct WithoutPressure;
 impl Memoryless for WithoutPressure {}
 
 impl Remedy<2> for WithoutPressure {
-    fn adjust_stress(&mut self, particles: &mut Particles<2>, average: &mut dyn Average<2>) {
+    fn force_stress(
+        &mut self,
+        particles: &Particles<2>,
+        average: &mut dyn Average<2>,
+        stress: &mut Vec<SymmetricTensor>,
+    ) {
         let mut mean: Vec<f64> = particles.stress.iter().map(SymmetricTensor::mean).collect();
         average.average(particles, &mut mean);
-        for s in &mut particles.stress {
+        stress.clone_from(&particles.stress);
+        for s in stress {
             *s = s.scale_add_identity(1.0, -s.mean());
         }
     }
 
-    fn adjust_delta_f(&mut self, _: &mut Particles<2>, _: &mut dyn Average<2>) {}
+    fn next_j_bar(&mut self, _: &Particles<2>, _: &mut dyn Average<2>) -> Option<&[f64]> {
+        None
+    }
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! Energy-consistent F̄: one average A in the rate of volume and in the pressure of the force.
 
-use super::{Remedy, assume, fill};
+use super::{Remedy, fill};
 use crate::memory::Memoryless;
 use crate::parallel::CHUNK;
 use crate::particles::Particles;
 use crate::projection::Average;
 use crate::space::determinant;
+use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 use rayon::prelude::*;
 
@@ -106,6 +107,11 @@ fn shear<const D: usize>(delta_f: &SMatrix<f64, D, D>) -> f64 {
     (2.0 * squares).sqrt()
 }
 
+/// The part of a stress that works on a change of volume: in plane strain, the in-plane mean.
+fn mean<const D: usize>(stress: &SymmetricTensor) -> f64 {
+    (0..D).map(|a| stress.get(a, a)).sum::<f64>() / D as f64
+}
+
 impl Memoryless for FbarConsistent {}
 
 impl<const D: usize> Remedy<D> for FbarConsistent {
@@ -113,35 +119,40 @@ impl<const D: usize> Remedy<D> for FbarConsistent {
         particles.j_bar = particles.jacobian.clone();
     }
 
-    fn adjust_stress(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>) {
-        let (j, j_bar) = (&particles.jacobian, &particles.j_bar);
-        particles
-            .stress
+    fn force_stress(
+        &mut self,
+        particles: &Particles<D>,
+        average: &mut dyn Average<D>,
+        stress: &mut Vec<SymmetricTensor>,
+    ) {
+        stress.resize(particles.len(), SymmetricTensor::default());
+        stress
             .par_chunks_mut(CHUNK)
-            .zip(j.par_chunks(CHUNK))
-            .zip(j_bar.par_chunks(CHUNK))
-            .for_each(|((stress, j), j_bar)| {
-                for ((stress, j), j_bar) in stress.iter_mut().zip(j).zip(j_bar) {
-                    *stress = stress.scale_add_identity(j_bar / j, 0.0);
+            .zip(particles.stress.par_chunks(CHUNK))
+            .zip(particles.jacobian.par_chunks(CHUNK))
+            .zip(particles.j_bar.par_chunks(CHUNK))
+            .for_each(|(((stress, own), j), j_bar)| {
+                for (((stress, own), j), j_bar) in stress.iter_mut().zip(own).zip(j).zip(j_bar) {
+                    *stress = own.scale_add_identity(j_bar / j, 0.0);
                 }
             });
-        // The part of the stress that works on a change of volume: in plane strain, the in-plane mean.
-        let mean = |p: usize| (0..D).map(|a| particles.stress[p].get(a, a)).sum::<f64>() / D as f64;
-        fill(&mut self.field, particles.len(), mean);
+        fill(&mut self.field, particles.len(), |p| mean::<D>(&stress[p]));
         self.average(particles, average);
-        particles
-            .stress
+        stress
             .par_chunks_mut(CHUNK)
             .zip(self.field.par_chunks(CHUNK))
             .for_each(|(stress, averaged)| {
                 for (stress, averaged) in stress.iter_mut().zip(averaged) {
-                    let mean = (0..D).map(|a| stress.get(a, a)).sum::<f64>() / D as f64;
-                    *stress = stress.scale_add_identity(1.0, averaged - mean);
+                    *stress = stress.scale_add_identity(1.0, averaged - mean::<D>(stress));
                 }
             });
     }
 
-    fn adjust_delta_f(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>) {
+    fn next_j_bar(
+        &mut self,
+        particles: &Particles<D>,
+        average: &mut dyn Average<D>,
+    ) -> Option<&[f64]> {
         fill(&mut self.field, particles.len(), |p| {
             determinant(&particles.delta_f[p])
         });
@@ -157,6 +168,6 @@ impl<const D: usize> Remedy<D> for FbarConsistent {
         if self.relaxation > 0.0 {
             self.relax(particles, average);
         }
-        assume(particles, &self.field);
+        Some(&self.field)
     }
 }

@@ -1,6 +1,6 @@
 //! Rate F̄: J̄ⁿ⁺¹ = J̄ⁿ Π(ΔJ).
 
-use super::{Remedy, assume, fill};
+use super::{Remedy, fill};
 use crate::memory::Memoryless;
 use crate::particles::Particles;
 use crate::projection::Average;
@@ -19,7 +19,11 @@ impl<const D: usize> Remedy<D> for FbarRate {
         particles.j_bar = particles.jacobian.clone();
     }
 
-    fn adjust_delta_f(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>) {
+    fn next_j_bar(
+        &mut self,
+        particles: &Particles<D>,
+        average: &mut dyn Average<D>,
+    ) -> Option<&[f64]> {
         fill(&mut self.next, particles.len(), |p| {
             determinant(&particles.delta_f[p])
         });
@@ -27,6 +31,6 @@ impl<const D: usize> Remedy<D> for FbarRate {
         for (next, j_bar) in self.next.iter_mut().zip(&particles.j_bar) {
             *next *= j_bar;
         }
-        assume(particles, &self.next);
+        Some(&self.next)
     }
 }

@@ -1,6 +1,6 @@
 //! Recursive F̄: J̄ⁿ⁺¹ = Π(J̄ⁿ ΔJ), Eq. (26).
 
-use super::{Remedy, assume, fill};
+use super::{Remedy, fill};
 use crate::memory::Memoryless;
 use crate::particles::Particles;
 use crate::projection::Average;
@@ -20,11 +20,15 @@ impl<const D: usize> Remedy<D> for FbarRecursive {
         particles.j_bar = particles.jacobian.clone();
     }
 
-    fn adjust_delta_f(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>) {
+    fn next_j_bar(
+        &mut self,
+        particles: &Particles<D>,
+        average: &mut dyn Average<D>,
+    ) -> Option<&[f64]> {
         fill(&mut self.next, particles.len(), |p| {
             particles.j_bar[p] * determinant(&particles.delta_f[p])
         });
         average.average(particles, &mut self.next);
-        assume(particles, &self.next);
+        Some(&self.next)
     }
 }

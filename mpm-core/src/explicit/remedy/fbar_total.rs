@@ -1,6 +1,6 @@
 //! Total F̄: J̄ⁿ⁺¹ = Π(Jⁿ⁺¹), Eqs. (18)–(21).
 
-use super::{Remedy, assume, fill};
+use super::{Remedy, fill};
 use crate::memory::Memoryless;
 use crate::particles::Particles;
 use crate::projection::Average;
@@ -18,9 +18,13 @@ impl<const D: usize> Remedy<D> for FbarTotal {
         particles.j_bar = particles.jacobian.clone();
     }
 
-    fn adjust_delta_f(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>) {
+    fn next_j_bar(
+        &mut self,
+        particles: &Particles<D>,
+        average: &mut dyn Average<D>,
+    ) -> Option<&[f64]> {
         fill(&mut self.next, particles.len(), |p| particles.jacobian[p]);
         average.average(particles, &mut self.next);
-        assume(particles, &self.next);
+        Some(&self.next)
     }
 }

@@ -28,6 +28,7 @@ use crate::parallel::CHUNK;
 use crate::particles::Particles;
 use crate::projection::Average;
 use crate::space::{determinant, stretch_of_volume};
+use crate::tensor::SymmetricTensor;
 use rayon::prelude::*;
 
 /// A locking remedy of a body. What it remembers of a particle, J̄, is a column of the particles.
@@ -35,13 +36,23 @@ pub trait Remedy<const D: usize>: Memory + Send {
     /// Gives the particles the columns that the remedy needs.
     fn attach(&mut self, _particles: &mut Particles<D>) {}
 
-    /// Before the forces are formed: may replace the mean part of the particles' stress, for a
-    /// remedy that averages the pressure as well.
-    fn adjust_stress(&mut self, _particles: &mut Particles<D>, _average: &mut dyn Average<D>) {}
+    /// Before the forces are formed: fills `stress` with the stress (Pa) that enters them, of a remedy that averages the
+    /// pressure as well; of others `stress` stays empty, and the law's enters them.
+    fn force_stress(
+        &mut self,
+        _particles: &Particles<D>,
+        _average: &mut dyn Average<D>,
+        _stress: &mut Vec<SymmetricTensor>,
+    ) {
+    }
 
-    /// After ΔF and J are known: turns the particles' ΔF into ΔF̄. Positions and volumes are still
-    /// those of the step's start.
-    fn adjust_delta_f(&mut self, particles: &mut Particles<D>, average: &mut dyn Average<D>);
+    /// After ΔF and J are known: J̄ⁿ⁺¹ of every particle, unless that is J. Positions, volumes and J̄ are still those of
+    /// the step's start; it can be asked for again after other ΔF, and [`commit`] makes it that of the particles.
+    fn next_j_bar(
+        &mut self,
+        particles: &Particles<D>,
+        average: &mut dyn Average<D>,
+    ) -> Option<&[f64]>;
 }
 
 /// Fills `out` with `f(particle)`, in parallel.
@@ -55,7 +66,7 @@ fn fill(out: &mut Vec<f64>, n: usize, f: impl Fn(usize) -> f64 + Sync) {
 }
 
 /// Sets J̄ to `next` and scales ΔF to ΔF̄, Eq. (25).
-fn assume<const D: usize>(particles: &mut Particles<D>, next: &[f64]) {
+pub fn commit<const D: usize>(particles: &mut Particles<D>, next: &[f64]) {
     particles
         .delta_f
         .par_chunks_mut(CHUNK)

@@ -12,5 +12,7 @@ pub struct Standard;
 impl Memoryless for Standard {}
 
 impl<const D: usize> Remedy<D> for Standard {
-    fn adjust_delta_f(&mut self, _particles: &mut Particles<D>, _average: &mut dyn Average<D>) {}
+    fn next_j_bar(&mut self, _: &Particles<D>, _: &mut dyn Average<D>) -> Option<&[f64]> {
+        None
+    }
 }
