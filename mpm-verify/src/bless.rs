@@ -1,12 +1,15 @@
 //! Accepting drift.
 
-use crate::checkpoint::Saving;
 use crate::error::Error;
 use crate::golden::{Goldens, Run};
-use crate::plan::PlannedRun;
 use crate::record::{Record, Status, Version};
 use crate::report::describe::{drift_line, verdict_line};
-use crate::study::{CaseStudy, Gathered, Listener, Task, has_truth, run_all};
+use crate::run::checkpoint::Saving;
+use crate::study::gather::Gathered;
+use crate::study::judge::has_truth;
+use crate::study::plan::PlannedRun;
+use crate::study::schedule::{Listener, Task, run_all};
+use crate::study::summary::CaseStudy;
 use crate::verdict::Verdict;
 use std::fmt::Write;
 

@@ -2,7 +2,7 @@
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
-use mpm_verify::checkpoint;
+use mpm_verify::run::checkpoint;
 use std::path::PathBuf;
 
 /// Verification bench of the locking-free material point method.

@@ -40,7 +40,7 @@ pub enum Error {
         /// The file.
         path: PathBuf,
         /// Why not.
-        refusal: crate::checkpoint::Refusal,
+        refusal: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A file or folder could not be read or written.
     #[error("{}: {cause}", path.display())]

@@ -5,13 +5,12 @@
 //! runs many side by side; the report draws. Every hand-off is a plain file, so each later stage runs
 //! again without simulating.
 
+pub mod accuracy;
 pub mod bench;
 pub mod bless;
 pub mod case;
 pub mod cases;
 pub mod check;
-pub mod checkpoint;
-pub mod convergence;
 pub mod draw;
 pub mod drive;
 pub mod error;
@@ -22,21 +21,17 @@ pub mod golden;
 pub mod job;
 pub mod metric;
 pub mod night;
-pub mod order;
 pub mod parameter;
-pub mod plan;
 pub mod probe;
 pub mod record;
 pub mod report;
 pub mod run;
-pub mod series;
 pub mod sketch;
 pub mod spec;
 pub mod statistics;
 pub mod study;
 pub mod table;
 pub mod verdict;
-pub mod vtu;
 
 pub use mpm_solvers::scheme;
 

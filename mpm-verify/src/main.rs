@@ -8,21 +8,23 @@ use cli::{Cli, Command, one_line};
 use mpm_verify::bench::{self, Peers};
 use mpm_verify::bless::Candidates;
 use mpm_verify::case::{Case, Tier, find_level};
-use mpm_verify::checkpoint::{self, Identity, Saving};
+use mpm_verify::cases;
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::exact;
 use mpm_verify::files::read_versioned;
 use mpm_verify::golden::Goldens;
 use mpm_verify::night::Night;
 use mpm_verify::parameter::Parameters;
-use mpm_verify::plan::{Plan, Shard};
-use mpm_verify::record::{self, Record, Status};
+use mpm_verify::record::{self, Record};
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::{describe, discard_report, update_report, write_report};
+use mpm_verify::run::checkpoint::{self, Identity, Saving};
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
-use mpm_verify::study::{Gathered, has_truth, make_runs};
-use mpm_verify::{cases, run};
+use mpm_verify::study::gather::Gathered;
+use mpm_verify::study::judge::{exit_code, has_truth, judged_run};
+use mpm_verify::study::plan::{Plan, Shard};
+use mpm_verify::study::schedule::make_runs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -295,7 +297,7 @@ fn run_one(
         }
     }
     let bar = progress::single(&format!("{} {}", case.name, spec.folder()));
-    let record = run::execute(case, spec, place, threads, &|share| {
+    let record = judged_run(case, spec, place, threads, &|share| {
         bar.set_position((share * progress::SCALE) as u64);
     })?;
     bar.finish_and_clear();
@@ -325,16 +327,6 @@ fn ended(case: &Case, spec: &RunSpec, folder: &Path) -> Result<Option<Record>, E
         .require(&Identity::of_record(&record))
         .map_err(|refusal| refusal.of(&path))?;
     Ok(Some(record))
-}
-
-fn exit_code(record: &Record) -> ExitCode {
-    if record.status == Status::Failed {
-        ExitCode::RunFailed
-    } else if record.verdicts.iter().any(|v| v.failed()) {
-        ExitCode::TruthFailed
-    } else {
-        ExitCode::Good
-    }
 }
 
 fn verify(

@@ -3,7 +3,7 @@
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::error::Error;
 use mpm_verify::record::{Record, Status};
-use mpm_verify::study::Listener;
+use mpm_verify::study::schedule::Listener;
 use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
 

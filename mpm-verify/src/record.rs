@@ -1,5 +1,8 @@
 //! The record of a run: stable, versioned, in SI units.
 
+#[cfg(test)]
+pub(crate) mod fixture;
+
 use crate::parameter::Parameters;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::spec::run_folder;

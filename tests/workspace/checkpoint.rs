@@ -2,12 +2,13 @@
 
 use super::{code, copy_tree, files, golden, json, mpm_verify, quick, stderr, stdout, text};
 use mpm_verify::case::{Case, Tier};
-use mpm_verify::checkpoint::{Checkpoint, Identity};
+use mpm_verify::cases;
 use mpm_verify::job::Job;
 use mpm_verify::parameter::Parameters;
+use mpm_verify::run::checkpoint::{Checkpoint, Identity};
+use mpm_verify::run::series;
 use mpm_verify::scheme::{BasisName, RemedyName, Scheme};
 use mpm_verify::spec::RunSpec;
-use mpm_verify::{cases, series};
 use rayon::prelude::*;
 use std::fs;
 use std::path::Path;

@@ -7,7 +7,7 @@ use crate::cases;
 use crate::draw::triptych::different_pixels;
 use crate::error::Error;
 use crate::record::Record;
-use crate::series;
+use crate::run::series;
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
 use image::RgbImage;

@@ -5,7 +5,7 @@ use super::format::{Column, Point, Run, SERIES, WORK};
 use crate::cases;
 use crate::error::Error;
 use crate::record::Record;
-use crate::series;
+use crate::run::series;
 use crate::table::Table;
 use std::path::Path;
 

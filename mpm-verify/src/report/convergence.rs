@@ -2,7 +2,6 @@
 
 use super::price;
 use crate::cases;
-use crate::convergence::{Convergence, Point, precision};
 use crate::distinct;
 use crate::draw::style::{Panel, Panels};
 use crate::draw::{Chart, Dash, Marker, Scale, Series, SlopeTriangle};
@@ -11,7 +10,8 @@ use crate::files::{write_csv, write_json};
 use crate::gallery::Picture;
 use crate::metric::Quantity;
 use crate::scheme::Scheme;
-use crate::study::CaseStudy;
+use crate::study::convergence::{Convergence, Point, precision};
+use crate::study::summary::CaseStudy;
 use std::collections::BTreeSet;
 use std::path::Path;
 

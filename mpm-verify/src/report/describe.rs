@@ -1,10 +1,10 @@
 //! Text for the terminal: lists, explanations, verdicts.
 
 use crate::case::{Case, Tier};
-use crate::convergence::Convergence;
 use crate::metric::Headline;
 use crate::record::{Record, Status};
-use crate::study::{CaseStudy, Summary};
+use crate::study::convergence::Convergence;
+use crate::study::summary::{CaseStudy, Summary};
 use crate::verdict::{Kind, Outcome, Verdict};
 use serde_json::{Value, json};
 use std::fmt::Write;

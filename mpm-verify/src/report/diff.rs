@@ -7,7 +7,7 @@ use crate::draw::triptych::{different_pixels, triptych};
 use crate::draw::write_small_png;
 use crate::error::{Error, ExitCode};
 use crate::files::{make_folder, read_versioned, write_whole};
-use crate::study::{SCHEMA, Summary};
+use crate::study::summary::{SCHEMA, Summary};
 use crate::verdict::Verdict;
 use image::RgbImage;
 use std::collections::{BTreeMap, BTreeSet};

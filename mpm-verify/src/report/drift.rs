@@ -5,7 +5,8 @@ use crate::draw::write_small_png;
 use crate::error::Error;
 use crate::gallery::Picture;
 use crate::golden::Goldens;
-use crate::study::{CaseStudy, Gathered};
+use crate::study::gather::Gathered;
+use crate::study::summary::CaseStudy;
 use crate::verdict::Verdict;
 use std::path::Path;
 

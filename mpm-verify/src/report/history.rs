@@ -1,7 +1,6 @@
 //! Trends over nights: errors, orders and cost, kept in a table beside the report.
 
 use crate::cases;
-use crate::convergence::Convergence;
 use crate::draw::style::{Panel, Panels};
 use crate::draw::{Chart, Scale};
 use crate::error::Error;
@@ -9,7 +8,8 @@ use crate::files::write_whole;
 use crate::gallery::Picture;
 use crate::night::Night;
 use crate::scheme::Scheme;
-use crate::study::CaseStudy;
+use crate::study::convergence::Convergence;
+use crate::study::summary::CaseStudy;
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -177,7 +177,7 @@ fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::fixture::record;
+    use crate::record::fixture::record;
 
     #[test]
     fn a_night_of_one_case_leaves_the_rows_of_the_others() {

@@ -4,7 +4,6 @@ use super::describe::{self, headline, kind, local_orders, made_by, number, order
 use super::price::{Price, Prices};
 use crate::case::Case;
 use crate::cases;
-use crate::convergence::Convergence;
 use crate::distinct;
 use crate::draw::sketch;
 use crate::error::Error;
@@ -13,7 +12,8 @@ use crate::gallery::Picture;
 use crate::metric::Quantity;
 use crate::record::Record;
 use crate::scheme::Scheme;
-use crate::study::{CaseStudy, Summary};
+use crate::study::convergence::Convergence;
+use crate::study::summary::{CaseStudy, Summary};
 use crate::verdict::{Kind, Outcome, Verdict};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{Environment, UndefinedBehavior, Value, context};

@@ -4,7 +4,7 @@ use super::describe::{kind, number};
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::{Failure, Record};
-use crate::study::{CaseStudy, Summary};
+use crate::study::summary::{CaseStudy, Summary};
 use crate::verdict::Verdict;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::path::Path;

@@ -7,7 +7,7 @@ pub mod describe;
 pub mod diff;
 mod drift;
 #[cfg(test)]
-pub(crate) mod fixture;
+mod fixture;
 pub mod history;
 mod html;
 mod junit;
@@ -24,7 +24,8 @@ use crate::gallery::{Gallery, Picture};
 use crate::golden::Goldens;
 use crate::night::Night;
 use crate::record::Record;
-use crate::study::{CaseStudy, Gathered, Summary};
+use crate::study::gather::Gathered;
+use crate::study::summary::{CaseStudy, Summary};
 use std::path::Path;
 
 const SUMMARY: &str = "summary.json";

@@ -2,10 +2,10 @@
 
 use super::describe;
 use crate::cases;
-use crate::convergence::{Convergence, Point, precision};
 use crate::metric::Quantity;
 use crate::scheme::{RemedyName, Scheme};
-use crate::study::CaseStudy;
+use crate::study::convergence::{Convergence, Point, precision};
+use crate::study::summary::CaseStudy;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 

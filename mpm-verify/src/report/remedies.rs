@@ -2,7 +2,7 @@
 
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, Scheme};
-use crate::study::Summary;
+use crate::study::summary::Summary;
 use std::fmt::Write;
 
 const BASES: [BasisName; 2] = [BasisName::Gimp, BasisName::Bspline2];

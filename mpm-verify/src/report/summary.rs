@@ -3,12 +3,12 @@
 use super::describe::{self, bless_commands, headline, kind, local_orders, number, order, outcome};
 use super::{price, remedies};
 use crate::cases;
-use crate::convergence::Convergence;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::metric::Headline;
 use crate::record::Record;
-use crate::study::Summary;
+use crate::study::convergence::Convergence;
+use crate::study::summary::Summary;
 use crate::verdict::{Kind, Verdict};
 use std::fmt::Write;
 use std::path::Path;
@@ -206,9 +206,9 @@ fn table(summary: &Summary, t: &mut String, keep: impl Fn(&Verdict) -> bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::convergence::convergence;
     use crate::record::Measured;
-    use crate::report::fixture::record;
+    use crate::record::fixture::record;
+    use crate::study::convergence::convergence;
 
     #[test]
     fn every_error_has_a_row_of_orders() {

@@ -11,7 +11,7 @@ use crate::gallery::Picture;
 use crate::metric::{Quantity, Sweep};
 use crate::record::Record;
 use crate::scheme::Scheme;
-use crate::study::CaseStudy;
+use crate::study::summary::CaseStudy;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -162,7 +162,7 @@ mod tests {
     use super::*;
     use crate::parameter::Parameters;
     use crate::record::Measured;
-    use crate::report::fixture::record;
+    use crate::record::fixture::record;
     use crate::scheme::RemedyName;
 
     fn cook() -> &'static Case {

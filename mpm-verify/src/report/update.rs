@@ -6,8 +6,9 @@ use crate::cases;
 use crate::error::Error;
 use crate::files::read_versioned;
 use crate::gallery::Picture;
-use crate::run::judge;
-use crate::study::{CaseStudy, SCHEMA, Summary, of_one_program};
+use crate::study::gather::of_one_program;
+use crate::study::judge::judge;
+use crate::study::summary::{CaseStudy, SCHEMA, Summary};
 use crate::verdict::Kind;
 use std::path::Path;
 
@@ -72,7 +73,7 @@ fn judged_again(case: &Case, mut study: CaseStudy) -> CaseStudy {
 mod tests {
     use super::*;
     use crate::night::Night;
-    use crate::report::fixture::record;
+    use crate::record::fixture::record;
     use crate::verdict::Verdict;
 
     fn study(case: &str, commit: &str) -> CaseStudy {

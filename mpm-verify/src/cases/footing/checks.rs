@@ -7,9 +7,9 @@ use super::parameters::{
     UNDRAINED_STRENGTH, YOUNG_MODULUS,
 };
 use super::reference::{EXACT, curve, elastic_slope, has_the_curve_of, mean_stress_at};
+use crate::accuracy::fit_order;
 use crate::check::{Check, Finding, run, study};
 use crate::metric::Metric;
-use crate::order::fit_order;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
 

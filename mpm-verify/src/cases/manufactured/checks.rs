@@ -3,11 +3,11 @@
 use super::metrics::{
     BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_RATIO, DISPLACEMENT_SCALE, MASS, STRESS_L2,
 };
+use crate::accuracy::{fit_order, richardson};
 use crate::cases::parameters::{CFL, DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::check::{Check, Finding, On, run, study};
 use crate::exact::parameters::ANGULAR_FREQUENCY;
 use crate::metric::Metric;
-use crate::order::{fit_order, richardson};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use mpm_core::Law;

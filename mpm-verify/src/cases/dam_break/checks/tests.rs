@@ -3,7 +3,7 @@
 use super::*;
 use crate::cases::dam_break::{self, parameters};
 use crate::metric::Metric;
-use crate::report::fixture::{self, outcomes};
+use crate::record::fixture::{self, outcomes};
 use crate::scheme::Scheme;
 use crate::verdict::Verdict;
 

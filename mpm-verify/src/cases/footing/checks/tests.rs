@@ -2,7 +2,7 @@
 
 use super::super::parameters::ALL;
 use super::*;
-use crate::report::fixture::{self, outcomes};
+use crate::record::fixture::{self, outcomes};
 use crate::verdict::Verdict;
 
 fn judge(record: &Record) -> Vec<Verdict> {

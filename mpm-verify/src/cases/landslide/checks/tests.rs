@@ -2,7 +2,7 @@
 
 use super::super::parameters::{PARAMETERS, parameters_3d};
 use super::*;
-use crate::report::fixture::{self, outcomes};
+use crate::record::fixture::{self, outcomes};
 use crate::verdict::Verdict;
 
 const OURS: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarConsistent);

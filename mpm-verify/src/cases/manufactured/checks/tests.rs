@@ -1,7 +1,7 @@
 use super::*;
 use crate::parameter::Parameters;
 use crate::record::Measured;
-use crate::report::fixture::record;
+use crate::record::fixture::record;
 use crate::verdict::{Outcome, Verdict};
 
 use Outcome::{Failed, NotJudged, Right, WrongAsKnown};

@@ -2,7 +2,7 @@
 
 use super::super::PARAMETERS;
 use super::*;
-use crate::report::fixture::{self, outcomes};
+use crate::record::fixture::{self, outcomes};
 use crate::scheme::BasisName;
 use crate::verdict::Verdict;
 

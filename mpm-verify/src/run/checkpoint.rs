@@ -10,12 +10,12 @@
 //!
 //! Numbers are little-endian; what follows the checksum is written by serde in the format of `postcard`.
 
+use super::series::Mark;
 use crate::case::Case;
 use crate::error::Error;
 use crate::files;
 use crate::parameter::Parameters;
 use crate::record::{Record, Timing, Version};
-use crate::series::Mark;
 use crate::spec::RunSpec;
 use crc32fast::Hasher;
 use mpm_core::{MemoryError, Saved};
@@ -111,7 +111,10 @@ pub enum Refusal {
         here: String,
     },
     /// The series is not the one that the checkpoint was written beside.
-    #[error("{} is not the series that it was written with", crate::series::FILE)]
+    #[error(
+        "{} is not the series that it was written with",
+        crate::run::series::FILE
+    )]
     Series,
     /// The job is not one of this memory.
     #[error(transparent)]
@@ -124,7 +127,7 @@ impl Refusal {
     pub fn of(self, path: &Path) -> Error {
         Error::Checkpoint {
             path: path.to_path_buf(),
-            refusal: self,
+            refusal: Box::new(self),
         }
     }
 }

@@ -1,21 +1,25 @@
 //! One run: a job driven to its end, its outputs and its record.
 
+pub mod checkpoint;
+pub mod series;
+pub mod vtu;
+
 use crate::case::Case;
-use crate::checkpoint::{self, Checkpoint, Identity, Keeper, Refusal, Saving};
 use crate::error::Error;
 use crate::files::{
     SNAPSHOTS, discard, discard_folder, require_writable, snapshot_file, write_csv, write_json,
 };
 use crate::job::{Column, Job, Snapshot};
 use crate::parameter::Parameters;
-use crate::record::{BREAKS_DOWN, Failure, Machine, Record, SCHEMA, Status, Timing, Version};
-use crate::series::Series;
+use crate::record::{Failure, Machine, Record, SCHEMA, Status, Timing, Version};
 use crate::spec::RunSpec;
-use crate::verdict::{Kind, Verdict};
-use crate::vtu::{write_pvd, write_vtu};
+use crate::verdict::Verdict;
+use checkpoint::{Checkpoint, Identity, Keeper, Refusal, Saving};
 use cpu_time::ProcessTime;
+use series::Series;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use vtu::{write_pvd, write_vtu};
 
 /// Runs `spec` of `case` on `threads` threads. With a folder, the series is written there row by row,
 /// checkpoints now and then and, at the end, particles and record; a run that breaks down keeps what it
@@ -29,6 +33,7 @@ pub fn execute(
     spec: &RunSpec,
     place: Option<(&Path, Saving)>,
     threads: usize,
+    judge: &(dyn Fn(&Record) -> Vec<Verdict> + Sync),
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Record, Error> {
     let parameters = Parameters::new(&case.parameters, &spec.set)?;
@@ -74,7 +79,7 @@ pub fn execute(
         if record.status == Status::Ok {
             record.metrics = job.metrics();
         }
-        record.verdicts = judge(case, &record);
+        record.verdicts = judge(&record);
         if let Some(journal) = journal {
             write_particles(&journal.folder, &job.particles())?;
             write_json(&journal.folder.join("record.json"), &record)?;
@@ -82,43 +87,6 @@ pub fn execute(
         }
         Ok(record)
     })
-}
-
-/// All verdicts on one run.
-pub fn judge(case: &Case, record: &Record) -> Vec<Verdict> {
-    let mut verdicts = vec![match (case.breaks_down)(record) {
-        None => completes(record),
-        Some(why) => breaks_down(record, why),
-    }];
-    if record.status == Status::Ok {
-        verdicts.extend(case.judge(record));
-    }
-    verdicts
-}
-
-/// Whether the run came to its end: a check of every case.
-fn completes(record: &Record) -> Verdict {
-    Verdict::close(
-        "completes",
-        "run",
-        f64::from(u8::from(record.status == Status::Ok)),
-        1.0,
-        0.0,
-        "the equations have a solution",
-    )
-    .bookkeeping()
-}
-
-/// Whether a run that is known to break down does.
-fn breaks_down(record: &Record, why: &str) -> Verdict {
-    Verdict::above(
-        BREAKS_DOWN,
-        Kind::KnownLimit,
-        "run",
-        f64::from(u8::from(record.status == Status::Failed)),
-        0.0,
-        why,
-    )
 }
 
 /// Processor time: of the calling thread for a run on one thread (others may run beside it), else of

@@ -1,9 +1,9 @@
 //! Convergence and work–precision of a case: every quantity of every scheme over the levels.
 
+use crate::accuracy::{Order, Richardson, extrapolate, fit_order};
 use crate::case::Case;
 use crate::distinct;
 use crate::metric::Quantity;
-use crate::order::{Order, Richardson, extrapolate, fit_order};
 use crate::record::{Record, of_own_parameters};
 use crate::scheme::Scheme;
 use serde::{Deserialize, Serialize};
@@ -157,7 +157,7 @@ mod tests {
     use super::*;
     use crate::cases;
     use crate::record::Measured;
-    use crate::report::fixture::record;
+    use crate::record::fixture::record;
     use crate::scheme::RemedyName;
 
     /// A run whose errors are those of second order.

@@ -1,0 +1,82 @@
+//! Verdicts on one run.
+
+use crate::case::Case;
+use crate::error::{Error, ExitCode};
+use crate::record::{BREAKS_DOWN, Record, Status};
+use crate::run::checkpoint::Saving;
+use crate::run::execute;
+use crate::spec::RunSpec;
+use crate::verdict::{Kind, Outcome, Verdict};
+use std::path::Path;
+
+/// Runs `spec` of `case` and judges it: see [`execute`].
+///
+/// # Errors
+/// Those of [`execute`].
+pub fn judged_run(
+    case: &Case,
+    spec: &RunSpec,
+    place: Option<(&Path, Saving)>,
+    threads: usize,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<Record, Error> {
+    execute(case, spec, place, threads, &|r| judge(case, r), progress)
+}
+
+/// All verdicts on one run.
+pub fn judge(case: &Case, record: &Record) -> Vec<Verdict> {
+    let mut verdicts = vec![match (case.breaks_down)(record) {
+        None => completes(record),
+        Some(why) => breaks_down(record, why),
+    }];
+    if record.status == Status::Ok {
+        verdicts.extend(case.judge(record));
+    }
+    verdicts
+}
+
+/// Whether the run came to its end: a check of every case.
+fn completes(record: &Record) -> Verdict {
+    Verdict::close(
+        "completes",
+        "run",
+        f64::from(u8::from(record.status == Status::Ok)),
+        1.0,
+        0.0,
+        "the equations have a solution",
+    )
+    .bookkeeping()
+}
+
+/// Whether a run that is known to break down does.
+fn breaks_down(record: &Record, why: &str) -> Verdict {
+    Verdict::above(
+        BREAKS_DOWN,
+        Kind::KnownLimit,
+        "run",
+        f64::from(u8::from(record.status == Status::Failed)),
+        0.0,
+        why,
+    )
+}
+
+/// Whether at least one check against the truth, beyond completion, was applied to a run, or it broke
+/// down as it is known to.
+#[must_use]
+pub fn has_truth(record: &Record) -> bool {
+    let judges = |kind| matches!(kind, Kind::Truth | Kind::KnownLimit);
+    let mut verdicts = record.verdicts.iter();
+    verdicts.any(|v| judges(v.kind) && v.outcome != Outcome::NotJudged)
+}
+
+/// How the program should end after one run.
+#[must_use]
+pub fn exit_code(record: &Record) -> ExitCode {
+    if record.broke_down() {
+        ExitCode::RunFailed
+    } else if record.verdicts.iter().any(Verdict::failed) {
+        ExitCode::TruthFailed
+    } else {
+        ExitCode::Good
+    }
+}

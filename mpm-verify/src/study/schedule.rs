@@ -1,0 +1,187 @@
+//! Runs made side by side, the longest first.
+
+use super::judge::judged_run;
+use super::plan::Plan;
+use crate::case::Case;
+use crate::error::Error;
+use crate::files::{discard, discard_folder, read_versioned, require_writable};
+use crate::parameter::Parameters;
+use crate::record::{self, Record, Version};
+use crate::run::checkpoint::{self, Saving};
+use crate::spec::RunSpec;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// Hears of the progress of runs. `run` is the run's place in the plan.
+pub trait Listener: Sync {
+    /// A share of a run is done (0 to 1).
+    fn progress(&self, run: usize, share: f64);
+    /// A run can't go on from its checkpoint and begins again.
+    fn begins_again(&self, run: usize, why: &Error);
+    /// A run has ended.
+    fn ended(&self, run: usize, record: &Record);
+}
+
+/// Makes the runs of a plan's own shard below `out`, as many side by side as there are `workers`, one
+/// thread each, the longest first. To resume is to keep a run that has a record of this very program and to go
+/// on with one that has a checkpoint of it.
+///
+/// # Errors
+/// The folder can't be written or, to be resumed, holds another plan; or a scene can't be built.
+pub fn make_runs(
+    plan: &Plan,
+    out: &Path,
+    saving: Saving,
+    workers: usize,
+    listener: &dyn Listener,
+) -> Result<Vec<Record>, Error> {
+    require_writable(out)?;
+    if saving.resume && out.join("plan.json").exists() {
+        let begun = Plan::read(out)?;
+        if begun != *plan {
+            return Err(Error::Input(format!(
+                "{}: holds another plan (tier {}, shard {}); nothing to resume",
+                out.display(),
+                begun.tier,
+                begun.shard
+            )));
+        }
+    }
+    let mut tasks = Vec::new();
+    for run in plan.own() {
+        let (case, spec) = run.resolve()?;
+        let folder = out.join(run.folder());
+        if !saving.resume {
+            discard(&folder.join("record.json"))?;
+            checkpoint::discard(&folder)?;
+            discard_folder(&folder.join("twin"))?;
+        }
+        tasks.push(Task { case, spec, folder });
+    }
+    plan.write(out)?;
+    run_all(&tasks, saving, workers, listener)
+}
+
+/// A run to be made in a folder.
+pub struct Task {
+    /// The case.
+    pub case: &'static Case,
+    /// What to run of it.
+    pub spec: RunSpec,
+    /// Where its outputs go.
+    pub folder: PathBuf,
+}
+
+impl Task {
+    /// The record that a run of this very program has left.
+    fn made(&self) -> Option<Record> {
+        let path = self.folder.join("record.json");
+        let record: Record = read_versioned(&path, record::SCHEMA).ok()?;
+        let same = record.perturbed == self.spec.perturbed
+            && record.case == self.case.name
+            && record.scheme() == self.spec.scheme
+            && record.level == self.spec.level.name
+            && record.set == self.spec.set
+            && Parameters::new(&self.case.parameters, &record.set).ok()? == record.parameters
+            && record.version == Version::current();
+        same.then_some(record)
+    }
+}
+
+/// Runs tasks side by side, the longest first; the records come back in the order of the tasks.
+///
+/// # Errors
+/// A folder can't be written, or a scene can't be built.
+pub fn run_all(
+    tasks: &[Task],
+    saving: Saving,
+    workers: usize,
+    listener: &dyn Listener,
+) -> Result<Vec<Record>, Error> {
+    let mut order: Vec<usize> = (0..tasks.len()).collect();
+    let cost = |k: usize| (tasks[k].case.cost)(&tasks[k].spec);
+    order.sort_by(|&a, &b| cost(b).total_cmp(&cost(a)));
+    let results = side_by_side(order, workers, |k| {
+        let task = &tasks[k];
+        let made = |saving| {
+            let place = Some((task.folder.as_path(), saving));
+            judged_run(task.case, &task.spec, place, 1, &|share| {
+                listener.progress(k, share);
+            })
+        };
+        let result = match task.made().filter(|_| saving.resume) {
+            Some(record) => Ok(record),
+            None => match made(saving) {
+                Err(why @ Error::Checkpoint { .. }) => {
+                    listener.begins_again(k, &why);
+                    let resume = false;
+                    made(Saving { resume, ..saving })
+                }
+                other => other,
+            },
+        };
+        if let Ok(record) = &result {
+            listener.ended(k, record);
+        }
+        result
+    });
+    results.into_iter().collect()
+}
+
+/// Does `work` for every number of `order`, begun in that order, at most `workers` at a time; the results
+/// come back by rising number.
+fn side_by_side<T: Send>(
+    order: Vec<usize>,
+    workers: usize,
+    work: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    let workers = workers.min(order.len());
+    let queue = Mutex::new(order.into_iter());
+    let results = Mutex::new(Vec::new());
+    // The lock must be gone before the work begins, or there is one at a time.
+    let next = || unpoisoned(queue.lock()).next();
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| {
+                while let Some(k) = next() {
+                    let result = work(k);
+                    unpoisoned(results.lock()).push((k, result));
+                }
+            });
+        }
+    });
+    let mut results = unpoisoned(results.into_inner());
+    results.sort_by_key(|(k, _)| *k);
+    results.into_iter().map(|(_, result)| result).collect()
+}
+
+/// What a lock guards, whole even if another thread has panicked: queue and results change in one go.
+fn unpoisoned<T>(guarded: Result<T, PoisonError<T>>) -> T {
+    guarded.unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    #[test]
+    fn two_workers_work_at_a_time() {
+        let (to_first, of_first) = channel();
+        let (to_second, of_second) = channel();
+        let ends = [(to_second, of_first), (to_first, of_second)].map(Mutex::new);
+        let met = side_by_side(vec![1, 0], 2, |k| {
+            let (mine, theirs) = &*unpoisoned(ends[k].lock());
+            mine.send(()).unwrap();
+            theirs.recv_timeout(Duration::from_secs(20)).is_ok()
+        });
+        assert_eq!(met, [true, true]);
+    }
+
+    #[test]
+    fn results_come_back_by_number_whatever_the_order() {
+        assert_eq!(side_by_side(vec![2, 0, 1], 1, |k| 10 * k), [0, 10, 20]);
+        assert!(side_by_side(Vec::new(), 4, |k| k).is_empty());
+    }
+}

@@ -1,0 +1,187 @@
+//! What a verification found: the runs of each case, the verdicts on them and their counts.
+
+use super::convergence::Convergence;
+use super::judge::has_truth;
+use crate::cases;
+use crate::error::ExitCode;
+use crate::gallery::Picture;
+use crate::night::Night;
+use crate::record::{Record, Status, Version};
+use crate::verdict::{Kind, Outcome, Verdict};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Version of the summary's format.
+pub const SCHEMA: u32 = 4;
+
+/// The runs of one case and what is said of them together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CaseStudy {
+    /// Case.
+    pub case: String,
+    /// Records, in the order of the plan.
+    pub records: Vec<Record>,
+    /// Verdicts on runs together.
+    pub verdicts: Vec<Verdict>,
+    /// Convergence of the case's quantities.
+    pub convergence: Vec<Convergence>,
+    /// The night that made the runs, if it is known.
+    pub night: Option<Night>,
+    /// Pictures of the case, in the order they are shown.
+    pub pictures: Vec<Picture>,
+    /// Folders of the runs of the plan that have not ended; none, if the report is whole.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pending: Vec<String>,
+}
+
+impl CaseStudy {
+    /// Records of which nothing is said yet.
+    #[must_use]
+    pub fn new(case: &str, records: Vec<Record>) -> Self {
+        Self {
+            case: case.to_owned(),
+            records,
+            verdicts: Vec::new(),
+            convergence: Vec::new(),
+            night: None,
+            pictures: Vec::new(),
+            pending: Vec::new(),
+        }
+    }
+
+    /// The program that made the runs; one made them all.
+    #[must_use]
+    pub fn program(&self) -> Option<&Version> {
+        self.records.first().map(|r| &r.version)
+    }
+}
+
+/// Counts over all runs and verdicts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Counts {
+    /// Runs.
+    pub runs: usize,
+    /// Runs that broke down and were not known to.
+    pub broke_down: usize,
+    /// Runs that broke down as they are known to.
+    pub broke_down_as_known: usize,
+    /// Runs of which bookkeeping alone says anything.
+    pub not_judged_runs: usize,
+    /// Checks against the truth that hold.
+    pub right: usize,
+    /// Known limits that are there.
+    pub wrong_as_known: usize,
+    /// Checks that do not apply.
+    pub not_judged: usize,
+    /// Checks against the truth that don't hold, and known limits that have vanished.
+    pub failed: usize,
+    /// Bookkeeping that holds.
+    pub bookkeeping_right: usize,
+    /// Bookkeeping that doesn't.
+    pub bookkeeping_failed: usize,
+    /// Comparisons with goldens that hold.
+    pub undrifted: usize,
+    /// Those that don't.
+    pub drifted: usize,
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} runs, of which bookkeeping alone judges {}; broke down: {} unexpectedly, {} as known. \
+             Checks: {} right, {} wrong as known, {} not judged, {} failed. \
+             Bookkeeping: {} right, {} failed. Against goldens: {} hold, {} drift.",
+            self.runs,
+            self.not_judged_runs,
+            self.broke_down,
+            self.broke_down_as_known,
+            self.right,
+            self.wrong_as_known,
+            self.not_judged,
+            self.failed,
+            self.bookkeeping_right,
+            self.bookkeeping_failed,
+            self.undrifted,
+            self.drifted
+        )
+    }
+}
+
+/// What a verification found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Version of this format.
+    pub schema: u32,
+    /// Tier.
+    pub tier: String,
+    /// Counts.
+    pub counts: Counts,
+    /// Cases.
+    pub cases: Vec<CaseStudy>,
+}
+
+impl Summary {
+    /// Of cases that are judged, in the order of [`cases::all`].
+    #[must_use]
+    pub fn new(tier: &str, mut cases: Vec<CaseStudy>) -> Self {
+        cases.sort_by_key(|study| cases::place(&study.case));
+        let mut summary = Self {
+            schema: SCHEMA,
+            tier: tier.to_owned(),
+            counts: Counts::default(),
+            cases,
+        };
+        summary.counts = count(&summary);
+        summary
+    }
+
+    /// How the program should end.
+    #[must_use]
+    pub fn exit_code(&self) -> ExitCode {
+        if self.counts.broke_down > 0 {
+            ExitCode::RunFailed
+        } else if self.counts.failed + self.counts.bookkeeping_failed > 0 {
+            ExitCode::TruthFailed
+        } else if self.counts.drifted > 0 {
+            ExitCode::Drift
+        } else {
+            ExitCode::Good
+        }
+    }
+
+    /// All verdicts, each with the run it is about (none for those on runs together).
+    pub fn verdicts(&self) -> impl Iterator<Item = (&CaseStudy, Option<&Record>, &Verdict)> {
+        self.cases.iter().flat_map(|study| {
+            let single = study
+                .records
+                .iter()
+                .flat_map(move |r| r.verdicts.iter().map(move |v| (study, Some(r), v)));
+            single.chain(study.verdicts.iter().map(move |v| (study, None, v)))
+        })
+    }
+}
+
+fn count(summary: &Summary) -> Counts {
+    let mut counts = Counts::default();
+    for record in summary.cases.iter().flat_map(|study| &study.records) {
+        let unexpected = record.broke_down();
+        counts.runs += 1;
+        counts.broke_down += usize::from(unexpected);
+        counts.broke_down_as_known += usize::from(record.status == Status::Failed && !unexpected);
+        counts.not_judged_runs += usize::from(!has_truth(record));
+    }
+    for (_, _, verdict) in summary.verdicts() {
+        *match (verdict.kind, verdict.outcome) {
+            (Kind::Drift, Outcome::Failed) => &mut counts.drifted,
+            (Kind::Drift, _) => &mut counts.undrifted,
+            (_, Outcome::NotJudged) => &mut counts.not_judged,
+            (Kind::Bookkeeping, Outcome::Failed) => &mut counts.bookkeeping_failed,
+            (Kind::Bookkeeping, _) => &mut counts.bookkeeping_right,
+            (_, Outcome::Right) => &mut counts.right,
+            (_, Outcome::WrongAsKnown) => &mut counts.wrong_as_known,
+            (_, Outcome::Failed) => &mut counts.failed,
+        } += 1;
+    }
+    counts
+}
