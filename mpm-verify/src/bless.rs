@@ -102,9 +102,6 @@ impl<'a> Candidates<'a> {
         workers: usize,
         listener: &dyn Listener,
     ) -> Result<Result<usize, String>, Error> {
-        let Some(first) = self.drifted.first() else {
-            return Ok(Ok(0));
-        };
         let mut tasks = Vec::new();
         for record in &self.drifted {
             let run = PlannedRun {
@@ -133,9 +130,10 @@ impl<'a> Candidates<'a> {
                 )));
             }
             let folder = gathered.folder(record)?;
-            runs.push(Run::of((record, folder), (twin, &task.folder))?);
+            let run = Run::of((record, folder), (twin, &task.folder))?;
+            runs.push((run, *record, folder));
         }
-        goldens.bless(first, runs, reason)?;
+        goldens.bless(runs, reason)?;
         Ok(Ok(self.drifted.len()))
     }
 }

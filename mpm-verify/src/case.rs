@@ -38,6 +38,21 @@ impl fmt::Display for Tier {
     }
 }
 
+/// The particle field of a run that is kept among the goldens, as a picture shows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldView {
+    /// Time of the snapshot (s); without, the particles at the end.
+    pub time: Option<f64>,
+    /// Column of the values, without its unit.
+    pub value: &'static str,
+    /// What it is, as the colour scale is labelled.
+    pub label: &'static str,
+    /// Values at the ends of the colour scale.
+    pub range: (f64, f64),
+    /// Ranges of x and y that are shown (m).
+    pub window: [(f64, f64); 2],
+}
+
 /// Begins a run of a case.
 pub type Begin = Box<dyn Fn(&RunSpec, &Parameters) -> Result<Box<dyn Job>, Error> + Send + Sync>;
 
@@ -71,6 +86,8 @@ pub struct Case {
     pub sweeps: Vec<Sweep>,
     /// Columns of the time series, without units, that a reader should see first.
     pub watched: &'static [&'static str],
+    /// The particle field of its first run that is kept among the goldens.
+    pub field: Option<FieldView>,
     /// The geometry.
     pub sketch: Sketch,
     /// Relative cost of a run, to start the longest first.

@@ -12,14 +12,11 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table of one row, of (name, value).
+    /// A table of columns of the same length, with their names.
     #[must_use]
-    pub fn of_row(cells: Vec<(String, f64)>) -> Self {
-        let (header, values): (Vec<String>, Vec<f64>) = cells.into_iter().unzip();
-        Self {
-            header,
-            columns: values.into_iter().map(|v| vec![v]).collect(),
-        }
+    pub fn of_columns(columns: Vec<(String, Vec<f64>)>) -> Self {
+        let (header, columns) = columns.into_iter().unzip();
+        Self { header, columns }
     }
 
     /// Reads a CSV file whose cells are all numbers.

@@ -342,6 +342,49 @@ fn a_picture_drifts_with_its_drawing_or_its_numbers_but_not_with_rounding() {
     }
 }
 
+/// A particle of the field may move by half a pixel.
+#[test]
+fn a_field_drifts_where_the_eye_sees_it() {
+    let scene = Scene::new();
+    let run = scene.report.join("cook").join(SHOWN).join("particles.csv");
+    let sound = fs::read_to_string(&run).unwrap();
+    let change = |column: usize, by: f64| {
+        let line = |(k, line): (usize, &str)| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if k == 9 {
+                cells[column] = (cells[column].parse::<f64>().unwrap() + by).to_string();
+            }
+            cells.join(",") + "\n"
+        };
+        let changed: String = sound.lines().enumerate().map(line).collect();
+        fs::write(&run, changed).unwrap();
+        scene.drift()
+    };
+    let header = sound.lines().next().unwrap();
+    let stress = header.split(',').position(|c| c.starts_with("mean_stress"));
+    for (column, by) in [(0, 1.0), (1, -1.0), (stress.unwrap(), 0.5)] {
+        assert_eq!(change(column, 0.01 * by), [""; 0]);
+        let drift = change(column, by);
+        let tells = |what: &str| drift.iter().any(|line| line.contains(what));
+        assert!(
+            tells("particles of the field that differ: golden 0, now 1,"),
+            "{drift:?}"
+        );
+        assert!(tells("different pixels of the field"), "{drift:?}");
+    }
+    fs::write(&run, &sound).unwrap();
+    for file in ["cook-field.csv", "cook-field.png"] {
+        let path = scene.golden.join(file);
+        let kept = fs::read(&path).unwrap();
+        fs::write(&path, &kept[..20]).unwrap();
+        assert!(scene.drift()[0].contains(file));
+        fs::remove_file(&path).unwrap();
+        assert!(scene.drift()[0].contains(file));
+        fs::write(&path, kept).unwrap();
+    }
+    assert_eq!(scene.drift(), [""; 0]);
+}
+
 #[test]
 fn drift_is_shown_named_and_accepted_with_a_reason() {
     let scene = Scene::new();

@@ -1,10 +1,10 @@
 //! Drift of a run from its golden.
 
+use super::field;
 use super::format::{Column, Golden, Point, Run};
-use super::picture::{curves, write_small};
+use super::picture::{curves, pixels_of, write_small};
 use super::{file, picture_file, runs, why_none};
 use crate::cases;
-use crate::draw::triptych::different_pixels;
 use crate::error::Error;
 use crate::record::Record;
 use crate::run::series;
@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Name of the check.
-const CHECK: &str = "golden";
+pub(super) const CHECK: &str = "golden";
 /// Largest distance of a row's time from that of its golden, over the latest time of the series.
 const SAME_TIME: f64 = 1e-9;
 
@@ -45,25 +45,36 @@ impl Goldens {
         })
     }
 
-    /// Puts runs of one case, that of `record`, in the place of what is kept of them, and draws its picture anew. Other
-    /// runs of the plan stay; where the file was damaged nothing does.
+    /// Puts runs of one case in the place of what is kept of them, and draws its pictures anew. Other runs of the plan
+    /// stay; where the file was damaged nothing does. Each run comes with its record and the folder of its outputs.
     ///
     /// # Errors
-    /// The case is not known, or a file can't be written.
-    pub fn bless(&self, record: &Record, new: Vec<Run>, reason: &str) -> Result<(), Error> {
-        let planned = runs(cases::find(&record.case)?);
-        let kept = self.cases.get(&*record.case);
-        let mut golden = match kept {
+    /// The case is not known, or a file can't be read or written.
+    pub fn bless(&self, new: Vec<(Run, &Record, &Path)>, reason: &str) -> Result<(), Error> {
+        let Some((_, first, _)) = new.first() else {
+            return Ok(());
+        };
+        let case = cases::find(&first.case)?;
+        let planned = runs(case);
+        let mut golden = match self.cases.get(case.name) {
             Some(Ok(golden)) => golden.clone(),
             _ => Golden::default(),
         };
-        golden.bless(new, &planned, record, reason);
-        golden.write(&file(&self.root, &record.case))?;
-        let shown = planned.first().and_then(|run| golden.run(run));
-        match shown.filter(|run| run.has_series()) {
-            Some(run) => write_small(&curves(run)?, &picture_file(&self.root, &record.case)),
-            None => Ok(()),
+        let of_shown = new
+            .iter()
+            .find(|(run, ..)| planned.first() == Some(&run.name));
+        if let Some((run, record, folder)) = of_shown {
+            if run.has_series() {
+                write_small(&curves(run)?, &picture_file(&self.root, case.name))?;
+            }
+            if let Some(view) = case.field {
+                field::bless(&field::files(&self.root, case.name), &view, record, folder)?;
+            }
         }
+        let record = *first;
+        let blessed = new.into_iter().map(|(run, ..)| run).collect();
+        golden.bless(blessed, &planned, record, reason);
+        golden.write(&file(&self.root, case.name))
     }
 
     /// What is kept of a run, and the last line of its file's blessings; or why nothing is.
@@ -94,8 +105,15 @@ impl Goldens {
         let now = Now::read(record, folder)?;
         let columns = golden.columns.iter();
         let mut verdicts: Vec<Verdict> = columns.map(|c| now.judge(c, blessing)).collect();
-        if is_shown(record)? && golden.has_series() {
-            verdicts.push(self.judge_picture(record, &now.snapped(golden), blessing));
+        let case = cases::find(&record.case)?;
+        if runs(case).first() == Some(&record.folder()) {
+            if golden.has_series() {
+                verdicts.push(self.judge_picture(record, &now.snapped(golden), blessing));
+            }
+            if let Some(view) = case.field {
+                let files = field::files(&self.root, case.name);
+                verdicts.extend(field::judge(&files, &view, record, folder, blessing)?);
+            }
         }
         Ok(verdicts)
     }
@@ -105,16 +123,13 @@ impl Goldens {
     fn judge_picture(&self, record: &Record, now: &Run, blessing: &str) -> Verdict {
         let path = picture_file(&self.root, &record.case);
         let metric = "different pixels of the picture";
-        let kept = match image::open(&path) {
-            Ok(kept) => kept.to_rgb8(),
-            Err(error) => return mismatch(metric, &Error::file(&path, error).to_string()),
-        };
-        let drawn = match curves(now) {
-            Ok(drawn) => drawn,
-            Err(error) => return mismatch(metric, &error.to_string()),
-        };
-        let different = different_pixels(&kept, &drawn) as f64;
-        of_drift(Verdict::close(CHECK, metric, different, 0.0, 0.0, blessing))
+        match curves(now).and_then(|drawn| pixels_of(&path, &drawn)) {
+            Ok(different) => {
+                let different = different as f64;
+                of_drift(Verdict::close(CHECK, metric, different, 0.0, 0.0, blessing))
+            }
+            Err(error) => mismatch(metric, &error.to_string()),
+        }
     }
 
     /// The watched columns of a run as they were blessed, and as they are.
@@ -129,13 +144,7 @@ impl Goldens {
     }
 }
 
-/// Whether the picture of a run's case is of this run.
-pub(crate) fn is_shown(record: &Record) -> Result<bool, Error> {
-    let runs = runs(cases::find(&record.case)?);
-    Ok(runs.first() == Some(&record.folder()))
-}
-
-fn of_drift(verdict: Verdict) -> Verdict {
+pub(super) fn of_drift(verdict: Verdict) -> Verdict {
     Verdict {
         kind: Kind::Drift,
         ..verdict
@@ -143,7 +152,7 @@ fn of_drift(verdict: Verdict) -> Verdict {
 }
 
 /// A failed comparison that has no numbers.
-fn mismatch(metric: &str, why: &str) -> Verdict {
+pub(super) fn mismatch(metric: &str, why: &str) -> Verdict {
     Verdict {
         outcome: Outcome::Failed,
         ..of_drift(Verdict::not_applicable(CHECK, metric, why))

@@ -45,7 +45,7 @@ fn first(table: &Table) -> &[f64] {
 
 /// A quantity of one number.
 fn single(quantity: String, value: f64, response: f64) -> Column {
-    let (time, value, response) = (None, rounded::<10>(value), rounded::<2>(response));
+    let (time, value, response) = (None, rounded(value, 10), rounded(response, 2));
     Column {
         quantity,
         points: vec![Point {
@@ -100,9 +100,9 @@ fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column>
         response = response.max(difference);
         if kept.contains(&(k + 1)) {
             points.push(Point {
-                time: Some(rounded::<10>(times[0][k])),
-                value: rounded::<10>(values[0][k]),
-                response: rounded::<2>(response),
+                time: Some(rounded(times[0][k], 10)),
+                value: rounded(values[0][k], 10),
+                response: rounded(response, 2),
             });
         }
     }
@@ -117,7 +117,7 @@ fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column>
 }
 
 /// A number to so many significant digits: what is beyond them is far below any tolerance.
-fn rounded<const DIGITS: usize>(number: f64) -> f64 {
-    let text = format!("{number:.*e}", DIGITS - 1);
+pub(super) fn rounded(number: f64, digits: usize) -> f64 {
+    let text = format!("{number:.*e}", digits - 1);
     text.parse().unwrap_or(number)
 }

@@ -2,11 +2,13 @@
 //!
 //! `golden/<case>.csv` holds, run by run, the metrics, a few rows of the watched columns of the time series and the
 //! counts of work, each with its measured response to a last-bit perturbation of the starting positions, below the
-//! lines of the blessings. `golden/<case>.png` shows the watched columns of one run. A number may move by [`FLOOR`] of
+//! lines of the blessings. `golden/<case>.png` shows the watched columns of the first run, and
+//! `golden/<case>-field.csv` and `.png` of some cases its particles. A number may move by [`FLOOR`] of
 //! its column's scale, which leaves room for another order of the same sums; one that responds by more than
 //! [`BLUNT`] of it is no golden and is left out. A count may not move, unless the perturbation moves it.
 
 mod compare;
+mod field;
 mod format;
 mod measure;
 mod picture;

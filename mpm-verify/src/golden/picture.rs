@@ -1,8 +1,8 @@
 //! The picture of a run: the watched columns of its series.
 
-use super::bare;
 use super::format::{Column, Run, SERIES};
-use crate::draw::{Chart, Dash, Marker, Scale, Series, draw_charts};
+use crate::draw::triptych::different_pixels;
+use crate::draw::{Chart, Dash, Marker, PlotError, Scale, Series, draw_charts};
 use crate::error::Error;
 use crate::files::write_whole;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
@@ -18,12 +18,26 @@ const WIDTH: u32 = 480;
 /// There are none, or the picture can't be drawn.
 pub(super) fn curves(run: &Run) -> Result<RgbImage, Error> {
     let charts: Vec<Chart> = run.columns.iter().filter_map(chart).collect();
+    small(|path| draw_charts(path, &charts, charts.len().min(2)))
+}
+
+/// What `draw` writes, [`WIDTH`] wide.
+pub(super) fn small(draw: impl Fn(&Path) -> Result<(), PlotError>) -> Result<RgbImage, Error> {
     let folder = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
-    let path = folder.path().join("curves.png");
-    draw_charts(&path, &charts, charts.len().min(2))?;
+    let path = folder.path().join("picture.png");
+    draw(&path)?;
     let picture = image::open(&path).map_err(|e| Error::file(&path, e))?;
     let height = picture.height() * WIDTH / picture.width();
     Ok(imageops::thumbnail(&picture.to_rgb8(), WIDTH, height))
+}
+
+/// Pixels in which a picture differs from the one that is kept.
+///
+/// # Errors
+/// The kept one is missing or damaged.
+pub(super) fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
+    let picture = image::open(kept).map_err(|e| Error::file(kept, e))?;
+    Ok(different_pixels(&picture.to_rgb8(), drawn))
 }
 
 fn chart(column: &Column) -> Option<Chart> {
@@ -39,7 +53,7 @@ fn chart(column: &Column) -> Option<Chart> {
         x_scale: Scale::Linear,
         y_scale: Scale::Linear,
         series: vec![Series {
-            name: bare(header).to_owned(),
+            name: String::new(),
             points: points.collect(),
             colour: 0,
             marker: Marker::Circle,

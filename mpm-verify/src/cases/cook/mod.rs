@@ -13,7 +13,7 @@ mod sketch;
 mod watch;
 
 use super::family::{REMEDIES, family, more_particles, other_transfers, pairs};
-use crate::case::{Case, Family, Tier};
+use crate::case::{Case, Family, FieldView, Tier};
 use crate::metric::{Quantity, Sweep, error};
 use crate::scheme::{BasisName, RemedyName};
 use crate::spec::{Level, RunSpec};
@@ -62,6 +62,13 @@ pub(super) fn case() -> Case {
             logarithmic: true,
         }],
         watched: &["tip_uy", "log_jacobian_gap_rms"],
+        field: Some(FieldView {
+            time: None,
+            value: "mean_stress",
+            label: "mean normal stress at rest (Pa)",
+            range: (-1.0, 1.0),
+            window: [(0.0, 48.0), (0.0, 60.0)],
+        }),
         sketch: sketch::sketch(),
         cost: Box::new(cost),
         ladder: &[],

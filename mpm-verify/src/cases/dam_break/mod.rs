@@ -13,7 +13,7 @@ mod sketch;
 mod watch;
 
 use super::family::{family, pairs};
-use crate::case::{Case, Family, Tier};
+use crate::case::{Case, Family, FieldView, Tier};
 use crate::drive::Drive;
 use crate::metric::{Headline, Quantity, Sweep, error, headline};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
@@ -112,6 +112,13 @@ pub(super) fn case() -> Case {
         quantities: QUANTITIES.to_vec(),
         sweeps: SWEEPS.to_vec(),
         watched: &["front", "energy", "front_force", "pressure_rms"],
+        field: Some(FieldView {
+            time: Some(0.3),
+            value: "pressure",
+            label: "pressure after 0.3 s (Pa)",
+            range: (-1e5, 1e5),
+            window: [(0.0, 5.0), (0.0, 2.0)],
+        }),
         sketch: sketch::sketch(),
         cost: Box::new(cost),
         ladder: LADDER,

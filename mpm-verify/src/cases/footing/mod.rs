@@ -13,7 +13,7 @@ mod sketch;
 mod watch;
 
 use super::family::{family, other_transfers, pairs};
-use crate::case::{Case, Family, Tier};
+use crate::case::{Case, Family, FieldView, Tier};
 use crate::metric::{Sweep, error};
 use crate::scheme::{BasisName, RemedyName};
 use crate::spec::{Level, RunSpec};
@@ -60,6 +60,13 @@ pub(super) fn case() -> Case {
             logarithmic: true,
         }],
         watched: &["pressure_over_strength", "jacobian_max"],
+        field: Some(FieldView {
+            time: None,
+            value: "plastic_strain",
+            label: "plastic strain (-)",
+            range: (0.0, 0.004),
+            window: [(0.0, 2.0), (-1.5, 0.0)],
+        }),
         sketch: sketch::sketch(),
         cost: Box::new(cost),
         ladder: &[],

@@ -17,7 +17,7 @@ pub(super) use ground::{Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of
 pub(super) use sketch::sketch;
 
 use super::family::{family, more_particles, other_transfers, pairs};
-use crate::case::{Begin, Case, Family, Tier};
+use crate::case::{Begin, Case, Family, FieldView, Tier};
 use crate::metric::{Quantity, Sweep};
 use crate::parameter::Parameter;
 use crate::scheme::{BasisName, RemedyName, Scheme};
@@ -123,6 +123,13 @@ fn slope(
             },
         ],
         watched: &["toe", "settlement", "kinetic_energy", "failed_share"],
+        field: (dimension == 2).then_some(FieldView {
+            time: Some(1.0),
+            value: "plastic_strain",
+            label: "plastic strain after 1 s (-)",
+            range: (0.0, 0.004),
+            window: [(0.0, 16.0), (0.0, 5.0)],
+        }),
         sketch: sketch(size),
         cost: Box::new(move |spec| cost(spec, dimension)),
         ladder: &[],

@@ -78,6 +78,7 @@ impl Manufactured {
             quantities: ERRORS.to_vec(),
             sweeps: Vec::new(),
             watched: &["displacement_l2", "log_jacobian_gap_rms"],
+            field: None,
             sketch: sketch::sketch(&self, &parameters),
             cost: Box::new(move |spec| scene::cost(&self, &known, spec)),
             ladder: &[],

@@ -126,6 +126,7 @@ pub(super) fn case() -> Case {
         quantities: vec![error(FACTOR_ERROR, "relative error of the factor")],
         sweeps: Vec::new(),
         watched: &["factor", "moved"],
+        field: None,
         sketch: super::landslide::sketch("5 m"),
         cost: Box::new(|spec| spec.level.h.powi(-3)),
         ladder: &[],
