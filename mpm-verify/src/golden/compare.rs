@@ -3,19 +3,17 @@
 use super::field;
 use super::format::{Column, Golden, Point, Run};
 use super::picture::{curves, pixels_of, write_small};
-use super::{file, picture_file, runs, why_none};
+use super::{CHECK, file, mismatch, of_drift, picture_file, runs, why_none};
 use crate::cases;
 use crate::error::Error;
 use crate::record::Record;
 use crate::run::series;
 use crate::table::Table;
-use crate::verdict::{Kind, Outcome, Verdict};
+use crate::verdict::Verdict;
 use image::RgbImage;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Name of the check.
-pub(super) const CHECK: &str = "golden";
 /// Largest distance of a row's time from that of its golden, over the latest time of the series.
 const SAME_TIME: f64 = 1e-9;
 
@@ -141,21 +139,6 @@ impl Goldens {
         let (golden, _) = found.map_err(|why| Error::file(&self.root, why))?;
         let now = Now::read(record, folder)?.snapped(golden);
         Ok([curves(golden)?, curves(&now)?])
-    }
-}
-
-pub(super) fn of_drift(verdict: Verdict) -> Verdict {
-    Verdict {
-        kind: Kind::Drift,
-        ..verdict
-    }
-}
-
-/// A failed comparison that has no numbers.
-pub(super) fn mismatch(metric: &str, why: &str) -> Verdict {
-    Verdict {
-        outcome: Outcome::Failed,
-        ..of_drift(Verdict::not_applicable(CHECK, metric, why))
     }
 }
 

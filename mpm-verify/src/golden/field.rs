@@ -1,7 +1,8 @@
 //! The particle field of a case's first run, kept as precisely as its picture shows it.
 
-use super::compare::{CHECK, mismatch, of_drift};
-use super::picture::{pixels_of, small};
+use super::measure::rounded;
+use super::picture::{pixels_of, small, write_small};
+use super::{CHECK, mismatch, of_drift};
 use crate::case::FieldView;
 use crate::draw::{FieldFigure, FieldPanel, draw_fields};
 use crate::error::Error;
@@ -61,13 +62,11 @@ pub(super) fn bless(
     rows.retain(shown);
     let column = |k: usize| {
         let digits = if k == 0 { 10 } else { 4 };
-        let values = rows
-            .iter()
-            .map(|row| super::measure::rounded(row[k], digits));
+        let values = rows.iter().map(|row| rounded(row[k], digits));
         (COLUMNS[k].to_owned(), values.collect())
     };
     Table::of_columns([0, 1, 2, 3].map(column).into()).write(file)?;
-    super::picture::write_small(&draw(view, record, &read(file)?)?, picture)
+    write_small(&draw(view, record, &read(file)?)?, picture)
 }
 
 /// Verdicts on the field of a run: each particle, and the picture, drawn from those that have not moved as they were kept.

@@ -21,6 +21,7 @@ use crate::cases;
 use crate::error::Error;
 use crate::record::Record;
 use crate::spec::RunSpec;
+use crate::verdict::{Kind, Outcome, Verdict};
 use std::path::{Path, PathBuf};
 
 /// The tier whose runs carry goldens.
@@ -31,6 +32,8 @@ pub const FLOOR: f64 = 1e-7;
 pub const BLUNT: f64 = FLOOR / 100.0;
 /// Tolerance of a count over its response.
 pub const MARGIN: f64 = 10.0;
+/// Name of the check.
+const CHECK: &str = "golden";
 /// The count that stands for the cost of a run, and that is told where none has changed.
 const PAIRS: &str = "work/particle_node_pairs";
 
@@ -79,6 +82,21 @@ pub fn pairs(root: &Path, case: &str) -> Result<u64, Error> {
         }
     };
     runs(cases::find(case)?).into_iter().map(pairs_of).sum()
+}
+
+fn of_drift(verdict: Verdict) -> Verdict {
+    Verdict {
+        kind: Kind::Drift,
+        ..verdict
+    }
+}
+
+/// A failed comparison that has no numbers.
+fn mismatch(metric: &str, why: &str) -> Verdict {
+    Verdict {
+        outcome: Outcome::Failed,
+        ..of_drift(Verdict::not_applicable(CHECK, metric, why))
+    }
 }
 
 /// The name of a column without its unit.

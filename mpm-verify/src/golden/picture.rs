@@ -11,6 +11,8 @@ use std::path::Path;
 
 /// Width of a picture, in pixels.
 const WIDTH: u32 = 480;
+/// Step of a colour channel: with sixteen shades a field takes half of the bytes.
+const SHADE: u16 = 17;
 
 /// Draws the watched columns of a run, a chart each.
 ///
@@ -21,14 +23,18 @@ pub(super) fn curves(run: &Run) -> Result<RgbImage, Error> {
     small(|path| draw_charts(path, &charts, charts.len().min(2)))
 }
 
-/// What `draw` writes, [`WIDTH`] wide.
+/// What `draw` writes, [`WIDTH`] wide and in few shades.
 pub(super) fn small(draw: impl Fn(&Path) -> Result<(), PlotError>) -> Result<RgbImage, Error> {
     let folder = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
     let path = folder.path().join("picture.png");
     draw(&path)?;
     let picture = image::open(&path).map_err(|e| Error::file(&path, e))?;
     let height = picture.height() * WIDTH / picture.width();
-    Ok(imageops::thumbnail(&picture.to_rgb8(), WIDTH, height))
+    let mut picture = imageops::thumbnail(&picture.to_rgb8(), WIDTH, height);
+    for channel in picture.iter_mut() {
+        *channel = ((u16::from(*channel) + SHADE / 2) / SHADE * SHADE) as u8;
+    }
+    Ok(picture)
 }
 
 /// Pixels in which a picture differs from the one that is kept.
