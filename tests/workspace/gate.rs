@@ -1,4 +1,4 @@
-//! The gate: drift, blessing, damaged goldens, the difference of two reports.
+//! The gate: drift, blessing, damaged goldens.
 
 use super::{code, copy_tree, files, golden, json, mpm_verify, quick, stderr, stdout, text};
 use mpm_verify::files::read_versioned;
@@ -16,7 +16,7 @@ const RUN: &str = "gimp-fbar-rate-flip/h2";
 const SHOWN: &str = "gimp-none-flip/h2";
 
 /// The report of two runs of the quick tier, made once. A report is drawn anew for every defect: few pictures are enough.
-fn two_runs() -> &'static Path {
+pub(super) fn two_runs() -> &'static Path {
     static REPORT: OnceLock<tempfile::TempDir> = OnceLock::new();
     let folder = REPORT.get_or_init(|| {
         let folder = tempfile::tempdir().unwrap();
@@ -44,14 +44,14 @@ fn two_runs() -> &'static Path {
 }
 
 /// Copies of the report and of its goldens.
-struct Scene {
+pub(super) struct Scene {
     _folder: tempfile::TempDir,
-    report: PathBuf,
-    golden: PathBuf,
+    pub(super) report: PathBuf,
+    pub(super) golden: PathBuf,
 }
 
 impl Scene {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let scene = Self {
             report: folder.path().join("report"),
@@ -63,7 +63,7 @@ impl Scene {
         scene
     }
 
-    fn report(&self) -> std::process::Output {
+    pub(super) fn report(&self) -> std::process::Output {
         mpm_verify(&["report", text(&self.report), "--golden", text(&self.golden)])
     }
 
@@ -85,7 +85,7 @@ impl Scene {
     }
 
     /// Multiplies a metric in a record, as if the solver had computed it.
-    fn falsify(&self, metric: &str, factor: f64) {
+    pub(super) fn falsify(&self, metric: &str, factor: f64) {
         let mut record = json(&self.record());
         let value = record["metrics"][metric]["value"].as_f64().unwrap();
         record["metrics"][metric]["value"] = json!(value * factor);
@@ -138,8 +138,7 @@ fn counted(text: &str) -> String {
 #[test]
 fn a_sound_report_holds_against_its_goldens() {
     let scene = Scene::new();
-    let output = scene.report();
-    assert_eq!(code(&output), 0, "{}", stdout(&output));
+    assert_eq!(code(&scene.report()), 0);
     assert_eq!(scene.drift(), [""; 0]);
 }
 
@@ -424,11 +423,6 @@ fn drift_is_shown_named_and_accepted_with_a_reason() {
             .join("\n")
     };
     assert_eq!(numbers(&blessed), numbers(&sound));
-    let lines: Vec<&str> = blessed
-        .lines()
-        .take_while(|l| l.starts_with("# 20"))
-        .collect();
-    assert!(lines.is_empty());
     let last = blessed.lines().nth(2).unwrap();
     assert!(
         last.starts_with("# 20") && last.contains(": the load's place has changed (source "),
@@ -498,105 +492,5 @@ fn results_of_another_program_cannot_be_blessed() {
         stderr(&output).contains("run `verify` first"),
         "{}",
         stderr(&output)
-    );
-}
-
-#[test]
-fn the_difference_of_two_reports_is_numbers_and_pictures() {
-    let (report, scene) = (two_runs(), Scene::new());
-    let out = scene.report.parent().unwrap().join("diff");
-    let count = |folder: &Path| {
-        let mut summary = json(&folder.join("summary.json"));
-        summary["cases"][0]["records"][0]["work"]["steps"] = json!(1);
-        fs::write(folder.join("summary.json"), summary.to_string()).unwrap();
-    };
-    let diff = |new: &Path| mpm_verify(&["diff", text(report), text(new), "--out", text(&out)]);
-    let same = diff(&scene.report);
-    assert_eq!(code(&same), 0, "{}", stdout(&same));
-    assert!(stdout(&same).contains("0 numbers, 0 verdicts and 0 pictures differ"));
-
-    count(&scene.report);
-    let steps = diff(&scene.report);
-    assert_eq!(code(&steps), 3);
-    assert!(
-        stdout(&steps).contains("1 numbers, 0 verdicts"),
-        "{}",
-        stdout(&steps)
-    );
-
-    let path = scene.report.join("cook/displacement.png");
-    let mut picture = image::open(&path).unwrap().to_rgb8();
-    picture.put_pixel(10, 10, image::Rgb([0; 3]));
-    picture.save(&path).unwrap();
-    let pixel = stdout(&diff(&scene.report));
-    assert!(
-        pixel.contains("cook/displacement.png: 1 pixels differ"),
-        "{pixel}"
-    );
-    let triptych = image::open(out.join("cook/displacement.png")).unwrap();
-    assert!(triptych.width() > 3 * picture.width());
-
-    scene.falsify("fem_mid_edge_error", 2.0);
-    scene.falsify("mid_edge_uy", 1.05);
-    scene.report();
-    let other = diff(&scene.report);
-    assert_eq!(code(&other), 3);
-    let said = stdout(&other);
-    assert!(
-        said.contains("| right | FAILED |") && said.contains("mid_edge_uy (m) |"),
-        "{said}"
-    );
-    assert_eq!(fs::read_to_string(out.join("diff.md")).unwrap(), said);
-
-    fs::write(scene.report.join("summary.json"), "{\"schema\": 1,").unwrap();
-    let damaged = diff(&scene.report);
-    assert_eq!(code(&damaged), 2);
-    assert!(stderr(&damaged).contains("summary.json: damaged"));
-    assert_eq!(code(&diff(Path::new("/nonexistent"))), 2);
-}
-
-#[test]
-fn nights_are_added_to_the_history_once() {
-    let scene = Scene::new();
-    let night = |date: &str, commit: &str| {
-        mpm_verify(&[
-            "report",
-            text(&scene.report),
-            "--golden",
-            text(&scene.golden),
-            "--night",
-            date,
-            "--commit",
-            commit,
-        ])
-    };
-    let path = scene.report.join("history.csv");
-    assert_eq!(code(&night("2026-01-02", "b")), 0);
-    let one = fs::read_to_string(&path).unwrap();
-    assert!(
-        one.starts_with("night,commit,case,run,quantity,value\n"),
-        "{one}"
-    );
-    assert_eq!(code(&night("2026-01-01", "a")), 0);
-    assert_eq!(code(&night("2026-01-02", "c")), 0);
-    let all = fs::read_to_string(&path).unwrap();
-    let nights = |start: &str| all.lines().filter(|l| l.starts_with(start)).count();
-    assert_eq!(nights("2026-01-02,c"), one.lines().count() - 1);
-    assert_eq!(nights("2026-01-01,a"), one.lines().count() - 1);
-    assert_eq!(nights("2026-01-02,b"), 0);
-    assert!(
-        all.lines().nth(1).unwrap().starts_with("2026-01-01"),
-        "in the order of time"
-    );
-    assert!(scene.report.join("trends-cook.png").exists());
-
-    assert_eq!(code(&night("2026-13-01", "a")), 2);
-    fs::write(&path, "night,commit\n2026-01-01,a\n").unwrap();
-    let damaged = night("2026-01-03", "a");
-    assert_eq!(code(&damaged), 2);
-    assert!(
-        stderr(&damaged).contains("history.csv"),
-        "{}",
-        stderr(&damaged)
     );
 }

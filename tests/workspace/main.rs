@@ -15,6 +15,7 @@ mod completeness;
 mod exact;
 mod gate;
 mod readme;
+mod reports;
 mod shards;
 mod update;
 mod verify;

@@ -36,7 +36,7 @@ impl Goldens {
             path if path.exists() => Golden::read(&path).map_err(|e| e.to_string()),
             _ => Ok(Golden::default()),
         };
-        let names = cases::all().into_iter().map(|case| case.name);
+        let names = cases::all().iter().map(|case| case.name);
         Ok(Self {
             root: root.to_path_buf(),
             cases: names.map(|name| (name, read(name))).collect(),
@@ -217,9 +217,8 @@ impl<'a> Now<'a> {
         for (column, kept) in run.columns.iter_mut().zip(&golden.columns) {
             for (point, old) in column.points.iter_mut().zip(&kept.points) {
                 let now = self.find(&kept.quantity, old).unwrap_or(f64::NAN);
-                if !((now - old.value).abs() <= kept.tolerance(old)) {
-                    point.value = now;
-                }
+                let holds = (now - old.value).abs() <= kept.tolerance(old);
+                point.value = if holds { old.value } else { now };
             }
         }
         run

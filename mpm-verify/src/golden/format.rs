@@ -128,7 +128,7 @@ impl Golden {
             .comment(Some(b'#'))
             .from_reader(text.as_bytes());
         let header = reader.headers().map_err(|e| e.to_string())?;
-        if header != &HEADER[..] {
+        if *header != HEADER[..] {
             return Err(format!("columns other than {}", HEADER.join(", ")));
         }
         let mut found = 0;
