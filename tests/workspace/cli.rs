@@ -1,6 +1,9 @@
 //! The command line: what it offers and what it refuses.
 
 use super::{code, json, mpm_verify, stderr, stdout, text};
+use mpm_verify::parameter::Parameters;
+use mpm_verify::scheme::{BasisName, RemedyName, Scheme};
+use mpm_verify::spec::RunSpec;
 
 /// Refused: exit code 2, one line on stderr that names what is wrong and what is allowed, and no
 /// trace in the output folder.
@@ -212,6 +215,8 @@ fn brief(name: &str) -> Option<&'static str> {
         "max_periods" => Some("0.01"),
         "rest_window" | "load_ramp" => Some("0.005"),
         "duration" => Some("0.01"),
+        "penetration" => Some("2e-4"),
+        "trials" => Some("1"),
         _ => None,
     }
 }
@@ -222,9 +227,8 @@ fn every_explained_parameter_is_accepted_and_recorded() {
         let parameters = explained_parameters(case.name);
         assert_eq!(parameters.len(), case.parameters.len(), "{parameters:?}");
         let folder = tempfile::tempdir().unwrap();
-        let scheme = case.schemes()[0];
-        let [basis, remedy] = [scheme.basis().text(), scheme.remedy().text()];
-        let run = ["run", case.name, "--basis", basis, "--remedy", remedy];
+        let scheme = case.schemes()[0].to_string();
+        let run = ["run", case.name, "--scheme", &scheme];
         let mut arguments: Vec<String> = run.map(str::to_owned).to_vec();
         arguments.extend(["--out".to_owned(), text(folder.path()).to_owned()]);
         for (name, default) in &parameters {
@@ -239,6 +243,29 @@ fn every_explained_parameter_is_accepted_and_recorded() {
         for (name, _) in &parameters {
             let recorded = &record["parameters"][name];
             assert!(!recorded.is_null(), "{name} is not recorded");
+        }
+    }
+}
+
+/// `run CASE` with nothing else: the scheme is there at every level, and the coarsest begins to run.
+#[test]
+fn every_case_runs_with_nothing_but_its_name() {
+    let scheme = Scheme::flip(BasisName::Gimp, RemedyName::FbarConsistent);
+    for case in mpm_verify::cases::all() {
+        assert!(case.schemes().contains(&scheme), "{}", case.name);
+        let parameters = Parameters::new(&case.parameters, &[]).unwrap();
+        for (k, &level) in case.levels.iter().enumerate() {
+            let spec = RunSpec {
+                scheme,
+                level,
+                set: Vec::new(),
+                perturbed: false,
+            };
+            let mut job = (case.begin)(&spec, &parameters).unwrap();
+            if k == 0 {
+                let row = job.advance().unwrap();
+                assert_eq!(row.len(), job.series_columns().len(), "{}", case.name);
+            }
         }
     }
 }
