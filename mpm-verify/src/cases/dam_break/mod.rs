@@ -176,7 +176,7 @@ fn plan() -> Vec<Family> {
     let mut plan = vec![
         family(Pr, &[h50, h25], &three, SHORT),
         family(Pr, &[h50], &make_energy, SHORT),
-        family(Pr, &[h50], &finest, &["duration=0.6"]),
+        family(Pr, &[h50], &finest[..2], &["duration=0.6"]),
         family(Nightly, &[h50, h25], &all, &[]),
         family(Nightly, &[h50, h25, h12], &all, LADDER),
         family(Nightly, &[h06], &finest, LADDER),

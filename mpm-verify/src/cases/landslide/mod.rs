@@ -220,4 +220,4 @@ fn plan_3d() -> Vec<Family> {
 
 /// Of the pull request in three dimensions: a narrow slice before a short floor, from under rising gravity to just
 /// after the reduction, by long steps.
-const SHORT: &[&str] = &["width=2", "floor=3", "duration=0.1", "cfl=0.7"];
+const SHORT: &[&str] = &["width=2", "floor=3", "duration=0.06", "cfl=0.6"];
