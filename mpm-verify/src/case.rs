@@ -95,9 +95,9 @@ pub struct Case {
     /// The parameters, as `name=value`, at which schemes are run at the most levels: those of its convergence and
     /// trends.
     pub ladder: &'static [&'static str],
-    /// Whether its runs end in a state of rest, which hardly depends on the time step: one with another step then
-    /// stands in for a level that has none with the case's own.
-    pub settles: bool,
+    /// The runs at its own parameters and what stands in for them, one for each scheme and level: those of
+    /// its convergence.
+    pub own_runs: fn(&[Record]) -> Vec<&Record>,
     /// Begins a run.
     pub begin: Begin,
     /// Draws what only this case has.

@@ -276,12 +276,6 @@ impl Record {
         !self.set.is_empty() && self.changes_none_but(&[name])
     }
 
-    /// Whether the run was of the case's own problem, however divided in space and time.
-    #[must_use]
-    pub fn is_of_own_problem(&self) -> bool {
-        self.changes_none_but(&DISCRETISATION)
-    }
-
     /// Whether no other parameters than those of these names were changed.
     #[must_use]
     pub fn changes_none_but(&self, names: &[&str]) -> bool {
@@ -290,22 +284,8 @@ impl Record {
     }
 }
 
-/// Parameters that change how a problem is divided in space and time, and not the problem.
-const DISCRETISATION: [&str; 3] = ["cfl", "step_scaling", "ppc_per_direction"];
-
-/// One record per scheme and level at the case's own parameters. A state of rest hardly depends on the
-/// time step, so where there is no such record one that differs in `cfl` alone stands in, but for
-/// schemes that never come to rest.
+/// The records of runs at the case's own parameters.
 #[must_use]
-pub fn of_own_parameters(records: &[Record]) -> Vec<&Record> {
-    let same = |a: &Record, b: &Record| a.scheme() == b.scheme() && a.level == b.level;
-    records
-        .iter()
-        .filter(|r| {
-            let stands_in = r.changes_only("cfl")
-                && r.remedy() != RemedyName::FbarRecursive
-                && !records.iter().any(|d| d.is_default() && same(d, r));
-            r.is_default() || stands_in
-        })
-        .collect()
+pub fn of_defaults(records: &[Record]) -> Vec<&Record> {
+    records.iter().filter(|r| r.is_default()).collect()
 }

@@ -7,10 +7,8 @@ use super::manufactured::checks::{
     Claim, Claims, STALLED, TRANSFER, Wave, is_sound, of_motion, order_in_time, stress_order,
 };
 use super::manufactured::metrics::DISPLACEMENT_L2;
-use super::manufactured::{
-    CFL, Manufactured, PPC_PER_DIRECTION, STEP_SCALING, all_parameters, levels,
-};
-use super::parameters::{WALL, WALL_LINE};
+use super::manufactured::{CFL, Manufactured, PPC_PER_DIRECTION, all_parameters, levels};
+use super::parameters::{STEP_SCALING, WALL, WALL_LINE};
 use crate::case::{Case, Family, Tier};
 use crate::exact::axis_aligned::ENTRY;
 use crate::exact::parameters::{AMPLITUDE, DIMENSION};

@@ -18,7 +18,7 @@ mod mms_vortex_box;
 mod mms_vortex_pressure;
 mod mms_vortex_ring;
 mod mms_wall_pressure;
-mod parameters;
+pub(crate) mod parameters;
 mod slope_stability;
 mod standing_wave;
 mod vibrating_bar;

@@ -1,6 +1,7 @@
 //! Parameters that several problems have: each is asked for by itself, so that a slip does not compile.
 
 use crate::parameter::{Domain, Parameter, number, parameter};
+use crate::record::Record;
 
 pub(super) use crate::exact::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 
@@ -42,3 +43,15 @@ pub(super) const PPC_PER_DIRECTION: Parameter = parameter(
     Domain::Integer { least: 1, most: 4 },
     "particles per cell and direction",
 );
+pub(super) const STEP_SCALING: Parameter = parameter(
+    "step_scaling",
+    "-",
+    "h",
+    Domain::Choice(&["h", "h2"]),
+    "h: the time step shrinks with h; h2: with h², from the one at eight cells per side",
+);
+
+/// Whether a run was of its case's own problem, however divided in space and time.
+pub(crate) fn is_of_own_problem(record: &Record) -> bool {
+    record.changes_none_but(&[CFL.name, STEP_SCALING.name, PPC_PER_DIRECTION.name])
+}

@@ -2,9 +2,10 @@
 
 use crate::accuracy::{Order, Richardson, extrapolate, fit_order};
 use crate::case::Case;
+use crate::cases::parameters::is_of_own_problem;
 use crate::distinct;
 use crate::metric::Quantity;
-use crate::record::{Record, of_own_parameters};
+use crate::record::Record;
 use crate::scheme::Scheme;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -54,15 +55,10 @@ pub struct Convergence {
 /// The records of each scheme over the levels that have the same [`stem`].
 type Ladders<'a> = BTreeMap<(Scheme, &'a str), Vec<&'a Record>>;
 
-/// The convergence of every quantity of `case`, scheme by scheme: over records at its own parameters (and those
-/// that stand in for them, where the case settles), then over those at each set of others, in order of appearance, that a scheme has run at three levels.
+/// The convergence of every quantity of `case`, scheme by scheme: over its own runs, then over those at each set of others, in order of appearance, that a scheme has run at three levels.
 #[must_use]
 pub fn convergence(case: &Case, records: &[Record]) -> Vec<Convergence> {
-    let own = if case.settles {
-        of_own_parameters(records)
-    } else {
-        records.iter().filter(|r| r.is_default()).collect()
-    };
+    let own = (case.own_runs)(records);
     let mut all = over_levels(case, &[], &ladders(own.into_iter()));
     let changed = records.iter().filter(|r| !r.is_default());
     for set in distinct(changed.map(|r| &r.set[..])) {
@@ -77,7 +73,7 @@ pub fn convergence(case: &Case, records: &[Record]) -> Vec<Convergence> {
 /// particles per cell that it has been divided into: what a value costs depends on these.
 #[must_use]
 pub fn precision(case: &Case, records: &[Record]) -> Vec<Convergence> {
-    let own = || records.iter().filter(|r| r.is_of_own_problem());
+    let own = || records.iter().filter(|r| is_of_own_problem(r));
     let mut sets = distinct(own().map(|r| &r.set[..]));
     sets.sort_by_key(|set| set.len());
     let of_set = |set: &[String]| over_levels(case, set, &ladders(own().filter(|r| r.set == set)));

@@ -1,14 +1,18 @@
 //! Checks of Cook's membrane. The tolerances are derived in `docs/cook.md`.
 
+mod own;
+
 use super::metrics::{self as m, MEAN_STRESSES};
 use super::parameters::{COLUMN, LOAD, LOAD_AT, POISSON_RATIO, PPC_PER_DIRECTION};
 use super::reference::{Field, LoadShift, Solution, load_shift, solution, stress_scale};
 use super::watch::CREEP;
 use crate::check::{Check, Finding, run, study};
 use crate::metric::Metric;
-use crate::record::{Record, of_own_parameters};
+use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
 use std::collections::BTreeMap;
+
+pub(super) use own::own_runs;
 
 /// Relative tolerance of mid-edge and edge mean at h ≤ 1 m, per metre of cell size.
 const EDGE_TOLERANCE: f64 = 0.01;
@@ -496,13 +500,13 @@ fn creep_over_steps(records: &[Record]) -> Vec<Finding> {
             "the diffusivity of Eq. (26) is ½ s² h²/Δt: twice as fast in the bulk, √2 times where it enters at a boundary",
         ))
     };
-    let own = of_own_parameters(records).into_iter();
+    let own = own_runs(records).into_iter();
     own.filter_map(faster).collect()
 }
 
 fn error_falls(records: &[Record]) -> Vec<Finding> {
     let mut ladders: BTreeMap<_, Vec<&Record>> = BTreeMap::new();
-    for record in of_own_parameters(records) {
+    for record in own_runs(records) {
         if !is_recursive(record) {
             ladders.entry(record.scheme()).or_default().push(record);
         }

@@ -72,7 +72,7 @@ pub(super) fn case() -> Case {
         sketch: sketch::sketch(),
         cost: Box::new(cost),
         ladder: &[],
-        settles: true,
+        own_runs: checks::own_runs,
         begin: Box::new(|spec, parameters| Ok(Box::new(Loaded::drive(spec, parameters)?))),
         pictures: pictures::draw,
         breaks_down: |_| None,

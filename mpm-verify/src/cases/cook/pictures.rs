@@ -1,5 +1,6 @@
 //! The pictures of Cook's membrane.
 
+use super::checks::own_runs;
 use super::metrics::{FEM_MID_EDGE_ERROR, FEM_TIP_ERROR, MID_EDGE_UY, TIP_UY};
 use crate::draw::style::{Markers, series};
 use crate::draw::{
@@ -8,7 +9,7 @@ use crate::draw::{
 use crate::error::Error;
 use crate::gallery::Gallery;
 use crate::metric::Metric;
-use crate::record::{Record, Status, of_own_parameters};
+use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 
 /// The mean normal stress is drawn between plus and minus this (Pa); the reference reaches 0.127 Pa
@@ -25,7 +26,7 @@ struct Runs<'a, 'g> {
 /// Draws everything there are runs for.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let ended = |r: &&Record| r.status == Status::Ok && r.transfer() == TransferName::Flip;
-    let records = of_own_parameters(gallery.records)
+    let records = own_runs(gallery.records)
         .into_iter()
         .filter(ended)
         .collect();

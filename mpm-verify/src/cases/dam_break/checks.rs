@@ -7,6 +7,7 @@ use super::parameters::{BULK_MODULUS, CFL, DENSITY, DURATION, EXACT, PIC_RATE, S
 use super::reference::{
     DEPTH, GRAVITY, LENGTH, TANK, elastic_energy, energies, greatest_speed, passage, uncertainty,
 };
+use crate::cases::parameters::is_of_own_problem;
 use crate::check::{Check, Finding, run};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
@@ -179,7 +180,7 @@ fn has_to_make_energy(record: &Record) -> bool {
 
 /// Whether a run makes energy, as is known of its remedy: it has exceeded the bound, or it has to and is judged for it.
 fn makes_energy(record: &Record) -> bool {
-    let known = record.is_of_own_problem() && has_to_make_energy(record);
+    let known = is_of_own_problem(record) && has_to_make_energy(record);
     let made = record.metric(m::MOTION_EXCESS) > stored(record);
     averages_differ(record) && (known || made)
 }

@@ -122,7 +122,7 @@ pub(super) fn case() -> Case {
         sketch: sketch::sketch(),
         cost: Box::new(cost),
         ladder: LADDER,
-        settles: false,
+        own_runs: crate::record::of_defaults,
         begin: Box::new(|spec, parameters| {
             let dam = Dam::new(spec, parameters)?;
             Ok(Box::new(Drive::new(dam, Seen::default())?))

@@ -70,7 +70,7 @@ pub(super) fn case() -> Case {
         sketch: sketch::sketch(),
         cost: Box::new(cost),
         ladder: &[],
-        settles: false,
+        own_runs: crate::record::of_defaults,
         begin: Box::new(|spec, parameters| Ok(Box::new(Pressing::drive(spec, parameters)?))),
         pictures: pictures::draw,
         breaks_down: |_| None,

@@ -133,7 +133,7 @@ fn slope(
         sketch: sketch(size),
         cost: Box::new(move |spec| cost(spec, dimension)),
         ladder: &[],
-        settles: false,
+        own_runs: crate::record::of_defaults,
         begin,
         pictures: pictures::draw,
         breaks_down: checks::breaks_down,

@@ -82,7 +82,7 @@ impl Manufactured {
             sketch: sketch::sketch(&self, &parameters),
             cost: Box::new(move |spec| scene::cost(&self, &known, spec)),
             ladder: &[],
-            settles: false,
+            own_runs: crate::record::of_defaults,
             begin: Box::new(move |spec, p| self.begin(spec, p)),
             pictures: |_| Ok(()),
             breaks_down: |_| None,
@@ -126,13 +126,6 @@ pub(super) const CFL: Parameter = Parameter {
         "CFL number c Δt / h of pressure waves, rounded down so that steps fill the duration",
     )
 };
-pub(super) const STEP_SCALING: Parameter = parameter(
-    "step_scaling",
-    "-",
-    "h",
-    Domain::Choice(&["h", "h2"]),
-    "h: the time step shrinks with h; h2: with h², from the one at eight cells per side",
-);
 pub(super) const PPC_PER_DIRECTION: Parameter = Parameter {
     domain: Domain::Integer { least: 1, most: 5 },
     ..parameters::PPC_PER_DIRECTION
@@ -166,7 +159,7 @@ pub(super) fn all_parameters(
     let numerical = [
         DURATION.with_default(duration),
         CFL,
-        STEP_SCALING,
+        parameters::STEP_SCALING,
         PPC_PER_DIRECTION,
         parameters::WALL,
         FLIP,

@@ -1,7 +1,9 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
-use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO, STEP_SCALING};
-use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, WALL, WALL_LINE, YOUNG_MODULUS};
+use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO};
+use crate::cases::parameters::{
+    CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, WALL, WALL_LINE, YOUNG_MODULUS,
+};
 use crate::error::Error;
 use crate::exact::{Exact, Material};
 use crate::parameter::{Parameter, Parameters};

@@ -133,7 +133,7 @@ pub(super) fn case() -> Case {
         sketch: super::landslide::sketch("5 m"),
         cost: Box::new(|spec| spec.level.h.powi(-3)),
         ladder: &[],
-        settles: false,
+        own_runs: crate::record::of_defaults,
         begin: Box::new(|spec, parameters| Ok(Box::new(Trials::drive(spec, parameters)?))),
         pictures: |_| Ok(()),
         breaks_down: |_| None,
