@@ -92,24 +92,6 @@ impl Parameter {
     }
 }
 
-/// How a parameter is asked for: a case asks by the parameter itself, so that a slip does not compile.
-pub trait Named {
-    /// Its name.
-    fn name(&self) -> &str;
-}
-
-impl Named for Parameter {
-    fn name(&self) -> &str {
-        self.name
-    }
-}
-
-impl Named for &str {
-    fn name(&self) -> &str {
-        self
-    }
-}
-
 /// A number from `least` to `most`; with `below` the upper end is excluded.
 pub(crate) const fn number(least: f64, most: f64, below: bool) -> Domain {
     Domain::Number { least, most, below }
@@ -213,14 +195,14 @@ impl Parameters {
             .into_iter()
             .filter(|n| self.0.get(*n) != other.0.get(*n));
         differing
-            .map(|n| (n.clone(), self.text(n.as_str()), other.text(n.as_str())))
+            .map(|n| (n.clone(), self.value_text(n), other.value_text(n)))
             .collect()
     }
 
     /// A numeric parameter; NaN if the case has none of this name.
     #[must_use]
-    pub fn number(&self, of: impl Named) -> f64 {
-        match self.0.get(of.name()) {
+    pub fn number(&self, of: Parameter) -> f64 {
+        match self.0.get(of.name) {
             Some(Value::Number(x)) => *x,
             _ => f64::NAN,
         }
@@ -228,22 +210,24 @@ impl Parameters {
 
     /// A boolean parameter.
     #[must_use]
-    pub fn boolean(&self, of: impl Named) -> bool {
-        matches!(self.0.get(of.name()), Some(Value::Boolean(true)))
+    pub fn boolean(&self, of: Parameter) -> bool {
+        matches!(self.0.get(of.name), Some(Value::Boolean(true)))
     }
 
     /// Whether the choice `name` is `word`.
     #[must_use]
-    pub fn is(&self, of: impl Named, word: &str) -> bool {
-        matches!(self.0.get(of.name()), Some(Value::Choice(c)) if c == word)
+    pub fn is(&self, of: Parameter, word: &str) -> bool {
+        matches!(self.0.get(of.name), Some(Value::Choice(c)) if c == word)
     }
 
-    /// The value as text; empty if there is none of this name.
+    /// The value as text; empty if the case has none of this name.
     #[must_use]
-    pub fn text(&self, of: impl Named) -> String {
-        self.0
-            .get(of.name())
-            .map_or_else(String::new, Value::to_string)
+    pub fn text(&self, of: Parameter) -> String {
+        self.value_text(of.name)
+    }
+
+    fn value_text(&self, name: &str) -> String {
+        self.0.get(name).map_or_else(String::new, Value::to_string)
     }
 }
 
@@ -276,7 +260,7 @@ mod tests {
     #[test]
     fn assignments_override_defaults_and_unknown_names_are_refused() {
         let p = Parameters::new(&[RATIO], &["poisson_ratio=0.4".into()]).unwrap();
-        assert_eq!(p.number("poisson_ratio"), 0.4);
+        assert_eq!(p.number(RATIO), 0.4);
         let unknown = Parameters::new(&[RATIO], &["nu=0.4".into()]).unwrap_err();
         assert!(unknown.to_string().contains("allowed: poisson_ratio"));
         assert!(Parameters::new(&[RATIO], &["nu".into()]).is_err());

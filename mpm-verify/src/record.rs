@@ -3,6 +3,7 @@
 #[cfg(test)]
 pub(crate) mod fixture;
 
+use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::spec::run_folder;
@@ -257,11 +258,15 @@ impl Record {
 
     /// A metric's value; NaN where there is none.
     #[must_use]
-    pub fn metric(&self, of: impl Into<String>) -> f64 {
-        self.metrics
-            .get(&of.into())
-            .and_then(|m| m.value)
-            .unwrap_or(f64::NAN)
+    pub fn metric(&self, of: Metric) -> f64 {
+        self.value(of.name)
+    }
+
+    /// The value of the metric that data name; NaN where there is none.
+    #[must_use]
+    pub fn value(&self, name: &str) -> f64 {
+        let measured = self.metrics.get(name).and_then(|m| m.value);
+        measured.unwrap_or(f64::NAN)
     }
 
     /// Whether the run was of the case's own parameters.

@@ -1,9 +1,10 @@
 //! Axes: ranges, ticks and their labels, and the box that they make.
 
-use super::canvas::{Canvas, Frame, Point};
+use super::canvas::Canvas;
 use super::colour::{INK, Rgb};
 use super::font::{Block, LABEL, SMALL};
 use super::largest;
+use super::shape::{Frame, Point};
 
 const GRID: Rgb = 0xE2E2E2;
 const MINOR_GRID: Rgb = 0xF1F1F1;

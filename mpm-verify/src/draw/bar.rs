@@ -2,9 +2,10 @@
 
 use super::SOLID;
 use super::axes::{Axis, TICK};
-use super::canvas::{Canvas, Point};
+use super::canvas::Canvas;
 use super::colour::{INK, Rgb};
 use super::font::SMALL;
+use super::shape::Point;
 
 /// Width of the colour bar and height of its triangular ends, in pixels.
 pub(super) const BAR: f64 = 36.0;

@@ -1,9 +1,10 @@
 //! Grids of line charts.
 
 use super::axes::{Axes, Axis, extent, widen};
-use super::canvas::{Canvas, Frame, LINE, Point};
+use super::canvas::Canvas;
 use super::colour::{INK, PALETTE, Rgb};
 use super::font::{Block, SMALL, TITLE};
+use super::shape::{Frame, LINE, Marker, Point};
 use super::{EDGE, PlotError, SOLID, between, finite, largest, nothing};
 use std::path::Path;
 
@@ -14,27 +15,6 @@ pub enum Scale {
     Linear,
     /// Logarithmic, base ten.
     Log10,
-}
-
-/// Marker of a series: filled with a solid line or none, hollow with a dashed or dotted line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Marker {
-    /// No marker.
-    None,
-    /// Circle.
-    Circle,
-    /// Square.
-    Square,
-    /// Upward triangle.
-    Triangle,
-    /// Diamond.
-    Diamond,
-    /// Diagonal cross.
-    Cross,
-    /// Small circle, for what should not draw the eye.
-    Dot,
-    /// Ring about the marker of another series.
-    Ring,
 }
 
 /// Line of a series.

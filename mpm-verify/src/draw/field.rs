@@ -2,11 +2,12 @@
 
 use super::axes::{Axes, Axis, TICK, extent, widen};
 use super::bar::{BAR, BAR_TIP, draw_bar};
-use super::canvas::{Canvas, Point};
+use super::canvas::Canvas;
 use super::colour::{INK, channels, colour_of};
 use super::font::{Block, HEADING, LABEL, TITLE};
 use super::png_file::save_animation;
 use super::raster::FINE;
+use super::shape::Point;
 use super::{EDGE, PlotError, SOLID, finite, largest, nothing};
 use image::RgbImage;
 use rayon::prelude::*;

@@ -12,6 +12,7 @@ mod field;
 mod font;
 mod png_file;
 mod raster;
+mod shape;
 pub(crate) mod sketch;
 mod solid;
 pub(crate) mod style;
@@ -19,13 +20,14 @@ mod svg;
 pub(crate) mod triptych;
 
 pub use chart::{
-    Chart, Dash, Marker, ReferenceLine, Scale, Series, SlopeTriangle, draw_charts, share_ranges,
+    Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, draw_charts, share_ranges,
 };
 pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
 pub use png_file::write_small_png;
+pub use shape::Marker;
 pub use solid::{Camera, SolidFigure, SolidPanel, animate_solids, draw_solids};
 
-use canvas::Point;
+use shape::Point;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 

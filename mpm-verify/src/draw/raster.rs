@@ -1,8 +1,8 @@
 //! Shapes as pixels.
 
-use super::canvas::{Canvas, Frame, Point, Shape, layers};
 use super::colour::{INK, Rgb, channels};
 use super::font::Font;
+use super::shape::{Frame, Point, Shape, layers};
 use image::RgbImage;
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, Rect, Stroke,
@@ -13,12 +13,12 @@ use ttf_parser::OutlineBuilder;
 /// Pixels of an image for one of the picture, along each side.
 pub(super) const FINE: u32 = 3;
 
-/// The pixels of a canvas at its size over `coarser`.
+/// The pixels of a picture at its size over `coarser`.
 ///
 /// # Errors
 /// A picture without area, or text that the font can't write.
-pub(super) fn pixels(canvas: &Canvas, coarser: u32) -> Result<RgbImage, String> {
-    let (width, height) = (canvas.size.0 / coarser, canvas.size.1 / coarser);
+pub(super) fn pixels(size: (u32, u32), shapes: &[Shape], coarser: u32) -> Result<RgbImage, String> {
+    let (width, height) = (size.0 / coarser, size.1 / coarser);
     let mut pixmap = Pixmap::new(width, height).ok_or("a picture without area")?;
     pixmap.fill(Color::WHITE);
     let scale = 1.0 / coarser as f32;
@@ -28,7 +28,7 @@ pub(super) fn pixels(canvas: &Canvas, coarser: u32) -> Result<RgbImage, String> 
         coarser,
         transform: Transform::from_scale(scale, scale),
     };
-    for shape in &canvas.shapes {
+    for shape in shapes {
         painter.shape(shape)?;
     }
     let opaque = painter.pixmap.data().chunks_exact(4);
@@ -248,6 +248,7 @@ fn averaged(image: &RgbImage, side: u32) -> RgbImage {
 
 #[cfg(test)]
 mod tests {
+    use super::super::canvas::Canvas;
     use super::super::font::SMALL;
     use super::*;
 
@@ -269,10 +270,14 @@ mod tests {
         canvas.clip(Some([10.0, 0.0, 20.0, 20.0]));
         canvas.rectangle([0.0, 5.0, 40.0, 15.0], 0x0072B2, 1.0);
         canvas.clip(None);
-        let image = pixels(&canvas, 1).unwrap();
+        let image = pixels(canvas.size, &canvas.shapes, 1).unwrap();
         let inked = image.pixels().filter(|p| p.0 == channels(0x0072B2)).count();
         assert_eq!(inked, 100);
         canvas.text("\u{4e2d}", (5.0, 5.0), SMALL, (0.0, 0.0), false);
-        assert!(pixels(&canvas, 1).unwrap_err().contains("no glyph"));
+        assert!(
+            pixels(canvas.size, &canvas.shapes, 1)
+                .unwrap_err()
+                .contains("no glyph")
+        );
     }
 }

@@ -6,10 +6,11 @@ mod surface;
 
 use super::axes::{Axis, TICK, widen};
 use super::bar::{BAR, BAR_TIP, draw_bar};
-use super::canvas::{Canvas, Point};
+use super::canvas::Canvas;
 use super::colour::{Rgb, stone_of};
 use super::font::{Block, HEADING, LABEL, SMALL, TITLE};
 use super::png_file::save_animation;
+use super::shape::Point;
 use super::{EDGE, PlotError, largest, nothing};
 use rayon::prelude::*;
 use rulers::Ruler;

@@ -1,15 +1,14 @@
 //! Shapes as SVG, in the units of a picture's pixels.
 
-use super::canvas::{Canvas, Point, Shape, layers};
 use super::colour::INK;
+use super::shape::{Point, Shape, layers};
 use quick_xml::escape::escape;
 use std::fmt::Write;
 
-/// The canvas as an SVG document. Text stays text: it takes the width that the picture's own font has in any other.
-pub(super) fn text(canvas: &Canvas) -> String {
-    let (width, height) = canvas.size;
+/// A picture as an SVG document. Text stays text: it takes the width that the picture's own font has in any other.
+pub(super) fn text((width, height): (u32, u32), shapes: &[Shape]) -> String {
     let mut writer = Writer::default();
-    for shape in &canvas.shapes {
+    for shape in shapes {
         writer.shape(shape);
     }
     format!(
@@ -129,8 +128,9 @@ fn tenths(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::chart::Marker;
+    use super::super::canvas::Canvas;
     use super::super::font::TITLE;
+    use super::super::shape::Marker;
     use super::*;
     use quick_xml::events::Event;
 
@@ -148,7 +148,7 @@ mod tests {
         canvas.clip(None);
         canvas.marker(Marker::Circle, (3.0, 4.0), INK, true);
         canvas.marker(Marker::Circle, (5.0, 6.0), INK, true);
-        let document = text(&canvas);
+        let document = text(canvas.size, &canvas.shapes);
         let mut reader = quick_xml::Reader::from_str(&document);
         let mut names = Vec::new();
         loop {

@@ -25,21 +25,20 @@ const CRITERIA: [Criterion; 13] = [
         "column, 5·10⁵ steps: drift of J̄ per 10⁵ steps",
         |s, b, r| {
             Some(short(
-                of(s, "column", b, r, "h0.25", &["duration=5.04"])?.metric("j_drift_per_1e5_steps"),
+                of(s, "column", b, r, "h0.25", &["duration=5.04"])?.value("j_drift_per_1e5_steps"),
             ))
         },
     ),
     ("… of J", |s, b, r| {
         Some(short(
-            of(s, "column", b, r, "h0.25", &["duration=5.04"])?
-                .metric("true_j_drift_per_1e5_steps"),
+            of(s, "column", b, r, "h0.25", &["duration=5.04"])?.value("true_j_drift_per_1e5_steps"),
         ))
     }),
     (
         "… kinetic energy, last third over middle third",
         |s, b, r| {
             Some(short(
-                of(s, "column", b, r, "h0.25", &["duration=5.04"])?.metric("kinetic_growth"),
+                of(s, "column", b, r, "h0.25", &["duration=5.04"])?.value("kinetic_growth"),
             ))
         },
     ),
@@ -79,13 +78,13 @@ const CRITERIA: [Criterion; 13] = [
     ),
     ("spurious pressure there (Pa)", |s, b, r| {
         Some(short(
-            of(s, "mms-vortex-box", b, r, "n32", &[])?.metric("mean_stress_l2"),
+            of(s, "mms-vortex-box", b, r, "n32", &[])?.value("mean_stress_l2"),
         ))
     }),
     ("Cook, h = 1 m: mid-edge error (%)", |s, b, r| {
         let run = of(s, "cook", b, r, "h1", &[])?;
-        let error = 100.0 * run.metric("fem_mid_edge_error");
-        let rest = if run.metric("at_rest") == 1.0 {
+        let error = 100.0 * run.value("fem_mid_edge_error");
+        let rest = if run.value("at_rest") == 1.0 {
             ""
         } else {
             ", never at rest"
@@ -96,8 +95,8 @@ const CRITERIA: [Criterion; 13] = [
         let run = of(s, "standing-wave", b, r, "n8", &["duration=24"])?;
         Some(match &run.error {
             Some(e) => format!("breaks down at {:.1} s", e.time),
-            None if run.metric("log_jacobian_gap") > DISORDER => "in disorder".to_owned(),
-            None => format!("frequency × {:.2}", run.metric("frequency_ratio")),
+            None if run.value("log_jacobian_gap") > DISORDER => "in disorder".to_owned(),
+            None => format!("frequency × {:.2}", run.value("frequency_ratio")),
         })
     }),
 ];
@@ -156,7 +155,7 @@ fn ratio(
 ) -> Option<String> {
     let error = |remedy, set| {
         let run = of(summary, case, basis, remedy, "n32", set)?;
-        (run.status == Status::Ok).then(|| run.metric("displacement_l2"))
+        (run.status == Status::Ok).then(|| run.value("displacement_l2"))
     };
     Some(short(error(remedy, set)? / error(other, others)?))
 }

@@ -1,9 +1,10 @@
 //! Marks in metres along three edges of the window about a body.
 
 use super::super::axes::{Axis, TICK};
-use super::super::canvas::{Canvas, Point};
+use super::super::canvas::Canvas;
 use super::super::colour::INK;
 use super::super::font::{Block, LABEL, SMALL};
+use super::super::shape::Point;
 use super::super::{SOLID, between};
 use super::surface::{Place, Screen};
 

@@ -4,9 +4,9 @@
 //! slope Lambert's law lights; and what lies deeper than its surroundings sees less of the sky (Luft, Colditz and
 //! Deussen 2006, "Image enhancement by unsharp masking the depth buffer").
 
-use super::super::canvas::Point;
 use super::super::colour::{Rgb, channels};
 use super::super::raster::FINE;
+use super::super::shape::Point;
 use super::Camera;
 use image::RgbImage;
 

@@ -1,0 +1,85 @@
+//! The order of the modules, and what the fingerprint of the sources covers.
+
+#[path = "../../mpm-verify/sources.rs"]
+mod sources;
+
+use crate::{files, workspace};
+use sources::{SOURCES, list};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+type Arrows = BTreeMap<String, BTreeSet<String>>;
+
+/// The module at the top of a crate that a source belongs to: the first name of its path.
+fn module(source: &Path) -> String {
+    let stem = source.with_extension("");
+    stem.iter().next().unwrap().to_string_lossy().into_owned()
+}
+
+/// Which modules at the top of a crate use which others. Tests at a file's end, and comments, are left out.
+fn arrows(krate: &str) -> Arrows {
+    let sources = files(&workspace().join(krate).join("src"));
+    let modules: BTreeSet<String> = sources.keys().map(|s| module(s)).collect();
+    let mut arrows = Arrows::new();
+    for (source, text) in &sources {
+        let own = module(source);
+        if ["lib", "main", "tests", "fixture"].contains(&&*own) {
+            continue;
+        }
+        let text = String::from_utf8_lossy(text);
+        let code = text.split("#[cfg(test)]\nmod tests").next().unwrap();
+        let lines = code.lines().filter(|l| !l.trim_start().starts_with("//"));
+        let up = "super::".repeat(source.components().count());
+        for line in lines {
+            let used = line.split("crate::").skip(1);
+            for path in used.chain(line.split(&up).skip(1)) {
+                let end = path.find(|c: char| !c.is_alphanumeric() && c != '_');
+                let name = &path[..end.unwrap_or(path.len())];
+                if name != own && modules.contains(name) {
+                    let of_own = arrows.entry(own.clone()).or_default();
+                    of_own.insert(name.to_owned());
+                }
+            }
+        }
+    }
+    arrows
+}
+
+/// Modules that can't be put in an order in which each uses earlier ones only.
+fn circles(mut arrows: Arrows) -> Arrows {
+    loop {
+        let left: BTreeSet<String> = arrows.keys().cloned().collect();
+        for used in arrows.values_mut() {
+            used.retain(|name| left.contains(name));
+        }
+        arrows.retain(|_, used| !used.is_empty());
+        if arrows.len() == left.len() {
+            return arrows;
+        }
+    }
+}
+
+#[test]
+fn no_module_uses_one_that_uses_it() {
+    for krate in ["mpm-core", "mpm-verify", "mpm-verify/solvers"] {
+        let arrows = arrows(krate);
+        assert!(!arrows.is_empty(), "{krate}");
+        assert_eq!(circles(arrows), Arrows::new(), "{krate}");
+    }
+}
+
+#[test]
+fn the_fingerprint_covers_what_makes_numbers_and_not_what_judges_or_draws() {
+    let mut covered = Vec::new();
+    for source in SOURCES {
+        assert!(Path::new(source).exists(), "{source}");
+        list(Path::new(source), &mut covered).unwrap();
+    }
+    let has = |file: &str| covered.iter().any(|f| f.ends_with(file));
+    for file in ["cook/scene.rs", "cook/watch.rs", "src/basis/mod.rs"] {
+        assert!(has(file), "{file}");
+    }
+    for file in ["checks.rs", "checks/study.rs", "pictures.rs", "sketch.rs"] {
+        assert!(!has(file), "{file}");
+    }
+}
