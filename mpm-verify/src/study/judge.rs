@@ -80,3 +80,24 @@ pub fn exit_code(record: &Record) -> ExitCode {
         ExitCode::Good
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases;
+    use crate::record::fixture::record;
+
+    #[test]
+    fn a_breakdown_ends_well_only_where_it_is_known() {
+        let mut broken = record("h1", Vec::new());
+        broken.status = Status::Failed;
+        let cook = cases::find("cook").unwrap();
+        broken.verdicts = judge(cook, &broken);
+        assert_eq!(exit_code(&broken), ExitCode::RunFailed);
+        broken.verdicts = vec![breaks_down(&broken, "as known")];
+        assert_eq!(exit_code(&broken), ExitCode::Good);
+        broken.status = Status::Ok;
+        broken.verdicts = vec![breaks_down(&broken, "as known")];
+        assert_eq!(exit_code(&broken), ExitCode::TruthFailed);
+    }
+}
