@@ -1,8 +1,12 @@
-//! The syntax of the command line.
+//! The syntax of the command line, and what it says.
+
+pub(crate) mod run;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+use mpm_verify::error::Error;
 use mpm_verify::run::checkpoint;
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Verification bench of the locking-free material point method.
@@ -200,4 +204,14 @@ pub(crate) fn one_line(error: &clap::Error) -> String {
         .filter(|line| !line.is_empty())
         .collect();
     lines.join(" ").trim_start_matches("error: ").to_owned()
+}
+
+/// Writes to standard output, which may be closed.
+pub(crate) fn say(text: &str) -> Result<(), Error> {
+    match io::stdout().write_all(text.as_bytes()) {
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Error::Input(format!("standard output: {e}")))
+        }
+        _ => Ok(()),
+    }
 }

@@ -4,25 +4,23 @@ mod cli;
 mod progress;
 
 use clap::Parser;
-use cli::{Cli, Command, one_line};
+use cli::run::run_one;
+use cli::{Cli, Command, one_line, say};
 use mpm_verify::bench::{self, Peers};
 use mpm_verify::bless::Candidates;
 use mpm_verify::case::{Case, Tier, find_level};
 use mpm_verify::cases;
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::exact;
-use mpm_verify::files::read_versioned;
 use mpm_verify::golden::Goldens;
 use mpm_verify::night::Night;
-use mpm_verify::parameter::Parameters;
-use mpm_verify::record::{self, Record};
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::{describe, discard_report, update_report, write_report};
-use mpm_verify::run::checkpoint::{self, Identity, Saving};
+use mpm_verify::run::checkpoint::Saving;
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
 use mpm_verify::study::gather::Gathered;
-use mpm_verify::study::judge::{exit_code, has_truth, judged_run};
+use mpm_verify::study::judge::exit_code;
 use mpm_verify::study::plan::{Plan, Shard};
 use mpm_verify::study::schedule::make_runs;
 use std::io::{self, Write};
@@ -48,15 +46,6 @@ fn main() -> std::process::ExitCode {
 
 /// More threads than this are surely a slip.
 const MAX_THREADS: usize = 1024;
-
-fn say(text: &str) -> Result<(), Error> {
-    match io::stdout().write_all(text.as_bytes()) {
-        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Error::Input(format!("standard output: {e}")))
-        }
-        _ => Ok(()),
-    }
-}
 
 fn parse_tier(name: &str) -> Result<Tier, Error> {
     let tiers = [Tier::Quick, Tier::Pr, Tier::Nightly, Tier::Long];
@@ -267,66 +256,11 @@ fn list(tier: Option<&str>, format: &str) -> Result<ExitCode, Error> {
     Ok(ExitCode::Good)
 }
 
-fn run_one(
-    case: &'static Case,
-    spec: &RunSpec,
-    place: Option<(&Path, Saving)>,
-    threads: usize,
-) -> Result<ExitCode, Error> {
-    let offered = case.schemes();
-    if !offered.contains(&spec.scheme) {
-        let names: Vec<String> = offered.iter().map(Scheme::to_string).collect();
-        return Err(Error::unknown(
-            "scheme",
-            &spec.scheme.to_string(),
-            names.iter().map(String::as_str),
-        ));
-    }
-    if let Some((folder, Saving { resume: true, .. })) = place {
-        if let Some(record) = ended(case, spec, folder)? {
-            checkpoint::discard(folder)?;
-            say(&describe::record(&record))?;
-            say("This run has ended before; there is nothing to resume.\n")?;
-            return Ok(exit_code(&record));
-        }
-        if !folder.join(checkpoint::FILE).exists() {
-            say(&format!(
-                "{}: no checkpoint; the run begins.\n",
-                folder.display()
-            ))?;
-        }
-    }
-    let bar = progress::single(&format!("{} {}", case.name, spec.folder()));
-    let record = judged_run(case, spec, place, threads, &|share| {
-        bar.set_position((share * progress::SCALE) as u64);
-    })?;
-    bar.finish_and_clear();
-    say(&describe::record(&record))?;
-    if !has_truth(&record) {
-        say("No check against the truth applies to this run.\n")?;
-    }
-    Ok(exit_code(&record))
-}
-
 fn saving(seconds: u64, resume: bool) -> Saving {
     Saving {
         every: Duration::from_secs(seconds),
         resume,
     }
-}
-
-/// The record of this very run in a folder, or `None` if it has not ended there.
-fn ended(case: &Case, spec: &RunSpec, folder: &Path) -> Result<Option<Record>, Error> {
-    let path = folder.join("record.json");
-    if !path.exists() {
-        return Ok(None);
-    }
-    let record: Record = read_versioned(&path, record::SCHEMA)?;
-    let asked = Identity::of(case, spec, &Parameters::new(&case.parameters, &spec.set)?);
-    asked
-        .require(&Identity::of_record(&record))
-        .map_err(|refusal| refusal.of(&path))?;
-    Ok(Some(record))
 }
 
 fn verify(
