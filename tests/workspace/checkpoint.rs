@@ -444,7 +444,7 @@ fn less_ground(case: &Case) -> Option<[&'static str; 5]> {
 /// A new case whose job forgets something shows here.
 #[test]
 fn the_job_of_every_case_goes_on_bit_for_bit() {
-    let runs = cases::all().into_iter().map(|case| {
+    let runs = cases::all().iter().map(|case| {
         let cost = |s: &RunSpec| (case.cost)(s);
         let tiers = [Tier::Quick, Tier::Pr, Tier::Nightly].into_iter();
         let specs = tiers.map(|tier| case.runs(tier)).find(|s| !s.is_empty());
@@ -457,8 +457,7 @@ fn the_job_of_every_case_goes_on_bit_for_bit() {
         (case, spec)
     });
     let runs: Vec<(&Case, RunSpec)> = runs.collect();
-    runs.par_iter()
-        .for_each(|(case, spec)| goes_on(*case, spec));
+    runs.par_iter().for_each(|(case, spec)| goes_on(case, spec));
 }
 
 fn goes_on(case: &Case, spec: &RunSpec) {

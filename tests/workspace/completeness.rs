@@ -61,7 +61,7 @@ fn every_case_is_described_measured_and_checked_against_the_truth() {
             assert!(case.metrics.contains(&quantity.metric), "{name}");
         }
         for sweep in &case.sweeps {
-            let known = case.parameters.iter().any(|p| *p == sweep.parameter);
+            let known = case.parameters.contains(&sweep.parameter);
             assert!(known, "{name}: {}", sweep.parameter.name);
         }
         let checks: BTreeSet<&str> = case.checks.iter().map(|c| c.name).collect();

@@ -204,7 +204,7 @@ fn case_page(case: &Case, study: &CaseStudy, tier: &str) -> Value {
         name => case.name,
         title => case.title,
         description => case.description,
-        sketch => Value::from_safe_string(sketch::svg(&sketch, case.title)),
+        sketch => Value::from_safe_string(sketch::svg(sketch, case.title)),
         sketch_caption => sketch.description,
         parameters => parameters.collect::<Vec<_>>(),
         schemes => case.schemes().iter().map(ToString::to_string).collect::<Vec<_>>(),

@@ -67,9 +67,12 @@ pub(super) struct Row {
     pub(super) log_jacobian_gap: f64,
 }
 
+/// A column of the series: its name with unit, and its value in a row.
+type Column = (&'static str, fn(&Row) -> f64);
+
 impl Row {
     /// Columns of the series, with units.
-    pub(super) const COLUMNS: [(&'static str, fn(&Self) -> f64); 19] = [
+    pub(super) const COLUMNS: [Column; 19] = [
         ("time (s)", |r| r.time),
         ("front (m)", |r| r.front),
         ("back_level (m)", |r| r.back_level),

@@ -74,7 +74,7 @@ fn in_section(record: &Record) -> Option<f64> {
     let (rows, columns) = (number(HEIGHT) / spacing, number(CREST) / spacing);
     let whole = |count: f64| (count - count.round()).abs() < 1e-6;
     let known = number(FACE_ANGLE) == 45.0 && whole(rows) && whole(columns);
-    known.then(|| rows * (columns + rows - 1.0) - 0.5 * rows * (rows - 1.0))
+    known.then_some(rows * (columns + rows - 1.0) - 0.5 * rows * (rows - 1.0))
 }
 
 fn of_ground() -> Vec<Check> {
