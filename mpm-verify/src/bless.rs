@@ -6,7 +6,6 @@ use crate::record::{Record, Status, Version};
 use crate::report::describe::{drift_line, verdict_line};
 use crate::run::checkpoint::Saving;
 use crate::study::gather::Gathered;
-use crate::study::judge::has_truth;
 use crate::study::plan::PlannedRun;
 use crate::study::schedule::{Listener, Task, run_all};
 use crate::study::summary::CaseStudy;
@@ -67,9 +66,6 @@ impl<'a> Candidates<'a> {
         for record in &self.study.records {
             for verdict in record.verdicts.iter().filter(|v| v.misses_the_truth()) {
                 let _ = writeln!(t, "{} {}", record.folder(), verdict_line(verdict));
-            }
-            if !has_truth(record) {
-                let _ = writeln!(t, "{} no check against the truth applies", record.folder());
             }
         }
         for verdict in self.study.verdicts.iter().filter(|v| v.misses_the_truth()) {

@@ -5,6 +5,7 @@
 mod checks;
 mod geometry;
 mod metrics;
+mod own;
 mod parameters;
 mod pictures;
 mod reference;
@@ -18,6 +19,7 @@ use crate::metric::{Sweep, error};
 use crate::scheme::{BasisName, RemedyName};
 use crate::spec::{Level, RunSpec};
 use metrics::{HEADLINES, PRANDTL_ERROR};
+use own::{SMALL, own_runs};
 use parameters::PENETRATION_RATE;
 use watch::Pressing;
 
@@ -70,15 +72,13 @@ pub(super) fn case() -> Case {
         sketch: sketch::sketch(),
         cost: Box::new(cost),
         ladder: &[],
-        own_runs: crate::record::of_defaults,
+        own_runs,
         begin: Box::new(|spec, parameters| Ok(Box::new(Pressing::drive(spec, parameters)?))),
         pictures: pictures::draw,
         breaks_down: |_| None,
     }
 }
 
-/// Ground just large enough for the limit load, and a penetration just long enough.
-const SMALL: &[&str] = &["domain_width=3", "domain_depth=3", "penetration=0.0025"];
 /// A strength beyond reach: the ground stays elastic.
 const ELASTIC: &[&str] = &["undrained_strength=1e6"];
 

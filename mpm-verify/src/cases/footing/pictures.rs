@@ -1,5 +1,6 @@
 //! The pictures of the strip footing: the paper's Figures 8 and 10, and Prandtl's mechanism.
 
+use super::own::own_runs;
 use super::parameters::PENETRATION;
 use super::reference::{EXACT, limit_curve};
 use crate::draw::style::{Markers, series};
@@ -44,9 +45,14 @@ struct Runs<'a, 'g> {
 
 /// Draws everything there are runs for.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
-    let own = |r: &&Record| r.is_default() || r.changes_only(PENETRATION.name);
     let ended = |r: &&Record| r.status == Status::Ok && r.transfer() == TransferName::Flip;
-    let records = gallery.records.iter().filter(ended).filter(own).collect();
+    let shorter = |r: &&Record| r.changes_only(PENETRATION.name);
+    let records = own_runs(gallery.records).into_iter();
+    let records = records.chain(gallery.records.iter().filter(shorter));
+    let records: Vec<&Record> = records.filter(ended).collect();
+    if records.is_empty() {
+        return Ok(());
+    }
     let mut runs = Runs { gallery, records };
     runs.curves()?;
     for (basis, title) in BASES {
@@ -149,22 +155,29 @@ impl<'g> Runs<'_, 'g> {
         draw_charts(&path, &charts, 2)?;
         self.picture(
             "load-settlement",
-            "Pressure over undrained strength against penetration over the footing's width: above, standard MPM (dotted) and fbar-consistent (full) at all levels, whole and about the limit load; below, all remedies at one level; with Prandtl's limit load and the finite elements of vanishing size. The paper's Figure 8.",
+            "Pressure over undrained strength against penetration over the footing's width: above, standard MPM (dotted) and fbar-consistent (full) at all levels, whole and about the limit load; below, all remedies at one level; with Prandtl's limit load and, on ground of the full size, the finite elements of vanishing size. The paper's Figure 8.",
         );
         Ok(())
     }
 
     fn chart(&self, title: String, mut curves: Vec<Series>) -> Chart {
-        curves.push(Series {
-            name: "finite elements, h → 0".to_owned(),
-            points: (limit_curve().into_iter())
-                .map(|(s, q)| (1e3 * s, q))
-                .filter(|(s, _)| *s <= 4.0)
-                .collect(),
-            colour: 7,
-            marker: Marker::Circle,
-            dash: Dash::Dashed,
-        });
+        // Smaller ground is stiffer on the way to the same limit load.
+        if self
+            .records
+            .iter()
+            .all(|r| r.changes_none_but(&[PENETRATION.name]))
+        {
+            curves.push(Series {
+                name: "finite elements, h → 0".to_owned(),
+                points: (limit_curve().into_iter())
+                    .map(|(s, q)| (1e3 * s, q))
+                    .filter(|(s, _)| *s <= 4.0)
+                    .collect(),
+                colour: 7,
+                marker: Marker::Circle,
+                dash: Dash::Dashed,
+            });
+        }
         Chart {
             title,
             x_label: "s/B (10⁻³)".to_owned(),
