@@ -32,27 +32,22 @@ paths:
 speed python="python3":
     cargo run --release -- bench --peers taichi --python {{python}} --out reports/bench
 
-# The nightly tier; its report goes into the folder that is committed.
+# The nightly tier, and what is kept of it: results.csv, summary.md and the history.
 nightly:
     cargo run --release -- verify --tier nightly --resume --out reports/night
-    cargo run --release -- report reports/night --out reports/nightly --night "$(date -u +%F)" --commit "$(git rev-parse HEAD)"
-
-# The nightly tier of one case; in the committed report the others stay as they are.
-night-of case:
-    cargo run --release -- verify {{case}} --tier nightly --resume --out reports/night-{{case}}
-    cargo run --release -- report reports/night-{{case}} --out reports/nightly --update --night "$(date -u +%F)" --commit "$(git rev-parse HEAD)"
+    .ci/keep reports/night
 
 # The long tier of a case, its night included; stop it at any time and start it again.
 long-of case:
     cargo run --release -- verify {{case}} --tier long --resume --out reports/long-{{case}}
 
-# What has ended of it, for the committed report of long runs.
+# The report of what has ended of it.
 long-report case:
-    cargo run --release -- report reports/long-{{case}} --so-far --out reports/long --update
+    cargo run --release -- report reports/long-{{case}} --so-far
 
-# Fill the tables of results of the pages in docs/ from the committed reports.
-tables:
-    python3 scripts/tables.py
+# Fill the tables of results of the pages in docs/ from the report of a night and those of long runs.
+tables night="reports/night" *long:
+    python3 scripts/tables.py {{night}} {{long}}
 
 # Break the solver on purpose and see named checks go red.
 mutants:

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fills the tables of results of the pages in docs/ from the reports of the night and of long runs: `just tables`.
+"""Fills the tables of results of the pages in docs/ from the reports of a night and of long runs:
+`python3 scripts/tables.py NIGHT [LONG...]`, each the folder of a report.
 
 A table stands between `<!-- table NAME -->` and `<!-- end -->`; NAME is a function of this file.
 Standard library only.
@@ -8,6 +9,7 @@ Standard library only.
 import json
 import math
 import re
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -457,11 +459,26 @@ def fill(page, summary):
         print(page.relative_to(ROOT))
 
 
+def named(scheme):
+    basis, *remedy, transfer = scheme.split("-")
+    return {"basis": basis, "remedy": "-".join(remedy), "transfer": transfer}
+
+
+def read(folder):
+    summary = json.loads((Path(folder) / "summary.json").read_text())
+    for case in summary["cases"]:
+        for record in case["records"]:
+            record.update(named(record["scheme"]))
+        for found in case["convergence"]:
+            found["scheme"] = named(found["scheme"])
+    return summary
+
+
 def with_long(night, long):
     """The night with the long runs; of a run that both have, the night's, so that times in a table are of one machine."""
 
     def run(record):
-        return [record[key] for key in ["basis", "remedy", "transfer", "level", "set", "perturbed"]]
+        return [record[key] for key in ["scheme", "level", "set", "perturbed"]]
 
     cases = []
     for case in night["cases"]:
@@ -472,10 +489,11 @@ def with_long(night, long):
 
 
 def main():
-    summary = json.loads((ROOT / "reports/nightly/summary.json").read_text())
-    long = ROOT / "reports/long/summary.json"
-    if long.exists():
-        summary = with_long(summary, json.loads(long.read_text()))
+    if len(sys.argv) < 2:
+        sys.exit("which folders? the report of a night, then those of long runs")
+    summary = read(sys.argv[1])
+    for folder in sys.argv[2:]:
+        summary = with_long(summary, read(folder))
     for page in sorted((ROOT / "docs").glob("*.md")):
         fill(page, summary)
 

@@ -110,9 +110,6 @@ pub(crate) enum Command {
         /// Folder of the report (that of the runs if there is one only)
         #[arg(long)]
         out: Option<PathBuf>,
-        /// Keep what the report there says of the cases that the folders do not hold
-        #[arg(long, requires = "out")]
-        update: bool,
         /// Leave out the runs that have not ended, and say which they are
         #[arg(long)]
         so_far: bool,

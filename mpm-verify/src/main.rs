@@ -15,7 +15,7 @@ use mpm_verify::exact;
 use mpm_verify::golden::Goldens;
 use mpm_verify::night::Night;
 use mpm_verify::report::diff::Difference;
-use mpm_verify::report::{describe, discard_report, update_report, write_report};
+use mpm_verify::report::{describe, discard_report, write_report};
 use mpm_verify::run::checkpoint::Saving;
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
@@ -128,7 +128,6 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
         Command::Report {
             folders,
             out,
-            update,
             so_far,
             golden,
             night,
@@ -147,13 +146,12 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 Some((date, commit)) => Some(Night::new(&date, &commit)?),
                 None => None,
             };
-            let how = if update { How::Update } else { How::Whole };
             let read = match so_far {
                 true => Gathered::read_so_far,
                 false => Gathered::read,
             };
             let gather = || read(&folders);
-            report_on(gather, &out, how, &Goldens::open(&golden)?, night.as_ref())
+            report_on(gather, &out, &Goldens::open(&golden)?, night.as_ref())
         }
         Command::Bless {
             case,
@@ -279,7 +277,7 @@ fn verify(
     listener.finish();
     if plan.shard == Shard::WHOLE {
         let gather = || Gathered::read(&[out.to_path_buf()]);
-        return report_on(gather, out, How::Whole, &goldens, None);
+        return report_on(gather, out, &goldens, None);
     }
     let failed = records.iter().filter(|r| exit_code(r) != ExitCode::Good);
     for record in failed {
@@ -299,32 +297,16 @@ fn verify(
         .unwrap_or(ExitCode::Good))
 }
 
-/// What a report is made of.
-enum How {
-    /// Of the given folders alone.
-    Whole,
-    /// Of these and, for all other cases, of what it says already.
-    Update,
-}
-
 fn report_on(
     gather: impl Fn() -> Result<Gathered, Error>,
     out: &Path,
-    how: How,
     goldens: &Goldens,
     night: Option<&Night>,
 ) -> Result<ExitCode, Error> {
-    let write = match how {
-        How::Whole => {
-            discard_report(out)?;
-            write_report
-        }
-        // What it says is kept until the new report is whole.
-        How::Update => update_report,
-    };
+    discard_report(out)?;
     let gathered = gather()?;
     let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
-    let summary = write(&gathered, judged, goldens, night, out)?;
+    let summary = write_report(&gathered, judged, goldens, night, out)?;
     say(&describe::verdict_summary(&summary))?;
     say(&format!("Report: {}\n", out.join("index.html").display()))?;
     Ok(summary.exit_code())

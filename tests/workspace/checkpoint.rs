@@ -196,7 +196,11 @@ fn what_is_not_the_checkpoint_of_the_run_is_refused_and_left_alone() {
     refused(resume(place, &["--level", "h1"]), &level, &sound);
     refused(resume(place, &["--perturb"]), &[run, "(perturbed)"], &sound);
     let of = |arguments: &[&str]| mpm_verify(&[arguments, &["--resume", text(place)]].concat());
-    refused(of(&["run", "cook"]), &[run, "gimp-fbar-rate-flip"], &sound);
+    refused(
+        of(&["run", "cook"]),
+        &[run, "gimp-fbar-consistent-flip"],
+        &sound,
+    );
     refused(of(&["run", "column"]), &[run, "column"], &sound);
 
     // Of this run, but not sound.
@@ -235,11 +239,11 @@ fn what_is_not_the_checkpoint_of_the_run_is_refused_and_left_alone() {
         (resealed(&bytes, &content[..50]), ["can't be read", ""]),
         (
             resealed(&bytes, &content[..content.len() - 1]),
-            ["not the memory of Cook's membrane", ""],
+            ["not the memory of a run", ""],
         ),
         (
             resealed(&bytes, &[content, b"x"].concat()),
-            ["not the memory of Cook's membrane", "1 bytes too many"],
+            ["not the memory of a run", "1 bytes too many"],
         ),
     ] {
         fs::write(&path, content).unwrap();

@@ -163,7 +163,15 @@ fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
     let below_a_file = below_a_file.to_str().unwrap();
     refused(&["run", "cook", "--out", below_a_file], &[below_a_file]);
     refused(
-        &["verify", "--tier", "quick", "--out", below_a_file],
+        &[
+            "verify",
+            "--tier",
+            "quick",
+            "--out",
+            below_a_file,
+            "--golden",
+            text(file.path().parent().unwrap()),
+        ],
         &[below_a_file],
     );
 }

@@ -18,7 +18,6 @@ mod gate;
 mod readme;
 mod reports;
 mod shards;
-mod update;
 mod verify;
 
 use std::collections::BTreeSet;

@@ -187,17 +187,17 @@ fn damaged_records_and_plans_are_errors() {
     for (path, content, needle) in [
         (
             &record,
-            "{\"schema\": 1, \"case\"".to_owned(),
+            "{\"schema\": 2, \"case\"".to_owned(),
             "record.json: damaged",
         ),
         (
             &record,
-            "{\"schema\": 2}".to_owned(),
-            "schema 2 where 1 is expected",
+            "{\"schema\": 1}".to_owned(),
+            "schema 1 where 2 is expected",
         ),
         (
             &record,
-            "{\"schema\": 1}".to_owned(),
+            "{\"schema\": 2}".to_owned(),
             "record.json: damaged",
         ),
         (

@@ -13,9 +13,9 @@ mod html;
 mod junit;
 mod price;
 mod remedies;
+mod results;
 mod summary;
 mod sweep;
-mod update;
 
 use crate::cases;
 use crate::error::Error;
@@ -31,64 +31,24 @@ use std::path::Path;
 const SUMMARY: &str = "summary.json";
 
 /// Writes the pictures of every case, the CSV of everything plotted, `summary.json`, `summary.md`,
-/// `junit.xml` and the pages: `index.html` and one per case; what has drifted from its golden
+/// `results.csv` with a row a run, `junit.xml` and the pages: `index.html` and one per case; what has drifted from its golden
 /// is drawn beside it. With a night, it enters the history, and the trends are drawn.
 ///
 /// # Errors
 /// A record's files can't be read, or a picture can't be written.
 pub fn write_report(
     gathered: &Gathered,
-    judged: Summary,
-    goldens: &Goldens,
-    night: Option<&Night>,
-    out: &Path,
-) -> Result<Summary, Error> {
-    discard_report(out)?;
-    write(gathered, judged, goldens, night, out)
-}
-
-/// Brings the report in `out` up to date, likewise: the cases that are gathered are drawn anew, the others
-/// keep what it says of them, but for the pictures that their records suffice for, and those that are known no
-/// more are gone.
-///
-/// # Errors
-/// `out` holds no report of this tier, or as [`write_report`].
-pub fn update_report(
-    gathered: &Gathered,
-    judged: Summary,
-    goldens: &Goldens,
-    night: Option<&Night>,
-    out: &Path,
-) -> Result<Summary, Error> {
-    let former = update::read(out, &judged.tier)?;
-    let both = former.cases.iter().chain(&judged.cases);
-    let mut stale: Vec<String> = both.map(|study| study.case.clone()).collect();
-    let summary = update::merge(former, judged);
-    let kept = |study: &CaseStudy| !gathered.has(&study.case);
-    stale.retain(|case| !summary.cases.iter().any(|s| s.case == *case && kept(s)));
-    for case in &stale {
-        discard_case(case, out)?;
-    }
-    write(gathered, summary, goldens, night, out)
-}
-
-/// Draws the cases and writes what tells of all.
-fn write(
-    gathered: &Gathered,
     mut summary: Summary,
     goldens: &Goldens,
     night: Option<&Night>,
     out: &Path,
 ) -> Result<Summary, Error> {
+    discard_report(out)?;
     for study in &mut summary.cases {
-        if gathered.has(&study.case) {
-            study.night = night.cloned();
-            study.pictures = draw(study, gathered, goldens, out)?;
-        } else {
-            let drawn = draw_from_records(study, out)?;
-            update::replace(&mut study.pictures, drawn);
-        }
+        study.night = night.cloned();
+        study.pictures = draw(study, gathered, goldens, out)?;
     }
+    results::write(&summary, out)?;
     summary::write(&summary, out)?;
     junit::write(&summary, out)?;
     html::write(&summary, out)?;
@@ -133,7 +93,13 @@ fn draw_own(study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Pi
 /// # Errors
 /// A file is there and can't be removed.
 pub fn discard_report(out: &Path) -> Result<(), Error> {
-    for file in [SUMMARY, "summary.md", "junit.xml", "index.html"] {
+    for file in [
+        SUMMARY,
+        "summary.md",
+        results::FILE,
+        "junit.xml",
+        "index.html",
+    ] {
         discard(&out.join(file))?;
     }
     for case in cases::all() {
