@@ -32,18 +32,21 @@ paths:
 speed python="python3":
     cargo run --release -- bench --peers taichi --python {{python}} --out reports/bench
 
-# The nightly tier, and what is kept of it: results.csv, summary.md and the history.
+# The nightly tier: the whole report in reports/night, and what git keeps of it.
 nightly:
-    cargo run --release -- verify --tier nightly --resume --out reports/night
-    .ci/keep reports/night
+    cargo run --release -- verify --tier nightly --resume --out reports/night || test $? -ne 2
+    just keep reports/night
 
-# The long tier of a case, its night included; stop it at any time and start it again.
-long-of case:
-    cargo run --release -- verify {{case}} --tier long --resume --out reports/long-{{case}}
+# A tier (nightly or long) of one case, likewise; stop it at any time and start it again.
+night-of case tier="nightly":
+    cargo run --release -- verify {{case}} --tier {{tier}} --resume --out reports/{{tier}}-{{case}} || test $? -ne 2
+    just keep reports/{{tier}}-{{case}}
 
-# The report of what has ended of it.
-long-report case:
-    cargo run --release -- report reports/long-{{case}} --so-far
+# Judge a folder of runs as this night's, with trends, and keep a row a run; the rows of other runs stay.
+keep folder:
+    cp reports/history.csv {{folder}}
+    cargo run --release -- report {{folder}} --night "$(date -u +%F)" --commit "$(git rev-parse HEAD)" || test $? -ne 2
+    cargo run --release -- keep {{folder}}
 
 # Fill the tables of results of the pages in docs/ from the report of a night and those of long runs.
 tables night="reports/night" *long:

@@ -110,9 +110,6 @@ pub(crate) enum Command {
         /// Folder of the report (that of the runs if there is one only)
         #[arg(long)]
         out: Option<PathBuf>,
-        /// Leave out the runs that have not ended, and say which they are
-        #[arg(long)]
-        so_far: bool,
         /// Folder of the goldens
         #[arg(long, default_value = "golden")]
         golden: PathBuf,
@@ -122,6 +119,14 @@ pub(crate) enum Command {
         /// The commit of that night
         #[arg(long, requires = "night")]
         commit: Option<String>,
+    },
+    /// Keep of a night's report a row a run, trends and, of all cases, the gist of the summary
+    Keep {
+        /// Folder of the report
+        report: PathBuf,
+        /// Folder that has nightly/results.csv, nightly/summary.md and history.csv
+        #[arg(long, default_value = "reports")]
+        into: PathBuf,
     },
     /// Accept drift: take what `verify` has left as the new golden (refused while the truth is missed)
     Bless {

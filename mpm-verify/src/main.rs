@@ -15,7 +15,7 @@ use mpm_verify::exact;
 use mpm_verify::golden::Goldens;
 use mpm_verify::night::Night;
 use mpm_verify::report::diff::Difference;
-use mpm_verify::report::{describe, discard_report, write_report};
+use mpm_verify::report::{describe, discard_report, keep::keep, write_report};
 use mpm_verify::run::checkpoint::Saving;
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
@@ -128,7 +128,6 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
         Command::Report {
             folders,
             out,
-            so_far,
             golden,
             night,
             commit,
@@ -146,12 +145,12 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 Some((date, commit)) => Some(Night::new(&date, &commit)?),
                 None => None,
             };
-            let read = match so_far {
-                true => Gathered::read_so_far,
-                false => Gathered::read,
-            };
-            let gather = || read(&folders);
-            report_on(gather, &out, &Goldens::open(&golden)?, night.as_ref())
+            report_on(&folders, &out, &Goldens::open(&golden)?, night.as_ref())
+        }
+        Command::Keep { report, into } => {
+            let rows = keep(&report, &into)?;
+            say(&format!("{rows} runs are kept in {}\n", into.display()))?;
+            Ok(ExitCode::Good)
         }
         Command::Bless {
             case,
@@ -276,8 +275,7 @@ fn verify(
     let records = make_runs(plan, out, saving, workers, &listener)?;
     listener.finish();
     if plan.shard == Shard::WHOLE {
-        let gather = || Gathered::read(&[out.to_path_buf()]);
-        return report_on(gather, out, &goldens, None);
+        return report_on(&[out.to_path_buf()], out, &goldens, None);
     }
     let failed = records.iter().filter(|r| exit_code(r) != ExitCode::Good);
     for record in failed {
@@ -298,13 +296,13 @@ fn verify(
 }
 
 fn report_on(
-    gather: impl Fn() -> Result<Gathered, Error>,
+    folders: &[PathBuf],
     out: &Path,
     goldens: &Goldens,
     night: Option<&Night>,
 ) -> Result<ExitCode, Error> {
     discard_report(out)?;
-    let gathered = gather()?;
+    let gathered = Gathered::read(folders)?;
     let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
     let summary = write_report(&gathered, judged, goldens, night, out)?;
     say(&describe::verdict_summary(&summary))?;

@@ -21,6 +21,56 @@ fn the_pr_tier_visits_few_enough_pairs() {
 }
 
 #[test]
+fn what_is_kept_of_nights_is_small() {
+    let most = [
+        ("nightly/results.csv", 1_000_000),
+        ("nightly/summary.md", 100_000),
+        ("history.csv", 1_000_000),
+    ];
+    for (file, most) in most {
+        let bytes = std::fs::metadata(workspace().join("reports").join(file))
+            .unwrap()
+            .len();
+        assert!(bytes <= most, "{file}: {bytes} bytes");
+    }
+}
+
+/// Of files that git has; without git nothing is said.
+#[test]
+fn what_is_tracked_is_small() {
+    let git = std::process::Command::new("git")
+        .args(["ls-files", "-z"])
+        .current_dir(workspace())
+        .output();
+    let Some(listed) = git.ok().filter(|o| o.status.success()) else {
+        return;
+    };
+    let listed = String::from_utf8(listed.stdout).unwrap();
+    let size = |name: &str| std::fs::metadata(workspace().join(name)).map_or(0, |m| m.len());
+    let bytes = |start: &str| -> u64 {
+        let under = listed.split('\0').filter(|name| name.starts_with(start));
+        under.map(size).sum()
+    };
+    assert!(
+        bytes("reports/") <= 2_000_000,
+        "{} bytes of reports",
+        bytes("reports/")
+    );
+    assert!(bytes("") <= 12_000_000, "{} bytes in all", bytes(""));
+    let shown = |name: &&str| {
+        let page = *name == "README.md" || name.starts_with("docs/");
+        page && [".png", ".svg", ".jpg"].iter().any(|e| name.ends_with(e))
+    };
+    let pictures: Vec<&str> = listed.split('\0').filter(shown).collect();
+    let bytes: u64 = pictures.iter().map(|name| size(name)).sum();
+    assert!(
+        pictures.len() <= 25 && bytes <= 3_000_000,
+        "{} pictures, {bytes} bytes",
+        pictures.len()
+    );
+}
+
+#[test]
 fn the_goldens_are_small() {
     let all = files(&workspace().join("golden"));
     let bytes: usize = all.values().map(Vec::len).sum();

@@ -105,3 +105,47 @@ fn nights_are_added_to_the_history_once() {
         stderr(&damaged)
     );
 }
+
+#[test]
+fn of_a_night_stay_its_rows_and_trends() {
+    let scene = Scene::new();
+    let kept = scene.report.parent().unwrap().join("kept");
+    let keep = || mpm_verify(&["keep", text(&scene.report), "--into", text(&kept)]);
+    let night = |date: &str| {
+        let golden = ["--golden", text(&scene.golden)];
+        let night = ["--night", date, "--commit", "c"];
+        let report = ["report", text(&scene.report)];
+        assert_eq!(
+            code(&mpm_verify(&[&report[..], &golden, &night].concat())),
+            0
+        );
+    };
+    let none = keep();
+    assert_eq!(code(&none), 2);
+    assert!(stderr(&none).contains("of no night"), "{}", stderr(&none));
+    assert!(!kept.exists());
+
+    night("2026-01-02");
+    assert_eq!(code(&keep()), 0);
+    let rows = || fs::read_to_string(kept.join("nightly/results.csv")).unwrap();
+    let trends = || fs::read_to_string(kept.join("history.csv")).unwrap();
+    let (one, first) = (rows(), trends());
+    let runs = json(&scene.report.join("summary.json"))["counts"]["runs"]
+        .as_u64()
+        .unwrap();
+    assert_eq!(one.lines().count() as u64, runs + 1);
+    assert!(one.starts_with("case,scheme,level,set,") && one.contains(",2026-01-02,"));
+    // One case has no gist of all.
+    assert!(!kept.join("nightly/summary.md").exists());
+
+    // A row of another run stays as it was; the night is told again, once.
+    let other = one.lines().nth(1).unwrap().replace(",h2,", ",h9,");
+    fs::write(kept.join("nightly/results.csv"), format!("{one}{other}\n")).unwrap();
+    night("2026-01-03");
+    assert_eq!([code(&keep()), code(&keep())], [0, 0]);
+    assert_eq!(rows().lines().count() as u64, runs + 2);
+    assert!(rows().contains(&other));
+    assert_eq!(rows().matches(",2026-01-02,").count(), 1);
+    assert!(trends().starts_with(&first));
+    assert_eq!(trends().lines().count(), 2 * first.lines().count() - 1);
+}

@@ -117,29 +117,6 @@ fn what_is_half_written_is_no_report_until_it_is_resumed() {
         assert!(!out.join(file).exists(), "{file}");
     }
 
-    // Unless what there is so far is asked for.
-    let so_far = folder.path().join("so-far");
-    let golden = golden();
-    let wanted = [
-        "--so-far",
-        "--out",
-        text(&so_far),
-        "--golden",
-        text(&golden),
-    ];
-    let output = mpm_verify(&[&["report", text(&out)], &wanted[..]].concat());
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let summary = json(&so_far.join("summary.json"));
-    assert_eq!(summary["counts"]["runs"], records - 1);
-    assert_eq!(
-        summary["cases"][0]["pending"],
-        json!(["gimp-fbar-total-flip/h2"])
-    );
-    let told = fs::read_to_string(so_far.join("summary.md")).unwrap();
-    assert!(told.contains("Not run yet: gimp-fbar-total-flip/h2."));
-    let page = fs::read_to_string(so_far.join("cook.html")).unwrap();
-    assert!(page.contains("Not run yet"));
-
     let resumed = verify(&out, &["--resume"]);
     assert_eq!(code(&resumed), 0, "{}", stderr(&resumed));
     assert!(lost.exists());

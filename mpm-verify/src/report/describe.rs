@@ -24,15 +24,6 @@ pub fn made_by(study: &CaseStudy) -> [String; 3] {
     .map(|known| known.unwrap_or_else(|| "–".to_owned()))
 }
 
-/// How many runs a study has, and of how many.
-pub(super) fn runs(study: &CaseStudy) -> String {
-    let ended = study.records.len();
-    match study.pending.len() {
-        0 => ended.to_string(),
-        pending => format!("{ended} of {}", ended + pending),
-    }
-}
-
 /// The cases as text, with the runs of a tier if one is given.
 #[must_use]
 pub fn list_text(cases: &[Case], tier: Option<Tier>) -> String {

@@ -53,14 +53,32 @@ pub(super) fn add(study: &CaseStudy, night: &Night, out: &Path) -> Result<Option
     rows.retain(|row| row.night != night.date || row.case != study.case);
     let ladder = cases::find(&study.case)?.ladder;
     rows.extend(rows_of(study, ladder, night));
+    write(&mut rows, &path)?;
+    draw(study, &rows, out)
+}
+
+/// Takes the nights of the history in `from` into that in `into`, case by case; other nights stay.
+///
+/// # Errors
+/// Either history is damaged, or the file can't be written.
+pub(super) fn merge(from: &Path, into: &Path) -> Result<(), Error> {
+    let (from, path) = (read(&from.join(FILE))?, into.join(FILE));
+    let told: BTreeSet<(Date, &str)> = from.iter().map(|r| (r.night, &*r.case)).collect();
+    let mut rows = read(&path)?;
+    rows.retain(|r| !told.contains(&(r.night, &*r.case)));
+    rows.extend(from.iter().cloned());
+    write(&mut rows, &path)
+}
+
+/// Writes rows in the order of time and cases.
+fn write(rows: &mut [Row], path: &Path) -> Result<(), Error> {
     rows.sort_by_key(|row| (row.night, cases::place(&row.case)));
     let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in &rows {
-        writer.serialize(row).map_err(|e| Error::file(&path, e))?;
+    for row in rows.iter() {
+        writer.serialize(row).map_err(|e| Error::file(path, e))?;
     }
-    let bytes = writer.into_inner().map_err(|e| Error::file(&path, e))?;
-    write_whole(&path, &bytes)?;
-    draw(study, &rows, out)
+    let bytes = writer.into_inner().map_err(|e| Error::file(path, e))?;
+    write_whole(path, &bytes)
 }
 
 fn read(path: &Path) -> Result<Vec<Row>, Error> {

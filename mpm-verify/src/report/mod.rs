@@ -11,6 +11,7 @@ mod fixture;
 pub mod history;
 mod html;
 mod junit;
+pub mod keep;
 mod price;
 mod remedies;
 mod results;
@@ -38,23 +39,22 @@ const SUMMARY: &str = "summary.json";
 /// A record's files can't be read, or a picture can't be written.
 pub fn write_report(
     gathered: &Gathered,
-    mut summary: Summary,
+    mut judged: Summary,
     goldens: &Goldens,
     night: Option<&Night>,
     out: &Path,
 ) -> Result<Summary, Error> {
     discard_report(out)?;
-    for study in &mut summary.cases {
+    for study in &mut judged.cases {
         study.night = night.cloned();
         study.pictures = draw(study, gathered, goldens, out)?;
     }
-    results::write(&summary, out)?;
-    summary::write(&summary, out)?;
-    junit::write(&summary, out)?;
-    html::write(&summary, out)?;
+    summary::write(&judged, out)?;
+    junit::write(&judged, out)?;
+    html::write(&judged, out)?;
     // The sign that the report is whole.
-    write_dense_json(&out.join(SUMMARY), &summary)?;
-    Ok(summary)
+    write_dense_json(&out.join(SUMMARY), &judged)?;
+    Ok(judged)
 }
 
 /// Draws all pictures of a case.
@@ -66,17 +66,11 @@ fn draw(
 ) -> Result<Vec<Picture>, Error> {
     let mut pictures = drift::draw(study, gathered, goldens, out)?;
     pictures.extend(draw_own(study, gathered, out)?);
-    pictures.extend(draw_from_records(study, out)?);
+    pictures.extend(convergence::draw(study, out)?);
+    pictures.extend(sweep::draw(study, out)?);
     if let Some(night) = &study.night {
         pictures.extend(history::add(study, night, out)?);
     }
-    Ok(pictures)
-}
-
-/// Draws what the records of a case tell by themselves.
-fn draw_from_records(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error> {
-    let mut pictures = convergence::draw(study, out)?;
-    pictures.extend(sweep::draw(study, out)?);
     Ok(pictures)
 }
 

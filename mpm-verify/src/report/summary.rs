@@ -20,24 +20,11 @@ pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
 }
 
 fn text(summary: &Summary) -> Result<String, Error> {
-    let (tier, counts) = (&summary.tier, summary.counts);
-    let mut t = format!("# Verification, tier {tier}\n\n{counts}\n");
-    for command in bless_commands(summary) {
-        let _ = writeln!(t, "\nIf the drift is meant, accept it with `{command}`.");
-    }
-    programs(summary, &mut t);
-    failures(summary, &mut t);
-    if let Some(table) = remedies::table(summary) {
-        let _ = writeln!(t, "\n## Remedies against criteria\n{table}");
-    }
-    t.push_str(&price::overview(&summary.cases));
+    let mut t = head(summary);
     for study in &summary.cases {
         let _ = writeln!(t, "\n## {}\n", study.case);
         results(&cases::find(&study.case)?.headlines, &study.records, &mut t);
-        if !study.pending.is_empty() {
-            let _ = writeln!(t, "\nNot run yet: {}.", study.pending.join(", "));
-        }
-        orders(&study.convergence, &mut t);
+        orders(study.convergence.iter(), &mut t);
         t.push_str(&price::table(study).unwrap_or_default());
     }
     for picture in summary.cases.iter().flat_map(|s| &s.pictures) {
@@ -51,6 +38,42 @@ fn text(summary: &Summary) -> Result<String, Error> {
     Ok(t)
 }
 
+/// What is kept of the summary: without rows of runs and verdicts that hold, and of orders those of what the tables of
+/// results show, at the parameters that have the most levels.
+///
+/// # Errors
+/// A case that is not known.
+pub(super) fn gist(summary: &Summary) -> Result<String, Error> {
+    let mut t = head(summary);
+    for study in &summary.cases {
+        let case = cases::find(&study.case)?;
+        let _ = writeln!(t, "\n## {}", study.case);
+        let shown = |c: &&Convergence| {
+            let mut headlines = case.headlines.iter();
+            c.set == case.ladder && headlines.any(|h| h.metric.name == c.metric)
+        };
+        orders(study.convergence.iter().filter(shown), &mut t);
+        t.push_str(&price::table(study).unwrap_or_default());
+    }
+    Ok(t)
+}
+
+/// What is said of all cases together.
+fn head(summary: &Summary) -> String {
+    let (tier, counts) = (&summary.tier, summary.counts);
+    let mut t = format!("# Verification, tier {tier}\n\n{counts}\n");
+    for command in bless_commands(summary) {
+        let _ = writeln!(t, "\nIf the drift is meant, accept it with `{command}`.");
+    }
+    programs(summary, &mut t);
+    failures(summary, &mut t);
+    if let Some(table) = remedies::table(summary) {
+        let _ = writeln!(t, "\n## Remedies against criteria\n{table}");
+    }
+    t.push_str(&price::overview(&summary.cases));
+    t
+}
+
 /// What made the runs, case by case.
 fn programs(summary: &Summary, t: &mut String) {
     let _ = writeln!(
@@ -59,7 +82,7 @@ fn programs(summary: &Summary, t: &mut String) {
     );
     for study in &summary.cases {
         let made_by = describe::made_by(study).join(" | ");
-        let runs = describe::runs(study);
+        let runs = study.records.len();
         let _ = writeln!(t, "| {} | {runs} | {made_by} |", study.case);
     }
 }
@@ -140,8 +163,8 @@ fn results(headlines: &[Headline], records: &[Record], t: &mut String) {
 }
 
 /// The order of every error, if there is one.
-fn orders(convergence: &[Convergence], t: &mut String) {
-    let mut errors = convergence.iter().filter(|c| c.is_error).peekable();
+fn orders<'a>(convergence: impl Iterator<Item = &'a Convergence>, t: &mut String) {
+    let mut errors = convergence.filter(|c| c.is_error).peekable();
     if errors.peek().is_none() {
         return;
     }
@@ -227,7 +250,8 @@ mod tests {
             }
         }
         let mut t = String::new();
-        orders(&convergence(cases::find("cook").unwrap(), &records), &mut t);
+        let all = convergence(cases::find("cook").unwrap(), &records);
+        orders(all.iter(), &mut t);
         let rows: Vec<&str> = t.lines().skip(5).collect();
         let row = |changed: &str| {
             format!(
@@ -236,7 +260,7 @@ mod tests {
         };
         assert_eq!(rows, [row(""), row("load=2")]);
         let mut none = String::new();
-        orders(&[], &mut none);
+        orders([].iter(), &mut none);
         assert!(none.is_empty());
     }
 }

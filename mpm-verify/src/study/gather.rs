@@ -30,44 +30,6 @@ impl Gathered {
     /// twice, a run has no record, or a record is damaged, of another schema, run or program.
     pub fn read(folders: &[PathBuf]) -> Result<Self, Error> {
         let plans = read_plans(folders)?;
-        let (gathered, missing) = Self::ended_and_missing(&plans)?;
-        let [first, ..] = missing[..] else {
-            of_one_program(gathered.records())?;
-            return Ok(gathered);
-        };
-        let (shard, whole) = &plans[first.shard - 1];
-        Err(Error::Input(format!(
-            "{}: incomplete: {} of {} runs have no record, the first is {}; `verify --resume` with the same tier, shard and folder makes them",
-            shard.display(),
-            missing.len(),
-            whole.runs.len(),
-            first.folder().display()
-        )))
-    }
-
-    /// Reads the records there are of a plan; the other runs are [`CaseStudy::pending`]. A case of which no run has ended is left out.
-    ///
-    /// # Errors
-    /// Those of [`Gathered::read`] but for missing records, or no run has ended.
-    pub fn read_so_far(folders: &[PathBuf]) -> Result<Self, Error> {
-        let plans = read_plans(folders)?;
-        let (mut gathered, missing) = Self::ended_and_missing(&plans)?;
-        of_one_program(gathered.records())?;
-        for study in &mut gathered.studies {
-            let own = missing.iter().filter(|run| run.case == study.case);
-            let folder = |run: &&PlannedRun| run_folder(run.scheme, &run.level, &run.set);
-            study.pending = own.map(folder).collect();
-        }
-        if gathered.studies.is_empty() {
-            return Err(Error::file(plans[0].0, "no run has ended"));
-        }
-        Ok(gathered)
-    }
-
-    /// The runs that have a record, and those that have none.
-    fn ended_and_missing<'a>(
-        plans: &'a [(&Path, Plan)],
-    ) -> Result<(Self, Vec<&'a PlannedRun>), Error> {
         let (_, whole) = &plans[0];
         let mut gathered = Self {
             tier: whole.tier.clone(),
@@ -90,13 +52,18 @@ impl Gathered {
                     .push(CaseStudy::new(&run.case, vec![record])),
             }
         }
-        Ok((gathered, missing))
-    }
-
-    /// Whether runs of a case are among those gathered.
-    #[must_use]
-    pub fn has(&self, case: &str) -> bool {
-        self.studies.iter().any(|s| s.case == case)
+        let [first, ..] = missing[..] else {
+            of_one_program(gathered.studies.iter().flat_map(|s| &s.records))?;
+            return Ok(gathered);
+        };
+        let (shard, _) = &plans[first.shard - 1];
+        Err(Error::Input(format!(
+            "{}: incomplete: {} of {} runs have no record, the first is {}; `verify --resume` with the same tier, shard and folder makes them",
+            shard.display(),
+            missing.len(),
+            whole.runs.len(),
+            first.folder().display()
+        )))
     }
 
     /// Where the raw outputs of a run lie.
@@ -109,11 +76,6 @@ impl Gathered {
             Some(folder) => Ok(folder),
             None => Err(Error::Input(format!("{place} is not among the runs read"))),
         }
-    }
-
-    /// Every record.
-    pub fn records(&self) -> impl Iterator<Item = &Record> {
-        self.studies.iter().flat_map(|s| &s.records)
     }
 
     /// Forms every verdict by the checks as they are now; `drift` gives those on drift.
@@ -143,7 +105,7 @@ impl Gathered {
 ///
 /// # Errors
 /// Two did; the error names a record of each.
-pub fn of_one_program<'a>(mut records: impl Iterator<Item = &'a Record>) -> Result<(), Error> {
+fn of_one_program<'a>(mut records: impl Iterator<Item = &'a Record>) -> Result<(), Error> {
     let Some(first) = records.next() else {
         return Ok(());
     };

@@ -29,9 +29,6 @@ pub struct CaseStudy {
     pub night: Option<Night>,
     /// Pictures of the case, in the order they are shown.
     pub pictures: Vec<Picture>,
-    /// Folders of the runs of the plan that have not ended; none, if the report is whole.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub pending: Vec<String>,
 }
 
 impl CaseStudy {
@@ -45,7 +42,6 @@ impl CaseStudy {
             convergence: Vec::new(),
             night: None,
             pictures: Vec::new(),
-            pending: Vec::new(),
         }
     }
 

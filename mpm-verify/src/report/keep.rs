@@ -1,0 +1,282 @@
+//! What stays of a night's report: a row a run, trends, and the gist of the summary.
+//!
+//! A night may hold some cases alone. Its rows replace those of the same runs, and the others stay, each with the
+//! night and the program that made it.
+
+use super::{SUMMARY, history, summary};
+use crate::cases;
+use crate::error::Error;
+use crate::files::{make_folder, read_versioned, write_whole};
+use crate::night::Night;
+use crate::record::{Record, Status};
+use crate::study::summary::{CaseStudy, SCHEMA, Summary};
+use crate::verdict::{Kind, Outcome, Verdict};
+use jiff::civil::Date;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// Most bytes of the rows.
+const MOST_ROWS: usize = 1_000_000;
+/// Most bytes of the gist.
+const MOST_GIST: usize = 100_000;
+
+/// A run of a night.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Row {
+    case: String,
+    scheme: String,
+    level: String,
+    /// Parameters changed from the case's own, `name=value`, apart by spaces.
+    set: String,
+    /// Cell size (m).
+    h: f64,
+    /// `ok`, or when it broke down.
+    status: String,
+    right: usize,
+    wrong_as_known: usize,
+    not_judged: usize,
+    failed: usize,
+    particles: u64,
+    steps: u64,
+    particle_node_pairs: u64,
+    /// Processor time (s).
+    cpu_s: f64,
+    night: Date,
+    /// Fingerprint of the sources.
+    program: String,
+    /// Those that something cites: `name=value`, apart by semicolons, to six digits, in the units of the records.
+    metrics: String,
+}
+
+impl Row {
+    fn of(record: &Record, night: &Night, cited: &BTreeSet<&str>) -> Self {
+        let judged = |v: &&Verdict| !matches!(v.kind, Kind::Drift | Kind::Bookkeeping);
+        let count = |outcome| {
+            let verdicts = record.verdicts.iter().filter(judged);
+            verdicts.filter(|v| v.outcome == outcome).count()
+        };
+        let mut names = cited.clone();
+        names.extend(record.verdicts.iter().filter(judged).map(|v| &*v.metric));
+        let metrics: Vec<String> = names
+            .into_iter()
+            .map(|name| (name, record.value(name)))
+            .filter(|(_, value)| value.is_finite())
+            .map(|(name, value)| format!("{name}={}", six_digits(value)))
+            .collect();
+        let status = match (record.status, &record.error) {
+            (Status::Ok, _) => "ok".to_owned(),
+            (Status::Failed, Some(e)) => format!("failed at {} s", six_digits(e.time)),
+            (Status::Failed, None) => "failed".to_owned(),
+        };
+        Self {
+            case: record.case.clone(),
+            scheme: record.scheme().to_string(),
+            level: record.level.clone(),
+            set: record.set.join(" "),
+            h: record.discretisation.h,
+            status,
+            right: count(Outcome::Right),
+            wrong_as_known: count(Outcome::WrongAsKnown),
+            not_judged: count(Outcome::NotJudged),
+            failed: count(Outcome::Failed),
+            particles: record.work.particles,
+            steps: record.work.steps,
+            particle_node_pairs: record.work.particle_node_pairs,
+            cpu_s: (1e3 * record.time.cpu_s).round() / 1e3,
+            night: night.date,
+            program: record.version.source.clone(),
+            metrics: metrics.join(";"),
+        }
+    }
+
+    /// What tells it from other rows.
+    fn run(&self) -> [&str; 4] {
+        [&self.case, &self.scheme, &self.level, &self.set]
+    }
+}
+
+/// A number to six significant digits, as short as it can be written.
+fn six_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    let text = format!("{rounded:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}
+
+/// Takes the night of the report in `report` into `folder`: its runs into `nightly/results.csv`, its trends into
+/// `history.csv` and, if it holds every case, its gist into `nightly/summary.md`. Returns how many rows it has replaced
+/// or added.
+///
+/// # Errors
+/// The report is missing, damaged or of no night; a file of `folder` is damaged, can't be written, or would be larger
+/// than what is kept may be.
+pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
+    let path = report.join(SUMMARY);
+    let found: Summary = read_versioned(&path, SCHEMA)?;
+    let mut fresh = Vec::new();
+    for study in &found.cases {
+        let why = || {
+            format!(
+                "{} is of no night: --night and --commit of `report`",
+                study.case
+            )
+        };
+        let night = study
+            .night
+            .as_ref()
+            .ok_or_else(|| Error::file(&path, why()))?;
+        fresh.extend(rows_of(study, night)?);
+    }
+    let nightly = folder.join("nightly");
+    let results = nightly.join("results.csv");
+    let (count, rows) = (fresh.len(), merge(read(&results)?, fresh));
+    let rows = text(&rows).map_err(|e| Error::file(&results, e))?;
+    let gist = nightly.join("summary.md");
+    let whole = cases::all()
+        .iter()
+        .all(|c| found.cases.iter().any(|s| s.case == c.name));
+    let told = match whole {
+        true => Some(summary::gist(&found)?),
+        false => None,
+    };
+    require_small(&results, rows.len(), MOST_ROWS)?;
+    require_small(&gist, told.as_ref().map_or(0, String::len), MOST_GIST)?;
+    make_folder(&nightly)?;
+    history::merge(report, folder)?;
+    if let Some(told) = told {
+        write_whole(&gist, told.as_bytes())?;
+    }
+    write_whole(&results, &rows)?;
+    Ok(count)
+}
+
+fn rows_of(study: &CaseStudy, night: &Night) -> Result<Vec<Row>, Error> {
+    let case = cases::find(&study.case)?;
+    let mut cited: BTreeSet<&str> = case.headlines.iter().map(|h| h.metric.name).collect();
+    cited.extend(case.quantities.iter().map(|q| q.metric.name));
+    let records = study.records.iter();
+    Ok(records.map(|r| Row::of(r, night, &cited)).collect())
+}
+
+fn require_small(path: &Path, bytes: usize, most: usize) -> Result<(), Error> {
+    if bytes <= most {
+        return Ok(());
+    }
+    let cause = format!("{bytes} bytes where {most} are allowed; nothing is kept");
+    Err(Error::file(path, cause))
+}
+
+/// The former rows, those of the same runs replaced, then the new ones, case by case; rows of cases that are known no
+/// more are gone.
+fn merge(former: Vec<Row>, fresh: Vec<Row>) -> Vec<Row> {
+    let key = |row: &Row| row.run().map(str::to_owned);
+    let mut again: BTreeMap<[String; 4], Row> =
+        fresh.iter().map(|row| (key(row), row.clone())).collect();
+    let former = former
+        .into_iter()
+        .filter(|row| cases::find(&row.case).is_ok());
+    let mut rows: Vec<Row> = former
+        .map(|row| again.remove(&key(&row)).unwrap_or(row))
+        .collect();
+    rows.extend(
+        fresh
+            .into_iter()
+            .filter(|row| again.contains_key(&key(row))),
+    );
+    rows.sort_by_key(|row| cases::place(&row.case));
+    rows
+}
+
+fn read(path: &Path) -> Result<Vec<Row>, Error> {
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let mut reader = csv::Reader::from_path(path).map_err(|e| Error::file(path, e))?;
+    let rows = reader.deserialize::<Row>();
+    rows.map(|row| row.map_err(|e| Error::file(path, e)))
+        .collect()
+}
+
+fn text(rows: &[Row]) -> Result<Vec<u8>, Error> {
+    let failed = |e: &dyn std::fmt::Display| Error::Input(format!("rows: {e}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row).map_err(|e| failed(&e))?;
+    }
+    writer.into_inner().map_err(|e| failed(&e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Measured;
+    use crate::record::fixture::record;
+
+    fn study(case: &str, date: &str, levels: &[(&str, f64)]) -> Vec<Row> {
+        let runs = levels.iter().map(|(level, value)| {
+            let exact = Verdict::close("tip", "tip_ux", *value, 1.0, 0.0, "");
+            let counted = Verdict::close("completes", "run", 1.0, 1.0, 0.0, "").bookkeeping();
+            let mut run = record(level, vec![exact, counted]);
+            run.case = case.to_owned();
+            let (value, unit) = (Some(*value), "m".to_owned());
+            run.metrics
+                .insert("tip_ux".to_owned(), Measured { value, unit });
+            run
+        });
+        let night = Night::new(date, "commit").unwrap();
+        rows_of(&CaseStudy::new(case, runs.collect()), &night).unwrap()
+    }
+
+    #[test]
+    fn rows_are_replaced_run_by_run_and_the_others_keep_their_night() {
+        let former = study("column", "2026-01-01", &[("n8", 1.0)]);
+        let former = [
+            former,
+            study("cook", "2026-01-01", &[("h2", 1.0), ("h1", 1.0)]),
+        ]
+        .concat();
+        let fresh = study("cook", "2026-01-02", &[("h1", 2.0), ("h0.5", 1.0)]);
+        let rows = merge(former, fresh);
+        let told: Vec<_> = rows
+            .iter()
+            .map(|r| format!("{} {} {} {}", r.case, r.level, r.night, r.failed))
+            .collect();
+        let expected = [
+            "cook h2 2026-01-01 0",
+            "cook h1 2026-01-02 1",
+            "cook h0.5 2026-01-02 0",
+            "column n8 2026-01-01 0",
+        ];
+        assert_eq!(told, expected);
+        assert!(
+            rows.iter().all(|r| r.right + r.failed == 1),
+            "no bookkeeping"
+        );
+    }
+
+    #[test]
+    fn rows_read_back_and_those_of_unknown_cases_go() {
+        let mut rows = study("cook", "2026-01-01", &[("h2", 1.0 / 3.0)]);
+        assert!(rows[0].metrics.contains("tip_ux=0.333333"));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("results.csv");
+        write_whole(&path, &text(&rows).unwrap()).unwrap();
+        assert_eq!(read(&path).unwrap(), rows);
+        rows[0].case = "bridge".to_owned();
+        assert!(merge(rows, Vec::new()).is_empty());
+    }
+
+    #[test]
+    fn numbers_have_six_digits() {
+        let told = [1.0, -0.148_699_4, 2.340_791e-5, 1_234_567.0].map(six_digits);
+        assert_eq!(told, ["1", "-0.148699", "2.34079e-5", "1234570"]);
+    }
+
+    #[test]
+    fn what_is_kept_is_small() {
+        let path = Path::new("results.csv");
+        assert!(require_small(path, MOST_ROWS, MOST_ROWS).is_ok());
+        let error = require_small(path, MOST_ROWS + 1, MOST_ROWS).unwrap_err();
+        assert!(error.to_string().contains("1000001 bytes"), "{error}");
+    }
+}
