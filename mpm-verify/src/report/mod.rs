@@ -14,7 +14,6 @@ mod junit;
 pub mod keep;
 mod price;
 mod remedies;
-mod results;
 mod summary;
 mod sweep;
 
@@ -32,7 +31,7 @@ use std::path::Path;
 const SUMMARY: &str = "summary.json";
 
 /// Writes the pictures of every case, the CSV of everything plotted, `summary.json`, `summary.md`,
-/// `results.csv` with a row a run, `junit.xml` and the pages: `index.html` and one per case; what has drifted from its golden
+/// `junit.xml` and the pages: `index.html` and one per case; what has drifted from its golden
 /// is drawn beside it. With a night, it enters the history, and the trends are drawn.
 ///
 /// # Errors
@@ -87,13 +86,7 @@ fn draw_own(study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Pi
 /// # Errors
 /// A file is there and can't be removed.
 pub fn discard_report(out: &Path) -> Result<(), Error> {
-    for file in [
-        SUMMARY,
-        "summary.md",
-        results::FILE,
-        "junit.xml",
-        "index.html",
-    ] {
+    for file in [SUMMARY, "summary.md", "junit.xml", "index.html"] {
         discard(&out.join(file))?;
     }
     for case in cases::all() {
