@@ -1,5 +1,5 @@
-//! A picture as a list of shapes, which is written as pixels ([`raster`](super::raster)) or as SVG
-//! ([`svg`](super::svg)).
+//! A picture as a list of shapes, which is written as pixels ([`raster`]) or as SVG
+//! ([`svg`]).
 
 use super::colour::Rgb;
 use super::font::{Block, Font};
