@@ -1,6 +1,7 @@
 //! Checks of Cook's membrane. The tolerances are derived in `docs/cook.md`.
 
 mod own;
+mod studies;
 
 use super::metrics::{self as m, MEAN_STRESSES};
 use super::parameters::{COLUMN, LOAD, LOAD_AT, POISSON_RATIO, PPC_PER_DIRECTION};
@@ -10,7 +11,6 @@ use crate::check::{Check, Finding, run, study};
 use crate::metric::Metric;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
-use std::collections::BTreeMap;
 
 pub(super) use own::own_runs;
 
@@ -28,15 +28,10 @@ const LOCKED: f64 = 0.5;
 const RESOLVED: f64 = 1.0;
 /// Least R² of linear growth.
 const LINEAR: f64 = 0.95;
-/// Least gain in creep when the time step is halved: √2, less the scatter of the two fits.
-const FASTER: f64 = 1.3;
 /// Largest relative gain of energy.
 const GAIN: f64 = 1e-3;
 /// Relative tolerance of the clamp's reaction.
 const REACTION: f64 = 0.02;
-/// Relative difference in displacement that two runs at rest may have: each is within the
-/// out-of-balance virtual work of 1e-3 that rest admits.
-const REST_NOISE: f64 = 2e-3;
 /// Coarsest cell (m), on which XPIC(2) creeps longest.
 const COARSEST: f64 = 2.0;
 /// Poisson's ratios for which F̄ is meant and its tolerances are stated.
@@ -253,12 +248,12 @@ pub(super) fn checks() -> Vec<Check> {
         Check::known_limit(
             "creep-grows-as-dt-falls",
             "fbar-recursive: with half the time step it is at least 1.3 times as fast (diffusion: 2 in the bulk, √2 from a boundary)",
-            study(creep_over_steps),
+            study(studies::creep_over_steps),
         ),
         Check::truth(
             "error-falls",
             "none, fbar-total, fbar-rate, fbar-consistent: |error| of mid-edge u_y falls from level to level, or stays below 0.2 %, which rest does not resolve",
-            study(error_falls),
+            study(studies::error_falls),
         ),
     ]
 }
@@ -485,52 +480,4 @@ fn mean_stress_rms(r: &Record) -> Finding {
     let what = "every point moved by a cell, and the oscillation that smooth-pressure admits";
     let why = format!("{}; {what}", source(reference));
     Finding::at_most(METRIC, r.metric(METRIC), bound, why)
-}
-
-fn creep_over_steps(records: &[Record]) -> Vec<Finding> {
-    let faster = |slow: &Record| {
-        let half = |r: &&Record| {
-            r.set == ["cfl=0.15"] && r.scheme() == slow.scheme() && r.level == slow.level
-        };
-        let halved = records.iter().find(half)?;
-        Some(Finding::above(
-            format!("creep_rate of {} {}", slow.scheme(), slow.level),
-            halved.metric(m::CREEP_RATE) / slow.metric(m::CREEP_RATE),
-            FASTER,
-            "the diffusivity of Eq. (26) is ½ s² h²/Δt: twice as fast in the bulk, √2 times where it enters at a boundary",
-        ))
-    };
-    let own = own_runs(records).into_iter();
-    own.filter_map(faster).collect()
-}
-
-fn error_falls(records: &[Record]) -> Vec<Finding> {
-    let mut ladders: BTreeMap<_, Vec<&Record>> = BTreeMap::new();
-    for record in own_runs(records) {
-        if !is_recursive(record) {
-            ladders.entry(record.scheme()).or_default().push(record);
-        }
-    }
-    ladders.retain(|_, ladder| ladder.len() >= 2);
-    let worst = |(scheme, mut ladder): (_, Vec<&Record>)| {
-        ladder.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
-        let errors = ladder.iter().map(|r| r.metric(m::FEM_MID_EDGE_ERROR).abs());
-        let errors: Vec<f64> = errors.collect();
-        let pairs = errors.windows(2);
-        let ratios = pairs.map(|pair| pair[1] / pair[0].max(REST_NOISE));
-        // A run that broke down has no error, and must not be lost among the others.
-        let worst = if errors.iter().any(|e| e.is_nan()) {
-            f64::NAN
-        } else {
-            ratios.fold(f64::NEG_INFINITY, f64::max)
-        };
-        let levels = errors.len();
-        Finding::at_most(
-            format!("fem_mid_edge_error of {scheme} over {levels} levels, largest ratio"),
-            worst,
-            1.0,
-            "a consistent scheme converges; errors below 0.2 % count as that, since rest admits 0.1 % of either run",
-        )
-    };
-    ladders.into_iter().map(worst).collect()
 }
