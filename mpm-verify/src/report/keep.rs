@@ -90,6 +90,12 @@ impl Row {
         }
     }
 
+    /// Names of its metrics.
+    fn names(&self) -> impl Iterator<Item = &str> {
+        let metrics = self.metrics.split(';');
+        metrics.filter_map(|metric| Some(metric.split_once('=')?.0))
+    }
+
     /// What tells it from other rows.
     fn run(&self) -> [&str; 4] {
         [&self.case, &self.scheme, &self.level, &self.set]
@@ -113,6 +119,9 @@ fn six_digits(value: f64) -> String {
 pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
     let path = report.join(SUMMARY);
     let found: Summary = read_versioned(&path, SCHEMA)?;
+    let nightly = folder.join("nightly");
+    let results = nightly.join("results.csv");
+    let former = read(&results)?;
     let mut fresh = Vec::new();
     for study in &found.cases {
         let why = || {
@@ -125,11 +134,9 @@ pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
             .night
             .as_ref()
             .ok_or_else(|| Error::file(&path, why()))?;
-        fresh.extend(rows_of(study, night)?);
+        fresh.extend(rows_of(study, night, &former)?);
     }
-    let nightly = folder.join("nightly");
-    let results = nightly.join("results.csv");
-    let (count, rows) = (fresh.len(), merge(read(&results)?, fresh));
+    let (count, rows) = (fresh.len(), merge(former, fresh));
     let rows = text(&rows).map_err(|e| Error::file(&results, e))?;
     let gist = nightly.join("summary.md");
     let whole = cases::all()
@@ -150,10 +157,18 @@ pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
     Ok(count)
 }
 
-fn rows_of(study: &CaseStudy, night: &Night) -> Result<Vec<Row>, Error> {
+/// The rows of a case's runs. Beside what it shows and what is judged, they have the metrics that its former rows have:
+/// a page may cite them.
+fn rows_of(study: &CaseStudy, night: &Night, former: &[Row]) -> Result<Vec<Row>, Error> {
     let case = cases::find(&study.case)?;
     let mut cited: BTreeSet<&str> = case.headlines.iter().map(|h| h.metric.name).collect();
     cited.extend(case.quantities.iter().map(|q| q.metric.name));
+    cited.extend(
+        former
+            .iter()
+            .filter(|row| row.case == study.case)
+            .flat_map(Row::names),
+    );
     let records = study.records.iter();
     Ok(records.map(|r| Row::of(r, night, &cited)).collect())
 }
@@ -213,18 +228,37 @@ mod tests {
     use crate::record::fixture::record;
 
     fn study(case: &str, date: &str, levels: &[(&str, f64)]) -> Vec<Row> {
+        after(&[], case, date, levels)
+    }
+
+    /// Rows of a case that has had the former ones.
+    fn after(former: &[Row], case: &str, date: &str, levels: &[(&str, f64)]) -> Vec<Row> {
         let runs = levels.iter().map(|(level, value)| {
             let exact = Verdict::close("tip", "tip_ux", *value, 1.0, 0.0, "");
             let counted = Verdict::close("completes", "run", 1.0, 1.0, 0.0, "").bookkeeping();
             let mut run = record(level, vec![exact, counted]);
             run.case = case.to_owned();
             let (value, unit) = (Some(*value), "m".to_owned());
-            run.metrics
-                .insert("tip_ux".to_owned(), Measured { value, unit });
+            for name in ["tip_ux", "cited_by_a_page"] {
+                let unit = unit.clone();
+                run.metrics
+                    .insert(name.to_owned(), Measured { value, unit });
+            }
             run
         });
         let night = Night::new(date, "commit").unwrap();
-        rows_of(&CaseStudy::new(case, runs.collect()), &night).unwrap()
+        rows_of(&CaseStudy::new(case, runs.collect()), &night, former).unwrap()
+    }
+
+    #[test]
+    fn a_metric_that_a_case_has_had_is_kept() {
+        let mut former = study("cook", "2026-01-01", &[("h2", 1.0)]);
+        assert!(!former[0].metrics.contains("cited_by_a_page"));
+        former[0].metrics.push_str(";cited_by_a_page=1");
+        let again = after(&former, "cook", "2026-01-02", &[("h1", 2.0)]);
+        assert!(again[0].metrics.contains("cited_by_a_page=2"));
+        let other = after(&former, "column", "2026-01-02", &[("h0.5", 2.0)]);
+        assert!(!other[0].metrics.contains("cited_by_a_page"));
     }
 
     #[test]
