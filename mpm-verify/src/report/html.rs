@@ -34,9 +34,9 @@ pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
         let text = render(template, context).map_err(|e| Error::file(&path, e))?;
         write_whole(&path, text.as_bytes())
     };
-    page("index.html", "index.html", index(summary)?)?;
+    page("index.html", "index.html", index(summary, out)?)?;
     for study in &summary.cases {
-        let context = case_page(cases::find(&study.case)?, study, &summary.tier);
+        let context = case_page(cases::find(&study.case)?, study, &summary.tier, out);
         page(&file_of(study), "case.html", context)?;
     }
     Ok(())
@@ -61,15 +61,20 @@ fn file_of(study: &CaseStudy) -> String {
     format!("{}.html", study.case)
 }
 
-/// Pictures of some cases whose file lies in `folder`, or, without one, in none.
-fn pictures_in(studies: &[CaseStudy], folder: Option<&str>) -> Vec<Value> {
+/// Pictures of some cases whose file lies in `folder` of `out`, or, without one, in none. Each has its SVG, if there is
+/// one.
+fn pictures_in(studies: &[CaseStudy], folder: Option<&str>, out: &Path) -> Vec<Value> {
     let lies = |p: &&Picture| p.file.split_once('/').map(|(first, _)| first) == folder;
-    let value = |p: &Picture| context! { file => &p.file, caption => &p.caption };
+    let value = |p: &Picture| {
+        let svg = Path::new(&p.file).with_extension("svg");
+        let svg = out.join(&svg).exists().then(|| svg.display().to_string());
+        context! { file => &p.file, caption => &p.caption, svg }
+    };
     let pictures = studies.iter().flat_map(|s| &s.pictures);
     pictures.filter(lies).map(value).collect()
 }
 
-fn index(summary: &Summary) -> Result<Value, Error> {
+fn index(summary: &Summary, out: &Path) -> Result<Value, Error> {
     let records = summary.cases.iter().flat_map(|s| &s.records);
     let machines = records.map(|r| {
         let m = &r.machine;
@@ -131,7 +136,7 @@ fn index(summary: &Summary) -> Result<Value, Error> {
         broken => broken.collect::<Vec<_>>(),
         failures => failures.collect::<Vec<_>>(),
         cases => cases?,
-        pictures => pictures_in(&summary.cases, None),
+        pictures => pictures_in(&summary.cases, None, out),
     })
 }
 
@@ -176,7 +181,7 @@ fn matrix(study: &CaseStudy, schemes: &[Scheme], columns: Vec<(&str, &[String])>
     }
 }
 
-fn case_page(case: &Case, study: &CaseStudy, tier: &str) -> Value {
+fn case_page(case: &Case, study: &CaseStudy, tier: &str, out: &Path) -> Value {
     let sketch = &case.sketch;
     let parameters = case.parameters.iter().map(|p| {
         context! {
@@ -211,7 +216,7 @@ fn case_page(case: &Case, study: &CaseStudy, tier: &str) -> Value {
         levels => levels.collect::<Vec<_>>(),
         references => case.references.clone(),
         made_by => made_by(study).to_vec(),
-        pictures => pictures_in(std::slice::from_ref(study), Some(case.name)),
+        pictures => pictures_in(std::slice::from_ref(study), Some(case.name), out),
         headings => case.headlines.iter().map(|h| h.heading).collect::<Vec<_>>(),
         runs => study.records.iter().map(|r| run(case, r)).collect::<Vec<_>>(),
         ladders => ladders.collect::<Vec<_>>(),
@@ -578,6 +583,24 @@ mod tests {
         let [index, case] = pages(&summary);
         assert!(index.contains("trends.png") && !index.contains("rest.png"));
         assert!(case.contains("rest.png") && !case.contains("trends.png"));
+    }
+
+    #[test]
+    fn a_picture_has_a_link_to_its_svg_where_there_is_one() {
+        let mut summary = summary();
+        summary.cases[0].pictures = ["cook/chart.png", "cook/field.png"]
+            .map(|file| Picture {
+                file: file.to_owned(),
+                caption: String::new(),
+            })
+            .to_vec();
+        let folder = tempfile::tempdir().unwrap();
+        write_whole(&folder.path().join("cook/chart.svg"), b"<svg/>").unwrap();
+        write(&summary, folder.path()).unwrap();
+        let page = std::fs::read_to_string(folder.path().join("cook.html")).unwrap();
+        let (.., targets) = elements(&page);
+        let svgs = targets.iter().filter(|t| t.ends_with(".svg"));
+        assert_eq!(svgs.collect::<Vec<_>>(), ["cook/chart.svg"]);
     }
 
     #[test]
