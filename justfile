@@ -42,15 +42,17 @@ night-of case tier="nightly":
     cargo run --release -- verify {{case}} --tier {{tier}} --resume --out reports/{{tier}}-{{case}} || test $? -ne 2
     just keep reports/{{tier}}-{{case}}
 
-# Judge a folder of runs as this night's, with trends, and keep a row a run; the rows of other runs stay.
+# Judge a folder of runs as this night's, with trends, and keep a row a run; the rows of other runs stay. Fill the tables of the
+# pages with them.
 keep folder:
     cp reports/history.csv {{folder}}
     cargo run --release -- report {{folder}} --night "$(date -u +%F)" --commit "$(git rev-parse HEAD)" || test $? -ne 2
     cargo run --release -- keep {{folder}}
+    just tables
 
-# Fill the tables of results of the pages in docs/ from the report of a night and those of long runs.
-tables night="reports/night" *long:
-    python3 scripts/tables.py {{night}} {{long}}
+# Fill the tables of README and docs from the rows that are kept.
+tables:
+    cargo run --release -- tables
 
 # Break the solver on purpose and see named checks go red.
 mutants:

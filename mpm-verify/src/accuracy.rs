@@ -7,6 +7,7 @@
 use crate::statistics::fit_line;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use std::fmt;
 
 /// Confidence of an uncertainty.
 pub const CONFIDENCE: f64 = 0.95;
@@ -27,6 +28,23 @@ pub struct Order {
     pub uncertainty: f64,
     /// Orders between successive levels, coarsest first.
     pub local: Vec<f64>,
+}
+
+impl Order {
+    /// The orders between levels, as text.
+    #[must_use]
+    pub fn between(&self) -> String {
+        let orders: Vec<String> = self.local.iter().map(|p| format!("{p:.2}")).collect();
+        orders.join(", ").replace('-', "−")
+    }
+}
+
+/// With its uncertainty (95 %).
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let order = format!("{:.2}", self.order).replace('-', "−");
+        write!(f, "{order} ± {:.2}", self.uncertainty)
+    }
 }
 
 /// The order of errors over cells of size h, given as (h, error), coarsest first.

@@ -7,6 +7,7 @@ use crate::job::Job;
 use crate::metric::{Headline, Metric, Quantity, Sweep};
 use crate::parameter::{Parameter, Parameters};
 use crate::record::Record;
+use crate::results::ResultTable;
 use crate::scheme::Scheme;
 use crate::sketch::Sketch;
 use crate::spec::{Level, RunSpec};
@@ -102,6 +103,8 @@ pub struct Case {
     pub begin: Begin,
     /// Draws what only this case has.
     pub pictures: fn(&mut Gallery) -> Result<(), Error>,
+    /// Tables of its results that pages show.
+    pub tables: Vec<ResultTable>,
     /// Why a run of this kind is known to break down before its end, if it is.
     pub breaks_down: fn(&Record) -> Option<&'static str>,
 }

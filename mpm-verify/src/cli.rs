@@ -128,6 +128,15 @@ pub(crate) enum Command {
         #[arg(long, default_value = "reports")]
         into: PathBuf,
     },
+    /// Fill the tables of results in README and docs from reports/nightly/results.csv
+    Tables {
+        /// Change nothing; name the tables that are stale, and fail if there are any
+        #[arg(long)]
+        check: bool,
+        /// Folder that has README.md, docs and reports
+        #[arg(long, default_value = ".")]
+        root: PathBuf,
+    },
     /// Accept drift: take what `verify` has left as the new golden (refused while the truth is missed)
     Bless {
         /// The case
@@ -195,7 +204,7 @@ pub(crate) enum Command {
 /// The gist of an error of the command line's syntax.
 pub(crate) fn one_line(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing; allowed: list, explain, run, verify, report, bless, diff, exact, bench"
+        return "a command is missing; allowed: list, explain, run, verify, report, keep, tables, bless, diff, exact, bench"
             .to_owned();
     }
     let text = error.to_string();

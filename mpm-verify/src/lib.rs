@@ -25,6 +25,7 @@ pub mod parameter;
 pub mod probe;
 pub mod record;
 pub mod report;
+pub mod results;
 pub mod run;
 pub mod sketch;
 pub mod spec;

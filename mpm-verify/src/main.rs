@@ -1,4 +1,4 @@
-//! The command line: `mpm-verify list | explain | run | verify | report | bless | diff | exact | bench`.
+//! The command line: `mpm-verify list | explain | run | verify | report | keep | tables | bless | diff | exact | bench`.
 
 mod cli;
 mod progress;
@@ -15,7 +15,7 @@ use mpm_verify::exact;
 use mpm_verify::golden::Goldens;
 use mpm_verify::night::Night;
 use mpm_verify::report::diff::Difference;
-use mpm_verify::report::{describe, discard_report, keep::keep, write_report};
+use mpm_verify::report::{describe, discard_report, keep::keep, tables::Page, write_report};
 use mpm_verify::run::checkpoint::Saving;
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
@@ -152,6 +152,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             say(&format!("{rows} runs are kept in {}\n", into.display()))?;
             Ok(ExitCode::Good)
         }
+        Command::Tables { check, root } => tables(&root, check),
         Command::Bless {
             case,
             reason,
@@ -251,6 +252,23 @@ fn list(tier: Option<&str>, format: &str) -> Result<ExitCode, Error> {
     };
     say(&text)?;
     Ok(ExitCode::Good)
+}
+
+/// Fills the tables of the pages in `root`, or, to check, says which are stale.
+fn tables(root: &Path, check: bool) -> Result<ExitCode, Error> {
+    let mut code = ExitCode::Good;
+    for page in Page::all(root)? {
+        for name in &page.stale {
+            let what = if check { "stale" } else { "filled" };
+            say(&format!("{}: {name} {what}\n", page.file.display()))?;
+        }
+        if check && !page.stale.is_empty() {
+            code = ExitCode::TruthFailed;
+        } else {
+            page.write()?;
+        }
+    }
+    Ok(code)
 }
 
 fn saving(seconds: u64, resume: bool) -> Saving {

@@ -1,8 +1,59 @@
-//! CSV tables of numbers.
+//! Tables: of numbers, as files hold them, and of text, as they are shown.
 
 use crate::error::Error;
 use crate::files::write_csv;
+use serde::Serialize;
 use std::path::Path;
+
+/// A table as it is shown: text in cells. Terminal and pages in Markdown have it as it is here, HTML by a template.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Sheet {
+    /// Titles of the columns.
+    pub head: Vec<String>,
+    /// Rows, each with a cell per column.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Sheet {
+    /// Without rows.
+    #[must_use]
+    pub fn new(head: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        Self {
+            head: head.into_iter().map(Into::into).collect(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// With rows.
+    #[must_use]
+    pub fn with(mut self, rows: impl IntoIterator<Item = Vec<String>>) -> Self {
+        self.rows.extend(rows);
+        self
+    }
+
+    /// Rows as columns: the first column is the head.
+    #[must_use]
+    pub fn transposed(&self) -> Self {
+        let lines = || std::iter::once(&self.head).chain(&self.rows);
+        let column = |k: usize| lines().map(|line| line[k].clone()).collect::<Vec<_>>();
+        Self::new(column(0)).with((1..self.head.len()).map(column))
+    }
+
+    /// In Markdown.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        let line = |cells: &Vec<String>| {
+            let cells: Vec<String> = cells.iter().map(|c| c.replace('|', "\\|")).collect();
+            format!("| {} |\n", cells.join(" | "))
+        };
+        let rows: String = self.rows.iter().map(line).collect();
+        format!(
+            "{}|{}\n{rows}",
+            line(&self.head),
+            "---|".repeat(self.head.len())
+        )
+    }
+}
 
 /// A table of numbers with named columns, all of the same length.
 #[derive(Debug, Clone, PartialEq)]

@@ -18,6 +18,7 @@ mod gate;
 mod readme;
 mod reports;
 mod shards;
+mod tables;
 mod verify;
 
 use std::collections::BTreeSet;

@@ -1,6 +1,8 @@
 //! Families of runs that several problems have.
 
 use crate::case::{Family, Tier};
+use crate::record::Record;
+use crate::results::{Column, Label, ResultTable, is_flip};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::spec::Level;
 
@@ -70,6 +72,30 @@ pub(super) fn other_transfers() -> Vec<Scheme> {
 pub(super) fn more_particles(tier: Tier, levels: &[Level]) -> [Family; 2] {
     let sets: [&'static [&'static str]; 2] = [&["ppc_per_direction=3"], &["ppc_per_direction=4"]];
     sets.map(|set| family(tier, levels, &main_pairs(), set))
+}
+
+/// What other transfers and numbers of particles per direction come to beside FLIP with the case's own two; rows that have
+/// FLIP alone are left out.
+pub(super) fn transfers(
+    name: &str,
+    labels: &[Label],
+    more: &[&str],
+    text: fn(&Record) -> String,
+) -> ResultTable {
+    let own = [
+        ("FLIP, 2 per direction", TransferName::Flip),
+        ("APIC", TransferName::Apic),
+        ("XPIC(2)", TransferName::Xpic2),
+    ];
+    let own = own.map(|(title, transfer)| {
+        Column::text(title, text).of(move |r| r.transfer() == transfer && r.is_default())
+    });
+    let more = more.iter().map(|n| {
+        let set = [format!("ppc_per_direction={n}")];
+        Column::text(format!("{n} per direction"), text).of(move |r| is_flip(r) && r.set == set)
+    });
+    let shows = |r: &Record| main_pairs().contains(&Scheme::flip(r.basis(), r.remedy()));
+    ResultTable::new(name, shows, labels, own.into_iter().chain(more)).least(2)
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ use crate::exact::{Exact, Material};
 use crate::metric::{error, headline};
 use crate::parameter::{Parameter, Parameters, number, parameter};
 use crate::record::Record;
+use crate::results::{Column, ResultTable, SCHEME, fixed};
 use crate::scheme::{BasisName, RemedyName};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
@@ -140,6 +141,10 @@ pub(super) fn case() -> Case {
         ],
         quantities: vec![error(FREQUENCY_ERROR, "relative error of the frequency")],
         // F̄ over twenty periods, and fbar-total with GIMP at n16 over two; the others lose their order.
+        tables: vec![
+            periods("standing-wave-two-periods", Record::is_default),
+            periods("standing-wave-twenty-periods", |r| r.set == TWENTY_PERIODS),
+        ],
         breaks_down: |r| {
             let averaged = r.remedy() != RemedyName::None;
             let early =
@@ -168,6 +173,24 @@ const PARTED: f64 = 0.1;
 fn tolerance(r: &Record) -> f64 {
     let kh = PI * r.parameters.number(HALF_WAVES) / r.parameters.number(WIDTH) * r.discretisation.h;
     0.5 * kh * kh + 0.01
+}
+
+/// Frequency, amplitude, loss and order at both levels.
+fn periods(name: &str, shows: fn(&Record) -> bool) -> ResultTable {
+    let of_level = |level: &'static str| {
+        let shown = [
+            ("frequency / exact", FREQUENCY_RATIO, fixed(3)),
+            ("amplitude", AMPLITUDE_RATIO, fixed(3)),
+            ("energy loss", ENERGY_LOSS, fixed(3)),
+            ("ln(J/J̄)", LOG_JACOBIAN_GAP, fixed(4)),
+        ];
+        shown.map(|(title, metric, format)| {
+            let title = format!("{}: {title}", level.replace('n', "n = "));
+            Column::metric(title, metric, format).of(move |r| r.level == level)
+        })
+    };
+    let columns = ["n8", "n16"].into_iter().flat_map(of_level);
+    ResultTable::new(name, shows, &[SCHEME], columns)
 }
 
 fn checks() -> Vec<Check> {

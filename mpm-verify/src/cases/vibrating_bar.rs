@@ -15,21 +15,20 @@ use crate::exact::vibrating_bar::{ENTRY, LENGTH, VibratingBar};
 use crate::metric::{Metric, error, headline};
 use crate::parameter::Parameters;
 use crate::record::Record;
+use crate::results::{Column, ResultTable, SCHEME, fixed, is_flip, order, scientific};
 use crate::scheme::{BasisName, RemedyName};
 use std::f64::consts::PI;
 
 use Tier::{Nightly, Pr, Quick};
 
+const LEVELS: [(&str, f64); 4] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)];
 const ORDERS: &[(Metric, Claims)] = &[
     (FREQUENCY_ERROR, claim_of_frequency),
     (DAMPING, claim_of_damping),
 ];
 
 pub(super) fn case() -> Case {
-    let levels = levels(
-        1.0,
-        [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)],
-    );
+    let levels = levels(1.0, LEVELS);
     let names = [
         "vibrating-bar",
         "Vibrating bar",
@@ -67,6 +66,7 @@ pub(super) fn case() -> Case {
             error(FREQUENCY_ERROR, "relative error of the frequency"),
             error(DAMPING, "−ln of the amplitude's ratio"),
         ],
+        tables: vec![results()],
         ..motion.case(names, parameters)
     }
 }
@@ -99,6 +99,30 @@ fn resolution(r: &Record) -> f64 {
 /// Whether walls damp a wave of cubic splines with F̄, which are judged by that.
 fn is_cubic(r: &Record) -> bool {
     r.basis() == BasisName::Bspline3 && is_sound(r.remedy())
+}
+
+fn results() -> ResultTable {
+    let errors = LEVELS.map(|(level, n)| {
+        let title = format!("error of the frequency, n = {n}");
+        Column::metric(title, FREQUENCY_ERROR, scientific(2)).of(move |r| r.level == level)
+    });
+    let orders = Column::row("order ± (between levels)", |runs, _| {
+        // What fades within the run has no frequency to converge.
+        let lasting = runs.iter().copied();
+        let lasting = lasting.filter(|r| r.remedy() != RemedyName::FbarRecursive);
+        let found = order(lasting, FREQUENCY_ERROR.name);
+        found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
+    });
+    let amplitudes = LEVELS.map(|(level, n)| {
+        let title = format!("amplitude, n = {n}");
+        Column::metric(title, AMPLITUDE_RATIO, fixed(3)).of(move |r| r.level == level)
+    });
+    ResultTable::new(
+        "vibrating-bar",
+        |r| r.is_default() && is_flip(r),
+        &[SCHEME],
+        errors.into_iter().chain([orders]).chain(amplitudes),
+    )
 }
 
 fn checks() -> Vec<Check> {

@@ -3,16 +3,13 @@
 //! A night may hold some cases alone. Its rows replace those of the same runs, and the others stay, each with the
 //! night and the program that made it.
 
+use super::rows::{Row, read, text};
 use super::{SUMMARY, history, summary};
 use crate::cases;
 use crate::error::Error;
 use crate::files::{make_folder, read_versioned, write_whole};
 use crate::night::Night;
-use crate::record::{Record, Status};
 use crate::study::summary::{CaseStudy, SCHEMA, Summary};
-use crate::verdict::{Kind, Outcome, Verdict};
-use jiff::civil::Date;
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -20,94 +17,6 @@ use std::path::Path;
 const MOST_ROWS: usize = 1_000_000;
 /// Most bytes of the gist.
 const MOST_GIST: usize = 100_000;
-
-/// A run of a night.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Row {
-    case: String,
-    scheme: String,
-    level: String,
-    /// Parameters changed from the case's own, `name=value`, apart by spaces.
-    set: String,
-    /// Cell size (m).
-    h: f64,
-    /// `ok`, or when it broke down.
-    status: String,
-    right: usize,
-    wrong_as_known: usize,
-    not_judged: usize,
-    failed: usize,
-    particles: u64,
-    steps: u64,
-    particle_node_pairs: u64,
-    /// Processor time (s).
-    cpu_s: f64,
-    night: Date,
-    /// Fingerprint of the sources.
-    program: String,
-    /// Those that something cites: `name=value`, apart by semicolons, to six digits, in the units of the records.
-    metrics: String,
-}
-
-impl Row {
-    fn of(record: &Record, night: &Night, cited: &BTreeSet<&str>) -> Self {
-        let judged = |v: &&Verdict| !matches!(v.kind, Kind::Drift | Kind::Bookkeeping);
-        let count = |outcome| {
-            let verdicts = record.verdicts.iter().filter(judged);
-            verdicts.filter(|v| v.outcome == outcome).count()
-        };
-        let mut names = cited.clone();
-        names.extend(record.verdicts.iter().filter(judged).map(|v| &*v.metric));
-        let metrics: Vec<String> = names
-            .into_iter()
-            .map(|name| (name, record.value(name)))
-            .filter(|(_, value)| value.is_finite())
-            .map(|(name, value)| format!("{name}={}", six_digits(value)))
-            .collect();
-        let status = match (record.status, &record.error) {
-            (Status::Ok, _) => "ok".to_owned(),
-            (Status::Failed, Some(e)) => format!("failed at {} s", six_digits(e.time)),
-            (Status::Failed, None) => "failed".to_owned(),
-        };
-        Self {
-            case: record.case.clone(),
-            scheme: record.scheme().to_string(),
-            level: record.level.clone(),
-            set: record.set.join(" "),
-            h: record.discretisation.h,
-            status,
-            right: count(Outcome::Right),
-            wrong_as_known: count(Outcome::WrongAsKnown),
-            not_judged: count(Outcome::NotJudged),
-            failed: count(Outcome::Failed),
-            particles: record.work.particles,
-            steps: record.work.steps,
-            particle_node_pairs: record.work.particle_node_pairs,
-            cpu_s: (1e3 * record.time.cpu_s).round() / 1e3,
-            night: night.date,
-            program: record.version.source.clone(),
-            metrics: metrics.join(";"),
-        }
-    }
-
-    /// Names of its metrics.
-    fn names(&self) -> impl Iterator<Item = &str> {
-        let metrics = self.metrics.split(';');
-        metrics.filter_map(|metric| Some(metric.split_once('=')?.0))
-    }
-
-    /// What tells it from other rows.
-    fn run(&self) -> [&str; 4] {
-        [&self.case, &self.scheme, &self.level, &self.set]
-    }
-}
-
-/// A number to six significant digits, as short as it can be written.
-fn six_digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    let text = format!("{rounded:?}");
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
-}
 
 /// Takes the night of the report in `report` into `folder`: its runs into `nightly/results.csv`, its trends into
 /// `history.csv` and, if it holds every case, its gist into `nightly/summary.md`. Returns how many rows it has replaced
@@ -202,30 +111,12 @@ fn merge(former: Vec<Row>, fresh: Vec<Row>) -> Vec<Row> {
     rows
 }
 
-fn read(path: &Path) -> Result<Vec<Row>, Error> {
-    if !path.exists() {
-        return Ok(Vec::new());
-    }
-    let mut reader = csv::Reader::from_path(path).map_err(|e| Error::file(path, e))?;
-    let rows = reader.deserialize::<Row>();
-    rows.map(|row| row.map_err(|e| Error::file(path, e)))
-        .collect()
-}
-
-fn text(rows: &[Row]) -> Result<Vec<u8>, Error> {
-    let failed = |e: &dyn std::fmt::Display| Error::Input(format!("rows: {e}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.serialize(row).map_err(|e| failed(&e))?;
-    }
-    writer.into_inner().map_err(|e| failed(&e))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::record::Measured;
     use crate::record::fixture::record;
+    use crate::verdict::Verdict;
 
     fn study(case: &str, date: &str, levels: &[(&str, f64)]) -> Vec<Row> {
         after(&[], case, date, levels)
@@ -298,12 +189,6 @@ mod tests {
         assert_eq!(read(&path).unwrap(), rows);
         rows[0].case = "bridge".to_owned();
         assert!(merge(rows, Vec::new()).is_empty());
-    }
-
-    #[test]
-    fn numbers_have_six_digits() {
-        let told = [1.0, -0.148_699_4, 2.340_791e-5, 1_234_567.0].map(six_digits);
-        assert_eq!(told, ["1", "-0.148699", "2.34079e-5", "1234570"]);
     }
 
     #[test]

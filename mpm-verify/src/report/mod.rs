@@ -14,8 +14,10 @@ mod junit;
 pub mod keep;
 mod price;
 mod remedies;
+mod rows;
 mod summary;
 mod sweep;
+pub mod tables;
 
 use crate::cases;
 use crate::error::Error;

@@ -67,8 +67,13 @@ fn head(summary: &Summary) -> String {
     }
     programs(summary, &mut t);
     failures(summary, &mut t);
-    if let Some(table) = remedies::table(summary) {
-        let _ = writeln!(t, "\n## Remedies against criteria\n{table}");
+    for basis in remedies::BASES {
+        let records = summary.cases.iter().flat_map(|s| &s.records);
+        let (table, _) = remedies::criteria(basis).fill(records);
+        if !table.rows.is_empty() {
+            let table = table.markdown();
+            let _ = writeln!(t, "\n## Remedies against criteria, {basis}\n\n{table}");
+        }
     }
     t.push_str(&price::overview(&summary.cases));
     t

@@ -3,6 +3,7 @@
 //! Set-up, choices and tolerances: `docs/column.md`.
 
 mod pictures;
+mod tables;
 
 use super::family::{REMEDIES, family, levels, pairs};
 use super::manufactured::metrics::{
@@ -87,6 +88,7 @@ pub(super) fn case() -> Case {
         ],
         quantities: Vec::new(),
         pictures: pictures::draw,
+        tables: tables::all(),
         ..motion.case(names, parameters)
     }
 }

@@ -10,6 +10,7 @@ mod pictures;
 mod reference;
 mod scene;
 mod sketch;
+mod tables;
 mod watch;
 
 use super::family::{REMEDIES, family, more_particles, other_transfers, pairs};
@@ -75,6 +76,7 @@ pub(super) fn case() -> Case {
         own_runs: checks::own_runs,
         begin: Box::new(|spec, parameters| Ok(Box::new(Loaded::drive(spec, parameters)?))),
         pictures: pictures::draw,
+        tables: tables::all(),
         breaks_down: |_| None,
     }
 }

@@ -10,6 +10,7 @@ mod pictures;
 mod reference;
 mod scene;
 mod sketch;
+mod tables;
 mod watch;
 
 use super::family::{family, pairs};
@@ -128,6 +129,7 @@ pub(super) fn case() -> Case {
             Ok(Box::new(Drive::new(dam, Seen::default())?))
         }),
         pictures: pictures::draw,
+        tables: tables::all(),
         breaks_down: checks::breaks_down,
     }
 }

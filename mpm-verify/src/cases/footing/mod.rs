@@ -11,6 +11,7 @@ mod pictures;
 mod reference;
 mod scene;
 mod sketch;
+mod tables;
 mod watch;
 
 use super::family::{family, other_transfers, pairs};
@@ -75,6 +76,7 @@ pub(super) fn case() -> Case {
         own_runs,
         begin: Box::new(|spec, parameters| Ok(Box::new(Pressing::drive(spec, parameters)?))),
         pictures: pictures::draw,
+        tables: tables::all(),
         breaks_down: |_| None,
     }
 }

@@ -11,6 +11,7 @@ mod pictures;
 mod plane_strain;
 mod section;
 mod sketch;
+mod tables;
 mod watch;
 
 pub(super) use ground::{Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety};
@@ -136,6 +137,7 @@ fn slope(
         own_runs: crate::record::of_defaults,
         begin,
         pictures: pictures::draw,
+        tables: tables::all(dimension),
         breaks_down: checks::breaks_down,
     }
 }

@@ -85,6 +85,7 @@ impl Manufactured {
             own_runs: crate::record::of_defaults,
             begin: Box::new(move |spec, p| self.begin(spec, p)),
             pictures: |_| Ok(()),
+            tables: Vec::new(),
             breaks_down: |_| None,
             parameters,
         }

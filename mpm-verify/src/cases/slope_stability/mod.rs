@@ -4,6 +4,7 @@
 //! is right. Set-up, choices and tolerances: `docs/slope-stability.md`.
 
 mod checks;
+mod tables;
 mod watch;
 
 use super::family::{family, pairs};
@@ -136,6 +137,7 @@ pub(super) fn case() -> Case {
         own_runs: crate::record::of_defaults,
         begin: Box::new(|spec, parameters| Ok(Box::new(Trials::drive(spec, parameters)?))),
         pictures: |_| Ok(()),
+        tables: tables::all(),
         breaks_down: |_| None,
     }
 }

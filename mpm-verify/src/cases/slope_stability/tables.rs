@@ -1,0 +1,38 @@
+//! Tables of its results.
+
+use super::{FAILS_AT, STANDS_AT, STRENGTH_REDUCTION_FACTOR};
+use crate::record::Record;
+use crate::results::{BASIS, Column, ResultTable, SCHEME, fixed};
+use crate::scheme::RemedyName;
+
+pub(super) fn all() -> Vec<ResultTable> {
+    let remedies = [
+        RemedyName::None,
+        RemedyName::FbarRecursive,
+        RemedyName::FbarConsistent,
+    ];
+    let of_remedy = remedies.map(|remedy| {
+        Column::metric(remedy.text(), STRENGTH_REDUCTION_FACTOR, fixed(2))
+            .of(move |r| r.remedy() == remedy)
+    });
+    let bounds = |r: &Record| {
+        let [stands, fails] = [STANDS_AT, FAILS_AT].map(|at| r.metric(at));
+        if !fails.is_finite() {
+            return format!("stands at {stands}");
+        }
+        let factor = r.metric(STRENGTH_REDUCTION_FACTOR);
+        format!("{factor:.3} ({stands:.3} … {fails:.3})")
+    };
+    let levels = [("h0.4", "h = 0.4 m"), ("h0.2", "0.2 m"), ("h0.1", "0.1 m")];
+    let of_level =
+        levels.map(|(level, title)| Column::text(title, bounds).of(move |r| r.level == level));
+    vec![
+        ResultTable::new(
+            "slope",
+            |r| r.is_default() && r.level == "h0.2",
+            &[BASIS],
+            of_remedy,
+        ),
+        ResultTable::new("slope-stability", Record::is_default, &[SCHEME], of_level),
+    ]
+}

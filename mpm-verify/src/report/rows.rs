@@ -1,0 +1,233 @@
+//! What is kept of runs: a row each, from a record and back.
+
+use crate::cases;
+use crate::error::Error;
+use crate::night::Night;
+use crate::parameter::Parameters;
+use crate::record::{
+    Discretisation, Failure, Machine, Measured, Record, SCHEMA, Status, Timing, Version, WorkDone,
+};
+use crate::scheme::Scheme;
+use crate::verdict::{Kind, Outcome, Verdict};
+use jiff::civil::Date;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// How the status of a run that broke down begins; the time follows.
+const BROKE: &str = "failed at ";
+
+/// A run of a night.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Row {
+    pub(super) case: String,
+    scheme: String,
+    pub(super) level: String,
+    /// Parameters changed from the case's own, `name=value`, apart by spaces.
+    pub(super) set: String,
+    /// Cell size (m).
+    h: f64,
+    /// `ok`, or when it broke down.
+    status: String,
+    pub(super) right: usize,
+    wrong_as_known: usize,
+    not_judged: usize,
+    pub(super) failed: usize,
+    particles: u64,
+    steps: u64,
+    particle_node_pairs: u64,
+    /// Processor time (s).
+    cpu_s: f64,
+    pub(super) night: Date,
+    /// Fingerprint of the sources.
+    pub(super) program: String,
+    /// Those that something cites: `name=value`, apart by semicolons, to six digits, in the units of the records.
+    pub(super) metrics: String,
+}
+
+impl Row {
+    pub(super) fn of(record: &Record, night: &Night, cited: &BTreeSet<&str>) -> Self {
+        let judged = |v: &&Verdict| !matches!(v.kind, Kind::Drift | Kind::Bookkeeping);
+        let count = |outcome| {
+            let verdicts = record.verdicts.iter().filter(judged);
+            verdicts.filter(|v| v.outcome == outcome).count()
+        };
+        let mut names = cited.clone();
+        names.extend(record.verdicts.iter().filter(judged).map(|v| &*v.metric));
+        let metrics: Vec<String> = names
+            .into_iter()
+            .map(|name| (name, record.value(name)))
+            .filter(|(_, value)| value.is_finite())
+            .map(|(name, value)| format!("{name}={}", six_digits(value)))
+            .collect();
+        let status = match (record.status, &record.error) {
+            (Status::Ok, _) => "ok".to_owned(),
+            (Status::Failed, Some(e)) => format!("{BROKE}{} s", six_digits(e.time)),
+            (Status::Failed, None) => "failed".to_owned(),
+        };
+        Self {
+            case: record.case.clone(),
+            scheme: record.scheme().to_string(),
+            level: record.level.clone(),
+            set: record.set.join(" "),
+            h: record.discretisation.h,
+            status,
+            right: count(Outcome::Right),
+            wrong_as_known: count(Outcome::WrongAsKnown),
+            not_judged: count(Outcome::NotJudged),
+            failed: count(Outcome::Failed),
+            particles: record.work.particles,
+            steps: record.work.steps,
+            particle_node_pairs: record.work.particle_node_pairs,
+            cpu_s: (1e3 * record.time.cpu_s).round() / 1e3,
+            night: night.date,
+            program: record.version.source.clone(),
+            metrics: metrics.join(";"),
+        }
+    }
+
+    /// Its record, as far as it is kept: without verdicts, and with counts and metrics that are shown; `None` if the case
+    /// no longer has such a run.
+    pub(super) fn record(&self) -> Option<Record> {
+        let case = cases::find(&self.case).ok()?;
+        let scheme = Scheme::parse(&self.scheme).ok()?;
+        let set: Vec<String> = self.set.split_whitespace().map(str::to_owned).collect();
+        let parameters = Parameters::new(&case.parameters, &set).ok()?;
+        let metrics = self.metrics.split(';').filter_map(|metric| {
+            let (name, value) = metric.split_once('=')?;
+            let value = value.parse().ok()?;
+            let unit = case.metrics.iter().find(|m| m.name == name)?.unit;
+            let (value, unit) = (Some(value), unit.to_owned());
+            Some((name.to_owned(), Measured { value, unit }))
+        });
+        let broke = self.status.strip_prefix(BROKE);
+        let error = broke.map(|time| Failure {
+            kind: String::new(),
+            time: time.trim_end_matches(" s").parse().unwrap_or(f64::NAN),
+            step: self.steps,
+            particle: 0,
+            value: None,
+            message: self.status.clone(),
+        });
+        Some(Record {
+            schema: SCHEMA,
+            case: self.case.clone(),
+            scheme,
+            solver: scheme.solver().to_owned(),
+            level: self.level.clone(),
+            set,
+            perturbed: false,
+            status: match self.status == "ok" {
+                true => Status::Ok,
+                false => Status::Failed,
+            },
+            error,
+            discretisation: Discretisation {
+                dim: 0,
+                h: self.h,
+                ppc: 0,
+                dt: f64::NAN,
+                wall: String::new(),
+            },
+            parameters,
+            metrics: metrics.collect(),
+            verdicts: Vec::new(),
+            work: WorkDone {
+                particles: self.particles,
+                steps: self.steps,
+                particle_node_pairs: self.particle_node_pairs,
+                ..WorkDone::default()
+            },
+            time: Timing {
+                wall_s: f64::NAN,
+                cpu_s: self.cpu_s,
+            },
+            machine: Machine::here(0),
+            version: Version {
+                mpm_verify: String::new(),
+                source: self.program.clone(),
+            },
+        })
+    }
+
+    /// Names of its metrics.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        let metrics = self.metrics.split(';');
+        metrics.filter_map(|metric| Some(metric.split_once('=')?.0))
+    }
+
+    /// What tells it from other rows.
+    pub(super) fn run(&self) -> [&str; 4] {
+        [&self.case, &self.scheme, &self.level, &self.set]
+    }
+}
+
+/// A number to six significant digits, as short as it can be written.
+fn six_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    let text = format!("{rounded:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}
+
+/// Reads rows; none if there is no file.
+pub(super) fn read(path: &Path) -> Result<Vec<Row>, Error> {
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let mut reader = csv::Reader::from_path(path).map_err(|e| Error::file(path, e))?;
+    let rows = reader.deserialize::<Row>();
+    rows.map(|row| row.map_err(|e| Error::file(path, e)))
+        .collect()
+}
+
+/// Rows as CSV.
+pub(super) fn text(rows: &[Row]) -> Result<Vec<u8>, Error> {
+    let failed = |e: &dyn std::fmt::Display| Error::Input(format!("rows: {e}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row).map_err(|e| failed(&e))?;
+    }
+    writer.into_inner().map_err(|e| failed(&e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::fixture::record;
+
+    #[test]
+    fn numbers_have_six_digits() {
+        let told = [1.0, -0.148_699_4, 2.340_791e-5, 1_234_567.0].map(six_digits);
+        assert_eq!(told, ["1", "-0.148699", "2.34079e-5", "1234570"]);
+    }
+
+    #[test]
+    fn a_row_gives_back_what_it_keeps_of_a_record() {
+        let mut run = record("h2", Vec::new());
+        run.set = vec!["cfl=0.2".to_owned()];
+        run.status = Status::Failed;
+        run.error = Some(Failure {
+            kind: String::new(),
+            time: 1.5,
+            step: 3,
+            particle: 0,
+            value: None,
+            message: String::new(),
+        });
+        let (value, unit) = (Some(-0.25), "m".to_owned());
+        run.metrics
+            .insert("tip_ux".to_owned(), Measured { value, unit });
+        let night = Night::new("2026-01-01", "commit").unwrap();
+        let row = Row::of(&run, &night, &BTreeSet::from(["tip_ux"]));
+        let again = row.record().unwrap();
+        assert_eq!(again.folder(), run.folder());
+        assert_eq!(again.metrics, run.metrics);
+        assert_eq!(again.status, run.status);
+        assert_eq!(again.error.unwrap().time, 1.5);
+        let unknown = Row {
+            set: "no_such=1".to_owned(),
+            ..row
+        };
+        assert!(unknown.record().is_none());
+    }
+}

@@ -1,0 +1,238 @@
+//! The tables of results in README and docs, filled from the rows that are kept.
+//!
+//! A table stands between `<!-- table NAME -->` and `<!-- end -->`, each on a line of its own.
+
+use super::{remedies, rows};
+use crate::cases;
+use crate::error::Error;
+use crate::files::write_whole;
+use crate::record::Record;
+use crate::results::ResultTable;
+use jiff::civil::Date;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const BEGIN: &str = "<!-- table ";
+const CLOSE: &str = " -->";
+const END: &str = "<!-- end -->";
+const RESULTS: &str = "reports/nightly/results.csv";
+
+/// A page with its tables as they should be.
+#[derive(Debug)]
+pub struct Page {
+    /// File.
+    pub file: PathBuf,
+    /// Names of the tables that are not as they should be.
+    pub stale: Vec<String>,
+    text: String,
+}
+
+impl Page {
+    /// The pages of the repository in `root`: its README, and what lies in docs.
+    ///
+    /// # Errors
+    /// Rows or pages are missing or damaged; a page has a block that nothing fills or that does not end; no page has a
+    /// table.
+    pub fn all(root: &Path) -> Result<Vec<Self>, Error> {
+        let results = root.join(RESULTS);
+        if !results.exists() {
+            return Err(Error::file(&results, "there is no such file"));
+        }
+        let tables = tables(&rows::read(&results)?);
+        let mut files = vec![root.join("README.md")];
+        let docs = root.join("docs");
+        for entry in fs::read_dir(&docs).map_err(|e| Error::file(&docs, e))? {
+            files.push(entry.map_err(|e| Error::file(&docs, e))?.path());
+        }
+        files.retain(|file| file.extension().is_some_and(|e| e == "md"));
+        files.sort();
+        let mut shown = BTreeSet::new();
+        let pages = files.into_iter();
+        let pages = pages.map(|file| Self::read(file, &tables, &mut shown));
+        let pages = pages.collect::<Result<Vec<Self>, Error>>()?;
+        match tables.keys().find(|name| !shown.contains(*name)) {
+            Some(name) => Err(Error::Input(format!("no page shows the table {name}"))),
+            None => Ok(pages),
+        }
+    }
+
+    /// A page, with the names of the tables that it shows added to `shown`.
+    fn read(
+        file: PathBuf,
+        tables: &BTreeMap<String, String>,
+        shown: &mut BTreeSet<String>,
+    ) -> Result<Self, Error> {
+        let old = fs::read_to_string(&file).map_err(|e| Error::file(&file, e))?;
+        let (mut text, mut stale) = (String::new(), Vec::new());
+        let mut lines = old.split_inclusive('\n').enumerate();
+        while let Some((k, line)) = lines.next() {
+            text.push_str(line);
+            let refuse = |cause: String| Error::file(&file, format!("line {}: {cause}", k + 1));
+            let Some(comment) = line.trim_end().strip_prefix("<!-- ") else {
+                continue;
+            };
+            let Some(name) = line.trim_end().strip_prefix(BEGIN) else {
+                return Err(refuse(format!("nothing fills the block <!-- {comment}")));
+            };
+            let name = name.trim_end_matches(CLOSE);
+            let Some(table) = tables.get(name) else {
+                let known = tables.keys().map(String::as_str);
+                return Err(refuse(Error::unknown("table", name, known).to_string()));
+            };
+            let mut former = String::new();
+            loop {
+                match lines.next() {
+                    Some((_, line)) if line.trim_end() == END => break,
+                    Some((_, line)) if !line.starts_with("<!--") => former.push_str(line),
+                    _ => return Err(refuse(format!("the block {name} does not end"))),
+                }
+            }
+            if former != *table {
+                stale.push(name.to_owned());
+            }
+            text.push_str(table);
+            text.push_str(END);
+            text.push('\n');
+            shown.insert(name.to_owned());
+        }
+        Ok(Self { file, stale, text })
+    }
+
+    /// Writes its tables as they should be, if any is not.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn write(&self) -> Result<(), Error> {
+        match self.stale.is_empty() {
+            true => Ok(()),
+            false => write_whole(&self.file, self.text.as_bytes()),
+        }
+    }
+}
+
+/// Every table by its name, in Markdown, with the oldest of the runs that it tells of.
+fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
+    let kept = rows
+        .iter()
+        .filter_map(|row| Some((row.record()?, row.night)));
+    let kept: Vec<(Record, Date)> = kept.collect();
+    let table = |table: &ResultTable, case: Option<&str>| {
+        let of_case = kept
+            .iter()
+            .filter(|(r, _)| case.is_none_or(|case| r.case == case));
+        let (sheet, told) = table.fill(of_case.map(|(r, _)| r));
+        let told = kept
+            .iter()
+            .filter(|(r, _)| told.iter().any(|t| std::ptr::eq(*t, r)));
+        let oldest = told.min_by_key(|(_, night)| *night).map(|(r, night)| {
+            let program = &r.version.source;
+            format!("\n*Oldest run: night of {night}, program {program}.*\n")
+        });
+        let text = sheet.markdown() + &oldest.unwrap_or_default();
+        (table.name.clone(), text)
+    };
+    let of_cases = cases::all().iter();
+    let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
+    let over_cases = remedies::all();
+    let over_cases = over_cases.iter().map(|t| table(t, None));
+    of_cases.chain(over_cases).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROWS: &str = "case,scheme,level,set,h,status,right,wrong_as_known,not_judged,failed,particles,steps,particle_node_pairs,cpu_s,night,program,metrics
+slope-stability,gimp-none-flip,h0.2,,0.2,ok,0,0,0,0,1,1,1,1.5,2026-01-02,abc,stands_at=2.5;fails_at=2.75;strength_reduction_factor=2.6
+slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-01-01,def,
+";
+
+    /// A repository whose README shows `shown` and docs every other table.
+    fn repository(shown: &str) -> tempfile::TempDir {
+        let root = tempfile::tempdir().unwrap();
+        let write = |file: &str, text: &str| {
+            write_whole(&root.path().join(file), text.as_bytes()).unwrap();
+        };
+        write(RESULTS, ROWS);
+        write("README.md", shown);
+        let all = tables(&[]);
+        let others = all
+            .keys()
+            .filter(|name| !shown.contains(&format!("table {name} ")));
+        let others = others.map(|name| format!("{BEGIN}{name}{CLOSE}\n{END}\n"));
+        write("docs/others.md", &others.collect::<String>());
+        root
+    }
+
+    fn refusal(shown: &str) -> String {
+        let root = repository(shown);
+        Page::all(root.path()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn tables_are_filled_in_place_and_a_changed_digit_is_stale() {
+        let root = repository("# Title\n\n<!-- table slope-stability -->\n<!-- end -->\n\nEnd.\n");
+        let readme = root.path().join("README.md");
+        let stale = || {
+            let pages = Page::all(root.path()).unwrap();
+            let page = pages.into_iter().find(|p| p.file == readme).unwrap();
+            page.write().unwrap();
+            page.stale
+        };
+        assert_eq!(stale(), ["slope-stability"]);
+        let filled = fs::read_to_string(&readme).unwrap();
+        let table = "<!-- table slope-stability -->
+| scheme | h = 0.4 m | 0.2 m | 0.1 m |
+|---|---|---|---|
+| gimp none |  | 2.600 (2.500 … 2.750) | breaks down at 1.50 s |
+
+*Oldest run: night of 2026-01-01, program def.*
+<!-- end -->
+";
+        assert_eq!(filled, format!("# Title\n\n{table}\nEnd.\n"));
+        assert!(stale().is_empty());
+        fs::write(&readme, filled.replace("2.600", "2.601")).unwrap();
+        assert_eq!(stale(), ["slope-stability"]);
+        assert_eq!(fs::read_to_string(&readme).unwrap(), filled);
+    }
+
+    #[test]
+    fn what_nothing_fills_is_named_with_file_and_line() {
+        let unknown = refusal("\n<!-- table slopes -->\n<!-- end -->\n");
+        assert!(
+            unknown.contains("README.md: line 2: unknown table \"slopes\""),
+            "{unknown}"
+        );
+        for open in [
+            "<!-- table slope -->\n|",
+            "<!-- table slope -->\n<!-- table cook -->\n<!-- end -->\n",
+        ] {
+            let endless = refusal(open);
+            assert!(
+                endless.contains("line 1: the block slope does not end"),
+                "{endless}"
+            );
+        }
+        for block in ["<!-- results -->\n<!-- end -->\n", "<!-- end -->\n"] {
+            let unfilled = refusal(block);
+            assert!(
+                unfilled.contains("line 1: nothing fills the block"),
+                "{unfilled}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_missing_file_and_a_table_without_a_page_are_errors() {
+        let missing = |file: &str| {
+            let root = repository("");
+            fs::remove_file(root.path().join(file)).unwrap();
+            Page::all(root.path()).unwrap_err().to_string()
+        };
+        for file in [RESULTS, "README.md"] {
+            assert!(missing(file).contains(file), "{file}");
+        }
+        assert!(missing("docs/others.md").contains("no page shows the table"));
+    }
+}

@@ -1,0 +1,356 @@
+//! Tables of results as data: which runs they show, what the runs of a row have in common, and what the columns say.
+
+use crate::accuracy::{Order, fit_order};
+use crate::distinct;
+use crate::metric::Metric;
+use crate::record::{Record, Status};
+use crate::scheme::{Scheme, TransferName};
+use crate::table::Sheet;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Notation {
+    Fixed,
+    Scientific,
+    Short,
+}
+
+/// How a number is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Format {
+    factor: f64,
+    decimals: usize,
+    signed: bool,
+    notation: Notation,
+    unit: &'static str,
+}
+
+/// With so many decimals.
+pub(crate) const fn fixed(decimals: usize) -> Format {
+    Format {
+        factor: 1.0,
+        decimals,
+        signed: false,
+        notation: Notation::Fixed,
+        unit: "",
+    }
+}
+
+/// A difference in per cent, with its sign.
+pub(crate) const fn percent(decimals: usize) -> Format {
+    Format {
+        signed: true,
+        ..share(decimals)
+    }
+}
+
+/// A share in per cent.
+pub(crate) const fn share(decimals: usize) -> Format {
+    Format {
+        factor: 100.0,
+        unit: " %",
+        ..fixed(decimals)
+    }
+}
+
+/// As a power of ten, with so many decimals before it.
+pub(crate) const fn scientific(decimals: usize) -> Format {
+    Format {
+        notation: Notation::Scientific,
+        ..fixed(decimals)
+    }
+}
+
+/// With two decimals, or as a power of ten where they would say little or too much.
+pub(crate) const SHORT: Format = Format {
+    notation: Notation::Short,
+    ..fixed(2)
+};
+
+impl Format {
+    /// Times a factor: that from the metric's unit to the column's.
+    pub(crate) const fn times(self, factor: f64) -> Self {
+        Self { factor, ..self }
+    }
+
+    /// With its sign.
+    pub(crate) const fn signed(self) -> Self {
+        Self {
+            signed: true,
+            ..self
+        }
+    }
+
+    /// Followed by a unit.
+    pub(crate) const fn unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// The number as shown; a dash where there is none.
+    #[must_use]
+    pub fn text(self, value: f64) -> String {
+        let value = self.factor * value;
+        if !value.is_finite() {
+            return "–".to_owned();
+        }
+        let decimals = self.decimals;
+        let large_or_small = value != 0.0 && !(0.01..1e3).contains(&value.abs());
+        let text = match self.notation {
+            Notation::Short if large_or_small => format!("{value:.1e}"),
+            Notation::Scientific => format!("{value:.decimals$e}"),
+            _ if self.signed => format!("{value:+.decimals$}"),
+            _ => format!("{value:.decimals$}"),
+        };
+        format!("{}{}", text.replace('-', "−"), self.unit)
+    }
+}
+
+type Of<T> = Box<dyn Fn(&Record) -> T + Send + Sync>;
+type OfRow = Box<dyn Fn(&[&Record], &[&Record]) -> String + Send + Sync>;
+
+enum Cell {
+    /// What it says of the first run of the row that it is of.
+    Run(Of<bool>, Of<String>),
+    /// What it says of the runs of the row, given those of the table; empty if nothing.
+    Row(OfRow),
+}
+
+/// A column of a table of results.
+pub struct Column {
+    title: String,
+    cell: Cell,
+}
+
+impl Column {
+    /// What is said of a run, in words.
+    pub(crate) fn text(
+        title: impl Into<String>,
+        text: impl Fn(&Record) -> String + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            cell: Cell::Run(Box::new(|_| true), Box::new(text)),
+        }
+    }
+
+    /// A number of a run.
+    pub(crate) fn value(
+        title: impl Into<String>,
+        value: impl Fn(&Record) -> f64 + Send + Sync + 'static,
+        format: Format,
+    ) -> Self {
+        Self::text(title, move |r| format.text(value(r)))
+    }
+
+    /// A metric of a run.
+    pub(crate) fn metric(title: impl Into<String>, metric: Metric, format: Format) -> Self {
+        Self::value(title, move |r| r.metric(metric), format)
+    }
+
+    /// What is said of the runs of a row, given those of the table; empty if nothing.
+    pub(crate) fn row(
+        title: impl Into<String>,
+        text: impl Fn(&[&Record], &[&Record]) -> String + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            cell: Cell::Row(Box::new(text)),
+        }
+    }
+
+    /// The same of one run among those of the row.
+    pub(crate) fn of(self, run: impl Fn(&Record) -> bool + Send + Sync + 'static) -> Self {
+        let cell = match self.cell {
+            Cell::Run(_, text) => Cell::Run(Box::new(run), text),
+            row @ Cell::Row(_) => row,
+        };
+        Self { cell, ..self }
+    }
+
+    /// Processor time (s).
+    pub(crate) fn cpu() -> Self {
+        Self::value("CPU (s)", |r| r.time.cpu_s, fixed(0))
+    }
+}
+
+/// What the runs of a row have in common: its title, and that of a run.
+pub type Label = (&'static str, fn(&Record) -> String);
+
+/// The scheme of a row.
+pub(crate) const SCHEME: Label = ("scheme", |r| r.scheme().title());
+/// The scheme of a row but for its transfer.
+pub(crate) const PAIR: Label = ("scheme", |r| Scheme::flip(r.basis(), r.remedy()).title());
+/// The cell size of a row.
+pub(crate) const CELLS: Label = ("h", |r| format!("{} m", r.level.trim_start_matches('h')));
+/// The basis of a row.
+pub(crate) const BASIS: Label = ("", |r| r.basis().to_string());
+
+/// Whether a run transfers by FLIP.
+pub(crate) fn is_flip(r: &Record) -> bool {
+    r.transfer() == TransferName::Flip
+}
+
+/// A table of results.
+pub struct ResultTable {
+    /// Name.
+    pub name: String,
+    shows: Of<bool>,
+    labels: Vec<Label>,
+    columns: Vec<Column>,
+    least: usize,
+    across: bool,
+}
+
+impl ResultTable {
+    /// Of the runs that it shows, what those of a row have in common, and what it says of them.
+    pub(crate) fn new(
+        name: impl Into<String>,
+        shows: impl Fn(&Record) -> bool + Send + Sync + 'static,
+        labels: &[Label],
+        columns: impl IntoIterator<Item = Column>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            shows: Box::new(shows),
+            labels: labels.to_vec(),
+            columns: columns.into_iter().collect(),
+            least: 1,
+            across: false,
+        }
+    }
+
+    /// Shows only rows in which so many cells say something.
+    pub(crate) fn least(self, least: usize) -> Self {
+        Self { least, ..self }
+    }
+
+    /// Shows rows as columns.
+    pub(crate) fn across(self) -> Self {
+        Self {
+            across: true,
+            ..self
+        }
+    }
+
+    /// The table of some runs, by case, scheme, level and what they change, and those that it tells of. A cell that has no
+    /// run is empty; a run that has broken down is told once.
+    pub(crate) fn fill<'a>(
+        &self,
+        records: impl IntoIterator<Item = &'a Record>,
+    ) -> (Sheet, Vec<&'a Record>) {
+        let shown = records.into_iter().filter(|r| (self.shows)(r));
+        let mut shown: Vec<&Record> = shown.collect();
+        let cases = distinct(shown.iter().map(|r| &r.case));
+        shown.sort_by(|a, b| {
+            let case = |r: &Record| cases.iter().position(|c| **c == r.case);
+            let place = |r: &Record| (case(r), r.basis(), r.remedy(), r.transfer());
+            let h = |r: &Record| r.discretisation.h;
+            let key = place(a).cmp(&place(b)).then(h(b).total_cmp(&h(a)));
+            key.then_with(|| a.set.cmp(&b.set))
+        });
+        let label =
+            |r: &Record| -> Vec<String> { self.labels.iter().map(|(_, of)| of(r)).collect() };
+        let titles = self.labels.iter().map(|(title, _)| (*title).to_owned());
+        let head = titles.chain(self.columns.iter().map(|c| c.title.clone()));
+        let (mut sheet, mut told) = (Sheet::new(head), Vec::new());
+        let says = |cells: &[String]| cells.iter().filter(|c| !c.is_empty()).count();
+        for labels in distinct(shown.iter().map(|r| label(r))) {
+            let runs = shown.iter().copied().filter(|r| label(r) == labels);
+            let (cells, of) = self.cells(&runs.collect::<Vec<_>>(), &shown);
+            if says(&cells) >= self.least {
+                sheet.rows.push([labels, cells].concat());
+                told.extend(of);
+            }
+        }
+        if self.across {
+            sheet = sheet.transposed();
+            sheet.rows.retain(|row| says(&row[1..]) > 0);
+        }
+        (sheet, told)
+    }
+
+    /// What is said of the runs of a row, and of which.
+    fn cells<'a>(&self, runs: &[&'a Record], all: &[&'a Record]) -> (Vec<String>, Vec<&'a Record>) {
+        let mut told: Vec<&Record> = Vec::new();
+        let mut broken = None;
+        let cells = self.columns.iter().map(|column| match &column.cell {
+            Cell::Row(text) => {
+                told.extend(runs);
+                text(runs, all)
+            }
+            Cell::Run(of, text) => {
+                let Some(run) = runs.iter().copied().find(|r| of(r)) else {
+                    return String::new();
+                };
+                told.push(run);
+                let Status::Failed = run.status else {
+                    return text(run);
+                };
+                let again =
+                    broken.replace(std::ptr::from_ref(run)) == Some(std::ptr::from_ref(run));
+                if again { String::new() } else { breakdown(run) }
+            }
+        });
+        (cells.collect(), told)
+    }
+}
+
+/// When a run broke down, in words.
+fn breakdown(run: &Record) -> String {
+    let time = run.error.as_ref().map_or(f64::NAN, |e| e.time);
+    format!("breaks down at {} s", fixed(2).text(time))
+}
+
+/// The order of an error over the runs of a row that have it.
+pub(crate) fn order<'a>(runs: impl Iterator<Item = &'a Record>, error: &str) -> Option<Order> {
+    let points = runs.map(|r| (r.discretisation.h, r.value(error)));
+    fit_order(&points.filter(|(_, e)| e.is_finite()).collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::fixture::record;
+
+    #[test]
+    fn numbers_are_shown_as_their_columns_want_them() {
+        let shown = [
+            fixed(2).text(-1.005),
+            percent(1).text(0.0123),
+            share(0).text(0.456),
+            fixed(1).times(1e3).unit(" mm").text(0.0255),
+            scientific(1).text(-0.00123),
+            SHORT.text(0.5),
+            SHORT.text(1234.0),
+            fixed(0).text(f64::NAN),
+        ];
+        let expected = [
+            "−1.00",
+            "+1.2 %",
+            "46 %",
+            "25.5 mm",
+            "−1.2e−3",
+            "0.50",
+            "1.2e3",
+            "–",
+        ];
+        assert_eq!(shown, expected);
+    }
+
+    #[test]
+    fn rows_group_runs_columns_pick_them_and_gaps_stay_empty() {
+        let runs = ["h2", "h1"].map(|level| record(level, Vec::new()));
+        let particles = |r: &Record| r.work.particles as f64;
+        let columns = ["h1", "h0.5"]
+            .map(|level| Column::value(level, particles, fixed(0)).of(move |r| r.level == level));
+        let table =
+            |columns: Vec<Column>| ResultTable::new("t", |_: &Record| true, &[SCHEME], columns);
+        let (sheet, told) = table(columns.into()).fill(&runs);
+        assert_eq!(
+            sheet.markdown(),
+            "| scheme | h1 | h0.5 |\n|---|---|---|\n| gimp none | 1 |  |\n"
+        );
+        assert_eq!(told.iter().map(|r| &*r.level).collect::<Vec<_>>(), ["h1"]);
+        let nothing = [Column::text("", |_| String::new())];
+        assert!(table(nothing.into()).least(1).fill(&runs).0.rows.is_empty());
+    }
+}
