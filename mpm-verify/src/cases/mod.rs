@@ -18,6 +18,7 @@ mod mms_vortex_box;
 mod mms_vortex_pressure;
 mod mms_vortex_ring;
 mod mms_wall_pressure;
+mod observe;
 pub(crate) mod parameters;
 mod slope_stability;
 mod standing_wave;

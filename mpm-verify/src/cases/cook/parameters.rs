@@ -3,7 +3,7 @@
 use crate::cases::parameters as common;
 use crate::parameter::{Domain, Parameter, number, parameter};
 
-pub(super) use common::{DAMPING, FLIP, PPC_PER_DIRECTION, WALL_LINE};
+pub(super) use common::{DAMPING, FLIP, PPC_PER_DIRECTION};
 
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("70");
 pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.499");

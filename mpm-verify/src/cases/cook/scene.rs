@@ -3,12 +3,12 @@
 use super::geometry::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT, seed};
 use super::parameters::{
     CFL, COLUMN, DAMPING, DENSITY, FLIP, KINETIC_DAMPING, LOAD, LOAD_AT, LOAD_RAMP, MAX_PERIODS,
-    POISSON_RATIO, PPC_PER_DIRECTION, REST_WINDOW, WALL, WALL_LINE, YOUNG_MODULUS,
+    POISSON_RATIO, PPC_PER_DIRECTION, REST_WINDOW, YOUNG_MODULUS,
 };
+use crate::cases::observe::wall_treatment;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
-use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
@@ -92,11 +92,7 @@ pub(super) fn begin(
         number(DENSITY),
         [0.5 * spacing; 2],
     )?;
-    let wall = if parameters.is(WALL, WALL_LINE) {
-        WallTreatment::WallLine
-    } else {
-        WallTreatment::OpenKnot
-    };
+    let wall = wall_treatment(parameters);
     let mut settings = Settings::new(time_step(h, parameters)?)
         .wall(wall)
         .transfer(Flip::new(number(FLIP))?)

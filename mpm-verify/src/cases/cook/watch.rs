@@ -5,6 +5,7 @@ use super::metrics::{self as m, MEAN_STRESSES};
 use super::parameters::{DENSITY, LOAD_RAMP, MAX_PERIODS, PPC_PER_DIRECTION, REST_WINDOW, WALL};
 use super::reference::{Field as Reference, solution, stress_scale};
 use super::scene::{begin, check_together, period, time_step};
+use crate::cases::observe::{checkerboard, column, mean_stress};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -16,7 +17,7 @@ use crate::scheme::RemedyName;
 use crate::spec::RunSpec;
 use crate::statistics::{Line, fit_line, rms};
 use mpm_core::stage::{Observation, RestCriterion};
-use mpm_core::{Field, Memory, Saved, Simulation};
+use mpm_core::{Memory, Saved, Simulation};
 use serde::{Deserialize, Serialize};
 
 /// Strain per period that counts as creep.
@@ -158,14 +159,6 @@ fn has_stopped(run: &dyn Simulation<2>) -> bool {
     velocities.all(|v| *v == 0.0)
 }
 
-/// Mean normal stress as it enters the forces and its average Π, in seeding order.
-fn mean_stress(run: &mut dyn Simulation<2>) -> (Vec<f64>, Vec<f64>) {
-    let mean = run.field(Field::MeanStress);
-    let averaged = run.field(Field::AveragedMeanStress);
-    let p = run.particles();
-    (p.seeded(|k| mean[k]), p.seeded(|k| averaged[k]))
-}
-
 /// The growth of rms ln(J/J̄) over the second half of the time (s) so far.
 fn creep(seen: &Seen, time: f64) -> Option<Line> {
     let later = seen.gaps.iter().copied().filter(|(t, _)| *t >= 0.5 * time);
@@ -294,7 +287,6 @@ impl Watch<2> for Loaded {
     }
 
     fn particles(&self, _: &Seen, stage: &mut Stage<2>) -> Vec<Column> {
-        let column = |name, unit, values| Column { name, unit, values };
         let run = stage.run.as_mut();
         let (mean_stress, averaged) = mean_stress(run);
         let [ux, uy] = [0, 1].map(|axis| displacement(run, axis));
@@ -321,7 +313,7 @@ impl Watch<2> for Loaded {
         let (totals, time) = (run.totals(), run.time());
         let creep = creep(seen, time);
         let stress_rms = rms(mean_stress.iter().copied());
-        let board = rms(mean_stress.iter().zip(&averaged).map(|(s, a)| s - a));
+        let board = checkerboard(&mean_stress, &averaged);
         let window = self.parameters.number(REST_WINDOW) * self.period;
         let residuals = &seen.work_residuals;
         let in_window = (window / time * residuals.len() as f64) as usize;

@@ -5,7 +5,7 @@ use super::parameters::{
     STICKY, VISCOSITY, WALL, WALL_CONTACT,
 };
 use super::reference::{DEPTH, GRAVITY, LENGTH, TANK};
-use crate::cases::parameters::WALL_LINE;
+use crate::cases::observe::wall_treatment;
 use crate::error::Error;
 use crate::exact::Exact;
 use crate::exact::hydrostatic::Hydrostatic;
@@ -13,7 +13,6 @@ use crate::parameter::Parameters;
 use crate::record::Discretisation;
 use crate::scheme::BasisName;
 use crate::spec::RunSpec;
-use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NewtonianFluid};
@@ -155,11 +154,7 @@ impl Dam {
     }
 
     fn settings(&self) -> Result<Settings<2>, mpm_core::Error> {
-        let wall = if self.parameters.is(WALL, WALL_LINE) {
-            WallTreatment::WallLine
-        } else {
-            WallTreatment::OpenKnot
-        };
+        let wall = wall_treatment(&self.parameters);
         let flip = (-self.parameters.number(PIC_RATE) * self.dt).exp();
         Ok(Settings::new(self.dt)
             .wall(wall)

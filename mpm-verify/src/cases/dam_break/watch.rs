@@ -4,6 +4,7 @@ use super::flow::{Flow, Row, Start};
 use super::metrics::MASS;
 use super::reference::{DEPTH, GRAVITY, LENGTH};
 use super::scene::{BACK, Dam, FLOOR, FRONT, GATE, ROW, STAGE};
+use crate::cases::observe::{checkerboard, column};
 use crate::drive::{Stage, Watch};
 use crate::job::{Column, Snapshot};
 use crate::metric::Metric;
@@ -66,7 +67,7 @@ impl Dam {
         let force = |place: usize, axis: usize| (now[place][axis] - before[place][axis]) / ROW;
         let pressures_now = pressures(run, Field::MeanStress);
         let averaged = pressures(run, Field::AveragedMeanStress);
-        let board = rms(pressures_now.iter().zip(&averaged).map(|(p, a)| p - a));
+        let board = checkerboard(&pressures_now, &averaged);
         let in_tension = pressures_now.iter().filter(|p| **p < 0.0).count();
         let totals = run.totals();
         let p = run.particles();
@@ -191,10 +192,6 @@ impl Watch<2> for Dam {
         values.push((MASS, stage.run.totals().mass));
         values
     }
-}
-
-fn column(name: &'static str, unit: &'static str, values: Vec<f64>) -> Column {
-    Column { name, unit, values }
 }
 
 /// Pressure (Pa), or its average, as it enters the forces, in the particles' order.

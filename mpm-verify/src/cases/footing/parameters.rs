@@ -3,7 +3,7 @@
 use crate::cases::parameters as common;
 use crate::parameter::{Domain, Parameter, number, parameter};
 
-pub(super) use common::{CFL, FLIP, POISSON_RATIO, PPC_PER_DIRECTION, WALL_LINE, YOUNG_MODULUS};
+pub(super) use common::{CFL, FLIP, POISSON_RATIO, PPC_PER_DIRECTION, YOUNG_MODULUS};
 
 pub(super) const DENSITY: Parameter =
     common::DENSITY.meaning("density ρ; it only matters for how slowly the footing must move");

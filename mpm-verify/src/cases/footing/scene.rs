@@ -3,13 +3,12 @@
 use super::geometry::WIDTH;
 use super::parameters::{
     BARRIER, CFL, CONTACT, DAMPING, DENSITY, DOMAIN_DEPTH, DOMAIN_WIDTH, FLIP, PENETRATION_RATE,
-    POISSON_RATIO, PPC_PER_DIRECTION, RAMP, ROUGH, UNDRAINED_STRENGTH, WALL, WALL_LINE,
-    YOUNG_MODULUS,
+    POISSON_RATIO, PPC_PER_DIRECTION, RAMP, ROUGH, UNDRAINED_STRENGTH, YOUNG_MODULUS,
 };
 use super::reference::EXACT;
+use crate::cases::observe::wall_treatment;
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
-use mpm_core::basis::WallTreatment;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::explicit::{Settings, courant_time_step};
@@ -94,11 +93,7 @@ pub(super) fn begin(
         }
     };
     let mut settings = Settings::new(time_step(h, parameters)?)
-        .wall(if parameters.is(WALL, WALL_LINE) {
-            WallTreatment::WallLine
-        } else {
-            WallTreatment::OpenKnot
-        })
+        .wall(wall_treatment(parameters))
         .transfer(Flip::new(number(FLIP))?)
         .remedy(spec.scheme.remedy().build());
     if number(DAMPING) > 0.0 {

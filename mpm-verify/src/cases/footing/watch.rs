@@ -7,6 +7,7 @@ use super::parameters::{
 };
 use super::reference::EXACT;
 use super::scene::{BASE, FOOTING, Press, begin, time_step};
+use crate::cases::observe::{checkerboard, column, mean_stress};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -206,14 +207,6 @@ fn mean(rows: &[Row], keep: impl Fn(&Row) -> bool, f: impl Fn(&Row) -> f64) -> f
     kept.iter().sum::<f64>() / kept.len() as f64
 }
 
-/// Mean normal stress as it enters the forces and its average Π, in seeding order.
-fn mean_stress(run: &mut dyn Simulation<2>) -> (Vec<f64>, Vec<f64>) {
-    let mean = run.field(Field::MeanStress);
-    let averaged = run.field(Field::AveragedMeanStress);
-    let p = run.particles();
-    (p.seeded(|k| mean[k]), p.seeded(|k| averaged[k]))
-}
-
 impl Watch<2> for Pressing {
     type Seen = Seen;
 
@@ -282,7 +275,6 @@ impl Watch<2> for Pressing {
     }
 
     fn particles(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<Column> {
-        let column = |name, unit, values| Column { name, unit, values };
         let run = stage.run.as_mut();
         let (mean_stress, averaged) = mean_stress(run);
         let plastic_strain = run.field(Field::PlasticStrain);
@@ -315,7 +307,7 @@ impl Watch<2> for Pressing {
         let most = rows.iter().map(|r| r.force).fold(0.0, f64::max);
         let effective = effective_width(self.spec.scheme.basis(), h).0;
         let stress_rms = rms(mean_stress.iter().copied());
-        let board = rms(mean_stress.iter().zip(&averaged).map(|(s, a)| s - a));
+        let board = checkerboard(&mean_stress, &averaged);
         let surface = self.surface(seen, run);
         let by_width = self.bearing_factor(force, WIDTH);
         let mut values = vec![

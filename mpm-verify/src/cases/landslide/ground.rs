@@ -2,14 +2,13 @@
 
 use super::parameters::{
     CFL, DENSITY, FLOOR, HEIGHT, PEAK_STRENGTH, POISSON_RATIO, PPC_PER_DIRECTION,
-    RESIDUAL_STRENGTH, SOFTENING, WALL, WIDTH, YOUNG_MODULUS,
+    RESIDUAL_STRENGTH, SOFTENING, WIDTH, YOUNG_MODULUS,
 };
 use super::section::{GRAVITY, Section};
-use crate::cases::parameters::WALL_LINE;
+use crate::cases::observe::wall_treatment;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
-use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{HenckyJ2, Law, Strength};
 use mpm_core::stage::{BodyForce, End, LocalDamping, Wall, WallKind, smooth_rise};
@@ -168,11 +167,7 @@ impl<const D: usize> Ground<D> {
             .load(weight)
             .constrain_all(walls::<D>());
         let mut settings = Settings::new(self.dt)
-            .wall(if parameters.is(WALL, WALL_LINE) {
-                WallTreatment::WallLine
-            } else {
-                WallTreatment::OpenKnot
-            })
+            .wall(wall_treatment(parameters))
             .remedy(spec.scheme.remedy().build());
         if damping > 0.0 {
             settings = settings.filter_forces(LocalDamping::new(damping)?);

@@ -5,6 +5,7 @@ use super::metrics as m;
 use super::observation::{Look, Released, Row, Series, potential, spread_over_width};
 use super::parameters::{DAMPING, DURATION, PPC_PER_DIRECTION, REDUCTION, RELEASE, WALL};
 use super::section::GRAVITY;
+use crate::cases::observe::{checkerboard, column};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::{Column, Snapshot};
@@ -234,7 +235,7 @@ impl<const D: usize> Slide<D> {
         let mean = run.field(Field::MeanStress);
         let averaged = run.field(Field::AveragedMeanStress);
         let scale = self.ground.density * GRAVITY * self.ground.section.height;
-        rms(mean.iter().zip(&averaged).map(|(s, a)| s - a)) / scale
+        checkerboard(&mean, &averaged) / scale
     }
 
     fn measure_rest(&self, seen: &mut Seen, run: &mut dyn Simulation<D>) {
@@ -305,7 +306,6 @@ fn since_release(before: &Before, error: mpm_core::Error) -> mpm_core::Error {
 
 /// Positions, plastic strain and mean stress.
 fn columns<const D: usize>(run: &mut dyn Simulation<D>) -> Vec<Column> {
-    let column = |name, unit, values| Column { name, unit, values };
     let plastic_strain = plastic_strain(run);
     let mean_stress = run.field(Field::MeanStress);
     let p = run.particles();

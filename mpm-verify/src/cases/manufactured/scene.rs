@@ -1,15 +1,13 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
 use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO};
-use crate::cases::parameters::{
-    CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, WALL, WALL_LINE, YOUNG_MODULUS,
-};
+use crate::cases::observe::wall_treatment;
+use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS};
 use crate::error::Error;
 use crate::exact::{Exact, Material};
 use crate::parameter::{Parameter, Parameters};
 use crate::scheme::RemedyName;
 use crate::spec::{Level, RunSpec};
-use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::remedy::FbarConsistent;
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::explicit::{Remedy, Settings, courant_time_step};
@@ -114,11 +112,7 @@ where
         components(&exact.body_force(&vector(x), t))
     }));
     let settings = Settings::new(dt)
-        .wall(if parameters.is(WALL, WALL_LINE) {
-            WallTreatment::WallLine
-        } else {
-            WallTreatment::OpenKnot
-        })
+        .wall(wall_treatment(parameters))
         .transfer(Flip::new(number(FLIP))?)
         .remedy(remedy);
     let particles = seed(spec, number(PPC_PER_DIRECTION), solution.as_ref(), dt)?;

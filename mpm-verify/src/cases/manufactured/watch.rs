@@ -3,6 +3,7 @@
 use super::Manufactured;
 use super::metrics as m;
 use super::scene::{Timing, begin, vector};
+use crate::cases::observe::column;
 use crate::cases::parameters::{PPC_PER_DIRECTION, WALL};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
@@ -359,7 +360,6 @@ where
 
     fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {
         let run = stage.run.as_mut();
-        let column = |name, unit, values| Column { name, unit, values };
         let [displacement, velocity, stress, mean_stress] = {
             let (errors, _) = self.errors(run);
             let p = run.particles();

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::cases::landslide::parameters::{FACE_ANGLE, PPC_PER_DIRECTION, WALL};
 use crate::cases::landslide::{Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety};
+use crate::cases::observe::column;
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -235,7 +236,6 @@ impl Watch<2> for Trials {
     }
 
     fn particles(&self, _: &Seen, stage: &mut Stage<2>) -> Vec<Column> {
-        let column = |name, unit, values| Column { name, unit, values };
         let strain = stage.run.field(Field::PlasticStrain);
         let p = stage.run.particles();
         vec![

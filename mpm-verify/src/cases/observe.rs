@@ -1,0 +1,59 @@
+//! What several problems set and observe in the same way.
+
+use super::parameters::{WALL, WALL_LINE};
+use crate::job::Column;
+use crate::parameter::Parameters;
+use crate::statistics::rms;
+use mpm_core::basis::WallTreatment;
+use mpm_core::{Field, Simulation};
+
+/// How B-splines meet walls, by the parameter of that name.
+pub(super) fn wall_treatment(parameters: &Parameters) -> WallTreatment {
+    if parameters.is(WALL, WALL_LINE) {
+        WallTreatment::WallLine
+    } else {
+        WallTreatment::OpenKnot
+    }
+}
+
+/// A named particle column; values in seeding order.
+pub(super) fn column(name: &'static str, unit: &'static str, values: Vec<f64>) -> Column {
+    Column { name, unit, values }
+}
+
+/// Mean normal stress (Pa) as it enters the forces and its average Π, in seeding order.
+pub(super) fn mean_stress(run: &mut dyn Simulation<2>) -> (Vec<f64>, Vec<f64>) {
+    let mean = run.field(Field::MeanStress);
+    let averaged = run.field(Field::AveragedMeanStress);
+    let p = run.particles();
+    (p.seeded(|k| mean[k]), p.seeded(|k| averaged[k]))
+}
+
+/// Rms of what Π takes from a field: the oscillation from particle to particle.
+pub(super) fn checkerboard(field: &[f64], averaged: &[f64]) -> f64 {
+    rms(field.iter().zip(averaged).map(|(f, a)| f - a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_its_own_average_does_not_oscillate_and_a_checkerboard_does() {
+        assert_eq!(checkerboard(&[3.0, -1.0], &[3.0, -1.0]), 0.0);
+        assert_eq!(checkerboard(&[3.0, -1.0], &[1.0, 1.0]), 2.0);
+    }
+
+    #[test]
+    fn walls_are_open_knots_unless_the_parameter_says_otherwise() {
+        let treatment = |set: &[&str]| {
+            let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+            wall_treatment(&Parameters::new(&[WALL], &set).unwrap())
+        };
+        assert!(matches!(treatment(&[]), WallTreatment::OpenKnot));
+        assert!(matches!(
+            treatment(&["wall=wall-line"]),
+            WallTreatment::WallLine
+        ));
+    }
+}
