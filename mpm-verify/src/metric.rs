@@ -26,6 +26,21 @@ pub(crate) const fn metric(
     }
 }
 
+/// Metrics by name, unit and meaning, and the list of all: each a constant, or each with where it is measured.
+macro_rules! metrics {
+    ($seen:vis $all:ident: $($metric:ident = $name:literal, $unit:literal, $meaning:literal;)*) => {
+        $($seen const $metric: $crate::metric::Metric = $crate::metric::metric($name, $unit, $meaning);)*
+        $seen const $all: &[$crate::metric::Metric] = &[$($metric),*];
+    };
+    ($(#[$doc:meta])* $seen:vis $all:ident at $place:ty:
+        $($at:expr => $name:literal, $unit:literal, $meaning:literal;)*) => {
+        $(#[$doc])*
+        $seen const $all: &[($crate::metric::Metric, $place)] =
+            &[$(($crate::metric::metric($name, $unit, $meaning), $at)),*];
+    };
+}
+pub(crate) use metrics;
+
 impl From<Metric> for String {
     fn from(metric: Metric) -> Self {
         metric.name.to_owned()

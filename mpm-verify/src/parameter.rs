@@ -114,6 +114,16 @@ pub(crate) const fn parameter(
     }
 }
 
+/// Parameters, a constant each by name, unit, default, domain and meaning.
+macro_rules! parameters {
+    ($seen:vis const: $($parameter:ident =
+        $name:literal, $unit:literal, $default:expr, $domain:expr, $meaning:literal;)*) => {
+        $($seen const $parameter: $crate::parameter::Parameter =
+            $crate::parameter::parameter($name, $unit, $default, $domain, $meaning);)*
+    };
+}
+pub(crate) use parameters;
+
 impl Parameter {
     /// Reads a value.
     ///

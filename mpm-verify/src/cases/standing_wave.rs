@@ -16,7 +16,7 @@ use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{ENTRY, HALF_WAVES, StandingWave, WIDTH};
 use crate::exact::{Exact, Material};
 use crate::metric::{error, headline};
-use crate::parameter::{Parameter, Parameters, number, parameter};
+use crate::parameter::{Parameters, number, parameters};
 use crate::record::Record;
 use crate::results::{Column, ResultTable, SCHEME, fixed};
 use crate::scheme::{BasisName, RemedyName};
@@ -82,13 +82,10 @@ impl Exact for CompressibleWave {
     }
 }
 
-const BULK_MODULUS: Parameter = parameter(
-    "bulk_modulus",
-    "Pa",
-    "2.5e6",
-    number(1e4, 1e12, false),
-    "bulk modulus K; sound then travels at √(K/ρ), 50 m/s unless changed",
-);
+parameters! { const:
+    BULK_MODULUS = "bulk_modulus", "Pa", "2.5e6", number(1e4, 1e12, false),
+        "bulk modulus K; sound then travels at √(K/ρ), 50 m/s unless changed";
+}
 
 /// ω of the wave (rad/s); NaN of parameters that make none.
 fn frequency(p: &Parameters) -> f64 {

@@ -7,7 +7,7 @@
 use super::parameters::{AMPLITUDE, ANGULAR_FREQUENCY, DIMENSION};
 use super::{Entry, Exact, INVERTS, Material, require_below};
 use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters};
+use crate::parameter::{Domain, Parameter, Parameters, parameters};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -33,13 +33,10 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(AxisAligned::new(p)?)),
 };
 
-pub(crate) const HALF_WAVES: Parameter = Parameter {
-    name: "half_waves",
-    unit: "-",
-    default: "2",
-    domain: Domain::Integer { least: 1, most: 16 },
-    meaning: "number of half waves m across the body, k = mπ",
-};
+parameters! { pub(crate) const:
+    HALF_WAVES = "half_waves", "-", "2", Domain::Integer { least: 1, most: 16 },
+        "number of half waves m across the body, k = mπ";
+}
 
 const PARAMETERS: [Parameter; 7] = {
     let [e, nu, rho] = Material::parameters("1e7", "0.3");

@@ -8,10 +8,10 @@
 //!
 //! Rollers on the floor and the sides, a free surface. J > 0 as long as ρ₀ g H < K.
 
-use super::parameters::{DENSITY, GRAVITY, number};
+use super::parameters::{DENSITY, GRAVITY};
 use super::{Entry, Exact, INVERTS, Material, require_below};
 use crate::error::Error;
-use crate::parameter::{Parameter, Parameters};
+use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Vector3};
 
 /// Column of fluid at rest, in plane strain.
@@ -36,17 +36,11 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(Hydrostatic::new(p)?)),
 };
 
-pub(crate) const BULK_MODULUS: Parameter = number(
-    ["bulk_modulus", "Pa", "2e9"],
-    [1e-3, 1e12],
-    "bulk modulus K",
-);
-pub(crate) const WIDTH: Parameter = number(["width", "m", "1"], [1e-3, 1e3], "width");
-pub(crate) const HEIGHT: Parameter = number(
-    ["height", "m", "2"],
-    [1e-3, 1e3],
-    "height H without gravity",
-);
+parameters! { pub(crate) const:
+    BULK_MODULUS = "bulk_modulus", "Pa", "2e9", number(1e-3, 1e12, false), "bulk modulus K";
+    WIDTH = "width", "m", "1", number(1e-3, 1e3, false), "width";
+    HEIGHT = "height", "m", "2", number(1e-3, 1e3, false), "height H without gravity";
+}
 
 const PARAMETERS: [Parameter; 5] = [
     BULK_MODULUS,

@@ -42,9 +42,8 @@ pub use vortex_ring::VortexRing;
 pub use wall_pressure::WallPressure;
 
 use crate::error::Error;
-use crate::parameter::{Parameter, Parameters, Value};
+use crate::parameter::{Parameter, Parameters, Value, number, parameter};
 use nalgebra::{Matrix3, Vector3};
-use parameters::number;
 use serde::Serialize;
 use std::fmt;
 
@@ -185,7 +184,10 @@ impl State {
         let entry = find(name)?;
         let solution = (entry.build)(&Parameters::new(entry.parameters, set)?)?;
         let x = reference_point(solution.as_ref(), at)?;
-        let t = read(&number(["--time", "s", "0"], [-1e6, 1e6], ""), time)?;
+        let t = read(
+            &parameter("--time", "s", "0", number(-1e6, 1e6, false), ""),
+            time,
+        )?;
         Ok(Self::of(solution.as_ref(), &x, t))
     }
 
@@ -214,7 +216,9 @@ fn reference_point(solution: &dyn Exact, at: &str) -> Result<Vector3<f64>, Error
     }
     let mut x = Vector3::zeros();
     for (i, text) in coordinates.iter().enumerate() {
-        x[i] = read(&number([names[i], "m", ""], solution.extent()[i], ""), text)?;
+        let [least, most] = solution.extent()[i];
+        let coordinate = parameter(names[i], "m", "", number(least, most, false), "");
+        x[i] = read(&coordinate, text)?;
     }
     Ok(x)
 }

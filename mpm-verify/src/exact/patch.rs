@@ -4,10 +4,10 @@
 //! so Div P = 0 and b = a = −ω² u: any scheme that reproduces linear fields gets the stress right. The
 //! sides follow the motion. det F = 1 + s tr G + s² det G must stay positive for −1 ≤ s ≤ 1.
 
-use super::parameters::{ANGULAR_FREQUENCY, number};
+use super::parameters::ANGULAR_FREQUENCY;
 use super::{Entry, Exact, INVERTS, Material, sine};
 use crate::error::Error;
-use crate::parameter::{Parameter, Parameters};
+use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 /// Homogeneous finite deformation.
@@ -28,10 +28,12 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(Patch::new(p)?)),
 };
 
-pub(crate) const G_XX: Parameter = number(["g_xx", "-", "0.2"], [-1e2, 1e2], "G_xx");
-pub(crate) const G_XY: Parameter = number(["g_xy", "-", "0.3"], [-1e2, 1e2], "G_xy = ∂u_x/∂Y");
-pub(crate) const G_YX: Parameter = number(["g_yx", "-", "-0.1"], [-1e2, 1e2], "G_yx = ∂u_y/∂X");
-pub(crate) const G_YY: Parameter = number(["g_yy", "-", "0.1"], [-1e2, 1e2], "G_yy");
+parameters! { pub(crate) const:
+    G_XX = "g_xx", "-", "0.2", number(-1e2, 1e2, false), "G_xx";
+    G_XY = "g_xy", "-", "0.3", number(-1e2, 1e2, false), "G_xy = ∂u_x/∂Y";
+    G_YX = "g_yx", "-", "-0.1", number(-1e2, 1e2, false), "G_yx = ∂u_y/∂X";
+    G_YY = "g_yy", "-", "0.1", number(-1e2, 1e2, false), "G_yy";
+}
 
 const PARAMETERS: [Parameter; 8] = {
     let [e, nu, rho] = Material::parameters("1e6", "0.3");

@@ -3,10 +3,9 @@
 //! Translation x = X + v t needs no force. Rotation about c with the angular velocity Ω,
 //! x = c + Q(Ωt) (X − c), needs the centripetal b = −Ω² (x − c).
 
-use super::parameters::number;
 use super::{Entry, Exact, Material};
 use crate::error::Error;
-use crate::parameter::{Parameter, Parameters};
+use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Vector3};
 
 /// Translation of the unit square.
@@ -43,19 +42,14 @@ pub(crate) const ROTATION: Entry = Entry {
     build: |p| Ok(Box::new(Rotation::new(p)?)),
 };
 
-pub(crate) const VELOCITY_X: Parameter =
-    number(["velocity_x", "m/s", "1"], [-1e4, 1e4], "velocity in x");
-pub(crate) const VELOCITY_Y: Parameter =
-    number(["velocity_y", "m/s", "0.5"], [-1e4, 1e4], "velocity in y");
-pub(crate) const ANGULAR_VELOCITY: Parameter = number(
-    ["angular_velocity", "rad/s", "1"],
-    [-1e4, 1e4],
-    "angular velocity Ω, counter-clockwise",
-);
-pub(crate) const CENTRE_X: Parameter =
-    number(["centre_x", "m", "0.5"], [-1e3, 1e3], "centre c in x");
-pub(crate) const CENTRE_Y: Parameter =
-    number(["centre_y", "m", "0.5"], [-1e3, 1e3], "centre c in y");
+parameters! { pub(crate) const:
+    VELOCITY_X = "velocity_x", "m/s", "1", number(-1e4, 1e4, false), "velocity in x";
+    VELOCITY_Y = "velocity_y", "m/s", "0.5", number(-1e4, 1e4, false), "velocity in y";
+    ANGULAR_VELOCITY = "angular_velocity", "rad/s", "1", number(-1e4, 1e4, false),
+        "angular velocity Ω, counter-clockwise";
+    CENTRE_X = "centre_x", "m", "0.5", number(-1e3, 1e3, false), "centre c in x";
+    CENTRE_Y = "centre_y", "m", "0.5", number(-1e3, 1e3, false), "centre c in y";
+}
 
 const TRANSLATION_PARAMETERS: [Parameter; 5] = {
     let [e, nu, rho] = Material::parameters("1e6", "0.3");

@@ -15,10 +15,10 @@
 //! 0.1; in deep water the true frequency is then lower by (ak)²/8 (Tadjbakhsh & Keller 1960, J. Fluid
 //! Mech. 8, 442–451), about 0.1 %. J = det F is 1 to first order.
 
-use super::parameters::{DENSITY, GRAVITY, number};
+use super::parameters::{DENSITY, GRAVITY};
 use super::{Entry, Exact, Material, require_below, sine};
 use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters};
+use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
@@ -46,20 +46,13 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(StandingWave::new(p)?)),
 };
 
-pub(crate) const WIDTH: Parameter = number(["width", "m", "1"], [1e-3, 1e3], "width L of the box");
-pub(crate) const DEPTH: Parameter = number(["depth", "m", "0.5"], [1e-3, 1e3], "depth H at rest");
-pub(crate) const AMPLITUDE: Parameter = number(
-    ["amplitude", "m", "0.01"],
-    [0.0, 1e2],
-    "amplitude a of the surface",
-);
-pub(crate) const HALF_WAVES: Parameter = Parameter {
-    name: "half_waves",
-    unit: "-",
-    default: "1",
-    domain: Domain::Integer { least: 1, most: 16 },
-    meaning: "number n of half waves across the box, k = nπ/L",
-};
+parameters! { pub(crate) const:
+    WIDTH = "width", "m", "1", number(1e-3, 1e3, false), "width L of the box";
+    DEPTH = "depth", "m", "0.5", number(1e-3, 1e3, false), "depth H at rest";
+    AMPLITUDE = "amplitude", "m", "0.01", number(0.0, 1e2, false), "amplitude a of the surface";
+    HALF_WAVES = "half_waves", "-", "1", Domain::Integer { least: 1, most: 16 },
+        "number n of half waves across the box, k = nπ/L";
+}
 
 const PARAMETERS: [Parameter; 6] = [
     DENSITY.with_default("997.5"),

@@ -9,10 +9,10 @@
 //! amount ε of the largest strain kA, which is held below 0.01; the deviation of the frequency, an
 //! even function of the amplitude, is of order (kA)².
 
-use super::parameters::{AMPLITUDE, number};
+use super::parameters::AMPLITUDE;
 use super::{Entry, Exact, Material, require_below, sine};
 use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters};
+use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
@@ -36,21 +36,12 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(VibratingBar::new(p)?)),
 };
 
-pub(crate) const LENGTH: Parameter = number(["length", "m", "1"], [1e-3, 1e3], "length L");
-pub(crate) const MODE: Parameter = Parameter {
-    name: "mode",
-    unit: "-",
-    default: "1",
-    domain: Domain::Integer { least: 1, most: 16 },
-    meaning: "number n of the mode",
-};
-pub(crate) const ENDS: Parameter = Parameter {
-    name: "ends",
-    unit: "-",
-    default: "fixed-fixed",
-    domain: Domain::Choice(&["fixed-fixed", "fixed-free"]),
-    meaning: "what holds the ends X = 0 and X = L",
-};
+parameters! { pub(crate) const:
+    LENGTH = "length", "m", "1", number(1e-3, 1e3, false), "length L";
+    MODE = "mode", "-", "1", Domain::Integer { least: 1, most: 16 }, "number n of the mode";
+    ENDS = "ends", "-", "fixed-fixed", Domain::Choice(&["fixed-fixed", "fixed-free"]),
+        "what holds the ends X = 0 and X = L";
+}
 
 const PARAMETERS: [Parameter; 7] = {
     let [e, nu, rho] = Material::parameters("1e7", "0.3");

@@ -6,11 +6,11 @@
 //! ν → ½ over that at ν = 0.3 is a direct measure of locking, and σ_m − μ (R α_R)²/3, zero in the exact
 //! solution, is another.
 
-use super::parameters::{ANGULAR_FREQUENCY, number};
+use super::parameters::ANGULAR_FREQUENCY;
 use super::twist::{Angle, PLANE, Twist, Vortex};
 use super::{Entry, Material, sine};
 use crate::error::Error;
-use crate::parameter::{Parameter, Parameters};
+use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
@@ -43,8 +43,9 @@ const PARAMETERS: [Parameter; 5] = {
     ]
 };
 
-/// α₀.
-pub(super) const ANGLE: Parameter = number(["angle", "rad", "1"], [0.0, TAU], "largest angle α₀");
+parameters! { pub(super) const:
+    ANGLE = "angle", "rad", "1", number(0.0, TAU, false), "largest angle α₀";
+}
 
 /// Radius R₀ of the vortex (m).
 const RADIUS: f64 = 0.4;

@@ -9,12 +9,12 @@
 //!
 //! x,AB = Σ_ab x,ab X̂_a,A X̂_b,B + Σ_a x,a X̂_a,AB.
 
-use super::parameters::{ANGULAR_FREQUENCY, number};
+use super::parameters::ANGULAR_FREQUENCY;
 use super::twist::Vortex;
 use super::vortex_box::{ANGLE, VortexBox};
 use super::{Entry, Exact, INVERTS, Material, require_below, sine};
 use crate::error::Error;
-use crate::parameter::{Parameter, Parameters};
+use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3};
 use std::f64::consts::TAU;
 
@@ -34,11 +34,9 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(VortexPressure::new(p)?)),
 };
 
-pub(crate) const PRESSURE: Parameter = number(
-    ["pressure", "Pa", "100"],
-    [0.0, 1e12],
-    "amplitude p₀ of λ ln J",
-);
+parameters! { pub(crate) const:
+    PRESSURE = "pressure", "Pa", "100", number(0.0, 1e12, false), "amplitude p₀ of λ ln J";
+}
 
 const PARAMETERS: [Parameter; 6] = {
     let [e, nu, rho] = Material::parameters("1e3", "0.499");

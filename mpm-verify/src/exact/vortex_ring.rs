@@ -7,11 +7,11 @@
 //! material at rest, its sides are fixed. h″, and with it b, jumps at the circles. u, b and P do not
 //! depend on λ.
 
-use super::parameters::{ANGULAR_FREQUENCY, number};
+use super::parameters::ANGULAR_FREQUENCY;
 use super::twist::{Angle, PLANE, Twist, Vortex};
 use super::{Entry, Material, sine};
 use crate::error::Error;
-use crate::parameter::{Parameter, Parameters};
+use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
@@ -34,11 +34,9 @@ pub(crate) const ENTRY: Entry = Entry {
 };
 
 // π/4.
-pub(crate) const ANGLE: Parameter = number(
-    ["angle", "rad", "0.7853981633974483"],
-    [0.0, TAU],
-    "largest angle α₀",
-);
+parameters! { pub(crate) const:
+    ANGLE = "angle", "rad", "0.7853981633974483", number(0.0, TAU, false), "largest angle α₀";
+}
 
 const PARAMETERS: [Parameter; 5] = {
     let [e, nu, rho] = Material::parameters("1e3", "0.3");

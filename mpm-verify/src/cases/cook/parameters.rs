@@ -1,7 +1,7 @@
 //! Parameters of Cook's membrane.
 
 use crate::cases::parameters as common;
-use crate::parameter::{Domain, Parameter, number, parameter};
+use crate::parameter::{Domain, Parameter, number, parameters};
 
 pub(super) use common::{DAMPING, FLIP, PPC_PER_DIRECTION};
 
@@ -10,54 +10,24 @@ pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("
 pub(super) const DENSITY: Parameter = common::DENSITY
     .with_default("1")
     .meaning("density ρ; the state of rest does not depend on it");
-pub(super) const LOAD: Parameter = parameter(
-    "load",
-    "N/m",
-    "1",
-    number(1e-12, 1e12, false),
-    "total upward dead load on the right side, per metre of depth",
-);
-pub(super) const LOAD_RAMP: Parameter = parameter(
-    "load_ramp",
-    "periods",
-    "0.08",
-    number(0.0, 10.0, false),
-    "time over which the load grows, in fundamental periods",
-);
+parameters! { pub(super) const:
+    LOAD = "load", "N/m", "1", number(1e-12, 1e12, false),
+        "total upward dead load on the right side, per metre of depth";
+    LOAD_RAMP = "load_ramp", "periods", "0.08", number(0.0, 10.0, false),
+        "time over which the load grows, in fundamental periods";
+    LOAD_AT = "load_at", "-", COLUMN, Domain::Choice(&[COLUMN, "edge"]),
+        "column: the last column of particles carries the load, at x = 48 m − h/4 for two particles per direction; edge: the last two columns carry 3/2 and −1/2 of it, whose resultant then acts on x = 48 m";
+    KINETIC_DAMPING = "kinetic_damping", "-", "true", Domain::Boolean,
+        "zero the velocities at every peak of the kinetic energy";
+    MAX_PERIODS = "max_periods", "periods", "2", number(1e-3, 1e3, false),
+        "longest time to run, in fundamental periods of 60 s (at the default E and ρ); a run that creeps after one is stopped there";
+    REST_WINDOW = "rest_window", "periods", "0.05", number(1e-3, 10.0, false),
+        "time over which the criterion of rest must hold";
+}
 /// A word of [`LOAD_AT`].
 pub(super) const COLUMN: &str = "column";
-pub(super) const LOAD_AT: Parameter = parameter(
-    "load_at",
-    "-",
-    COLUMN,
-    Domain::Choice(&[COLUMN, "edge"]),
-    "column: the last column of particles carries the load, at x = 48 m − h/4 for two \
-     particles per direction; edge: the last two columns carry 3/2 and −1/2 of it, \
-     whose resultant then acts on x = 48 m",
-);
-pub(super) const KINETIC_DAMPING: Parameter = parameter(
-    "kinetic_damping",
-    "-",
-    "true",
-    Domain::Boolean,
-    "zero the velocities at every peak of the kinetic energy",
-);
 pub(super) const CFL: Parameter = common::CFL.with_default("0.3");
 pub(super) const WALL: Parameter = common::WALL.meaning("how B-splines meet the clamped side");
-pub(super) const MAX_PERIODS: Parameter = parameter(
-    "max_periods",
-    "periods",
-    "2",
-    number(1e-3, 1e3, false),
-    "longest time to run, in fundamental periods of 60 s (at the default E and ρ); a run that creeps after one is stopped there",
-);
-pub(super) const REST_WINDOW: Parameter = parameter(
-    "rest_window",
-    "periods",
-    "0.05",
-    number(1e-3, 10.0, false),
-    "time over which the criterion of rest must hold",
-);
 
 /// All of them.
 pub(super) const ALL: [Parameter; 14] = [

@@ -123,7 +123,7 @@ fn mean_stress() -> ResultTable {
         "footing-mean-stress",
         |r| is_flip(r) && r.is_default() && ["b20", "b40"].contains(&&*r.level),
         &[PAIR, CELLS],
-        m::MEAN_STRESSES.map(column),
+        m::MEAN_STRESSES.iter().copied().map(column),
     )
 }
 

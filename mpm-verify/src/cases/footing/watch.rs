@@ -330,12 +330,12 @@ impl Watch<2> for Pressing {
         ];
         let p = run.particles();
         let references = p.seeded(|k| p.reference[k]);
-        for (metric, point) in MEAN_STRESSES {
+        for &(metric, point) in MEAN_STRESSES {
             let probe = PointProbe::new(&references, point, 2.0 * h);
             let value = probe.map_or(f64::NAN, |p| p.value(&mean_stress));
             values.push((metric, value / self.strength()));
         }
-        for (metric, penetration) in CURVE {
+        for &(metric, penetration) in CURVE {
             let near = |r: &Row| (r.penetration - penetration).abs() <= WINDOW;
             let reached = penetration + WINDOW <= self.end;
             let force = if reached {

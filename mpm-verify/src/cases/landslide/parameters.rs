@@ -1,7 +1,7 @@
 //! Parameters of a slope, and of the slide.
 
 use crate::cases::parameters;
-use crate::parameter::{Domain, Parameter, number, parameter};
+use crate::parameter::{Domain, Parameter, number, parameters};
 
 pub(in crate::cases) const YOUNG_MODULUS: Parameter = Parameter {
     domain: number(1e3, 1e12, false),
@@ -13,29 +13,13 @@ pub(in crate::cases) const DENSITY: Parameter = Parameter {
     domain: number(1e-3, 1e5, false),
     ..parameters::DENSITY.with_default("2150")
 };
-pub(in crate::cases) const HEIGHT: Parameter =
-    parameter("height", "m", "5", number(0.5, 100.0, false), "height H");
-pub(in crate::cases) const CREST: Parameter = parameter(
-    "crest",
-    "m",
-    "10",
-    number(0.5, 200.0, false),
-    "length of the crest behind the face",
-);
-pub(in crate::cases) const FACE_ANGLE: Parameter = parameter(
-    "face_angle",
-    "°",
-    "45",
-    number(5.0, 90.0, false),
-    "angle of the face against the horizontal",
-);
-pub(in crate::cases) const FLOOR: Parameter = parameter(
-    "floor",
-    "m",
-    "30",
-    number(1.0, 500.0, false),
-    "length of the fixed floor before the toe",
-);
+parameters! { pub(in crate::cases) const:
+    HEIGHT = "height", "m", "5", number(0.5, 100.0, false), "height H";
+    CREST = "crest", "m", "10", number(0.5, 200.0, false), "length of the crest behind the face";
+    FACE_ANGLE = "face_angle", "°", "45", number(5.0, 90.0, false),
+        "angle of the face against the horizontal";
+    FLOOR = "floor", "m", "30", number(1.0, 500.0, false), "length of the fixed floor before the toe";
+}
 pub(in crate::cases) const CFL: Parameter = parameters::CFL.with_default("0.35").meaning(
     "largest CFL number c Δt / h of pressure waves; Δt is a whole fraction of 0.01 s, 5·10⁻⁵ s at h = 0.2 m",
 );
@@ -46,57 +30,24 @@ pub(in crate::cases) const PPC_PER_DIRECTION: Parameter = Parameter {
     ..parameters::PPC_PER_DIRECTION
 };
 
-pub(super) const PEAK_STRENGTH: Parameter = parameter(
-    "peak_strength",
-    "Pa",
-    "40.82e3",
-    number(1.0, 1e12, false),
-    "peak strength κ_p = ‖s‖, √2 times the undrained shear strength",
-);
-pub(super) const RESIDUAL_STRENGTH: Parameter = parameter(
-    "residual_strength",
-    "Pa",
-    "2.45e3",
-    number(1e-3, 1e12, false),
-    "residual strength κ_r = ‖s‖; at most the reduced peak",
-);
-pub(super) const SOFTENING: Parameter = parameter(
-    "softening",
-    "-",
-    "5",
-    number(0.0, 1e3, false),
-    "softening coefficient η of κ = κ_r + (κ_p − κ_r) exp(−η ε)",
-);
-pub(super) const REDUCTION: Parameter = parameter(
-    "reduction",
-    "-",
-    "1.65",
-    number(1.0, 100.0, false),
-    "factor by which the peak strength is divided after the gravity stage",
-);
-pub(super) const RELEASE: Parameter = parameter(
-    "release",
-    "s",
-    "0",
-    number(0.0, 60.0, false),
-    "time over which that factor rises from one; 0: at once",
-);
-pub(super) const DURATION: Parameter = parameter(
-    "duration",
-    "s",
-    "5.5",
-    number(0.01, 60.0, false),
-    "time after the reduction, or from where it begins",
-);
+parameters! { pub(super) const:
+    PEAK_STRENGTH = "peak_strength", "Pa", "40.82e3", number(1.0, 1e12, false),
+        "peak strength κ_p = ‖s‖, √2 times the undrained shear strength";
+    RESIDUAL_STRENGTH = "residual_strength", "Pa", "2.45e3", number(1e-3, 1e12, false),
+        "residual strength κ_r = ‖s‖; at most the reduced peak";
+    SOFTENING = "softening", "-", "5", number(0.0, 1e3, false),
+        "softening coefficient η of κ = κ_r + (κ_p − κ_r) exp(−η ε)";
+    REDUCTION = "reduction", "-", "1.65", number(1.0, 100.0, false),
+        "factor by which the peak strength is divided after the gravity stage";
+    RELEASE = "release", "s", "0", number(0.0, 60.0, false),
+        "time over which that factor rises from one; 0: at once";
+    DURATION = "duration", "s", "5.5", number(0.01, 60.0, false),
+        "time after the reduction, or from where it begins";
+    WIDTH = "width", "m", "0", number(0.0, 1000.0, false),
+        "width, a whole number of cells; 0 stands for that of the level: 5 m, of a slice four cells";
+}
 pub(super) const DAMPING: Parameter = parameters::DAMPING
     .meaning("local damping after the reduction: with it the slope moves without inertia");
-pub(super) const WIDTH: Parameter = parameter(
-    "width",
-    "m",
-    "0",
-    number(0.0, 1000.0, false),
-    "width, a whole number of cells; 0 stands for that of the level: 5 m, of a slice four cells",
-);
 
 /// The parameters in plane strain.
 pub(super) const PARAMETERS: [Parameter; 17] = [

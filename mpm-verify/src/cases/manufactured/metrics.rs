@@ -1,131 +1,47 @@
 //! What is measured of a motion that is known in closed form.
 
-use crate::metric::{Headline, Metric, Quantity, error, headline, metric};
+use crate::metric::{Headline, Quantity, error, headline, metrics};
 
-pub(in crate::cases) const DISPLACEMENT_L2: Metric = metric(
-    "displacement_l2",
-    "m",
-    "rms over the particles of |u − exact u| at the end",
-);
-pub(in crate::cases) const DISPLACEMENT_LINF: Metric =
-    metric("displacement_linf", "m", "largest |u − exact u| at the end");
-pub(in crate::cases) const VELOCITY_L2: Metric = metric(
-    "velocity_l2",
-    "m/s",
-    "rms of |v − exact v| half a step before the end, where velocities live",
-);
-pub(in crate::cases) const VELOCITY_LINF: Metric =
-    metric("velocity_linf", "m/s", "largest such error");
-pub(in crate::cases) const STRESS_L2: Metric = metric(
-    "stress_l2",
-    "Pa",
-    "rms of the Frobenius norm of the error of the Cauchy stress, as it enters the forces",
-);
-pub(in crate::cases) const STRESS_LINF: Metric = metric("stress_linf", "Pa", "largest such error");
-pub(in crate::cases) const MEAN_STRESS_L2: Metric = metric(
-    "mean_stress_l2",
-    "Pa",
-    "rms error of the mean normal stress; of an isochoric motion, the spurious pressure",
-);
-pub(in crate::cases) const MEAN_STRESS_LINF: Metric =
-    metric("mean_stress_linf", "Pa", "largest such error");
-pub(in crate::cases) const DISPLACEMENT_SCALE: Metric = metric(
-    "displacement_scale",
-    "m",
-    "largest rms over the particles of the exact u since the start",
-);
-pub(in crate::cases) const DISPLACEMENT_RATIO: Metric = metric(
-    "displacement_ratio",
-    "-",
-    "projection of the displacement on the exact one, over it",
-);
-pub(in crate::cases) const VELOCITY_RATIO: Metric =
-    metric("velocity_ratio", "-", "likewise of the velocity");
-pub(in crate::cases) const ENERGY_GAIN: Metric = metric(
-    "energy_gain",
-    "-",
-    "largest rise of kinetic + stored energy − work of the loads over its start, relative to the largest kinetic energy",
-);
-pub(in crate::cases) const ENERGY_LOSS: Metric =
-    metric("energy_loss", "-", "largest fall, likewise");
-pub(in crate::cases) const ENERGY_END: Metric =
-    metric("energy_end", "-", "rise at the end, likewise");
-pub(in crate::cases) const KINETIC_ENERGY_PEAK: Metric =
-    metric("kinetic_energy_peak", "J", "largest kinetic energy");
-pub(in crate::cases) const LOG_JACOBIAN_GAP: Metric =
-    metric("log_jacobian_gap", "-", "rms ln(J/J̄) at the end");
-pub(in crate::cases) const MASS: Metric = metric(
-    "mass",
-    "kg",
-    "mass of the particles, per metre in plane strain and per square metre in uniaxial strain",
-);
-pub(in crate::cases) const BODY_MASS: Metric = metric(
-    "body_mass",
-    "kg",
-    "ρ₀ times the volume of the body, likewise",
-);
-pub(in crate::cases) const DAMPING: Metric = metric("damping", "-", "−ln amplitude_ratio");
-pub(in crate::cases) const FREQUENCY_RATIO: Metric = metric(
-    "frequency_ratio",
-    "-",
-    "frequency of the standing wave, from the zeros of its displacement, over the exact one",
-);
-pub(in crate::cases) const FREQUENCY_ERROR: Metric =
-    metric("frequency_error", "-", "|frequency_ratio − 1|");
-pub(in crate::cases) const AMPLITUDE_RATIO: Metric = metric(
-    "amplitude_ratio",
-    "-",
-    "largest displacement in the shape of the wave in the last period, over that in the first",
-);
-pub(in crate::cases) const J_DRIFT_PER_1E5_STEPS: Metric = metric(
-    "j_drift_per_1e5_steps",
-    "-",
-    "largest change of a cell's mean J̄ (J without a remedy) per 10⁵ steps",
-);
-pub(in crate::cases) const TRUE_J_DRIFT_PER_1E5_STEPS: Metric = metric(
-    "true_j_drift_per_1e5_steps",
-    "-",
-    "largest change of a cell's mean J per 10⁵ steps",
-);
-pub(in crate::cases) const KINETIC_GROWTH: Metric = metric(
-    "kinetic_growth",
-    "-",
-    "largest kinetic energy in the last third of the run over that in the middle third",
-);
-pub(in crate::cases) const BASE_PRESSURE: Metric = metric(
-    "base_pressure",
-    "Pa",
-    "pressure at the floor, by a straight line through the lower half",
-);
-
-pub(super) const METRICS: &[Metric] = &[
-    DISPLACEMENT_L2,
-    DISPLACEMENT_LINF,
-    VELOCITY_L2,
-    VELOCITY_LINF,
-    STRESS_L2,
-    STRESS_LINF,
-    MEAN_STRESS_L2,
-    MEAN_STRESS_LINF,
-    DISPLACEMENT_SCALE,
-    DISPLACEMENT_RATIO,
-    VELOCITY_RATIO,
-    ENERGY_GAIN,
-    ENERGY_LOSS,
-    ENERGY_END,
-    KINETIC_ENERGY_PEAK,
-    LOG_JACOBIAN_GAP,
-    MASS,
-    BODY_MASS,
-    DAMPING,
-    FREQUENCY_RATIO,
-    FREQUENCY_ERROR,
-    AMPLITUDE_RATIO,
-    J_DRIFT_PER_1E5_STEPS,
-    TRUE_J_DRIFT_PER_1E5_STEPS,
-    KINETIC_GROWTH,
-    BASE_PRESSURE,
-];
+metrics! { pub(in crate::cases) METRICS:
+    DISPLACEMENT_L2 = "displacement_l2", "m", "rms over the particles of |u − exact u| at the end";
+    DISPLACEMENT_LINF = "displacement_linf", "m", "largest |u − exact u| at the end";
+    VELOCITY_L2 = "velocity_l2", "m/s",
+        "rms of |v − exact v| half a step before the end, where velocities live";
+    VELOCITY_LINF = "velocity_linf", "m/s", "largest such error";
+    STRESS_L2 = "stress_l2", "Pa",
+        "rms of the Frobenius norm of the error of the Cauchy stress, as it enters the forces";
+    STRESS_LINF = "stress_linf", "Pa", "largest such error";
+    MEAN_STRESS_L2 = "mean_stress_l2", "Pa",
+        "rms error of the mean normal stress; of an isochoric motion, the spurious pressure";
+    MEAN_STRESS_LINF = "mean_stress_linf", "Pa", "largest such error";
+    DISPLACEMENT_SCALE = "displacement_scale", "m",
+        "largest rms over the particles of the exact u since the start";
+    DISPLACEMENT_RATIO = "displacement_ratio", "-",
+        "projection of the displacement on the exact one, over it";
+    VELOCITY_RATIO = "velocity_ratio", "-", "likewise of the velocity";
+    ENERGY_GAIN = "energy_gain", "-",
+        "largest rise of kinetic + stored energy − work of the loads over its start, relative to the largest kinetic energy";
+    ENERGY_LOSS = "energy_loss", "-", "largest fall, likewise";
+    ENERGY_END = "energy_end", "-", "rise at the end, likewise";
+    KINETIC_ENERGY_PEAK = "kinetic_energy_peak", "J", "largest kinetic energy";
+    LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
+    MASS = "mass", "kg",
+        "mass of the particles, per metre in plane strain and per square metre in uniaxial strain";
+    BODY_MASS = "body_mass", "kg", "ρ₀ times the volume of the body, likewise";
+    DAMPING = "damping", "-", "−ln amplitude_ratio";
+    FREQUENCY_RATIO = "frequency_ratio", "-",
+        "frequency of the standing wave, from the zeros of its displacement, over the exact one";
+    FREQUENCY_ERROR = "frequency_error", "-", "|frequency_ratio − 1|";
+    AMPLITUDE_RATIO = "amplitude_ratio", "-",
+        "largest displacement in the shape of the wave in the last period, over that in the first";
+    J_DRIFT_PER_1E5_STEPS = "j_drift_per_1e5_steps", "-",
+        "largest change of a cell's mean J̄ (J without a remedy) per 10⁵ steps";
+    TRUE_J_DRIFT_PER_1E5_STEPS = "true_j_drift_per_1e5_steps", "-",
+        "largest change of a cell's mean J per 10⁵ steps";
+    KINETIC_GROWTH = "kinetic_growth", "-",
+        "largest kinetic energy in the last third of the run over that in the middle third";
+    BASE_PRESSURE = "base_pressure", "Pa", "pressure at the floor, by a straight line through the lower half";
+}
 
 /// What the table of results shows.
 pub(super) const HEADLINES: &[Headline] = &[

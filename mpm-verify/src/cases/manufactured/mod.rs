@@ -13,7 +13,7 @@ use crate::case::Case;
 use crate::error::Error;
 use crate::exact::Exact;
 use crate::job::Job;
-use crate::parameter::{Domain, Parameter, Parameters, number, parameter};
+use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use crate::spec::{Level, RunSpec};
 use metrics::{ERRORS, HEADLINES, METRICS};
 use mpm_core::stage::WallKind;
@@ -114,13 +114,13 @@ pub(super) fn levels() -> Vec<Level> {
     )
 }
 
-pub(super) const DURATION: Parameter = parameter(
-    "duration",
-    "s",
-    "1",
-    number(1e-9, 1e6, false),
-    "time to run",
-);
+parameters! { pub(super) const:
+    DURATION = "duration", "s", "1", number(1e-9, 1e6, false), "time to run";
+    RELAXATION = "relaxation", "-", "10", number(0.0, 1e9, false),
+        "relaxation β of the remedy fbar-consistent";
+    STEP_POISSON_RATIO = "step_poisson_ratio", "-", "0.49", number(0.0, 0.5, true),
+        "the time step is that of a body with this Poisson's ratio, if the body's own is lower: runs at several ratios then differ in nothing else";
+}
 pub(super) const CFL: Parameter = Parameter {
     domain: number(1e-4, 1.0, true),
     ..parameters::CFL.with_default("0.3").meaning(
@@ -133,21 +133,6 @@ pub(super) const PPC_PER_DIRECTION: Parameter = Parameter {
 };
 const FLIP: Parameter =
     parameters::FLIP.meaning("PIC/FLIP blend η of the transfer flip: 1 is FLIP");
-pub(super) const RELAXATION: Parameter = parameter(
-    "relaxation",
-    "-",
-    "10",
-    number(0.0, 1e9, false),
-    "relaxation β of the remedy fbar-consistent",
-);
-/// The Poisson's ratio that sets the time step of isochoric problems.
-pub(super) const STEP_POISSON_RATIO: Parameter = parameter(
-    "step_poisson_ratio",
-    "-",
-    "0.49",
-    number(0.0, 0.5, true),
-    "the time step is that of a body with this Poisson's ratio, if the body's own is lower: runs at several ratios then differ in nothing else",
-);
 
 /// The parameters of a solution, with other defaults for some; those of every such problem, with the time to run (s);
 /// and the problem's own.

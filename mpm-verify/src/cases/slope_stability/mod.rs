@@ -13,8 +13,8 @@ use super::landslide::parameters::{
     YOUNG_MODULUS,
 };
 use crate::case::{Case, Tier};
-use crate::metric::{Metric, error, headline, metric};
-use crate::parameter::{Domain, Parameter, number, parameter};
+use crate::metric::{error, headline, metrics};
+use crate::parameter::{Domain, Parameter, number, parameters};
 use crate::scheme::{BasisName, RemedyName};
 use crate::spec::Level;
 use watch::Trials;
@@ -23,27 +23,13 @@ use BasisName::{Bspline2, Gimp};
 use RemedyName::{FbarConsistent, FbarRecursive};
 use Tier::{Long, Nightly, Pr};
 
-const STRENGTH: Parameter = parameter(
-    "strength",
-    "Pa",
-    "40.82e3",
-    number(1.0, 1e12, false),
-    "strength κ = ‖s‖, √2 times the undrained shear strength",
-);
-const MOST: Parameter = parameter(
-    "most",
-    "-",
-    "3",
-    number(1.1, 100.0, false),
-    "largest factor that is tried",
-);
-const TRIALS: Parameter = parameter(
-    "trials",
-    "-",
-    "8",
-    Domain::Integer { least: 1, most: 20 },
-    "trials: the largest factor, then bisection",
-);
+parameters! { const:
+    STRENGTH = "strength", "Pa", "40.82e3", number(1.0, 1e12, false),
+        "strength κ = ‖s‖, √2 times the undrained shear strength";
+    MOST = "most", "-", "3", number(1.1, 100.0, false), "largest factor that is tried";
+    TRIALS = "trials", "-", "8", Domain::Integer { least: 1, most: 20 },
+        "trials: the largest factor, then bisection";
+}
 
 const PARAMETERS: [Parameter; 13] = [
     YOUNG_MODULUS,
@@ -61,24 +47,17 @@ const PARAMETERS: [Parameter; 13] = [
     PPC_PER_DIRECTION,
 ];
 
-const STRENGTH_REDUCTION_FACTOR: Metric = metric(
-    "strength_reduction_factor",
-    "-",
-    "middle of the factors between which the slope first fails; the largest tried, if it stands",
-);
-const FACTOR_ERROR: Metric = metric(
-    "factor_error",
-    "-",
-    "relative distance of that from the factor of limit analysis, which is known to half a per cent; none where the slope stands at the largest factor or has another angle than 45°",
-);
-const STANDS_AT: Metric = metric("stands_at", "-", "largest factor at which the slope stands");
-const FAILS_AT: Metric = metric("fails_at", "-", "least factor at which it fails");
-const MOVED_STANDING: Metric = metric(
-    "moved_standing",
-    "m",
-    "largest displacement since the reduction at the largest factor at which it stands",
-);
-const MASS: Metric = metric("mass", "kg/m", "mass of the ground");
+metrics! { METRICS:
+    STRENGTH_REDUCTION_FACTOR = "strength_reduction_factor", "-",
+        "middle of the factors between which the slope first fails; the largest tried, if it stands";
+    FACTOR_ERROR = "factor_error", "-",
+        "relative distance of that from the factor of limit analysis, which is known to half a per cent; none where the slope stands at the largest factor or has another angle than 45°";
+    STANDS_AT = "stands_at", "-", "largest factor at which the slope stands";
+    FAILS_AT = "fails_at", "-", "least factor at which it fails";
+    MOVED_STANDING = "moved_standing", "m",
+        "largest displacement since the reduction at the largest factor at which it stands";
+    MASS = "mass", "kg/m", "mass of the ground";
+}
 
 fn levels() -> [Level; 3] {
     [("h0.4", 0.4), ("h0.2", 0.2), ("h0.1", 0.1)].map(|(name, h)| Level { name, h })
@@ -112,14 +91,7 @@ pub(super) fn case() -> Case {
             family(Long, &levels[2..], &all, &[]),
         ],
         levels: levels.to_vec(),
-        metrics: vec![
-            STRENGTH_REDUCTION_FACTOR,
-            FACTOR_ERROR,
-            STANDS_AT,
-            FAILS_AT,
-            MOVED_STANDING,
-            MASS,
-        ],
+        metrics: METRICS.to_vec(),
         checks: checks::checks(),
         headlines: vec![
             headline(STRENGTH_REDUCTION_FACTOR, "factor (–)", 1.0, 3),

@@ -194,7 +194,7 @@ fn the_curve_is_that_of_the_elements() {
 fn the_mean_stress_is_that_of_the_elements_to_a_cells_gradient() {
     let outcome = |cells: f64| {
         let mut record = run(OURS, 0.05, &[], &[]);
-        for (metric, x) in MEAN_STRESSES {
+        for &(metric, x) in MEAN_STRESSES {
             let point = mean_stress_at(x).unwrap();
             let value = point.value + point.uncertainty + cells * 0.05 * GRADIENT;
             let measured = crate::record::Measured {
