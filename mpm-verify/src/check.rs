@@ -1,5 +1,6 @@
 //! What a case checks: each check is named once, and carries what it is decided by.
 
+use crate::metric::Metric;
 use crate::record::Record;
 use crate::verdict::{Kind, Outcome, Verdict};
 
@@ -94,6 +95,37 @@ pub(crate) fn run(found: impl Fn(&Record) -> Vec<Finding> + Send + Sync + 'stati
 /// A check on the runs of a case together.
 pub(crate) fn study(found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static) -> On {
     On::Study(Box::new(found))
+}
+
+/// A metric of a run, to be held against something.
+pub(crate) fn judge(record: &Record, metric: Metric) -> Judged {
+    Judged {
+        metric,
+        value: record.metric(metric),
+    }
+}
+
+/// See [`judge`].
+pub(crate) struct Judged {
+    metric: Metric,
+    value: f64,
+}
+
+impl Judged {
+    /// |value − reference| ≤ tolerance.
+    pub(crate) fn within(self, reference: f64, tolerance: f64, why: impl Into<String>) -> Finding {
+        Finding::within(self.metric, self.value, reference, tolerance, why)
+    }
+
+    /// value ≤ bound.
+    pub(crate) fn at_most(self, bound: f64, why: impl Into<String>) -> Finding {
+        Finding::at_most(self.metric, self.value, bound, why)
+    }
+
+    /// value > bound.
+    pub(crate) fn above(self, bound: f64, why: impl Into<String>) -> Finding {
+        Finding::above(self.metric, self.value, bound, why)
+    }
 }
 
 /// What a check has found; the judge adds whose finding it is.

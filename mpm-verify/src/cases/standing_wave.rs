@@ -10,7 +10,7 @@ use super::manufactured::metrics::{
 };
 use super::manufactured::{Boundary, DURATION, Manufactured, PPC_PER_DIRECTION, all_parameters};
 use crate::case::{Case, Tier};
-use crate::check::{Check, Finding, run};
+use crate::check::{Check, Finding, judge, run};
 use crate::error::Error;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{ENTRY, HALF_WAVES, StandingWave, WIDTH};
@@ -198,12 +198,7 @@ fn checks() -> Vec<Check> {
             "none with GIMP: the frequency is off by more than ½ (kh)² + 1 %",
             run(|r| {
                 let why = "every particle's volume is a constraint";
-                let found = Finding::above(
-                    FREQUENCY_ERROR,
-                    r.metric(FREQUENCY_ERROR),
-                    tolerance(r),
-                    why,
-                );
+                let found = judge(r, FREQUENCY_ERROR).above(tolerance(r), why);
                 let locks = r.remedy() == RemedyName::None && r.basis() == Gimp;
                 locks.then_some(found).into_iter().collect()
             }),
@@ -223,8 +218,7 @@ fn checks() -> Vec<Check> {
             "F̄ over twenty periods, where it doesn't break down: rms ln(J/J̄) above 0.1 at the end",
             run(|r| {
                 let why = "what Π can't see has little stiffness: J parts from J̄ (docs/modes.md)";
-                let found =
-                    Finding::above(LOG_JACOBIAN_GAP, r.metric(LOG_JACOBIAN_GAP), PARTED, why);
+                let found = judge(r, LOG_JACOBIAN_GAP).above(PARTED, why);
                 let long = r.remedy() != RemedyName::None && !is_short(r);
                 long.then_some(found).into_iter().collect()
             }),
@@ -234,7 +228,7 @@ fn checks() -> Vec<Check> {
             "none and fbar-consistent: kinetic + stored − gravity's energy never above its start by more than 2 % of the largest kinetic energy: the offset by half a step and the sound of the start",
             run(|r| {
                 let why = "the force takes what is stored";
-                let found = Finding::at_most(ENERGY_GAIN, r.metric(ENERGY_GAIN), 0.02, why);
+                let found = judge(r, ENERGY_GAIN).at_most(0.02, why);
                 let keeps = matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent);
                 keeps.then_some(found).into_iter().collect()
             }),

@@ -10,7 +10,7 @@ use super::manufactured::metrics::{
 use super::manufactured::{Manufactured, all_parameters};
 use super::mms_vortex_box::{NULL_SPACE, feeds_null_space};
 use crate::case::{Case, Tier};
-use crate::check::{Check, Finding, run, study};
+use crate::check::{Check, Finding, judge, run, study};
 use crate::exact::vibrating_bar::{ENTRY, LENGTH, VibratingBar};
 use crate::metric::{Metric, error, headline};
 use crate::parameter::Parameters;
@@ -134,7 +134,7 @@ fn checks() -> Vec<Check> {
             run(|r| {
                 let why =
                     "Eq. (26) diffuses J with D = ½ s² h²/Δt: the strain fades at the rate D k²";
-                let found = Finding::above(ENERGY_LOSS, r.metric(ENERGY_LOSS), 0.9, why);
+                let found = judge(r, ENERGY_LOSS).above(0.9, why);
                 let fades = r.remedy() == RemedyName::FbarRecursive;
                 fades.then_some(found).into_iter().collect()
             }),
@@ -144,7 +144,7 @@ fn checks() -> Vec<Check> {
             "cubic splines with F̄ but fbar-recursive: less than half of the amplitude is left after a hundred periods",
             run(|r| {
                 let why = "the lumped mass of cubics next to a wall has its centre off the node";
-                let found = Finding::at_most(AMPLITUDE_RATIO, r.metric(AMPLITUDE_RATIO), HALF, why);
+                let found = judge(r, AMPLITUDE_RATIO).at_most(HALF, why);
                 (is_cubic(r) && !feeds_null_space(r))
                     .then_some(found)
                     .into_iter()
@@ -165,7 +165,7 @@ fn checks() -> Vec<Check> {
             run(|r| {
                 let phase = frequency(&r.parameters) * r.discretisation.dt;
                 let why = "velocities live half a step before positions: ½ ωΔt";
-                let found = Finding::at_most(ENERGY_GAIN, r.metric(ENERGY_GAIN), 0.5 * phase, why);
+                let found = judge(r, ENERGY_GAIN).at_most(0.5 * phase, why);
                 let keeps = matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent);
                 keeps.then_some(found).into_iter().collect()
             }),
@@ -189,7 +189,7 @@ fn of_frequency(r: &Record) -> Finding {
         return Finding::not_applicable(FREQUENCY_ERROR, why);
     }
     let bound = 0.5 * resolution(r).powi(2);
-    Finding::at_most(FREQUENCY_ERROR, r.metric(FREQUENCY_ERROR), bound, "½ (kh)²")
+    judge(r, FREQUENCY_ERROR).at_most(bound, "½ (kh)²")
 }
 
 fn claim_of_frequency(r: &Record) -> Claim {

@@ -108,10 +108,6 @@ impl Exact for AxisAligned {
         self.material
     }
 
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
-    }
-
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
         self.each(|i| self.amplitude * (self.wave_number * x[i]).sin() * self.growth(i, t))
     }

@@ -74,16 +74,8 @@ impl DoubleShear {
 }
 
 impl Exact for DoubleShear {
-    fn dimension(&self) -> usize {
-        2
-    }
-
     fn material(&self) -> Material {
         self.material
-    }
-
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
     }
 
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {

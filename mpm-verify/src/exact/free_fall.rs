@@ -52,10 +52,6 @@ impl Exact for FreeFall {
         self.material
     }
 
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
-    }
-
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
         self.body_force(x, t) * (0.5 * t * t)
     }

@@ -76,10 +76,6 @@ impl Hydrostatic {
 }
 
 impl Exact for Hydrostatic {
-    fn dimension(&self) -> usize {
-        2
-    }
-
     fn material(&self) -> Material {
         Material {
             density: self.density,

@@ -34,11 +34,9 @@ pub use patch::Patch;
 pub use rigid::{Rotation, Translation};
 pub use slope::Slope;
 pub use standing_wave::StandingWave;
-pub use swirl::Swirl;
+pub use twist::Vortex;
 pub use vibrating_bar::VibratingBar;
-pub use vortex_box::VortexBox;
 pub use vortex_pressure::VortexPressure;
-pub use vortex_ring::VortexRing;
 pub use wall_pressure::WallPressure;
 
 use crate::error::Error;
@@ -50,14 +48,18 @@ use std::fmt;
 /// An exact solution. Reference points have three components, of which those beyond
 /// [`Exact::dimension`] are ignored; a motion in fewer dimensions is one of uniaxial or plane strain.
 pub trait Exact: fmt::Debug + Send + Sync {
-    /// Dimension of the motion: 1 (uniaxial strain), 2 (plane strain) or 3.
-    fn dimension(&self) -> usize;
+    /// Dimension of the motion: 1 (uniaxial strain), 2 (plane strain, unless said) or 3.
+    fn dimension(&self) -> usize {
+        2
+    }
 
     /// Density and moduli.
     fn material(&self) -> Material;
 
-    /// Least and greatest reference coordinate of the body on each axis of the motion (m).
-    fn extent(&self) -> [[f64; 2]; 3];
+    /// Least and greatest reference coordinate of the body on each axis of the motion (m); a unit cube unless said.
+    fn extent(&self) -> [[f64; 2]; 3] {
+        [[0.0, 1.0]; 3]
+    }
 
     /// Displacement u = x − X (m).
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64>;

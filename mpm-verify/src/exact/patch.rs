@@ -87,16 +87,8 @@ fn least_jacobian(trace: f64, determinant: f64) -> f64 {
 }
 
 impl Exact for Patch {
-    fn dimension(&self) -> usize {
-        2
-    }
-
     fn material(&self) -> Material {
         self.material
-    }
-
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
     }
 
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {

@@ -75,16 +75,8 @@ impl Translation {
 }
 
 impl Exact for Translation {
-    fn dimension(&self) -> usize {
-        2
-    }
-
     fn material(&self) -> Material {
         self.material
-    }
-
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
     }
 
     fn displacement(&self, _: &Vector3<f64>, t: f64) -> Vector3<f64> {
@@ -124,16 +116,8 @@ impl Rotation {
 }
 
 impl Exact for Rotation {
-    fn dimension(&self) -> usize {
-        2
-    }
-
     fn material(&self) -> Material {
         self.material
-    }
-
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
     }
 
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {

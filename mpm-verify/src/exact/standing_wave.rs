@@ -144,10 +144,6 @@ impl StandingWave {
 }
 
 impl Exact for StandingWave {
-    fn dimension(&self) -> usize {
-        2
-    }
-
     fn material(&self) -> Material {
         Material {
             density: self.density,

@@ -6,30 +6,17 @@
 //! b_r = −R α_t² + (μ/ρ₀) R (α_R² + α_Z²), b_θ = R α_tt − (μ/ρ₀) (3 α_R + R α_RR + R α_ZZ), b_z = 0.
 
 use super::parameters::ANGULAR_FREQUENCY;
-use super::twist::{Angle, Twist, Vortex};
-use super::vortex_box::{ANGLE, profile};
-use super::{Entry, Material, sine};
-use crate::error::Error;
-use crate::parameter::{Parameter, Parameters};
-use nalgebra::Vector3;
+use super::twist::{ANGLE, Shape, Vortex};
+use super::vortex_box::profile;
+use super::{Entry, Material};
+use crate::parameter::Parameter;
 use std::f64::consts::{PI, TAU};
-
-/// Isochoric swirl in three dimensions.
-#[derive(Debug, Clone, Copy)]
-pub struct Swirl {
-    /// Density and moduli.
-    pub material: Material,
-    /// Angle α₀ at the centre (rad).
-    pub angle: f64,
-    /// Angular frequency ω (rad/s).
-    pub angular_frequency: f64,
-}
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "mms-swirl",
     summary: "isochoric swirl in the unit cube",
     parameters: &PARAMETERS,
-    build: |p| Ok(Box::new(Swirl::new(p)?)),
+    build: |p| Ok(Box::new(Vortex::new(p, SWIRL)?)),
 };
 
 const PARAMETERS: [Parameter; 5] = {
@@ -43,52 +30,27 @@ const PARAMETERS: [Parameter; 5] = {
     ]
 };
 
-impl Swirl {
-    /// The solution of the parameters of `mms-swirl`.
-    ///
-    /// # Errors
-    /// Moduli that the law does not allow.
-    pub fn new(p: &Parameters) -> Result<Self, Error> {
-        Ok(Self {
-            material: Material::new(p)?,
-            angle: p.number(ANGLE),
-            angular_frequency: p.number(ANGULAR_FREQUENCY),
-        })
-    }
-}
-
-impl Vortex for Swirl {
-    fn dimension(&self) -> usize {
-        3
-    }
-
-    fn material(&self) -> Material {
-        self.material
-    }
-
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
-    }
-
-    fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
-        let d = [x.x - 0.5, x.y - 0.5];
-        let angle = Angle {
-            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
-            profile: profile(d),
-            height: [
-                (PI * x.z).sin().powi(2),
-                PI * (TAU * x.z).sin(),
-                2.0 * PI * PI * (TAU * x.z).cos(),
-            ],
-        };
-        Twist::new(d, &angle)
-    }
-}
+/// The vortex of this file.
+const SWIRL: Shape = Shape {
+    dimension: 3,
+    extent: [[0.0, 1.0]; 3],
+    factors: |x| {
+        let arm = [x.x - 0.5, x.y - 0.5];
+        let height = [
+            (PI * x.z).sin().powi(2),
+            PI * (TAU * x.z).sin(),
+            2.0 * PI * PI * (TAU * x.z).cos(),
+        ];
+        (arm, profile(arm), height)
+    },
+};
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::exact::check;
+    use crate::parameter::Parameters;
+    use nalgebra::Vector3;
 
     #[test]
     fn it_solves_the_equations_in_a_fixed_cube() {
@@ -102,7 +64,7 @@ mod tests {
     /// Second derivatives against differences of the first: all that closed forms don't use, too.
     #[test]
     fn the_second_derivatives_are_those_of_the_first() {
-        let s = Swirl::new(&Parameters::new(&PARAMETERS, &[]).unwrap()).unwrap();
+        let s = Vortex::new(&Parameters::new(&PARAMETERS, &[]).unwrap(), SWIRL).unwrap();
         let (x, t) = (Vector3::new(0.6, 0.35, 0.2), 0.3);
         let slopes = check::gradient(&s, &x, |x| s.twist(x, t).first_derivatives());
         let second = s.twist(&x, t).second_derivatives();

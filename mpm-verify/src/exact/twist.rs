@@ -11,8 +11,12 @@
 //! Kamojjala, Brannon, Sadeghirad & Guilkey 2015 (doi:10.1007/s00366-013-0342-x); h as a function of
 //! R² spares the division by R on the axis.
 
-use super::{Exact, Material};
+use super::parameters::ANGULAR_FREQUENCY;
+use super::{Exact, Material, sine};
+use crate::error::Error;
+use crate::parameter::{Parameters, number, parameters};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3, Vector4};
+use std::f64::consts::TAU;
 
 /// The turn by 90° about z.
 const QUARTER: Matrix3<f64> = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -126,32 +130,70 @@ impl Twist {
     }
 }
 
-/// A solution whose every point only turns: isochoric, with u, P and b independent of λ.
-pub(super) trait Vortex: std::fmt::Debug + Send + Sync {
-    /// As [`Exact::dimension`].
-    fn dimension(&self) -> usize;
-
-    /// As [`Exact::material`].
-    fn material(&self) -> Material;
-
-    /// As [`Exact::extent`].
-    fn extent(&self) -> [[f64; 2]; 3];
-
-    /// The motion of the point `x` (m) at time `t` (s).
-    fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist;
+parameters! { pub(crate) const:
+    ANGLE = "angle", "rad", "1", number(0.0, TAU, false), "largest angle α₀";
 }
 
-impl<V: Vortex> Exact for V {
+/// Where and by which factors of α₀ sin ωt the points of a vortex turn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shape {
+    /// As [`Exact::dimension`].
+    pub(super) dimension: usize,
+    /// As [`Exact::extent`].
+    pub(super) extent: [[f64; 2]; 3],
+    /// The arm d (m) from the axis to a reference point, and h and ζ there as in [`Angle`].
+    pub(super) factors: fn(&Vector3<f64>) -> ([f64; 2], [f64; 3], [f64; 3]),
+}
+
+/// A solution whose every point only turns: isochoric, with u, P and b independent of λ.
+#[derive(Debug, Clone, Copy)]
+pub struct Vortex {
+    /// Density and moduli.
+    pub material: Material,
+    /// Largest angle α₀ (rad).
+    pub angle: f64,
+    /// Angular frequency ω (rad/s).
+    pub angular_frequency: f64,
+    shape: Shape,
+}
+
+impl Vortex {
+    /// The vortex of a shape with the parameters of its solution.
+    ///
+    /// # Errors
+    /// Moduli that the law does not allow.
+    pub(super) fn new(p: &Parameters, shape: Shape) -> Result<Self, Error> {
+        Ok(Self {
+            material: Material::new(p)?,
+            angle: p.number(ANGLE),
+            angular_frequency: p.number(ANGULAR_FREQUENCY),
+            shape,
+        })
+    }
+
+    /// The motion of the point `x` (m) at time `t` (s).
+    pub(super) fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
+        let (arm, profile, height) = (self.shape.factors)(x);
+        let angle = Angle {
+            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
+            profile,
+            height,
+        };
+        Twist::new(arm, &angle)
+    }
+}
+
+impl Exact for Vortex {
     fn dimension(&self) -> usize {
-        Vortex::dimension(self)
+        self.shape.dimension
     }
 
     fn material(&self) -> Material {
-        Vortex::material(self)
+        self.material
     }
 
     fn extent(&self) -> [[f64; 2]; 3] {
-        Vortex::extent(self)
+        self.shape.extent
     }
 
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
@@ -171,10 +213,10 @@ impl<V: Vortex> Exact for V {
     }
 
     fn first_piola(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
-        self.twist(x, t).first_piola(Vortex::material(self).mu)
+        self.twist(x, t).first_piola(self.material.mu)
     }
 
     fn body_force(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
-        self.twist(x, t).body_force(&Vortex::material(self))
+        self.twist(x, t).body_force(&self.material)
     }
 }

@@ -7,29 +7,15 @@
 //! solution, is another.
 
 use super::parameters::ANGULAR_FREQUENCY;
-use super::twist::{Angle, PLANE, Twist, Vortex};
-use super::{Entry, Material, sine};
-use crate::error::Error;
-use crate::parameter::{Parameter, Parameters, number, parameters};
-use nalgebra::Vector3;
-use std::f64::consts::TAU;
-
-/// Vortex in a box.
-#[derive(Debug, Clone, Copy)]
-pub struct VortexBox {
-    /// Density and moduli.
-    pub material: Material,
-    /// Angle α₀ at the centre (rad).
-    pub angle: f64,
-    /// Angular frequency ω (rad/s).
-    pub angular_frequency: f64,
-}
+use super::twist::{ANGLE, PLANE, Shape, Vortex};
+use super::{Entry, Material};
+use crate::parameter::Parameter;
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "mms-vortex-box",
     summary: "isochoric vortex in the unit square",
     parameters: &PARAMETERS,
-    build: |p| Ok(Box::new(VortexBox::new(p)?)),
+    build: |p| Ok(Box::new(Vortex::new(p, BOX)?)),
 };
 
 const PARAMETERS: [Parameter; 5] = {
@@ -42,10 +28,6 @@ const PARAMETERS: [Parameter; 5] = {
         ANGULAR_FREQUENCY.with_default("3.141592653589793"),
     ]
 };
-
-parameters! { pub(super) const:
-    ANGLE = "angle", "rad", "1", number(0.0, TAU, false), "largest angle α₀";
-}
 
 /// Radius R₀ of the vortex (m).
 const RADIUS: f64 = 0.4;
@@ -63,48 +45,21 @@ pub(super) fn profile(d: [f64; 2]) -> [f64; 3] {
     ]
 }
 
-impl VortexBox {
-    /// The solution of the parameters of `mms-vortex-box`.
-    ///
-    /// # Errors
-    /// Moduli that the law does not allow.
-    pub fn new(p: &Parameters) -> Result<Self, Error> {
-        Ok(Self {
-            material: Material::new(p)?,
-            angle: p.number(ANGLE),
-            angular_frequency: p.number(ANGULAR_FREQUENCY),
-        })
-    }
-}
-
-impl Vortex for VortexBox {
-    fn dimension(&self) -> usize {
-        2
-    }
-
-    fn material(&self) -> Material {
-        self.material
-    }
-
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
-    }
-
-    fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
-        let d = [x.x - 0.5, x.y - 0.5];
-        let angle = Angle {
-            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
-            profile: profile(d),
-            height: PLANE,
-        };
-        Twist::new(d, &angle)
-    }
-}
+/// The vortex of this file.
+pub(super) const BOX: Shape = Shape {
+    dimension: 2,
+    extent: [[0.0, 1.0]; 3],
+    factors: |x| {
+        let arm = [x.x - 0.5, x.y - 0.5];
+        (arm, profile(arm), PLANE)
+    },
+};
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::exact::check;
+    use nalgebra::Vector3;
 
     #[test]
     fn it_solves_the_equations_in_a_fixed_box() {

@@ -1,7 +1,7 @@
 //! Vortex in a box with a bounded pressure: nearly isochoric, for finding the right pressure and not
 //! merely a small one; derived here.
 //!
-//! Before the point turns as in [`VortexBox`], the body is stretched along each axis:
+//! Before the point turns as in [the vortex in a box](super::vortex_box), the body is stretched along each axis:
 //! X̂_i = X_i + ε sin(kX_i) sin ωt, ε = p₀/(λk), k = 2π, x = x_vortex(X̂, t). So
 //! J = Π (1 + ε k cos kX_i sin ωt), and λ ln J → p₀ sin ωt (cos kX + cos kY) as λ → ∞. The sides are
 //! rollers. b comes from the generic formula, with F, its gradients and a by the chain rule: with
@@ -10,8 +10,8 @@
 //! x,AB = Σ_ab x,ab X̂_a,A X̂_b,B + Σ_a x,a X̂_a,AB.
 
 use super::parameters::ANGULAR_FREQUENCY;
-use super::twist::Vortex;
-use super::vortex_box::{ANGLE, VortexBox};
+use super::twist::{ANGLE, Vortex};
+use super::vortex_box::BOX;
 use super::{Entry, Exact, INVERTS, Material, require_below, sine};
 use crate::error::Error;
 use crate::parameter::{Parameter, Parameters, number, parameters};
@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 #[derive(Debug, Clone, Copy)]
 pub struct VortexPressure {
     /// The vortex.
-    pub vortex: VortexBox,
+    pub vortex: Vortex,
     /// Amplitude p₀ of the pressure (Pa).
     pub pressure: f64,
 }
@@ -65,7 +65,7 @@ impl VortexPressure {
     /// # Errors
     /// A pressure of λ or more.
     pub fn new(p: &Parameters) -> Result<Self, Error> {
-        let vortex = VortexBox::new(p)?;
+        let vortex = Vortex::new(p, BOX)?;
         let pressure = p.number(PRESSURE);
         require_below(
             ["pressure", "Pa", INVERTS],
@@ -106,16 +106,8 @@ impl VortexPressure {
 }
 
 impl Exact for VortexPressure {
-    fn dimension(&self) -> usize {
-        2
-    }
-
     fn material(&self) -> Material {
         self.vortex.material
-    }
-
-    fn extent(&self) -> [[f64; 2]; 3] {
-        Exact::extent(&self.vortex)
     }
 
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {

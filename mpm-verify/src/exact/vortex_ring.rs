@@ -8,35 +8,19 @@
 //! depend on λ.
 
 use super::parameters::ANGULAR_FREQUENCY;
-use super::twist::{Angle, PLANE, Twist, Vortex};
-use super::{Entry, Material, sine};
-use crate::error::Error;
-use crate::parameter::{Parameter, Parameters, number, parameters};
-use nalgebra::Vector3;
-use std::f64::consts::TAU;
-
-/// Generalised vortex in a ring.
-#[derive(Debug, Clone, Copy)]
-pub struct VortexRing {
-    /// Density and moduli.
-    pub material: Material,
-    /// Largest angle α₀ (rad).
-    pub angle: f64,
-    /// Angular frequency ω (rad/s).
-    pub angular_frequency: f64,
-}
+use super::twist::{self, PLANE, Shape, Vortex};
+use super::{Entry, Material};
+use crate::parameter::Parameter;
 
 pub(crate) const ENTRY: Entry = Entry {
     name: "mms-vortex-ring",
     summary: "isochoric vortex in a ring, material at rest around it",
     parameters: &PARAMETERS,
-    build: |p| Ok(Box::new(VortexRing::new(p)?)),
+    build: |p| Ok(Box::new(Vortex::new(p, RING)?)),
 };
 
 // π/4.
-parameters! { pub(crate) const:
-    ANGLE = "angle", "rad", "0.7853981633974483", number(0.0, TAU, false), "largest angle α₀";
-}
+pub(crate) const ANGLE: Parameter = twist::ANGLE.with_default("0.7853981633974483");
 
 const PARAMETERS: [Parameter; 5] = {
     let [e, nu, rho] = Material::parameters("1e3", "0.3");
@@ -48,20 +32,6 @@ const PARAMETERS: [Parameter; 5] = {
         ANGULAR_FREQUENCY.with_default("3.141592653589793"),
     ]
 };
-
-impl VortexRing {
-    /// The solution of the parameters of `mms-vortex-ring`.
-    ///
-    /// # Errors
-    /// Moduli that the law does not allow.
-    pub fn new(p: &Parameters) -> Result<Self, Error> {
-        Ok(Self {
-            material: Material::new(p)?,
-            angle: p.number(ANGLE),
-            angular_frequency: p.number(ANGULAR_FREQUENCY),
-        })
-    }
-}
 
 /// h and its derivatives by R², from h′ and h″ by R: h′/(2R) and (h″ − h′/R)/(4R²).
 fn profile(r: f64) -> [f64; 3] {
@@ -75,33 +45,18 @@ fn profile(r: f64) -> [f64; 3] {
     [h, h_r / (2.0 * r), (h_rr - h_r / r) / (4.0 * r * r)]
 }
 
-impl Vortex for VortexRing {
-    fn dimension(&self) -> usize {
-        2
-    }
-
-    fn material(&self) -> Material {
-        self.material
-    }
-
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[-1.5, 1.5]; 3]
-    }
-
-    fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
-        let angle = Angle {
-            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
-            profile: profile(x.x.hypot(x.y)),
-            height: PLANE,
-        };
-        Twist::new([x.x, x.y], &angle)
-    }
-}
+/// The vortex of this file.
+const RING: Shape = Shape {
+    dimension: 2,
+    extent: [[-1.5, 1.5]; 3],
+    factors: |x| ([x.x, x.y], profile(x.x.hypot(x.y)), PLANE),
+};
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::exact::check;
+    use nalgebra::Vector3;
 
     #[test]
     fn it_solves_the_equations_away_from_the_circles() {

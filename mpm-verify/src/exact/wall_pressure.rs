@@ -89,10 +89,6 @@ impl Exact for WallPressure {
         self.material
     }
 
-    fn extent(&self) -> [[f64; 2]; 3] {
-        [[0.0, 1.0]; 3]
-    }
-
     fn displacement(&self, x: &Vector3<f64>, t: f64) -> Vector3<f64> {
         self.shape(x) * sine(self.angular_frequency, t)[0]
     }

@@ -15,7 +15,7 @@ use super::manufactured::{
 };
 use super::parameters::DENSITY;
 use crate::case::{Case, Family, Tier};
-use crate::check::{Check, Finding, run};
+use crate::check::{Check, Finding, judge, run};
 use crate::exact::hydrostatic::{ENTRY, HEIGHT};
 use crate::exact::parameters::GRAVITY;
 use crate::metric::headline;
@@ -140,7 +140,7 @@ fn checks() -> Vec<Check> {
                     TRUE_J_DRIFT_PER_1E5_STEPS,
                     "Eq. (26) diffuses J with D = ½ s² h²/Δt",
                 );
-                let found = Finding::above(metric, r.metric(metric), 1e-3, why);
+                let found = judge(r, metric).above(1e-3, why);
                 creeps.then_some(found).into_iter().collect()
             }),
         ),
@@ -151,7 +151,7 @@ fn checks() -> Vec<Check> {
                 let metric = J_DRIFT_PER_1E5_STEPS;
                 let found = if is_long(r) {
                     let why = "the state of rest is one of the equations";
-                    Finding::at_most(metric, r.metric(metric), DRIFT, why)
+                    judge(r, metric).at_most(DRIFT, why)
                 } else {
                     Finding::not_applicable(metric, "the ringing of the start is not a drift")
                 };
@@ -163,7 +163,7 @@ fn checks() -> Vec<Check> {
             "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: the kinetic energy of the last third is more than 100 times that of the middle third",
             run(|r| {
                 let why = "what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/modes.md)";
-                let found = Finding::above(KINETIC_GROWTH, r.metric(KINETIC_GROWTH), GROWN, why);
+                let found = judge(r, KINETIC_GROWTH).above(GROWN, why);
                 (rests(r) && is_long(r) && grows(r))
                     .then_some(found)
                     .into_iter()
@@ -176,7 +176,7 @@ fn checks() -> Vec<Check> {
             run(|r| {
                 let bound = 1.0 + ROUNDING / r.metric(KINETIC_ENERGY_PEAK);
                 let why = "nothing feeds a motion; a random walk of last bits excepted";
-                let found = Finding::at_most(KINETIC_GROWTH, r.metric(KINETIC_GROWTH), bound, why);
+                let found = judge(r, KINETIC_GROWTH).at_most(bound, why);
                 (rests(r) && is_long(r) && !grows(r))
                     .then_some(found)
                     .into_iter()
@@ -192,9 +192,7 @@ fn base_pressure(r: &Record) -> Finding {
         let why = "the column no longer rests: see creep and null-mode-grows";
         return Finding::not_applicable(BASE_PRESSURE, why);
     }
-    Finding::within(
-        BASE_PRESSURE,
-        r.metric(BASE_PRESSURE),
+    judge(r, BASE_PRESSURE).within(
         head * r.parameters.number(HEIGHT),
         0.25 * r.discretisation.h * head,
         "ρ g H; a quarter of a cell's head, by which an average moves the pressure at a wall",

@@ -7,7 +7,7 @@ use super::metrics::{self as m, MEAN_STRESSES};
 use super::parameters::{COLUMN, LOAD, LOAD_AT, POISSON_RATIO, PPC_PER_DIRECTION};
 use super::reference::{Field, LoadShift, Solution, load_shift, solution, stress_scale};
 use super::watch::CREEP;
-use crate::check::{Check, Finding, run, study};
+use crate::check::{Check, Finding, judge, run, study};
 use crate::metric::Metric;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
@@ -61,19 +61,14 @@ pub(super) fn checks() -> Vec<Check> {
             "all: kinetic energy + stress work + losses exceeds the load's work by no more than 0.1 % of it (the oscillation of symplectic Euler at CFL 0.3)",
             run(|r| {
                 let why = "energy balance; symplectic Euler oscillates by ½ Δt times the power";
-                vec![Finding::at_most(
-                    m::ENERGY_GAIN,
-                    r.metric(m::ENERGY_GAIN),
-                    GAIN,
-                    why,
-                )]
+                vec![judge(r, m::ENERGY_GAIN).at_most(GAIN, why)]
             }),
         ),
         Check::known_limit(
             "never-at-rest",
             "fbar-recursive: rest is not reached within a period, by which the others are there",
             run(|r| {
-                let found = Finding::at_most(m::AT_REST, r.metric(m::AT_REST), 0.0, DIFFUSES);
+                let found = judge(r, m::AT_REST).at_most(0.0, DIFFUSES);
                 is_recursive(r).then_some(found).into_iter().collect()
             }),
         ),
@@ -92,7 +87,7 @@ pub(super) fn checks() -> Vec<Check> {
             "none, fbar-total, fbar-rate, fbar-consistent: rest is reached in the time given",
             run(|r| {
                 let why = "a statically loaded elastic body has an equilibrium";
-                let found = Finding::within(m::AT_REST, r.metric(m::AT_REST), 1.0, 0.0, why);
+                let found = judge(r, m::AT_REST).within(1.0, 0.0, why);
                 (!is_recursive(r) && !rests_late(r))
                     .then_some(found)
                     .into_iter()
@@ -104,7 +99,7 @@ pub(super) fn checks() -> Vec<Check> {
             "none, fbar-consistent with XPIC(2) and quadratic splines at h = 2 m: rest is not reached within two periods (within three it is)",
             run(|r| {
                 let why = "what XPIC filters from the velocity in every step creeps";
-                let found = Finding::at_most(m::AT_REST, r.metric(m::AT_REST), 0.0, why);
+                let found = judge(r, m::AT_REST).at_most(0.0, why);
                 (!is_recursive(r) && rests_late(r))
                     .then_some(found)
                     .into_iter()
@@ -117,13 +112,7 @@ pub(super) fn checks() -> Vec<Check> {
             run(|r| {
                 let load = r.parameters.number(LOAD);
                 let (metric, tolerance) = (m::REACTION_UY, REACTION * load.abs());
-                let found = Finding::within(
-                    metric,
-                    r.metric(metric),
-                    -load,
-                    tolerance,
-                    "linear momentum at rest",
-                );
+                let found = judge(r, metric).within(-load, tolerance, "linear momentum at rest");
                 (!is_recursive(r)).then_some(found).into_iter().collect()
             }),
         ),
@@ -135,7 +124,7 @@ pub(super) fn checks() -> Vec<Check> {
                     m::CHECKERBOARD_RATIO,
                     "standard MPM locks: Zhao et al. 2022, Figure 3",
                 );
-                let found = Finding::above(metric, r.metric(metric), LOCKED, why);
+                let found = judge(r, metric).above(LOCKED, why);
                 let gimp = r.remedy() == RemedyName::None && r.basis() == BasisName::Gimp;
                 let locks = gimp && r.parameters.number(POISSON_RATIO) >= NEARLY_INCOMPRESSIBLE.0;
                 locks.then_some(found).into_iter().collect()
@@ -223,7 +212,7 @@ pub(super) fn checks() -> Vec<Check> {
             run(|r| {
                 let (metric, bound) = (m::FEM_MID_EDGE_ERROR, EDGE_TOLERANCE * r.discretisation.h);
                 let why = "averaging a pressure that needs none softens";
-                let found = Finding::above(metric, r.metric(metric), bound, why);
+                let found = judge(r, metric).above(bound, why);
                 let known = is_established(r) && solution(&r.parameters).is_ok();
                 let soft = is_free_of_locking(r) && is_compressible(r) && known;
                 soft.then_some(found).into_iter().collect()
@@ -291,7 +280,7 @@ fn rests_late(r: &Record) -> bool {
 }
 
 fn creeps(r: &Record, metric: Metric, bound: f64) -> Vec<Finding> {
-    let found = Finding::above(metric, r.metric(metric), bound, DIFFUSES);
+    let found = judge(r, metric).above(bound, DIFFUSES);
     is_recursive(r).then_some(found).into_iter().collect()
 }
 
@@ -479,5 +468,5 @@ fn mean_stress_rms(r: &Record) -> Finding {
     let bound = stress_scale(&r.parameters) * moved.hypot(SMOOTH * stress);
     let what = "every point moved by a cell, and the oscillation that smooth-pressure admits";
     let why = format!("{}; {what}", source(reference));
-    Finding::at_most(METRIC, r.metric(METRIC), bound, why)
+    judge(r, METRIC).at_most(bound, why)
 }

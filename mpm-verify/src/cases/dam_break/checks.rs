@@ -8,7 +8,7 @@ use super::reference::{
     DEPTH, GRAVITY, LENGTH, TANK, elastic_energy, energies, greatest_speed, passage, uncertainty,
 };
 use crate::cases::parameters::is_of_own_problem;
-use crate::check::{Check, Finding, run};
+use crate::check::{Check, Finding, judge, run};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
 
@@ -198,13 +198,7 @@ fn particle_count(r: &Record) -> Vec<Finding> {
 
 fn mass(r: &Record) -> Vec<Finding> {
     let mass = r.parameters.number(DENSITY) * LENGTH * DEPTH;
-    vec![Finding::within(
-        m::MASS,
-        r.metric(m::MASS),
-        mass,
-        ROUNDING * mass,
-        "conservation of mass",
-    )]
+    vec![judge(r, m::MASS).within(mass, ROUNDING * mass, "conservation of mass")]
 }
 
 fn volume(r: &Record) -> Vec<Finding> {
@@ -246,7 +240,7 @@ fn base_reaction(r: &Record) -> Vec<Finding> {
         Finding::not_applicable(metric, NOT_AT_REST)
     } else {
         let weight = "weight of the water";
-        Finding::within(metric, r.metric(metric), 1.0, at_rest(r), weight)
+        judge(r, metric).within(1.0, at_rest(r), weight)
     }]
 }
 
@@ -257,7 +251,7 @@ fn gate_force(r: &Record) -> Vec<Finding> {
         Finding::not_applicable(metric, NOT_AT_REST)
     } else {
         let tolerance = at_rest(r) * force;
-        Finding::within(metric, r.metric(metric), force, tolerance, "hydrostatics")
+        judge(r, metric).within(force, tolerance, "hydrostatics")
     }]
 }
 
@@ -280,7 +274,7 @@ fn profile_bound(record: &Record) -> f64 {
 
 fn pressure_profile(r: &Record) -> Vec<Finding> {
     let metric = m::PRESSURE_PROFILE_ERROR;
-    let found = || Finding::at_most(metric, r.metric(metric), profile_bound(r), "hydrostatics");
+    let found = || judge(r, metric).at_most(profile_bound(r), "hydrostatics");
     (!smooths(r)).then(found).into_iter().collect()
 }
 
@@ -288,7 +282,7 @@ fn smoothed_start(r: &Record) -> Vec<Finding> {
     let metric = m::PRESSURE_PROFILE_ERROR;
     let source =
         "Π takes the mean of J over what is there: at floor and surface that lies to one side";
-    let found = || Finding::above(metric, r.metric(metric), profile_bound(r), source);
+    let found = || judge(r, metric).above(profile_bound(r), source);
     let seen = smooths(r) && r.parameters.is(START, EXACT);
     seen.then(found).into_iter().collect()
 }
@@ -299,7 +293,7 @@ fn energy_not_gained(r: &Record) -> Vec<Finding> {
         TransferName::Apic => &[m::ENERGY_EXCESS],
         _ => &[m::ENERGY_EXCESS, m::ENERGY_GAIN],
     };
-    let found = |&metric: &_| Finding::at_most(metric, r.metric(metric), ROUNDING, source);
+    let found = |&metric: &_| judge(r, metric).at_most(ROUNDING, source);
     metrics.iter().map(found).collect()
 }
 
@@ -313,13 +307,13 @@ fn stored(record: &Record) -> f64 {
 fn motion_not_gained(r: &Record) -> Vec<Finding> {
     let metric = m::MOTION_EXCESS;
     let source = "the elastic energy of the water at rest";
-    let found = || Finding::at_most(metric, r.metric(metric), stored(r), source);
+    let found = || judge(r, metric).at_most(stored(r), source);
     (!makes_energy(r)).then(found).into_iter().collect()
 }
 
 fn energy_made(r: &Record) -> Vec<Finding> {
     let metric = m::MOTION_EXCESS;
-    let found = || Finding::above(metric, r.metric(metric), stored(r), MAKES_ENERGY);
+    let found = || judge(r, metric).above(stored(r), MAKES_ENERGY);
     makes_energy(r).then(found).into_iter().collect()
 }
 
@@ -328,19 +322,14 @@ fn dissipation(r: &Record) -> Vec<Finding> {
     let metric = m::MOTION_LOSS;
     let source = "water at rest in the tank has two thirds of its energy";
     let bound = 1.0 - at_rest / at_start;
-    let found = || Finding::at_most(metric, r.metric(metric), bound, source);
+    let found = || judge(r, metric).at_most(bound, source);
     (!makes_energy(r)).then(found).into_iter().collect()
 }
 
 fn front_speed(r: &Record) -> Vec<Finding> {
     let metric = m::FRONT_SPEED_MAX;
     let bound = greatest_speed();
-    vec![Finding::at_most(
-        metric,
-        r.metric(metric),
-        bound,
-        "Ritter 1892",
-    )]
+    vec![judge(r, metric).at_most(bound, "Ritter 1892")]
 }
 
 /// Distance (m) from the inviscid front that a grid may leave.
@@ -364,7 +353,7 @@ fn front(r: &Record) -> Vec<Finding> {
     let source = "inviscid front; a grid resolves no tongue thinner than a cell";
     let found = match front_is_open(r) {
         Some(why) => Finding::not_applicable(metric, why),
-        None => Finding::at_most(metric, r.metric(metric), front_bound(r), source),
+        None => judge(r, metric).at_most(front_bound(r), source),
     };
     is_averaged(r).then_some(found).into_iter().collect()
 }
@@ -376,7 +365,7 @@ fn arrival(r: &Record) -> Vec<Finding> {
     let source = "inviscid front, likewise";
     let found = match front_is_open(r) {
         Some(why) => Finding::not_applicable(metric, why),
-        None => Finding::at_most(metric, r.metric(metric), front_bound(r) / speed, source),
+        None => judge(r, metric).at_most(front_bound(r) / speed, source),
     };
     is_averaged(r).then_some(found).into_iter().collect()
 }
@@ -384,7 +373,7 @@ fn arrival(r: &Record) -> Vec<Finding> {
 fn locked(r: &Record) -> Vec<Finding> {
     let metric = m::FRONT_RMS_ERROR;
     let source = "standard MPM locks: Zhao et al. 2022, Figure 12";
-    let found = || Finding::above(metric, r.metric(metric), front_bound(r), source);
+    let found = || judge(r, metric).above(front_bound(r), source);
     let judged = !is_averaged(r) && r.basis() == BasisName::Gimp && front_is_open(r).is_none();
     judged.then(found).into_iter().collect()
 }

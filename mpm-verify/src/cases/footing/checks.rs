@@ -8,7 +8,7 @@ use super::parameters::{
 };
 use super::reference::{EXACT, curve, elastic_slope, has_the_curve_of, mean_stress_at};
 use crate::accuracy::fit_order;
-use crate::check::{Check, Finding, run, study};
+use crate::check::{Check, Finding, judge, run, study};
 use crate::metric::Metric;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
@@ -99,13 +99,7 @@ pub(super) fn checks() -> Vec<Check> {
                     let (fall, growth) = FLAT;
                     let (middle, half) = (0.5 * (growth - fall), 0.5 * (growth + fall));
                     let why = "a perfectly plastic body has a limit load";
-                    vec![Finding::within(
-                        m::PLATEAU_RISE,
-                        r.metric(m::PLATEAU_RISE),
-                        middle,
-                        half,
-                        why,
-                    )]
+                    vec![judge(r, m::PLATEAU_RISE).within(middle, half, why)]
                 })
             }),
         ),
@@ -123,7 +117,7 @@ pub(super) fn checks() -> Vec<Check> {
                         Finding::not_applicable(metric, why)
                     } else {
                         let why = "a pressure that is resolved is close to its average";
-                        Finding::at_most(metric, r.metric(metric), BOARD.0, why)
+                        judge(r, metric).at_most(BOARD.0, why)
                     }]
                 })
             }),
@@ -295,7 +289,7 @@ fn slope(record: &Record) -> Finding {
             let expected = slope * number(YOUNG_MODULUS) / number(UNDRAINED_STRENGTH);
             let tolerance = (FEM * coarseness(record) + soft_edge(record)) * expected;
             let why = "finite elements that act as wide";
-            Finding::within(METRIC, record.metric(METRIC), expected, tolerance, why)
+            judge(record, METRIC).within(expected, tolerance, why)
         }
     }
 }
@@ -336,7 +330,7 @@ fn locked(record: &Record, what: Locks, metric: Metric, bound: f64) -> Vec<Findi
             .collect();
     }
     let why = "standard MPM locks: Zhao et al. 2022, Figure 8";
-    vec![Finding::above(metric, record.metric(metric), bound, why)]
+    vec![judge(record, metric).above(bound, why)]
 }
 
 /// What is found of a run that is to have a limit load; why it has none, if it hasn't.
@@ -359,13 +353,7 @@ fn prandtl(record: &Record) -> Vec<Finding> {
     }
     let (width, uncertainty) = effective_width(record.basis(), record.discretisation.h);
     let tolerance = (PRANDTL * coarseness(record) + uncertainty / width) * EXACT;
-    vec![Finding::within(
-        METRIC,
-        record.metric(METRIC),
-        EXACT,
-        tolerance,
-        "Prandtl 1920",
-    )]
+    vec![judge(record, METRIC).within(EXACT, tolerance, "Prandtl 1920")]
 }
 
 /// The mechanism by the width that the footing acts with.
@@ -379,9 +367,7 @@ fn mechanism(record: &Record) -> Vec<Finding> {
     let rough = record.parameters.boolean(ROUGH);
     let extent = mechanism_extent(rough) / WIDTH;
     let whose = if rough { "Prandtl's" } else { "Hill's" };
-    vec![Finding::within(
-        METRIC,
-        record.metric(METRIC),
+    vec![judge(record, METRIC).within(
         extent * width,
         SMEARED * h + extent * uncertainty,
         format!("{whose} mechanism; a jump of velocity is smeared over a cell on either side"),
@@ -479,15 +465,9 @@ fn contacts(records: &[Record]) -> Vec<Finding> {
             |r: &&Record| r.is_default() && r.scheme() == run.scheme() && r.level == run.level;
         let held = records.iter().find(same)?.metric(m::NC_B);
         let (scheme, level) = (run.scheme(), &run.level);
-        Some(Finding::within(
-            m::NC_B,
-            run.metric(m::NC_B),
-            held,
-            2.0 * run.discretisation.h / WIDTH * held,
-            format!(
+        Some(judge(run, m::NC_B).within(held, 2.0 * run.discretisation.h / WIDTH * held, format!(
                 "{scheme} {level}: a barrier on particles and held nodes; the edges of either are known to half a cell"
-            ),
-        ))
+            )))
     };
     let through_barrier = records.iter().filter(|r| r.changes_only(CONTACT.name));
     through_barrier.filter_map(found).collect()

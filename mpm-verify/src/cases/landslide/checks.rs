@@ -6,7 +6,7 @@ use super::parameters::{
     CFL, CREST, DENSITY, DURATION, FACE_ANGLE, HEIGHT, PEAK_STRENGTH, PPC_PER_DIRECTION, REDUCTION,
     RELEASE, WIDTH,
 };
-use crate::check::{Check, Finding, run, study};
+use crate::check::{Check, Finding, judge, run, study};
 use crate::metric::Metric;
 use crate::parameter::Parameter;
 use crate::record::{Record, Status};
@@ -86,7 +86,7 @@ fn of_ground() -> Vec<Check> {
                 let found = in_section(r).map(|section| {
                     let count = (section * r.metric(m::PARTICLES_ACROSS)).round();
                     let why = "Zhao et al. 2022, section 4.4: 311,250 at h = 0.2 m";
-                    Finding::within(m::PARTICLES, r.metric(m::PARTICLES), count, 0.0, why)
+                    judge(r, m::PARTICLES).within(count, 0.0, why)
                 });
                 found.into_iter().collect()
             }),
@@ -99,7 +99,7 @@ fn of_ground() -> Vec<Check> {
                 let found = in_section(r).map(|section| {
                     let mass = r.parameters.number(DENSITY) * section * spacing * spacing;
                     let why = "conservation of mass";
-                    Finding::within(m::MASS, r.metric(m::MASS), mass, ROUNDING * mass, why)
+                    judge(r, m::MASS).within(mass, ROUNDING * mass, why)
                 });
                 found.into_iter().collect()
             }),
@@ -115,7 +115,7 @@ fn of_rest() -> Vec<Check> {
             run(|r| {
                 let metric = m::BASE_REACTION_RATIO;
                 let why = "weight of the ground";
-                vec![Finding::within(metric, r.metric(metric), 1.0, WEIGHT, why)]
+                vec![judge(r, metric).within(1.0, WEIGHT, why)]
             }),
         ),
         Check::truth(
@@ -142,7 +142,7 @@ fn of_rest() -> Vec<Check> {
                     let why = "the face is felt at the back wall";
                     return vec![Finding::not_applicable(metric, why)];
                 }
-                let found = Finding::at_most(metric, r.metric(metric), OVERBURDEN, "level ground");
+                let found = judge(r, metric).at_most(OVERBURDEN, "level ground");
                 (!is_locked(r)).then_some(found).into_iter().collect()
             }),
         ),
@@ -155,7 +155,7 @@ fn of_rest() -> Vec<Check> {
                 }
                 let above = |metric: Metric, bound| {
                     let why = "standard MPM locks: Zhao et al. 2022, Figure 15";
-                    Finding::above(metric, r.metric(metric), bound, why)
+                    judge(r, metric).above(bound, why)
                 };
                 vec![
                     above(m::OVERBURDEN_ERROR, OVERBURDEN),
@@ -208,7 +208,7 @@ fn at_rest(r: &Record) -> Vec<Finding> {
         return vec![Finding::not_applicable(metric, why)];
     }
     let why = "velocities a thousandth of elastic ones";
-    let found = Finding::at_most(metric, r.metric(metric), AT_REST, why);
+    let found = judge(r, metric).at_most(AT_REST, why);
     keeps_moving(r)
         .is_none()
         .then_some(found)
@@ -225,7 +225,7 @@ fn moves_on(r: &Record, how: Moves) -> Vec<Finding> {
         Moves::Creeps => "averages of averages diffuse the volume: docs/column.md",
         Moves::Slowly => "seen where the toe has yielded",
     };
-    vec![Finding::above(metric, r.metric(metric), AT_REST, why)]
+    vec![judge(r, metric).above(AT_REST, why)]
 }
 
 fn of_energy() -> Vec<Check> {
@@ -314,7 +314,7 @@ fn of_slide() -> Vec<Check> {
                     let why = "the bounds of limit analysis are those of a face at 45° under a long crest";
                     return vec![Finding::not_applicable(METRIC, why)];
                 }
-                let found = Finding::at_most(METRIC, r.metric(METRIC), FAILED, LIMIT);
+                let found = judge(r, METRIC).at_most(FAILED, LIMIT);
                 stands(r).then_some(found).into_iter().collect()
             }),
         ),
@@ -322,7 +322,7 @@ fn of_slide() -> Vec<Check> {
             "fails",
             "F̄, with a reduction beyond the upper bound of limit analysis and what a band of cells bears besides, h/H: it does",
             run(|r| {
-                let found = Finding::above(METRIC, r.metric(METRIC), FAILED, LIMIT);
+                let found = judge(r, METRIC).above(FAILED, LIMIT);
                 let judged = must_fail(r) && r.remedy() != RemedyName::None;
                 judged.then_some(found).into_iter().collect()
             }),
@@ -332,7 +332,7 @@ fn of_slide() -> Vec<Check> {
             "none with GIMP, likewise: it does not",
             run(|r| {
                 let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
-                let found = Finding::at_most(METRIC, r.metric(METRIC), FAILED, why);
+                let found = judge(r, METRIC).at_most(FAILED, why);
                 let judged = must_fail(r) && is_locked(r);
                 judged.then_some(found).into_iter().collect()
             }),
@@ -362,7 +362,7 @@ fn of_width() -> Vec<Check> {
                 };
                 let alike = |metric: &Metric| {
                     let why = "the problem is that of its section";
-                    Finding::at_most(*metric, r.metric(*metric), GROWN_ROUNDING, why)
+                    judge(r, *metric).at_most(GROWN_ROUNDING, why)
                 };
                 metrics[..known].iter().map(alike).collect()
             }),
@@ -384,7 +384,7 @@ fn of_width() -> Vec<Check> {
 fn plane_strain(r: &Record) -> Vec<Finding> {
     let like = |metric: Metric, tolerance| {
         let why = "the same section in plane strain";
-        Finding::within(metric, r.metric(metric), 0.0, tolerance, why)
+        judge(r, metric).within(0.0, tolerance, why)
     };
     let metric = m::OFF_PLANE_STRAIN_AT_REST;
     let mut found = vec![match r.remedy() {
@@ -410,9 +410,7 @@ fn of_studies() -> Vec<Check> {
             study(|records| {
                 let like = |(slice, whole): (&Record, &Record)| {
                     let expected = whole.metric(m::SETTLEMENT_AT_REST);
-                    Finding::within(
-                        m::SETTLEMENT_AT_REST,
-                        slice.metric(m::SETTLEMENT_AT_REST),
+                    judge(slice, m::SETTLEMENT_AT_REST).within(
                         expected,
                         GROWN_ROUNDING * expected,
                         format!("{} {}: the full width", slice.scheme(), slice.folder()),
@@ -431,9 +429,7 @@ fn of_studies() -> Vec<Check> {
                     run.remedy() == RemedyName::FbarConsistent && finer
                 };
                 let like = |(run, own): (&Record, &Record)| {
-                    Finding::within(
-                        m::RUNOUT_2_5S,
-                        run.metric(m::RUNOUT_2_5S),
+                    judge(run, m::RUNOUT_2_5S).within(
                         own.metric(m::RUNOUT_2_5S),
                         run.discretisation.h,
                         format!("{} {}: twice the step", run.scheme(), run.folder()),

@@ -5,7 +5,7 @@ use super::metrics::{
 };
 use crate::accuracy::{fit_order, richardson};
 use crate::cases::parameters::{CFL, DENSITY, POISSON_RATIO, YOUNG_MODULUS};
-use crate::check::{Check, Finding, On, run, study};
+use crate::check::{Check, Finding, On, judge, run, study};
 use crate::exact::parameters::ANGULAR_FREQUENCY;
 use crate::metric::Metric;
 use crate::record::Record;
@@ -105,9 +105,7 @@ pub(in crate::cases) fn mass() -> Check {
         statement,
         run(|r| {
             let expected = r.metric(BODY_MASS);
-            vec![Finding::within(
-                MASS,
-                r.metric(MASS),
+            vec![judge(r, MASS).within(
                 expected,
                 (r.work.particles as f64 + ROUNDINGS) * f64::EPSILON * expected,
                 "ρ₀ times the volume of the body; each of n sums rounds once",
@@ -135,9 +133,7 @@ fn bound(r: &Record, claim: &Claim, wave: &Wave) -> Finding {
                 let why = format!("the bound, {bound:.3} of the motion, bounds nothing");
                 return Finding::not_applicable(metric, why);
             }
-            Finding::at_most(
-                metric,
-                r.metric(metric),
+            judge(r, metric).at_most(
                 bound * r.metric(DISPLACEMENT_SCALE),
                 format!("{bound:.3} times displacement_scale"),
             )

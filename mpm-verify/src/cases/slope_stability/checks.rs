@@ -3,7 +3,7 @@
 use super::super::landslide::parameters::{FACE_ANGLE, HEIGHT};
 use super::super::landslide::{STABILITY, factor_of_safety};
 use super::{MOST, STANDS_AT, STRENGTH, STRENGTH_REDUCTION_FACTOR, TRIALS};
-use crate::check::{Check, Finding, run, study};
+use crate::check::{Check, Finding, judge, run, study};
 use crate::metric::Metric;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName};
@@ -21,8 +21,7 @@ pub(super) fn checks() -> Vec<Check> {
             "all: the factor is above the lower bound of limit analysis less half the last bracket",
             run(|r| {
                 let why = "lower bound of limit analysis: docs/exact.md";
-                let found = bounds(r)
-                    .map(|(lower, _)| Finding::above(METRIC, r.metric(METRIC), lower, why));
+                let found = bounds(r).map(|(lower, _)| judge(r, METRIC).above(lower, why));
                 found.into_iter().collect()
             }),
         ),
@@ -36,7 +35,7 @@ pub(super) fn checks() -> Vec<Check> {
                 };
                 let (middle, half) = (0.5 * (lower + upper), 0.5 * (upper - lower));
                 let why = "limit analysis: docs/exact.md";
-                let found = Finding::within(METRIC, r.metric(METRIC), middle, half, why);
+                let found = judge(r, METRIC).within(middle, half, why);
                 (!locks(r)).then_some(found).into_iter().collect()
             }),
         ),
@@ -47,7 +46,7 @@ pub(super) fn checks() -> Vec<Check> {
                 let found = bounds(r).filter(|_| locks(r)).map(|(_, upper)| {
                     let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
                     let bound = upper - resolution(r);
-                    Finding::above(STANDS_AT, r.metric(STANDS_AT), bound, why)
+                    judge(r, STANDS_AT).above(bound, why)
                 });
                 found.into_iter().collect()
             }),

@@ -4,7 +4,7 @@ use super::{is_averaged, is_flip};
 use crate::cases::dam_break::metrics as m;
 use crate::cases::dam_break::parameters::{CFL, DURATION, GRAVITY_STAGE, SEED, START};
 use crate::cases::dam_break::reference::LENGTH;
-use crate::check::{Check, Finding, On, study};
+use crate::check::{Check, Finding, On, judge, study};
 use crate::metric::Metric;
 use crate::parameter::Parameter;
 use crate::record::{Record, Status};
@@ -156,9 +156,7 @@ fn against_standard(records: &[&Record]) -> Vec<Finding> {
             continue;
         };
         for metric in [m::PRESSURE_RMS, m::CHECKERBOARD_RMS] {
-            found.push(Finding::at_most(
-                metric,
-                run.metric(metric),
+            found.push(judge(run, metric).at_most(
                 SMOOTHER * standard.metric(metric),
                 format!("{} {} against standard MPM", run.scheme(), run.folder()),
             ));
@@ -172,9 +170,7 @@ fn starts(records: &[&Record]) -> Vec<Finding> {
     let staged = |r: &Record| r.parameters.is(START, GRAVITY_STAGE);
     let metric = m::FRONT_X_EARLY;
     let found = |(run, own): (&Record, &Record)| {
-        Finding::within(
-            metric,
-            run.metric(metric),
+        judge(run, metric).within(
             own.metric(metric),
             STARTS * (own.metric(metric) - LENGTH),
             format!("{} {}: the exact start", run.scheme(), run.level),
@@ -190,9 +186,7 @@ fn time_steps(records: &[&Record]) -> Vec<Finding> {
     let found = |(run, own): (&Record, &Record)| {
         let [cfl, of_own] = [run, own].map(|r| r.parameters.number(CFL));
         let name = format!("{} {}", run.scheme(), run.level);
-        Finding::within(
-            metric,
-            run.metric(metric),
+        judge(run, metric).within(
             own.metric(metric),
             TIME_STEP * run.discretisation.h,
             format!("{name}: CFL number {cfl} against {of_own}"),
