@@ -200,7 +200,8 @@ impl Finding {
         }
     }
 
-    fn verdict(self, check: &str, kind: Kind) -> Verdict {
+    /// As a verdict of a check of some kind.
+    pub(crate) fn verdict(self, check: &str, kind: Kind) -> Verdict {
         Verdict {
             check: check.to_owned(),
             kind,
@@ -216,5 +217,42 @@ impl Finding {
             },
             source: self.source,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_that_is_not_a_number_never_passes() {
+        let nan = f64::NAN;
+        for found in [
+            Finding::within("m", nan, 1.0, 1.0, ""),
+            Finding::at_most("m", nan, 1.0, ""),
+            Finding::above("m", nan, 1.0, ""),
+        ] {
+            assert!(found.clone().verdict("c", Kind::Truth).failed());
+            assert!(found.verdict("c", Kind::KnownLimit).failed());
+        }
+    }
+
+    #[test]
+    fn not_applicable_is_neither_pass_nor_failure() {
+        let v = Finding::not_applicable("m", "no reference").verdict("c", Kind::Truth);
+        assert_eq!((v.outcome, v.holds()), (Outcome::NotJudged, None));
+        assert!(!v.failed());
+    }
+
+    #[test]
+    fn a_known_limit_is_wrong_as_known_and_fails_when_it_vanishes() {
+        let limit = |value| {
+            let found = Finding::above("m", value, 1.0, "");
+            found.verdict("c", Kind::KnownLimit).outcome
+        };
+        assert_eq!(limit(2.0), Outcome::WrongAsKnown);
+        assert_eq!(limit(1.0), Outcome::Failed);
+        let exact = Finding::within("m", 1.0, 1.0, 0.0, "");
+        assert_eq!(exact.verdict("c", Kind::Truth).outcome, Outcome::Right);
     }
 }

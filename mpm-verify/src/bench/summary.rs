@@ -1,7 +1,7 @@
 //! Tables and pictures of what was measured.
 
 use super::{Bench, Measured, Spread, aims, model};
-use crate::draw::{Chart, Dash, Marker, Scale, Series, draw_charts};
+use crate::draw::{Chart, Marker, Scale, Series, draw_charts};
 use crate::error::Error;
 use crate::files::{write_csv, write_whole};
 use std::fmt::Write;
@@ -227,33 +227,26 @@ fn write_rows(bench: &Bench, out: &Path) -> Result<(), Error> {
 /// Draws the cost over the number of particles, if it was measured.
 fn draw_scaling(bench: &Bench, out: &Path) -> Result<(), Error> {
     let names = ["W2", "W2F", "W3", "W3F"];
-    let series = names.iter().enumerate().map(|(k, name)| {
-        let sizes = bench.of_group("scaling").filter(|m| m.name == *name);
+    let markers = [
+        Marker::Circle,
+        Marker::Square,
+        Marker::Triangle,
+        Marker::Diamond,
+    ];
+    let series = names.into_iter().zip(markers).enumerate();
+    let series = series.map(|(k, (name, marker))| {
+        let sizes = bench.of_group("scaling").filter(|m| m.name == name);
         let point = |m: &Measured| Some((m.particles as f64, m.cpu_ns()?.median));
         Series {
-            name: (*name).to_owned(),
-            points: sizes.filter_map(point).collect(),
-            colour: k,
-            marker: [
-                Marker::Circle,
-                Marker::Square,
-                Marker::Triangle,
-                Marker::Diamond,
-            ][k],
-            dash: Dash::Solid,
+            marker,
+            ..Series::line(name, sizes.filter_map(point).collect(), k)
         }
     });
+    let series = series.filter(|s| !s.points.is_empty()).collect();
+    let labels = ["particles", "CPU time per particle and step (ns)"];
     let chart = Chart {
-        title: "Cost of a particle's step on one thread".to_owned(),
-        x_label: "particles".to_owned(),
-        y_label: "CPU time per particle and step (ns)".to_owned(),
         x_scale: Scale::Log10,
-        y_scale: Scale::Linear,
-        series: series.filter(|s| !s.points.is_empty()).collect(),
-        reference_lines: Vec::new(),
-        slope_triangle: None,
-        x_range: None,
-        y_range: None,
+        ..Chart::new("Cost of a particle's step on one thread", labels, series)
     };
     match chart.shows_something() {
         true => Ok(draw_charts(&out.join("scaling.png"), &[chart], 1)?),

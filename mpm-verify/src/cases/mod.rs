@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 mod column;
 mod cook;
 mod dam_break;
+mod exhibit;
 mod family;
 mod footing;
 mod landslide;

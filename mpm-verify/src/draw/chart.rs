@@ -188,7 +188,39 @@ impl<'a> Legend<'a> {
     }
 }
 
+impl Series {
+    /// A solid line without markers, in a colour of the palette.
+    #[must_use]
+    pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+        Self {
+            name: name.into(),
+            points,
+            colour,
+            marker: Marker::None,
+            dash: Dash::Solid,
+        }
+    }
+}
+
 impl Chart {
+    /// Curves over linear axes, whose labels are those of x and y, and nothing else.
+    #[must_use]
+    pub fn new(title: impl Into<String>, labels: [&str; 2], series: Vec<Series>) -> Self {
+        let [x_label, y_label] = labels.map(str::to_owned);
+        Self {
+            title: title.into(),
+            x_label,
+            y_label,
+            x_scale: Scale::Linear,
+            y_scale: Scale::Linear,
+            series,
+            reference_lines: Vec::new(),
+            slope_triangle: None,
+            x_range: None,
+            y_range: None,
+        }
+    }
+
     /// The slope triangle's horizontal leg and the end of its vertical leg.
     fn triangle(&self) -> Option<[Point; 3]> {
         let log = self.x_scale == Scale::Log10 && self.y_scale == Scale::Log10;
@@ -282,6 +314,25 @@ pub fn share_ranges(path: &Path, charts: &mut [Chart]) -> Result<(), PlotError> 
                 Scale::Linear => (lo, hi),
                 Scale::Log10 => (10f64.powf(lo), 10f64.powf(hi)),
             });
+        }
+    }
+    Ok(())
+}
+
+/// The same for each column of a grid of charts by itself.
+///
+/// # Errors
+/// As [`share_ranges`].
+pub fn share_ranges_of_columns(
+    path: &Path,
+    charts: &mut [Chart],
+    columns: usize,
+) -> Result<(), PlotError> {
+    for k in 0..columns {
+        let mut column: Vec<Chart> = charts.iter().skip(k).step_by(columns).cloned().collect();
+        share_ranges(path, &mut column)?;
+        for (chart, ranged) in charts.iter_mut().skip(k).step_by(columns).zip(column) {
+            *chart = ranged;
         }
     }
     Ok(())

@@ -28,7 +28,17 @@ pub struct FieldPanel {
     pub outline: Vec<(f64, f64)>,
 }
 
-/// Field panels on the same axes with one colour scale.
+impl FieldPanel {
+    /// Of its particles those at places of which `shown` holds.
+    #[must_use]
+    pub fn showing(mut self, shown: impl Fn((f64, f64)) -> bool) -> Self {
+        let particles = self.points.into_iter().zip(self.values);
+        (self.points, self.values) = particles.filter(|(at, _)| shown(*at)).unzip();
+        self
+    }
+}
+
+/// Field panels on the same axes x and y (m) with one colour scale.
 ///
 /// The colours diverge from a neutral zero when both signs take a good part of the range (the
 /// smaller end at least a fifth of the larger), otherwise they are sequential.
@@ -44,10 +54,6 @@ pub struct FieldFigure {
     pub range: (f64, f64),
     /// Label of the colour bar, with unit.
     pub label: String,
-    /// Label of the abscissa.
-    pub x_label: String,
-    /// Label of the ordinate.
-    pub y_label: String,
     /// Ranges of abscissa and ordinate that are shown; without, all particles and outlines are.
     pub window: Option<((f64, f64), (f64, f64))>,
 }
@@ -112,7 +118,7 @@ fn compose_fields(path: &Path, figure: &FieldFigure) -> Result<Canvas, PlotError
         let (middle, half) = ((lo + hi) / 2.0, length / scale / 2.0);
         Axis::new((middle - half, middle + half), false, length, upright)
     };
-    let labels = [&*figure.x_label, &*figure.y_label];
+    let labels = ["x (m)", "y (m)"];
     let axes = Axes::new([axis(xs, false), axis(ys, true)], labels, 200.0);
     let (x, y) = (&axes.x, &axes.y);
 

@@ -21,11 +21,12 @@ pub(crate) mod triptych;
 
 pub use chart::{
     Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, draw_charts, share_ranges,
+    share_ranges_of_columns,
 };
 pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
 pub use png_file::write_small_png;
 pub use shape::Marker;
-pub use solid::{Camera, SolidFigure, SolidPanel, animate_solids, draw_solids};
+pub use solid::{SolidFigure, SolidPanel, animate_solids, draw_solids};
 
 use shape::Point;
 use std::fmt::Display;
@@ -161,8 +162,6 @@ mod tests {
             columns: 3,
             range: (0.0, 1.0),
             label: "stress (Pa)".into(),
-            x_label: "x (m)".into(),
-            y_label: "y (m)".into(),
             window: None,
         }
     }

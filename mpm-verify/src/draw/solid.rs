@@ -30,18 +30,7 @@ pub struct SolidPanel {
     pub size: f64,
 }
 
-/// Where a body is seen from. The projection is orthographic: a length along an axis is the same everywhere in the
-/// picture. The axis y points up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Camera {
-    /// Angle (degrees) by which the eye has turned about y: at 0 it looks straight at the plane of x and y, with x to
-    /// the right; at 90 from the positive end of x along it.
-    pub azimuth: f64,
-    /// Angle (degrees) of the eye above the horizontal plane.
-    pub elevation: f64,
-}
-
-/// Bodies seen by one camera, at one scale, with one colour scale.
+/// Bodies seen from one place, at one scale, with one colour scale.
 ///
 /// The colours diverge from a neutral zero as those of a [`FieldFigure`](super::FieldFigure); else they run from the
 /// lightest at the lower end to the darkest.
@@ -57,15 +46,16 @@ pub struct SolidFigure {
     pub range: (f64, f64),
     /// Label of the colour bar, with unit.
     pub label: String,
-    /// Where the bodies are seen from.
-    pub camera: Camera,
-    /// Names of the axes x, y, z, with unit.
-    pub axes: [String; 3],
     /// What is shown of each axis (m): particles beyond, by more than half their size, are left out, and the marks run
     /// along its edges. The ground lies at the lower end of y.
     pub window: [(f64, f64); 3],
 }
 
+/// Angle (degrees) by which the eye has turned about y, which points up: at 0 it would look straight at the plane of x
+/// and y. And its angle above the horizontal plane. The projection is orthographic: a length along an axis is the same
+/// everywhere in the picture.
+const AZIMUTH: f64 = 35.0;
+const ELEVATION: f64 = 28.0;
 /// Widths of panels by their number in a row, and the largest height, in pixels.
 const WIDTHS: [f64; 4] = [1200.0, 760.0, 560.0, 460.0];
 const HEIGHT: f64 = 1000.0;
@@ -81,7 +71,7 @@ const BAR_LENGTH: (f64, f64) = (200.0, 700.0);
 /// Draws bodies as one PNG file.
 ///
 /// # Errors
-/// A figure without panels, a finite range, camera or window that is not empty; a panel without a size or a particle in
+/// A figure without panels, a finite range or window that is not empty; a panel without a size or a particle in
 /// the window, or whose points and values differ in number; or a file that can't be written.
 pub fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
     compose(path, figure)?.save(path)
@@ -128,21 +118,20 @@ fn cloud(path: &Path, figure: &SolidFigure, panel: &SolidPanel) -> Result<Cloud,
 }
 
 fn compose(path: &Path, figure: &SolidFigure) -> Result<Canvas, PlotError> {
-    let Camera { azimuth, elevation } = figure.camera;
-    let numbers = [azimuth, elevation, figure.range.0, figure.range.1];
+    let (least, most) = figure.range;
     let sound = |(lo, hi): &Point| lo < hi && (hi - lo).is_finite();
-    let sound = figure.window.iter().all(sound) && numbers.iter().all(|v| v.is_finite());
+    let sound = figure.window.iter().all(sound) && least.is_finite() && most.is_finite();
     if figure.panels.is_empty() || !sound {
         return Err(nothing(path, &figure.title));
     }
     let columns = figure.columns.min(figure.panels.len()).max(1);
     let rows = figure.panels.len().div_ceil(columns);
     let width = WIDTHS[columns.min(4) - 1];
-    let screen = Screen::new(figure.camera, &figure.window, (width, HEIGHT));
+    let screen = Screen::new((AZIMUTH, ELEVATION), &figure.window, (width, HEIGHT));
     let draw = |panel| Ok(surface::draw(&cloud(path, figure, panel)?, &screen));
     let images: Result<Vec<_>, PlotError> = figure.panels.par_iter().map(draw).collect();
 
-    let rulers = Ruler::all(&screen, &figure.window, &figure.axes);
+    let rulers = Ruler::all(&screen, &figure.window);
     let titles = figure.panels.iter();
     let titles: Vec<Block> = titles.map(|p| Block::new(&p.title, TITLE, width)).collect();
     let above = largest(titles.iter().map(Block::height)) + TITLE_GAP;
@@ -184,7 +173,7 @@ fn compose(path: &Path, figure: &SolidFigure) -> Result<Canvas, PlotError> {
     let foot = (middle + bar.length / 2.0).round();
     draw_bar(&mut canvas, (&bar, stone_of), beyond, (bar_left, foot));
     canvas.block(&bar_label, (bar_label_left, middle), true);
-    let note = format!("orthographic, azimuth {azimuth}°, elevation {elevation}°");
+    let note = format!("orthographic, azimuth {AZIMUTH}°, elevation {ELEVATION}°");
     let at = (EDGE, head + full + NOTE / 2.0);
     canvas.text(&note, at, SMALL, (0.0, 0.5), false);
     Ok(canvas)
@@ -208,11 +197,6 @@ mod tests {
             columns: 1,
             range: (0.0, 2.0),
             label: "equivalent plastic strain (-)".into(),
-            camera: Camera {
-                azimuth: 35.0,
-                elevation: 28.0,
-            },
-            axes: ["x (m)", "y (m)", "z (m)"].map(str::to_owned),
             window: [(0.0, 30.0), (0.0, 3.0), (0.0, 3.0)],
         }
     }
@@ -237,10 +221,9 @@ mod tests {
     #[test]
     fn what_is_not_there_to_be_drawn_is_an_error() {
         type Spoil = fn(&mut SolidFigure);
-        let cases: [(&str, Spoil); 7] = [
+        let cases: [(&str, Spoil); 6] = [
             ("A slope", |f| f.panels.clear()),
             ("A slope", |f| f.range = (f64::NAN, f64::NAN)),
-            ("A slope", |f| f.camera.azimuth = f64::NAN),
             ("A slope", |f| f.window[1] = (1.0, 1.0)),
             ("block", |f| f.window[0] = (10.0, 20.0)),
             ("block", |f| f.panels[0].size = 0.0),

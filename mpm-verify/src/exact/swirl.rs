@@ -6,7 +6,7 @@
 //! b_r = −R α_t² + (μ/ρ₀) R (α_R² + α_Z²), b_θ = R α_tt − (μ/ρ₀) (3 α_R + R α_RR + R α_ZZ), b_z = 0.
 
 use super::parameters::ANGULAR_FREQUENCY;
-use super::twist::{ANGLE, Shape, Vortex};
+use super::twist::{ANGLE, Place, Shape, Vortex};
 use super::vortex_box::profile;
 use super::{Entry, Material};
 use crate::parameter::Parameter;
@@ -34,14 +34,18 @@ const PARAMETERS: [Parameter; 5] = {
 const SWIRL: Shape = Shape {
     dimension: 3,
     extent: [[0.0, 1.0]; 3],
-    factors: |x| {
+    place: |x| {
         let arm = [x.x - 0.5, x.y - 0.5];
         let height = [
             (PI * x.z).sin().powi(2),
             PI * (TAU * x.z).sin(),
             2.0 * PI * PI * (TAU * x.z).cos(),
         ];
-        (arm, profile(arm), height)
+        Place {
+            arm,
+            profile: profile(arm),
+            height,
+        }
     },
 };
 

@@ -21,10 +21,10 @@ use std::f64::consts::TAU;
 /// The turn by 90° about z.
 const QUARTER: Matrix3<f64> = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
 
-/// The factors of the angle α, each with its first and second derivative.
-pub(super) struct Angle {
-    /// g(t) (rad, rad/s, rad/s²).
-    pub(super) growth: [f64; 3],
+/// Where a point is, and the factors of its angle α = g(t) h(R²) ζ(Z), each with its first and second derivative.
+pub(super) struct Place {
+    /// The arm d from the axis (m).
+    pub(super) arm: [f64; 2],
     /// h(R²) and its derivatives by R² (-, 1/m², 1/m⁴).
     pub(super) profile: [f64; 3],
     /// ζ(Z) (-, 1/m, 1/m²).
@@ -47,14 +47,14 @@ pub(super) struct Twist {
 }
 
 impl Twist {
-    /// The motion of the point at the arm `d` = (d_x, d_y) (m) from the axis.
-    pub(super) fn new(d: [f64; 2], angle: &Angle) -> Self {
-        let Angle {
-            growth: [g, g_t, g_tt],
+    /// The motion of a point with g(t) (rad, rad/s, rad/s²).
+    fn new([g, g_t, g_tt]: [f64; 3], place: &Place) -> Self {
+        let Place {
+            arm: [x, y],
             profile: [h, h_s, h_ss],
             height: [z, z_z, z_zz],
-        } = *angle;
-        let arm = Vector3::new(d[0], d[1], 0.0);
+        } = *place;
+        let arm = Vector3::new(x, y, 0.0);
         let axis = Vector3::z();
         let (sin, cos) = (g * h * z).sin_cos();
         let space = 2.0 * h_s * g * z * arm + h * g * z_z * axis;
@@ -141,8 +141,8 @@ pub(super) struct Shape {
     pub(super) dimension: usize,
     /// As [`Exact::extent`].
     pub(super) extent: [[f64; 2]; 3],
-    /// The arm d (m) from the axis to a reference point, and h and ζ there as in [`Angle`].
-    pub(super) factors: fn(&Vector3<f64>) -> ([f64; 2], [f64; 3], [f64; 3]),
+    /// Of a reference point (m).
+    pub(super) place: fn(&Vector3<f64>) -> Place,
 }
 
 /// A solution whose every point only turns: isochoric, with u, P and b independent of λ.
@@ -173,13 +173,8 @@ impl Vortex {
 
     /// The motion of the point `x` (m) at time `t` (s).
     pub(super) fn twist(&self, x: &Vector3<f64>, t: f64) -> Twist {
-        let (arm, profile, height) = (self.shape.factors)(x);
-        let angle = Angle {
-            growth: sine(self.angular_frequency, t).map(|s| self.angle * s),
-            profile,
-            height,
-        };
-        Twist::new(arm, &angle)
+        let growth = sine(self.angular_frequency, t).map(|s| self.angle * s);
+        Twist::new(growth, &(self.shape.place)(x))
     }
 }
 

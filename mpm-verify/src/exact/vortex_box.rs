@@ -7,7 +7,7 @@
 //! solution, is another.
 
 use super::parameters::ANGULAR_FREQUENCY;
-use super::twist::{ANGLE, PLANE, Shape, Vortex};
+use super::twist::{ANGLE, PLANE, Place, Shape, Vortex};
 use super::{Entry, Material};
 use crate::parameter::Parameter;
 
@@ -49,9 +49,13 @@ pub(super) fn profile(d: [f64; 2]) -> [f64; 3] {
 pub(super) const BOX: Shape = Shape {
     dimension: 2,
     extent: [[0.0, 1.0]; 3],
-    factors: |x| {
+    place: |x| {
         let arm = [x.x - 0.5, x.y - 0.5];
-        (arm, profile(arm), PLANE)
+        Place {
+            arm,
+            profile: profile(arm),
+            height: PLANE,
+        }
     },
 };
 

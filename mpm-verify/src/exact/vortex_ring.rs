@@ -8,7 +8,7 @@
 //! depend on λ.
 
 use super::parameters::ANGULAR_FREQUENCY;
-use super::twist::{self, PLANE, Shape, Vortex};
+use super::twist::{self, PLANE, Place, Shape, Vortex};
 use super::{Entry, Material};
 use crate::parameter::Parameter;
 
@@ -49,7 +49,11 @@ fn profile(r: f64) -> [f64; 3] {
 const RING: Shape = Shape {
     dimension: 2,
     extent: [[-1.5, 1.5]; 3],
-    factors: |x| ([x.x, x.y], profile(x.x.hypot(x.y)), PLANE),
+    place: |x| Place {
+        arm: [x.x, x.y],
+        profile: profile(x.x.hypot(x.y)),
+        height: PLANE,
+    },
 };
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use super::field;
 use super::format::{Column, Golden, Point, Run};
 use super::picture::{curves, pixels_of, write_small};
-use super::{CHECK, file, mismatch, of_drift, picture_file, runs, why_none};
+use super::{file, mismatch, of_drift, picture_file, runs, why_none};
 use crate::cases;
+use crate::check::Finding;
 use crate::error::Error;
 use crate::record::Record;
 use crate::run::series;
@@ -94,7 +95,7 @@ impl Goldens {
             return Ok(vec![mismatch("run", why)]);
         }
         if let Some(why) = why_none(cases::find(&record.case)?, record) {
-            return Ok(vec![of_drift(Verdict::not_applicable(CHECK, "run", why))]);
+            return Ok(vec![of_drift(Finding::not_applicable("run", why))]);
         }
         let (golden, blessing) = match self.find(record) {
             Ok(found) => found,
@@ -124,7 +125,7 @@ impl Goldens {
         match curves(now).and_then(|drawn| pixels_of(&path, &drawn)) {
             Ok(different) => {
                 let different = different as f64;
-                of_drift(Verdict::close(CHECK, metric, different, 0.0, 0.0, blessing))
+                of_drift(Finding::within(metric, different, 0.0, 0.0, blessing))
             }
             Err(error) => mismatch(metric, &error.to_string()),
         }
@@ -204,7 +205,7 @@ impl<'a> Now<'a> {
             // What is not a number exceeds everything.
             if worst.0.total_cmp(&excess).is_lt() {
                 let source = format!("{place}blessed {blessing}");
-                let close = Verdict::close(CHECK, &label, value, point.value, tolerance, source);
+                let close = Finding::within(&*label, value, point.value, tolerance, source);
                 worst = (excess, of_drift(close));
             }
         }

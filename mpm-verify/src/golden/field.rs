@@ -2,8 +2,9 @@
 
 use super::measure::rounded;
 use super::picture::{pixels_of, small, write_small};
-use super::{CHECK, mismatch, of_drift};
+use super::{mismatch, of_drift};
 use crate::case::FieldView;
+use crate::check::Finding;
 use crate::draw::{FieldFigure, FieldPanel, draw_fields};
 use crate::error::Error;
 use crate::files::snapshot_file;
@@ -96,7 +97,7 @@ pub(super) fn judge(
             moved += 1;
         }
     }
-    let close = |metric, value| of_drift(Verdict::close(CHECK, metric, value, 0.0, 0.0, blessing));
+    let close = |metric, value| of_drift(Finding::within(metric, value, 0.0, 0.0, blessing));
     let differ = close(metric, f64::from(moved));
     let pixels = "different pixels of the field";
     let drawn = draw(view, record, &rows);
@@ -123,8 +124,6 @@ fn draw(view: &FieldView, record: &Record, rows: &[[f64; 4]]) -> Result<RgbImage
         columns: 1,
         range: view.range,
         label: view.label.to_owned(),
-        x_label: "x (m)".to_owned(),
-        y_label: "y (m)".to_owned(),
         window: Some((view.window[0], view.window[1])),
     };
     small(|path| draw_fields(path, &figure))

@@ -18,6 +18,7 @@ pub use format::{Column, Golden, Point, Run};
 
 use crate::case::{Case, Tier};
 use crate::cases;
+use crate::check::Finding;
 use crate::error::Error;
 use crate::record::Record;
 use crate::spec::RunSpec;
@@ -84,18 +85,15 @@ pub fn pairs(root: &Path, case: &str) -> Result<u64, Error> {
     runs(cases::find(case)?).into_iter().map(pairs_of).sum()
 }
 
-fn of_drift(verdict: Verdict) -> Verdict {
-    Verdict {
-        kind: Kind::Drift,
-        ..verdict
-    }
+fn of_drift(found: Finding) -> Verdict {
+    found.verdict(CHECK, Kind::Drift)
 }
 
 /// A failed comparison that has no numbers.
 fn mismatch(metric: &str, why: &str) -> Verdict {
     Verdict {
         outcome: Outcome::Failed,
-        ..of_drift(Verdict::not_applicable(CHECK, metric, why))
+        ..of_drift(Finding::not_applicable(metric, why))
     }
 }
 

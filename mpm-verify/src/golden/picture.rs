@@ -2,7 +2,7 @@
 
 use super::format::{Column, Run, SERIES};
 use crate::draw::triptych::different_pixels;
-use crate::draw::{Chart, Dash, Marker, PlotError, Scale, Series, draw_charts};
+use crate::draw::{Chart, Marker, PlotError, Series, draw_charts};
 use crate::error::Error;
 use crate::files::write_whole;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
@@ -52,24 +52,11 @@ fn chart(column: &Column) -> Option<Chart> {
         .points
         .iter()
         .filter_map(|p| Some((p.time?, p.value)));
-    Some(Chart {
-        title: String::new(),
-        x_label: "time (s)".to_owned(),
-        y_label: header.to_owned(),
-        x_scale: Scale::Linear,
-        y_scale: Scale::Linear,
-        series: vec![Series {
-            name: String::new(),
-            points: points.collect(),
-            colour: 0,
-            marker: Marker::Circle,
-            dash: Dash::Solid,
-        }],
-        reference_lines: Vec::new(),
-        slope_triangle: None,
-        x_range: None,
-        y_range: None,
-    })
+    let curve = Series {
+        marker: Marker::Circle,
+        ..Series::line("", points.collect(), 0)
+    };
+    Some(Chart::new("", ["time (s)", header], vec![curve]))
 }
 
 /// Writes a PNG file as small as it gets.

@@ -224,13 +224,7 @@ impl Diagram<'_> {
         let curves = panel.curves(|scheme| price::front(own(scheme), GAIN));
         let front = price::front(runs(&|_| true), 1.0);
         let here = runs(&|s| panel.schemes.contains(&s));
-        let line = Series {
-            name: "front".to_owned(),
-            points: price::steps(&front),
-            colour: FRONT,
-            marker: Marker::None,
-            dash: Dash::Solid,
-        };
+        let line = Series::line("front", price::steps(&front), FRONT);
         let rings = Series {
             name: "on the front".to_owned(),
             points: front.into_iter().filter(|p| here.contains(p)).collect(),
@@ -264,17 +258,11 @@ impl Diagram<'_> {
     fn axes(&self, quantity: &Quantity, x: &str, panel: &Panel, series: Vec<Series>) -> Chart {
         let negative = |c: &Convergence| c.points.iter().any(|p| p.value < 0.0);
         let signed = quantity.is_error && self.of(quantity).any(negative);
+        let labels = [x, &error_label(quantity, signed)];
         Chart {
-            title: panel.title.clone(),
-            x_label: x.to_owned(),
-            y_label: error_label(quantity, signed),
             x_scale: Scale::Log10,
             y_scale: Scale::Log10,
-            series,
-            reference_lines: Vec::new(),
-            slope_triangle: None,
-            x_range: None,
-            y_range: None,
+            ..Chart::new(panel.title.clone(), labels, series)
         }
     }
 }

@@ -1,20 +1,22 @@
 //! A small summary with every outcome, and texts that break what does not escape them.
 
+use crate::check::Finding;
 use crate::night::Night;
 use crate::record::fixture::record;
 use crate::record::{Failure, Status};
 use crate::study::summary::{CaseStudy, Counts, Summary};
-use crate::verdict::{Kind, Verdict};
+use crate::verdict::Kind;
 
 /// Markup, if it is not escaped.
 pub(super) const NASTY: &str = "</td><script>\"'&amp;";
 
 /// One run that passes, one with a failed check and changed parameters, one that broke down.
 pub(super) fn summary() -> Summary {
-    let pass = Verdict::close("at-rest", "at_rest", 1.0, 1.0, 0.0, "");
-    let fail = Verdict::at_most("mid-edge", Kind::Truth, "mid_edge_uy", 2.0, 1.0, NASTY);
-    let skipped = Verdict::not_applicable("tip", "tip_uy", NASTY);
-    let broke = Verdict::close("completes", "run", 0.0, 1.0, 0.0, NASTY).bookkeeping();
+    let pass = Finding::within("at_rest", 1.0, 1.0, 0.0, "").verdict("at-rest", Kind::Truth);
+    let fail = Finding::at_most("mid_edge_uy", 2.0, 1.0, NASTY).verdict("mid-edge", Kind::Truth);
+    let skipped = Finding::not_applicable("tip_uy", NASTY).verdict("tip", Kind::Truth);
+    let broke =
+        Finding::within("run", 0.0, 1.0, 0.0, NASTY).verdict("completes", Kind::Bookkeeping);
     let mut failed = record("h2", vec![pass.clone(), fail]);
     failed.set = vec!["cfl=0.1".to_owned(), NASTY.to_owned()];
     let mut broken = record("h0.5", vec![broke]);

@@ -167,17 +167,10 @@ fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, 
                 .map(|(_, r)| (f64::from((r.night - first).get_days()), r.value))
                 .collect()
         });
+        let labels = [&*format!("days since {first}"), &y_label];
         Chart {
-            title: panel.title.clone(),
-            x_label: format!("days since {first}"),
-            y_label,
-            x_scale: Scale::Linear,
             y_scale,
-            series,
-            reference_lines: Vec::new(),
-            slope_triangle: None,
-            x_range: None,
-            y_range: None,
+            ..Chart::new(panel.title.clone(), labels, series)
         }
     };
     let schemes: BTreeSet<Scheme> = points.iter().map(|(scheme, _)| *scheme).collect();

@@ -114,9 +114,10 @@ fn merge(former: Vec<Row>, fresh: Vec<Row>) -> Vec<Row> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::Finding;
     use crate::record::Measured;
     use crate::record::fixture::record;
-    use crate::verdict::Verdict;
+    use crate::verdict::Kind;
 
     fn study(case: &str, date: &str, levels: &[(&str, f64)]) -> Vec<Row> {
         after(&[], case, date, levels)
@@ -125,8 +126,9 @@ mod tests {
     /// Rows of a case that has had the former ones.
     fn after(former: &[Row], case: &str, date: &str, levels: &[(&str, f64)]) -> Vec<Row> {
         let runs = levels.iter().map(|(level, value)| {
-            let exact = Verdict::close("tip", "tip_ux", *value, 1.0, 0.0, "");
-            let counted = Verdict::close("completes", "run", 1.0, 1.0, 0.0, "").bookkeeping();
+            let exact = Finding::within("tip_ux", *value, 1.0, 0.0, "").verdict("tip", Kind::Truth);
+            let counted =
+                Finding::within("run", 1.0, 1.0, 0.0, "").verdict("completes", Kind::Bookkeeping);
             let mut run = record(level, vec![exact, counted]);
             run.case = case.to_owned();
             let (value, unit) = (Some(*value), "m".to_owned());

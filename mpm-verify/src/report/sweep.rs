@@ -138,21 +138,18 @@ impl<'a> Runs<'a> {
                 .collect()
         });
         let mut records = self.of_scheme.values().flatten().map(|(_, record)| record);
+        let labels = [
+            *label,
+            &error_label(quantity, records.any(|r| error(r) < 0.0)),
+        ];
         Chart {
-            title: panel.title.clone(),
-            x_label: (*label).to_owned(),
-            y_label: error_label(quantity, records.any(|r| error(r) < 0.0)),
             x_scale: if *logarithmic {
                 Scale::Log10
             } else {
                 Scale::Linear
             },
             y_scale: Scale::Log10,
-            series,
-            reference_lines: Vec::new(),
-            slope_triangle: None,
-            x_range: None,
-            y_range: None,
+            ..Chart::new(panel.title.clone(), labels, series)
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Verdicts on one run.
 
 use crate::case::Case;
+use crate::check::Finding;
 use crate::error::{Error, ExitCode};
 use crate::record::{BREAKS_DOWN, Record, Status};
 use crate::run::checkpoint::Saving;
@@ -37,27 +38,15 @@ pub fn judge(case: &Case, record: &Record) -> Vec<Verdict> {
 
 /// Whether the run came to its end: a check of every case.
 fn completes(record: &Record) -> Verdict {
-    Verdict::close(
-        "completes",
-        "run",
-        f64::from(u8::from(record.status == Status::Ok)),
-        1.0,
-        0.0,
-        "the equations have a solution",
-    )
-    .bookkeeping()
+    let ended = f64::from(u8::from(record.status == Status::Ok));
+    let why = "the equations have a solution";
+    Finding::within("run", ended, 1.0, 0.0, why).verdict("completes", Kind::Bookkeeping)
 }
 
 /// Whether a run that is known to break down does.
 fn breaks_down(record: &Record, why: &str) -> Verdict {
-    Verdict::above(
-        BREAKS_DOWN,
-        Kind::KnownLimit,
-        "run",
-        f64::from(u8::from(record.status == Status::Failed)),
-        0.0,
-        why,
-    )
+    let broke = f64::from(u8::from(record.status == Status::Failed));
+    Finding::above("run", broke, 0.0, why).verdict(BREAKS_DOWN, Kind::KnownLimit)
 }
 
 /// Whether at least one check against the truth, beyond completion, was applied to a run, or it broke

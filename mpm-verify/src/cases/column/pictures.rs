@@ -1,19 +1,18 @@
 //! The picture of the hydrostatic column: who creeps.
 
+use crate::cases::exhibit::is_shown;
 use crate::draw::style::{Markers, series};
 use crate::draw::{Chart, Scale, draw_charts};
 use crate::error::Error;
 use crate::gallery::Gallery;
-use crate::record::{Record, Status};
-use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::record::Record;
+use crate::scheme::{BasisName, RemedyName};
 
 /// A chart per basis of the longest runs at the coarsest level: how far particles are from rest, over the steps.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let mut charts = Vec::new();
     for basis in [BasisName::Gimp, BasisName::Bspline2] {
-        let of_basis = |r: &&Record| {
-            r.basis() == basis && r.status == Status::Ok && r.transfer() == TransferName::Flip
-        };
+        let of_basis = |r: &&Record| r.basis() == basis && is_shown(r);
         let runs = || gallery.records.iter().filter(of_basis);
         let longest = runs().map(|r| r.work.steps).max().unwrap_or(0);
         let mut curves = Vec::new();
@@ -27,17 +26,10 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
             curves.push(series(record.scheme(), points, Markers::None));
         }
         if !curves.is_empty() {
+            let labels = ["steps (10⁵)", "rms distance from rest (m)"];
             charts.push(Chart {
-                title: String::new(),
-                x_label: "steps (10⁵)".to_owned(),
-                y_label: "rms distance from rest (m)".to_owned(),
-                x_scale: Scale::Linear,
                 y_scale: Scale::Log10,
-                series: curves,
-                reference_lines: Vec::new(),
-                slope_triangle: None,
-                x_range: None,
-                y_range: None,
+                ..Chart::new("", labels, curves)
             });
         }
     }

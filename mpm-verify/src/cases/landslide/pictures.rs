@@ -2,22 +2,18 @@
 
 use super::metrics::PARTICLES_ACROSS;
 use super::parameters::DURATION;
-use crate::draw::style::{Markers, series};
+use crate::cases::exhibit::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::{
-    Camera, Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, SolidFigure, SolidPanel,
-    animate_fields, animate_solids, draw_charts, draw_fields, draw_solids, share_ranges,
+    Chart, FieldFigure, FieldPanel, Series, SolidFigure, SolidPanel, animate_fields,
+    animate_solids, draw_solids, share_ranges_of_columns,
 };
 use crate::error::Error;
 use crate::gallery::Gallery;
-use crate::record::{Record, Status};
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use crate::record::Record;
+use crate::scheme::{BasisName, RemedyName};
 use crate::table::Table;
-use std::path::PathBuf;
 
-const BASES: [(BasisName, &str); 2] = [
-    (BasisName::Gimp, "GIMP"),
-    (BasisName::Bspline2, "quadratic B-splines"),
-];
+const BASES: [BasisName; 2] = [BasisName::Gimp, BasisName::Bspline2];
 /// From above: standard, the paper's, ours.
 const REMEDIES: [RemedyName; 3] = [
     RemedyName::None,
@@ -105,286 +101,209 @@ impl Shown {
     }
 }
 
-struct Runs<'a, 'g> {
-    gallery: &'a mut Gallery<'g>,
-    records: Vec<&'g Record>,
-}
-
 /// Draws everything there are runs for.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let own = |r: &&Record| r.is_default() || r.changes_only(DURATION.name);
-    let ended = |r: &&Record| r.status == Status::Ok && r.transfer() == TransferName::Flip;
-    let records = gallery.records.iter().filter(ended).filter(own).collect();
-    let mut runs = Runs { gallery, records };
+    let records = gallery.records.iter().filter(own);
+    let mut runs = Exhibit::new(gallery, records);
     // Of several the one that changes least, and the finest first.
     runs.records.sort_by(|a, b| {
-        let key = |r: &Record| (r.set.len(), r.discretisation.h);
-        key(a)
-            .partial_cmp(&key(b))
-            .unwrap_or(std::cmp::Ordering::Equal)
+        let by_size = a.discretisation.h.total_cmp(&b.discretisation.h);
+        a.set.len().cmp(&b.set.len()).then(by_size)
     });
-    for (basis, title) in BASES {
-        let compared = runs.levels(basis).into_iter().next();
+    for basis in BASES {
+        let compared = levels(&runs, basis).into_iter().next();
         // The finest of all, if others have yet to run on it.
-        let finest = runs
-            .level_of(basis, OURS)
-            .filter(|l| Some(l) != compared.as_ref());
+        let finest = level_of(&runs, basis, OURS).filter(|l| Some(l) != compared.as_ref());
         for field in &FIELDS {
             let name = format!("{}-{basis}", field.name);
             if let Some(level) = &compared {
-                runs.snapshots(basis, level, field, (title, &name))?;
+                snapshots(&mut runs, basis, level, field, &name)?;
             }
             if let Some(level) = &finest {
-                runs.snapshots(basis, level, field, (title, &format!("{name}-{level}")))?;
+                snapshots(&mut runs, basis, level, field, &format!("{name}-{level}"))?;
             }
         }
     }
-    runs.run_out()?;
-    runs.animation()
+    run_out(&mut runs)?;
+    animation(&mut runs)
 }
 
-impl<'g> Runs<'_, 'g> {
-    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&'g Record> {
-        self.records
-            .iter()
-            .find(|r| r.basis() == basis && r.remedy() == remedy && r.level == level)
-            .copied()
-    }
+/// Levels at which remedies can be compared with a basis, the longest runs and the finest first.
+fn levels(runs: &Exhibit, basis: BasisName) -> Vec<String> {
+    let compares = |r: &&&Record| {
+        let has = |&remedy: &RemedyName| runs.find(basis, remedy, &r.level).is_some();
+        COMPARED.iter().all(has)
+    };
+    let levels = runs.records.iter().filter(compares);
+    crate::distinct(levels.map(|r| r.level.clone()))
+}
 
-    /// Levels at which remedies can be compared with a basis, the longest runs and the finest first.
-    fn levels(&self, basis: BasisName) -> Vec<String> {
-        let compares = |r: &&&Record| {
-            let has = |&remedy: &RemedyName| self.find(basis, remedy, &r.level).is_some();
-            COMPARED.iter().all(has)
+/// The finest level of the longest runs with a basis and a remedy.
+fn level_of(runs: &Exhibit, basis: BasisName, remedy: RemedyName) -> Option<String> {
+    let own = |r: &&&Record| r.basis() == basis && r.remedy() == remedy;
+    runs.records.iter().find(own).map(|r| r.level.clone())
+}
+
+/// All that has run with a basis at a level, at `time` (s); none if a run has not kept it.
+fn shown(runs: &Exhibit, basis: BasisName, level: &str, time: f64) -> Result<Vec<Shown>, Error> {
+    let mut shown = Vec::new();
+    for remedy in REMEDIES {
+        let Some(record) = runs.find(basis, remedy, level) else {
+            continue;
         };
-        let levels = self.records.iter().filter(compares);
-        crate::distinct(levels.map(|r| r.level.clone()))
-    }
-
-    /// The finest level of the longest runs with a basis and a remedy.
-    fn level_of(&self, basis: BasisName, remedy: RemedyName) -> Option<String> {
-        let own = |r: &&&Record| r.basis() == basis && r.remedy() == remedy;
-        self.records.iter().find(own).map(|r| r.level.clone())
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.gallery.place(&format!("{name}.png"))
-    }
-
-    fn picture(&mut self, name: &str, caption: String) {
-        self.gallery.hang(&format!("{name}.png"), caption);
-    }
-
-    /// All that has run with a basis at a level, at `time` (s); none if a run has not kept it.
-    fn shown(&self, basis: BasisName, level: &str, time: f64) -> Result<Vec<Shown>, Error> {
-        let mut shown = Vec::new();
-        for remedy in REMEDIES {
-            let Some(record) = self.find(basis, remedy, level) else {
-                continue;
-            };
-            let Some(particles) = self.gallery.snapshot(record, time)? else {
-                return Ok(Vec::new());
-            };
-            shown.push(Shown {
-                title: format!("{}, {time:.1} s", name_of(remedy)),
-                spacing: spacing(record),
-                across: record.metric(PARTICLES_ACROSS).max(1.0) as usize,
-                particles,
-            });
-        }
-        Ok(shown)
-    }
-
-    /// A field at all times, a row for each remedy: in three dimensions the solid and the section in its middle.
-    fn snapshots(
-        &mut self,
-        basis: BasisName,
-        level: &str,
-        field: &Field,
-        (of, name): (&str, &str),
-    ) -> Result<(), Error> {
-        let mut times = Vec::new();
-        for time in TIMES {
-            let shown = self.shown(basis, level, time)?;
-            if !shown.is_empty() {
-                times.push(shown);
-            }
-        }
-        let (columns, rows) = (times.len(), times.first().map_or(0, Vec::len));
-        let panels: Vec<&Shown> = (0..rows)
-            .flat_map(|row| times.iter().map(move |shown| &shown[row]))
-            .collect();
-        if panels.is_empty() {
-            return Ok(());
-        }
-        let title = format!("{of}, {}", level_title(level));
-        let solid = panels.iter().all(|shown| shown.is_solid());
-        if solid {
-            draw_solids(
-                &self.path(name),
-                &solids(title.clone(), &panels, columns, field),
-            )?;
-            self.picture(
-                name,
-                format!(
-                    "The slide with {title}: {}. The paper's {} (data: snapshots of each run).",
-                    field.label, field.figure
-                ),
-            );
-        }
-        let (section, where_it_is) = match solid {
-            true => (format!("section-{name}"), ", in the middle of the width"),
-            false => (name.to_owned(), ""),
+        let Some(particles) = runs.gallery.snapshot(record, time)? else {
+            return Ok(Vec::new());
         };
-        draw_fields(
-            &self.path(&section),
-            &fields(title.clone(), &panels, columns, field),
-        )?;
-        self.picture(
-            &section,
-            format!(
-                "The slide with {title}{where_it_is}: {}. The paper's {} (data: snapshots of each run).",
-                field.label, field.figure
-            ),
-        );
-        Ok(())
+        shown.push(Shown {
+            title: format!("{}, {time:.1} s", remedy_title(remedy)),
+            spacing: spacing(record),
+            across: record.metric(PARTICLES_ACROSS).max(1.0) as usize,
+            particles,
+        });
     }
+    Ok(shown)
+}
 
-    /// A column of the series of a run since the reduction of the strength, against time (s).
-    fn history(
-        &self,
-        record: &Record,
-        column: &str,
-        (factor, start): (f64, f64),
-    ) -> Result<Vec<(f64, f64)>, Error> {
-        let table = self.gallery.table(record, "series.csv")?;
-        let points = table.points("time", column).into_iter();
-        Ok(points
-            .filter(|(time, _)| *time >= 0.0)
-            .map(|(time, value)| (time, factor * (value - start)))
-            .collect())
+/// A field at all times, a row for each remedy: in three dimensions the solid and the section in its middle.
+fn snapshots(
+    runs: &mut Exhibit,
+    basis: BasisName,
+    level: &str,
+    field: &Field,
+    name: &str,
+) -> Result<(), Error> {
+    let mut times = Vec::new();
+    for time in TIMES {
+        let shown = shown(runs, basis, level, time)?;
+        if !shown.is_empty() {
+            times.push(shown);
+        }
     }
-
-    /// Run-out, settlement and kinetic energy against time: remedies at the finest common level, levels of F̄.
-    fn run_out(&mut self) -> Result<(), Error> {
-        let quantities = [
-            ("toe", (1.0, TOE), "run-out (m)"),
-            ("settlement", (1.0, 0.0), "settlement of the crest (m)"),
-            ("kinetic_energy", (1e-3, 0.0), "kinetic energy (kJ/m)"),
-        ];
-        let mut charts = Vec::new();
-        for (basis, title) in BASES {
-            let Some(level) = self.levels(basis).into_iter().next() else {
-                continue;
-            };
-            for (column, scale, label) in quantities {
-                let mut curves = Vec::new();
-                for remedy in REMEDIES {
-                    if let Some(record) = self.find(basis, remedy, &level) {
-                        let points = self.history(record, column, scale)?;
-                        let mut curve = series(Scheme::flip(basis, remedy), points, Markers::None);
-                        curve.name = name_of(remedy);
-                        curves.push(curve);
-                    }
-                }
-                charts.push(chart(
-                    format!("{title}, {}", level_title(&level)),
-                    label,
-                    curves,
-                ));
-            }
-            for (column, scale, label) in quantities {
-                let curves = self.by_level(basis, column, scale)?;
-                charts.push(chart(format!("{title}, fbar-consistent"), label, curves));
-            }
-        }
-        if charts.is_empty() {
-            return Ok(());
-        }
-        let (name, path) = ("run-out", self.path("run-out"));
-        for k in 0..quantities.len() {
-            let every = || (k..).step_by(quantities.len());
-            let count = charts.len();
-            let mut same: Vec<Chart> = every()
-                .take_while(|i| *i < count)
-                .map(|i| charts[i].clone())
-                .collect();
-            share_ranges(&path, &mut same)?;
-            for (i, ranged) in every().zip(same) {
-                charts[i] = ranged;
-            }
-        }
-        self.gallery.write_curves("run-out.csv", &charts)?;
-        draw_charts(&path, &charts, quantities.len())?;
-        self.picture(
-            name,
-            "Run-out, settlement of the crest and kinetic energy against time since the reduction: all remedies at the finest common level, then fbar-consistent at all levels. The paper's Figure 16.".to_owned(),
-        );
-        Ok(())
+    let (columns, rows) = (times.len(), times.first().map_or(0, Vec::len));
+    let panels: Vec<&Shown> = (0..rows)
+        .flat_map(|row| times.iter().map(move |shown| &shown[row]))
+        .collect();
+    if panels.is_empty() {
+        return Ok(());
     }
-
-    fn by_level(
-        &self,
-        basis: BasisName,
-        column: &str,
-        scale: (f64, f64),
-    ) -> Result<Vec<Series>, Error> {
-        let levels = crate::distinct(self.records.iter().map(|r| r.level.clone()));
-        let mut curves = Vec::new();
-        for (level, colour) in levels.into_iter().zip(LEVEL_COLOURS) {
-            if let Some(record) = self.find(basis, RemedyName::FbarConsistent, &level) {
-                curves.push(Series {
-                    name: level_title(&level),
-                    points: self.history(record, column, scale)?,
-                    colour,
-                    marker: Marker::None,
-                    dash: Dash::Solid,
-                });
-            }
-        }
-        Ok(curves)
-    }
-
-    /// The plastic strain with GIMP, frame by frame, of the finest level that has kept frames.
-    fn animation(&mut self) -> Result<(), Error> {
-        let (basis, field) = (BasisName::Gimp, &FIELDS[0]);
-        for level in self.levels(basis) {
-            let mut frames = Vec::new();
-            for k in 1.. {
-                let shown = self.shown(basis, &level, f64::from(k) * FRAME)?;
-                if shown.is_empty() {
-                    break;
-                }
-                frames.push(shown);
-            }
-            if frames.len() < LEAST_FRAMES {
-                continue;
-            }
-            let panels = frames.iter().map(|shown| shown.iter().collect::<Vec<_>>());
-            let (name, path) = ("slide", self.path("slide"));
-            if frames.iter().flatten().all(Shown::is_solid) {
-                let solid = |panels: Vec<&Shown>| solids(String::new(), &panels, 1, field);
-                animate_solids(&path, &panels.map(solid).collect::<Vec<_>>(), DELAY)?;
-            } else {
-                let flat = |panels: Vec<&Shown>| fields(String::new(), &panels, 1, field);
-                animate_fields(&path, &panels.map(flat).collect::<Vec<_>>(), DELAY)?;
-            }
-            let level = level_title(&level);
-            self.picture(
-                name,
-                format!("The slide with GIMP, {level}: {}.", field.label),
-            );
-            break;
-        }
-        Ok(())
+    let title = format!("{}, {}", basis_title(basis), level_title(level));
+    let caption = |place: &str| {
+        format!(
+            "The slide with {title}{place}: {}. The paper's {} (data: snapshots of each run).",
+            field.label, field.figure
+        )
+    };
+    let flat = fields(title.clone(), &panels, columns, field);
+    if panels.iter().all(|shown| shown.is_solid()) {
+        let solid = solids(title.clone(), &panels, columns, field);
+        draw_solids(&runs.place(name), &solid)?;
+        runs.hang(name, caption(""));
+        let section = format!("section-{name}");
+        runs.fields(&section, &flat, caption(", in the middle of the width"))
+    } else {
+        runs.fields(name, &flat, caption(""))
     }
 }
 
-fn name_of(remedy: RemedyName) -> String {
-    match remedy {
-        RemedyName::None => "standard".to_owned(),
-        _ => remedy.to_string(),
+/// A column of the series of a run since the reduction of the strength, against time (s).
+fn history(
+    runs: &Exhibit,
+    record: &Record,
+    column: &str,
+    (factor, start): (f64, f64),
+) -> Result<Vec<(f64, f64)>, Error> {
+    let points = runs.history(record, ["time", column])?.into_iter();
+    let since = points.filter(|(time, _)| *time >= 0.0);
+    Ok(since
+        .map(|(time, value)| (time, factor * (value - start)))
+        .collect())
+}
+
+/// Run-out, settlement and kinetic energy against time: remedies at the finest common level, levels of F̄.
+fn run_out(runs: &mut Exhibit) -> Result<(), Error> {
+    let quantities = [
+        ("toe", (1.0, TOE), "run-out (m)"),
+        ("settlement", (1.0, 0.0), "settlement of the crest (m)"),
+        ("kinetic_energy", (1e-3, 0.0), "kinetic energy (kJ/m)"),
+    ];
+    let mut charts = Vec::new();
+    for basis in BASES {
+        let Some(level) = levels(runs, basis).into_iter().next() else {
+            continue;
+        };
+        let of = basis_title(basis);
+        for (column, scale, label) in quantities {
+            let curves = runs.by_remedy((basis, &level), &REMEDIES, |r| {
+                history(runs, r, column, scale)
+            })?;
+            let title = format!("{of}, {}", level_title(&level));
+            charts.push(Chart::new(title, ["time (s)", label], curves));
+        }
+        for (column, scale, label) in quantities {
+            let curves = by_level(runs, basis, column, scale)?;
+            let title = format!("{of}, fbar-consistent");
+            charts.push(Chart::new(title, ["time (s)", label], curves));
+        }
     }
+    if charts.is_empty() {
+        return Ok(());
+    }
+    share_ranges_of_columns(&runs.place("run-out"), &mut charts, quantities.len())?;
+    runs.charts(
+        "run-out",
+        &charts,
+        quantities.len(),
+        "Run-out, settlement of the crest and kinetic energy against time since the reduction: all remedies at the finest common level, then fbar-consistent at all levels. The paper's Figure 16.",
+    )
+}
+
+fn by_level(
+    runs: &Exhibit,
+    basis: BasisName,
+    column: &str,
+    scale: (f64, f64),
+) -> Result<Vec<Series>, Error> {
+    let levels = crate::distinct(runs.records.iter().map(|r| r.level.clone()));
+    let mut curves = Vec::new();
+    for (level, colour) in levels.into_iter().zip(LEVEL_COLOURS) {
+        if let Some(record) = runs.find(basis, OURS, &level) {
+            let points = history(runs, record, column, scale)?;
+            curves.push(Series::line(level_title(&level), points, colour));
+        }
+    }
+    Ok(curves)
+}
+
+/// The plastic strain with GIMP, frame by frame, of the finest level that has kept frames.
+fn animation(runs: &mut Exhibit) -> Result<(), Error> {
+    let (basis, field) = (BasisName::Gimp, &FIELDS[0]);
+    for level in levels(runs, basis) {
+        let mut frames = Vec::new();
+        for k in 1.. {
+            let shown = shown(runs, basis, &level, f64::from(k) * FRAME)?;
+            if shown.is_empty() {
+                break;
+            }
+            frames.push(shown);
+        }
+        if frames.len() < LEAST_FRAMES {
+            continue;
+        }
+        let panels = frames.iter().map(|shown| shown.iter().collect::<Vec<_>>());
+        let path = runs.place("slide");
+        if frames.iter().flatten().all(Shown::is_solid) {
+            let solid = |panels: Vec<&Shown>| solids(String::new(), &panels, 1, field);
+            animate_solids(&path, &panels.map(solid).collect::<Vec<_>>(), DELAY)?;
+        } else {
+            let flat = |panels: Vec<&Shown>| fields(String::new(), &panels, 1, field);
+            animate_fields(&path, &panels.map(flat).collect::<Vec<_>>(), DELAY)?;
+        }
+        let (level, label) = (level_title(&level), field.label);
+        runs.hang("slide", format!("The slide with GIMP, {level}: {label}."));
+        break;
+    }
+    Ok(())
 }
 
 /// "h = 0.4 m" of a level "h0.4", "slice, h = 0.4 m" of "slice-h0.4".
@@ -393,12 +312,6 @@ fn level_title(level: &str) -> String {
         Some(rest) => format!("slice, {}", level_title(rest)),
         None => format!("h = {}\u{a0}m", level.trim_start_matches('h')),
     }
-}
-
-/// Distance of particles (m).
-fn spacing(record: &Record) -> f64 {
-    let dimension = record.discretisation.dim as f64;
-    record.discretisation.h / f64::from(record.discretisation.ppc).powf(1.0 / dimension)
 }
 
 fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> FieldFigure {
@@ -415,8 +328,6 @@ fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> Fi
         columns,
         range: field.range,
         label: field.label.to_owned(),
-        x_label: "x (m)".to_owned(),
-        y_label: "y (m)".to_owned(),
         window: Some(WINDOW),
     }
 }
@@ -438,30 +349,10 @@ fn solids(title: String, panels: &[&Shown], columns: usize, field: &Field) -> So
         columns,
         range: field.range,
         label: field.label.to_owned(),
-        camera: Camera {
-            azimuth: 35.0,
-            elevation: 28.0,
-        },
-        axes: ["x (m)", "y (m)", "z (m)"].map(str::to_owned),
         window: [
             WINDOW.0,
             WINDOW.1,
             (0.0, panels.iter().map(width).fold(0.0, f64::max)),
         ],
-    }
-}
-
-fn chart(title: String, label: &str, series: Vec<Series>) -> Chart {
-    Chart {
-        title,
-        x_label: "time (s)".to_owned(),
-        y_label: label.to_owned(),
-        x_scale: Scale::Linear,
-        y_scale: Scale::Linear,
-        series,
-        reference_lines: Vec::new(),
-        slope_triangle: None,
-        x_range: None,
-        y_range: None,
     }
 }

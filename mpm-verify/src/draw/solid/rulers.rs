@@ -32,11 +32,7 @@ pub(super) struct Ruler {
 
 impl Ruler {
     /// Along x and z on the sides near the eye, and up the edge on the left; in the order of the axes.
-    pub(super) fn all(
-        screen: &Screen,
-        window: &[(f64, f64); 3],
-        labels: &[String; 3],
-    ) -> [Self; 3] {
+    pub(super) fn all(screen: &Screen, window: &[(f64, f64); 3]) -> [Self; 3] {
         let direction =
             |axis: usize| screen.turn([0, 1, 2].map(|k| f64::from(u8::from(k == axis))));
         let end = |axis: usize, sign: f64| match sign >= 0.0 {
@@ -59,7 +55,13 @@ impl Ruler {
             };
             let ends = [at(window[axis].0), at(window[axis].1)];
             let middle = window.map(|(lo, hi)| (lo + hi) / 2.0);
-            Self::new(screen, window[axis], ends, middle, &labels[axis])
+            Self::new(
+                screen,
+                window[axis],
+                ends,
+                middle,
+                ["x (m)", "y (m)", "z (m)"][axis],
+            )
         })
     }
 

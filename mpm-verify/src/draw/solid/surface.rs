@@ -7,7 +7,6 @@
 use super::super::colour::{Rgb, channels};
 use super::super::raster::FINE;
 use super::super::shape::Point;
-use super::Camera;
 use image::RgbImage;
 
 /// A position or direction in the axes of the problem.
@@ -49,10 +48,10 @@ pub(super) struct Screen {
 }
 
 impl Screen {
-    /// Of a size that holds a window and is not larger than `most`.
-    pub(super) fn new(camera: Camera, window: &[(f64, f64); 3], most: Point) -> Self {
-        let (st, ct) = camera.azimuth.to_radians().sin_cos();
-        let (se, ce) = camera.elevation.to_radians().sin_cos();
+    /// Of a size that holds a window, seen from these angles (degrees), and is not larger than `most`.
+    pub(super) fn new((azimuth, elevation): Point, window: &[(f64, f64); 3], most: Point) -> Self {
+        let (st, ct) = azimuth.to_radians().sin_cos();
+        let (se, ce) = elevation.to_radians().sin_cos();
         let view = [
             [ct, 0.0, -st],
             [-se * st, ce, -se * ct],
@@ -274,13 +273,9 @@ mod tests {
 
     /// The image of particles from the front: ten pixels of the picture to a metre.
     fn from_the_front(particles: Vec<(Place, Rgb)>) -> RgbImage {
-        let camera = Camera {
-            azimuth: 0.0,
-            elevation: 0.0,
-        };
         let window = [(0.0, 30.0), (0.0, 20.0), (0.0, 8.0)];
         let most = (300.0 + 2.0 * MARGIN, 1000.0);
-        let screen = Screen::new(camera, &window, most);
+        let screen = Screen::new((0.0, 0.0), &window, most);
         let size = 1.0;
         draw(&Cloud { particles, size }, &screen)
     }

@@ -1,0 +1,144 @@
+//! What the pictures of several problems have in common: their runs, curves by remedy, and how they are hung.
+
+use crate::draw::style::{Markers, series};
+use crate::draw::{Chart, FieldFigure, Series, draw_charts, draw_fields};
+use crate::error::Error;
+use crate::gallery::Gallery;
+use crate::record::{Record, Status};
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use std::path::PathBuf;
+
+/// Whether a run came to its end and has the transfer that problems are shown with.
+pub(super) fn is_shown(record: &&Record) -> bool {
+    record.status == Status::Ok && record.transfer() == TransferName::Flip
+}
+
+/// How the title of a picture names a basis.
+pub(super) fn basis_title(basis: BasisName) -> &'static str {
+    match basis {
+        BasisName::Linear => "linear",
+        BasisName::Gimp => "GIMP",
+        BasisName::Bspline2 => "quadratic B-splines",
+        BasisName::Bspline3 => "cubic B-splines",
+    }
+}
+
+/// How a legend or the title of a panel names a remedy.
+pub(super) fn remedy_title(remedy: RemedyName) -> String {
+    match remedy {
+        RemedyName::None => "standard".to_owned(),
+        _ => remedy.to_string(),
+    }
+}
+
+/// Distance of particles (m).
+pub(super) fn spacing(record: &Record) -> f64 {
+    let dimension = record.discretisation.dim as f64;
+    record.discretisation.h / f64::from(record.discretisation.ppc).powf(1.0 / dimension)
+}
+
+/// The runs that a case shows, and the place for its pictures.
+pub(super) struct Exhibit<'a, 'g> {
+    pub(super) gallery: &'a mut Gallery<'g>,
+    /// Of several runs alike the first is shown.
+    pub(super) records: Vec<&'g Record>,
+}
+
+impl<'a, 'g> Exhibit<'a, 'g> {
+    /// Of those of `records` that [are shown](is_shown).
+    pub(super) fn new(
+        gallery: &'a mut Gallery<'g>,
+        records: impl IntoIterator<Item = &'g Record>,
+    ) -> Self {
+        let records = records.into_iter().filter(is_shown).collect();
+        Self { gallery, records }
+    }
+
+    pub(super) fn find(
+        &self,
+        basis: BasisName,
+        remedy: RemedyName,
+        level: &str,
+    ) -> Option<&'g Record> {
+        let wanted = |r: &&&Record| r.basis() == basis && r.remedy() == remedy && r.level == level;
+        self.records.iter().find(wanted).copied()
+    }
+
+    /// The first of `levels` at which all `remedies` have run.
+    pub(super) fn level(
+        &self,
+        basis: BasisName,
+        remedies: &[RemedyName],
+        levels: &[&'static str],
+    ) -> Option<&'static str> {
+        let has_all = |level: &&str| {
+            let has = |&remedy: &RemedyName| self.find(basis, remedy, level).is_some();
+            remedies.iter().all(has)
+        };
+        levels.iter().copied().find(has_all)
+    }
+
+    /// The curve of every remedy that has run at a level.
+    pub(super) fn by_remedy(
+        &self,
+        (basis, level): (BasisName, &str),
+        remedies: &[RemedyName],
+        points: impl Fn(&Record) -> Result<Vec<(f64, f64)>, Error>,
+    ) -> Result<Vec<Series>, Error> {
+        let mut curves = Vec::new();
+        for &remedy in remedies {
+            if let Some(record) = self.find(basis, remedy, level) {
+                let scheme = Scheme::flip(basis, remedy);
+                let mut curve = series(scheme, points(record)?, Markers::None);
+                curve.name = remedy_title(remedy);
+                curves.push(curve);
+            }
+        }
+        Ok(curves)
+    }
+
+    /// Two columns of the time series of a run.
+    pub(super) fn history(
+        &self,
+        record: &Record,
+        [x, y]: [&str; 2],
+    ) -> Result<Vec<(f64, f64)>, Error> {
+        Ok(self.gallery.table(record, "series.csv")?.points(x, y))
+    }
+
+    /// The file of a picture.
+    pub(super) fn place(&self, name: &str) -> PathBuf {
+        self.gallery.place(&format!("{name}.png"))
+    }
+
+    /// Hangs a picture that was drawn at its [place](Self::place).
+    pub(super) fn hang(&mut self, name: &str, caption: impl Into<String>) {
+        self.gallery.hang(&format!("{name}.png"), caption);
+    }
+
+    /// Draws charts and writes their points beside them.
+    pub(super) fn charts(
+        &mut self,
+        name: &str,
+        charts: &[Chart],
+        columns: usize,
+        caption: impl Into<String>,
+    ) -> Result<(), Error> {
+        self.gallery.write_curves(&format!("{name}.csv"), charts)?;
+        draw_charts(&self.place(name), charts, columns)?;
+        self.hang(name, caption);
+        Ok(())
+    }
+
+    /// Draws panels of fields.
+    pub(super) fn fields(
+        &mut self,
+        name: &str,
+        figure: &FieldFigure,
+        caption: impl Into<String>,
+    ) -> Result<(), Error> {
+        draw_fields(&self.place(name), figure)?;
+        self.hang(name, caption);
+        Ok(())
+    }
+}
