@@ -5,7 +5,7 @@ use super::parameters::{LOAD, POISSON_RATIO, YOUNG_MODULUS};
 use crate::parameter::Parameters;
 use crate::statistics::rms;
 use serde::Deserialize;
-use std::sync::OnceLock;
+use std::sync::LazyLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/cook.json");
 const FIELD: &str = include_str!("../../../references/cook_mean_stress.csv");
@@ -65,24 +65,22 @@ impl Solution {
     }
 }
 
-fn document() -> Option<&'static Document> {
-    static DOCUMENT: OnceLock<Option<Document>> = OnceLock::new();
-    DOCUMENT
-        .get_or_init(|| serde_json::from_str(SOLUTIONS).ok())
-        .as_ref()
+fn document() -> Result<&'static Document, String> {
+    static DOCUMENT: LazyLock<Option<Document>> =
+        LazyLock::new(|| serde_json::from_str(SOLUTIONS).ok());
+    let unreadable = || "the stored reference can't be read".to_owned();
+    DOCUMENT.as_ref().ok_or_else(unreadable)
 }
 
 /// The change due to the load's place at cell size `h` (m), if it is stored.
 pub(super) fn load_shift(h: f64) -> Option<&'static LoadShift> {
-    document()?.load_inset.iter().find(|s| s.h == h)
+    document().ok()?.load_inset.iter().find(|s| s.h == h)
 }
 
 /// The solution for `parameters`, if the reference covers them: displacements depend on ν and on
 /// load over E alone, so both must be those of a stored solution.
 pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, String> {
-    let Some(document) = document() else {
-        return Err("the stored reference can't be read".to_owned());
-    };
+    let document = document()?;
     let ratio = parameters.number(LOAD) / parameters.number(YOUNG_MODULUS);
     let stored = document.load_over_young_modulus;
     if (ratio - stored).abs() > 1e-9 * stored {
@@ -103,7 +101,7 @@ pub(super) fn stress_scale(parameters: &Parameters) -> f64 {
 
 /// The references in words.
 pub(super) fn describe() -> Vec<String> {
-    let Some(document) = document() else {
+    let Ok(document) = document() else {
         return Vec::new();
     };
     let mut lines = vec![document.method.clone()];
@@ -131,8 +129,7 @@ pub(super) struct Field {
 impl Field {
     /// The stored field.
     pub(super) fn stored() -> &'static Self {
-        static STORED: OnceLock<Field> = OnceLock::new();
-        STORED.get_or_init(|| {
+        static STORED: LazyLock<Field> = LazyLock::new(|| {
             let (columns, rows) = (96, 120);
             let mut values = vec![None; columns * rows];
             let mut reader = csv::Reader::from_reader(FIELD.as_bytes());
@@ -142,12 +139,13 @@ impl Field {
                     *value = Some(stress);
                 }
             }
-            Self {
+            Field {
                 columns,
                 rows,
                 values,
             }
-        })
+        });
+        &STORED
     }
 
     fn at(&self, i: usize, j: usize) -> Option<f64> {

@@ -1,5 +1,7 @@
 //! Checks of the strip footing. The tolerances are derived in `docs/footing.md`.
 
+mod studies;
+
 use super::geometry::{WIDTH, effective_width, mechanism_extent};
 use super::metrics::{self as m, CURVE, MEAN_STRESSES};
 use super::parameters::{
@@ -7,7 +9,6 @@ use super::parameters::{
     UNDRAINED_STRENGTH, YOUNG_MODULUS,
 };
 use super::reference::{EXACT, curve, elastic_slope, has_the_curve_of, mean_stress_at};
-use crate::accuracy::fit_order;
 use crate::check::{Check, Finding, judge, run, study};
 use crate::metric::Metric;
 use crate::record::Record;
@@ -26,8 +27,6 @@ const RESOLVED: f64 = 0.05;
 const FLAT: (f64, f64) = (0.01, 0.005);
 /// Largest relative difference of the forces on base and footing.
 const INERTIA: f64 = 0.005;
-/// Largest relative change of the limit load when the rate is halved.
-const RATE: f64 = 0.005;
 /// Least relative excess of a locked load over Prandtl's, over the tolerance of one that isn't.
 const LOCKED: f64 = 2.0;
 /// Largest oscillation of a locking-free pressure, rms(σ_m − Πσ_m) / rms σ_m; least one of a locked pressure.
@@ -37,9 +36,6 @@ const BOARD: (f64, f64) = (0.2, 0.5);
 const GRADIENT: f64 = 6.24;
 /// Cells within which the end of the mechanism is seen.
 const SMEARED: f64 = 2.0;
-/// The order of the contact pressure's error: of its leading part, the width of the footing, less how the
-/// elements' own error lowers it.
-const ORDER: (f64, f64) = (0.85, 1.1);
 /// Penetration over B, over s_u/E, from which on the load of the finite elements is within ½ % of its limit on a
 /// ground of 6B × 6B; a smaller one is stiffer and gets there sooner.
 const PLASTIC: f64 = 18.5;
@@ -69,58 +65,33 @@ pub(super) fn checks() -> Vec<Check> {
             "quasi-static",
             "all with FLIP, as all that follows but elastic-slope: the force on the base is that on the footing within 0.5 %, mean over the last quarter of the penetration (linear momentum)",
             run(|r| {
-                if let Some(why) = why_shown_only(r) {
-                    return vec![Finding::not_applicable(m::FORCE_IMBALANCE, why)];
-                }
-                let imbalance = r.metric(m::FORCE_IMBALANCE).abs();
-                let why = "linear momentum of a body that is pressed slowly";
-                vec![Finding::at_most(
-                    m::FORCE_IMBALANCE,
-                    imbalance,
-                    INERTIA,
-                    why,
-                )]
+                let metric = m::FORCE_IMBALANCE;
+                vec![match why_shown_only(r) {
+                    Some(why) => Finding::not_applicable(metric, why),
+                    None => {
+                        let why = "linear momentum of a body that is pressed slowly";
+                        Finding::at_most(metric, r.metric(metric).abs(), INERTIA, why)
+                    }
+                }]
             }),
         ),
         Check::truth(
             "prandtl",
             "fbar-rate, fbar-consistent: the limit load by the width that the footing acts with is 2 + π within 1 % at h ≤ B/20, within 2 % at B/10",
-            run(|r| {
-                let shown_only =
-                    why_shown_only(r).map(|why| Finding::not_applicable(m::NC_EFFECTIVE, why));
-                shown_only.map_or_else(|| limit(r, m::NC_EFFECTIVE, prandtl), |found| vec![found])
+            run(|r| match why_shown_only(r) {
+                Some(why) => vec![Finding::not_applicable(m::NC_EFFECTIVE, why)],
+                None => limit(r, m::NC_EFFECTIVE, prandtl),
             }),
         ),
         Check::truth(
             "limit-load",
             "fbar-rate, fbar-consistent: the load grows by less than 0.5 % and falls by less than 1 % per 10⁻³ of s/B over the last quarter of the penetration",
-            run(|r| {
-                limit(r, m::PLATEAU_RISE, |r| {
-                    let (fall, growth) = FLAT;
-                    let (middle, half) = (0.5 * (growth - fall), 0.5 * (growth + fall));
-                    let why = "a perfectly plastic body has a limit load";
-                    vec![judge(r, m::PLATEAU_RISE).within(middle, half, why)]
-                })
-            }),
+            run(|r| limit(r, m::PLATEAU_RISE, flatness)),
         ),
         Check::truth(
             "smooth-pressure",
             "fbar-rate, fbar-consistent at h ≤ B/20: rms(σ_m − Πσ_m) below 0.2 rms σ_m",
-            run(|r| {
-                if why_no_limit(r).is_some() {
-                    return Vec::new();
-                }
-                limit(r, m::CHECKERBOARD_RATIO, |r| {
-                    let metric = m::CHECKERBOARD_RATIO;
-                    vec![if coarseness(r) > 1.0 {
-                        let why = "five cells under half of the footing don't resolve the pressure's edge";
-                        Finding::not_applicable(metric, why)
-                    } else {
-                        let why = "a pressure that is resolved is close to its average";
-                        judge(r, metric).at_most(BOARD.0, why)
-                    }]
-                })
-            }),
+            run(|r| limit_alone(r, m::CHECKERBOARD_RATIO, smoothness)),
         ),
         Check::truth(
             "mechanism",
@@ -130,12 +101,7 @@ pub(super) fn checks() -> Vec<Check> {
         Check::truth(
             "mean-stress",
             "fbar-rate, fbar-consistent: σ_m at five points is that of the finite elements of vanishing size within h |∇σ_m|",
-            run(|r| {
-                if why_no_limit(r).is_some() {
-                    return Vec::new();
-                }
-                limit(r, MEAN_STRESSES[0].0, mean_stress)
-            }),
+            run(|r| limit_alone(r, MEAN_STRESSES[0].0, mean_stress)),
         ),
         Check::truth(
             "fem-plateau",
@@ -145,12 +111,7 @@ pub(super) fn checks() -> Vec<Check> {
         Check::truth(
             "curve",
             "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
-            run(|r| {
-                if why_no_limit(r).is_some() {
-                    return Vec::new();
-                }
-                limit(r, CURVE[2].0, load_curve)
-            }),
+            run(|r| limit_alone(r, CURVE[2].0, load_curve)),
         ),
         Check::known_limit(
             "no-limit-load",
@@ -168,49 +129,30 @@ pub(super) fn checks() -> Vec<Check> {
         Check::known_limit(
             "checkerboard",
             "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m",
-            run(|r| {
-                let gimp = r.basis() == BasisName::Gimp;
-                let found = || locked(r, Locks::Load, m::CHECKERBOARD_RATIO, BOARD.1);
-                if gimp { found() } else { Vec::new() }
+            run(|r| match r.basis() {
+                BasisName::Gimp => locked(r, Locks::Load, m::CHECKERBOARD_RATIO, BOARD.1),
+                _ => Vec::new(),
             }),
         ),
         Check::truth(
             "rate-independent",
             "fbar-consistent: the limit load changes by less than 0.5 % when the rate is halved",
-            study(|records| {
-                let law = "a rate-independent law, pressed slowly";
-                let found = |(change, what)| {
-                    Finding::at_most(m::NC_B, change, RATE, format!("{law}: {what}"))
-                };
-                rates(records, RemedyName::FbarConsistent)
-                    .into_iter()
-                    .map(found)
-                    .collect()
-            }),
+            study(studies::rate_independence),
         ),
         Check::known_limit(
             "rate-dependent",
             "fbar-recursive: the load changes by more than 0.5 % when the rate is halved",
-            study(|records| {
-                let law = "Eq. (26) averages the average and so diffuses J̄ in time";
-                let found = |(change, what)| {
-                    Finding::above(m::NC_B, change, RATE, format!("{law}: {what}"))
-                };
-                rates(records, RemedyName::FbarRecursive)
-                    .into_iter()
-                    .map(found)
-                    .collect()
-            }),
+            study(studies::rate_dependence),
         ),
         Check::truth(
             "contacts-agree",
             "all: the load through the barrier is that of held nodes within 2h/B",
-            study(contacts),
+            study(studies::contacts),
         ),
         Check::truth(
             "pressure-order",
             "fbar-rate, fbar-consistent with nodes on grid lines, over three levels: the error of the contact pressure by B falls with an order of 0.85 to 1.1 (the paper's Figure 9: slightly below one)",
-            study(orders),
+            study(studies::orders),
         ),
     ]
 }
@@ -345,6 +287,38 @@ fn limit(record: &Record, metric: Metric, found: fn(&Record) -> Vec<Finding>) ->
     }
 }
 
+/// Likewise, where another check says why there is none.
+fn limit_alone(
+    record: &Record,
+    metric: Metric,
+    found: fn(&Record) -> Vec<Finding>,
+) -> Vec<Finding> {
+    match why_no_limit(record) {
+        Some(_) => Vec::new(),
+        None => limit(record, metric, found),
+    }
+}
+
+/// The growth of the load, within its bounds.
+fn flatness(record: &Record) -> Vec<Finding> {
+    let (fall, growth) = FLAT;
+    let (middle, half) = (0.5 * (growth - fall), 0.5 * (growth + fall));
+    let why = "a perfectly plastic body has a limit load";
+    vec![judge(record, m::PLATEAU_RISE).within(middle, half, why)]
+}
+
+/// How much of the pressure alternates from particle to particle.
+fn smoothness(record: &Record) -> Vec<Finding> {
+    const METRIC: Metric = m::CHECKERBOARD_RATIO;
+    vec![if coarseness(record) > 1.0 {
+        let why = "five cells under half of the footing don't resolve the pressure's edge";
+        Finding::not_applicable(METRIC, why)
+    } else {
+        let why = "a pressure that is resolved is close to its average";
+        judge(record, METRIC).at_most(BOARD.0, why)
+    }]
+}
+
 /// The limit load by the width that the footing acts with.
 fn prandtl(record: &Record) -> Vec<Finding> {
     const METRIC: Metric = m::NC_EFFECTIVE;
@@ -423,81 +397,6 @@ fn load_curve(record: &Record) -> Vec<Finding> {
         Some(Finding::within(metric, value, expected, tolerance, name))
     });
     found.collect()
-}
-
-/// The same run at half the rate.
-fn halved<'a>(records: &'a [Record], run: &Record) -> Option<&'a Record> {
-    let rate = |r: &Record| r.parameters.number(PENETRATION_RATE);
-    records.iter().find(|r| {
-        let others = |r: &Record| {
-            let mut set = r.set.clone();
-            set.retain(|s| !s.starts_with("penetration_rate="));
-            set
-        };
-        r.scheme() == run.scheme()
-            && r.level == run.level
-            && others(r) == others(run)
-            && (rate(r) / rate(run) - 0.5).abs() < 1e-9
-    })
-}
-
-/// What halving the rate does to the limit load of a remedy: relative change, and what was run. Faster runs than the
-/// case's own ring: they are there to show it.
-fn rates(records: &[Record], remedy: RemedyName) -> Vec<(f64, String)> {
-    let own = |r: &&Record| r.is_default() && r.remedy() == remedy && !is_elastic(r);
-    let change = |run: &Record| {
-        let slower = halved(records, run)?;
-        let change = (slower.metric(m::NC_B) / run.metric(m::NC_B) - 1.0).abs();
-        let rate = run.parameters.number(PENETRATION_RATE);
-        let (scheme, level) = (run.scheme(), &run.level);
-        Some((
-            change,
-            format!("{scheme} {level} from {rate} m/s to half of it"),
-        ))
-    };
-    records.iter().filter(own).filter_map(change).collect()
-}
-
-/// What the barrier changes against held nodes.
-fn contacts(records: &[Record]) -> Vec<Finding> {
-    let found = |run: &Record| {
-        let same =
-            |r: &&Record| r.is_default() && r.scheme() == run.scheme() && r.level == run.level;
-        let held = records.iter().find(same)?.metric(m::NC_B);
-        let (scheme, level) = (run.scheme(), &run.level);
-        Some(judge(run, m::NC_B).within(held, 2.0 * run.discretisation.h / WIDTH * held, format!(
-                "{scheme} {level}: a barrier on particles and held nodes; the edges of either are known to half a cell"
-            )))
-    };
-    let through_barrier = records.iter().filter(|r| r.changes_only(CONTACT.name));
-    through_barrier.filter_map(found).collect()
-}
-
-/// The order of the contact pressure's error by B, over runs of the case's own parameters; when they end changes nothing.
-fn orders(records: &[Record]) -> Vec<Finding> {
-    let mut found = Vec::new();
-    for scheme in crate::distinct(records.iter().map(Record::scheme)) {
-        let mut points: Vec<(f64, f64)> = records
-            .iter()
-            .filter(|r| r.scheme() == scheme && is_free_of_locking(r))
-            .filter(|r| r.is_default() || r.changes_only(PENETRATION.name))
-            .filter(|r| effective_width(r.basis(), r.discretisation.h).0 > WIDTH)
-            .map(|r| (r.discretisation.h, r.metric(m::PRANDTL_ERROR)))
-            .collect();
-        points.sort_by(|a, b| b.0.total_cmp(&a.0));
-        if points.len() < 3 {
-            continue;
-        }
-        let (least, most) = ORDER;
-        found.push(Finding::within(
-            m::PRANDTL_ERROR,
-            fit_order(&points).map_or(f64::NAN, |o| o.order),
-            0.5 * (least + most),
-            0.5 * (most - least),
-            format!("{scheme}: the error is the footing's excess width h/B, to first order"),
-        ));
-    }
-    found
 }
 
 #[cfg(test)]

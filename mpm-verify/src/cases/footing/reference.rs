@@ -8,7 +8,7 @@ use super::parameters::{
 use crate::parameter::Parameters;
 use crate::record::Record;
 use serde::Deserialize;
-use std::sync::OnceLock;
+use std::sync::LazyLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/footing.json");
 
@@ -101,16 +101,16 @@ impl Curve {
     }
 }
 
-fn document() -> Option<&'static Document> {
-    static DOCUMENT: OnceLock<Option<Document>> = OnceLock::new();
-    DOCUMENT
-        .get_or_init(|| serde_json::from_str(SOLUTIONS).ok())
-        .as_ref()
+fn document() -> Result<&'static Document, String> {
+    static DOCUMENT: LazyLock<Option<Document>> =
+        LazyLock::new(|| serde_json::from_str(SOLUTIONS).ok());
+    let unreadable = || "the stored reference can't be read".to_owned();
+    DOCUMENT.as_ref().ok_or_else(unreadable)
 }
 
 /// The curve of vanishing elements as (s/B, q/s_u), to be drawn.
 pub(super) fn limit_curve() -> Vec<(f64, f64)> {
-    let curve = document().map(|d| &d.extrapolated.curve);
+    let curve = document().ok().map(|d| &d.extrapolated.curve);
     let points = curve.into_iter().flatten();
     points.map(|p| (p.settlement, p.pressure)).collect()
 }
@@ -122,7 +122,7 @@ pub(super) fn strength_ratio() -> f64 {
 
 /// The mean normal stress at a material point (in B), where it is known.
 pub(super) fn mean_stress_at(point: [f64; 2]) -> Option<&'static MeanStress> {
-    let known = &document()?.extrapolated.mean_stress;
+    let known = &document().ok()?.extrapolated.mean_stress;
     known.iter().find(|s| [s.x, s.y] == point)
 }
 
@@ -155,9 +155,7 @@ const ROOM: f64 = 3.0;
 
 /// The finite-element curve for a run; that of other parameters has the same limit load.
 pub(super) fn curve(record: &Record) -> Result<Curve, String> {
-    let Some(document) = document() else {
-        return Err("the stored reference can't be read".to_owned());
-    };
+    let document = document()?;
     for extent in [DOMAIN_WIDTH, DOMAIN_DEPTH] {
         if record.parameters.number(extent) < ROOM {
             return Err(format!("the ground is less than {ROOM} B wide or deep"));
@@ -201,9 +199,7 @@ pub(super) fn curve(record: &Record) -> Result<Curve, String> {
 
 /// Whether the whole curve of the reference, not its limit load alone, is that of the run's parameters.
 pub(super) fn has_the_curve_of(parameters: &Parameters) -> Result<(), String> {
-    let Some(document) = document() else {
-        return Err("the stored reference can't be read".to_owned());
-    };
+    let document = document()?;
     let number = |p| parameters.number(p);
     let wanted = [
         (POISSON_RATIO, document.poisson_ratio),
@@ -229,9 +225,7 @@ pub(super) fn has_the_curve_of(parameters: &Parameters) -> Result<(), String> {
 
 /// d(q/E)/d(s/B) of an elastic ground for a run.
 pub(super) fn elastic_slope(record: &Record) -> Result<f64, String> {
-    let Some(document) = document() else {
-        return Err("the stored reference can't be read".to_owned());
-    };
+    let document = document()?;
     let number = |p| record.parameters.number(p);
     if !record.parameters.boolean(ROUGH) {
         return Err("the slopes are those of a rough footing".to_owned());
@@ -262,7 +256,7 @@ pub(super) fn describe() -> Vec<String> {
     let mut lines = vec![format!(
         "Prandtl (1920): limit load q = (2 + π) s_u = {EXACT:.4} s_u, exact for a rigid, perfectly plastic half-space"
     )];
-    let Some(document) = document() else {
+    let Ok(document) = document() else {
         return lines;
     };
     lines.push(document.method.clone());
