@@ -1,7 +1,7 @@
 //! The laws of the problems, with their particles side by side as in a step; those that flow do so in every update.
 
 use super::local::{Going, Local};
-use super::{Options, Outcome, Turn};
+use super::{Options, Turn};
 use crate::error::Error;
 use mpm_core::material::{HenckyJ2, Law, NeoHookean, NewtonianFluid, Strength};
 use mpm_core::{SymmetricTensor, space};
@@ -21,21 +21,12 @@ struct Updates<M: Law, const D: usize> {
 
 impl<M: Law, const D: usize> Going for Updates<M, D> {
     fn go_on(&mut self) -> Result<u64, Error> {
-        let Self {
-            law,
-            delta_f,
-            states,
-            stresses,
-        } = self;
         for _ in 0..UPDATES {
-            let delta_f = std::hint::black_box(&*delta_f);
-            law.update_all(|_| space::embed(delta_f), 1e-4, states, stresses);
+            let delta_f = std::hint::black_box(&self.delta_f);
+            let (states, stresses) = (&mut self.states, &mut self.stresses);
+            (self.law).update_all(|_| space::embed(delta_f), 1e-4, states, stresses);
         }
         Ok(UPDATES * PARTICLES as u64)
-    }
-
-    fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
-        Ok(None)
     }
 }
 

@@ -11,8 +11,10 @@ use std::collections::BTreeMap;
 pub(super) trait Going: Send {
     /// Goes on by a slice and returns the updates.
     fn go_on(&mut self) -> Result<u64, Error>;
-    /// What it has come to.
-    fn outcome(&mut self) -> Result<Option<Outcome>, Error>;
+    /// What it has come to, if there is anything to compare.
+    fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
+        Ok(None)
+    }
 }
 
 /// Something of this program on threads of its own.

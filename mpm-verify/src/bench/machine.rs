@@ -2,7 +2,7 @@
 //! (McCalpin 1995).
 
 use super::local::{Going, Local};
-use super::{Options, Outcome, Turn};
+use super::{Options, Turn};
 use crate::error::Error;
 use rayon::prelude::*;
 
@@ -31,10 +31,6 @@ impl Going for Triad {
                 }
             });
         Ok(BYTES * LENGTH as u64)
-    }
-
-    fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
-        Ok(None)
     }
 }
 

@@ -188,6 +188,21 @@ struct Turn {
     like: Option<usize>,
 }
 
+/// The same on each number of threads, which must all come to what the first of them comes to.
+fn on_threads(
+    options: &Options,
+    turns: &mut Vec<Turn>,
+    turn: impl Fn(usize) -> Result<Turn, Error>,
+) -> Result<(), Error> {
+    let first = turns.len();
+    for &threads in &options.threads {
+        let like = (turns.len() > first).then_some(first);
+        let turn = turn(threads)?;
+        turns.push(Turn { like, ..turn });
+    }
+    Ok(())
+}
+
 /// Those that take turns with each other.
 type Group = fn(&Options) -> Result<Vec<Turn>, Error>;
 

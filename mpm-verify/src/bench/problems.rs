@@ -1,7 +1,7 @@
 //! The four problems, each at a level with a few thousand particles or a few ten thousand, so many observations a slice.
 
 use super::local::{Local, Observations};
-use super::{Options, Turn};
+use super::{Options, Turn, on_threads};
 use crate::case::find_level;
 use crate::cases;
 use crate::error::Error;
@@ -28,18 +28,10 @@ pub(super) fn turns(options: &Options) -> Result<Vec<Turn>, Error> {
                 RemedyName::FbarRecursive,
                 RemedyName::FbarConsistent,
             ] {
-                let first = turns.len();
-                for &threads in &options.threads {
-                    let like = (turns.len() > first).then_some(first);
-                    turns.push(turn(
-                        case,
-                        level,
-                        observations,
-                        Scheme::flip(basis, remedy),
-                        threads,
-                        like,
-                    )?);
-                }
+                let scheme = Scheme::flip(basis, remedy);
+                on_threads(options, &mut turns, |threads| {
+                    turn(case, level, observations, scheme, threads)
+                })?;
             }
         }
     }
@@ -52,7 +44,6 @@ fn turn(
     observations: usize,
     scheme: Scheme,
     threads: usize,
-    like: Option<usize>,
 ) -> Result<Turn, Error> {
     let case = cases::find(case)?;
     let spec = RunSpec {
@@ -73,6 +64,6 @@ fn turn(
         threads,
         particles,
         timed: Box::new(local),
-        like,
+        like: None,
     })
 }

@@ -6,7 +6,7 @@
 //! so wide that no particle reaches an end.
 
 use super::local::{Local, Steps};
-use super::{Options, Turn};
+use super::{Options, Turn, on_threads};
 use crate::error::Error;
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use mpm_core::explicit::{Settings, courant_time_step};
@@ -82,13 +82,7 @@ where
         Ok(solver(scheme, scene, settings)?)
     }
 
-    fn turn(
-        &self,
-        group: &'static str,
-        steps: u64,
-        threads: usize,
-        like: Option<usize>,
-    ) -> Result<Turn, Error> {
+    fn turn(&self, group: &'static str, steps: u64, threads: usize) -> Result<Turn, Error> {
         let local = Local::new(threads, || {
             let simulation = self.simulation()?;
             Ok(Steps { simulation, steps })
@@ -99,7 +93,7 @@ where
             threads,
             particles: self.particles(),
             timed: Box::new(local),
-            like,
+            like: None,
         })
     }
 
@@ -111,12 +105,7 @@ where
         options: &Options,
         turns: &mut Vec<Turn>,
     ) -> Result<(), Error> {
-        let first = turns.len();
-        for &threads in &options.threads {
-            let like = (turns.len() > first).then_some(first);
-            turns.push(self.turn(group, steps, threads, like)?);
-        }
-        Ok(())
+        on_threads(options, turns, |threads| self.turn(group, steps, threads))
     }
 }
 
@@ -153,7 +142,7 @@ where
     blocks
         .map(|block| {
             let steps = UPDATES.div_ceil(block.particles());
-            block.turn("scaling", steps, 1, None)
+            block.turn("scaling", steps, 1)
         })
         .collect()
 }
@@ -181,7 +170,7 @@ mod tests {
             cells: 2,
             fbar: false,
         };
-        let mut turn = block.turn("workload", STEPS, 1, None).unwrap();
+        let mut turn = block.turn("workload", STEPS, 1).unwrap();
         let sums = turn.timed.outcome().unwrap().unwrap().sums;
         let speeds = block.positions().into_iter().map(|x| velocity(&x)[2]);
         let mean = speeds.sum::<f64>() / block.particles() as f64;
@@ -194,7 +183,7 @@ mod tests {
     fn what_a_block_holds_is_its_columns_its_weights_and_its_nodes() {
         for fbar in [false, true] {
             let block = Block::<2> { cells: 30, fbar };
-            let mut turn = block.turn("scaling", 1, 1, None).unwrap();
+            let mut turn = block.turn("scaling", 1, 1).unwrap();
             turn.timed.slice().unwrap();
             let held = turn.timed.held().unwrap() as f64;
             // Displacements; with F̄ weights and values to be averaged.

@@ -1,11 +1,15 @@
 //! What several problems set and observe in the same way.
 
-use super::parameters::{WALL, WALL_LINE};
+use super::parameters::{PPC_PER_DIRECTION, WALL, WALL_LINE};
 use crate::job::Column;
 use crate::parameter::Parameters;
+use crate::record::Discretisation;
+use crate::spec::RunSpec;
 use crate::statistics::rms;
 use mpm_core::basis::WallTreatment;
-use mpm_core::{Field, Simulation};
+use mpm_core::explicit::Settings;
+use mpm_core::stage::LocalDamping;
+use mpm_core::{Field, Particles, Simulation};
 
 /// How B-splines meet walls, by the parameter of that name.
 pub(super) fn wall_treatment(parameters: &Parameters) -> WallTreatment {
@@ -14,6 +18,54 @@ pub(super) fn wall_treatment(parameters: &Parameters) -> WallTreatment {
     } else {
         WallTreatment::OpenKnot
     }
+}
+
+/// Wall treatment and remedy of a run that takes steps of `dt` (s), and local damping if there is any.
+pub(super) fn settings<const D: usize>(
+    spec: &RunSpec,
+    parameters: &Parameters,
+    dt: f64,
+    damping: f64,
+) -> Result<Settings<D>, mpm_core::Error> {
+    let settings = Settings::new(dt)
+        .wall(wall_treatment(parameters))
+        .remedy(spec.scheme.remedy().build());
+    match damping > 0.0 {
+        true => Ok(settings.filter_forces(LocalDamping::new(damping)?)),
+        false => Ok(settings),
+    }
+}
+
+/// The discretisation of a run in so many dimensions that takes steps of `dt` (s).
+pub(super) fn discretisation(
+    dim: usize,
+    spec: &RunSpec,
+    parameters: &Parameters,
+    dt: f64,
+) -> Discretisation {
+    let per_direction = parameters.number(PPC_PER_DIRECTION);
+    Discretisation {
+        dim,
+        h: spec.level.h,
+        ppc: per_direction.powi(dim as i32) as u32,
+        dt,
+        wall: parameters.text(WALL),
+    }
+}
+
+/// Where particles are.
+pub(super) fn position_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
+    let axes = ["x", "y", "z"].into_iter().take(D).enumerate();
+    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.position[k][a])))
+        .collect()
+}
+
+/// Where particles were before any motion.
+pub(super) fn reference_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
+    let axes = ["reference_x", "reference_y", "reference_z"];
+    let axes = axes.into_iter().take(D).enumerate();
+    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.reference[k][a])))
+        .collect()
 }
 
 /// A named particle column; values in seeding order.

@@ -5,14 +5,14 @@ use super::parameters::{
     CFL, COLUMN, DAMPING, DENSITY, FLIP, KINETIC_DAMPING, LOAD, LOAD_AT, LOAD_RAMP, MAX_PERIODS,
     POISSON_RATIO, PPC_PER_DIRECTION, REST_WINDOW, YOUNG_MODULUS,
 };
-use crate::cases::observe::wall_treatment;
+use crate::cases::observe::settings;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
+use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
-use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::stage::{DeadForce, End, KineticDamping, LocalDamping, Wall, WallKind};
+use mpm_core::stage::{DeadForce, End, KineticDamping, Wall, WallKind};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
 use mpm_solvers::solver;
 
@@ -92,14 +92,8 @@ pub(super) fn begin(
         number(DENSITY),
         [0.5 * spacing; 2],
     )?;
-    let wall = wall_treatment(parameters);
-    let mut settings = Settings::new(time_step(h, parameters)?)
-        .wall(wall)
-        .transfer(Flip::new(number(FLIP))?)
-        .remedy(spec.scheme.remedy().build());
-    if number(DAMPING) > 0.0 {
-        settings = settings.filter_forces(LocalDamping::new(number(DAMPING))?);
-    }
+    let mut settings = settings(spec, parameters, time_step(h, parameters)?, number(DAMPING))?
+        .transfer(Flip::new(number(FLIP))?);
     if parameters.boolean(KINETIC_DAMPING) {
         settings = settings.filter_particles(KineticDamping::default());
     }

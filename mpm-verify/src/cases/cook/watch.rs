@@ -2,10 +2,12 @@
 
 use super::geometry::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT, away_from_singularities, seed};
 use super::metrics::{self as m, MEAN_STRESSES};
-use super::parameters::{DENSITY, LOAD_RAMP, MAX_PERIODS, PPC_PER_DIRECTION, REST_WINDOW, WALL};
+use super::parameters::{DENSITY, LOAD_RAMP, MAX_PERIODS, PPC_PER_DIRECTION, REST_WINDOW};
 use super::reference::{Field as Reference, solution, stress_scale};
 use super::scene::{begin, check_together, period, time_step};
-use crate::cases::observe::{checkerboard, column, mean_stress};
+use crate::cases::observe::{
+    checkerboard, column, discretisation, mean_stress, position_columns, reference_columns,
+};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -77,13 +79,7 @@ impl Loaded {
         let loaded = Self {
             spec: spec.clone(),
             parameters: parameters.clone(),
-            discretisation: Discretisation {
-                dim: 2,
-                h,
-                ppc: (per_direction * per_direction) as u32,
-                dt,
-                wall: parameters.text(WALL),
-            },
+            discretisation: discretisation(2, spec, parameters, dt),
             probes: Probes::new(&references, 2.0 * h)?,
             references,
             max_time: number(MAX_PERIODS) * period,
@@ -292,18 +288,15 @@ impl Watch<2> for Loaded {
         let [ux, uy] = [0, 1].map(|axis| displacement(run, axis));
         let p = run.particles();
         let averaged_jacobian = |k: usize| p.j_bar.get(k).copied().unwrap_or(p.jacobian[k]);
-        vec![
-            column("x", "m", p.seeded(|k| p.position[k][0])),
-            column("y", "m", p.seeded(|k| p.position[k][1])),
-            column("reference_x", "m", p.seeded(|k| p.reference[k][0])),
-            column("reference_y", "m", p.seeded(|k| p.reference[k][1])),
+        let own = vec![
             column("ux", "m", ux),
             column("uy", "m", uy),
             column("mean_stress", "Pa", mean_stress),
             column("averaged_mean_stress", "Pa", averaged),
             column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
             column("averaged_jacobian", "-", p.seeded(averaged_jacobian)),
-        ]
+        ];
+        [position_columns(p), reference_columns(p), own].concat()
     }
 
     fn metrics(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<(Metric, f64)> {

@@ -2,10 +2,10 @@
 
 use super::parameters::{
     BULK_MODULUS, CFL, DENSITY, DURATION, GRAVITY_STAGE, PIC_RATE, PPC_PER_DIRECTION, SEED, START,
-    STICKY, VISCOSITY, WALL, WALL_CONTACT,
+    STICKY, VISCOSITY, WALL_CONTACT,
 };
 use super::reference::{DEPTH, GRAVITY, LENGTH, TANK};
-use crate::cases::observe::wall_treatment;
+use crate::cases::observe::{discretisation, settings};
 use crate::error::Error;
 use crate::exact::Exact;
 use crate::exact::hydrostatic::Hydrostatic;
@@ -83,14 +83,7 @@ impl Dam {
     }
 
     pub(super) fn discretisation(&self) -> Discretisation {
-        let per_direction = self.parameters.number(PPC_PER_DIRECTION);
-        Discretisation {
-            dim: 2,
-            h: self.spec.level.h,
-            ppc: (per_direction * per_direction) as u32,
-            dt: self.dt,
-            wall: self.parameters.text(WALL),
-        }
+        discretisation(2, &self.spec, &self.parameters, self.dt)
     }
 
     /// Rows of the series that a gravity stage has behind the gate.
@@ -154,12 +147,9 @@ impl Dam {
     }
 
     fn settings(&self) -> Result<Settings<2>, mpm_core::Error> {
-        let wall = wall_treatment(&self.parameters);
         let flip = (-self.parameters.number(PIC_RATE) * self.dt).exp();
-        Ok(Settings::new(self.dt)
-            .wall(wall)
-            .transfer(Flip::new(flip)?)
-            .remedy(self.spec.scheme.remedy().build()))
+        let settings = settings(&self.spec, &self.parameters, self.dt, 0.0)?;
+        Ok(settings.transfer(Flip::new(flip)?))
     }
 
     fn particles(&self) -> Result<Particles<2>, mpm_core::Error> {

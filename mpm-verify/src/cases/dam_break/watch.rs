@@ -4,7 +4,7 @@ use super::flow::{Flow, Row, Start};
 use super::metrics::MASS;
 use super::reference::{DEPTH, GRAVITY, LENGTH};
 use super::scene::{BACK, Dam, FLOOR, FRONT, GATE, ROW, STAGE};
-use crate::cases::observe::{checkerboard, column};
+use crate::cases::observe::{checkerboard, column, position_columns};
 use crate::drive::{Stage, Watch};
 use crate::job::{Column, Snapshot};
 use crate::metric::Metric;
@@ -161,11 +161,8 @@ impl Watch<2> for Dam {
         }
         let pressures = pressures(&mut *stage.run, Field::MeanStress);
         let p = stage.run.particles();
-        let columns = vec![
-            column("x", "m", p.seeded(|k| p.position[k][0])),
-            column("y", "m", p.seeded(|k| p.position[k][1])),
-            column("pressure", "Pa", p.seeded(|k| pressures[k])),
-        ];
+        let mut columns = position_columns(p);
+        columns.push(column("pressure", "Pa", p.seeded(|k| pressures[k])));
         Some(Snapshot { time, columns })
     }
 
@@ -173,15 +170,14 @@ impl Watch<2> for Dam {
         let averaged = pressures(&mut *stage.run, Field::AveragedMeanStress);
         let pressures = pressures(&mut *stage.run, Field::MeanStress);
         let p = stage.run.particles();
-        vec![
-            column("x", "m", p.seeded(|k| p.position[k][0])),
-            column("y", "m", p.seeded(|k| p.position[k][1])),
+        let own = vec![
             column("vx", "m/s", p.seeded(|k| p.velocity[k][0])),
             column("vy", "m/s", p.seeded(|k| p.velocity[k][1])),
             column("pressure", "Pa", p.seeded(|k| pressures[k])),
             column("averaged_pressure", "Pa", p.seeded(|k| averaged[k])),
             column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
-        ]
+        ];
+        [position_columns(p), own].concat()
     }
 
     fn metrics(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<(Metric, f64)> {

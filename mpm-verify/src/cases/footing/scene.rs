@@ -6,14 +6,14 @@ use super::parameters::{
     POISSON_RATIO, PPC_PER_DIRECTION, RAMP, ROUGH, UNDRAINED_STRENGTH, YOUNG_MODULUS,
 };
 use super::reference::EXACT;
-use crate::cases::observe::wall_treatment;
+use crate::cases::observe::settings;
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
+use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
-use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{HenckyJ2, Law, Strength};
-use mpm_core::stage::{End, LocalDamping, RigidNodes, Wall, WallKind};
+use mpm_core::stage::{End, RigidNodes, Wall, WallKind};
 use mpm_core::{Axis, Body, Error, Grid, Particles, Scene, Side, Simulation};
 use mpm_solvers::solver;
 
@@ -92,13 +92,8 @@ pub(super) fn begin(
             ground.contact(contact)
         }
     };
-    let mut settings = Settings::new(time_step(h, parameters)?)
-        .wall(wall_treatment(parameters))
-        .transfer(Flip::new(number(FLIP))?)
-        .remedy(spec.scheme.remedy().build());
-    if number(DAMPING) > 0.0 {
-        settings = settings.filter_forces(LocalDamping::new(number(DAMPING))?);
-    }
+    let settings = settings(spec, parameters, time_step(h, parameters)?, number(DAMPING))?
+        .transfer(Flip::new(number(FLIP))?);
     solver(spec.scheme, scene, settings)
 }
 

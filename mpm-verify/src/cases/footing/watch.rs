@@ -2,12 +2,12 @@
 
 use super::geometry::{WIDTH, effective_width, mechanism_extent};
 use super::metrics::{self as m, CURVE, MEAN_STRESSES};
-use super::parameters::{
-    PENETRATION, PENETRATION_RATE, PPC_PER_DIRECTION, RAMP, ROUGH, UNDRAINED_STRENGTH, WALL,
-};
+use super::parameters::{PENETRATION, PENETRATION_RATE, RAMP, ROUGH, UNDRAINED_STRENGTH};
 use super::reference::EXACT;
 use super::scene::{BASE, FOOTING, Press, begin, time_step};
-use crate::cases::observe::{checkerboard, column, mean_stress};
+use crate::cases::observe::{
+    checkerboard, column, discretisation, mean_stress, position_columns, reference_columns,
+};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -68,18 +68,12 @@ impl Pressing {
     pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
         let number = |p| parameters.number(p);
         let h = spec.level.h;
-        let (dt, per_direction) = (time_step(h, parameters)?, number(PPC_PER_DIRECTION));
+        let dt = time_step(h, parameters)?;
         let pressing = Self {
             spec: spec.clone(),
             parameters: parameters.clone(),
             press: Press::new(h, parameters)?,
-            discretisation: Discretisation {
-                dim: 2,
-                h,
-                ppc: (per_direction * per_direction) as u32,
-                dt,
-                wall: parameters.text(WALL),
-            },
+            discretisation: discretisation(2, spec, parameters, dt),
             steps_per_row: ((ROW * WIDTH / number(PENETRATION_RATE) / dt).round() as u64).max(1),
             end: number(PENETRATION),
         };
@@ -281,18 +275,15 @@ impl Watch<2> for Pressing {
         let flow = flow(seen, run);
         let p = run.particles();
         let of = |axis: usize| flow.iter().map(|u| u[axis]).collect();
-        vec![
-            column("x", "m", p.seeded(|k| p.position[k][0])),
-            column("y", "m", p.seeded(|k| p.position[k][1])),
-            column("reference_x", "m", p.seeded(|k| p.reference[k][0])),
-            column("reference_y", "m", p.seeded(|k| p.reference[k][1])),
+        let own = vec![
             column("plateau_ux", "m", of(0)),
             column("plateau_uy", "m", of(1)),
             column("mean_stress", "Pa", mean_stress),
             column("averaged_mean_stress", "Pa", averaged),
             column("plastic_strain", "-", p.seeded(|k| plastic_strain[k])),
             column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
-        ]
+        ];
+        [position_columns(p), reference_columns(p), own].concat()
     }
 
     fn metrics(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<(Metric, f64)> {

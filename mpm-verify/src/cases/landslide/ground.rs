@@ -5,13 +5,13 @@ use super::parameters::{
     RESIDUAL_STRENGTH, SOFTENING, WIDTH, YOUNG_MODULUS,
 };
 use super::section::{GRAVITY, Section};
-use crate::cases::observe::wall_treatment;
+use crate::cases::observe::settings;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{HenckyJ2, Law, Strength};
-use mpm_core::stage::{BodyForce, End, LocalDamping, Wall, WallKind, smooth_rise};
+use mpm_core::stage::{BodyForce, End, Wall, WallKind, smooth_rise};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side};
 use std::f64::consts::SQRT_2;
 
@@ -166,13 +166,7 @@ impl<const D: usize> Ground<D> {
         let scene = Scene::new(grid, Body::new(law, particles)?)
             .load(weight)
             .constrain_all(walls::<D>());
-        let mut settings = Settings::new(self.dt)
-            .wall(wall_treatment(parameters))
-            .remedy(spec.scheme.remedy().build());
-        if damping > 0.0 {
-            settings = settings.filter_forces(LocalDamping::new(damping)?);
-        }
-        Ok((scene, settings))
+        Ok((scene, settings(spec, parameters, self.dt, damping)?))
     }
 }
 

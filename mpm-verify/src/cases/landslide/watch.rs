@@ -3,9 +3,9 @@
 use super::ground::{BASE, Ground, RISE, ROW, STAGE, STAGE_DAMPING, strength};
 use super::metrics as m;
 use super::observation::{Look, Released, Row, Series, potential, spread_over_width};
-use super::parameters::{DAMPING, DURATION, PPC_PER_DIRECTION, REDUCTION, RELEASE, WALL};
+use super::parameters::{DAMPING, DURATION, REDUCTION, RELEASE};
 use super::section::GRAVITY;
-use crate::cases::observe::{checkerboard, column};
+use crate::cases::observe::{checkerboard, column, discretisation, position_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::{Column, Snapshot};
@@ -309,10 +309,7 @@ fn columns<const D: usize>(run: &mut dyn Simulation<D>) -> Vec<Column> {
     let plastic_strain = plastic_strain(run);
     let mean_stress = run.field(Field::MeanStress);
     let p = run.particles();
-    let axes = ["x", "y", "z"].into_iter().take(D).enumerate();
-    let mut columns: Vec<Column> = axes
-        .map(|(a, name)| column(name, "m", p.seeded(|k| p.position[k][a])))
-        .collect();
+    let mut columns = position_columns(p);
     columns.push(column("plastic_strain", "-", plastic_strain));
     columns.push(column("mean_stress", "Pa", p.seeded(|k| mean_stress[k])));
     columns
@@ -325,14 +322,7 @@ where
     type Seen = Seen;
 
     fn discretisation(&self) -> Discretisation {
-        let per_direction = self.parameters.number(PPC_PER_DIRECTION);
-        Discretisation {
-            dim: D,
-            h: self.spec.level.h,
-            ppc: per_direction.powi(D as i32) as u32,
-            dt: self.ground.dt,
-            wall: self.parameters.text(WALL),
-        }
+        discretisation(D, &self.spec, &self.parameters, self.ground.dt)
     }
 
     fn scene(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {

@@ -1,7 +1,7 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
 use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO};
-use crate::cases::observe::wall_treatment;
+use crate::cases::observe::settings;
 use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS};
 use crate::error::Error;
 use crate::exact::{Exact, Material};
@@ -10,7 +10,7 @@ use crate::scheme::RemedyName;
 use crate::spec::{Level, RunSpec};
 use mpm_core::explicit::remedy::FbarConsistent;
 use mpm_core::explicit::transfer::Flip;
-use mpm_core::explicit::{Remedy, Settings, courant_time_step};
+use mpm_core::explicit::{Remedy, courant_time_step};
 use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
 use mpm_core::stage::{BodyForce, End, Wall, WallKind};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
@@ -111,8 +111,7 @@ where
     let forcing = BodyForce(Box::new(move |x: &[f64; D], t| {
         components(&exact.body_force(&vector(x), t))
     }));
-    let settings = Settings::new(dt)
-        .wall(wall_treatment(parameters))
+    let settings = settings(spec, parameters, dt, 0.0)?
         .transfer(Flip::new(number(FLIP))?)
         .remedy(remedy);
     let particles = seed(spec, number(PPC_PER_DIRECTION), solution.as_ref(), dt)?;

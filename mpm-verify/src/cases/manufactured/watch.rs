@@ -3,8 +3,7 @@
 use super::Manufactured;
 use super::metrics as m;
 use super::scene::{Timing, begin, vector};
-use crate::cases::observe::column;
-use crate::cases::parameters::{PPC_PER_DIRECTION, WALL};
+use crate::cases::observe::{column, discretisation, position_columns, reference_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::exact::Exact;
@@ -81,19 +80,12 @@ where
             Some(omega) => std::f64::consts::TAU / omega / ROWS_PER_PERIOD / dt,
             None => steps / ROWS,
         };
-        let per_direction = parameters.number(PPC_PER_DIRECTION) as u32;
         let motion = Self {
             case,
             spec: spec.clone(),
             parameters: parameters.clone(),
             solution,
-            discretisation: Discretisation {
-                dim: D,
-                h: spec.level.h,
-                ppc: per_direction.pow(D as u32),
-                dt,
-                wall: parameters.text(WALL),
-            },
+            discretisation: discretisation(D, spec, parameters, dt),
             steps: steps as u64,
             steps_per_row: (row as u64).max(1),
             frequency,
@@ -367,17 +359,7 @@ where
         };
         let force_stress = run.force_stress();
         let p = run.particles();
-        let mut columns = Vec::new();
-        for (a, name) in ["x", "y", "z"].into_iter().enumerate().take(D) {
-            columns.push(column(name, "m", p.seeded(|k| p.position[k][a])));
-        }
-        for (a, name) in ["reference_x", "reference_y", "reference_z"]
-            .into_iter()
-            .enumerate()
-            .take(D)
-        {
-            columns.push(column(name, "m", p.seeded(|k| p.reference[k][a])));
-        }
+        let mut columns = [position_columns(p), reference_columns(p)].concat();
         columns.extend([
             column("displacement_error", "m", displacement),
             column("velocity_error", "m/s", velocity),

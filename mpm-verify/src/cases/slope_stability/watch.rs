@@ -4,9 +4,9 @@ use super::{
     FACTOR_ERROR, FAILS_AT, MASS, MOST, MOVED_STANDING, STANDS_AT, STRENGTH,
     STRENGTH_REDUCTION_FACTOR, TRIALS,
 };
-use crate::cases::landslide::parameters::{FACE_ANGLE, PPC_PER_DIRECTION, WALL};
+use crate::cases::landslide::parameters::FACE_ANGLE;
 use crate::cases::landslide::{Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety};
-use crate::cases::observe::column;
+use crate::cases::observe::{column, discretisation, position_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -176,14 +176,7 @@ impl Watch<2> for Trials {
     type Seen = Seen;
 
     fn discretisation(&self) -> Discretisation {
-        let per_direction = self.parameters.number(PPC_PER_DIRECTION);
-        Discretisation {
-            dim: 2,
-            h: self.spec.level.h,
-            ppc: (per_direction * per_direction) as u32,
-            dt: self.ground.dt,
-            wall: self.parameters.text(WALL),
-        }
+        discretisation(2, &self.spec, &self.parameters, self.ground.dt)
     }
 
     fn scene(&self, seen: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
@@ -238,11 +231,9 @@ impl Watch<2> for Trials {
     fn particles(&self, _: &Seen, stage: &mut Stage<2>) -> Vec<Column> {
         let strain = stage.run.field(Field::PlasticStrain);
         let p = stage.run.particles();
-        vec![
-            column("x", "m", p.seeded(|k| p.position[k][0])),
-            column("y", "m", p.seeded(|k| p.position[k][1])),
-            column("plastic_strain", "-", p.seeded(|k| strain[k])),
-        ]
+        let mut columns = position_columns(p);
+        columns.push(column("plastic_strain", "-", p.seeded(|k| strain[k])));
+        columns
     }
 
     fn metrics(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<(Metric, f64)> {
