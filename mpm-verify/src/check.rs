@@ -27,38 +27,37 @@ pub enum On {
     Study(OfStudy),
 }
 
+/// Checks by kind, name, what they demand and what decides them.
+macro_rules! checks {
+    ($($kind:ident $name:literal: $statement:expr => $on:expr;)*) => {
+        vec![$($crate::check::Check::$kind($name, $statement, $on)),*]
+    };
+}
+pub(crate) use checks;
+
 impl Check {
-    /// Against an exact value, an independent reference or a law of physics.
-    pub(crate) fn truth(name: &'static str, statement: &'static str, on: On) -> Self {
-        let kind = Kind::Truth;
+    fn new(kind: Kind, name: &'static str, statement: &'static str, on: On) -> Self {
         Self {
             name,
             kind,
             statement,
             on,
         }
+    }
+
+    /// Against an exact value, an independent reference or a law of physics.
+    pub(crate) fn truth(name: &'static str, statement: &'static str, on: On) -> Self {
+        Self::new(Kind::Truth, name, statement, on)
     }
 
     /// Of a limit that is known: it fails if the limit vanishes.
     pub(crate) fn known_limit(name: &'static str, statement: &'static str, on: On) -> Self {
-        let kind = Kind::KnownLimit;
-        Self {
-            name,
-            kind,
-            statement,
-            on,
-        }
+        Self::new(Kind::KnownLimit, name, statement, on)
     }
 
     /// Of what a wrong solution fulfils as well, such as its mass: it makes no run judged.
     pub(crate) fn bookkeeping(name: &'static str, statement: &'static str, on: On) -> Self {
-        let kind = Kind::Bookkeeping;
-        Self {
-            name,
-            kind,
-            statement,
-            on,
-        }
+        Self::new(Kind::Bookkeeping, name, statement, on)
     }
 
     /// Verdicts on one run.

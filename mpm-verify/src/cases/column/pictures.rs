@@ -1,6 +1,6 @@
 //! The picture of the hydrostatic column: who creeps.
 
-use crate::cases::exhibit::is_shown;
+use crate::cases::pictures::is_shown;
 use crate::draw::style::{Markers, series};
 use crate::draw::{Chart, Scale, draw_charts};
 use crate::error::Error;

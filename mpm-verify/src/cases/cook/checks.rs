@@ -7,7 +7,7 @@ use super::metrics::{self as m, MEAN_STRESSES};
 use super::parameters::{COLUMN, LOAD, LOAD_AT, POISSON_RATIO, PPC_PER_DIRECTION};
 use super::reference::{Field, LoadShift, Solution, load_shift, solution, stress_scale};
 use super::watch::CREEP;
-use crate::check::{Check, Finding, judge, run, study};
+use crate::check::{Check, Finding, checks, judge, run, study};
 use crate::metric::Metric;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
@@ -50,76 +50,59 @@ const DIFFUSES: &str = "Π is no projection: Eq. (26) averages the average and s
 const COMPRESSIBLE: &str = "F̄ is meant for ν ≥ 0.49: see too-soft-when-compressible";
 
 pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check::bookkeeping(
-            "particle-count",
-            "1,448, 5,776, 23,072 and 92,224 particles at h = 2, 1, ½ and ¼ with two per direction; the second and third are the paper's",
-            run(|r| vec![particle_count(r)]),
-        ),
-        Check::truth(
-            "no-energy-gain",
-            "all: kinetic energy + stress work + losses exceeds the load's work by no more than 0.1 % of it (the oscillation of symplectic Euler at CFL 0.3)",
-            run(|r| {
+    checks! {
+        bookkeeping "particle-count":
+            "1,448, 5,776, 23,072 and 92,224 particles at h = 2, 1, ½ and ¼ with two per direction; the second and third are the paper's"
+            => run(|r| vec![particle_count(r)]);
+        truth "no-energy-gain":
+            "all: kinetic energy + stress work + losses exceeds the load's work by no more than 0.1 % of it (the oscillation of symplectic Euler at CFL 0.3)"
+            => run(|r| {
                 let why = "energy balance; symplectic Euler oscillates by ½ Δt times the power";
                 vec![judge(r, m::ENERGY_GAIN).at_most(GAIN, why)]
-            }),
-        ),
-        Check::known_limit(
-            "never-at-rest",
-            "fbar-recursive: rest is not reached within a period, by which the others are there",
-            run(|r| {
+            });
+        known_limit "never-at-rest":
+            "fbar-recursive: rest is not reached within a period, by which the others are there"
+            => run(|r| {
                 let found = judge(r, m::AT_REST).at_most(0.0, DIFFUSES);
                 is_recursive(r).then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::known_limit(
-            "creep",
-            "fbar-recursive: rms ln(J/J̄) grows by more than 1e-4 per period",
-            run(|r| creeps(r, m::CREEP_RATE, CREEP / r.metric(m::PERIOD))),
-        ),
-        Check::known_limit(
-            "creep-is-linear",
-            "fbar-recursive: that growth is a straight line in time, R² above 0.95",
-            run(|r| creeps(r, m::CREEP_LINEARITY, LINEAR)),
-        ),
-        Check::truth(
-            "at-rest",
-            "none, fbar-total, fbar-rate, fbar-consistent: rest is reached in the time given",
-            run(|r| {
+            });
+        known_limit "creep":
+            "fbar-recursive: rms ln(J/J̄) grows by more than 1e-4 per period"
+            => run(|r| creeps(r, m::CREEP_RATE, CREEP / r.metric(m::PERIOD)));
+        known_limit "creep-is-linear":
+            "fbar-recursive: that growth is a straight line in time, R² above 0.95"
+            => run(|r| creeps(r, m::CREEP_LINEARITY, LINEAR));
+        truth "at-rest":
+            "none, fbar-total, fbar-rate, fbar-consistent: rest is reached in the time given"
+            => run(|r| {
                 let why = "a statically loaded elastic body has an equilibrium";
                 let found = judge(r, m::AT_REST).within(1.0, 0.0, why);
                 (!is_recursive(r) && !rests_late(r))
                     .then_some(found)
                     .into_iter()
                     .collect()
-            }),
-        ),
-        Check::known_limit(
-            "rests-late",
-            "none, fbar-consistent with XPIC(2) and quadratic splines at h = 2 m: rest is not reached within two periods (within three it is)",
-            run(|r| {
+            });
+        known_limit "rests-late":
+            "none, fbar-consistent with XPIC(2) and quadratic splines at h = 2 m: rest is not reached within two periods (within three it is)"
+            => run(|r| {
                 let why = "what XPIC filters from the velocity in every step creeps";
                 let found = judge(r, m::AT_REST).at_most(0.0, why);
                 (!is_recursive(r) && rests_late(r))
                     .then_some(found)
                     .into_iter()
                     .collect()
-            }),
-        ),
-        Check::truth(
-            "reaction",
-            "none, fbar-total, fbar-rate, fbar-consistent: at rest the clamp's reaction balances the load within 2 % (linear momentum)",
-            run(|r| {
+            });
+        truth "reaction":
+            "none, fbar-total, fbar-rate, fbar-consistent: at rest the clamp's reaction balances the load within 2 % (linear momentum)"
+            => run(|r| {
                 let load = r.parameters.number(LOAD);
                 let (metric, tolerance) = (m::REACTION_UY, REACTION * load.abs());
                 let found = judge(r, metric).within(-load, tolerance, "linear momentum at rest");
                 (!is_recursive(r)).then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::known_limit(
-            "locked",
-            "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m",
-            run(|r| {
+            });
+        known_limit "locked":
+            "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m"
+            => run(|r| {
                 let (metric, why) = (
                     m::CHECKERBOARD_RATIO,
                     "standard MPM locks: Zhao et al. 2022, Figure 3",
@@ -128,56 +111,40 @@ pub(super) fn checks() -> Vec<Check> {
                 let gimp = r.remedy() == RemedyName::None && r.basis() == BasisName::Gimp;
                 let locks = gimp && r.parameters.number(POISSON_RATIO) >= NEARLY_INCOMPRESSIBLE.0;
                 locks.then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::truth(
-            "mid-edge",
-            "fbar-total, fbar-rate, fbar-consistent: u_y at (48, 52) m within 1 % · h/(1 m) of the FEM reference; above h = 1 m, within what the place of the load explains plus the error of a locking-free element",
-            run(|r| displacement(r, Measure::MidEdge)),
-        ),
-        Check::truth(
-            "edge-mean",
-            "fbar-total, fbar-rate, fbar-consistent: mean u_y of the right side, likewise",
-            run(|r| displacement(r, Measure::EdgeMean)),
-        ),
-        Check::truth(
-            "tip",
-            "fbar-total, fbar-rate, fbar-consistent: u_y at (48, 60) m within 2 % of the FEM reference; above h = 1 m as for mid-edge",
-            run(|r| displacement(r, Measure::Tip)),
-        ),
-        Check::known_limit(
-            "too-stiff-with-more-particles",
-            "fbar-total, fbar-rate, fbar-consistent with GIMP and more than two particles per direction: mid-edge and mean u_y of the right side fall short by more than the tolerances of mid-edge and edge-mean; these and tip are not judged there",
-            run(|r| {
+            });
+        truth "mid-edge":
+            "fbar-total, fbar-rate, fbar-consistent: u_y at (48, 52) m within 1 % · h/(1 m) of the FEM reference; above h = 1 m, within what the place of the load explains plus the error of a locking-free element"
+            => run(|r| displacement(r, Measure::MidEdge));
+        truth "edge-mean":
+            "fbar-total, fbar-rate, fbar-consistent: mean u_y of the right side, likewise"
+            => run(|r| displacement(r, Measure::EdgeMean));
+        truth "tip":
+            "fbar-total, fbar-rate, fbar-consistent: u_y at (48, 60) m within 2 % of the FEM reference; above h = 1 m as for mid-edge"
+            => run(|r| displacement(r, Measure::Tip));
+        known_limit "too-stiff-with-more-particles":
+            "fbar-total, fbar-rate, fbar-consistent with GIMP and more than two particles per direction: mid-edge and mean u_y of the right side fall short by more than the tolerances of mid-edge and edge-mean; these and tip are not judged there"
+            => run(|r| {
                 let measures = [Measure::MidEdge, Measure::EdgeMean];
                 measures
                     .into_iter()
                     .filter_map(|m| shortfall(r, m))
                     .collect()
-            }),
-        ),
-        Check::truth(
-            "mean-stress-probe",
-            "fbar-total, fbar-rate, fbar-consistent: σ_m at seven points within h |∇σ_m| of the FEM reference",
-            run(|r| at_probes(r, false)),
-        ),
-        Check::known_limit(
-            "pressure-near-free-side",
-            "fbar-total, fbar-rate, fbar-consistent with GIMP at ν > 0.499 and h = 1: σ_m at (24, 24) m, two cells from the free side, is off by more than h |∇σ_m|; mean-stress-probe is not judged there",
-            run(|r| at_probes(r, true)),
-        ),
-        Check::truth(
-            "mean-stress-rms",
-            "fbar-total, fbar-rate, fbar-consistent: rms of σ_m − reference at most √((h rms|∇σ_m|)² + (0.2 rms σ_m)²)",
-            run(|r| {
+            });
+        truth "mean-stress-probe":
+            "fbar-total, fbar-rate, fbar-consistent: σ_m at seven points within h |∇σ_m| of the FEM reference"
+            => run(|r| at_probes(r, false));
+        known_limit "pressure-near-free-side":
+            "fbar-total, fbar-rate, fbar-consistent with GIMP at ν > 0.499 and h = 1: σ_m at (24, 24) m, two cells from the free side, is off by more than h |∇σ_m|; mean-stress-probe is not judged there"
+            => run(|r| at_probes(r, true));
+        truth "mean-stress-rms":
+            "fbar-total, fbar-rate, fbar-consistent: rms of σ_m − reference at most √((h rms|∇σ_m|)² + (0.2 rms σ_m)²)"
+            => run(|r| {
                 let found = is_free_of_locking(r).then(|| mean_stress_rms(r));
                 found.into_iter().collect()
-            }),
-        ),
-        Check::truth(
-            "smooth-pressure",
-            "fbar-total, fbar-rate, fbar-consistent at h ≤ 1: rms(σ_m − Πσ_m) below 0.2 rms σ_m",
-            run(|r| {
+            });
+        truth "smooth-pressure":
+            "fbar-total, fbar-rate, fbar-consistent at h ≤ 1: rms(σ_m − Πσ_m) below 0.2 rms σ_m"
+            => run(|r| {
                 let (metric, value) = (m::CHECKERBOARD_RATIO, r.metric(m::CHECKERBOARD_RATIO));
                 if !is_free_of_locking(r) || (is_beyond(r) && is_established(r)) {
                     return Vec::new();
@@ -193,35 +160,29 @@ pub(super) fn checks() -> Vec<Check> {
                         "cells above 1 m don't resolve the field: Π changes the exact field too";
                     Finding::not_applicable(metric, why)
                 }]
-            }),
-        ),
-        Check::known_limit(
-            "noisy-pressure",
-            "fbar-total, fbar-rate, fbar-consistent at ν > 0.499 and h = 1: rms(σ_m − Πσ_m) above 0.2 rms σ_m; smooth-pressure is not judged there",
-            run(|r| {
+            });
+        known_limit "noisy-pressure":
+            "fbar-total, fbar-rate, fbar-consistent at ν > 0.499 and h = 1: rms(σ_m − Πσ_m) above 0.2 rms σ_m; smooth-pressure is not judged there"
+            => run(|r| {
                 let why = "the oscillation that Π leaves grows with the bulk modulus";
                 let value = r.metric(m::CHECKERBOARD_RATIO);
                 let found = Finding::above(m::CHECKERBOARD_RATIO, value, SMOOTH, why);
                 let noisy = is_free_of_locking(r) && is_beyond(r) && is_established(r);
                 noisy.then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::known_limit(
-            "too-soft-when-compressible",
-            "fbar-total, fbar-rate, fbar-consistent at ν < 0.49 and h = 1: mid-edge u_y exceeds the reference by more than 1 % · h/(1 m): averaging a pressure that needs none softens; mid-edge, edge-mean and no-creep are not judged there",
-            run(|r| {
+            });
+        known_limit "too-soft-when-compressible":
+            "fbar-total, fbar-rate, fbar-consistent at ν < 0.49 and h = 1: mid-edge u_y exceeds the reference by more than 1 % · h/(1 m): averaging a pressure that needs none softens; mid-edge, edge-mean and no-creep are not judged there"
+            => run(|r| {
                 let (metric, bound) = (m::FEM_MID_EDGE_ERROR, EDGE_TOLERANCE * r.discretisation.h);
                 let why = "averaging a pressure that needs none softens";
                 let found = judge(r, metric).above(bound, why);
                 let known = is_established(r) && solution(&r.parameters).is_ok();
                 let soft = is_free_of_locking(r) && is_compressible(r) && known;
                 soft.then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::truth(
-            "no-creep",
-            "fbar-total, fbar-rate, fbar-consistent: rms ln(J/J̄) changes by less than 1e-4 per period",
-            run(|r| {
+            });
+        truth "no-creep":
+            "fbar-total, fbar-rate, fbar-consistent: rms ln(J/J̄) changes by less than 1e-4 per period"
+            => run(|r| {
                 if !is_free_of_locking(r) {
                     return Vec::new();
                 }
@@ -232,19 +193,14 @@ pub(super) fn checks() -> Vec<Check> {
                         (r.metric(m::CREEP_RATE).abs(), CREEP / r.metric(m::PERIOD));
                     Finding::at_most(m::CREEP_RATE, rate, bound, "an equilibrium does not move")
                 }]
-            }),
-        ),
-        Check::known_limit(
-            "creep-grows-as-dt-falls",
-            "fbar-recursive: with half the time step it is at least 1.3 times as fast (diffusion: 2 in the bulk, √2 from a boundary)",
-            study(studies::creep_over_steps),
-        ),
-        Check::truth(
-            "error-falls",
-            "none, fbar-total, fbar-rate, fbar-consistent: |error| of mid-edge u_y falls from level to level, or stays below 0.2 %, which rest does not resolve",
-            study(studies::error_falls),
-        ),
-    ]
+            });
+        known_limit "creep-grows-as-dt-falls":
+            "fbar-recursive: with half the time step it is at least 1.3 times as fast (diffusion: 2 in the bulk, √2 from a boundary)"
+            => study(studies::creep_over_steps);
+        truth "error-falls":
+            "none, fbar-total, fbar-rate, fbar-consistent: |error| of mid-edge u_y falls from level to level, or stays below 0.2 %, which rest does not resolve"
+            => study(studies::error_falls);
+    }
 }
 
 fn is_free_of_locking(r: &Record) -> bool {

@@ -2,7 +2,7 @@
 
 use super::checks::own_runs;
 use super::metrics::{FEM_MID_EDGE_ERROR, FEM_TIP_ERROR, MID_EDGE_UY, TIP_UY};
-use crate::cases::exhibit::{Exhibit, basis_title, remedy_title, spacing};
+use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::style::{Markers, series};
 use crate::draw::{Chart, FieldFigure, FieldPanel, ReferenceLine, Scale, Series};
 use crate::error::Error;

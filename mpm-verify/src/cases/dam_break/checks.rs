@@ -8,7 +8,7 @@ use super::reference::{
     DEPTH, GRAVITY, LENGTH, TANK, elastic_energy, energies, greatest_speed, passage, uncertainty,
 };
 use crate::cases::parameters::is_of_own_problem;
-use crate::check::{Check, Finding, judge, run};
+use crate::check::{Check, Finding, checks, judge, run};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
 
@@ -31,88 +31,56 @@ const DRIFTS: &str = "averages of averages let the true volumes drift until part
 
 /// All checks: on single runs, then on runs together.
 pub(super) fn checks() -> Vec<Check> {
-    let mut checks = vec![
-        Check::bookkeeping(
-            "particle-count",
-            "L H / (h/n)² particles at n per direction: the paper's 3,200 at h = 0.25 m and five",
-            run(particle_count),
-        ),
-        Check::bookkeeping(
-            "mass",
-            "all: the mass at the end is ρ L H to rounding",
-            run(mass),
-        ),
-        Check::truth(
-            "base-reaction",
-            "none, fbar-rate, fbar-consistent: the force on the floor, mean over three of the water's longest periods behind the gate, is its weight within 0.1 %, within 0.5 % after a gravity stage",
-            run(base_reaction),
-        ),
-        Check::truth(
-            "gate-force",
-            "none, fbar-rate, fbar-consistent: the force on the gate, likewise, is ½ ρ g H² within 0.1 %, within 0.5 % after a gravity stage",
-            run(gate_force),
-        ),
-        Check::known_limit(
-            "creeps",
-            "fbar-recursive from the exact start, CFL below 0.1: the force on the floor is short of the weight by more than 0.1 %, because the water starts to sink",
-            run(creeps),
-        ),
-        Check::truth(
-            "pressure-profile",
-            "none, fbar-rate, fbar-consistent: the pressure behind the gate is hydrostatic, rms, within 1 % of that at the floor at h = 0.25 m, elsewhere as h^(3/2)",
-            run(pressure_profile),
-        ),
-        Check::known_limit(
-            "smoothed-start",
-            "fbar-recursive, fbar-total from the exact start: the pressure is off by more than that after one step: Π(J) ≠ J at floor and surface",
-            run(smoothed_start),
-        ),
-        Check::truth(
-            "front",
-            "F̄ with FLIP: the front is within a cell of the inviscid one, rms over t √(g/H) from 0.2 to 0.9",
-            run(front),
-        ),
-        Check::truth(
-            "arrival",
-            "F̄ with FLIP: the front passes x = 6 m − 2h within the time in which the inviscid one crosses a cell",
-            run(arrival),
-        ),
-        Check::truth(
-            "front-speed",
-            "all: the front is slower than 2 √(g H)",
-            run(front_speed),
-        ),
-        Check::truth(
-            "energy-not-gained",
-            "all: kinetic and potential energy and stress work never exceed their start; without APIC, whose affine motion the kinetic energy leaves out, they never grow",
-            run(energy_not_gained),
-        ),
-        Check::truth(
-            "motion-not-gained",
-            "all, but fbar-total and fbar-rate where makes-energy is found: kinetic and potential energy never exceed their start by more than what is stored elastically then",
-            run(motion_not_gained),
-        ),
-        Check::known_limit(
-            "makes-energy",
-            "fbar-total, fbar-rate: wherever they exceed it, because the stress works on a volume that the law does not see. They have to over the 2 s of the case's own flow: with FLIP (but quadratic splines with fbar-rate at h = 0.5 m and CFL 0.3), and with APIC at h = 0.125 m and below",
-            run(energy_made),
-        ),
-        Check::truth(
-            "dissipation",
-            "all that make no energy: no more kinetic and potential energy is lost than until the water is at rest in the tank",
-            run(dissipation),
-        ),
-        Check::truth(
-            "volume",
-            "all: at 0.4 s the particles cover L H within what strips two particles wide resolve",
-            run(volume),
-        ),
-        Check::known_limit(
-            "locked",
-            "none with GIMP: the front is more than a cell behind the inviscid one, rms",
-            run(locked),
-        ),
-    ];
+    let mut checks = checks! {
+        bookkeeping "particle-count":
+            "L H / (h/n)² particles at n per direction: the paper's 3,200 at h = 0.25 m and five"
+            => run(particle_count);
+        bookkeeping "mass":
+            "all: the mass at the end is ρ L H to rounding"
+            => run(mass);
+        truth "base-reaction":
+            "none, fbar-rate, fbar-consistent: the force on the floor, mean over three of the water's longest periods behind the gate, is its weight within 0.1 %, within 0.5 % after a gravity stage"
+            => run(base_reaction);
+        truth "gate-force":
+            "none, fbar-rate, fbar-consistent: the force on the gate, likewise, is ½ ρ g H² within 0.1 %, within 0.5 % after a gravity stage"
+            => run(gate_force);
+        known_limit "creeps":
+            "fbar-recursive from the exact start, CFL below 0.1: the force on the floor is short of the weight by more than 0.1 %, because the water starts to sink"
+            => run(creeps);
+        truth "pressure-profile":
+            "none, fbar-rate, fbar-consistent: the pressure behind the gate is hydrostatic, rms, within 1 % of that at the floor at h = 0.25 m, elsewhere as h^(3/2)"
+            => run(pressure_profile);
+        known_limit "smoothed-start":
+            "fbar-recursive, fbar-total from the exact start: the pressure is off by more than that after one step: Π(J) ≠ J at floor and surface"
+            => run(smoothed_start);
+        truth "front":
+            "F̄ with FLIP: the front is within a cell of the inviscid one, rms over t √(g/H) from 0.2 to 0.9"
+            => run(front);
+        truth "arrival":
+            "F̄ with FLIP: the front passes x = 6 m − 2h within the time in which the inviscid one crosses a cell"
+            => run(arrival);
+        truth "front-speed":
+            "all: the front is slower than 2 √(g H)"
+            => run(front_speed);
+        truth "energy-not-gained":
+            "all: kinetic and potential energy and stress work never exceed their start; without APIC, whose affine motion the kinetic energy leaves out, they never grow"
+            => run(energy_not_gained);
+        truth "motion-not-gained":
+            "all, but fbar-total and fbar-rate where makes-energy is found: kinetic and potential energy never exceed their start by more than what is stored elastically then"
+            => run(motion_not_gained);
+        known_limit "makes-energy":
+            "fbar-total, fbar-rate: wherever they exceed it, because the stress works on a volume that the law does not see. They have to over the 2 s of the case's own flow: with FLIP (but quadratic splines with fbar-rate at h = 0.5 m and CFL 0.3), and with APIC at h = 0.125 m and below"
+            => run(energy_made);
+        truth "dissipation":
+            "all that make no energy: no more kinetic and potential energy is lost than until the water is at rest in the tank"
+            => run(dissipation);
+        truth "volume":
+            "all: at 0.4 s the particles cover L H within what strips two particles wide resolve"
+            => run(volume);
+        known_limit "locked":
+            "none with GIMP: the front is more than a cell behind the inviscid one, rms"
+            => run(locked);
+    };
     checks.extend(study::checks());
     checks
 }

@@ -3,7 +3,7 @@
 use super::LADDER;
 use super::parameters::{CFL, DURATION};
 use super::reference::{TANK, front_curve, time_scale};
-use crate::cases::exhibit::{Exhibit, basis_title, remedy_title, spacing};
+use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, Series, animate_fields, share_ranges_of_columns,
 };

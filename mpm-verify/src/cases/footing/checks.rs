@@ -9,7 +9,7 @@ use super::parameters::{
     UNDRAINED_STRENGTH, YOUNG_MODULUS,
 };
 use super::reference::{EXACT, curve, elastic_slope, has_the_curve_of, mean_stress_at};
-use crate::check::{Check, Finding, judge, run, study};
+use crate::check::{Check, Finding, checks, judge, run, study};
 use crate::metric::Metric;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
@@ -50,21 +50,16 @@ const UNKNOWN_WIDTH: &str =
     "how wide a footing acts through a barrier is not known beforehand: see contacts-agree";
 
 pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check::bookkeeping(
-            "particle-count",
-            "57,600 · (h/(B/20))⁻² particles at two per direction, four times as many at four: the paper's 230,400 at B/20",
-            run(|r| vec![particle_count(r)]),
-        ),
-        Check::truth(
-            "elastic-slope",
-            "all, of a strength beyond reach: d(q/s_u)/d(s/B) is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
-            run(|r| vec![slope(r)]),
-        ),
-        Check::truth(
-            "quasi-static",
-            "all with FLIP, as all that follows but elastic-slope: the force on the base is that on the footing within 0.5 %, mean over the last quarter of the penetration (linear momentum)",
-            run(|r| {
+    checks! {
+        bookkeeping "particle-count":
+            "57,600 · (h/(B/20))⁻² particles at two per direction, four times as many at four: the paper's 230,400 at B/20"
+            => run(|r| vec![particle_count(r)]);
+        truth "elastic-slope":
+            "all, of a strength beyond reach: d(q/s_u)/d(s/B) is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10"
+            => run(|r| vec![slope(r)]);
+        truth "quasi-static":
+            "all with FLIP, as all that follows but elastic-slope: the force on the base is that on the footing within 0.5 %, mean over the last quarter of the penetration (linear momentum)"
+            => run(|r| {
                 let metric = m::FORCE_IMBALANCE;
                 vec![match why_shown_only(r) {
                     Some(why) => Finding::not_applicable(metric, why),
@@ -73,88 +68,59 @@ pub(super) fn checks() -> Vec<Check> {
                         Finding::at_most(metric, r.metric(metric).abs(), INERTIA, why)
                     }
                 }]
-            }),
-        ),
-        Check::truth(
-            "prandtl",
-            "fbar-rate, fbar-consistent: the limit load by the width that the footing acts with is 2 + π within 1 % at h ≤ B/20, within 2 % at B/10",
-            run(|r| match why_shown_only(r) {
+            });
+        truth "prandtl":
+            "fbar-rate, fbar-consistent: the limit load by the width that the footing acts with is 2 + π within 1 % at h ≤ B/20, within 2 % at B/10"
+            => run(|r| match why_shown_only(r) {
                 Some(why) => vec![Finding::not_applicable(m::NC_EFFECTIVE, why)],
                 None => limit(r, m::NC_EFFECTIVE, prandtl),
-            }),
-        ),
-        Check::truth(
-            "limit-load",
-            "fbar-rate, fbar-consistent: the load grows by less than 0.5 % and falls by less than 1 % per 10⁻³ of s/B over the last quarter of the penetration",
-            run(|r| limit(r, m::PLATEAU_RISE, flatness)),
-        ),
-        Check::truth(
-            "smooth-pressure",
-            "fbar-rate, fbar-consistent at h ≤ B/20: rms(σ_m − Πσ_m) below 0.2 rms σ_m",
-            run(|r| limit_alone(r, m::CHECKERBOARD_RATIO, smoothness)),
-        ),
-        Check::truth(
-            "mechanism",
-            "fbar-rate, fbar-consistent: the surface rises out to 1.5 times the width that the footing acts with, once the width if it is smooth, within 2h",
-            run(|r| limit(r, m::MECHANISM_WIDTH, mechanism)),
-        ),
-        Check::truth(
-            "mean-stress",
-            "fbar-rate, fbar-consistent: σ_m at five points is that of the finite elements of vanishing size within h |∇σ_m|",
-            run(|r| limit_alone(r, MEAN_STRESSES[0].0, mean_stress)),
-        ),
-        Check::truth(
-            "fem-plateau",
-            "fbar-rate, fbar-consistent: the limit load by B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
-            run(|r| limit(r, m::NC_B, plateau)),
-        ),
-        Check::truth(
-            "curve",
-            "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10",
-            run(|r| limit_alone(r, CURVE[2].0, load_curve)),
-        ),
-        Check::known_limit(
-            "no-limit-load",
-            "none: the load still grows by more than 0.5 % per 10⁻³ of s/B at the end",
-            run(|r| locked(r, Locks::Load, m::PLATEAU_RISE, FLAT.1)),
-        ),
-        Check::known_limit(
-            "locked",
-            "none: the load by the width that the footing acts with exceeds 2 + π by twice the tolerance of prandtl",
-            run(|r| {
+            });
+        truth "limit-load":
+            "fbar-rate, fbar-consistent: the load grows by less than 0.5 % and falls by less than 1 % per 10⁻³ of s/B over the last quarter of the penetration"
+            => run(|r| limit(r, m::PLATEAU_RISE, flatness));
+        truth "smooth-pressure":
+            "fbar-rate, fbar-consistent at h ≤ B/20: rms(σ_m − Πσ_m) below 0.2 rms σ_m"
+            => run(|r| limit_alone(r, m::CHECKERBOARD_RATIO, smoothness));
+        truth "mechanism":
+            "fbar-rate, fbar-consistent: the surface rises out to 1.5 times the width that the footing acts with, once the width if it is smooth, within 2h"
+            => run(|r| limit(r, m::MECHANISM_WIDTH, mechanism));
+        truth "mean-stress":
+            "fbar-rate, fbar-consistent: σ_m at five points is that of the finite elements of vanishing size within h |∇σ_m|"
+            => run(|r| limit_alone(r, MEAN_STRESSES[0].0, mean_stress));
+        truth "fem-plateau":
+            "fbar-rate, fbar-consistent: the limit load by B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10"
+            => run(|r| limit(r, m::NC_B, plateau));
+        truth "curve":
+            "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10"
+            => run(|r| limit_alone(r, CURVE[2].0, load_curve));
+        known_limit "no-limit-load":
+            "none: the load still grows by more than 0.5 % per 10⁻³ of s/B at the end"
+            => run(|r| locked(r, Locks::Load, m::PLATEAU_RISE, FLAT.1));
+        known_limit "locked":
+            "none: the load by the width that the footing acts with exceeds 2 + π by twice the tolerance of prandtl"
+            => run(|r| {
                 let bound = (1.0 + LOCKED * PRANDTL * coarseness(r)) * EXACT;
                 locked(r, Locks::Bearing, m::NC_EFFECTIVE, bound)
-            }),
-        ),
-        Check::known_limit(
-            "checkerboard",
-            "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m",
-            run(|r| match r.basis() {
+            });
+        known_limit "checkerboard":
+            "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m"
+            => run(|r| match r.basis() {
                 BasisName::Gimp => locked(r, Locks::Load, m::CHECKERBOARD_RATIO, BOARD.1),
                 _ => Vec::new(),
-            }),
-        ),
-        Check::truth(
-            "rate-independent",
-            "fbar-consistent: the limit load changes by less than 0.5 % when the rate is halved",
-            study(studies::rate_independence),
-        ),
-        Check::known_limit(
-            "rate-dependent",
-            "fbar-recursive: the load changes by more than 0.5 % when the rate is halved",
-            study(studies::rate_dependence),
-        ),
-        Check::truth(
-            "contacts-agree",
-            "all: the load through the barrier is that of held nodes within 2h/B",
-            study(studies::contacts),
-        ),
-        Check::truth(
-            "pressure-order",
-            "fbar-rate, fbar-consistent with nodes on grid lines, over three levels: the error of the contact pressure by B falls with an order of 0.85 to 1.1 (the paper's Figure 9: slightly below one)",
-            study(studies::orders),
-        ),
-    ]
+            });
+        truth "rate-independent":
+            "fbar-consistent: the limit load changes by less than 0.5 % when the rate is halved"
+            => study(studies::rate_independence);
+        known_limit "rate-dependent":
+            "fbar-recursive: the load changes by more than 0.5 % when the rate is halved"
+            => study(studies::rate_dependence);
+        truth "contacts-agree":
+            "all: the load through the barrier is that of held nodes within 2h/B"
+            => study(studies::contacts);
+        truth "pressure-order":
+            "fbar-rate, fbar-consistent with nodes on grid lines, over three levels: the error of the contact pressure by B falls with an order of 0.85 to 1.1 (the paper's Figure 9: slightly below one)"
+            => study(studies::orders);
+    }
 }
 
 /// By how much tolerances grow on coarse cells, whose errors are of first order.

@@ -3,7 +3,7 @@
 use super::own::own_runs;
 use super::parameters::PENETRATION;
 use super::reference::{EXACT, limit_curve};
-use crate::cases::exhibit::{Exhibit, basis_title, remedy_title, spacing};
+use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_charts, share_ranges,
 };

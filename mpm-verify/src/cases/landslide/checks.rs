@@ -6,7 +6,7 @@ use super::parameters::{
     CFL, CREST, DENSITY, DURATION, FACE_ANGLE, HEIGHT, PEAK_STRENGTH, PPC_PER_DIRECTION, REDUCTION,
     RELEASE, WIDTH,
 };
-use crate::check::{Check, Finding, judge, run, study};
+use crate::check::{Check, Finding, checks, judge, run, study};
 use crate::metric::Metric;
 use crate::parameter::Parameter;
 use crate::record::{Record, Status};
@@ -78,23 +78,20 @@ fn in_section(record: &Record) -> Option<f64> {
 }
 
 fn of_ground() -> Vec<Check> {
-    vec![
-        Check::bookkeeping(
-            "particle-count",
-            "as many particles as have their centres strictly inside of the face: the paper's 311,250 at h = 0.2 m",
-            run(|r| {
+    checks! {
+        bookkeeping "particle-count":
+            "as many particles as have their centres strictly inside of the face: the paper's 311,250 at h = 0.2 m"
+            => run(|r| {
                 let found = in_section(r).map(|section| {
                     let count = (section * r.metric(m::PARTICLES_ACROSS)).round();
                     let why = "Zhao et al. 2022, section 4.4: 311,250 at h = 0.2 m";
                     judge(r, m::PARTICLES).within(count, 0.0, why)
                 });
                 found.into_iter().collect()
-            }),
-        ),
-        Check::bookkeeping(
-            "mass",
-            "all: the mass at the end is that of the particles, to rounding",
-            run(|r| {
+            });
+        bookkeeping "mass":
+            "all: the mass at the end is that of the particles, to rounding"
+            => run(|r| {
                 let spacing = r.discretisation.h / r.parameters.number(PPC_PER_DIRECTION);
                 let found = in_section(r).map(|section| {
                     let mass = r.parameters.number(DENSITY) * section * spacing * spacing;
@@ -102,41 +99,31 @@ fn of_ground() -> Vec<Check> {
                     judge(r, m::MASS).within(mass, ROUNDING * mass, why)
                 });
                 found.into_iter().collect()
-            }),
-        ),
-    ]
+            });
+    }
 }
 
 fn of_rest() -> Vec<Check> {
-    vec![
-        Check::truth(
-            "base-reaction",
-            "all: after the gravity stage the force on the base is the weight within 0.5 %",
-            run(|r| {
+    checks! {
+        truth "base-reaction":
+            "all: after the gravity stage the force on the base is the weight within 0.5 %"
+            => run(|r| {
                 let metric = m::BASE_REACTION_RATIO;
                 let why = "weight of the ground";
                 vec![judge(r, metric).within(1.0, WEIGHT, why)]
-            }),
-        ),
-        Check::truth(
-            "at-rest",
-            "none, fbar-consistent, FLIP and APIC, but for that: after the gravity stage the kinetic energy of the nodes is below 10⁻⁶ of the stored energy",
-            run(at_rest),
-        ),
-        Check::known_limit(
-            "creeps",
-            "fbar-recursive: it is above, because averages of averages diffuse the volume",
-            run(|r| moves_on(r, Moves::Creeps)),
-        ),
-        Check::known_limit(
-            "slow-motion",
-            "fbar-consistent with quadratic splines at h = 0.5 m, where the toe has yielded: it is above",
-            run(|r| moves_on(r, Moves::Slowly)),
-        ),
-        Check::truth(
-            "overburden",
-            "all but none with GIMP: far from the face the vertical stress is the weight above, rms within 2 % of γ H",
-            run(|r| {
+            });
+        truth "at-rest":
+            "none, fbar-consistent, FLIP and APIC, but for that: after the gravity stage the kinetic energy of the nodes is below 10⁻⁶ of the stored energy"
+            => run(at_rest);
+        known_limit "creeps":
+            "fbar-recursive: it is above, because averages of averages diffuse the volume"
+            => run(|r| moves_on(r, Moves::Creeps));
+        known_limit "slow-motion":
+            "fbar-consistent with quadratic splines at h = 0.5 m, where the toe has yielded: it is above"
+            => run(|r| moves_on(r, Moves::Slowly));
+        truth "overburden":
+            "all but none with GIMP: far from the face the vertical stress is the weight above, rms within 2 % of γ H"
+            => run(|r| {
                 let metric = m::OVERBURDEN_ERROR;
                 if feels_the_face(r) {
                     let why = "the face is felt at the back wall";
@@ -144,12 +131,10 @@ fn of_rest() -> Vec<Check> {
                 }
                 let found = judge(r, metric).at_most(OVERBURDEN, "level ground");
                 (!is_locked(r)).then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::known_limit(
-            "locked-stress",
-            "none with GIMP: it is not, and the mean stress alternates from particle to particle by more than 5 % of γ H",
-            run(|r| {
+            });
+        known_limit "locked-stress":
+            "none with GIMP: it is not, and the mean stress alternates from particle to particle by more than 5 % of γ H"
+            => run(|r| {
                 if feels_the_face(r) || !is_locked(r) {
                     return Vec::new();
                 }
@@ -161,9 +146,8 @@ fn of_rest() -> Vec<Check> {
                     above(m::OVERBURDEN_ERROR, OVERBURDEN),
                     above(m::CHECKERBOARD_AT_REST, CHECKERBOARD),
                 ]
-            }),
-        ),
-    ]
+            });
+    }
 }
 
 /// Standard MPM with GIMP: every particle's volume is a constraint.
@@ -229,11 +213,10 @@ fn moves_on(r: &Record, how: Moves) -> Vec<Finding> {
 }
 
 fn of_energy() -> Vec<Check> {
-    vec![
-        Check::truth(
-            "energy-not-gained",
-            "all with FLIP: kinetic and potential energy and stress work never grow",
-            run(|r| {
+    checks! {
+        truth "energy-not-gained":
+            "all with FLIP: kinetic and potential energy and stress work never grow"
+            => run(|r| {
                 if r.transfer() != TransferName::Flip {
                     let why = "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'";
                     return vec![Finding::not_applicable(m::ENERGY_GAIN, why)];
@@ -241,23 +224,19 @@ fn of_energy() -> Vec<Check> {
                 let why = "explicit steps with lumped masses take energy from the motion, never give it: docs/dam-break.md";
                 let gain = r.metric(m::ENERGY_GAIN);
                 vec![Finding::at_most(m::ENERGY_GAIN, gain, ROUNDING, why)]
-            }),
-        ),
-        Check::truth(
-            "energy-not-made",
-            "fbar-consistent: at the end they are not more than those",
-            run(|r| {
+            });
+        truth "energy-not-made":
+            "fbar-consistent: at the end they are not more than those"
+            => run(|r| {
                 let made = r.metric(m::UNACCOUNTED_ENERGY);
                 let why = "what is stored and dissipated has fallen before";
                 let found = Finding::at_most(m::UNACCOUNTED_ENERGY, made, ROUNDING, why);
                 let ours = r.remedy() == RemedyName::FbarConsistent;
                 ours.then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::truth(
-            "energy-closure",
-            "all that fall, runs of 1.5 s and less: kinetic, potential and stored energy and dissipation are those at the reduction within h/H of the fallen energy",
-            run(|r| {
+            });
+        truth "energy-closure":
+            "all that fall, runs of 1.5 s and less: kinetic, potential and stored energy and dissipation are those at the reduction within h/H of the fallen energy"
+            => run(|r| {
                 let metric = m::UNACCOUNTED_ENERGY;
                 let why = if r.parameters.number(DURATION) > EARLY_SLIDE {
                     "the ground flows: steps lose on the grid, and the share is reported"
@@ -270,9 +249,8 @@ fn of_energy() -> Vec<Check> {
                     return vec![Finding::within(metric, share, 0.0, band, why)];
                 };
                 vec![Finding::not_applicable(metric, why)]
-            }),
-        ),
-    ]
+            });
+    }
 }
 
 /// Least and largest factor of safety of the unreduced slope, where limit analysis knows them.
@@ -305,39 +283,33 @@ fn must_fail(r: &Record) -> bool {
 fn of_slide() -> Vec<Check> {
     const METRIC: Metric = m::FAILED_SHARE_END;
     const LIMIT: &str = "limit analysis: docs/exact.md";
-    vec![
-        Check::truth(
-            "stands",
-            "all, with a reduction below the lower bound of limit analysis by a tenth: less than a hundredth of the ground moves by H/20",
-            run(|r| {
+    checks! {
+        truth "stands":
+            "all, with a reduction below the lower bound of limit analysis by a tenth: less than a hundredth of the ground moves by H/20"
+            => run(|r| {
                 if bounds(r).is_none() {
                     let why = "the bounds of limit analysis are those of a face at 45° under a long crest";
                     return vec![Finding::not_applicable(METRIC, why)];
                 }
                 let found = judge(r, METRIC).at_most(FAILED, LIMIT);
                 stands(r).then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::truth(
-            "fails",
-            "F̄, with a reduction beyond the upper bound of limit analysis and what a band of cells bears besides, h/H: it does",
-            run(|r| {
+            });
+        truth "fails":
+            "F̄, with a reduction beyond the upper bound of limit analysis and what a band of cells bears besides, h/H: it does"
+            => run(|r| {
                 let found = judge(r, METRIC).above(FAILED, LIMIT);
                 let judged = must_fail(r) && r.remedy() != RemedyName::None;
                 judged.then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::known_limit(
-            "locked",
-            "none with GIMP, likewise: it does not",
-            run(|r| {
+            });
+        known_limit "locked":
+            "none with GIMP, likewise: it does not"
+            => run(|r| {
                 let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
                 let found = judge(r, METRIC).at_most(FAILED, why);
                 let judged = must_fail(r) && is_locked(r);
                 judged.then_some(found).into_iter().collect()
-            }),
-        ),
-    ]
+            });
+    }
 }
 
 /// Whether no band has formed 0.5 s after the reduction.
@@ -349,11 +321,10 @@ fn is_unbroken(r: &Record) -> bool {
 /// What three dimensions must not change until shear bands are there.
 fn of_width() -> Vec<Check> {
     let in_space = |r: &Record| r.discretisation.dim == 3;
-    vec![
-        Check::truth(
-            "uniform",
-            "in three dimensions: what was in one place of the section has moved alike over the width at rest and 0.5 s after the reduction, within 10⁻⁴",
-            run(move |r| {
+    checks! {
+        truth "uniform":
+            "in three dimensions: what was in one place of the section has moved alike over the width at rest and 0.5 s after the reduction, within 10⁻⁴"
+            => run(move |r| {
                 let metrics = [m::WIDTH_SPREAD_AT_REST, m::WIDTH_SPREAD_0_5S];
                 let known = match (in_space(r), is_unbroken(r)) {
                     (false, _) => 0,
@@ -365,20 +336,17 @@ fn of_width() -> Vec<Check> {
                     judge(r, *metric).at_most(GROWN_ROUNDING, why)
                 };
                 metrics[..known].iter().map(alike).collect()
-            }),
-        ),
-        Check::truth(
-            "plane-strain",
-            "in three dimensions: at rest the crest has sunk as in plane strain, within 10⁻⁴ without F̄ and 2 % with fbar-consistent; without F̄ also 0.5 s after the reduction",
-            run(move |r| {
+            });
+        truth "plane-strain":
+            "in three dimensions: at rest the crest has sunk as in plane strain, within 10⁻⁴ without F̄ and 2 % with fbar-consistent; without F̄ also 0.5 s after the reduction"
+            => run(move |r| {
                 if in_space(r) {
                     plane_strain(r)
                 } else {
                     Vec::new()
                 }
-            }),
-        ),
-    ]
+            });
+    }
 }
 
 fn plane_strain(r: &Record) -> Vec<Finding> {

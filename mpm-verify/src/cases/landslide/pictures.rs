@@ -2,7 +2,7 @@
 
 use super::metrics::PARTICLES_ACROSS;
 use super::parameters::DURATION;
-use crate::cases::exhibit::{Exhibit, basis_title, remedy_title, spacing};
+use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::{
     Chart, FieldFigure, FieldPanel, Series, SolidFigure, SolidPanel, animate_fields,
     animate_solids, draw_solids, share_ranges_of_columns,

@@ -3,7 +3,7 @@
 use super::super::landslide::parameters::{FACE_ANGLE, HEIGHT};
 use super::super::landslide::{STABILITY, factor_of_safety};
 use super::{MOST, STANDS_AT, STRENGTH, STRENGTH_REDUCTION_FACTOR, TRIALS};
-use crate::check::{Check, Finding, judge, run, study};
+use crate::check::{Check, Finding, checks, judge, run, study};
 use crate::metric::Metric;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName};
@@ -15,20 +15,17 @@ const SLOW: f64 = 0.005;
 const FINE: f64 = 0.2;
 
 pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check::truth(
-            "lower-bound",
-            "all: the factor is above the lower bound of limit analysis less half the last bracket",
-            run(|r| {
+    checks! {
+        truth "lower-bound":
+            "all: the factor is above the lower bound of limit analysis less half the last bracket"
+            => run(|r| {
                 let why = "lower bound of limit analysis: docs/exact.md";
                 let found = bounds(r).map(|(lower, _)| judge(r, METRIC).above(lower, why));
                 found.into_iter().collect()
-            }),
-        ),
-        Check::truth(
-            "limit-load",
-            "F̄, and standard quadratic splines at h ≤ 0.2 m: the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure",
-            run(|r| {
+            });
+        truth "limit-load":
+            "F̄, and standard quadratic splines at h ≤ 0.2 m: the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure"
+            => run(|r| {
                 let Some((lower, upper)) = bounds(r) else {
                     let why = "the bounds of limit analysis are those for 45°";
                     return vec![Finding::not_applicable(METRIC, why)];
@@ -37,26 +34,21 @@ pub(super) fn checks() -> Vec<Check> {
                 let why = "limit analysis: docs/exact.md";
                 let found = judge(r, METRIC).within(middle, half, why);
                 (!locks(r)).then_some(found).into_iter().collect()
-            }),
-        ),
-        Check::known_limit(
-            "locked",
-            "none with GIMP, and with quadratic splines at h > 0.2 m: the slope still stands at a factor above all that",
-            run(|r| {
+            });
+        known_limit "locked":
+            "none with GIMP, and with quadratic splines at h > 0.2 m: the slope still stands at a factor above all that"
+            => run(|r| {
                 let found = bounds(r).filter(|_| locks(r)).map(|(_, upper)| {
                     let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
                     let bound = upper - resolution(r);
                     judge(r, STANDS_AT).above(bound, why)
                 });
                 found.into_iter().collect()
-            }),
-        ),
-        Check::truth(
-            "factor-converges",
-            "fbar-consistent: from level to level the factor comes nearer to that of limit analysis, or stays within the uncertainty of both",
-            study(converges),
-        ),
-    ]
+            });
+        truth "factor-converges":
+            "fbar-consistent: from level to level the factor comes nearer to that of limit analysis, or stays within the uncertainty of both"
+            => study(converges);
+    }
 }
 
 /// Between which the factor may lie, where limit analysis knows.

@@ -4,7 +4,7 @@ use super::{is_averaged, is_flip};
 use crate::cases::dam_break::metrics as m;
 use crate::cases::dam_break::parameters::{CFL, DURATION, GRAVITY_STAGE, SEED, START};
 use crate::cases::dam_break::reference::LENGTH;
-use crate::check::{Check, Finding, On, judge, study};
+use crate::check::{Check, Finding, On, checks, judge, study};
 use crate::metric::Metric;
 use crate::parameter::Parameter;
 use crate::record::{Record, Status};
@@ -18,38 +18,26 @@ const STARTS: f64 = 2.5e-3;
 const SMOOTHER: f64 = 0.5;
 
 pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check::truth(
-            "front-converges",
-            "F̄ with FLIP: the rms error of the front falls from level to level, with one CFL number",
-            of_finished(|records| falls(records, m::FRONT_RMS_ERROR)),
-        ),
-        Check::truth(
-            "start-converges",
-            "F̄ with FLIP: the rms error of the pressure behind the gate falls from level to level, with one CFL number",
-            of_finished(|records| falls(records, m::PRESSURE_PROFILE_ERROR)),
-        ),
-        Check::truth(
-            "late-converges",
-            "fbar-consistent with FLIP: from level to level, with one CFL number, impulse on the wall and mean centre of mass over 2 s change less, or by less than an ensemble spreads",
-            of_finished(late),
-        ),
-        Check::truth(
-            "smoother",
-            "F̄: rms and checkerboard of the pressure at 0.4 s are less than half of standard MPM's",
-            of_finished(against_standard),
-        ),
-        Check::truth(
-            "starts-agree",
-            "all: after a gravity stage the front advances as from the exact start within 0.25 %",
-            of_finished(starts),
-        ),
-        Check::truth(
-            "time-step",
-            "fbar-consistent with FLIP: a CFL number up to 0.3 moves the front at 0.4 s by less than a tenth of a cell",
-            of_finished(time_steps),
-        ),
-    ]
+    checks! {
+        truth "front-converges":
+            "F̄ with FLIP: the rms error of the front falls from level to level, with one CFL number"
+            => of_finished(|records| falls(records, m::FRONT_RMS_ERROR));
+        truth "start-converges":
+            "F̄ with FLIP: the rms error of the pressure behind the gate falls from level to level, with one CFL number"
+            => of_finished(|records| falls(records, m::PRESSURE_PROFILE_ERROR));
+        truth "late-converges":
+            "fbar-consistent with FLIP: from level to level, with one CFL number, impulse on the wall and mean centre of mass over 2 s change less, or by less than an ensemble spreads"
+            => of_finished(late);
+        truth "smoother":
+            "F̄: rms and checkerboard of the pressure at 0.4 s are less than half of standard MPM's"
+            => of_finished(against_standard);
+        truth "starts-agree":
+            "all: after a gravity stage the front advances as from the exact start within 0.25 %"
+            => of_finished(starts);
+        truth "time-step":
+            "fbar-consistent with FLIP: a CFL number up to 0.3 moves the front at 0.4 s by less than a tenth of a cell"
+            => of_finished(time_steps);
+    }
 }
 
 /// A check on the runs that have come to their end.
