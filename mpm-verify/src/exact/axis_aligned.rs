@@ -38,19 +38,16 @@ parameters! { pub(crate) const:
         "number of half waves m across the body, k = mπ";
 }
 
-const PARAMETERS: [Parameter; 7] = {
-    let [e, nu, rho] = Material::parameters("1e7", "0.3");
+const PARAMETERS: [Parameter; 7] = Material::parameters(
+    ["1e7", "0.3"],
     [
-        e,
-        nu,
-        rho,
         DIMENSION,
         AMPLITUDE,
         HALF_WAVES,
         // π √(E/ρ₀): one period of 0.02 s.
         ANGULAR_FREQUENCY.with_default("314.1592653589793"),
-    ]
-};
+    ],
+);
 
 impl AxisAligned {
     /// The solution of the parameters of `mms-axis`.

@@ -33,16 +33,13 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(DoubleShear::new(p)?)),
 };
 
-const PARAMETERS: [Parameter; 5] = {
-    let [e, nu, rho] = Material::parameters("1e3", "0.4999");
+const PARAMETERS: [Parameter; 5] = Material::parameters(
+    ["1e3", "0.4999"],
     [
-        e,
-        nu,
-        rho,
         AMPLITUDE,
         ANGULAR_FREQUENCY.with_default("3.141592653589793"),
-    ]
-};
+    ],
+);
 
 /// Wave number k (1/m).
 const K: f64 = TAU;

@@ -24,10 +24,7 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(FreeFall::new(p)?)),
 };
 
-const PARAMETERS: [Parameter; 5] = {
-    let [e, nu, rho] = Material::parameters("1e6", "0.3");
-    [e, nu, rho, DIMENSION, GRAVITY]
-};
+const PARAMETERS: [Parameter; 5] = Material::parameters(["1e6", "0.3"], [DIMENSION, GRAVITY]);
 
 impl FreeFall {
     /// The solution of the parameters of `free-fall`.

@@ -39,16 +39,20 @@ impl Material {
         })
     }
 
-    /// Young's modulus, Poisson's ratio and density, with defaults for the first two.
-    pub(super) const fn parameters(
-        young_modulus: &'static str,
-        poisson_ratio: &'static str,
-    ) -> [Parameter; 3] {
-        [
-            YOUNG_MODULUS.with_default(young_modulus),
-            POISSON_RATIO.with_default(poisson_ratio),
-            DENSITY,
-        ]
+    /// Young's modulus, Poisson's ratio and density, with defaults for the first two, and then those of a motion.
+    pub(super) const fn parameters<const N: usize, const ALL: usize>(
+        [young_modulus, poisson_ratio]: [&'static str; 2],
+        of_motion: [Parameter; N],
+    ) -> [Parameter; ALL] {
+        let mut all = [DENSITY; ALL];
+        all[0] = YOUNG_MODULUS.with_default(young_modulus);
+        all[1] = POISSON_RATIO.with_default(poisson_ratio);
+        let mut k = 0;
+        while k < N {
+            all[3 + k] = of_motion[k];
+            k += 1;
+        }
+        all
     }
 
     /// P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ (Pa).

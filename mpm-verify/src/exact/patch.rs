@@ -35,19 +35,16 @@ parameters! { pub(crate) const:
     G_YY = "g_yy", "-", "0.1", number(-1e2, 1e2, false), "G_yy";
 }
 
-const PARAMETERS: [Parameter; 8] = {
-    let [e, nu, rho] = Material::parameters("1e6", "0.3");
+const PARAMETERS: [Parameter; 8] = Material::parameters(
+    ["1e6", "0.3"],
     [
-        e,
-        nu,
-        rho,
         G_XX,
         G_XY,
         G_YX,
         G_YY,
         ANGULAR_FREQUENCY.with_default("6.283185307179586"),
-    ]
-};
+    ],
+);
 
 impl Patch {
     /// The solution of the parameters of `patch`.

@@ -43,18 +43,10 @@ parameters! { pub(crate) const:
         "what holds the ends X = 0 and X = L";
 }
 
-const PARAMETERS: [Parameter; 7] = {
-    let [e, nu, rho] = Material::parameters("1e7", "0.3");
-    [
-        e,
-        nu,
-        rho,
-        LENGTH,
-        AMPLITUDE.with_default("1e-4"),
-        MODE,
-        ENDS,
-    ]
-};
+const PARAMETERS: [Parameter; 7] = Material::parameters(
+    ["1e7", "0.3"],
+    [LENGTH, AMPLITUDE.with_default("1e-4"), MODE, ENDS],
+);
 
 /// The largest strain kA for which linear elasticity is taken as exact.
 const LINEAR: f64 = 0.01;

@@ -18,16 +18,10 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(Vortex::new(p, BOX)?)),
 };
 
-const PARAMETERS: [Parameter; 5] = {
-    let [e, nu, rho] = Material::parameters("1e3", "0.3");
-    [
-        e,
-        nu,
-        rho,
-        ANGLE,
-        ANGULAR_FREQUENCY.with_default("3.141592653589793"),
-    ]
-};
+const PARAMETERS: [Parameter; 5] = Material::parameters(
+    ["1e3", "0.3"],
+    [ANGLE, ANGULAR_FREQUENCY.with_default("3.141592653589793")],
+);
 
 /// Radius R₀ of the vortex (m).
 const RADIUS: f64 = 0.4;

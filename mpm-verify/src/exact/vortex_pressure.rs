@@ -38,17 +38,14 @@ parameters! { pub(crate) const:
     PRESSURE = "pressure", "Pa", "100", number(0.0, 1e12, false), "amplitude p₀ of λ ln J";
 }
 
-const PARAMETERS: [Parameter; 6] = {
-    let [e, nu, rho] = Material::parameters("1e3", "0.499");
+const PARAMETERS: [Parameter; 6] = Material::parameters(
+    ["1e3", "0.499"],
     [
-        e,
-        nu,
-        rho,
         ANGLE,
         ANGULAR_FREQUENCY.with_default("3.141592653589793"),
         PRESSURE,
-    ]
-};
+    ],
+);
 
 /// The stretched point X̂ with its derivatives.
 struct Stretched {

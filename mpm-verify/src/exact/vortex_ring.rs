@@ -22,16 +22,10 @@ pub(crate) const ENTRY: Entry = Entry {
 // π/4.
 pub(crate) const ANGLE: Parameter = twist::ANGLE.with_default("0.7853981633974483");
 
-const PARAMETERS: [Parameter; 5] = {
-    let [e, nu, rho] = Material::parameters("1e3", "0.3");
-    [
-        e,
-        nu,
-        rho,
-        ANGLE,
-        ANGULAR_FREQUENCY.with_default("3.141592653589793"),
-    ]
-};
+const PARAMETERS: [Parameter; 5] = Material::parameters(
+    ["1e3", "0.3"],
+    [ANGLE, ANGULAR_FREQUENCY.with_default("3.141592653589793")],
+);
 
 /// h and its derivatives by R², from h′ and h″ by R: h′/(2R) and (h″ − h′/R)/(4R²).
 fn profile(r: f64) -> [f64; 3] {

@@ -40,17 +40,14 @@ pub(crate) const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(WallPressure::new(p)?)),
 };
 
-const PARAMETERS: [Parameter; 6] = {
-    let [e, nu, rho] = Material::parameters("1e7", "0.3");
+const PARAMETERS: [Parameter; 6] = Material::parameters(
+    ["1e7", "0.3"],
     [
-        e,
-        nu,
-        rho,
         DIMENSION,
         AMPLITUDE,
         ANGULAR_FREQUENCY.with_default("314.1592653589793"),
-    ]
-};
+    ],
+);
 
 impl WallPressure {
     /// The solution of the parameters of `mms-wall-pressure`.

@@ -46,49 +46,34 @@ pub(super) struct Row {
     pub(super) log_jacobian_gap: f64,
 }
 
+/// A column of the series: its name with unit, and its value in a row.
+type Column = (&'static str, fn(&Row) -> f64);
+
 impl Row {
-    pub(super) const COLUMNS: [&'static str; 18] = [
-        "time (s)",
-        "toe (m)",
-        "bulk_toe (m)",
-        "settlement (m)",
-        "kinetic_energy (J/m)",
-        "potential_energy (J/m)",
-        "stress_work (J/m)",
-        "stored_energy (J/m)",
-        "plastic_dissipation (J/m)",
-        "base_force (N/m)",
-        "failed_share (-)",
-        "retrogression (m)",
-        "shear_bands (-)",
-        "jacobian_min (-)",
-        "jacobian_max (-)",
-        "log_jacobian_gap_rms (-)",
-        "energy (J/m)",
-        "accounted_energy (J/m)",
+    /// Columns of the series, with units.
+    pub(super) const COLUMNS: [Column; 18] = [
+        ("time (s)", |r| r.time),
+        ("toe (m)", |r| r.toe),
+        ("bulk_toe (m)", |r| r.bulk_toe),
+        ("settlement (m)", |r| r.settlement),
+        ("kinetic_energy (J/m)", |r| r.kinetic),
+        ("potential_energy (J/m)", |r| r.potential),
+        ("stress_work (J/m)", |r| r.stress_work),
+        ("stored_energy (J/m)", |r| r.stored),
+        ("plastic_dissipation (J/m)", |r| r.dissipated),
+        ("base_force (N/m)", |r| r.base_force),
+        ("failed_share (-)", |r| r.failed),
+        ("retrogression (m)", |r| r.retrogression),
+        ("shear_bands (-)", |r| r.bands),
+        ("jacobian_min (-)", |r| r.jacobian.0),
+        ("jacobian_max (-)", |r| r.jacobian.1),
+        ("log_jacobian_gap_rms (-)", |r| r.log_jacobian_gap),
+        ("energy (J/m)", Self::energy),
+        ("accounted_energy (J/m)", Self::accounted),
     ];
 
     pub(super) fn values(&self) -> Vec<f64> {
-        vec![
-            self.time,
-            self.toe,
-            self.bulk_toe,
-            self.settlement,
-            self.kinetic,
-            self.potential,
-            self.stress_work,
-            self.stored,
-            self.dissipated,
-            self.base_force,
-            self.failed,
-            self.retrogression,
-            self.bands,
-            self.jacobian.0,
-            self.jacobian.1,
-            self.log_jacobian_gap,
-            self.energy(),
-            self.accounted(),
-        ]
+        Self::COLUMNS.iter().map(|(_, of)| of(self)).collect()
     }
 
     /// What a step may lose and never gain (J/m): kinetic and potential energy and the work of the stress.

@@ -338,7 +338,7 @@ where
     }
 
     fn columns(&self) -> Vec<&'static str> {
-        Row::COLUMNS.to_vec()
+        Row::COLUMNS.map(|(name, _)| name).to_vec()
     }
 
     fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, mpm_core::Error> {
