@@ -86,9 +86,11 @@ impl Check {
     }
 }
 
-/// A check on single runs.
-pub(crate) fn run(found: impl Fn(&Record) -> Vec<Finding> + Send + Sync + 'static) -> On {
-    On::Run(Box::new(found))
+/// A check on single runs: what it finds, if it says anything of a run.
+pub(crate) fn run<F: IntoIterator<Item = Finding>>(
+    found: impl Fn(&Record) -> F + Send + Sync + 'static,
+) -> On {
+    On::Run(Box::new(move |r| found(r).into_iter().collect()))
 }
 
 /// A check on the runs of a case together.

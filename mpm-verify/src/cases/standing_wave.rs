@@ -200,7 +200,7 @@ fn checks() -> Vec<Check> {
                 let why = "every particle's volume is a constraint";
                 let found = judge(r, FREQUENCY_ERROR).above(tolerance(r), why);
                 let locks = r.remedy() == RemedyName::None && r.basis() == Gimp;
-                locks.then_some(found).into_iter().collect()
+                locks.then_some(found)
             }),
         ),
         Check::truth(
@@ -210,7 +210,7 @@ fn checks() -> Vec<Check> {
                 let error = r.metric(FREQUENCY_ERROR);
                 let found = Finding::at_most(FREQUENCY_ERROR, error, tolerance(r), "½ (kh)² + 1 %");
                 let judged = r.remedy() != RemedyName::None && is_short(r);
-                judged.then_some(found).into_iter().collect()
+                judged.then_some(found)
             }),
         ),
         Check::known_limit(
@@ -220,7 +220,7 @@ fn checks() -> Vec<Check> {
                 let why = "what Π can't see has little stiffness: J parts from J̄ (docs/modes.md)";
                 let found = judge(r, LOG_JACOBIAN_GAP).above(PARTED, why);
                 let long = r.remedy() != RemedyName::None && !is_short(r);
-                long.then_some(found).into_iter().collect()
+                long.then_some(found)
             }),
         ),
         Check::truth(
@@ -230,7 +230,7 @@ fn checks() -> Vec<Check> {
                 let why = "the force takes what is stored";
                 let found = judge(r, ENERGY_GAIN).at_most(0.02, why);
                 let keeps = matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent);
-                keeps.then_some(found).into_iter().collect()
+                keeps.then_some(found)
             }),
         ),
     ]

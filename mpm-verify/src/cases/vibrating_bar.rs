@@ -136,7 +136,7 @@ fn checks() -> Vec<Check> {
                     "Eq. (26) diffuses J with D = ½ s² h²/Δt: the strain fades at the rate D k²";
                 let found = judge(r, ENERGY_LOSS).above(0.9, why);
                 let fades = r.remedy() == RemedyName::FbarRecursive;
-                fades.then_some(found).into_iter().collect()
+                fades.then_some(found)
             }),
         ),
         Check::known_limit(
@@ -145,10 +145,7 @@ fn checks() -> Vec<Check> {
             run(|r| {
                 let why = "the lumped mass of cubics next to a wall has its centre off the node";
                 let found = judge(r, AMPLITUDE_RATIO).at_most(HALF, why);
-                (is_cubic(r) && !feeds_null_space(r))
-                    .then_some(found)
-                    .into_iter()
-                    .collect()
+                (is_cubic(r) && !feeds_null_space(r)).then_some(found)
             }),
         ),
         Check::truth(
@@ -156,7 +153,7 @@ fn checks() -> Vec<Check> {
             "relative error of the frequency at most ½ (kh)², but for fbar-recursive and for waves of cubic splines with F̄ of which less than a twentieth is left",
             run(|r| {
                 let judged = r.remedy() != RemedyName::FbarRecursive;
-                judged.then(|| of_frequency(r)).into_iter().collect()
+                judged.then(|| of_frequency(r))
             }),
         ),
         Check::truth(
@@ -167,7 +164,7 @@ fn checks() -> Vec<Check> {
                 let why = "velocities live half a step before positions: ½ ωΔt";
                 let found = judge(r, ENERGY_GAIN).at_most(0.5 * phase, why);
                 let keeps = matches!(r.remedy(), RemedyName::None | RemedyName::FbarConsistent);
-                keeps.then_some(found).into_iter().collect()
+                keeps.then_some(found)
             }),
         ),
         Check::truth(

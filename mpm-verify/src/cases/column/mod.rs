@@ -141,7 +141,7 @@ fn checks() -> Vec<Check> {
                     "Eq. (26) diffuses J with D = ½ s² h²/Δt",
                 );
                 let found = judge(r, metric).above(1e-3, why);
-                creeps.then_some(found).into_iter().collect()
+                creeps.then_some(found)
             }),
         ),
         Check::truth(
@@ -155,7 +155,7 @@ fn checks() -> Vec<Check> {
                 } else {
                     Finding::not_applicable(metric, "the ringing of the start is not a drift")
                 };
-                rests(r).then_some(found).into_iter().collect()
+                rests(r).then_some(found)
             }),
         ),
         Check::known_limit(
@@ -164,10 +164,7 @@ fn checks() -> Vec<Check> {
             run(|r| {
                 let why = "what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/modes.md)";
                 let found = judge(r, KINETIC_GROWTH).above(GROWN, why);
-                (rests(r) && is_long(r) && grows(r))
-                    .then_some(found)
-                    .into_iter()
-                    .collect()
+                (rests(r) && is_long(r) && grows(r)).then_some(found)
             }),
         ),
         Check::truth(
@@ -177,10 +174,7 @@ fn checks() -> Vec<Check> {
                 let bound = 1.0 + ROUNDING / r.metric(KINETIC_ENERGY_PEAK);
                 let why = "nothing feeds a motion; a random walk of last bits excepted";
                 let found = judge(r, KINETIC_GROWTH).at_most(bound, why);
-                (rests(r) && is_long(r) && !grows(r))
-                    .then_some(found)
-                    .into_iter()
-                    .collect()
+                (rests(r) && is_long(r) && !grows(r)).then_some(found)
             }),
         ),
     ]

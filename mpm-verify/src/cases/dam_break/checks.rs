@@ -240,19 +240,19 @@ fn profile_bound(record: &Record) -> f64 {
     PROFILE * (record.discretisation.h / PROFILE_CELL).powf(1.5)
 }
 
-fn pressure_profile(r: &Record) -> Vec<Finding> {
+fn pressure_profile(r: &Record) -> Option<Finding> {
     let metric = m::PRESSURE_PROFILE_ERROR;
     let found = || judge(r, metric).at_most(profile_bound(r), "hydrostatics");
-    (!smooths(r)).then(found).into_iter().collect()
+    (!smooths(r)).then(found)
 }
 
-fn smoothed_start(r: &Record) -> Vec<Finding> {
+fn smoothed_start(r: &Record) -> Option<Finding> {
     let metric = m::PRESSURE_PROFILE_ERROR;
     let source =
         "Π takes the mean of J over what is there: at floor and surface that lies to one side";
     let found = || judge(r, metric).above(profile_bound(r), source);
     let seen = smooths(r) && r.parameters.is(START, EXACT);
-    seen.then(found).into_iter().collect()
+    seen.then(found)
 }
 
 fn energy_not_gained(r: &Record) -> Vec<Finding> {
@@ -272,26 +272,26 @@ fn stored(record: &Record) -> f64 {
     elastic_energy(density, record.parameters.number(BULK_MODULUS)) / at_start
 }
 
-fn motion_not_gained(r: &Record) -> Vec<Finding> {
+fn motion_not_gained(r: &Record) -> Option<Finding> {
     let metric = m::MOTION_EXCESS;
     let source = "the elastic energy of the water at rest";
     let found = || judge(r, metric).at_most(stored(r), source);
-    (!makes_energy(r)).then(found).into_iter().collect()
+    (!makes_energy(r)).then(found)
 }
 
-fn energy_made(r: &Record) -> Vec<Finding> {
+fn energy_made(r: &Record) -> Option<Finding> {
     let metric = m::MOTION_EXCESS;
     let found = || judge(r, metric).above(stored(r), MAKES_ENERGY);
-    makes_energy(r).then(found).into_iter().collect()
+    makes_energy(r).then(found)
 }
 
-fn dissipation(r: &Record) -> Vec<Finding> {
+fn dissipation(r: &Record) -> Option<Finding> {
     let (at_start, at_rest) = energies(r.parameters.number(DENSITY));
     let metric = m::MOTION_LOSS;
     let source = "water at rest in the tank has two thirds of its energy";
     let bound = 1.0 - at_rest / at_start;
     let found = || judge(r, metric).at_most(bound, source);
-    (!makes_energy(r)).then(found).into_iter().collect()
+    (!makes_energy(r)).then(found)
 }
 
 fn front_speed(r: &Record) -> Vec<Finding> {
@@ -316,17 +316,17 @@ fn front_is_open(record: &Record) -> Option<&'static str> {
     }
 }
 
-fn front(r: &Record) -> Vec<Finding> {
+fn front(r: &Record) -> Option<Finding> {
     let metric = m::FRONT_RMS_ERROR;
     let source = "inviscid front; a grid resolves no tongue thinner than a cell";
     let found = match front_is_open(r) {
         Some(why) => Finding::not_applicable(metric, why),
         None => judge(r, metric).at_most(front_bound(r), source),
     };
-    is_averaged(r).then_some(found).into_iter().collect()
+    is_averaged(r).then_some(found)
 }
 
-fn arrival(r: &Record) -> Vec<Finding> {
+fn arrival(r: &Record) -> Option<Finding> {
     let metric = m::ARRIVAL_ERROR;
     let passes = passage(TANK - 2.0 * r.discretisation.h);
     let speed = passes.map_or(f64::NAN, |(_, speed)| speed);
@@ -335,15 +335,15 @@ fn arrival(r: &Record) -> Vec<Finding> {
         Some(why) => Finding::not_applicable(metric, why),
         None => judge(r, metric).at_most(front_bound(r) / speed, source),
     };
-    is_averaged(r).then_some(found).into_iter().collect()
+    is_averaged(r).then_some(found)
 }
 
-fn locked(r: &Record) -> Vec<Finding> {
+fn locked(r: &Record) -> Option<Finding> {
     let metric = m::FRONT_RMS_ERROR;
     let source = "standard MPM locks: Zhao et al. 2022, Figure 12";
     let found = || judge(r, metric).above(front_bound(r), source);
     let judged = !is_averaged(r) && r.basis() == BasisName::Gimp && front_is_open(r).is_none();
-    judged.then(found).into_iter().collect()
+    judged.then(found)
 }
 
 #[cfg(test)]

@@ -82,23 +82,21 @@ fn of_ground() -> Vec<Check> {
         bookkeeping "particle-count":
             "as many particles as have their centres strictly inside of the face: the paper's 311,250 at h = 0.2 m"
             => run(|r| {
-                let found = in_section(r).map(|section| {
+                in_section(r).map(|section| {
                     let count = (section * r.metric(m::PARTICLES_ACROSS)).round();
                     let why = "Zhao et al. 2022, section 4.4: 311,250 at h = 0.2 m";
                     judge(r, m::PARTICLES).within(count, 0.0, why)
-                });
-                found.into_iter().collect()
+                })
             });
         bookkeeping "mass":
             "all: the mass at the end is that of the particles, to rounding"
             => run(|r| {
                 let spacing = r.discretisation.h / r.parameters.number(PPC_PER_DIRECTION);
-                let found = in_section(r).map(|section| {
+                in_section(r).map(|section| {
                     let mass = r.parameters.number(DENSITY) * section * spacing * spacing;
                     let why = "conservation of mass";
                     judge(r, m::MASS).within(mass, ROUNDING * mass, why)
-                });
-                found.into_iter().collect()
+                })
             });
     }
 }
@@ -127,10 +125,10 @@ fn of_rest() -> Vec<Check> {
                 let metric = m::OVERBURDEN_ERROR;
                 if feels_the_face(r) {
                     let why = "the face is felt at the back wall";
-                    return vec![Finding::not_applicable(metric, why)];
+                    return Some(Finding::not_applicable(metric, why));
                 }
                 let found = judge(r, metric).at_most(OVERBURDEN, "level ground");
-                (!is_locked(r)).then_some(found).into_iter().collect()
+                (!is_locked(r)).then_some(found)
             });
         known_limit "locked-stress":
             "none with GIMP: it is not, and the mean stress alternates from particle to particle by more than 5 % of γ H"
@@ -186,18 +184,14 @@ fn keeps_moving(r: &Record) -> Option<Moves> {
     }
 }
 
-fn at_rest(r: &Record) -> Vec<Finding> {
+fn at_rest(r: &Record) -> Option<Finding> {
     let metric = m::KINETIC_SHARE_AT_REST;
     if let Some(why) = why_no_rest(r) {
-        return vec![Finding::not_applicable(metric, why)];
+        return Some(Finding::not_applicable(metric, why));
     }
     let why = "velocities a thousandth of elastic ones";
     let found = judge(r, metric).at_most(AT_REST, why);
-    keeps_moving(r)
-        .is_none()
-        .then_some(found)
-        .into_iter()
-        .collect()
+    keeps_moving(r).is_none().then_some(found)
 }
 
 fn moves_on(r: &Record, how: Moves) -> Vec<Finding> {
@@ -232,7 +226,7 @@ fn of_energy() -> Vec<Check> {
                 let why = "what is stored and dissipated has fallen before";
                 let found = Finding::at_most(m::UNACCOUNTED_ENERGY, made, ROUNDING, why);
                 let ours = r.remedy() == RemedyName::FbarConsistent;
-                ours.then_some(found).into_iter().collect()
+                ours.then_some(found)
             });
         truth "energy-closure":
             "all that fall, runs of 1.5 s and less: kinetic, potential and stored energy and dissipation are those at the reduction within h/H of the fallen energy"
@@ -289,17 +283,17 @@ fn of_slide() -> Vec<Check> {
             => run(|r| {
                 if bounds(r).is_none() {
                     let why = "the bounds of limit analysis are those of a face at 45° under a long crest";
-                    return vec![Finding::not_applicable(METRIC, why)];
+                    return Some(Finding::not_applicable(METRIC, why));
                 }
                 let found = judge(r, METRIC).at_most(FAILED, LIMIT);
-                stands(r).then_some(found).into_iter().collect()
+                stands(r).then_some(found)
             });
         truth "fails":
             "F̄, with a reduction beyond the upper bound of limit analysis and what a band of cells bears besides, h/H: it does"
             => run(|r| {
                 let found = judge(r, METRIC).above(FAILED, LIMIT);
                 let judged = must_fail(r) && r.remedy() != RemedyName::None;
-                judged.then_some(found).into_iter().collect()
+                judged.then_some(found)
             });
         known_limit "locked":
             "none with GIMP, likewise: it does not"
@@ -307,7 +301,7 @@ fn of_slide() -> Vec<Check> {
                 let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
                 let found = judge(r, METRIC).at_most(FAILED, why);
                 let judged = must_fail(r) && is_locked(r);
-                judged.then_some(found).into_iter().collect()
+                judged.then_some(found)
             });
     }
 }
@@ -335,7 +329,7 @@ fn of_width() -> Vec<Check> {
                     let why = "the problem is that of its section";
                     judge(r, *metric).at_most(GROWN_ROUNDING, why)
                 };
-                metrics[..known].iter().map(alike).collect()
+                metrics[..known].iter().map(alike).collect::<Vec<_>>()
             });
         truth "plane-strain":
             "in three dimensions: at rest the crest has sunk as in plane strain, within 10⁻⁴ without F̄ and 2 % with fbar-consistent; without F̄ also 0.5 s after the reduction"

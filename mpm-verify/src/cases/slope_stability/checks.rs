@@ -20,30 +20,28 @@ pub(super) fn checks() -> Vec<Check> {
             "all: the factor is above the lower bound of limit analysis less half the last bracket"
             => run(|r| {
                 let why = "lower bound of limit analysis: docs/exact.md";
-                let found = bounds(r).map(|(lower, _)| judge(r, METRIC).above(lower, why));
-                found.into_iter().collect()
+                bounds(r).map(|(lower, _)| judge(r, METRIC).above(lower, why))
             });
         truth "limit-load":
             "F̄, and standard quadratic splines at h ≤ 0.2 m: the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure"
             => run(|r| {
                 let Some((lower, upper)) = bounds(r) else {
                     let why = "the bounds of limit analysis are those for 45°";
-                    return vec![Finding::not_applicable(METRIC, why)];
+                    return Some(Finding::not_applicable(METRIC, why));
                 };
                 let (middle, half) = (0.5 * (lower + upper), 0.5 * (upper - lower));
                 let why = "limit analysis: docs/exact.md";
                 let found = judge(r, METRIC).within(middle, half, why);
-                (!locks(r)).then_some(found).into_iter().collect()
+                (!locks(r)).then_some(found)
             });
         known_limit "locked":
             "none with GIMP, and with quadratic splines at h > 0.2 m: the slope still stands at a factor above all that"
             => run(|r| {
-                let found = bounds(r).filter(|_| locks(r)).map(|(_, upper)| {
+                bounds(r).filter(|_| locks(r)).map(|(_, upper)| {
                     let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
                     let bound = upper - resolution(r);
                     judge(r, STANDS_AT).above(bound, why)
-                });
-                found.into_iter().collect()
+                })
             });
         truth "factor-converges":
             "fbar-consistent: from level to level the factor comes nearer to that of limit analysis, or stays within the uncertainty of both"
