@@ -4,7 +4,7 @@ use crate::accuracy::{Order, fit_order};
 use crate::distinct;
 use crate::metric::Metric;
 use crate::record::{Record, Status};
-use crate::scheme::{Scheme, TransferName};
+use crate::scheme::{RemedyName, Scheme, TransferName};
 use crate::table::Sheet;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -216,6 +216,19 @@ impl ResultTable {
             least: 1,
             across: false,
         }
+    }
+
+    /// Bases by remedies, of runs that tell no more apart.
+    pub(crate) fn by_remedy(
+        name: &str,
+        remedies: &[RemedyName],
+        shows: impl Fn(&Record) -> bool + Send + Sync + 'static,
+        text: fn(&Record) -> String,
+    ) -> Self {
+        let column = |&remedy: &RemedyName| {
+            Column::text(remedy.text(), text).of(move |r| r.remedy() == remedy)
+        };
+        Self::new(name, shows, &[BASIS], remedies.iter().map(column))
     }
 
     /// Shows only rows in which so many cells say something.

@@ -2,11 +2,10 @@
 
 use crate::error::Error;
 use crate::files::write_csv;
-use serde::Serialize;
 use std::path::Path;
 
 /// A table as it is shown: text in cells. Terminal and pages in Markdown have it as it is here, HTML by a template.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sheet {
     /// Titles of the columns.
     pub head: Vec<String>,

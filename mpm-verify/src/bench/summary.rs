@@ -4,6 +4,7 @@ use super::{Bench, Measured, Spread, aims, model};
 use crate::draw::{Chart, Marker, Scale, Series, draw_charts};
 use crate::error::Error;
 use crate::files::{write_csv, write_whole};
+use crate::table::Sheet;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -50,29 +51,30 @@ fn spread(spread: Option<Spread>, decimals: usize) -> String {
 }
 
 /// A table, or nothing without rows.
-fn table(title: &str, header: &[&str], rows: Vec<Vec<String>>) -> String {
-    if rows.is_empty() {
-        return String::new();
+fn table<const N: usize>(
+    title: &str,
+    header: [&str; N],
+    rows: impl Iterator<Item = [String; N]>,
+) -> String {
+    let sheet = Sheet::new(header).with(rows.map(Vec::from));
+    match sheet.rows.is_empty() {
+        true => String::new(),
+        false => format!("\n## {title}\n\n{}", sheet.markdown()),
     }
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    let header: Vec<String> = header.iter().map(|h| (*h).to_owned()).collect();
-    let rule = format!("|{}\n", "---|".repeat(header.len()));
-    let rows: String = rows.iter().map(|row| line(row)).collect();
-    format!("\n## {title}\n\n{}{rule}{rows}", line(&header))
 }
 
 fn aims_table(bench: &Bench) -> String {
     let row = |aim: aims::Aim| {
         let met = if aim.met { "met" } else { "missed" };
-        vec![
+        [
             aim.what,
             aim.wanted,
             spread(Some(aim.measured), 2),
             met.to_owned(),
         ]
     };
-    let rows = aims::of(bench).into_iter().map(row).collect();
-    table("Aims", &["what", "aim", "measured", ""], rows)
+    let rows = aims::of(bench).into_iter().map(row);
+    table("Aims", ["what", "aim", "measured", ""], rows)
 }
 
 /// Updates per second (10⁶) by wall time.
@@ -97,7 +99,7 @@ fn workloads(bench: &Bench) -> String {
         let triad = triad
             .and_then(Measured::wall_ns)
             .map_or(f64::NAN, |s| 1.0 / s.median);
-        vec![
+        [
             m.name.clone(),
             m.threads.to_string(),
             m.particles.to_string(),
@@ -111,7 +113,7 @@ fn workloads(bench: &Bench) -> String {
             format!("{:.0} %", 100.0 * bandwidth / triad),
         ]
     };
-    let rows = bench.of_group("workload").map(row).collect();
+    let rows = bench.of_group("workload").map(row);
     let header = [
         "workload",
         "threads",
@@ -125,7 +127,7 @@ fn workloads(bench: &Bench) -> String {
         "triad GB/s",
         "of the bound",
     ];
-    table("Workloads", &header, rows)
+    table("Workloads", header, rows)
 }
 
 fn peers(bench: &Bench) -> String {
@@ -134,7 +136,7 @@ fn peers(bench: &Bench) -> String {
             Some(true) => "the same",
             _ => "OTHER: no ratio",
         };
-        vec![
+        [
             m.name.clone(),
             m.threads.to_string(),
             spread(m.cpu_ns(), 1),
@@ -142,7 +144,7 @@ fn peers(bench: &Bench) -> String {
             same.to_owned(),
         ]
     };
-    let rows = bench.of_group("peer").map(row).collect();
+    let rows = bench.of_group("peer").map(row);
     let header = [
         "peer",
         "threads",
@@ -150,7 +152,7 @@ fn peers(bench: &Bench) -> String {
         "10⁶ updates/s, wall",
         "sums to 10⁻⁹",
     ];
-    table("Peers", &header, rows)
+    table("Peers", header, rows)
 }
 
 fn problems(bench: &Bench) -> String {
@@ -159,7 +161,7 @@ fn problems(bench: &Bench) -> String {
         let rates: Vec<String> = others
             .map(|m| format!("{} on {}", spread(rate(m), 2), m.threads))
             .collect();
-        vec![
+        [
             one.name.clone(),
             one.particles.to_string(),
             spread(one.cpu_ns(), 1),
@@ -173,27 +175,27 @@ fn problems(bench: &Bench) -> String {
         "CPU (ns/update), one thread",
         "10⁶ updates/s, wall, threads",
     ];
-    table("Problems", &header, ones.map(row).collect())
+    table("Problems", header, ones.map(row))
 }
 
 fn sizes(bench: &Bench) -> String {
     let row = |m: &Measured| {
         let memory = m.memory.map(|bytes| bytes as f64 / m.particles as f64);
-        vec![
+        [
             m.name.clone(),
             m.particles.to_string(),
             spread(m.cpu_ns(), 1),
             memory.map_or("–".to_owned(), |bytes| format!("{bytes:.0}")),
         ]
     };
-    let rows = bench.of_group("scaling").map(row).collect();
+    let rows = bench.of_group("scaling").map(row);
     let header = [
         "block",
         "particles",
         "CPU (ns/update)",
         "memory (bytes/particle)",
     ];
-    table("Sizes, one thread", &header, rows)
+    table("Sizes, one thread", header, rows)
 }
 
 fn write_rows(bench: &Bench, out: &Path) -> Result<(), Error> {

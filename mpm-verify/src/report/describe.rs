@@ -1,8 +1,10 @@
 //! Text for the terminal: lists, explanations, verdicts.
 
+use crate::accuracy::Order;
 use crate::case::{Case, Tier};
 use crate::metric::Headline;
 use crate::record::{Record, Status};
+use crate::results::fixed;
 use crate::study::convergence::Convergence;
 use crate::study::summary::{CaseStudy, Summary};
 use crate::verdict::{Kind, Outcome, Verdict};
@@ -161,7 +163,7 @@ pub fn number(value: Option<f64>) -> String {
 #[must_use]
 pub fn order(c: &Convergence) -> String {
     match (&c.order, &c.extrapolation) {
-        (Some(o), _) => format!("{:.2} ± {:.2}", o.order, o.uncertainty),
+        (Some(o), _) => o.to_string(),
         (None, Some(r)) => format!("{:.2}", r.order),
         (None, None) => number(None),
     }
@@ -170,24 +172,16 @@ pub fn order(c: &Convergence) -> String {
 /// The orders of an error between successive levels, or a dash.
 #[must_use]
 pub fn local_orders(c: &Convergence) -> String {
-    c.order.as_ref().map_or_else(
-        || number(None),
-        |o| {
-            let orders: Vec<String> = o.local.iter().map(|p| format!("{p:.2}")).collect();
-            orders.join(", ")
-        },
-    )
+    c.order
+        .as_ref()
+        .map_or_else(|| number(None), Order::between)
 }
 
 /// A cell of the table of results, or a dash.
 #[must_use]
 pub fn headline(record: &Record, headline: &Headline) -> String {
-    let value = record.metric(headline.metric) * headline.factor;
-    if value.is_finite() {
-        format!("{value:.0$}", headline.decimals)
-    } else {
-        "–".to_owned()
-    }
+    let format = fixed(headline.decimals).times(headline.factor);
+    format.text(record.metric(headline.metric))
 }
 
 /// One verdict on a line.

@@ -8,6 +8,7 @@ use crate::draw::write_small_png;
 use crate::error::{Error, ExitCode};
 use crate::files::{make_folder, read_versioned, write_whole};
 use crate::study::summary::{SCHEMA, Summary};
+use crate::table::Sheet;
 use crate::verdict::Verdict;
 use image::RgbImage;
 use std::collections::{BTreeMap, BTreeSet};
@@ -85,22 +86,20 @@ impl Difference {
             self.verdicts.len(),
             self.pictures.len()
         );
-        if !self.verdicts.is_empty() {
-            let _ = writeln!(t, "\n| verdict | old | new |\n|---|---|---|");
-        }
-        for (what, a, b) in &self.verdicts {
-            let _ = writeln!(t, "| {what} | {a} | {b} |");
-        }
-        if !self.numbers.is_empty() {
-            let _ = writeln!(
-                t,
-                "\n| number | old | new | difference |\n|---|---|---|---|"
-            );
-        }
-        for (what, a, b) in &self.numbers {
+        let verdicts = self.verdicts.iter();
+        let verdicts = verdicts.map(|(what, a, b)| vec![what.clone(), (*a).into(), (*b).into()]);
+        let numbers = self.numbers.iter().map(|(what, a, b)| {
             let difference = a.zip(*b).map(|(a, b)| b - a);
-            let [a, b, difference] = [*a, *b, difference].map(number);
-            let _ = writeln!(t, "| {what} | {a} | {b} | {difference} |");
+            let numbers = [*a, *b, difference].map(number);
+            [std::slice::from_ref(what), &numbers].concat()
+        });
+        for sheet in [
+            Sheet::new(["verdict", "old", "new"]).with(verdicts),
+            Sheet::new(["number", "old", "new", "difference"]).with(numbers),
+        ] {
+            if !sheet.rows.is_empty() {
+                let _ = write!(t, "\n{}", sheet.markdown());
+            }
         }
         for change in &self.pictures {
             let file = change.file.display();

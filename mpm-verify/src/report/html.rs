@@ -4,6 +4,7 @@ mod parts;
 
 use super::describe::{kind, made_by};
 use super::price::Prices;
+use super::summary::programs;
 use crate::case::Case;
 use crate::cases;
 use crate::distinct;
@@ -14,10 +15,11 @@ use crate::gallery::Picture;
 use crate::record::Record;
 use crate::scheme::Scheme;
 use crate::study::summary::{CaseStudy, Summary};
+use crate::table::Sheet;
 use crate::verdict::{Kind, Verdict};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{Environment, UndefinedBehavior, Value, context};
-use parts::{Tally, link, name, outcome_of, outcome_of_run, prices, quantity, run, verdict};
+use parts::{Tally, link, name, outcome_of, outcome_of_run, prices, quantity, run, sheet, verdict};
 use std::path::Path;
 
 const TEMPLATES: [(&str, &str); 5] = [
@@ -134,6 +136,7 @@ fn index(summary: &Summary, out: &Path) -> Result<Value, Error> {
             drifted => c.drifted,
         },
         machines => distinct(machines),
+        programs => sheet(programs(summary)),
         broken => broken.collect::<Vec<_>>(),
         failures => failures.collect::<Vec<_>>(),
         cases => cases?,
@@ -155,8 +158,6 @@ fn overview(study: &CaseStudy) -> Result<Value, Error> {
         name => case.name,
         title => case.title,
         page => file_of(study),
-        runs => study.records.len(),
-        made_by => made_by(study).to_vec(),
         own => matrix(study, &all, own),
         changed => matrix(study, &schemes, columns),
         together => (!study.verdicts.is_empty()).then(|| outcome_of(&study.verdicts, 0)),
@@ -185,18 +186,19 @@ fn matrix(study: &CaseStudy, schemes: &[Scheme], columns: Vec<(&str, &[String])>
 fn case_page(case: &Case, study: &CaseStudy, tier: &str, out: &Path) -> Value {
     let sketch = &case.sketch;
     let parameters = case.parameters.iter().map(|p| {
-        context! {
-            name => p.name, unit => p.unit, default => p.default,
-            allowed => p.domain.to_string(), meaning => p.meaning,
-        }
+        let allowed = p.domain.to_string();
+        [p.name, p.unit, p.default, &allowed, p.meaning]
+            .map(str::to_owned)
+            .into()
     });
+    let parameters = Sheet::new(["name", "unit", "default", "allowed", "meaning"]).with(parameters);
     let levels = case
         .levels
         .iter()
         .map(|l| context! { name => l.name, h => l.h.to_string() });
     let metrics = case.metrics.iter();
-    let metrics =
-        metrics.map(|m| context! { name => m.name, unit => m.unit, meaning => m.meaning });
+    let metrics = metrics.map(|m| [m.name, m.unit, m.meaning].map(str::to_owned).into());
+    let metrics = Sheet::new(["metric", "unit", "what it measures"]).with(metrics);
     let known_limits = case.checks.iter().filter(|c| c.kind == Kind::KnownLimit);
     let known_limits = known_limits.map(|c| context! { name => c.name, statement => c.statement });
     let sets = distinct(study.convergence.iter().map(|c| &c.set[..]));
@@ -212,7 +214,7 @@ fn case_page(case: &Case, study: &CaseStudy, tier: &str, out: &Path) -> Value {
         description => case.description,
         sketch => Value::from_safe_string(sketch::svg(sketch, case.title)),
         sketch_caption => sketch.description,
-        parameters => parameters.collect::<Vec<_>>(),
+        parameters => sheet(parameters),
         schemes => case.schemes().iter().map(ToString::to_string).collect::<Vec<_>>(),
         levels => levels.collect::<Vec<_>>(),
         references => case.references.clone(),
@@ -226,7 +228,7 @@ fn case_page(case: &Case, study: &CaseStudy, tier: &str, out: &Path) -> Value {
         together => study.verdicts.iter().map(verdict).collect::<Vec<_>>(),
         limits => case.limits.to_vec(),
         known_limits => known_limits.collect::<Vec<_>>(),
-        metrics => metrics.collect::<Vec<_>>(),
+        metrics => sheet(metrics),
     }
 }
 

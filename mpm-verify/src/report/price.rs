@@ -6,8 +6,8 @@ use crate::metric::Quantity;
 use crate::scheme::{RemedyName, Scheme};
 use crate::study::convergence::{Convergence, Point, precision};
 use crate::study::summary::CaseStudy;
+use crate::table::Sheet;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 
 /// By rising cost, the points whose error is less than `gain` times that of the point before: with a gain of one, those that
 /// no other beats in both.
@@ -193,73 +193,89 @@ fn cost(points: &[Point], target: f64) -> Option<Cost> {
     })
 }
 
+impl Prices {
+    /// Cheapest first.
+    pub(super) fn table(&self) -> Sheet {
+        let head = [
+            "scheme",
+            "particle–node pairs (10⁶)",
+            "CPU time (s)",
+            "× cheapest",
+            "least error",
+        ];
+        let row = |row: &Price| {
+            let [pairs, cpu] = row.shown();
+            let least = describe::number(Some(rounded(row.least)));
+            vec![row.name(), pairs, cpu, self.relative(row), least]
+        };
+        Sheet::new(head).with(self.rows.iter().map(row))
+    }
+
+    /// The target as shown.
+    pub(super) fn aim(&self) -> String {
+        describe::number(Some(rounded(self.target)))
+    }
+}
+
 /// The table in Markdown, if there is anything to compare.
 pub(super) fn table(study: &CaseStudy) -> Option<String> {
     let prices = Prices::of(study)?;
-    let mut t = format!(
-        "\n### Cost of an error\n\nTo reach {} in `{}`, as half of the schemes do:\n\n| scheme | particle–node pairs (10⁶) | CPU time (s) | × cheapest | least error |\n|---|---|---|---|---|\n",
-        describe::number(Some(rounded(prices.target))),
-        prices.metric
-    );
-    for row in &prices.rows {
-        let [pairs, cpu] = row.shown();
-        let _ = writeln!(
-            t,
-            "| {} | {pairs} | {cpu} | {} | {} |",
-            row.name(),
-            prices.relative(row),
-            describe::number(Some(rounded(row.least)))
-        );
-    }
-    Some(t)
+    Some(format!(
+        "\n### Cost of an error\n\nTo reach {} in `{}`, as half of the schemes do:\n\n{}",
+        prices.aim(),
+        prices.metric,
+        prices.table().markdown()
+    ))
 }
 
 /// For each case what its target costs with the cheapest scheme, and how many times as much with the cheapest of each
 /// remedy, in Markdown; nothing where no case has an error.
 pub(super) fn overview(studies: &[CaseStudy]) -> String {
-    let mut remedies = Vec::new();
-    let mut rows = Vec::new();
-    for study in studies {
-        let Some(prices) = Prices::of(study) else {
-            continue;
-        };
-        remedies.extend(prices.rows.iter().map(|row| row.scheme.remedy()));
-        rows.push((&study.case, prices));
-    }
-    let remedies: BTreeSet<RemedyName> = remedies.into_iter().collect();
-    if rows.is_empty() {
+    let prices = studies
+        .iter()
+        .filter_map(|s| Some((&s.case, Prices::of(s)?)));
+    let prices: Vec<(&String, Prices)> = prices.collect();
+    if prices.is_empty() {
         return String::new();
     }
-    let mut t = String::from(
-        "\n## Speed against error\n\nWhat the least error that half of the schemes reach costs with the cheapest scheme, and how many times as many particle–node pairs with the cheapest of each remedy:\n\n| case | error | target | cheapest | pairs (10⁶) | CPU time (s) |",
-    );
-    for remedy in &remedies {
-        let _ = write!(t, " {remedy} |");
-    }
-    let _ = writeln!(t, "\n|{}", "---|".repeat(6 + remedies.len()));
-    for (case, prices) in rows {
-        let Some(first) = prices.rows.first() else {
-            continue;
-        };
+    let all = prices.iter().flat_map(|(_, prices)| &prices.rows);
+    let remedies: BTreeSet<RemedyName> = all.map(|row| row.scheme.remedy()).collect();
+    let rows = prices.iter().filter_map(|(case, prices)| {
+        let first = prices.rows.first()?;
         let [pairs, cpu] = first.shown();
-        let target = describe::number(Some(rounded(prices.target)));
-        let (error, cheapest) = (prices.label, first.name());
-        let _ = write!(
-            t,
-            "| {case} | {error} | {target} | {cheapest} | {pairs} | {cpu} |"
-        );
-        for remedy in &remedies {
-            let mut own = prices
+        let label = prices.label.to_owned();
+        let row = [
+            (*case).clone(),
+            label,
+            prices.aim(),
+            first.name(),
+            pairs,
+            cpu,
+        ];
+        let of_remedy = remedies.iter().map(|remedy| {
+            let own = prices
                 .rows
                 .iter()
-                .filter(|row| row.scheme.remedy() == *remedy);
-            let cheapest = own.next().map(|row| prices.relative(row));
-            let cheapest = cheapest.filter(|ratio| !ratio.is_empty());
-            let _ = write!(t, " {} |", cheapest.as_deref().unwrap_or("–"));
-        }
-        t.push('\n');
-    }
-    t
+                .find(|row| row.scheme.remedy() == *remedy);
+            let ratio = own.map(|row| prices.relative(row));
+            let ratio = ratio.filter(|ratio| !ratio.is_empty());
+            ratio.unwrap_or_else(|| "–".to_owned())
+        });
+        Some(row.into_iter().chain(of_remedy).collect())
+    });
+    let head = [
+        "case",
+        "error",
+        "target",
+        "cheapest",
+        "pairs (10⁶)",
+        "CPU time (s)",
+    ];
+    let head = head.into_iter().chain(remedies.iter().map(|r| r.text()));
+    format!(
+        "\n## Speed against error\n\nWhat the least error that half of the schemes reach costs with the cheapest scheme, and how many times as many particle–node pairs with the cheapest of each remedy:\n\n{}",
+        Sheet::new(head).with(rows).markdown()
+    )
 }
 
 #[cfg(test)]

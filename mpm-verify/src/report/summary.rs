@@ -8,7 +8,8 @@ use crate::files::write_whole;
 use crate::metric::Headline;
 use crate::record::Record;
 use crate::study::convergence::Convergence;
-use crate::study::summary::Summary;
+use crate::study::summary::{CaseStudy, Summary};
+use crate::table::Sheet;
 use crate::verdict::{Kind, Verdict};
 use std::fmt::Write;
 use std::path::Path;
@@ -23,7 +24,8 @@ fn text(summary: &Summary) -> Result<String, Error> {
     let mut t = head(summary);
     for study in &summary.cases {
         let _ = writeln!(t, "\n## {}\n", study.case);
-        results(&cases::find(&study.case)?.headlines, &study.records, &mut t);
+        let headlines = &cases::find(&study.case)?.headlines;
+        t.push_str(&results(headlines, &study.records).markdown());
         orders(study.convergence.iter(), &mut t);
         t.push_str(&price::table(study).unwrap_or_default());
     }
@@ -65,7 +67,7 @@ fn head(summary: &Summary) -> String {
     for command in bless_commands(summary) {
         let _ = writeln!(t, "\nIf the drift is meant, accept it with `{command}`.");
     }
-    programs(summary, &mut t);
+    let _ = write!(t, "\n{}", programs(summary).markdown());
     failures(summary, &mut t);
     for basis in remedies::BASES {
         let records = summary.cases.iter().flat_map(|s| &s.records);
@@ -80,16 +82,13 @@ fn head(summary: &Summary) -> String {
 }
 
 /// What made the runs, case by case.
-fn programs(summary: &Summary, t: &mut String) {
-    let _ = writeln!(
-        t,
-        "\n| case | runs | program | night | commit |\n|---|---|---|---|---|"
-    );
-    for study in &summary.cases {
-        let made_by = describe::made_by(study).join(" | ");
-        let runs = study.records.len();
-        let _ = writeln!(t, "| {} | {runs} | {made_by} |", study.case);
-    }
+pub(super) fn programs(summary: &Summary) -> Sheet {
+    let row = |study: &CaseStudy| {
+        let first = [study.case.clone(), study.records.len().to_string()];
+        first.into_iter().chain(describe::made_by(study)).collect()
+    };
+    let head = ["case", "runs", "program", "night", "commit"];
+    Sheet::new(head).with(summary.cases.iter().map(row))
 }
 
 fn failures(summary: &Summary, t: &mut String) {
@@ -116,84 +115,78 @@ fn failures(summary: &Summary, t: &mut String) {
 
 /// What differs from the goldens, run by run.
 fn drift(summary: &Summary, t: &mut String) {
-    let _ = writeln!(
-        t,
-        "\n## Drift\n\n| run | quantity | golden | now | difference | allowed |\n|---|---|---|---|---|---|"
-    );
-    for record in summary.cases.iter().flat_map(|s| &s.records) {
-        for v in record.verdicts.iter().filter(|v| v.drifts()) {
+    let records = summary.cases.iter().flat_map(|s| &s.records);
+    let rows = records.flat_map(|record| {
+        let drifting = record.verdicts.iter().filter(|v| v.drifts());
+        drifting.map(move |v| {
             let difference = v.value.zip(v.reference).map(|(now, golden)| now - golden);
             let exact = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| x.to_string());
-            let what = if difference.is_some() {
-                v.metric.clone()
-            } else {
-                format!("{}: {}", v.metric, v.source.replace('|', "\\|"))
+            let what = match difference {
+                Some(_) => v.metric.clone(),
+                None => format!("{}: {}", v.metric, v.source),
             };
-            let _ = writeln!(
-                t,
-                "| {} {} | {what} | {} | {} | {} | {} |",
-                record.case,
-                record.folder(),
+            vec![
+                format!("{} {}", record.case, record.folder()),
+                what,
                 exact(v.reference),
                 exact(v.value),
                 difference.map_or_else(|| "–".to_owned(), |d| format!("{d:.3e}")),
-                number(v.tolerance)
-            );
-        }
-    }
+                number(v.tolerance),
+            ]
+        })
+    });
+    let head = ["run", "quantity", "golden", "now", "difference", "allowed"];
+    let sheet = Sheet::new(head).with(rows);
+    let _ = write!(t, "\n## Drift\n\n{}", sheet.markdown());
 }
 
-fn results(headlines: &[Headline], records: &[Record], t: &mut String) {
-    let headings: Vec<&str> = headlines.iter().map(|h| h.heading).collect();
-    let _ = writeln!(
-        t,
-        "| scheme | level | changed | particles | steps | {} | CPU (s) |",
-        headings.join(" | ")
-    );
-    let _ = writeln!(t, "|{}", "---|".repeat(headlines.len() + 6));
-    for r in records {
-        let cells: Vec<String> = headlines.iter().map(|h| headline(r, h)).collect();
-        let _ = writeln!(
-            t,
-            "| {} | {} | {} | {} | {} | {} | {:.1} |",
-            r.scheme().title(),
-            r.level,
-            r.set.join(" "),
-            r.work.particles,
-            r.work.steps,
-            cells.join(" | "),
-            r.time.cpu_s
-        );
-    }
+fn results(headlines: &[Headline], records: &[Record]) -> Sheet {
+    let head = ["scheme", "level", "changed", "particles", "steps"];
+    let head = head.into_iter().chain(headlines.iter().map(|h| h.heading));
+    let row = |r: &Record| {
+        let run = [r.scheme().title(), r.level.clone(), r.set.join(" ")];
+        let work = [r.work.particles, r.work.steps].map(|n| n.to_string());
+        let cells = headlines.iter().map(|h| headline(r, h));
+        let cpu = [format!("{:.1}", r.time.cpu_s)];
+        run.into_iter()
+            .chain(work)
+            .chain(cells)
+            .chain(cpu)
+            .collect()
+    };
+    Sheet::new(head.chain(["CPU (s)"])).with(records.iter().map(row))
 }
 
 /// The order of every error, if there is one.
 fn orders<'a>(convergence: impl Iterator<Item = &'a Convergence>, t: &mut String) {
-    let mut errors = convergence.filter(|c| c.is_error).peekable();
-    if errors.peek().is_none() {
-        return;
-    }
-    let _ = writeln!(
-        t,
-        "\n### Orders\n\n| quantity | scheme | changed | levels | value at the finest | order ± uncertainty (95 %) | local orders |\n|{}",
-        "---|".repeat(7)
-    );
-    for c in errors {
+    let row = |c: &Convergence| {
         let levels = match &c.points[..] {
             [] => String::new(),
             [only] => only.level.clone(),
             [coarsest, .., finest] => format!("{}–{}", coarsest.level, finest.level),
         };
-        let _ = writeln!(
-            t,
-            "| {} | {} | {} | {levels} | {} | {} | {} |",
-            c.metric,
+        vec![
+            c.metric.clone(),
             c.scheme.title(),
             c.set.join(" "),
+            levels,
             number(c.points.last().map(|p| p.value)),
             order(c),
-            local_orders(c)
-        );
+            local_orders(c),
+        ]
+    };
+    let head = [
+        "quantity",
+        "scheme",
+        "changed",
+        "levels",
+        "value at the finest",
+        "order ± uncertainty (95 %)",
+        "local orders",
+    ];
+    let sheet = Sheet::new(head).with(convergence.filter(|c| c.is_error).map(row));
+    if !sheet.rows.is_empty() {
+        let _ = write!(t, "\n### Orders\n\n{}", sheet.markdown());
     }
 }
 
@@ -203,32 +196,36 @@ fn verdicts(summary: &Summary, t: &mut String) {
 }
 
 fn table(summary: &Summary, t: &mut String, keep: impl Fn(&Verdict) -> bool) {
-    let _ = writeln!(
-        t,
-        "| outcome | kind | check | run | metric | value | reference | tolerance | source |\n|---|---|---|---|---|---|---|---|---|"
-    );
-    for (study, record, v) in summary.verdicts().filter(|(_, _, v)| keep(v)) {
+    let shown = summary.verdicts().filter(|(_, _, v)| keep(v));
+    let rows = shown.map(|(study, record, v)| {
         let run = record.map_or_else(
             || study.case.clone(),
-            |r| {
-                let scheme = r.scheme().title();
-                format!("{scheme} {} {}", r.level, r.set.join(" "))
-            },
+            |r| format!("{} {} {}", r.scheme().title(), r.level, r.set.join(" ")),
         );
-        let _ = writeln!(
-            t,
-            "| {} | {} | {} | {} | {} | {} | {} | {} | {} |",
-            outcome(v),
-            kind(v.kind),
-            v.check,
-            run.trim(),
-            v.metric,
+        vec![
+            outcome(v).to_owned(),
+            kind(v.kind).to_owned(),
+            v.check.clone(),
+            run.trim().to_owned(),
+            v.metric.clone(),
             number(v.value),
             number(v.reference),
             number(v.tolerance),
-            v.source.replace('|', "\\|")
-        );
-    }
+            v.source.clone(),
+        ]
+    });
+    let head = [
+        "outcome",
+        "kind",
+        "check",
+        "run",
+        "metric",
+        "value",
+        "reference",
+        "tolerance",
+        "source",
+    ];
+    t.push_str(&Sheet::new(head).with(rows).markdown());
 }
 
 #[cfg(test)]

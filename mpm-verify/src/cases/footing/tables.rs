@@ -6,9 +6,7 @@ use super::parameters::{BARRIER, CONTACT, PENETRATION_RATE, UNDRAINED_STRENGTH, 
 use super::reference::{EXACT, elastic_slope, mean_stress_at, strength_ratio};
 use crate::cases::family::{REMEDIES, transfers};
 use crate::record::Record;
-use crate::results::{
-    BASIS, Column, Label, PAIR, ResultTable, SCHEME, fixed, is_flip, order, percent,
-};
+use crate::results::{Column, Label, PAIR, ResultTable, SCHEME, fixed, is_flip, order, percent};
 use crate::scheme::{BasisName, RemedyName};
 
 const CELLS: Label = ("h", cells);
@@ -55,9 +53,20 @@ fn gap(r: &Record) -> f64 {
     }
 }
 
+const COMPARED: [RemedyName; 4] = [
+    RemedyName::None,
+    RemedyName::FbarRecursive,
+    RemedyName::FbarRate,
+    RemedyName::FbarConsistent,
+];
+
+fn is_main(r: &Record) -> bool {
+    r.basis() != BasisName::Bspline3 && is_flip(r) && r.is_default() && r.level == "b20"
+}
+
 pub(super) fn all() -> Vec<ResultTable> {
     vec![
-        overview(),
+        ResultTable::by_remedy("footing", &COMPARED, is_main, |r| fixed(3).text(own(r))),
         results(),
         mean_stress(),
         rates(),
@@ -67,27 +76,6 @@ pub(super) fn all() -> Vec<ResultTable> {
         }),
         orders(),
     ]
-}
-
-fn overview() -> ResultTable {
-    let remedies = [
-        RemedyName::None,
-        RemedyName::FbarRecursive,
-        RemedyName::FbarRate,
-        RemedyName::FbarConsistent,
-    ];
-    let column = |remedy: RemedyName| {
-        Column::metric(remedy.text(), m::NC_EFFECTIVE, fixed(3)).of(move |r| r.remedy() == remedy)
-    };
-    ResultTable::new(
-        "footing",
-        |r| {
-            let main = [BasisName::Gimp, BasisName::Bspline2].contains(&r.basis());
-            main && is_flip(r) && r.is_default() && r.level == "b20"
-        },
-        &[BASIS],
-        remedies.map(column),
-    )
 }
 
 fn results() -> ResultTable {

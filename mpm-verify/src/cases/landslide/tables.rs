@@ -4,8 +4,7 @@ use super::metrics as m;
 use crate::cases::family::transfers;
 use crate::record::{Record, Status};
 use crate::results::{
-    BASIS, CELLS, Column, Label, PAIR, ResultTable, SCHEME, fixed, is_flip, percent, scientific,
-    share,
+    CELLS, Column, Label, PAIR, ResultTable, SCHEME, fixed, is_flip, percent, scientific, share,
 };
 use crate::scheme::RemedyName;
 
@@ -22,11 +21,21 @@ pub(super) fn all(dimension: i32) -> Vec<ResultTable> {
     }
     let toe = |r: &Record| fixed(2).unit(" m").text(r.metric(m::RUNOUT_2_5S));
     vec![
-        overview(),
+        ResultTable::by_remedy("landslide", &REMEDIES, is_main, runout),
         in_plane(),
         studies(),
         transfers("landslide-transfers", &[PAIR, CELLS], &["3", "4"], toe),
     ]
+}
+
+const REMEDIES: [RemedyName; 3] = [
+    RemedyName::None,
+    RemedyName::FbarRecursive,
+    RemedyName::FbarConsistent,
+];
+
+fn is_main(r: &Record) -> bool {
+    is_flip(r) && r.is_default() && r.level == "h0.1"
 }
 
 fn fails(r: &Record) -> bool {
@@ -34,26 +43,12 @@ fn fails(r: &Record) -> bool {
 }
 
 /// Run-out after 2.5 s and at the end.
-fn overview() -> ResultTable {
-    let text = |r: &Record| match fails(r) {
-        true => [m::RUNOUT_2_5S, m::RUNOUT_END]
-            .map(|x| fixed(1).unit(" m").text(r.metric(x)))
-            .join(", "),
+fn runout(r: &Record) -> String {
+    let of = |metric| fixed(1).unit(" m").text(r.metric(metric));
+    match fails(r) {
+        true => format!("{}, {}", of(m::RUNOUT_2_5S), of(m::RUNOUT_END)),
         false => "stands".to_owned(),
-    };
-    let remedies = [
-        RemedyName::None,
-        RemedyName::FbarRecursive,
-        RemedyName::FbarConsistent,
-    ];
-    let column =
-        |remedy: RemedyName| Column::text(remedy.text(), text).of(move |r| r.remedy() == remedy);
-    ResultTable::new(
-        "landslide",
-        |r| is_flip(r) && r.is_default() && r.level == "h0.1",
-        &[BASIS],
-        remedies.map(column),
-    )
+    }
 }
 
 /// Energy not accounted for, over the fallen, of a slope that has failed.

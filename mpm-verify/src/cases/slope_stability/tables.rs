@@ -2,7 +2,7 @@
 
 use super::{FAILS_AT, STANDS_AT, STRENGTH_REDUCTION_FACTOR};
 use crate::record::Record;
-use crate::results::{BASIS, Column, ResultTable, SCHEME, fixed};
+use crate::results::{Column, ResultTable, SCHEME, fixed};
 use crate::scheme::RemedyName;
 
 pub(super) fn all() -> Vec<ResultTable> {
@@ -11,10 +11,6 @@ pub(super) fn all() -> Vec<ResultTable> {
         RemedyName::FbarRecursive,
         RemedyName::FbarConsistent,
     ];
-    let of_remedy = remedies.map(|remedy| {
-        Column::metric(remedy.text(), STRENGTH_REDUCTION_FACTOR, fixed(2))
-            .of(move |r| r.remedy() == remedy)
-    });
     let bounds = |r: &Record| {
         let [stands, fails] = [STANDS_AT, FAILS_AT].map(|at| r.metric(at));
         if !fails.is_finite() {
@@ -27,11 +23,11 @@ pub(super) fn all() -> Vec<ResultTable> {
     let of_level =
         levels.map(|(level, title)| Column::text(title, bounds).of(move |r| r.level == level));
     vec![
-        ResultTable::new(
+        ResultTable::by_remedy(
             "slope",
+            &remedies,
             |r| r.is_default() && r.level == "h0.2",
-            &[BASIS],
-            of_remedy,
+            |r| fixed(2).text(r.metric(STRENGTH_REDUCTION_FACTOR)),
         ),
         ResultTable::new("slope-stability", Record::is_default, &[SCHEME], of_level),
     ]

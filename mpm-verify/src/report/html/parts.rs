@@ -1,13 +1,14 @@
 //! What the pages are made of: runs, verdicts, outcomes, prices and orders, as values that templates show.
 
 use super::super::describe::{headline, kind, local_orders, number, order, outcome};
-use super::super::price::{Price, Prices};
+use super::super::price::Prices;
 use super::file_of;
 use crate::case::Case;
 use crate::metric::Quantity;
 use crate::record::Record;
 use crate::study::convergence::Convergence;
 use crate::study::summary::CaseStudy;
+use crate::table::Sheet;
 use crate::verdict::{Kind, Outcome, Verdict};
 use minijinja::{Value, context};
 
@@ -139,20 +140,17 @@ pub(super) fn outcome_of_run(record: &Record) -> Value {
     outcome_of(&record.verdicts, usize::from(record.broke_down()))
 }
 
+/// A table for its template.
+pub(super) fn sheet(sheet: Sheet) -> Value {
+    context! { head => sheet.head, rows => sheet.rows }
+}
+
 pub(super) fn prices(prices: &Prices) -> Value {
-    let row = |price: &Price| {
-        let [pairs, cpu] = price.shown();
-        context! {
-            scheme => price.name(), pairs, cpu,
-            relative => prices.relative(price),
-            least => number(Some(price.least)),
-        }
-    };
     context! {
         label => prices.label,
         metric => &prices.metric,
-        target => number(Some(prices.target)),
-        rows => prices.rows.iter().map(row).collect::<Vec<_>>(),
+        target => prices.aim(),
+        table => sheet(prices.table()),
     }
 }
 
