@@ -6,6 +6,7 @@ use crate::record::{Record, Status, Version};
 use crate::report::describe::{drift_line, verdict_line};
 use crate::run::checkpoint::Saving;
 use crate::study::gather::Gathered;
+use crate::study::judge::has_truth;
 use crate::study::plan::PlannedRun;
 use crate::study::schedule::{Listener, Task, run_all};
 use crate::study::summary::CaseStudy;
@@ -41,7 +42,7 @@ impl<'a> Candidates<'a> {
         })
     }
 
-    /// What has drifted: one line per run and column.
+    /// What has drifted: one line per run and column; how many runs, and how many of them no truth judges.
     #[must_use]
     pub fn table(&self) -> String {
         let mut t = String::new();
@@ -50,9 +51,10 @@ impl<'a> Candidates<'a> {
                 let _ = writeln!(t, "{} {}  {}", record.case, record.folder(), drift_line(v));
             }
         }
+        let untold = self.drifted.iter().filter(|r| !has_truth(r)).count();
         let _ = writeln!(
             t,
-            "{} of {} runs have drifted or have no golden",
+            "{} of {} runs have drifted or have no golden; bookkeeping alone judges {untold} of these",
             self.drifted.len(),
             self.study.records.len()
         );
@@ -131,5 +133,37 @@ impl<'a> Candidates<'a> {
         }
         goldens.bless(runs, reason)?;
         Ok(Ok(self.drifted.len()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::fixture::record;
+    use crate::verdict::Kind;
+
+    #[test]
+    fn runs_without_a_truth_are_counted() {
+        let held = |kind| Verdict {
+            kind,
+            ..Verdict::close("check", "tip_ux", 1.0, 1.0, 0.0, "")
+        };
+        let drift = Verdict {
+            kind: Kind::Drift,
+            ..Verdict::close("golden", "tip_ux", 2.0, 1.0, 0.0, "")
+        };
+        let run = |kind| {
+            let mut run = record("h2", vec![held(kind), drift.clone()]);
+            run.version = Version::current();
+            run
+        };
+        let kinds = [Kind::Truth, Kind::Bookkeeping, Kind::Bookkeeping];
+        let mut runs: Vec<Record> = kinds.map(run).into();
+        runs[2].verdicts.pop();
+        let study = CaseStudy::new("cook", runs);
+        let told = Candidates::of(&study).unwrap().table();
+        let count =
+            "2 of 3 runs have drifted or have no golden; bookkeeping alone judges 1 of these\n";
+        assert!(told.ends_with(count), "{told}");
     }
 }

@@ -3,7 +3,7 @@
 pub(crate) mod run;
 
 use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use mpm_verify::error::Error;
 use mpm_verify::run::checkpoint;
 use std::io::{self, Write};
@@ -137,6 +137,15 @@ pub(crate) enum Command {
         #[arg(long, default_value = ".")]
         root: PathBuf,
     },
+    /// Tell which runs of a tier have no row in what is kept of nights (exit code 2), and which rows another program made
+    Complete {
+        /// quick, pr, nightly or long
+        #[arg(long, default_value = "nightly")]
+        tier: String,
+        /// The rows that `keep` has written
+        #[arg(long, default_value = "reports/nightly/results.csv")]
+        rows: PathBuf,
+    },
     /// Accept drift: take what `verify` has left as the new golden (refused while the truth is missed)
     Bless {
         /// The case
@@ -204,8 +213,9 @@ pub(crate) enum Command {
 /// The gist of an error of the command line's syntax.
 pub(crate) fn one_line(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "a command is missing; allowed: list, explain, run, verify, report, keep, tables, bless, diff, exact, bench"
-            .to_owned();
+        let command = Cli::command();
+        let names: Vec<&str> = command.get_subcommands().map(|c| c.get_name()).collect();
+        return format!("a command is missing; allowed: {}", names.join(", "));
     }
     let text = error.to_string();
     let lines: Vec<&str> = text

@@ -1,4 +1,4 @@
-//! The command line: `mpm-verify list | explain | run | verify | report | keep | tables | bless | diff | exact | bench`.
+//! The program `mpm-verify`: from its command line to the library.
 
 mod cli;
 mod progress;
@@ -14,11 +14,13 @@ use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::exact;
 use mpm_verify::golden::Goldens;
 use mpm_verify::night::Night;
+use mpm_verify::record::Version;
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::{describe, discard_report, keep::keep, tables::Page, write_report};
 use mpm_verify::run::checkpoint::Saving;
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
+use mpm_verify::study::complete::Completeness;
 use mpm_verify::study::gather::Gathered;
 use mpm_verify::study::judge::exit_code;
 use mpm_verify::study::plan::{Plan, Shard};
@@ -153,6 +155,12 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             Ok(ExitCode::Good)
         }
         Command::Tables { check, root } => tables(&root, check),
+        Command::Complete { tier, rows } => {
+            let plan = Plan::new(cases::all(), parse_tier(&tier)?, Shard::WHOLE)?;
+            let found = Completeness::of(&plan, &rows, &Version::current().source)?;
+            say(&found.to_string())?;
+            found.require().map(|()| ExitCode::Good)
+        }
         Command::Bless {
             case,
             reason,

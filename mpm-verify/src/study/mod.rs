@@ -1,5 +1,6 @@
 //! Many runs: what is planned, how runs are made side by side, how their records are gathered and judged.
 
+pub mod complete;
 pub mod convergence;
 pub mod gather;
 pub mod judge;

@@ -1,0 +1,219 @@
+//! Whether everything that is planned has been measured: a plan against the rows that are kept of nights.
+
+use super::plan::Plan;
+use crate::error::Error;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::fmt::{self, Write};
+use std::path::Path;
+
+/// What tells a kept row's run, and what made it; the row has more columns.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+struct Row {
+    case: String,
+    scheme: String,
+    level: String,
+    /// Parameters changed from the case's own, apart by spaces.
+    set: String,
+    /// Fingerprint of the sources.
+    program: String,
+}
+
+/// What is known of the planned runs of a case.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+struct Known {
+    planned: usize,
+    /// Folders of runs that have no row.
+    missing: Vec<String>,
+    /// Rows of every other program than this one.
+    others: BTreeMap<String, usize>,
+}
+
+/// A plan compared with the rows that are kept of nights.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Completeness {
+    tier: String,
+    /// Fingerprint of the sources now.
+    program: String,
+    /// By case, in the order of the plan.
+    cases: Vec<(String, Known)>,
+}
+
+impl Completeness {
+    /// Of `plan` against the rows of the file `results`; those of other programs than `program` are counted apart.
+    ///
+    /// # Errors
+    /// The file is missing or damaged.
+    pub fn of(plan: &Plan, results: &Path, program: &str) -> Result<Self, Error> {
+        let read = || -> csv::Result<Vec<Row>> {
+            csv::Reader::from_path(results)?.deserialize().collect()
+        };
+        let rows = read().map_err(|e| Error::file(results, e))?;
+        Ok(Self::compare(plan, &rows, program))
+    }
+
+    fn compare(plan: &Plan, rows: &[Row], program: &str) -> Self {
+        let run = |row: &Row| [&row.case, &row.scheme, &row.level, &row.set].map(String::clone);
+        let made: BTreeMap<[String; 4], &str> =
+            rows.iter().map(|row| (run(row), &*row.program)).collect();
+        let mut cases: Vec<(String, Known)> = Vec::new();
+        for run in &plan.runs {
+            if cases.last().is_none_or(|(case, _)| *case != run.case) {
+                cases.push((run.case.clone(), Known::default()));
+            }
+            let Some((_, known)) = cases.last_mut() else {
+                continue;
+            };
+            let [case, level] = [&run.case, &run.level].map(String::clone);
+            known.planned += 1;
+            match made.get(&[case, run.scheme.to_string(), level, run.set.join(" ")]) {
+                None => known.missing.push(run.folder().display().to_string()),
+                Some(other) if *other != program => {
+                    *known.others.entry((*other).to_owned()).or_default() += 1;
+                }
+                Some(_) => {}
+            }
+        }
+        Self {
+            tier: plan.tier.clone(),
+            program: program.to_owned(),
+            cases,
+        }
+    }
+
+    /// Whether every planned run has a row.
+    ///
+    /// # Errors
+    /// One has none.
+    pub fn require(&self) -> Result<(), Error> {
+        match self.missing() {
+            0 => Ok(()),
+            missing => Err(Error::Input(format!(
+                "incomplete: {missing} of {} planned runs have no row",
+                self.planned()
+            ))),
+        }
+    }
+
+    fn planned(&self) -> usize {
+        self.cases.iter().map(|(_, known)| known.planned).sum()
+    }
+
+    fn missing(&self) -> usize {
+        self.cases.iter().map(|(_, k)| k.missing.len()).sum()
+    }
+}
+
+/// Every run that has no row, and case by case how many rows are of other programs.
+impl fmt::Display for Completeness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut others = 0;
+        for (case, known) in &self.cases {
+            for run in &known.missing {
+                writeln!(f, "{run}: no row")?;
+            }
+            let mut of = String::new();
+            for (program, count) in &known.others {
+                others += count;
+                write!(of, ", {count} of {program}")?;
+            }
+            let made = known.planned - known.missing.len();
+            match known.others.values().sum::<usize>() {
+                0 => writeln!(f, "{case}: {made} of {} runs have a row", known.planned)?,
+                sum => writeln!(
+                    f,
+                    "{case}: {made} of {} runs have a row, {sum} of another program{of}",
+                    known.planned
+                )?,
+            }
+        }
+        writeln!(
+            f,
+            "Tier {}: {} of {} planned runs have no row; {others} rows are of another program than {}.",
+            self.tier,
+            self.missing(),
+            self.planned(),
+            self.program
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::plan::Shard;
+    use super::*;
+    use crate::case::Tier;
+    use crate::cases;
+
+    /// The quick tier of two cases, and a row of "now" for each of its runs.
+    fn measured() -> (Plan, Vec<Row>) {
+        let two = ["cook", "column"].map(|name| cases::find(name).unwrap());
+        let plan = Plan::new(two, Tier::Pr, Shard::WHOLE).unwrap();
+        let row = |run: &super::super::plan::PlannedRun| Row {
+            case: run.case.clone(),
+            scheme: run.scheme.to_string(),
+            level: run.level.clone(),
+            set: run.set.join(" "),
+            program: "now".to_owned(),
+        };
+        let rows = plan.runs.iter().map(row).collect();
+        (plan, rows)
+    }
+
+    #[test]
+    fn a_run_without_a_row_is_named_and_refused() {
+        let (plan, mut rows) = measured();
+        let whole = Completeness::compare(&plan, &rows, "now");
+        assert!(whole.require().is_ok(), "{whole}");
+        // One that differs from another by what is changed alone.
+        let changed = rows.iter().position(|row| !row.set.is_empty()).unwrap();
+        rows.remove(changed);
+        let found = Completeness::compare(&plan, &rows, "now");
+        let folder = plan.runs[changed].folder().display().to_string();
+        let told = found.to_string();
+        assert_eq!(told.matches("no row\n").count(), 1, "{told}");
+        assert!(told.contains(&format!("{folder}: no row\n")), "{told}");
+        let error = found.require().unwrap_err().to_string();
+        let count = plan.runs.len();
+        assert!(error.contains(&format!("1 of {count} planned")), "{error}");
+    }
+
+    #[test]
+    fn rows_of_another_program_are_counted_by_case_and_accepted() {
+        let (plan, mut rows) = measured();
+        let of_column = rows.iter_mut().filter(|row| row.case == "column");
+        for row in of_column.take(2) {
+            row.program = "then".to_owned();
+        }
+        let found = Completeness::compare(&plan, &rows, "now");
+        assert!(found.require().is_ok());
+        let told = found.to_string();
+        assert!(told.contains("2 of another program, 2 of then\n"), "{told}");
+        assert!(told.contains("2 rows are of another program than now."));
+        assert_eq!(told.lines().count(), 3, "{told}");
+    }
+
+    #[test]
+    fn columns_beside_those_that_name_the_run_are_not_asked_for() {
+        let (plan, rows) = measured();
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let mut text = "case,scheme,night,level,set,program,new\n".to_owned();
+        for row in &rows {
+            let Row {
+                case,
+                scheme,
+                level,
+                set,
+                program,
+            } = row;
+            text += &format!("{case},{scheme},2026-01-01,{level},{set},{program},1\n");
+        }
+        std::fs::write(file.path(), &text).unwrap();
+        let found = Completeness::of(&plan, file.path(), "now").unwrap();
+        assert_eq!(found, Completeness::compare(&plan, &rows, "now"));
+        std::fs::write(file.path(), "case,scheme\ncook,gimp\n").unwrap();
+        assert!(Completeness::of(&plan, file.path(), "now").is_err());
+        let nowhere = Path::new("no such file");
+        assert!(Completeness::of(&plan, nowhere, "now").is_err());
+    }
+}
