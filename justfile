@@ -32,10 +32,11 @@ paths:
 speed python="python3":
     cargo run --release -- bench --peers taichi --python {{python}} --out reports/bench
 
-# The nightly tier: the whole report in reports/night, and what git keeps of it.
+# The nightly tier: the whole report in reports/night, and what git keeps of it; in the end everything has been measured.
 nightly:
     cargo run --release -- verify --tier nightly --resume --out reports/night || test $? -ne 2
     just keep reports/night
+    cargo run --release -- complete
 
 # A tier (nightly or long) of one case, likewise; stop it at any time and start it again.
 night-of case tier="nightly":

@@ -157,13 +157,14 @@ mod tests {
             run.version = Version::current();
             run
         };
-        let kinds = [Kind::Truth, Kind::Bookkeeping, Kind::Bookkeeping];
+        let [truth, count] = [Kind::Truth, Kind::Bookkeeping];
+        let kinds = [truth, count, count, count];
         let mut runs: Vec<Record> = kinds.map(run).into();
-        runs[2].verdicts.pop();
+        runs[3].verdicts.pop();
         let study = CaseStudy::new("cook", runs);
         let told = Candidates::of(&study).unwrap().table();
         let count =
-            "2 of 3 runs have drifted or have no golden; bookkeeping alone judges 1 of these\n";
+            "3 of 4 runs have drifted or have no golden; bookkeeping alone judges 2 of these\n";
         assert!(told.ends_with(count), "{told}");
     }
 }
