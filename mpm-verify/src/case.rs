@@ -28,6 +28,20 @@ pub enum Tier {
     Long,
 }
 
+impl Tier {
+    /// All, in their order.
+    const ALL: [Self; 4] = [Self::Quick, Self::Pr, Self::Nightly, Self::Long];
+
+    /// By its name.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn parse(name: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|t| t.to_string() == name);
+        found.ok_or_else(|| Error::unknown("tier", name, ["quick", "pr", "nightly", "long"]))
+    }
+}
+
 impl fmt::Display for Tier {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -137,6 +137,16 @@ pub(crate) enum Command {
         #[arg(long, default_value = ".")]
         root: PathBuf,
     },
+    /// Draw the pictures of README and docs: errors over cell size and cost from the rows that are kept, and what finished
+    /// runs suffice for; the others are named and left
+    Pictures {
+        /// The folder that `verify` has written, or those of all shards
+        #[arg(long, value_name = "FOLDER", num_args = 1..)]
+        from: Vec<PathBuf>,
+        /// Folder that has docs and reports
+        #[arg(long, default_value = ".")]
+        root: PathBuf,
+    },
     /// Tell which runs of a tier have no row in what is kept of nights (exit code 2), and which rows another program made
     Complete {
         /// quick, pr, nightly or long

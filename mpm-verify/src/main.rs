@@ -16,7 +16,7 @@ use mpm_verify::golden::Goldens;
 use mpm_verify::night::Night;
 use mpm_verify::record::Version;
 use mpm_verify::report::diff::Difference;
-use mpm_verify::report::{describe, discard_report, keep::keep, tables::Page, write_report};
+use mpm_verify::report::{describe, discard_report, keep::keep, shown, tables::Page, write_report};
 use mpm_verify::run::checkpoint::Saving;
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
@@ -48,14 +48,6 @@ fn main() -> std::process::ExitCode {
 
 /// More threads than this are surely a slip.
 const MAX_THREADS: usize = 1024;
-
-fn parse_tier(name: &str) -> Result<Tier, Error> {
-    let tiers = [Tier::Quick, Tier::Pr, Tier::Nightly, Tier::Long];
-    tiers
-        .into_iter()
-        .find(|t| t.to_string() == name)
-        .ok_or_else(|| Error::unknown("tier", name, ["quick", "pr", "nightly", "long"]))
-}
 
 fn parse_threads(threads: Option<usize>) -> Result<usize, Error> {
     match threads {
@@ -123,7 +115,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 Some(text) => Shard::parse(&text)?,
                 None => Shard::WHOLE,
             };
-            let plan = Plan::new(chosen(names)?, parse_tier(&tier)?, shard)?;
+            let plan = Plan::new(chosen(names)?, Tier::parse(&tier)?, shard)?;
             let saving = saving(checkpoint_every, resume);
             verify(&plan, saving, &out, &golden, parse_threads(threads)?)
         }
@@ -155,8 +147,12 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             Ok(ExitCode::Good)
         }
         Command::Tables { check, root } => tables(&root, check),
+        Command::Pictures { from, root } => {
+            say(&shown::draw(&root, &from)?)?;
+            Ok(ExitCode::Good)
+        }
         Command::Complete { tier, rows } => {
-            let plan = Plan::new(cases::all(), parse_tier(&tier)?, Shard::WHOLE)?;
+            let plan = Plan::new(cases::all(), Tier::parse(&tier)?, Shard::WHOLE)?;
             let found = Completeness::of(&plan, &rows, &Version::current().source)?;
             say(&found.to_string())?;
             found.require().map(|()| ExitCode::Good)
@@ -252,7 +248,7 @@ fn chosen(names: Vec<String>) -> Result<Vec<&'static Case>, Error> {
 }
 
 fn list(tier: Option<&str>, format: &str) -> Result<ExitCode, Error> {
-    let tier = tier.map(parse_tier).transpose()?;
+    let tier = tier.map(Tier::parse).transpose()?;
     let text = match format {
         "text" => describe::list_text(cases::all(), tier),
         "json" => describe::list_json(cases::all(), tier),

@@ -147,7 +147,7 @@ fn without_a_command_the_commands_are_named() {
     assert_eq!(code(&output), 2);
     assert_eq!(stderr(&output).lines().count(), 1);
     assert!(
-        stderr(&output).contains("list, explain, run, verify, report, keep, tables, complete, bless, diff")
+        stderr(&output).contains("list, explain, run, verify, report, keep, tables, pictures, complete, bless, diff")
     );
 }
 

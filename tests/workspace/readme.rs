@@ -110,3 +110,38 @@ fn every_link_of_the_documents_leads_somewhere() {
         }
     }
 }
+
+/// A picture that no page shows is weight; one that no command draws can't be made again.
+#[test]
+fn the_pages_show_the_pictures_that_the_program_draws() {
+    let root = super::workspace();
+    let pages = super::files(&root.join("docs"));
+    let pages = pages
+        .iter()
+        .filter(|(name, _)| name.extension().is_some_and(|e| e == "md"));
+    let mut shown: std::collections::BTreeSet<_> = pages
+        .map(|(_, text)| {
+            (
+                std::path::Path::new("docs"),
+                String::from_utf8_lossy(text).into_owned(),
+            )
+        })
+        .chain([(std::path::Path::new(""), read("README.md"))])
+        .flat_map(|(folder, text)| {
+            let links = text
+                .split("![")
+                .skip(1)
+                .filter_map(|rest| rest.split("](").nth(1));
+            let files = links.filter_map(|rest| rest.split(')').next());
+            files.map(|file| folder.join(file)).collect::<Vec<_>>()
+        })
+        .collect();
+    let drawn: std::collections::BTreeSet<_> = mpm_verify::report::shown::files().collect();
+    assert_eq!(shown, drawn);
+    let there = super::files(&root.join("docs/pictures"));
+    shown = there
+        .into_keys()
+        .map(|name| std::path::Path::new("docs/pictures").join(name))
+        .collect();
+    assert_eq!(shown, drawn);
+}

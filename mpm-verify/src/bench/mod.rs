@@ -16,7 +16,7 @@ mod workload;
 pub use peer::Peers;
 
 use crate::error::Error;
-use crate::files::{make_folder, write_json};
+use crate::files::{make_folder, read_versioned, write_json};
 use crate::record::{Machine, Version};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -201,6 +201,14 @@ fn on_threads(
         turns.push(Turn { like, ..turn });
     }
     Ok(())
+}
+
+/// Draws the pictures of what was measured, as `bench.json` of the folder `measured` has it, into `out`.
+///
+/// # Errors
+/// The file is missing or damaged, or a picture can't be written.
+pub fn draw(measured: &Path, out: &Path) -> Result<(), Error> {
+    summary::draw_scaling(&read_versioned(&measured.join("bench.json"), SCHEMA)?, out)
 }
 
 /// Those that take turns with each other.

@@ -227,7 +227,7 @@ fn write_rows(bench: &Bench, out: &Path) -> Result<(), Error> {
 }
 
 /// Draws the cost over the number of particles, if it was measured.
-fn draw_scaling(bench: &Bench, out: &Path) -> Result<(), Error> {
+pub(super) fn draw_scaling(bench: &Bench, out: &Path) -> Result<(), Error> {
     let names = ["W2", "W2F", "W3", "W3F"];
     let markers = [
         Marker::Circle,

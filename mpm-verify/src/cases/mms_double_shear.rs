@@ -5,6 +5,7 @@
 use super::family::{BASES, REMEDIES, family, levels, more_particles, other_transfers, pairs};
 use super::manufactured::checks::{Claim, Claims, TRANSFER, Wave, is_sound, locking, of_motion};
 use super::manufactured::metrics::DISPLACEMENT_L2;
+use super::manufactured::pictures::mean_stress;
 use super::manufactured::{Boundary, Manufactured, STEP_POISSON_RATIO, all_parameters};
 use super::mms_vortex_box::{LOCKING_CURVE, NULL_SPACE, feeds_null_space};
 use super::parameters::POISSON_RATIO;
@@ -59,6 +60,7 @@ pub(super) fn case() -> Case {
         levels,
         checks,
         sweeps: vec![LOCKING_CURVE],
+        pictures: |gallery| mean_stress(gallery, "n64", 100.0),
         ..motion.case(names, parameters)
     }
 }

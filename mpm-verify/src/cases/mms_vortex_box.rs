@@ -5,6 +5,7 @@
 use super::family::{BASES, REMEDIES, family, more_particles, other_transfers, pairs};
 use super::manufactured::checks::{Claim, Claims, TRANSFER, Wave, is_sound, locking, of_motion};
 use super::manufactured::metrics::DISPLACEMENT_L2;
+use super::manufactured::pictures::mean_stress;
 use super::manufactured::{Manufactured, STEP_POISSON_RATIO, all_parameters, levels};
 use super::parameters::POISSON_RATIO;
 use crate::case::{Case, Family, Tier};
@@ -69,6 +70,7 @@ pub(super) fn case() -> Case {
             let this = |k: &(_, _, &str)| *k == (r.basis(), r.remedy(), &r.level);
             (r.is_default() && known.iter().any(this)).then_some(NULL_SPACE)
         },
+        pictures: |gallery| mean_stress(gallery, "n32", 600.0),
         ..Manufactured::solid(ENTRY.build).case(names, parameters)
     }
 }

@@ -8,6 +8,7 @@ use super::manufactured::metrics::{
     AMPLITUDE_RATIO, DISPLACEMENT_L2, ENERGY_GAIN, ENERGY_LOSS, FREQUENCY_ERROR, FREQUENCY_RATIO,
     LOG_JACOBIAN_GAP,
 };
+use super::manufactured::pictures::kinetic_energy;
 use super::manufactured::{Boundary, DURATION, Manufactured, PPC_PER_DIRECTION, all_parameters};
 use crate::case::{Case, Tier};
 use crate::check::{Check, Finding, judge, run};
@@ -150,6 +151,7 @@ pub(super) fn case() -> Case {
                 "what Π can't see has next to no stiffness: particles lose their order, then J or the walls (docs/modes.md)",
             )
         },
+        pictures: |gallery| kinetic_energy(gallery, TWENTY_PERIODS),
         ..motion.case(names, parameters)
     }
 }

@@ -116,9 +116,9 @@ impl Canvas {
 
     /// Writes the picture as SVG.
     pub(super) fn save_svg(&self, path: &Path) -> Result<(), PlotError> {
-        svg::text(self.size, &self.shapes)
-            .and_then(|document| write_whole(path, document.as_bytes()).map_err(|e| e.to_string()))
-            .map_err(|cause| PlotError::write(path, &cause))
+        let document = svg::text(self.size, &self.shapes);
+        let document = document.map_err(|e| PlotError::write(path, &e))?;
+        write_whole(path, &document).map_err(|e| PlotError::write(path, &e))
     }
 
     /// The picture at its size over `coarser`; `path` names it in errors.

@@ -1,227 +1,257 @@
-//! Shapes as SVG, in whole pixels of the picture.
+//! Shapes as SVG.
 
-use super::between;
-use super::colour::{INK, Rgb, channels};
-use super::font::Font;
-use super::shape::{Frame, Point, Shape, layers};
-use plotters::prelude::{
-    DrawingBackend, FontFamily, FontStyle, FontTransform, IntoTextStyle, RGBAColor, SVGBackend,
-    ShapeStyle, TextStyle,
-};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use std::fmt::Display;
+use super::colour::{INK, Rgb, WHITE};
+use super::font::SMALL;
+use super::shape::{Marker, Point, Shape, layers};
+use quick_xml::Writer as Xml;
+use quick_xml::events::{BytesEnd, BytesStart, BytesText, Event};
+use std::io;
 
 /// A picture as an SVG document, in which text stays text.
 ///
 /// # Errors
 /// What the writer refuses.
-pub(super) fn text(size: (u32, u32), shapes: &[Shape]) -> Result<String, String> {
-    let mut document = String::new();
+pub(super) fn text((width, height): (u32, u32), shapes: &[Shape]) -> io::Result<Vec<u8>> {
     let mut writer = Writer {
-        backend: SVGBackend::with_string(&mut document, size),
-        origin: (0.0, 0.0),
-        frame: None,
+        xml: Xml::new_with_indent(Vec::new(), b' ', 0),
+        markers: Vec::new(),
+        frames: 0,
+        framed: false,
+        areas: None,
     };
-    let (width, height) = (f64::from(size.0), f64::from(size.1));
+    let root = BytesStart::new("svg").with_attributes([
+        ("xmlns", "http://www.w3.org/2000/svg"),
+        ("width", &*width.to_string()),
+        ("height", &height.to_string()),
+        ("viewBox", &format!("0 0 {width} {height}")),
+        ("font-family", "DejaVu Sans, Verdana, sans-serif"),
+        ("font-size", &number(SMALL.size)),
+        ("fill", &hexadecimal(INK)),
+        ("stroke-linecap", "round"),
+        ("stroke-linejoin", "round"),
+    ]);
+    writer.xml.write_event(Event::Start(root))?;
+    let (width, height) = (f64::from(width), f64::from(height));
     let sheet = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
-    writer.area(&sheet, 0xFF_FFFF, 1.0)?;
+    writer.area(&sheet, WHITE, 1.0)?;
     for shape in shapes {
         writer.shape(shape)?;
     }
-    writer.backend.present().map_err(cause)?;
-    drop(writer);
-    Ok(document)
+    writer.unframe()?;
+    writer.close("svg")?;
+    Ok(writer.xml.into_inner())
 }
 
-struct Writer<'a> {
-    backend: SVGBackend<'a>,
-    /// Where the origin of the shapes lies.
-    origin: Point,
-    /// Lines are seen within it.
-    frame: Option<Frame>,
+struct Writer {
+    xml: Xml<Vec<u8>>,
+    /// Markers that have been drawn: the first time they are defined, then used by their place here.
+    markers: Vec<(Marker, Rgb, bool)>,
+    /// How many frames there have been, by whose number they are used.
+    frames: usize,
+    /// Whether what follows is seen only within the last.
+    framed: bool,
+    /// Areas that follow one another in one colour, which are one path, not written yet.
+    areas: Option<(Rgb, f64, String)>,
 }
 
-impl Writer<'_> {
-    fn shape(&mut self, shape: &Shape) -> Result<(), String> {
+impl Writer {
+    fn shape(&mut self, shape: &Shape) -> io::Result<()> {
         match shape {
             Shape::Area {
                 corners,
                 colour,
                 opacity,
-            } => self.area(corners, *colour, *opacity)?,
+            } => self.area(corners, *colour, *opacity),
             Shape::Line {
                 points,
                 width,
                 colour,
                 pattern,
             } => {
-                let style = ShapeStyle {
-                    color: rgba(*colour, 1.0),
-                    filled: false,
-                    stroke_width: width.round() as u32,
-                };
-                let parts = match self.frame {
-                    Some(frame) => within(points, frame),
-                    None => vec![points.clone()],
-                };
-                // Dashes end flat here; round ends make them longer by the line's width.
-                let lengths = pattern.iter().zip([*width, -width].into_iter().cycle());
-                let lengths: Vec<f64> = lengths.map(|(length, more)| length + more).collect();
-                for dash in parts.iter().flat_map(|part| dashes(part, &lengths)) {
-                    let path: Vec<_> = dash.iter().map(|p| self.pixel(*p)).collect();
-                    self.backend.draw_path(path, &style).map_err(cause)?;
+                let dashes: Vec<String> = pattern.iter().map(|v| number(*v)).collect();
+                let (d, width, dashes) = (path(points), number(*width), dashes.join(" "));
+                let stroke = hexadecimal(*colour);
+                let mut attributes = vec![
+                    ("d", &*d),
+                    ("fill", "none"),
+                    ("stroke-width", &width),
+                    ("stroke", &stroke),
+                ];
+                if !pattern.is_empty() {
+                    attributes.push(("stroke-dasharray", &dashes));
                 }
+                self.empty("path", attributes)
             }
             Shape::Mark {
                 marker,
                 at,
                 colour,
                 hollow,
-            } => {
-                self.origin = *at;
-                for layer in layers(*marker, *colour, *hollow) {
-                    self.shape(&layer)?;
-                }
-                self.origin = (0.0, 0.0);
-            }
+            } => self.mark((*marker, *colour, *hollow), *at),
             Shape::Text {
                 text,
-                at,
+                at: (x, y),
                 font,
                 turned,
-            } => self.line(text, *at, *font, *turned)?,
-            Shape::Image { .. } => {}
-            Shape::Clip(frame) => self.frame = *frame,
+            } => {
+                let [x, y, size] = [*x, *y, font.size].map(number);
+                let turn = format!("rotate(-90 {x} {y})");
+                let mut attributes = vec![("x", &*x), ("y", &y)];
+                if *font != SMALL {
+                    attributes.push(("font-size", &size));
+                }
+                if font.bold {
+                    attributes.push(("font-weight", "bold"));
+                }
+                if *turned {
+                    attributes.push(("transform", &turn));
+                }
+                let element = self.xml()?.create_element("text");
+                let element = element.with_attributes(attributes);
+                element.write_text_content(BytesText::new(text))?;
+                Ok(())
+            }
+            Shape::Image { .. } => Ok(()),
+            Shape::Clip(frame) => {
+                self.unframe()?;
+                let Some([left, top, right, bottom]) = *frame else {
+                    return Ok(());
+                };
+                self.frames += 1;
+                let name = format!("f{}", self.frames);
+                self.open("clipPath", &[("id", &name)])?;
+                let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+                self.empty("path", [("d", &*closed(&corners))])?;
+                self.close("clipPath")?;
+                self.framed = true;
+                self.open("g", &[("clip-path", &format!("url(#{name})"))])
+            }
+        }
+    }
+
+    /// Draws a marker at a point; the first time it is defined before.
+    fn mark(&mut self, looks: (Marker, Rgb, bool), (x, y): Point) -> io::Result<()> {
+        let known = self.markers.iter().position(|m| *m == looks);
+        let place = known.unwrap_or(self.markers.len());
+        let name = format!("m{place}");
+        if known.is_none() {
+            self.markers.push(looks);
+            self.open("defs", &[])?;
+            self.open("g", &[("id", &name)])?;
+            let (marker, colour, hollow) = looks;
+            for layer in layers(marker, colour, hollow) {
+                self.shape(&layer)?;
+            }
+            self.close("g")?;
+            self.close("defs")?;
+        }
+        let [x, y] = [x, y].map(number);
+        let link = format!("#{name}");
+        self.empty("use", [("href", &*link), ("x", &x), ("y", &y)])
+    }
+
+    fn area(&mut self, corners: &[Point], colour: Rgb, opacity: f64) -> io::Result<()> {
+        match &mut self.areas {
+            // What is not opaque would show where areas overlap.
+            Some((of, 1.0, d)) if *of == colour && opacity == 1.0 => *d += &closed(corners),
+            _ => {
+                self.xml()?;
+                self.areas = Some((colour, opacity, closed(corners)));
+            }
         }
         Ok(())
     }
 
-    fn area(&mut self, corners: &[Point], colour: Rgb, opacity: f64) -> Result<(), String> {
-        let corners: Vec<_> = corners.iter().map(|p| self.pixel(*p)).collect();
-        let colour = rgba(colour, opacity);
-        self.backend.fill_polygon(corners, &colour).map_err(cause)
-    }
-
-    fn line(&mut self, text: &str, at: Point, font: Font, turned: bool) -> Result<(), String> {
-        // The writer sets text with its middle, half an ex above the baseline, at a point; an ex of these fonts is
-        // 0.55 em. It divides sizes by 1.24.
-        const MIDDLE: f64 = 0.5 * 0.55;
-        const DIVISOR: f64 = 1.24;
-        let up = MIDDLE * font.size;
-        let (at, transform) = match turned {
-            true => ((at.0 - up, at.1), FontTransform::Rotate270),
-            false => ((at.0, at.1 - up), FontTransform::None),
-        };
-        let weight = match font.bold {
-            true => FontStyle::Bold,
-            false => FontStyle::Normal,
-        };
-        let family = FontFamily::Name("DejaVu Sans, Verdana, sans-serif");
-        let ink = rgba(INK, 1.0);
-        let style: TextStyle =
-            (family, DIVISOR * font.size, weight).into_text_style(&self.backend.get_size());
-        let style = style
-            .transform(transform)
-            .pos(Pos::new(HPos::Left, VPos::Center))
-            .color(&ink);
-        let at = self.pixel(at);
-        self.backend.draw_text(text, &style, at).map_err(cause)
-    }
-
-    fn pixel(&self, (x, y): Point) -> (i32, i32) {
-        let nearest = |v: f64| v.round() as i32;
-        (nearest(x + self.origin.0), nearest(y + self.origin.1))
-    }
-}
-
-fn cause(error: impl Display) -> String {
-    error.to_string()
-}
-
-fn rgba(colour: Rgb, opacity: f64) -> RGBAColor {
-    let [red, green, blue] = channels(colour);
-    RGBAColor(red, green, blue, opacity)
-}
-
-/// The parts of a polyline within a frame.
-fn within(points: &[Point], [left, top, right, bottom]: Frame) -> Vec<Vec<Point>> {
-    let mut parts: Vec<Vec<Point>> = Vec::new();
-    for pair in points.windows(2) {
-        let (a, b) = (pair[0], pair[1]);
-        // The stretch of the segment that lies on the inner side of all four edges.
-        let (mut enter, mut leave) = (0.0f64, 1.0f64);
-        for (at_a, at_b) in [
-            (a.0 - left, b.0 - left),
-            (right - a.0, right - b.0),
-            (a.1 - top, b.1 - top),
-            (bottom - a.1, bottom - b.1),
-        ] {
-            match (at_a >= 0.0, at_b >= 0.0) {
-                (true, true) => {}
-                (false, true) => enter = enter.max(at_a / (at_a - at_b)),
-                (true, false) => leave = leave.min(at_a / (at_a - at_b)),
-                (false, false) => leave = -1.0,
+    /// The writer, after the areas that wait.
+    fn xml(&mut self) -> io::Result<&mut Xml<Vec<u8>>> {
+        if let Some((colour, opacity, d)) = self.areas.take() {
+            let (colour, opacity) = (hexadecimal(colour), opacity.to_string());
+            let mut attributes = vec![("d", &*d), ("fill", &colour)];
+            if opacity != "1" {
+                attributes.push(("fill-opacity", &opacity));
             }
+            let element = self.xml.create_element("path");
+            element.with_attributes(attributes).write_empty()?;
         }
-        if enter > leave {
-            continue;
-        }
-        match parts.last_mut() {
-            Some(part) if enter == 0.0 && part.last() == Some(&a) => {
-                part.push(between(a, b, leave));
-            }
-            _ => parts.push(vec![between(a, b, enter), between(a, b, leave)]),
+        Ok(&mut self.xml)
+    }
+
+    /// Ends the frame within which lines are seen, if there is one.
+    fn unframe(&mut self) -> io::Result<()> {
+        match std::mem::take(&mut self.framed) {
+            true => self.close("g"),
+            false => Ok(()),
         }
     }
-    parts
+
+    fn empty<'a>(
+        &mut self,
+        name: &str,
+        attributes: impl IntoIterator<Item = (&'a str, &'a str)>,
+    ) -> io::Result<()> {
+        let element = self.xml()?.create_element(name);
+        element.with_attributes(attributes).write_empty()?;
+        Ok(())
+    }
+
+    fn open(&mut self, name: &str, attributes: &[(&str, &str)]) -> io::Result<()> {
+        let start = BytesStart::new(name).with_attributes(attributes.iter().copied());
+        self.xml()?.write_event(Event::Start(start))
+    }
+
+    fn close(&mut self, name: &str) -> io::Result<()> {
+        self.xml()?.write_event(Event::End(BytesEnd::new(name)))
+    }
 }
 
-/// The dashes of a polyline: lengths of dashes and gaps follow one another in turn.
-fn dashes(points: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
-    if pattern.is_empty() {
-        return vec![points.to_vec()];
-    }
-    let (mut turn, mut left) = (0, pattern[0]);
-    let mut all = vec![points[..1].to_vec()];
-    for pair in points.windows(2) {
-        let length = (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
-        let mut gone = 0.0;
-        while length - gone > left {
-            gone += left;
-            let at = between(pair[0], pair[1], gone / length);
-            match (turn % 2, all.last_mut()) {
-                (0, Some(dash)) => dash.push(at),
-                _ => all.push(vec![at]),
-            }
-            turn += 1;
-            left = pattern[turn % pattern.len()];
+/// Points joined by straight lines.
+fn path(points: &[Point]) -> String {
+    let place = |(x, y): &Point| format!("{} {}", number(*x), number(*y));
+    let places: Vec<String> = points.iter().map(place).collect();
+    format!("M{}", places.join(" "))
+}
+
+/// A polygon; most are upright rectangles.
+fn closed(corners: &[Point]) -> String {
+    match corners {
+        [(x, y), (right, b), (c, down), (d, e)] if (y, right, x, down) == (b, c, d, e) => {
+            let [x, y, right, down] = [*x, *y, *right, *down].map(number);
+            format!("M{x} {y}H{right}V{down}H{x}z")
         }
-        left -= length - gone;
-        if let (0, Some(dash)) = (turn % 2, all.last_mut()) {
-            dash.push(pair[1]);
-        }
+        _ => path(corners) + "z",
     }
-    all
+}
+
+/// To a tenth of a pixel, as short as it can be written.
+fn number(value: f64) -> String {
+    ((10.0 * value).round() / 10.0 + 0.0).to_string()
+}
+
+fn hexadecimal(colour: Rgb) -> String {
+    format!("#{colour:06X}")
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::canvas::Canvas;
     use super::super::font::TITLE;
-    use super::super::shape::Marker;
     use super::*;
-    use quick_xml::events::Event;
 
     #[test]
     fn the_document_is_well_formed_and_lines_stay_in_their_frame() {
         let mut canvas = Canvas::new((100.0, 50.0));
         canvas.text("a < b & \"c\"", (1.0, 2.0), TITLE, (0.0, 0.0), true);
+        for left in [0.0, 20.0] {
+            canvas.rectangle([left, 0.0, left + 10.0, 10.0], INK, 1.0);
+        }
         canvas.clip(Some([0.0, 0.0, 50.0, 50.0]));
         let points = [(0.0, 0.0), (f64::NAN, 1.0), (5.0, 5.0), (9.0, 1e300)];
-        canvas.stroke(&points, 2.0, INK, &[]);
+        canvas.stroke(&points, 2.0, INK, &[4.0, 2.5]);
         canvas.clip(None);
-        canvas.marker(Marker::Circle, (3.0, 4.0), INK, true);
-        let document = text(canvas.size, &canvas.shapes).unwrap();
+        for x in [3.0, 30.125] {
+            canvas.marker(Marker::Circle, (x, 4.0), INK, true);
+        }
+        let document = String::from_utf8(text(canvas.size, &canvas.shapes).unwrap()).unwrap();
         let mut reader = quick_xml::Reader::from_str(&document);
         let mut names = Vec::new();
         loop {
@@ -231,32 +261,18 @@ mod tests {
                 _ => {}
             }
         }
-        let count = |name: &str| names.iter().filter(|n| n == &name).count();
-        let names = ["svg", "text", "polyline", "polygon"];
-        assert_eq!(names.map(count), [1, 1, 1, 4]);
-        assert!(document.contains("points=\"5,5 5,50 \""), "{document}");
-    }
-
-    #[test]
-    fn a_line_is_cut_at_its_frame() {
-        let zigzag = [
-            (-5.0, 5.0),
-            (5.0, 5.0),
-            (5.0, 15.0),
-            (8.0, 15.0),
-            (8.0, 2.0),
-        ];
-        let parts = within(&zigzag, [0.0, 0.0, 10.0, 10.0]);
-        let first = vec![(0.0, 5.0), (5.0, 5.0), (5.0, 10.0)];
-        assert_eq!(parts, [first, vec![(8.0, 10.0), (8.0, 2.0)]]);
-    }
-
-    #[test]
-    fn dashes_go_on_around_corners() {
-        let corner = [(0.0, 0.0), (5.0, 0.0), (5.0, 5.0)];
-        let found = dashes(&corner, &[4.0, 2.0, 1.0, 2.0]);
-        let first = vec![(0.0, 0.0), (4.0, 0.0)];
-        let (second, third) = (vec![(5.0, 1.0), (5.0, 2.0)], vec![(5.0, 4.0), (5.0, 5.0)]);
-        assert_eq!(found, [first, second, third]);
+        let count = |name: &str| names.iter().filter(|n| *n == name).count();
+        // The paper, two tiles that are one path, a frame, a line, and the three layers of a marker that is drawn twice.
+        let names = ["svg", "text", "clipPath", "path", "use"];
+        assert_eq!(names.map(count), [1, 1, 1, 7, 2]);
+        for part in [
+            "a &lt; b &amp;",
+            "<clipPath id=\"f1\">\n<path d=\"M0 0H50V50H0z\"/>\n</clipPath>\n<g clip-path=\"url(#f1)\">",
+            "<path d=\"M0 0H10V10H0zM20 0H30V10H20z\" fill=\"#222222\"/>",
+            "<path d=\"M5 5 9 100000\" fill=\"none\" stroke-width=\"2\" stroke=\"#222222\" stroke-dasharray=\"4 2.5\"/>\n</g>",
+            "<use href=\"#m0\" x=\"30.1\" y=\"4\"/>",
+        ] {
+            assert!(document.contains(part), "{part}\n{document}");
+        }
     }
 }

@@ -15,6 +15,7 @@ pub mod keep;
 mod price;
 mod remedies;
 mod rows;
+pub mod shown;
 mod summary;
 mod sweep;
 pub mod tables;

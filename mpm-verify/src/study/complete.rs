@@ -4,7 +4,7 @@ use super::plan::Plan;
 use crate::error::Error;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::fmt::{self, Write};
+use std::fmt;
 use std::path::Path;
 
 /// What tells a kept row's run, and what made it; the row has more columns.
@@ -112,20 +112,15 @@ impl fmt::Display for Completeness {
             for run in &known.missing {
                 writeln!(f, "{run}: no row")?;
             }
-            let mut of = String::new();
+            let made = known.planned - known.missing.len();
+            write!(f, "{case}: {made} of {} runs have a row", known.planned)?;
+            let mut joint = "; of other programs";
             for (program, count) in &known.others {
                 others += count;
-                write!(of, ", {count} of {program}")?;
+                write!(f, "{joint} {count} ({program})")?;
+                joint = ",";
             }
-            let made = known.planned - known.missing.len();
-            match known.others.values().sum::<usize>() {
-                0 => writeln!(f, "{case}: {made} of {} runs have a row", known.planned)?,
-                sum => writeln!(
-                    f,
-                    "{case}: {made} of {} runs have a row, {sum} of another program{of}",
-                    known.planned
-                )?,
-            }
+            writeln!(f)?;
         }
         writeln!(
             f,
@@ -188,7 +183,7 @@ mod tests {
         let found = Completeness::compare(&plan, &rows, "now");
         assert!(found.require().is_ok());
         let told = found.to_string();
-        assert!(told.contains("2 of another program, 2 of then\n"), "{told}");
+        assert!(told.contains("; of other programs 2 (then)\n"), "{told}");
         assert!(told.contains("2 rows are of another program than now."));
         assert_eq!(told.lines().count(), 3, "{told}");
     }

@@ -4,6 +4,7 @@
 
 pub(super) mod checks;
 pub(super) mod metrics;
+pub(super) mod pictures;
 mod scene;
 mod sketch;
 mod watch;

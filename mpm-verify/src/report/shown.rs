@@ -1,0 +1,207 @@
+//! The pictures that README and docs show, each with what it is drawn from.
+
+use super::{convergence, draw_own, rows, sweep};
+use crate::bench;
+use crate::case::Tier;
+use crate::cases;
+use crate::error::Error;
+use crate::files::make_folder;
+use crate::gallery::Picture;
+use crate::record::Record;
+use crate::study::convergence::convergence;
+use crate::study::gather::Gathered;
+use crate::study::summary::CaseStudy;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Most bytes of a picture.
+const MOST: u64 = 150_000;
+/// Where they lie, below the repository.
+const PLACE: &str = "docs/pictures";
+
+/// What a picture is drawn from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source {
+    /// What is kept of nights: a row a run.
+    Rows,
+    /// The bench.
+    Bench,
+    /// Runs of this tier or a higher one.
+    Runs(Tier),
+}
+
+use Source::{Bench, Rows, Runs};
+use Tier::{Nightly, Pr};
+
+/// Folder, which is a case's but for the bench, and file, both of the report and of the pages; charts are SVG.
+const SHOWN: [(&str, &str, Source); 25] = [
+    ("bench", "scaling.svg", Bench),
+    ("column", "creep.svg", Runs(Pr)),
+    ("cook", "convergence.svg", Rows),
+    ("cook", "cpu-precision.svg", Rows),
+    ("cook", "mean-stress-gimp.png", Runs(Pr)),
+    ("cook", "rest.svg", Runs(Pr)),
+    ("dam-break", "cpu-precision.svg", Rows),
+    ("dam-break", "flow.png", Runs(Nightly)),
+    ("dam-break", "snapshots-gimp.png", Runs(Nightly)),
+    ("footing", "load-settlement.svg", Runs(Nightly)),
+    ("footing", "mean-stress-gimp.png", Runs(Nightly)),
+    ("footing", "velocity-gimp.png", Runs(Nightly)),
+    ("landslide", "plastic-strain-gimp.png", Runs(Nightly)),
+    ("landslide-2d", "plastic-strain-gimp.png", Runs(Nightly)),
+    ("landslide-2d", "run-out.svg", Runs(Nightly)),
+    ("mms-axis", "convergence.svg", Rows),
+    ("mms-double-shear", "mean-stress.png", Runs(Nightly)),
+    ("mms-vortex-box", "convergence.svg", Rows),
+    ("mms-vortex-box", "mean-stress.png", Runs(Pr)),
+    ("mms-vortex-box", "sweep-poisson_ratio.svg", Rows),
+    ("mms-vortex-ring", "convergence.svg", Rows),
+    ("mms-wall-pressure", "convergence.svg", Rows),
+    ("slope-stability", "work-precision.svg", Rows),
+    ("standing-wave", "energy.svg", Runs(Nightly)),
+    ("vibrating-bar", "convergence.svg", Rows),
+];
+
+/// The files of all pictures, below the repository.
+pub fn files() -> impl Iterator<Item = PathBuf> {
+    let file = |(folder, file, _): &(&str, &str, _)| Path::new(PLACE).join(folder).join(file);
+    SHOWN.iter().map(file)
+}
+
+/// Draws the pictures of the repository at `root` anew: from its rows and its bench, and those that the finished runs in
+/// `folders`, shards of one plan, suffice for. The others are left as they are. Returns a line on each.
+///
+/// # Errors
+/// Rows, bench or runs are missing or damaged, or a picture can't be drawn, can't be written or is too large.
+pub fn draw(root: &Path, folders: &[PathBuf]) -> Result<String, Error> {
+    let drawn = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
+    let drawn = drawn.path();
+    draw_rows(&root.join("reports/nightly/results.csv"), drawn)?;
+    let measured = root.join("reports/bench");
+    if measured.exists() {
+        bench::draw(&measured, &drawn.join("bench"))?;
+    }
+    let tier = match folders {
+        [] => None,
+        _ => Some(draw_runs(folders, drawn)?),
+    };
+    let mut told = String::new();
+    for (folder, file, source) in SHOWN {
+        let (from, to) = (drawn.join(folder), root.join(PLACE).join(folder));
+        let suffices = match source {
+            Rows | Bench => true,
+            Runs(least) => tier.is_some_and(|tier| tier >= least),
+        };
+        let line = if !(suffices && from.join(file).exists()) {
+            format!("left, for want of {}", wanted(source))
+        } else {
+            make_folder(&to)?;
+            place(&from.join(file), &to.join(file))?;
+            "drawn".to_owned()
+        };
+        told += &format!("{folder}/{file}: {line}\n");
+    }
+    Ok(told)
+}
+
+fn wanted(source: Source) -> String {
+    match source {
+        Rows => "rows of runs".to_owned(),
+        Bench => "a bench over numbers of particles".to_owned(),
+        Runs(tier) => format!("runs of tier {tier}: --from"),
+    }
+}
+
+/// Draws errors over cell size, cost and swept parameters of every case that has rows.
+fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
+    let records: Vec<Record> = rows::read(results)?
+        .iter()
+        .filter_map(rows::Row::record)
+        .collect();
+    for case in cases::all() {
+        let of_case = records.iter().filter(|r| r.case == case.name);
+        let mut study = CaseStudy::new(case.name, of_case.cloned().collect());
+        if drawn_of(case.name, Rows) && !study.records.is_empty() {
+            study.convergence = convergence(case, &study.records);
+            convergence::draw(&study, out)?;
+            sweep::draw(&study, out)?;
+        }
+    }
+    Ok(())
+}
+
+fn drawn_of(case: &str, from: Source) -> bool {
+    SHOWN
+        .iter()
+        .any(|(folder, _, source)| *folder == case && *source == from)
+}
+
+/// Draws what the cases draw of their runs; returns the runs' tier.
+fn draw_runs(folders: &[PathBuf], out: &Path) -> Result<Tier, Error> {
+    let gathered = Gathered::read(folders)?;
+    let found = gathered.judge(|_| Ok(Vec::new()))?;
+    let tier = Tier::parse(&found.tier)?;
+    for study in &found.cases {
+        let _: Vec<Picture> = draw_own(study, &gathered, out)?;
+    }
+    Ok(tier)
+}
+
+/// Puts a picture into its place.
+fn place(from: &Path, to: &Path) -> Result<(), Error> {
+    let bytes = fs::read(from).map_err(|e| Error::file(from, e))?;
+    if bytes.len() as u64 > MOST {
+        let cause = format!("{} bytes where {MOST} are allowed", bytes.len());
+        return Err(Error::file(to, cause));
+    }
+    crate::files::write_whole(to, &bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROWS: &str = "\
+case,scheme,level,set,h,status,right,wrong_as_known,not_judged,failed,particles,steps,particle_node_pairs,cpu_s,night,program,metrics
+cook,gimp-none-flip,h2,,2,ok,3,1,0,0,1448,7026,183125664,0.452,2026-01-01,now,fem_edge_mean_error=-0.15
+cook,gimp-none-flip,h1,,1,ok,3,1,0,0,1448,7026,183125664,0.9,2026-01-01,now,fem_edge_mean_error=-0.08
+";
+
+    #[test]
+    fn what_there_is_is_drawn_and_the_rest_is_named_and_left() {
+        let root = tempfile::tempdir().unwrap();
+        let shown = |file: &str| root.path().join(PLACE).join(file);
+        crate::files::write_whole(
+            &root.path().join("reports/nightly/results.csv"),
+            ROWS.as_bytes(),
+        )
+        .unwrap();
+        crate::files::write_whole(&shown("cook/rest.svg"), b"former").unwrap();
+        let told = draw(root.path(), &[]).unwrap();
+        let (drawn, left): (Vec<&str>, Vec<&str>) =
+            told.lines().partition(|line| line.ends_with(": drawn"));
+        let of_cook = [
+            "cook/convergence.svg: drawn",
+            "cook/cpu-precision.svg: drawn",
+        ];
+        assert_eq!(drawn, of_cook, "{told}");
+        assert_eq!(left.len(), SHOWN.len() - 2);
+        assert!(told.contains("cook/rest.svg: left, for want of runs of tier pr"));
+        assert!(told.contains("bench/scaling.svg: left, for want of a bench"));
+        let svg = fs::read_to_string(shown("cook/convergence.svg")).unwrap();
+        assert!(svg.starts_with("<svg"));
+        assert_eq!(fs::read(shown("cook/rest.svg")).unwrap(), b"former");
+        assert!(!shown("cook/convergence.png").exists());
+    }
+
+    #[test]
+    fn a_picture_that_is_too_large_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let [from, to] = ["from", "to"].map(|name| folder.path().join(name));
+        for (bytes, taken) in [(MOST as usize, true), (MOST as usize + 1, false)] {
+            fs::write(&from, vec![0; bytes]).unwrap();
+            assert_eq!(place(&from, &to).is_ok(), taken);
+        }
+        assert_eq!(fs::read(&to).unwrap().len() as u64, MOST);
+    }
+}
