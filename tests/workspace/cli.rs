@@ -146,9 +146,9 @@ fn without_a_command_the_commands_are_named() {
     let output = mpm_verify(&[]);
     assert_eq!(code(&output), 2);
     assert_eq!(stderr(&output).lines().count(), 1);
-    assert!(
-        stderr(&output).contains("list, explain, run, verify, report, keep, tables, pictures, complete, bless, diff")
-    );
+    assert!(stderr(&output).contains(
+        "list, explain, run, verify, report, keep, tables, pictures, complete, bless, diff"
+    ));
 }
 
 /// What users read is reviewed as a difference in a snapshot.
