@@ -119,7 +119,7 @@ fn the_pages_show_the_pictures_that_the_program_draws() {
     let pages = pages
         .iter()
         .filter(|(name, _)| name.extension().is_some_and(|e| e == "md"));
-    let mut shown: std::collections::BTreeSet<_> = pages
+    let shown: std::collections::BTreeSet<_> = pages
         .map(|(_, text)| {
             (
                 std::path::Path::new("docs"),
@@ -136,12 +136,21 @@ fn the_pages_show_the_pictures_that_the_program_draws() {
             files.map(|file| folder.join(file)).collect::<Vec<_>>()
         })
         .collect();
-    let drawn: std::collections::BTreeSet<_> = mpm_verify::report::shown::files().collect();
-    assert_eq!(shown, drawn);
     let there = super::files(&root.join("docs/pictures"));
-    shown = there
-        .into_keys()
-        .map(|name| std::path::Path::new("docs/pictures").join(name))
-        .collect();
-    assert_eq!(shown, drawn);
+    let place = std::path::Path::new("docs/pictures");
+    assert_eq!(
+        shown,
+        there.into_keys().map(|name| place.join(name)).collect()
+    );
+    // A chart that waits for the runs of a night may still be there as pixels.
+    let plain = |file: std::path::PathBuf| file.with_extension("");
+    let drawn: std::collections::BTreeSet<_> =
+        mpm_verify::report::shown::files().map(plain).collect();
+    assert_eq!(
+        shown
+            .into_iter()
+            .map(plain)
+            .collect::<std::collections::BTreeSet<_>>(),
+        drawn
+    );
 }

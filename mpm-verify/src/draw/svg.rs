@@ -204,11 +204,16 @@ impl Writer {
     }
 }
 
-/// Points joined by straight lines.
+/// Points joined by straight lines, each told from the last.
 fn path(points: &[Point]) -> String {
-    let place = |(x, y): &Point| format!("{} {}", number(*x), number(*y));
-    let places: Vec<String> = points.iter().map(place).collect();
-    format!("M{}", places.join(" "))
+    let (mut text, mut last) = (String::new(), (0.0, 0.0));
+    for (k, (x, y)) in points.iter().enumerate() {
+        let here = (rounded(*x), rounded(*y));
+        text += ["M", "l", " "][k.min(2)];
+        text += &format!("{} {}", number(here.0 - last.0), number(here.1 - last.1));
+        last = here;
+    }
+    text
 }
 
 /// A polygon; most are upright rectangles.
@@ -222,9 +227,14 @@ fn closed(corners: &[Point]) -> String {
     }
 }
 
-/// To a tenth of a pixel, as short as it can be written.
+/// To a tenth of a pixel.
+fn rounded(value: f64) -> f64 {
+    (10.0 * value).round() / 10.0 + 0.0
+}
+
+/// The same, as short as it can be written.
 fn number(value: f64) -> String {
-    ((10.0 * value).round() / 10.0 + 0.0).to_string()
+    rounded(value).to_string()
 }
 
 fn hexadecimal(colour: Rgb) -> String {
@@ -269,7 +279,7 @@ mod tests {
             "a &lt; b &amp;",
             "<clipPath id=\"f1\">\n<path d=\"M0 0H50V50H0z\"/>\n</clipPath>\n<g clip-path=\"url(#f1)\">",
             "<path d=\"M0 0H10V10H0zM20 0H30V10H20z\" fill=\"#222222\"/>",
-            "<path d=\"M5 5 9 100000\" fill=\"none\" stroke-width=\"2\" stroke=\"#222222\" stroke-dasharray=\"4 2.5\"/>\n</g>",
+            "<path d=\"M5 5l4 99995\" fill=\"none\" stroke-width=\"2\" stroke=\"#222222\" stroke-dasharray=\"4 2.5\"/>\n</g>",
             "<use href=\"#m0\" x=\"30.1\" y=\"4\"/>",
         ] {
             assert!(document.contains(part), "{part}\n{document}");

@@ -4,20 +4,30 @@ use super::{convergence, draw_own, rows, sweep};
 use crate::bench;
 use crate::case::Tier;
 use crate::cases;
+use crate::draw::write_small_png;
 use crate::error::Error;
-use crate::files::make_folder;
+use crate::files::{discard, make_folder, write_whole};
 use crate::gallery::Picture;
 use crate::record::Record;
 use crate::study::convergence::convergence;
 use crate::study::gather::Gathered;
 use crate::study::summary::CaseStudy;
+use image::RgbImage;
+use image::imageops::{self, FilterType};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Most bytes of a picture.
 const MOST: u64 = 150_000;
+/// Fewer pixels than these across leave no text legible.
+const LEAST_WIDTH: u32 = 500;
+/// Step of a colour channel of a picture that is too large.
+const SHADE: u8 = 17;
 /// Where they lie, below the repository.
 const PLACE: &str = "docs/pictures";
+
+/// Errors that the pages' tables tell of: five rows of panels would be too many.
+const IN_TABLES: [&str; 3] = ["displacement_linf", "velocity_l2", "stress_l2"];
 
 /// What a picture is drawn from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +44,7 @@ use Source::{Bench, Rows, Runs};
 use Tier::{Nightly, Pr};
 
 /// Folder, which is a case's but for the bench, and file, both of the report and of the pages; charts are SVG.
-const SHOWN: [(&str, &str, Source); 25] = [
+const SHOWN: [(&str, &str, Source); 24] = [
     ("bench", "scaling.svg", Bench),
     ("column", "creep.svg", Runs(Pr)),
     ("cook", "convergence.svg", Rows),
@@ -42,7 +52,6 @@ const SHOWN: [(&str, &str, Source); 25] = [
     ("cook", "mean-stress-gimp.png", Runs(Pr)),
     ("cook", "rest.svg", Runs(Pr)),
     ("dam-break", "cpu-precision.svg", Rows),
-    ("dam-break", "flow.png", Runs(Nightly)),
     ("dam-break", "snapshots-gimp.png", Runs(Nightly)),
     ("footing", "load-settlement.svg", Runs(Nightly)),
     ("footing", "mean-stress-gimp.png", Runs(Nightly)),
@@ -114,10 +123,13 @@ fn wanted(source: Source) -> String {
 
 /// Draws errors over cell size, cost and swept parameters of every case that has rows.
 fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
-    let records: Vec<Record> = rows::read(results)?
-        .iter()
-        .filter_map(rows::Row::record)
-        .collect();
+    let kept = rows::read(results)?;
+    let mut records: Vec<Record> = kept.iter().filter_map(rows::Row::record).collect();
+    for record in &mut records {
+        record
+            .metrics
+            .retain(|name, _| !IN_TABLES.contains(&&**name));
+    }
     for case in cases::all() {
         let of_case = records.iter().filter(|r| r.case == case.name);
         let mut study = CaseStudy::new(case.name, of_case.cloned().collect());
@@ -147,14 +159,44 @@ fn draw_runs(folders: &[PathBuf], out: &Path) -> Result<Tier, Error> {
     Ok(tier)
 }
 
-/// Puts a picture into its place.
+/// Puts a picture into its place; pixels are made fewer until they fit. One of the same name in the other format goes.
 fn place(from: &Path, to: &Path) -> Result<(), Error> {
     let bytes = fs::read(from).map_err(|e| Error::file(from, e))?;
-    if bytes.len() as u64 > MOST {
+    let is_png = to.extension().is_some_and(|e| e == "png");
+    if bytes.len() as u64 <= MOST {
+        write_whole(to, &bytes)?;
+    } else if is_png {
+        let picture = image::load_from_memory(&bytes).map_err(|e| Error::file(from, e))?;
+        fit(&picture.to_rgb8(), to)?;
+    } else {
         let cause = format!("{} bytes where {MOST} are allowed", bytes.len());
         return Err(Error::file(to, cause));
     }
-    crate::files::write_whole(to, &bytes)
+    discard(&to.with_extension(if is_png { "svg" } else { "png" }))
+}
+
+/// Writes a picture with as many of its pixels as fit, in few shades: noise has too many.
+fn fit(picture: &RgbImage, to: &Path) -> Result<(), Error> {
+    let draft = tempfile::NamedTempFile::new().map_err(|e| Error::file(to, e))?;
+    let mut share = 1.0;
+    loop {
+        let [width, height] =
+            [picture.width(), picture.height()].map(|n| (share * f64::from(n)) as u32);
+        if width < LEAST_WIDTH {
+            let cause = format!("more than {MOST} bytes even {width} pixels wide");
+            return Err(Error::file(to, cause));
+        }
+        let mut small = imageops::resize(picture, width, height, FilterType::Triangle);
+        for channel in small.iter_mut() {
+            *channel = (channel.saturating_add(SHADE / 2)) / SHADE * SHADE;
+        }
+        write_small_png(draft.path(), &small)?;
+        let bytes = fs::read(draft.path()).map_err(|e| Error::file(to, e))?;
+        if bytes.len() as u64 <= MOST {
+            return write_whole(to, &bytes);
+        }
+        share *= 0.95;
+    }
 }
 
 #[cfg(test)]
@@ -195,13 +237,35 @@ cook,gimp-none-flip,h1,,1,ok,3,1,0,0,1448,7026,183125664,0.9,2026-01-01,now,fem_
     }
 
     #[test]
-    fn a_picture_that_is_too_large_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        let [from, to] = ["from", "to"].map(|name| folder.path().join(name));
-        for (bytes, taken) in [(MOST as usize, true), (MOST as usize + 1, false)] {
-            fs::write(&from, vec![0; bytes]).unwrap();
-            assert_eq!(place(&from, &to).is_ok(), taken);
+    fn what_the_tables_tell_is_measured() {
+        let errors = &cases::find("mms-axis").unwrap().quantities;
+        for name in IN_TABLES {
+            assert!(errors.iter().any(|q| q.metric.name == name), "{name}");
         }
-        assert_eq!(fs::read(&to).unwrap().len() as u64, MOST);
+    }
+
+    #[test]
+    fn a_picture_that_is_too_large_has_fewer_pixels_and_a_chart_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let [from, chart, field] = ["from", "a.svg", "a.png"].map(|name| folder.path().join(name));
+        // Noise: no file of it is small.
+        let mut random = fastrand::Rng::with_seed(1);
+        let noise = RgbImage::from_fn(600, 300, |_, _| image::Rgb([(); 3].map(|()| random.u8(..))));
+        noise
+            .save_with_format(&from, image::ImageFormat::Png)
+            .unwrap();
+        assert!(fs::metadata(&from).unwrap().len() > MOST);
+        assert!(place(&from, &chart).is_err() && !chart.exists());
+        assert!(place(&from, &field).is_err());
+        let smooth = RgbImage::from_fn(1200, 600, |x, y| {
+            image::Rgb([(x / 5) as u8, (y / 3) as u8, random.u8(..2)])
+        });
+        smooth
+            .save_with_format(&from, image::ImageFormat::Png)
+            .unwrap();
+        fs::write(&chart, "former").unwrap();
+        place(&from, &field).unwrap();
+        assert!(fs::metadata(&field).unwrap().len() <= MOST && !chart.exists());
+        assert!(image::open(&field).unwrap().width() <= 1200);
     }
 }
