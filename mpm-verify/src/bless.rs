@@ -140,20 +140,23 @@ impl<'a> Candidates<'a> {
 mod tests {
     use super::*;
     use crate::record::fixture::record;
-    use crate::verdict::Kind;
+    use crate::verdict::{Kind, Outcome};
 
     #[test]
     fn runs_without_a_truth_are_counted() {
-        let held = |kind| Verdict {
+        let found = |kind, outcome| Verdict {
+            check: "check".to_owned(),
             kind,
-            ..Verdict::close("check", "tip_ux", 1.0, 1.0, 0.0, "")
+            metric: "tip_ux".to_owned(),
+            value: Some(2.0),
+            reference: Some(1.0),
+            tolerance: Some(0.0),
+            outcome,
+            source: String::new(),
         };
-        let drift = Verdict {
-            kind: Kind::Drift,
-            ..Verdict::close("golden", "tip_ux", 2.0, 1.0, 0.0, "")
-        };
+        let drift = found(Kind::Drift, Outcome::Failed);
         let run = |kind| {
-            let mut run = record("h2", vec![held(kind), drift.clone()]);
+            let mut run = record("h2", vec![found(kind, Outcome::Right), drift.clone()]);
             run.version = Version::current();
             run
         };

@@ -46,8 +46,6 @@ pub(crate) fn mean_stress(gallery: &mut Gallery, level: &str, most: f64) -> Resu
         columns: 3,
         range: (-most, most),
         label: "mean stress (Pa)".to_owned(),
-        x_label: "x (m)".to_owned(),
-        y_label: "y (m)".to_owned(),
         window: None,
     };
     draw_fields(&gallery.place("mean-stress.png"), &figure)?;
