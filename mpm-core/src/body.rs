@@ -48,6 +48,12 @@ impl<const D: usize, M: Law> Body<D, M> {
         Ok(body)
     }
 
+    /// What the law remembers of each particle.
+    #[must_use]
+    pub(crate) fn states(&self) -> &[M::State] {
+        &self.states
+    }
+
     /// Speed of pressure waves (m/s) where the undeformed material is least dense.
     #[must_use]
     pub fn wave_speed(&self) -> f64 {

@@ -92,6 +92,30 @@ pub enum Error {
         /// What broke.
         fault: Fault,
     },
+    /// Newton's method found no equilibrium, however short the step.
+    #[error(
+        "step {step} (t = {time} s): no convergence, residual {residual:e} of the loads after {iteration} iterations"
+    )]
+    NoConvergence {
+        /// Time at the start of the failed part of the step (s).
+        time: f64,
+        /// Number of steps completed before.
+        step: u64,
+        /// Iterations done.
+        iteration: u32,
+        /// The residual over that of the loads.
+        residual: f64,
+    },
+    /// A stiffness matrix could not be factorised, or gave no finite solution, however short the step.
+    #[error("step {step} (t = {time} s), iteration {iteration}: the stiffness matrix is singular")]
+    Singular {
+        /// Time at the start of the failed part of the step (s).
+        time: f64,
+        /// Number of steps completed before.
+        step: u64,
+        /// Iterations done.
+        iteration: u32,
+    },
     /// A body that was handed over is not one of the scene.
     #[error(transparent)]
     Memory(#[from] MemoryError),

@@ -2,8 +2,9 @@
 //!
 //! The method is that of Zhao, Jiang & Choo, "Circumventing volumetric locking in explicit
 //! material point methods" (2022); equation numbers in this crate are theirs. A [`Scene`] is a [`Grid`], a [`Body`] and
-//! what acts on it; a solver, behind [`Simulation`], moves it. There is one kind so far, the explicit
-//! [`Solver`](explicit::Solver), whose `step` is the algorithm. What is shared:
+//! what acts on it; a solver, behind [`Simulation`], moves it. There are two kinds: the
+//! [explicit](explicit::Solver) one, whose `step` is the algorithm, and the [quasi-static](implicit::Solver) one. What is
+//! shared:
 //!
 //! * [`Grid`], [`Lattice`] and [`nodes`]: cells, axes, the nodes of a basis and what they hold in a step;
 //! * [`basis`]: linear, uGIMP, quadratic and cubic B-splines, one-dimensional factors of a tensor product;
@@ -19,6 +20,8 @@
 //! ([`explicit::transfer`]: PIC/FLIP blend, APIC, XPIC) and remedies ([`explicit::remedy`]: how the averaged Jacobian J̄
 //! is formed).
 //!
+//! What only the implicit one needs, in [`implicit`]: functions as it asks for them, penalties, Newton's method.
+//!
 //! All quantities are in SI units. The dimension is a const generic: 1 (uniaxial strain),
 //! 2 (plane strain) or 3.
 
@@ -28,6 +31,7 @@ pub mod contact;
 pub mod error;
 pub mod explicit;
 pub mod grid;
+pub mod implicit;
 pub mod lattice;
 pub mod material;
 pub mod memory;
@@ -39,6 +43,7 @@ pub mod parallel;
 pub mod particles;
 pub mod projection;
 pub mod reach;
+mod room;
 pub mod scene;
 pub mod simulation;
 pub mod space;

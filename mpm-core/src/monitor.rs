@@ -31,6 +31,20 @@ pub struct Residual {
     pub kinetic_energy: f64,
 }
 
+/// How Newton's method came to the end of a step.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Convergence {
+    /// The residual before every iteration and at the end, over that of the loads.
+    pub residuals: Vec<f64>,
+    /// The paper's out-of-balance force ratio, Eq. (37): ‖F_ext − F_int‖ / ‖F_ext‖ over all free components.
+    pub force_ratio: f64,
+    /// The analogue of the paper's energy ratio, Eq. (38), where nothing moves: the residual's work on the last
+    /// correction over that of the external force on the increment.
+    pub energy_ratio: f64,
+    /// Parts that the load step was cut into; 1 if it was not.
+    pub parts: u32,
+}
+
 /// What the body does to a part of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Reaction {
@@ -90,8 +104,10 @@ impl Totals {
         for (p, state) in states.iter().enumerate() {
             let m = particles.mass[p];
             t.mass += m;
-            for (sum, v) in t.momentum.iter_mut().zip(particles.velocity[p]) {
-                *sum += m * v;
+            if let Some(velocity) = particles.velocity.get(p) {
+                for (sum, v) in t.momentum.iter_mut().zip(velocity) {
+                    *sum += m * v;
+                }
             }
             t.stored_energy += particles.reference_volume[p] * law.energy(state);
             let j = particles.jacobian[p];

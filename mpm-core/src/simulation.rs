@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::memory::{Memory, Saved};
-use crate::monitor::{Reaction, Residual, Totals};
+use crate::monitor::{Convergence, Reaction, Residual, Totals};
 use crate::particles::Particles;
 use crate::tensor::SymmetricTensor;
 use crate::work::Work;
@@ -43,6 +43,15 @@ pub trait Simulation<const D: usize>: Memory + Send {
     fn totals(&self) -> Totals;
     /// Out-of-balance and held forces of the last step.
     fn residual(&self) -> Residual;
+    /// How Newton's method came to the end of the last step, of a solver that has one.
+    fn convergence(&self) -> Option<&Convergence> {
+        None
+    }
+    /// An estimate of the condition, in the 1-norm, of the stiffness matrix of the body as it is, scaled to a diagonal of
+    /// ones; NaN of a solver without one, infinite of a singular one.
+    fn condition(&self) -> f64 {
+        f64::NAN
+    }
     /// What the run did so far.
     fn work(&self) -> Work;
     /// What the body does to a part of the scene; NaN of a part that there isn't.

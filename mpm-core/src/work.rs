@@ -19,4 +19,16 @@ pub struct Work {
     pub projections: u64,
     /// Times the particles were sorted by place.
     pub sorts: u64,
+    /// Corrections by Newton's method.
+    pub newton_iterations: u64,
+    /// Solutions by factors, or iterations of conjugate gradients.
+    pub linear_iterations: u64,
+    /// Assemblies of a stiffness matrix.
+    pub assemblies: u64,
+    /// Factorisations of a stiffness matrix.
+    pub factorisations: u64,
+    /// Orders of elimination that were found anew.
+    pub analyses: u64,
+    /// Entries of the factorised matrices, summed over the factorisations.
+    pub nonzeros: u64,
 }

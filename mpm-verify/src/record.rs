@@ -78,6 +78,18 @@ pub struct WorkDone {
     pub particle_node_pairs: u64,
     pub projections: u64,
     pub sorts: u64,
+    #[serde(default)]
+    pub newton_iterations: u64,
+    #[serde(default)]
+    pub linear_iterations: u64,
+    #[serde(default)]
+    pub assemblies: u64,
+    #[serde(default)]
+    pub factorisations: u64,
+    #[serde(default)]
+    pub analyses: u64,
+    #[serde(default)]
+    pub nonzeros: u64,
 }
 
 impl WorkDone {
@@ -92,13 +104,19 @@ impl WorkDone {
             particle_node_pairs: self.particle_node_pairs + earlier.particle_node_pairs,
             projections: self.projections + earlier.projections,
             sorts: self.sorts + earlier.sorts,
+            newton_iterations: self.newton_iterations + earlier.newton_iterations,
+            linear_iterations: self.linear_iterations + earlier.linear_iterations,
+            assemblies: self.assemblies + earlier.assemblies,
+            factorisations: self.factorisations + earlier.factorisations,
+            analyses: self.analyses + earlier.analyses,
+            nonzeros: self.nonzeros + earlier.nonzeros,
         }
     }
 
-    /// The counts by name.
+    /// The counts by name; those of Newton's method where there are any.
     #[must_use]
-    pub fn counts(&self) -> [(&'static str, u64); 7] {
-        [
+    pub fn counts(&self) -> Vec<(&'static str, u64)> {
+        let of_all = [
             ("particles", self.particles),
             ("nodes", self.nodes),
             ("steps", self.steps),
@@ -106,7 +124,17 @@ impl WorkDone {
             ("particle_node_pairs", self.particle_node_pairs),
             ("projections", self.projections),
             ("sorts", self.sorts),
-        ]
+        ];
+        let of_newton = [
+            ("newton_iterations", self.newton_iterations),
+            ("linear_iterations", self.linear_iterations),
+            ("assemblies", self.assemblies),
+            ("factorisations", self.factorisations),
+            ("analyses", self.analyses),
+            ("nonzeros", self.nonzeros),
+        ];
+        let counted = of_newton.into_iter().filter(|_| self.newton_iterations > 0);
+        of_all.into_iter().chain(counted).collect()
     }
 }
 
@@ -120,6 +148,12 @@ impl From<mpm_core::Work> for WorkDone {
             particle_node_pairs: w.particle_node_pairs,
             projections: w.projections,
             sorts: w.sorts,
+            newton_iterations: w.newton_iterations,
+            linear_iterations: w.linear_iterations,
+            assemblies: w.assemblies,
+            factorisations: w.factorisations,
+            analyses: w.analyses,
+            nonzeros: w.nonzeros,
         }
     }
 }

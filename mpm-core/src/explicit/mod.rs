@@ -3,7 +3,6 @@
 mod contact;
 mod memory;
 pub mod remedy;
-mod room;
 mod settings;
 mod sort;
 mod stages;

@@ -1,7 +1,6 @@
 //! The stages of the explicit step, in its order.
 
 use super::remedy::{self, Remedy};
-use super::room::Room;
 use super::transfer::{Given, Transfer};
 use super::{ChunkSums, NodeSums, Solver, check_cfl, stress_of};
 use crate::basis::Basis;
@@ -13,6 +12,7 @@ use crate::nodes::NodalState;
 use crate::parallel::{AT_ONCE, CHUNK, chunks_if_present, scatter};
 use crate::particles::Particles;
 use crate::projection::{Average, Projection};
+use crate::room::Room;
 use crate::space;
 use crate::stage::ForceFilter;
 use nalgebra::SMatrix;

@@ -1,6 +1,5 @@
 //! A solver at time zero.
 
-use super::room::Room;
 use super::{ChunkSums, Held, NodeSums, Settings, Solver, Transfer, check_cfl};
 use crate::basis::Basis;
 use crate::error::{Error, require};
@@ -11,6 +10,7 @@ use crate::nodes::NodalState;
 use crate::parallel::{CHUNK, NODE_CHUNK};
 use crate::projection::Averaging;
 use crate::reach::Reach;
+use crate::room::Room;
 use crate::scene::Scene;
 use crate::stage::Prescribed;
 use crate::work::Work;

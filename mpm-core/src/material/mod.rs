@@ -1,10 +1,14 @@
 //! Constitutive laws: pure functions (ΔF̄, Δt, state) → (σ, state′) in three dimensions.
 
+mod hencky;
 mod hencky_j2;
+mod hypoelastic;
 mod neo_hookean;
 mod newtonian_fluid;
 
+pub use hencky::Hencky;
 pub use hencky_j2::{ElastoplasticState, HenckyJ2, Strength};
+pub use hypoelastic::{Hypoelastic, JaumannUpdate};
 pub use neo_hookean::NeoHookean;
 pub use newtonian_fluid::NewtonianFluid;
 
@@ -62,6 +66,10 @@ pub type StateOf<M, T> = <<M as Law>::State as State>::Of<T>;
 pub trait Law: Send + Sync {
     /// What a particle remembers.
     type State: State;
+
+    /// Whether the stress of a step is the derivative of a potential (a stored energy; of associated plasticity, with
+    /// what flow dissipates): stiffness matrices are then symmetric.
+    const CONSERVATIVE: bool = true;
 
     /// The state of undeformed material.
     fn initial_state(&self) -> Self::State;

@@ -46,6 +46,9 @@ impl NewtonianFluid {
 impl Law for NewtonianFluid {
     type State = f64;
 
+    /// Viscous stresses dissipate.
+    const CONSERVATIVE: bool = false;
+
     fn initial_state(&self) -> f64 {
         1.0
     }

@@ -255,6 +255,21 @@ fn failure(error: &mpm_core::Error) -> Failure {
             value: finite(fault.value()),
             message,
         },
+        mpm_core::Error::NoConvergence {
+            time,
+            step,
+            residual,
+            ..
+        } => Failure {
+            time,
+            step,
+            ..before_any_step("no-convergence", finite(residual))
+        },
+        mpm_core::Error::Singular { time, step, .. } => Failure {
+            time,
+            step,
+            ..before_any_step("singular", None)
+        },
         mpm_core::Error::Input { value, .. } => before_any_step("input", finite(value)),
         mpm_core::Error::Memory(_) => before_any_step("memory", None),
     }

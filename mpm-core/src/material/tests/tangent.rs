@@ -110,6 +110,7 @@ every_law_has_a_tangent!(
     hencky_solid,
     HenckyJ2::new(70.0, 0.4, Strength::perfect(1e9).unwrap()).unwrap()
 );
+every_law_has_a_tangent!(hencky_law, Hencky::new(70.0, 0.4).unwrap());
 every_law_has_a_tangent!(inviscid_fluid, NewtonianFluid::new(5.0, 0.0).unwrap());
 
 #[test]

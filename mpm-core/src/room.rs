@@ -4,7 +4,7 @@ use crate::error::Fault;
 use crate::grid::Grid;
 
 /// Where particles may be.
-pub(super) struct Room<const D: usize> {
+pub(crate) struct Room<const D: usize> {
     lo: [f64; D],
     hi: [f64; D],
     periodic: [bool; D],
@@ -12,7 +12,7 @@ pub(super) struct Room<const D: usize> {
 
 impl<const D: usize> Room<D> {
     /// On `grid`; at walls also `beyond` (m, axis by axis) them.
-    pub(super) fn new(grid: &Grid<D>, beyond: [f64; D]) -> Self {
+    pub(crate) fn new(grid: &Grid<D>, beyond: [f64; D]) -> Self {
         let give = |a: usize, wall: bool| if wall { beyond[a] } else { 0.0 };
         let ends = &grid.axes;
         Self {
@@ -23,7 +23,7 @@ impl<const D: usize> Room<D> {
     }
 
     /// Brings a position on a periodic axis back between its ends (true when it had left) and checks the others.
-    pub(super) fn place(&self, x: &mut [f64; D]) -> Result<bool, Fault> {
+    pub(crate) fn place(&self, x: &mut [f64; D]) -> Result<bool, Fault> {
         let mut inside = true;
         for a in 0..D {
             inside &= x[a] >= self.lo[a] && x[a] < self.hi[a];

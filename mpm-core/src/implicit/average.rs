@@ -1,0 +1,87 @@
+//! The average A of F̄ on the functions of a step: A = I − (1 − ε)(I − Π)² with the volume average Π.
+//!
+//! V A is symmetric, and so Aᵀ = V A V⁻¹ of the volumes V at the step's start.
+
+use super::elements::Elements;
+
+/// The share ε of a field that Π can't see which A keeps, as the explicit remedy does.
+const UNSEEN: f64 = 0.01;
+
+/// A, frozen in a step.
+pub(super) struct Average {
+    /// Volume of every particle (m³).
+    volume: Vec<f64>,
+    /// One over the volume of every node, zero of nodes that see none.
+    inverse: Vec<f64>,
+}
+
+impl Average {
+    pub(super) fn new<const D: usize>(
+        elements: &Elements<D>,
+        nodes: usize,
+        volume: &[f64],
+    ) -> Self {
+        let mut of_nodes = vec![0.0; nodes];
+        elements.scatter(0.0, &mut of_nodes, |p, sums| {
+            for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
+                *sum += w * volume[p];
+            }
+        });
+        let inverse = |v: &f64| if *v > 0.0 { 1.0 / v } else { 0.0 };
+        Self {
+            volume: volume.to_vec(),
+            inverse: of_nodes.iter().map(inverse).collect(),
+        }
+    }
+
+    /// Π `field`.
+    pub(super) fn project<const D: usize>(
+        &self,
+        elements: &Elements<D>,
+        field: &[f64],
+    ) -> Vec<f64> {
+        let mut of_nodes = vec![0.0; self.inverse.len()];
+        elements.scatter(0.0, &mut of_nodes, |p, sums| {
+            let weighted = self.volume[p] * field[p];
+            for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
+                *sum += w * weighted;
+            }
+        });
+        for (value, inverse) in of_nodes.iter_mut().zip(&self.inverse) {
+            *value *= inverse;
+        }
+        let gather = |p: usize| {
+            let (nodes, w, _) = elements.seen(p);
+            nodes
+                .iter()
+                .zip(w)
+                .map(|(node, w)| w * of_nodes[*node])
+                .sum()
+        };
+        (0..field.len()).map(gather).collect()
+    }
+
+    /// A `field`.
+    pub(super) fn apply<const D: usize>(&self, elements: &Elements<D>, field: &[f64]) -> Vec<f64> {
+        let smooth = self.project(elements, field);
+        let rough: Vec<f64> = field.iter().zip(&smooth).map(|(f, s)| f - s).collect();
+        let seen = self.project(elements, &rough);
+        let combine = |p: usize| smooth[p] + UNSEEN * rough[p] + (1.0 - UNSEEN) * seen[p];
+        (0..field.len()).map(combine).collect()
+    }
+
+    /// Aᵀ `field`.
+    pub(super) fn transposed<const D: usize>(
+        &self,
+        elements: &Elements<D>,
+        field: &[f64],
+    ) -> Vec<f64> {
+        let per_volume: Vec<f64> = field.iter().zip(&self.volume).map(|(f, v)| f / v).collect();
+        let averaged = self.apply(elements, &per_volume);
+        averaged
+            .iter()
+            .zip(&self.volume)
+            .map(|(a, v)| a * v)
+            .collect()
+    }
+}

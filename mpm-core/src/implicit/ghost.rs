@@ -1,0 +1,169 @@
+//! The ghost penalty (Burman 2010, doi:10.1016/j.crma.2010.10.006): what a cell with hardly any material lacks, its
+//! neighbours lend it.
+//!
+//! On the faces between cells of the body, one of which is at its edge, the polynomials of either side are drawn
+//! together: γ E h^(2k−1) ∫ \[∂ₙᵏu\] · \[∂ₙᵏv\] with the degree k. All lower derivatives of a spline are continuous, so the
+//! jump is all by which the two differ. It vanishes where u is one polynomial of degree k.
+
+use super::penalty::{Moduli, Penalty};
+use super::pieces::{AxisPieces, Pieces};
+use crate::lattice::Lattice;
+use crate::particles::Particles;
+use nalgebra::DMatrix;
+
+/// Intervals of all axes, and which of them hold material.
+struct Cells<const D: usize> {
+    axes: [AxisPieces; D],
+    active: Vec<bool>,
+}
+
+impl<const D: usize> Cells<D> {
+    fn count(&self, axis: usize) -> usize {
+        self.axes[axis].top.len()
+    }
+
+    fn place(&self, cell: &[usize; D]) -> usize {
+        (0..D).fold(0, |place, a| place * self.count(a) + cell[a])
+    }
+
+    fn cell(&self, mut place: usize) -> [usize; D] {
+        let mut cell = [0; D];
+        for a in (0..D).rev() {
+            cell[a] = place % self.count(a);
+            place /= self.count(a);
+        }
+        cell
+    }
+
+    /// The interval after `i`, if there is one.
+    fn next(&self, axis: usize, i: usize) -> Option<usize> {
+        let n = self.count(axis);
+        let wraps = self.axes[axis].periodic && i + 1 == n;
+        if wraps {
+            Some(0)
+        } else {
+            Some(i + 1).filter(|i| *i < n)
+        }
+    }
+
+    /// Whether a neighbour of the cell, also across an edge or corner, holds no material. What is behind a wall counts as
+    /// full, what is beyond an open end as empty.
+    fn at_edge(&self, cell: &[usize; D]) -> bool {
+        (0..3_usize.pow(D as u32)).any(|k| {
+            let mut neighbour = [0; D];
+            for a in 0..D {
+                let (axis, n) = (&self.axes[a], self.count(a) as isize);
+                let mut i = cell[a] as isize + (k / 3_usize.pow(a as u32) % 3) as isize - 1;
+                if axis.periodic {
+                    i = i.rem_euclid(n);
+                }
+                let beyond = axis.beyond as isize;
+                if (i < beyond && axis.walls.0) || (i >= n - beyond && axis.walls.1) {
+                    return false;
+                }
+                if i < 0 || i >= n {
+                    return true;
+                }
+                neighbour[a] = i as usize;
+            }
+            !self.active[self.place(&neighbour)]
+        })
+    }
+}
+
+/// The penalties of the faces near the edge of the body.
+pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
+    lattice: &Lattice<D, S, B>,
+    factor: f64,
+    moduli: Moduli,
+    particles: &Particles<D>,
+) -> Vec<Penalty> {
+    let h = lattice.grid.h;
+    let axes: [AxisPieces; D] = std::array::from_fn(|a| B::pieces(&lattice.grid.axes[a], h));
+    let degree = axes[0].degree;
+    let mut cells = Cells {
+        active: vec![false; axes.iter().map(|a| a.top.len()).product()],
+        axes,
+    };
+    for x in &particles.position {
+        let stencil = lattice.stencil(x, &particles.half_size);
+        let touched = stencil.axis.each_ref().map(|axis| B::touched(axis));
+        for k in 0..touched.iter().product() {
+            let mut rest = k;
+            let cell = std::array::from_fn(|a| {
+                let i = stencil.axis[a].first + rest % touched[a];
+                rest /= touched[a];
+                i
+            });
+            let place = cells.place(&cell);
+            cells.active[place] = true;
+        }
+    }
+    let at_edge: Vec<bool> = (0..cells.active.len())
+        .map(|place| cells.active[place] && cells.at_edge(&cells.cell(place)))
+        .collect();
+    let mut first_node = usize::MAX;
+    lattice.for_each_node(|node, _| first_node = first_node.min(node));
+    let strides: [usize; D] = std::array::from_fn(|a| match D - a {
+        1 => 1,
+        2 => lattice.row_length(),
+        _ => lattice.plane(),
+    });
+    let scale = factor * moduli.young() * h.powi(2 * degree as i32 - 1);
+    let mut found = Vec::new();
+    for place in 0..cells.active.len() {
+        let cell = cells.cell(place);
+        for normal in 0..D {
+            let Some(after) = cells.next(normal, cell[normal]) else {
+                continue;
+            };
+            let mut beside = cell;
+            beside[normal] = after;
+            let other = cells.place(&beside);
+            if !(cells.active[place] && cells.active[other] && (at_edge[place] || at_edge[other])) {
+                continue;
+            }
+            let axis = &cells.axes[normal];
+            let mut jump = vec![0.0; degree + 2];
+            for k in 0..=degree {
+                jump[k + 1] += axis.top[after][k];
+                jump[k] -= axis.top[cell[normal]][k];
+            }
+            let counts: [usize; D] =
+                std::array::from_fn(|a| if a == normal { degree + 2 } else { degree + 1 });
+            let functions: usize = counts.iter().product();
+            let split = |mut k: usize| {
+                let mut index = [0; D];
+                for a in (0..D).rev() {
+                    index[a] = k % counts[a];
+                    k /= counts[a];
+                }
+                index
+            };
+            let mut stiffness = DMatrix::zeros(functions * D, functions * D);
+            for j in 0..functions {
+                for i in 0..functions {
+                    let (p, q) = (split(i), split(j));
+                    let mut k = scale * jump[p[normal]] * jump[q[normal]];
+                    for a in (0..D).filter(|a| *a != normal) {
+                        k *= cells.axes[a].mass[cell[a]][p[a]][q[a]];
+                    }
+                    for c in 0..D {
+                        stiffness[(i * D + c, j * D + c)] = k;
+                    }
+                }
+            }
+            let node = (0..functions).map(|k| {
+                let index = split(k);
+                (0..D).fold(first_node, |node, a| {
+                    node + (cell[a] + index[a]) * strides[a]
+                })
+            });
+            found.push(Penalty {
+                node: node.collect(),
+                stiffness,
+            });
+        }
+    }
+    found
+}

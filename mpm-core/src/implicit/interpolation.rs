@@ -1,0 +1,169 @@
+//! What the implicit solver asks of the functions on a grid.
+
+use super::penalty::{Moduli, Penalty};
+use super::pieces::Pieces;
+use super::settings::Stabilisation;
+use super::{ghost, soft};
+use crate::basis::WallTreatment;
+use crate::error::Error;
+use crate::grid::Grid;
+use crate::lattice::{Lattice, Stencil};
+use crate::particles::Particles;
+
+/// The functions that see a place, and which they are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Functions<const D: usize> {
+    /// Equal for all places that the same nodes see.
+    pub element: usize,
+    /// Their nodes.
+    pub node: Vec<usize>,
+    /// Values.
+    pub w: Vec<f64>,
+    /// Gradients (1/m).
+    pub dw: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Functions<D> {
+    /// None yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            element: 0,
+            node: Vec::new(),
+            w: Vec::new(),
+            dw: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> Default for Functions<D> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Functions on a grid.
+pub trait Interpolation<const D: usize>: Sized + Send + Sync {
+    /// The functions on `grid`.
+    ///
+    /// # Errors
+    /// A grid that these functions don't live on.
+    fn on(grid: Grid<D>) -> Result<Self, Error>;
+
+    /// The grid.
+    fn grid(&self) -> &Grid<D>;
+
+    /// Length of a nodal array.
+    fn len(&self) -> usize;
+
+    /// Never: a grid has nodes.
+    fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// How many functions see a place.
+    fn support(&self) -> usize;
+
+    /// Calls `visit` with every node and its position (m).
+    fn for_each_node(&self, visit: impl FnMut(usize, [f64; D]));
+
+    /// Of every node the one that it is a periodic image of: itself if it is none.
+    fn originals(&self) -> Vec<usize>;
+
+    /// Puts the functions that see a particle at `x` (m) with half sizes `half_size` (m) in `functions`.
+    fn functions(&self, x: &[f64; D], half_size: &[f64; D], functions: &mut Functions<D>);
+
+    /// How far (m) a particle of half size `half_size` (m) may pass a wall.
+    fn beyond_wall(half_size: f64) -> f64;
+
+    /// Whether these functions offer a stabilisation.
+    ///
+    /// # Errors
+    /// They don't.
+    fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error>;
+
+    /// The penalties of a stabilisation that is [offered](Self::offers), on the increment of a step, for a material of
+    /// `moduli` where `particles` are.
+    fn penalties(
+        &self,
+        stabilisation: Stabilisation,
+        moduli: Moduli,
+        particles: &Particles<D>,
+    ) -> Vec<Penalty>;
+}
+
+impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<D, S, B> {
+    fn on(grid: Grid<D>) -> Result<Self, Error> {
+        Ok(Self::new(grid, WallTreatment::OpenKnot))
+    }
+
+    fn grid(&self) -> &Grid<D> {
+        &self.grid
+    }
+
+    fn len(&self) -> usize {
+        Self::len(self)
+    }
+
+    fn support(&self) -> usize {
+        S.pow(D as u32)
+    }
+
+    fn for_each_node(&self, mut visit: impl FnMut(usize, [f64; D])) {
+        Self::for_each_node(self, |node, index| visit(node, self.position(index)));
+    }
+
+    fn originals(&self) -> Vec<usize> {
+        let mut original: Vec<usize> = (0..Self::len(self)).collect();
+        self.unfold(&mut original);
+        original
+    }
+
+    fn functions(&self, x: &[f64; D], half_size: &[f64; D], functions: &mut Functions<D>) {
+        let stencil = self.stencil(x, half_size);
+        let last = stencil.last();
+        functions.element = stencil.first();
+        functions.node.clear();
+        functions.w.clear();
+        functions.dw.clear();
+        let (lines, rows) = Stencil::<D, S>::OUTER;
+        for r in 0..lines * rows {
+            let row = stencil.row(r / rows, r % rows);
+            for k in 0..S {
+                let mut dw = row.gradient.map(|g| g * last.w[k]);
+                dw[D - 1] = row.w * last.dw[k];
+                functions.node.push(row.node + k);
+                functions.w.push(row.w * last.w[k]);
+                functions.dw.push(dw);
+            }
+        }
+    }
+
+    fn beyond_wall(half_size: f64) -> f64 {
+        B::beyond_wall(half_size)
+    }
+
+    fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error> {
+        match stabilisation {
+            Stabilisation::Soft(factor) if !B::POINTWISE => Err(Error::Input {
+                what: "soft stiffness for functions that depend on a particle's size, factor",
+                value: factor,
+                allowed: "none or a ghost penalty; soft with linear functions and B-splines",
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    fn penalties(
+        &self,
+        stabilisation: Stabilisation,
+        moduli: Moduli,
+        particles: &Particles<D>,
+    ) -> Vec<Penalty> {
+        match stabilisation {
+            Stabilisation::None => Vec::new(),
+            Stabilisation::Ghost(factor) => ghost::penalties(self, factor, moduli, particles),
+            Stabilisation::Soft(factor) => soft::penalties(self, S, factor, moduli),
+        }
+    }
+}

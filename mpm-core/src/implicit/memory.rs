@@ -1,0 +1,76 @@
+//! What a solver remembers: particles and their states, what the stages remember, and the sums so far.
+
+use super::{Interpolation, Solver};
+use crate::material::Law;
+use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
+use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
+use crate::room::Room;
+use crate::work::Work;
+
+/// Sums and forces: what is neither of a particle nor of a stage.
+type Sums = (f64, Accumulated, Residual, Convergence, Work, Vec<Reaction>);
+
+impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        let sums = (
+            self.time,
+            self.accumulated,
+            self.residual,
+            &self.convergence,
+            self.work,
+            &self.reactions,
+        );
+        let stages = (
+            save_all(&self.scene.loads)?,
+            save_all(&self.scene.constraints)?,
+        );
+        Saved::of(&(self.scene.body.save()?, sums, stages))
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        type All = (Saved, Sums, (Vec<Saved>, Vec<Saved>));
+        let (body, sums, (loads, constraints)): All = saved.read("a quasi-static solver")?;
+        let (time, accumulated, residual, convergence, work, reactions) = sums;
+        MemoryError::unless_equal("constraints", reactions.len(), self.reactions.len())?;
+        MemoryError::unless_equal("nodes", work.nodes as usize, self.functions.len())?;
+        self.restore_body(&body)?;
+        restore_all("loads", &mut self.scene.loads, &loads)?;
+        restore_all("constraints", &mut self.scene.constraints, &constraints)?;
+        self.time = time;
+        self.accumulated = accumulated;
+        self.residual = residual;
+        self.convergence = convergence;
+        self.work = work;
+        self.reactions = reactions;
+        Ok(())
+    }
+}
+
+impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+    /// Replaces the body by one that was saved, all of whose particles must be on the grid.
+    pub(super) fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        let grid = *self.functions.grid();
+        self.scene.body.restore(saved, |particles| {
+            let room = Room::new(&grid, particles.half_size.map(I::beyond_wall));
+            for l in particles.half_size {
+                if !(l > 0.0 && l <= 0.5 * grid.h) {
+                    return Err(MemoryError::Value {
+                        what: "half_size",
+                        value: l,
+                        allowed: "positive, at most half a cell (m)",
+                    });
+                }
+            }
+            for x in &particles.position {
+                if room.place(&mut x.clone()).is_err() {
+                    return Err(MemoryError::Value {
+                        what: "position",
+                        value: x[0],
+                        allowed: "on the grid (m)",
+                    });
+                }
+            }
+            Ok(())
+        })
+    }
+}

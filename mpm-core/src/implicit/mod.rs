@@ -1,0 +1,431 @@
+//! Quasi-static equilibrium by Newton's method: `docs/implicit.md` derives it, and equation numbers here are that page's.
+//!
+//! Of a step's start stay the functions on the grid, the particles' places and states, and the average of F̄. The
+//! unknowns are the increments of the nodes; a trial of them changes nothing, and what has converged is committed. Then
+//! the grid is as before and the particles have moved.
+//!
+//! The law, its derivatives and the stages are those of the explicit solver; velocities, masses of nodes and transfers
+//! don't exist here.
+
+mod average;
+mod elements;
+mod equilibrium;
+mod ghost;
+mod interpolation;
+mod linear;
+mod memory;
+mod newton;
+mod penalty;
+mod pieces;
+mod q8;
+mod response;
+mod settings;
+mod soft;
+mod start;
+mod unknowns;
+
+pub use interpolation::{Functions, Interpolation};
+pub use penalty::{Moduli, Penalty};
+pub use pieces::{AxisPieces, Pieces};
+pub use q8::Serendipity;
+pub use settings::{QuasiStatic, QuasiStaticRemedy, Stabilisation};
+
+use crate::body::Body;
+use crate::error::Error;
+use crate::material::Law;
+use crate::memory::Saved;
+use crate::monitor::{Accumulated, Convergence, Reaction, Residual, Totals};
+use crate::particles::Particles;
+use crate::room::Room;
+use crate::scene::Scene;
+use crate::simulation::{Field, Part, Simulation};
+use crate::space::{determinant, stretch_of_volume};
+use crate::tensor::SymmetricTensor;
+use crate::work::Work;
+use average::Average;
+use elements::Elements;
+use equilibrium::{Step, Trial};
+use linear::Direct;
+use nalgebra::SVector;
+use newton::{Failure, Newton, Solution, dot};
+use unknowns::{Pattern, Unknowns};
+
+/// A component of a node that a constraint holds.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    /// Velocity (m/s) at the amplitude one.
+    velocity: f64,
+    /// Place of the constraint in the scene's list.
+    by: usize,
+}
+
+/// The quasi-static solver for one body on the functions `I`.
+pub struct Solver<const D: usize, I, M: Law> {
+    scene: Scene<D, M>,
+    settings: QuasiStatic,
+    functions: I,
+    /// Of every node the one that it is an image of.
+    originals: Vec<usize>,
+    /// Of every component of every node whether it is held.
+    held: Vec<[Option<Held>; D]>,
+    moduli: Moduli,
+    direct: Direct,
+    time: f64,
+    accumulated: Accumulated,
+    residual: Residual,
+    convergence: Convergence,
+    reactions: Vec<Reaction>,
+    work: Work,
+}
+
+/// What a part of a step works with.
+struct Setting<const D: usize> {
+    elements: Elements<D>,
+    penalties: Vec<Penalty>,
+    unknowns: Unknowns<D>,
+    pattern: Pattern,
+    average: Option<Average>,
+}
+
+impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I, M> {
+    /// A load step, in parts if the whole of it finds no equilibrium: a part that fails is halved, one after a success
+    /// twice as long.
+    fn step(&mut self) -> Result<(), Error> {
+        let (start, dt) = (self.time, self.settings.dt);
+        let shortest = 0.5_f64.powi(self.settings.most_halvings as i32);
+        let (mut done, mut size, mut parts) = (0.0, 1.0, 0);
+        while done < 1.0 {
+            match self.part(size * dt) {
+                Ok(()) => {
+                    done += size;
+                    parts += 1;
+                    self.time = start + done * dt;
+                    size = (2.0 * size).min(1.0 - done);
+                }
+                Err(failure) if size <= shortest => return Err(self.error(failure)),
+                Err(_) => size *= 0.5,
+            }
+        }
+        self.convergence.parts = parts;
+        self.work.steps += 1;
+        self.work.particle_steps += self.work.particles;
+        Ok(())
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn particles(&self) -> &Particles<D> {
+        &self.scene.body.particles
+    }
+
+    fn totals(&self) -> Totals {
+        self.scene.body.totals(self.accumulated)
+    }
+
+    fn residual(&self) -> Residual {
+        self.residual
+    }
+
+    fn convergence(&self) -> Option<&Convergence> {
+        Some(&self.convergence)
+    }
+
+    fn condition(&self) -> f64 {
+        let setting = self.setting(self.settings.dt);
+        let step = setting.step(&self.scene.body, self.settings.dt);
+        let rest = vec![0.0; setting.unknowns.len()];
+        match step.trial(&rest, self.functions.len()) {
+            Err(_) => f64::NAN,
+            Ok(trial) => {
+                let values = step.stiffness(&step.tangents(&trial), &setting.pattern);
+                linear::condition(M::CONSERVATIVE, &setting.pattern, &values)
+            }
+        }
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+
+    fn on(&self, part: Part) -> Reaction {
+        match part {
+            Part::Constraint(place) => self.reactions.get(place).copied(),
+            Part::Contact(_) => None,
+        }
+        .unwrap_or(Reaction::NONE)
+    }
+
+    fn force_stress(&mut self) -> Vec<SymmetricTensor> {
+        let p = &self.scene.body.particles;
+        if p.j_bar.is_empty() {
+            return p.stress.clone();
+        }
+        let mut stress: Vec<SymmetricTensor> = (0..p.len())
+            .map(|k| p.stress[k].scale_add_identity(p.j_bar[k] / p.jacobian[k], 0.0))
+            .collect();
+        let mean = |s: &SymmetricTensor| (0..D).map(|a| s.get(a, a)).sum::<f64>() / D as f64;
+        let (elements, average) = self.averaging();
+        let averaged = average.apply(&elements, &stress.iter().map(mean).collect::<Vec<_>>());
+        for (stress, averaged) in stress.iter_mut().zip(averaged) {
+            *stress = stress.scale_add_identity(1.0, averaged - mean(stress));
+        }
+        stress
+    }
+
+    fn field(&mut self, field: Field) -> Vec<f64> {
+        match field {
+            Field::PlasticStrain => self.scene.body.plastic_strain(),
+            Field::MeanStress => self.force_stress().iter().map(|s| s.mean()).collect(),
+            Field::AveragedMeanStress => {
+                let mean = self.field(Field::MeanStress);
+                let (elements, average) = self.averaging();
+                average.project(&elements, &mean)
+            }
+        }
+    }
+
+    fn body(&self) -> Result<Saved, Error> {
+        Ok(self.scene.body.save()?)
+    }
+
+    fn take_over(&mut self, body: &Saved) -> Result<(), Error> {
+        Ok(self.restore_body(body)?)
+    }
+}
+
+impl<const D: usize> Setting<D> {
+    /// The equations of a step of `dt` (s) of the body that this setting was made for.
+    fn step<'a, M: Law>(&'a self, body: &'a Body<D, M>, dt: f64) -> Step<'a, D, M> {
+        Step {
+            body,
+            dt,
+            elements: &self.elements,
+            unknowns: &self.unknowns,
+            penalties: &self.penalties,
+            average: self.average.as_ref(),
+        }
+    }
+}
+
+impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+    /// The functions at the particles, and the average.
+    fn averaging(&self) -> (Elements<D>, Average) {
+        let particles = &self.scene.body.particles;
+        let elements = Elements::new(&self.functions, &self.originals, particles);
+        let average = Average::new(&elements, self.functions.len(), &particles.volume);
+        (elements, average)
+    }
+
+    /// What a step of `dt` (s) of the body as it is works with.
+    fn setting(&self, dt: f64) -> Setting<D> {
+        let particles = &self.scene.body.particles;
+        let (elements, average) = self.averaging();
+        let stabilisation = self.settings.stabilisation;
+        let mut penalties = self
+            .functions
+            .penalties(stabilisation, self.moduli, particles);
+        for node in penalties.iter_mut().flat_map(|p| &mut p.node) {
+            *node = self.originals[*node];
+        }
+        let increments: Vec<f64> = self
+            .scene
+            .constraints
+            .iter()
+            .map(|c| {
+                // Simpson's rule: exact where an amplitude is a cubic, as smooth rises are.
+                let at = |share: f64| c.amplitude(self.time + share * dt);
+                dt * (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
+            })
+            .collect();
+        let prescribed = |node: usize, axis: usize| {
+            let held = self.held[node][axis]?;
+            Some(held.velocity * increments[held.by])
+        };
+        let nodes = self.functions.len();
+        let unknowns = Unknowns::new(nodes, &elements, &penalties, prescribed);
+        let pattern = Pattern::new(&unknowns, &elements, &penalties);
+        let averages = self.settings.remedy == QuasiStaticRemedy::FbarConsistent;
+        Setting {
+            elements,
+            penalties,
+            unknowns,
+            pattern,
+            average: averages.then_some(average),
+        }
+    }
+
+    /// Puts the particles that the same nodes see side by side.
+    fn sort(&mut self) {
+        let order = elements::order(&self.functions, &self.scene.body.particles);
+        if !order.is_sorted() {
+            self.scene.body.permute(&order);
+            self.work.sorts += 1;
+        }
+    }
+
+    /// The forces of the loads at `time` (s) on the nodes (N).
+    fn external(&mut self, time: f64, elements: &Elements<D>) -> Vec<SVector<f64, D>> {
+        let particles = &mut self.scene.body.particles;
+        particles.external_force.fill([0.0; D]);
+        for load in &self.scene.loads {
+            load.add(time, particles);
+        }
+        let mut forces = vec![SVector::zeros(); self.functions.len()];
+        if !particles.external_force.is_empty() {
+            elements.scatter(SVector::zeros(), &mut forces, |p, sums| {
+                let force = SVector::from(particles.external_force[p]);
+                for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
+                    *sum += force * *w;
+                }
+            });
+        }
+        forces
+    }
+
+    /// A part of a load step, of `dt` (s).
+    fn part(&mut self, dt: f64) -> Result<(), Failure> {
+        self.sort();
+        let setting = self.setting(dt);
+        let earlier = self.external(self.time, &setting.elements);
+        let external = self.external(self.time + dt, &setting.elements);
+        let analyses = self.direct.analyses;
+        self.direct
+            .analyse(&setting.pattern)
+            .map_err(|_| Failure::Singular(0))?;
+        self.work.analyses += self.direct.analyses - analyses;
+        let mut newton = Newton {
+            step: setting.step(&self.scene.body, dt),
+            settings: &self.settings,
+            external: &external,
+            pattern: &setting.pattern,
+            direct: &mut self.direct,
+            work: &mut self.work,
+        };
+        let solution = newton.solve()?;
+        let places = self.places_after(&setting.elements, &solution.trial)?;
+        self.observe(&setting, &solution, [&earlier, &external], dt);
+        self.commit(&solution.trial, &places, dt);
+        self.convergence = solution.convergence;
+        Ok(())
+    }
+
+    /// The places (m) to which a trial moves the particles.
+    fn places_after(
+        &self,
+        elements: &Elements<D>,
+        trial: &Trial<D>,
+    ) -> Result<Vec<[f64; D]>, Failure> {
+        let particles = &self.scene.body.particles;
+        let room = Room::new(
+            self.functions.grid(),
+            particles.half_size.map(I::beyond_wall),
+        );
+        let mut places = particles.position.clone();
+        for (p, x) in places.iter_mut().enumerate() {
+            let (nodes, w, _) = elements.seen(p);
+            for (node, w) in nodes.iter().zip(w) {
+                for (x, u) in x.iter_mut().zip(trial.u[*node]) {
+                    *x += w * u;
+                }
+            }
+            room.place(x).map_err(|fault| Failure::Particle(p, fault))?;
+        }
+        Ok(places)
+    }
+
+    /// Keeps what a solution says of forces and energies, before the particles move.
+    fn observe(
+        &mut self,
+        setting: &Setting<D>,
+        solution: &Solution<D>,
+        [earlier, external]: [&[SVector<f64, D>]; 2],
+        dt: f64,
+    ) {
+        let trial = &solution.trial;
+        let step = setting.step(&self.scene.body, dt);
+        let out: Vec<SVector<f64, D>> = (trial.internal.iter().zip(&trial.penalty).zip(external))
+            .map(|((f, g), e)| e - f - g)
+            .collect();
+        self.residual = Residual {
+            free_force: step.free(&out).iter().map(|f| f.abs()).sum(),
+            ..Residual::default()
+        };
+        for reaction in &mut self.reactions {
+            reaction.force = [0.0; 3];
+        }
+        let work_of = |forces: &[SVector<f64, D>]| -> f64 {
+            let pairs = forces.iter().zip(&trial.u);
+            pairs.map(|(f, u)| dot(f.as_slice(), u)).sum()
+        };
+        self.accumulated.stress_work +=
+            0.5 * (work_of(&solution.before) + work_of(&trial.internal));
+        self.accumulated.load_work += 0.5 * (work_of(earlier) + work_of(external));
+        self.accumulated.damping += 0.5 * work_of(&trial.penalty);
+        let mut moved = 0.0;
+        for node in &setting.unknowns.node {
+            for a in 0..D {
+                if let Some(held) = self.held[*node][a] {
+                    let force = out[*node][a];
+                    self.residual.held_force[a] += force;
+                    let reaction = &mut self.reactions[held.by];
+                    reaction.force[a] += force;
+                    reaction.impulse[a] += force * dt;
+                    let before = earlier[*node][a] - solution.before[*node][a];
+                    moved += 0.5 * (before + force) * trial.u[*node][a];
+                }
+            }
+        }
+        self.accumulated.constraint_loss += moved;
+    }
+
+    /// Makes a trial the state of the body.
+    fn commit(&mut self, trial: &Trial<D>, places: &[[f64; D]], dt: f64) {
+        let particles = &mut self.scene.body.particles;
+        particles.position.copy_from_slice(places);
+        for (p, f) in trial.f.iter().enumerate() {
+            let change = determinant(f);
+            particles.jacobian[p] *= change;
+            particles.delta_f[p] = *f;
+            if let Some(averaged) = trial.averaged.get(p) {
+                particles.j_bar[p] *= averaged;
+                particles.delta_f[p] *= stretch_of_volume::<D>(averaged / change);
+            }
+        }
+        self.scene.body.update_stress(dt);
+    }
+
+    fn error(&self, failure: Failure) -> Error {
+        let (time, step) = (self.time, self.work.steps);
+        match failure {
+            Failure::NoConvergence(iteration, residual) => Error::NoConvergence {
+                time,
+                step,
+                iteration,
+                residual,
+            },
+            Failure::Singular(iteration) => Error::Singular {
+                time,
+                step,
+                iteration,
+            },
+            Failure::Particle(index, fault) => Error::Breakdown {
+                time,
+                step,
+                particle: self
+                    .scene
+                    .body
+                    .particles
+                    .id
+                    .get(index)
+                    .copied()
+                    .unwrap_or(0),
+                fault,
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

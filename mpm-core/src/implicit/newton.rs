@@ -1,0 +1,236 @@
+//! Newton's method for the equilibrium of a step.
+
+use super::equilibrium::{Step, Trial};
+use super::linear::Direct;
+use super::response::Tangent;
+use super::settings::QuasiStatic;
+use super::unknowns::Pattern;
+use crate::error::Fault;
+use crate::material::Law;
+use crate::monitor::Convergence;
+use crate::work::Work;
+use nalgebra::SVector;
+
+/// A correction is halved at most so often.
+const MOST_CUTS: u32 = 12;
+/// A residual of this share of the largest one on the way is rounding: of a motion without loads, such as a turn.
+const ROUNDING: f64 = 1e-13;
+/// Conjugate gradients take at most so many iterations.
+const MOST_GRADIENTS: u64 = 2000;
+/// The least relative accuracy of a linear solution by conjugate gradients; later ones are as good as the step's
+/// residual, which keeps Newton's order.
+const COARSE: f64 = 1e-2;
+
+/// Why a step has no solution.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Failure {
+    /// After this many iterations the residual, over that of the loads, was this.
+    NoConvergence(u32, f64),
+    /// The matrix of this iteration could not be factorised.
+    Singular(u32),
+    /// A particle was deformed beyond what can be.
+    Particle(usize, Fault),
+}
+
+impl From<(usize, Fault)> for Failure {
+    fn from((particle, fault): (usize, Fault)) -> Self {
+        Self::Particle(particle, fault)
+    }
+}
+
+/// The solution of a step.
+pub(super) struct Solution<const D: usize> {
+    pub(super) trial: Trial<D>,
+    pub(super) convergence: Convergence,
+    /// Internal forces at the step's start (N).
+    pub(super) before: Vec<SVector<f64, D>>,
+}
+
+/// A step with the loads at its end, and what solves it.
+pub(super) struct Newton<'a, const D: usize, M: Law> {
+    pub(super) step: Step<'a, D, M>,
+    pub(super) settings: &'a QuasiStatic,
+    /// External forces on the nodes (N).
+    pub(super) external: &'a [SVector<f64, D>],
+    pub(super) pattern: &'a Pattern,
+    pub(super) direct: &'a mut Direct,
+    pub(super) work: &'a mut Work,
+}
+
+pub(super) fn norm(x: &[f64]) -> f64 {
+    dot(x, x).sqrt()
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl<const D: usize, M: Law> Newton<'_, D, M> {
+    /// A trial of these increments.
+    fn trial(&mut self, u: &[f64]) -> Result<Trial<D>, (usize, Fault)> {
+        let elements = self.step.elements;
+        // Deformations are gathered, forces scattered.
+        self.work.particle_node_pairs += 2 * self.work.particles * elements.support as u64;
+        self.step.trial(u, self.external.len())
+    }
+
+    /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: of the external forces, of those at
+    /// the start, or of reactions, whichever is the greatest.
+    fn residual(&self, trial: &Trial<D>, start: f64) -> (Vec<f64>, f64) {
+        let forces = trial.internal.iter().zip(&trial.penalty).zip(self.external);
+        let out: Vec<SVector<f64, D>> = forces.map(|((f, g), e)| e - f - g).collect();
+        let residual = self.step.free(&out);
+        let unknowns = self.step.unknowns;
+        let mut held = 0.0;
+        for (k, node) in unknowns.node.iter().enumerate() {
+            for a in 0..D {
+                if unknowns.held[k * D + a].is_some() {
+                    held += out[*node][a] * out[*node][a];
+                }
+            }
+        }
+        let external = norm(&self.step.free(self.external));
+        (residual, external.max(held.sqrt()).max(start))
+    }
+
+    /// Solves the step.
+    ///
+    /// # Errors
+    /// There is no solution that the method finds.
+    pub(super) fn solve(&mut self) -> Result<Solution<D>, Failure> {
+        let rest = vec![0.0; self.step.unknowns.len()];
+        let at_rest = self.trial(&rest)?;
+        let start = norm(&self.step.free(&at_rest.internal));
+        let before = at_rest.internal;
+        let held = self.step.unknowns.held.iter();
+        let mut u: Vec<f64> = held.map(|held| held.unwrap_or(0.0)).collect();
+        let mut trial = self.trial(&u)?;
+        let (mut residual, mut loads) = self.residual(&trial, start);
+        let mut convergence = Convergence::default();
+        let mut last = vec![0.0; u.len()];
+        let mut first: f64 = 0.0;
+        let external = self.step.free(self.external);
+        for iteration in 0..=self.settings.most_iterations {
+            let size = norm(&residual);
+            let share = if loads > 0.0 { size / loads } else { size };
+            convergence.residuals.push(share);
+            first = first.max(size);
+            if share <= self.settings.tolerance || size <= ROUNDING * first {
+                convergence.force_ratio = size / norm(&external).max(f64::MIN_POSITIVE);
+                let work = dot(&external, &u).abs().max(f64::MIN_POSITIVE);
+                convergence.energy_ratio = dot(&residual, &last).abs() / work;
+                return Ok(Solution {
+                    trial,
+                    convergence,
+                    before,
+                });
+            }
+            if iteration == self.settings.most_iterations {
+                break;
+            }
+            last = self.correction(&trial, &residual, share, iteration)?;
+            let slope = dot(&last, &residual).abs();
+            let mut length = 1.0;
+            let mut cuts = 0;
+            loop {
+                let moved: Vec<f64> = u.iter().zip(&last).map(|(u, d)| u + length * d).collect();
+                let attempt = self.trial(&moved);
+                let accepted = attempt.map(|attempt| {
+                    let (ahead, loads_ahead) = self.residual(&attempt, start);
+                    // Past the least energy along the line by no more than it was before it, or nearer to equilibrium.
+                    let close = dot(&last, &ahead).abs() <= slope || norm(&ahead) <= size;
+                    close.then_some((attempt, ahead, loads_ahead))
+                });
+                match accepted {
+                    Ok(Some((attempt, ahead, loads_ahead))) => {
+                        (u, trial, residual, loads) = (moved, attempt, ahead, loads_ahead);
+                        break;
+                    }
+                    Ok(None) if cuts == MOST_CUTS => {
+                        return Err(Failure::NoConvergence(iteration, share));
+                    }
+                    Err(fault) if cuts == MOST_CUTS => return Err(fault.into()),
+                    _ => {}
+                }
+                length *= 0.5;
+                cuts += 1;
+            }
+            self.work.newton_iterations += 1;
+        }
+        let share = convergence.residuals.last().copied().unwrap_or(f64::NAN);
+        Err(Failure::NoConvergence(self.settings.most_iterations, share))
+    }
+
+    /// K⁻¹ `residual`.
+    fn correction(
+        &mut self,
+        trial: &Trial<D>,
+        residual: &[f64],
+        share: f64,
+        iteration: u32,
+    ) -> Result<Vec<f64>, Failure> {
+        let tangents = self.step.tangents(trial);
+        let values = self.step.stiffness(&tangents, self.pattern);
+        self.work.assemblies += 1;
+        self.work.factorisations += 1;
+        self.work.nonzeros += self.pattern.entries() as u64;
+        let factorised = self.direct.factorise(&values);
+        factorised.map_err(|_| Failure::Singular(iteration))?;
+        let found = if self.step.average.is_some() {
+            let enough = 0.1 * self.settings.tolerance / share;
+            let accuracy = share.min(COARSE).max(enough).max(1e-12);
+            self.conjugate_gradients(&tangents, residual, accuracy)
+        } else {
+            self.work.linear_iterations += 1;
+            let mut x = residual.to_vec();
+            self.direct.solve(&mut x);
+            Some(x)
+        };
+        let usable = |x: &Vec<f64>| x.iter().all(|x| x.is_finite());
+        found.filter(usable).ok_or(Failure::Singular(iteration))
+    }
+
+    /// Conjugate gradients with the exact stiffness of F̄, preconditioned by the factors of its local part. Where the
+    /// stiffness is not positive they stop at what they have.
+    fn conjugate_gradients(
+        &mut self,
+        tangents: &[Tangent],
+        right: &[f64],
+        accuracy: f64,
+    ) -> Option<Vec<f64>> {
+        let nodes = self.external.len();
+        let mut x = vec![0.0; right.len()];
+        let mut rest = right.to_vec();
+        let mut direction = rest.clone();
+        self.direct.solve(&mut direction);
+        let mut product = dot(&rest, &direction);
+        let target = accuracy * norm(right);
+        for iteration in 0..MOST_GRADIENTS {
+            if norm(&rest) <= target {
+                return Some(x);
+            }
+            self.work.linear_iterations += 1;
+            let image = self.step.apply(tangents, &direction, nodes);
+            let curvature = dot(&direction, &image);
+            if curvature <= 0.0 || product <= 0.0 {
+                return (iteration > 0).then_some(x);
+            }
+            let length = product / curvature;
+            for (x, d) in x.iter_mut().zip(&direction) {
+                *x += length * d;
+            }
+            for (r, a) in rest.iter_mut().zip(&image) {
+                *r -= length * a;
+            }
+            let mut next = rest.clone();
+            self.direct.solve(&mut next);
+            let ahead = dot(&rest, &next);
+            let share = ahead / product;
+            for (d, z) in direction.iter_mut().zip(&next) {
+                *d = z + share * *d;
+            }
+            product = ahead;
+        }
+        None
+    }
+}

@@ -1,0 +1,181 @@
+//! Serendipity elements with eight nodes, the paper's: to reproduce its cantilever, which they don't converge to.
+//!
+//! Corners and mid-sides stand on a lattice of half the cell size, whose points in the middle of cells are no nodes.
+
+use super::interpolation::{Functions, Interpolation};
+use super::penalty::{Moduli, Penalty};
+use super::settings::Stabilisation;
+use super::soft;
+use crate::error::{Error, require};
+use crate::grid::Grid;
+use crate::particles::Particles;
+
+/// Nodes of an element.
+const NODES: usize = 8;
+/// Gauss points along an axis that integrate the stiffness of an undistorted element exactly.
+const POINTS: usize = 3;
+
+/// Serendipity elements on the cells of a grid.
+#[derive(Debug, Clone)]
+pub struct Serendipity {
+    grid: Grid<2>,
+}
+
+impl Serendipity {
+    /// Points of the lattice along an axis.
+    fn points(&self, axis: usize) -> usize {
+        2 * self.grid.axes[axis].cells + 1
+    }
+}
+
+/// The eight nodes as coordinates −1, 0 and 1 in their cell, in the order of their places.
+const CORNERS: [[i32; 2]; NODES] = [
+    [-1, -1],
+    [-1, 0],
+    [-1, 1],
+    [0, -1],
+    [0, 1],
+    [1, -1],
+    [1, 0],
+    [1, 1],
+];
+
+/// Value and gradient of a node's function at local coordinates in −1..1.
+fn function([x, y]: [f64; 2], [i, j]: [i32; 2]) -> (f64, [f64; 2]) {
+    let (a, b) = (f64::from(i), f64::from(j));
+    match (i, j) {
+        (0, _) => {
+            let (bubble, linear) = (1.0 - x * x, 1.0 + b * y);
+            (0.5 * bubble * linear, [-x * linear, 0.5 * b * bubble])
+        }
+        (_, 0) => {
+            let (bubble, linear) = (1.0 - y * y, 1.0 + a * x);
+            (0.5 * bubble * linear, [0.5 * a * bubble, -y * linear])
+        }
+        _ => {
+            let (p, q, r) = (1.0 + a * x, 1.0 + b * y, a * x + b * y - 1.0);
+            let dx = 0.25 * a * q * (r + p);
+            let dy = 0.25 * b * p * (r + q);
+            (0.25 * p * q * r, [dx, dy])
+        }
+    }
+}
+
+impl Interpolation<2> for Serendipity {
+    fn on(grid: Grid<2>) -> Result<Self, Error> {
+        let periodic = grid.axes.iter().filter(|a| a.is_periodic()).count();
+        require(
+            periodic == 0,
+            "periodic axes of serendipity elements",
+            periodic as f64,
+            "none",
+        )?;
+        Ok(Self { grid })
+    }
+
+    fn grid(&self) -> &Grid<2> {
+        &self.grid
+    }
+
+    fn len(&self) -> usize {
+        self.points(0) * self.points(1)
+    }
+
+    fn support(&self) -> usize {
+        NODES
+    }
+
+    fn for_each_node(&self, mut visit: impl FnMut(usize, [f64; 2])) {
+        let (half, axes) = (0.5 * self.grid.h, &self.grid.axes);
+        for i in 0..self.points(0) {
+            for j in 0..self.points(1) {
+                if i % 2 == 0 || j % 2 == 0 {
+                    let place = [axes[0].lo + half * i as f64, axes[1].lo + half * j as f64];
+                    visit(i * self.points(1) + j, place);
+                }
+            }
+        }
+    }
+
+    fn originals(&self) -> Vec<usize> {
+        (0..self.len()).collect()
+    }
+
+    fn functions(&self, x: &[f64; 2], _half_size: &[f64; 2], functions: &mut Functions<2>) {
+        let cell = [0, 1].map(|a| self.grid.cell(a, x[a]));
+        let local = [0, 1].map(|a| {
+            let lo = self.grid.axes[a].lo + self.grid.h * cell[a] as f64;
+            2.0 * (x[a] - lo) / self.grid.h - 1.0
+        });
+        functions.element = cell[0] * self.grid.axes[1].cells + cell[1];
+        functions.node.clear();
+        functions.w.clear();
+        functions.dw.clear();
+        for corner in CORNERS {
+            let [i, j] = [0, 1].map(|a| 2 * cell[a] + (corner[a] + 1) as usize);
+            let (w, dw) = function(local, corner);
+            functions.node.push(i * self.points(1) + j);
+            functions.w.push(w);
+            functions.dw.push(dw.map(|d| 2.0 * d / self.grid.h));
+        }
+    }
+
+    fn beyond_wall(_half_size: f64) -> f64 {
+        0.0
+    }
+
+    fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error> {
+        match stabilisation {
+            Stabilisation::Ghost(factor) => Err(Error::Input {
+                what: "ghost penalty of serendipity elements, factor",
+                value: factor,
+                allowed: "none or a soft stiffness: their derivatives jump across all faces",
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    fn penalties(
+        &self,
+        stabilisation: Stabilisation,
+        moduli: Moduli,
+        _particles: &Particles<2>,
+    ) -> Vec<Penalty> {
+        match stabilisation {
+            Stabilisation::Soft(factor) => soft::penalties(self, POINTS, factor, moduli),
+            _ => Vec::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+    use crate::grid::Axis;
+
+    /// They sum to one and reproduce quadratic fields but x²y², with their gradients.
+    #[test]
+    fn they_reproduce_quadratic_fields() {
+        let grid = Grid::new(0.5, [Axis::open(-1.0, 5), Axis::open(0.5, 4)]).unwrap();
+        let elements = Serendipity::on(grid).unwrap();
+        let mut place = vec![[f64::NAN; 2]; elements.len()];
+        elements.for_each_node(|node, x| place[node] = x);
+        let mut seen = Functions::new();
+        let field = |[x, y]: [f64; 2]| 1.0 + x - 2.0 * y + x * x + 3.0 * x * y - y * y;
+        for k in 0..40 {
+            let x = [-0.99 + 0.06 * f64::from(k), 0.51 + 0.045 * f64::from(k)];
+            elements.functions(&x, &[0.0; 2], &mut seen);
+            let nodes = || seen.node.iter().map(|n| field(place[*n]));
+            let value: f64 = nodes().zip(&seen.w).map(|(f, w)| f * w).sum();
+            let slope =
+                [0, 1].map(|a| -> f64 { nodes().zip(&seen.dw).map(|(f, d)| f * d[a]).sum() });
+            assert!((value - field(x)).abs() < 1e-13);
+            let exact = [
+                1.0 + 2.0 * x[0] + 3.0 * x[1],
+                -2.0 + 3.0 * x[0] - 2.0 * x[1],
+            ];
+            assert!((slope[0] - exact[0]).abs() + (slope[1] - exact[1]).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! What one particle answers to a trial ΔF of the step, and the derivatives of the answer.
+//!
+//! All stresses here are first Piola–Kirchhoff stresses of the configuration at the step's start, times volume: a node's
+//! force is Σ P ∇w. With F̄ a particle has a potential V⁰ W(F̄) of ΔF and of its averaged change of volume a = A ΔJ,
+//! F̄ = (a/ΔJ)^(1/D) ΔF F̄ⁿ. Its derivatives are P = ∂/∂ΔF and q = ∂/∂a, Eqs. (8) and (9) of `docs/implicit.md`.
+
+use crate::material::{Law, State};
+use crate::number::{Dual, Real};
+use crate::tensor::determinant;
+use nalgebra::{Matrix3, SMatrix};
+
+/// Most components of a ΔF.
+pub(super) const MOST: usize = 9;
+
+/// A particle at the start of a step.
+pub(super) struct Particle<'a, M: Law> {
+    /// The law.
+    pub(super) law: &'a M,
+    /// What it remembers.
+    pub(super) state: &'a M::State,
+    /// Duration of the step (s).
+    pub(super) dt: f64,
+    /// V⁰ J, with F̄ V⁰ J̄ (m³), at the start.
+    pub(super) volume: f64,
+}
+
+/// Its answer, made of numbers `T`. Components in place D i + j.
+pub(super) struct Response<T> {
+    /// P at fixed a (J).
+    pub(super) stress: [T; MOST],
+    /// q (J); zero without F̄.
+    pub(super) pull: T,
+    /// The cofactor of ΔF.
+    pub(super) cofactor: [T; MOST],
+}
+
+/// The derivatives of an answer by ΔF, in place D k + l, and by a.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tangent {
+    /// ∂P/∂ΔF, with that of the cofactor times its share of the averaged q.
+    pub(super) stress_by_f: [[f64; MOST]; MOST],
+    /// ∂P/∂a.
+    pub(super) stress_by_a: [f64; MOST],
+    /// ∂q/∂ΔF.
+    pub(super) pull_by_f: [f64; MOST],
+    /// ∂q/∂a.
+    pub(super) pull_by_a: f64,
+    /// The cofactor of ΔF.
+    pub(super) cofactor: [f64; MOST],
+}
+
+/// `x^(1/D)`.
+fn stretch<T: Real, const D: usize>(x: T) -> T {
+    match D {
+        1 => x,
+        2 => x.sqrt(),
+        _ => (x.ln() / T::splat(3.0)).exp(),
+    }
+}
+
+impl<M: Law> Particle<'_, M> {
+    /// The answer to `f`, completed to three dimensions, and with F̄ to the averaged change of volume.
+    #[inline]
+    pub(super) fn respond<T: Real, const D: usize>(
+        &self,
+        f: &Matrix3<T>,
+        averaged: Option<T>,
+    ) -> Response<T> {
+        let minor = |i: usize, j: usize| {
+            let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+            f[(a, c)] * f[(b, d)] - f[(a, d)] * f[(b, c)]
+        };
+        let mut cofactor = [T::default(); MOST];
+        for i in 0..D {
+            for j in 0..D {
+                cofactor[D * i + j] = minor(i, j);
+            }
+        }
+        let state = M::State::pack::<T>(|_| *self.state);
+        let mut answer = Response {
+            stress: [T::default(); MOST],
+            pull: T::default(),
+            cofactor,
+        };
+        let mut scale = T::splat(self.volume);
+        let mut pressure = T::default();
+        let cauchy = match averaged {
+            None => self.law.response(f, self.dt, &state).0,
+            Some(averaged) => {
+                let ratio = averaged / determinant(f);
+                let stretch = stretch::<T, D>(ratio);
+                let in_plane = |i: usize, j: usize| i < D && j < D;
+                let scaled = Matrix3::from_fn(|i, j| {
+                    if in_plane(i, j) {
+                        stretch * f[(i, j)]
+                    } else {
+                        f[(i, j)]
+                    }
+                });
+                let cauchy = self.law.response(&scaled, self.dt, &state).0;
+                for a in 0..D {
+                    pressure += cauchy.get(a, a);
+                }
+                pressure = pressure / T::splat(D as f64);
+                answer.pull = scale * pressure;
+                scale *= ratio;
+                cauchy
+            }
+        };
+        for i in 0..D {
+            for j in 0..D {
+                let mut sum = -pressure * answer.cofactor[D * i + j];
+                for k in 0..D {
+                    sum += cauchy.get(i, k) * answer.cofactor[D * k + j];
+                }
+                answer.stress[D * i + j] = scale * sum;
+            }
+        }
+        answer
+    }
+
+    /// The derivatives of the answer to `f` and `averaged`, with `share` (J) of the averaged q on the cofactor.
+    pub(super) fn tangent<const D: usize>(
+        &self,
+        f: &SMatrix<f64, D, D>,
+        averaged: Option<f64>,
+        share: f64,
+    ) -> Tangent {
+        // As many variables as there are: components of ΔF, and one more.
+        match (D, averaged.is_some()) {
+            (1, _) => self.derive::<D, 2>(f, averaged, share),
+            (2, false) => self.derive::<D, 4>(f, averaged, share),
+            (2, true) => self.derive::<D, 5>(f, averaged, share),
+            (_, false) => self.derive::<D, 9>(f, averaged, share),
+            (_, true) => self.derive::<D, 10>(f, averaged, share),
+        }
+    }
+
+    fn derive<const D: usize, const N: usize>(
+        &self,
+        f: &SMatrix<f64, D, D>,
+        averaged: Option<f64>,
+        share: f64,
+    ) -> Tangent {
+        let variables = Matrix3::from_fn(|i, j| {
+            if i < D && j < D {
+                Dual::<N>::variable(f[(i, j)], D * i + j)
+            } else {
+                Dual::splat(if i == j { 1.0 } else { 0.0 })
+            }
+        });
+        let averaged = averaged.map(|a| Dual::variable(a, D * D));
+        let answer = self.respond::<_, D>(&variables, averaged);
+        let mut tangent = Tangent {
+            stress_by_f: [[0.0; MOST]; MOST],
+            stress_by_a: [0.0; MOST],
+            pull_by_f: [0.0; MOST],
+            pull_by_a: 0.0,
+            cofactor: answer.cofactor.map(|c| c.value),
+        };
+        for i in 0..D * D {
+            let whole = answer.stress[i] + Dual::splat(share) * answer.cofactor[i];
+            for k in 0..D * D {
+                tangent.stress_by_f[i][k] = whole.slope[k];
+            }
+            if averaged.is_some() {
+                tangent.stress_by_a[i] = whole.slope[D * D];
+                tangent.pull_by_f[i] = answer.pull.slope[i];
+            }
+        }
+        if averaged.is_some() {
+            tangent.pull_by_a = answer.pull.slope[D * D];
+        }
+        tangent
+    }
+}

@@ -1,0 +1,123 @@
+//! A solver before its first step.
+
+use super::linear::Direct;
+use super::{Held, Interpolation, Moduli, QuasiStatic, QuasiStaticRemedy, Solver};
+use crate::error::{Error, require};
+use crate::material::Law;
+use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
+use crate::room::Room;
+use crate::scene::Scene;
+use crate::stage::Bound;
+use crate::work::Work;
+use nalgebra::Matrix3;
+
+impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+    /// A solver of `scene` with `settings` at time zero.
+    ///
+    /// # Errors
+    /// A setting or particle that is not allowed; a stabilisation that the functions don't offer; F̄ with a law that is
+    /// not conservative; a contact, or a constraint on one side only; a particle off the grid.
+    pub fn new(mut scene: Scene<D, M>, settings: QuasiStatic) -> Result<Self, Error> {
+        settings.check()?;
+        let contacts = scene.contacts.len();
+        require(
+            contacts == 0,
+            "contacts of a quasi-static run",
+            contacts as f64,
+            "none: rigid bodies are constraints there",
+        )?;
+        let one_sided = scene
+            .constraints
+            .iter()
+            .filter(|c| c.bound() != Bound::Equal)
+            .count();
+        require(
+            one_sided == 0,
+            "one-sided constraints of a quasi-static run",
+            one_sided as f64,
+            "none: walls are fixed or rollers there",
+        )?;
+        let averages = settings.remedy == QuasiStaticRemedy::FbarConsistent;
+        require(
+            M::CONSERVATIVE || !averages,
+            "F-bar in variational form, of laws without a potential",
+            1.0,
+            "not with a rate of stress or a viscosity: remedy none",
+        )?;
+        let functions = I::on(scene.grid)?;
+        functions.offers(settings.stabilisation)?;
+        let moduli = moduli_of(&scene.body.law, settings.dt);
+        require(
+            moduli.mu > 0.0,
+            "shear modulus of a quasi-static run",
+            moduli.mu,
+            "positive (Pa): a fluid has no equilibrium to be found so",
+        )?;
+        let particles = &mut scene.body.particles;
+        for l in particles.half_size {
+            require(
+                l <= 0.5 * scene.grid.h,
+                "particle half size",
+                l,
+                "at most half a cell (m)",
+            )?;
+        }
+        let room = Room::new(&scene.grid, particles.half_size.map(I::beyond_wall));
+        for (x, id) in particles.position.iter_mut().zip(&particles.id) {
+            room.place(x).map_err(|fault| Error::Breakdown {
+                time: 0.0,
+                step: 0,
+                particle: *id,
+                fault,
+            })?;
+        }
+        // What only the explicit step needs.
+        particles.velocity = Vec::new();
+        particles.affine = Vec::new();
+        particles.increment = Vec::new();
+        if scene.loads.is_empty() {
+            particles.external_force = Vec::new();
+        }
+        if averages {
+            particles.j_bar = particles.jacobian.clone();
+        }
+        let work = Work {
+            particles: particles.len() as u64,
+            nodes: functions.len() as u64,
+            ..Work::default()
+        };
+        let mut held = vec![[None; D]; functions.len()];
+        functions.for_each_node(|node, position| {
+            for (axis, held) in held[node].iter_mut().enumerate() {
+                *held = scene.constraints.iter().enumerate().find_map(|(by, c)| {
+                    let velocity = c.prescribe(&scene.grid, &position, axis)?;
+                    Some(Held { velocity, by })
+                });
+            }
+        });
+        Ok(Self {
+            originals: functions.originals(),
+            held,
+            moduli,
+            direct: Direct::new(M::CONSERVATIVE),
+            time: 0.0,
+            accumulated: Accumulated::default(),
+            residual: Residual::default(),
+            convergence: Convergence::default(),
+            reactions: vec![Reaction::default(); scene.constraints.len()],
+            work,
+            functions,
+            scene,
+            settings,
+        })
+    }
+}
+
+/// Lamé's parameters of undeformed material, from the law's tangent.
+fn moduli_of<M: Law>(law: &M, dt: f64) -> Moduli {
+    let tangent = law.tangent(&Matrix3::identity(), dt, &law.initial_state());
+    Moduli {
+        lambda: tangent.xx.slope[4],
+        mu: tangent.xy.slope[1],
+    }
+}

@@ -1,0 +1,193 @@
+//! The stiffness against difference quotients of the forces, and its symmetry.
+
+use super::*;
+use nalgebra::DMatrix;
+
+/// Numbers in (−1, 1), the same every time.
+fn noise(k: usize) -> f64 {
+    let x = (k as f64 * 12.9898).sin() * 43_758.547;
+    2.0 * (x - x.floor()) - 1.0
+}
+
+/// A strained body with free faces, held at one end, on a trial of random increments.
+fn strained<const D: usize, I: Interpolation<D>, M: Law>(
+    law: M,
+    remedy: QuasiStaticRemedy,
+) -> Solver<D, I, M> {
+    let f = SMatrix::<f64, D, D>::from_fn(|i, j| {
+        f64::from(u8::from(i == j)) + 0.04 * noise(3 * i + j + 1)
+    });
+    let mut scene = full::<D, _>(CELLS, Places::Uniform, law);
+    scene.body.particles = scene.body.particles.deformed(|x| (*x, f));
+    scene.body = Body::new(scene.body.law, scene.body.particles).unwrap();
+    let wall = Wall {
+        axis: 0,
+        end: End::Lo,
+        kind: WallKind::Fixed,
+    };
+    let settings = QuasiStatic::new(1.0)
+        .remedy(remedy)
+        .stabilised(Stabilisation::Ghost(0.01));
+    let mut solver = Solver::new(scene.constrain(wall), settings).unwrap();
+    solver.sort();
+    solver
+}
+
+fn random_values(count: usize, held: &[Option<f64>], size: f64, seed: usize) -> Vec<f64> {
+    let free = |k: usize| {
+        if held[k].is_some() {
+            0.0
+        } else {
+            size * noise(seed + k)
+        }
+    };
+    (0..count).map(free).collect()
+}
+
+/// K x is what central differences of the forces along x extrapolate to, and the assembled matrix times x without F̄.
+fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
+    law: M,
+    remedy: QuasiStaticRemedy,
+) {
+    let solver = strained::<D, I, M>(law, remedy);
+    let setting = solver.setting(1.0);
+    let step = setting.step(&solver.scene.body, 1.0);
+    let nodes = solver.functions.len();
+    let count = setting.unknowns.len();
+    let held = &setting.unknowns.held;
+    let u = random_values(count, held, 0.02 * H, 7);
+    let x = random_values(count, held, H, 1000);
+    let forces = |s: f64| {
+        let at: Vec<f64> = u.iter().zip(&x).map(|(u, x)| u + s * x).collect();
+        let trial = step.trial(&at, nodes).unwrap();
+        let sum = trial
+            .internal
+            .iter()
+            .zip(&trial.penalty)
+            .map(|(f, g)| f + g);
+        step.free(&sum.collect::<Vec<_>>())
+    };
+    let quotient = |s: f64| -> Vec<f64> {
+        let ends = forces(s).into_iter().zip(forces(-s));
+        ends.map(|(a, b)| (a - b) / (2.0 * s)).collect()
+    };
+    let [coarse, middle, fine] = [4e-3, 2e-3, 1e-3].map(quotient);
+    let trial = step.trial(&u, nodes).unwrap();
+    let tangents = step.tangents(&trial);
+    let product = step.apply(&tangents, &x, nodes);
+    let (mut error, mut known) = (0.0, 0.0);
+    for i in 0..count {
+        let [first, second] = [
+            (4.0 * middle[i] - coarse[i]) / 3.0,
+            (4.0 * fine[i] - middle[i]) / 3.0,
+        ];
+        let exact = (16.0 * second - first) / 15.0;
+        error += (product[i] - exact).powi(2);
+        known += (exact - second).powi(2);
+    }
+    // Rounding of the forces over the least step.
+    let rounding = 100.0 * f64::EPSILON * newton::norm(&product) / 1e-3;
+    assert!(
+        error.sqrt() <= known.sqrt() + rounding,
+        "{} {}",
+        error.sqrt(),
+        known.sqrt()
+    );
+    if remedy == QuasiStaticRemedy::None {
+        let values = step.stiffness(&tangents, &setting.pattern);
+        let assembled = multiply(&setting.pattern, &values, &x);
+        let apart = assembled.iter().zip(&product).map(|(a, b)| (a - b).powi(2));
+        assert!(apart.sum::<f64>().sqrt() < 1e-12 * newton::norm(&product));
+    }
+}
+
+fn multiply(pattern: &Pattern, values: &[f64], x: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; x.len()];
+    for (column, x) in x.iter().enumerate() {
+        for k in pattern.begin[column]..pattern.begin[column + 1] {
+            out[pattern.row[k]] += values[k] * x;
+        }
+    }
+    out
+}
+
+fn ground() -> HenckyJ2 {
+    // Yields at the strains of the start.
+    HenckyJ2::new(YOUNG, POISSON, Strength::softening(2e2, 1e2, 1.0).unwrap()).unwrap()
+}
+
+#[test]
+fn stiffness_is_the_slope_of_the_forces() {
+    for remedy in [QuasiStaticRemedy::None, QuasiStaticRemedy::FbarConsistent] {
+        every_basis!(
+            tangent_is_the_slope_of_the_forces,
+            1,
+            NeoHookean::new(YOUNG, POISSON).unwrap(),
+            remedy
+        );
+        every_basis!(
+            tangent_is_the_slope_of_the_forces,
+            2,
+            NeoHookean::new(YOUNG, 0.49).unwrap(),
+            remedy
+        );
+        every_basis!(
+            tangent_is_the_slope_of_the_forces,
+            2,
+            Hencky::new(YOUNG, POISSON).unwrap(),
+            remedy
+        );
+        tangent_is_the_slope_of_the_forces::<2, Quadratics<2>, _>(ground(), remedy);
+        tangent_is_the_slope_of_the_forces::<3, Means<3>, _>(
+            Hencky::new(YOUNG, POISSON).unwrap(),
+            remedy,
+        );
+    }
+    for update in [JaumannUpdate::Split, JaumannUpdate::Linear] {
+        let law = Hypoelastic::new(YOUNG, POISSON, update).unwrap();
+        every_basis!(
+            tangent_is_the_slope_of_the_forces,
+            2,
+            law,
+            QuasiStaticRemedy::None
+        );
+    }
+}
+
+/// max |K − Kᵀ| over max |K|.
+fn asymmetry<const D: usize, I: Interpolation<D>, M: Law>(
+    law: M,
+    remedy: QuasiStaticRemedy,
+) -> f64 {
+    let solver = strained::<D, I, M>(law, remedy);
+    let setting = solver.setting(1.0);
+    let step = setting.step(&solver.scene.body, 1.0);
+    let nodes = solver.functions.len();
+    let count = setting.unknowns.len();
+    let u = random_values(count, &setting.unknowns.held, 0.02 * H, 7);
+    let trial = step.trial(&u, nodes).unwrap();
+    let tangents = step.tangents(&trial);
+    let mut matrix = DMatrix::zeros(count, count);
+    for j in (0..count).filter(|j| setting.unknowns.held[*j].is_none()) {
+        let mut unit = vec![0.0; count];
+        unit[j] = 1.0;
+        let column = step.apply(&tangents, &unit, nodes);
+        matrix.set_column(j, &nalgebra::DVector::from_vec(column));
+    }
+    (&matrix - matrix.transpose()).amax() / matrix.amax()
+}
+
+#[test]
+fn stiffness_is_symmetric_where_there_is_a_potential() {
+    let none = QuasiStaticRemedy::None;
+    for remedy in [none, QuasiStaticRemedy::FbarConsistent] {
+        let found = [
+            asymmetry::<2, Quadratics<2>, _>(NeoHookean::new(YOUNG, POISSON).unwrap(), remedy),
+            asymmetry::<2, Means<2>, _>(Hencky::new(YOUNG, POISSON).unwrap(), remedy),
+            asymmetry::<2, Quadratics<2>, _>(ground(), remedy),
+        ];
+        assert!(found.iter().all(|a| *a < 1e-13), "{found:?}");
+    }
+    let law = Hypoelastic::new(YOUNG, POISSON, JaumannUpdate::Split).unwrap();
+    assert!(asymmetry::<2, Quadratics<2>, _>(law, none) > 1e-4);
+}

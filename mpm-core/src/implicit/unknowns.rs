@@ -1,0 +1,135 @@
+//! The unknowns of a step, and the pattern of its stiffness matrix.
+
+use super::elements::Elements;
+use super::penalty::Penalty;
+
+/// No unknown.
+const NONE: usize = usize::MAX;
+
+/// The components of displacement of the nodes that a step moves.
+pub(super) struct Unknowns<const D: usize> {
+    /// Of every node the place of its first component, `NONE` of one that sees nothing.
+    first: Vec<usize>,
+    /// The nodes, in their order.
+    pub(super) node: Vec<usize>,
+    /// Of every unknown the increment (m) at which it is held.
+    pub(super) held: Vec<Option<f64>>,
+}
+
+impl<const D: usize> Unknowns<D> {
+    /// The components of nodes that see a particle or a penalty. A function with no value but a gradient at a particle
+    /// bears force and counts.
+    pub(super) fn new(
+        nodes: usize,
+        elements: &Elements<D>,
+        penalties: &[Penalty],
+        prescribed: impl Fn(usize, usize) -> Option<f64>,
+    ) -> Self {
+        let mut seen = vec![false; nodes];
+        for run in &elements.particles {
+            for p in run.clone() {
+                let (nodes, w, dw) = elements.seen(p);
+                for ((node, w), dw) in nodes.iter().zip(w).zip(dw) {
+                    seen[*node] |= *w != 0.0 || *dw != [0.0; D];
+                }
+            }
+        }
+        for node in penalties.iter().flat_map(|p| &p.node) {
+            seen[*node] = true;
+        }
+        let node: Vec<usize> = (0..nodes).filter(|n| seen[*n]).collect();
+        let mut first = vec![NONE; nodes];
+        let mut held = Vec::with_capacity(node.len() * D);
+        for (k, node) in node.iter().enumerate() {
+            first[*node] = k * D;
+            held.extend((0..D).map(|axis| prescribed(*node, axis)));
+        }
+        Self { first, node, held }
+    }
+
+    /// How many unknowns there are, held ones included.
+    pub(super) fn len(&self) -> usize {
+        self.held.len()
+    }
+
+    /// The place of a node's first component, if it moves.
+    pub(super) fn of(&self, node: usize) -> Option<usize> {
+        Some(self.first[node]).filter(|first| *first != NONE)
+    }
+
+    /// The nodal increments with the values `u` of the unknowns (m).
+    pub(super) fn spread(&self, u: &[f64], nodes: &mut [[f64; D]]) {
+        for (node, u) in self.node.iter().zip(u.as_chunks().0) {
+            nodes[*node] = *u;
+        }
+    }
+}
+
+/// Where the entries of the stiffness matrix are: column by column, rows in order. Held unknowns have their diagonal
+/// alone.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Pattern {
+    /// Where each column begins, and the last one ends.
+    pub(super) begin: Vec<usize>,
+    /// Row of every entry.
+    pub(super) row: Vec<usize>,
+}
+
+impl Pattern {
+    pub(super) fn new<const D: usize>(
+        unknowns: &Unknowns<D>,
+        elements: &Elements<D>,
+        penalties: &[Penalty],
+    ) -> Self {
+        let mut beside: Vec<Vec<usize>> = vec![Vec::new(); unknowns.node.len()];
+        let mut join = |nodes: &[usize]| {
+            let places: Vec<usize> = nodes.iter().filter_map(|n| unknowns.of(*n)).collect();
+            for place in &places {
+                beside[place / D].extend_from_slice(&places);
+            }
+        };
+        for element in 0..elements.particles.len() {
+            join(elements.nodes_of(element));
+        }
+        for penalty in penalties {
+            join(&penalty.node);
+        }
+        let mut pattern = Self {
+            begin: vec![0],
+            row: Vec::new(),
+        };
+        for (k, beside) in beside.iter_mut().enumerate() {
+            beside.sort_unstable();
+            beside.dedup();
+            for column in k * D..(k + 1) * D {
+                if unknowns.held[column].is_some() {
+                    pattern.row.push(column);
+                } else {
+                    let rows = beside.iter().flat_map(|first| *first..first + D);
+                    pattern
+                        .row
+                        .extend(rows.filter(|row| unknowns.held[*row].is_none()));
+                }
+                pattern.begin.push(pattern.row.len());
+            }
+        }
+        pattern
+    }
+
+    /// Unknowns.
+    pub(super) fn len(&self) -> usize {
+        self.begin.len() - 1
+    }
+
+    /// Entries.
+    pub(super) fn entries(&self) -> usize {
+        self.row.len()
+    }
+
+    /// The place of an entry, if it is one.
+    pub(super) fn place(&self, row: usize, column: usize) -> Option<usize> {
+        let begin = self.begin[column];
+        let rows = &self.row[begin..self.begin[column + 1]];
+        rows.binary_search(&row).ok().map(|k| begin + k)
+    }
+}
