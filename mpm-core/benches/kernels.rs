@@ -5,16 +5,19 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline, WallTreatment};
+use mpm_core::eights::{Eights, block, blocks, components, store_vectors};
 use mpm_core::explicit::Transfer;
-use mpm_core::explicit::transfer::{Apic, Flip, Given, Xpic};
+use mpm_core::explicit::transfer::{Apic, Flip, Given, Received, Xpic};
+use mpm_core::lattice::Stencils;
 use mpm_core::material::{HenckyJ2, Law, NeoHookean, Strength};
 use mpm_core::nodes::NodalState;
+use mpm_core::number::{EIGHT, Eight};
 use mpm_core::order::stencil_order;
 use mpm_core::projection::{Average, Averaging, Projection};
 use mpm_core::reach::Reach;
 use mpm_core::space::embed;
 use mpm_core::{Axis, Basis, Grid, Lattice, Particles, SymmetricTensor};
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, SMatrix};
 use std::hint::black_box;
 
 const CELLS: usize = 40;
@@ -50,18 +53,23 @@ fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
     group.throughput(Throughput::Elements(p.len() as u64));
     group.bench_function("p2g", |b| {
         b.iter(|| {
-            for k in 0..p.len() {
-                let given = Given {
-                    position: &p.position[k],
-                    mass: p.mass[k],
-                    velocity: &p.velocity[k],
-                    affine: p.affine.get(k),
-                    volume: p.volume[k],
-                    stress: &p.stress[k],
-                    external_force: p.external_force.get(k),
-                };
-                let stencil = lattice.stencil(&p.position[k], &p.half_size);
-                transfer.particle_to_grid(&lattice, &stencil, &given, &mut nodes, 0);
+            let mut stencils = Stencils::on(&lattice);
+            let (x, v) = (Eights::of(&p.position), Eights::of(&p.velocity));
+            let (mass, volume) = (Eights::of(&p.mass), Eights::of(&p.volume));
+            let mut given = Given::default();
+            for k in 0..blocks(p.len()) {
+                let (x, mass) = (components(x.at(k)), Eight::new(*mass.at(k)));
+                let functions = lattice.functions(&x, &p.half_size);
+                lattice.stencils(&functions, &mut stencils);
+                let stress = SymmetricTensor::pack(|l| p.stress[k * EIGHT + l]);
+                let volume = Eight::new(*volume.at(k));
+                given.set(mass, &components(v.at(k)), volume, &stress, None);
+                let affine = (!p.affine.is_empty()).then(|| Eights::of(&p.affine));
+                let affine = affine.as_ref().map(|affine| affine.at(k));
+                let gives = transfer.give(&lattice, &functions, &x, mass, affine);
+                for l in 0..EIGHT {
+                    transfer.particle_to_grid(stencils.at(l), &given, &gives, &mut nodes, 0);
+                }
             }
         });
     });
@@ -69,14 +77,30 @@ fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
         b.iter(|| black_box(transfer.prepare(&lattice, &p, &slabs, &nodes, &[])));
     });
     let mut velocity = p.velocity.clone();
-    let mut affine = p.affine.clone();
+    let mut affine = (!p.affine.is_empty()).then_some([SMatrix::zeros(); EIGHT]);
     group.bench_function("g2p", |b| {
         b.iter(|| {
-            for k in 0..p.len() {
-                let x = &p.position[k];
-                let stencil = lattice.stencil(x, &p.half_size);
-                let (v, b) = (&mut velocity[k], affine.get_mut(k));
-                black_box(transfer.grid_to_particle(&lattice, &stencil, x, &nodes, v, b));
+            let mut stencils = Stencils::on(&lattice);
+            let (mut received, mut receives) = (Received::default(), T::Receives::default());
+            let x = Eights::of(&p.position);
+            for k in 0..blocks(p.len()) {
+                let x = components(x.at(k));
+                let functions = lattice.functions(&x, &p.half_size);
+                lattice.stencils(&functions, &mut stencils);
+                let gives = transfer.give(&lattice, &functions, &x, Eight::ZERO, None);
+                for l in 0..EIGHT {
+                    let stencil = stencils.at(l);
+                    transfer.grid_to_particle(
+                        stencil,
+                        &gives,
+                        &nodes,
+                        &mut received,
+                        &mut receives,
+                    );
+                }
+                let mut v = components(block(&velocity, k, &mut None));
+                black_box(transfer.receive(&received, &receives, &mut v, &mut affine));
+                store_vectors(&mut velocity, k, &v);
             }
         });
     });

@@ -1,13 +1,16 @@
 //! A body: one material, one set of particles, and the state of each.
 
+use crate::eights::{entries, fetch};
 use crate::error::{Error, Fault};
 use crate::material::Law;
 use crate::memory::{MemoryError, Saved};
 use crate::monitor::{Accumulated, Totals};
-use crate::parallel::{AT_ONCE, CHUNK};
+use crate::number::{EIGHT, Eight};
+use crate::parallel::{Front, cut};
 use crate::particles::{Particles, permute};
 use crate::space;
-use rayon::prelude::*;
+use crate::tensor::SymmetricTensor;
+use nalgebra::SMatrix;
 
 /// Particles of one material with their states.
 pub struct Body<const D: usize, M: Law> {
@@ -66,24 +69,36 @@ impl<const D: usize, M: Law> Body<D, M> {
     /// their volume, Eq. (15).
     pub fn update_stress(&mut self, dt: f64) {
         let (law, p) = (&self.law, &mut self.particles);
-        (
-            self.states.par_chunks_mut(CHUNK),
-            p.stress.par_chunks_mut(CHUNK),
-            p.volume.par_chunks_mut(CHUNK),
-            p.delta_f.par_chunks(CHUNK),
-            p.jacobian.par_chunks(CHUNK),
-            p.reference_volume.par_chunks(CHUNK),
-        )
-            .into_par_iter()
-            .with_max_len(AT_ONCE)
-            .for_each(|(states, stress, volume, delta_f, j, reference_volume)| {
-                law.update_all(|k| space::embed(&delta_f[k]), dt, states, stress);
-                for (volume, (j, reference)) in
-                    volume.iter_mut().zip(j.iter().zip(reference_volume))
-                {
-                    *volume = j * reference;
-                }
-            });
+        let delta_f = &p.delta_f;
+        let update = |k| space::embed(&delta_f[k]);
+        law.update_all(update, dt, &mut self.states, &mut p.stress);
+        for (volume, (j, reference)) in p
+            .volume
+            .iter_mut()
+            .zip(p.jacobian.iter().zip(&p.reference_volume))
+        {
+            *volume = j * reference;
+        }
+    }
+
+    /// All particles, for threads to share in chunks.
+    pub fn chunk(&mut self) -> Chunk<'_, D, M> {
+        let p = &mut self.particles;
+        Chunk {
+            law: &self.law,
+            begin: 0,
+            states: &mut self.states,
+            position: &mut p.position,
+            velocity: &mut p.velocity,
+            affine: &mut p.affine,
+            volume: &mut p.volume,
+            jacobian: &mut p.jacobian,
+            j_bar: &mut p.j_bar,
+            stress: &mut p.stress,
+            increment: &mut p.increment,
+            reference_volume: &p.reference_volume,
+            external_force: &p.external_force,
+        }
     }
 
     /// Mass, momentum, energies and J, with what was `accumulated`.
@@ -128,6 +143,116 @@ impl<const D: usize, M: Law> Body<D, M> {
         check(&particles)?;
         (self.particles, self.states) = (particles, states);
         Ok(())
+    }
+}
+
+/// Some particles of a body: a piece of every column that there is, and nothing of those that there aren't.
+pub struct Chunk<'a, const D: usize, M: Law> {
+    /// The law of the material.
+    pub law: &'a M,
+    /// The place of the first particle in the columns.
+    pub begin: usize,
+    /// What the law remembers.
+    pub states: &'a mut [M::State],
+    /// Columns of [`Particles`].
+    pub position: &'a mut [[f64; D]],
+    /// …
+    pub velocity: &'a mut [[f64; D]],
+    /// …
+    pub affine: &'a mut [SMatrix<f64, D, D>],
+    /// …
+    pub volume: &'a mut [f64],
+    /// …
+    pub jacobian: &'a mut [f64],
+    /// …
+    pub j_bar: &'a mut [f64],
+    /// …
+    pub stress: &'a mut [SymmetricTensor],
+    /// …
+    pub increment: &'a mut [[f64; D]],
+    /// …
+    pub reference_volume: &'a [f64],
+    /// …
+    pub external_force: &'a [[f64; D]],
+}
+
+impl<const D: usize, M: Law> Chunk<'_, D, M> {
+    /// Number of particles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.states.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.states.is_empty()
+    }
+
+    /// Asks the processor for what the `k`-th eight needs to move.
+    #[inline(always)]
+    pub fn fetch_motion(&self, k: usize) {
+        fetch(self.position, k);
+        fetch(self.velocity, k);
+        fetch(self.affine, k);
+        fetch(self.volume, k);
+        fetch(self.jacobian, k);
+        fetch(self.stress, k);
+        fetch(self.increment, k);
+        fetch(self.external_force, k);
+    }
+
+    /// Asks the processor for what the law and the place of the `k`-th eight need.
+    #[inline(always)]
+    pub fn fetch_rest(&self, k: usize) {
+        fetch(self.states, k);
+        fetch(self.position, k);
+        fetch(self.volume, k);
+        fetch(self.jacobian, k);
+        fetch(self.j_bar, k);
+        fetch(self.stress, k);
+        fetch(self.reference_volume, k);
+    }
+
+    /// The numbers of the `k`-th eight; zero beyond the last particle.
+    #[inline(always)]
+    #[must_use]
+    pub fn present(&self, k: usize, numbers: Eight) -> Eight {
+        let entries = entries(self.len(), k);
+        if entries == EIGHT {
+            return numbers;
+        }
+        let mut numbers = numbers.to_array();
+        numbers[entries..].fill(0.0);
+        Eight::new(numbers)
+    }
+}
+
+impl<const D: usize, M: Law> Front for Chunk<'_, D, M> {
+    fn front(&mut self, n: usize) -> Self {
+        let begin = self.begin;
+        self.begin += n;
+        Self {
+            law: self.law,
+            begin,
+            states: cut(&mut self.states, n),
+            position: cut(&mut self.position, n),
+            velocity: cut(&mut self.velocity, n),
+            affine: cut(&mut self.affine, n),
+            volume: cut(&mut self.volume, n),
+            jacobian: cut(&mut self.jacobian, n),
+            j_bar: cut(&mut self.j_bar, n),
+            stress: cut(&mut self.stress, n),
+            increment: cut(&mut self.increment, n),
+            reference_volume: self
+                .reference_volume
+                .split_off(..n.min(self.reference_volume.len()))
+                .unwrap_or_default(),
+            external_force: self
+                .external_force
+                .split_off(..n.min(self.external_force.len()))
+                .unwrap_or_default(),
+        }
     }
 }
 

@@ -5,8 +5,10 @@
 //! (see [`crate::parallel`]).
 
 use crate::basis::{AxisNodes, AxisWeights, Basis, EightAxisWeights, WallTreatment};
+use crate::eights::{Eights, components};
 use crate::grid::Grid;
-use crate::number::{EIGHT, Eight, Real};
+use crate::nodes::Node;
+use crate::number::{EIGHT, Eight, Lanes, Octet, indices};
 use crate::parallel::PLANES_BEFORE;
 use std::ops::AddAssign;
 
@@ -97,39 +99,86 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         node
     }
 
-    /// Calls `visit(k, stencil)` for the `k`-th of the particles at `x` (m) with half sizes `half_size` (m), in
-    /// their order: eight stencils are computed side by side.
+    /// The functions along every axis that see eight particles at `x` (m) with half sizes `half_size` (m).
     #[inline(always)]
-    pub fn for_each_stencil(
-        &self,
-        x: &[[f64; D]],
-        half_size: &[f64; D],
-        mut visit: impl FnMut(usize, &Stencil<D, S>),
-    ) {
-        for begin in (0..x.len()).step_by(EIGHT) {
-            // Beyond the last particle the last one once more.
-            let last = (x.len() - 1).min(begin + EIGHT - 1);
-            // In place: what `from_fn` makes is copied, a block by a call of the C library.
-            let mut eight = [EightAxisWeights::NONE; D];
-            for a in 0..D {
-                eight[a] = self.bases[a].weights_of_eight(
-                    Eight::pack(|k| x[last.min(begin + k)][a]),
-                    Eight::splat(half_size[a]),
-                );
-            }
-            let first: [_; EIGHT] = std::array::from_fn(|k| {
-                self.node(&std::array::from_fn(|a: usize| eight[a].first[k]))
-            });
-            for k in begin..x.len().min(begin + EIGHT) {
-                let mut stencil = Stencil {
-                    first: first[(k - begin) % EIGHT],
-                    axis: [AxisWeights::NONE; D],
-                    strides: self.strides,
-                };
-                for a in 0..D {
-                    stencil.axis[a] = eight[a].part(k - begin);
+    #[must_use]
+    pub fn functions(&self, x: &[Eight; D], half_size: &[f64; D]) -> [EightAxisWeights<S>; D] {
+        let mut functions = [EightAxisWeights::NONE; D];
+        for a in 0..D {
+            functions[a] = self.bases[a].weights_of_eight(x[a], Eight::splat(half_size[a]));
+        }
+        functions
+    }
+
+    /// The first nodes of eight stencils, whole numbers.
+    #[inline(always)]
+    #[must_use]
+    fn first_nodes(&self, functions: &[EightAxisWeights<S>; D]) -> Eight {
+        let mut first = Eight::splat((PLANES_BEFORE * self.strides[0]) as f64);
+        for a in 0..D {
+            let stride = Eight::splat(self.strides[a] as f64);
+            first = functions[a].first.mul_add(stride, first);
+        }
+        first
+    }
+
+    /// Fills `stencils` with those of eight particles, from the functions along every axis.
+    #[inline(always)]
+    pub fn stencils(&self, functions: &[EightAxisWeights<S>; D], stencils: &mut Stencils<D, S>) {
+        stencils.first = indices(self.first_nodes(functions));
+        let last = &functions[D - 1];
+        for k in 0..S {
+            stencils.last[k] = last.w[k].to_array();
+            stencils.slope[k] = last.dw[k].to_array();
+        }
+        let (lines, rows) = Stencil::<D, S>::OUTER;
+        for slow in 0..lines {
+            for fast in 0..rows {
+                let row = &mut stencils.rows[slow][fast];
+                if D == 2 {
+                    row[0] = functions[0].dw[fast].to_array();
+                    row[1] = functions[0].w[fast].to_array();
                 }
-                visit(k, &stencil);
+                if D == 3 {
+                    let (outer, middle) = (&functions[0], &functions[1]);
+                    row[0] = (outer.dw[slow] * middle.w[fast]).to_array();
+                    row[1] = (outer.w[slow] * middle.dw[fast]).to_array();
+                    row[D - 1] = (outer.w[slow] * middle.w[fast]).to_array();
+                }
+            }
+        }
+    }
+
+    /// The weights of particles at `x` (m), without derivatives.
+    pub fn weights(&self, x: &[[f64; D]], half_size: &[f64; D], weights: &mut [Weights<D, S>]) {
+        let eights = Eights::of(x);
+        for (k, weights) in weights.chunks_mut(EIGHT).enumerate() {
+            let functions = self.functions(&components(eights.at(k)), half_size);
+            let first = indices(self.first_nodes(&functions));
+            for (l, weights) in weights.iter_mut().enumerate() {
+                weights.first = first[l] as usize;
+                for a in 0..D {
+                    for s in 0..S {
+                        weights.w[a][s] = functions[a].w[s].part(l);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The first node of every stencil of particles at `positions` (m), in their order.
+    pub fn for_each_first_node(
+        &self,
+        positions: &[[f64; D]],
+        half_size: &[f64; D],
+        mut visit: impl FnMut(usize, usize),
+    ) {
+        let eights = Eights::of(positions);
+        for (k, block) in positions.chunks(EIGHT).enumerate() {
+            let functions = self.functions(&components(eights.at(k)), half_size);
+            let first = indices(self.first_nodes(&functions));
+            for (l, first) in first[..block.len()].iter().enumerate() {
+                visit(k * EIGHT + l, *first as usize);
             }
         }
     }
@@ -152,6 +201,25 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
             let nodes = &self.nodes[a].position[first..first + S];
             for (arm, node) in arms[a].iter_mut().zip(nodes) {
                 *arm = node - x[a];
+            }
+        }
+        arms
+    }
+
+    /// The same for eight particles at `x` (m), from the functions that see them.
+    #[inline(always)]
+    #[must_use]
+    pub fn arms_of_eight(
+        &self,
+        functions: &[EightAxisWeights<S>; D],
+        x: &[Eight; D],
+    ) -> [[Eight; S]; D] {
+        let mut arms = [[Eight::ZERO; S]; D];
+        for a in 0..D {
+            let first = indices(functions[a].first);
+            for k in 0..S {
+                let node = first.map(|first| self.nodes[a].position[first as usize + k]);
+                arms[a][k] = Eight::new(node) - x[a];
             }
         }
         arms
@@ -324,25 +392,133 @@ impl<const D: usize, const S: usize> Stencil<D, S> {
         self.first
     }
 
-    /// The weights alone.
-    #[inline(always)]
-    #[must_use]
-    pub fn weights(&self) -> Weights<D, S> {
-        let mut w = [[0.0; S]; D];
-        for (w, axis) in w.iter_mut().zip(&self.axis) {
-            *w = axis.w;
-        }
-        Weights {
-            first: self.first(),
-            w,
-        }
-    }
-
     /// The weights along the last axis.
     #[inline(always)]
     #[must_use]
     pub fn last(&self) -> &AxisWeights<S> {
         &self.axis[D - 1]
+    }
+}
+
+/// The stencils of eight particles, in memory. A loop over the eight reads a weight as a broadcast, which costs a fused
+/// multiplication nothing; a weight that is taken out of numbers side by side costs an instruction each.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+pub struct Stencils<const D: usize, const S: usize> {
+    /// By the places of a row along the outer axes: for each of these axes the product of their weights with that
+    /// axis' derivative instead (1/m), and in the last place the product of weights.
+    rows: [[[Octet; D]; S]; S],
+    /// Weights and derivatives (1/m) along the last axis.
+    last: [Octet; S],
+    slope: [Octet; S],
+    first: [u32; EIGHT],
+    strides: [u32; D],
+}
+
+impl<const D: usize, const S: usize> Stencils<D, S> {
+    /// Room for eight on a lattice.
+    #[must_use]
+    pub fn on<B: Basis<S>>(lattice: &Lattice<D, S, B>) -> Self {
+        Self {
+            rows: [[[[1.0; EIGHT]; D]; S]; S],
+            last: [[0.0; EIGHT]; S],
+            slope: [[0.0; EIGHT]; S],
+            first: [0; EIGHT],
+            strides: lattice.strides.map(|stride| stride as u32),
+        }
+    }
+
+    /// The `l`-th.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(&self, l: usize) -> StencilRef<'_, D, S> {
+        StencilRef { of: self, l }
+    }
+}
+
+/// One of eight stencils.
+#[derive(Debug, Clone, Copy)]
+pub struct StencilRef<'a, const D: usize, const S: usize> {
+    of: &'a Stencils<D, S>,
+    l: usize,
+}
+
+impl<const D: usize, const S: usize> StencilRef<'_, D, S> {
+    /// Which of the eight.
+    #[inline(always)]
+    #[must_use]
+    pub fn place(&self) -> usize {
+        self.l
+    }
+
+    /// The first node.
+    #[inline(always)]
+    #[must_use]
+    pub fn first(&self) -> usize {
+        self.of.first[self.l] as usize
+    }
+
+    /// Of an array that begins at node `origin`, where the rows at the place `slow` begin and how many nodes further
+    /// the last of them ends; each begins [`StencilRef::stride`] nodes after the one before.
+    #[inline(always)]
+    #[must_use]
+    pub fn line(&self, slow: usize, origin: usize) -> (usize, usize) {
+        let begin = self.first() - origin;
+        match D {
+            1 => (begin, S),
+            2 => (begin, (S - 1) * self.stride() + S),
+            _ => (
+                begin + slow * self.of.strides[0] as usize,
+                (S - 1) * self.stride() + S,
+            ),
+        }
+    }
+
+    /// Nodes from one row to the next in a line.
+    #[inline(always)]
+    #[must_use]
+    pub fn stride(&self) -> usize {
+        if D == 1 {
+            0
+        } else {
+            self.of.strides[D - 2] as usize
+        }
+    }
+
+    /// Product of the outer axes' weights of a row.
+    #[inline(always)]
+    #[must_use]
+    pub fn row_weight(&self, slow: usize, fast: usize) -> f64 {
+        self.row_gradient(slow, fast, D - 1)
+    }
+
+    /// The same with the derivative (1/m) along outer axis `a`; with `D − 1` the weight.
+    #[inline(always)]
+    #[must_use]
+    pub fn row_gradient(&self, slow: usize, fast: usize, a: usize) -> f64 {
+        self.of.rows[slow][fast][a][self.l]
+    }
+
+    /// The weights along the last axis, each as often as a node has components.
+    #[inline(always)]
+    #[must_use]
+    pub fn last(&self) -> [Node; S] {
+        let mut last = [Node::ZERO; S];
+        for k in 0..S {
+            last[k] = Node::splat(self.of.last[k][self.l]);
+        }
+        last
+    }
+
+    /// The derivatives along the last axis (1/m), likewise.
+    #[inline(always)]
+    #[must_use]
+    pub fn slope(&self) -> [Node; S] {
+        let mut slope = [Node::ZERO; S];
+        for k in 0..S {
+            slope[k] = Node::splat(self.of.slope[k][self.l]);
+        }
+        slope
     }
 }
 

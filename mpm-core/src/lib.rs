@@ -28,6 +28,7 @@
 pub mod basis;
 pub mod body;
 pub mod contact;
+pub mod eights;
 pub mod error;
 pub mod explicit;
 pub mod grid;

@@ -17,11 +17,14 @@ pub type Eight = f64x8;
 /// How many.
 pub const EIGHT: usize = 8;
 
-/// Integers that are stored as numbers, as indices.
+/// Eight numbers in memory, each of which a loop over the eight reads as a broadcast.
+pub type Octet = [f64; EIGHT];
+
+/// Whole numbers as indices. They are below 2³², so that sums of a few don't overflow, which the compiler then knows.
 #[inline(always)]
 #[must_use]
-pub fn indices(of: Eight) -> [usize; EIGHT] {
-    of.fast_trunc_int().to_array().map(|index| index as usize)
+pub fn indices(of: Eight) -> [u32; EIGHT] {
+    of.fast_trunc_int().to_array().map(|index| index as u32)
 }
 
 /// One number or several, with or without derivatives.
@@ -78,8 +81,15 @@ pub trait Real:
     #[must_use]
     fn at_most(self, limit: f64) -> Self;
 
+    /// This number, at least `low` and at most `high`; of what is not a number any number or none.
+    #[must_use]
+    fn clamped(self, low: f64, high: f64) -> Self;
+
     /// Whether all are below `limit`; what is not a number isn't.
     fn all_below(self, limit: f64) -> bool;
+
+    /// Whether all are above `low` and below `high`.
+    fn all_between(self, low: f64, high: f64) -> bool;
 
     /// Whether one is above zero.
     fn any_positive(self) -> bool;
@@ -155,8 +165,18 @@ impl Real for f64 {
     }
 
     #[inline(always)]
+    fn clamped(self, low: f64, high: f64) -> Self {
+        self.max(low).min(high)
+    }
+
+    #[inline(always)]
     fn all_below(self, limit: f64) -> bool {
         self < limit
+    }
+
+    #[inline(always)]
+    fn all_between(self, low: f64, high: f64) -> bool {
+        self > low && self < high
     }
 
     #[inline(always)]
@@ -229,8 +249,19 @@ impl Real for Eight {
     }
 
     #[inline(always)]
+    fn clamped(self, low: f64, high: f64) -> Self {
+        self.fast_max(f64x8::splat(low))
+            .fast_min(f64x8::splat(high))
+    }
+
+    #[inline(always)]
     fn all_below(self, limit: f64) -> bool {
         self.simd_lt(f64x8::splat(limit)).all()
+    }
+
+    #[inline(always)]
+    fn all_between(self, low: f64, high: f64) -> bool {
+        (self.simd_gt(f64x8::splat(low)) & self.simd_lt(f64x8::splat(high))).all()
     }
 
     #[inline(always)]

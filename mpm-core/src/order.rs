@@ -18,9 +18,7 @@ pub fn stencil_order<const D: usize, const S: usize, B: Basis<S>>(
 ) -> (Vec<u32>, Vec<Range<usize>>) {
     let grid = &lattice.grid;
     let mut first_node = vec![0; positions.len()];
-    lattice.for_each_stencil(positions, half_size, |p, stencil| {
-        first_node[p] = stencil.first()
-    });
+    lattice.for_each_first_node(positions, half_size, |p, first| first_node[p] = first);
     let slab = |p: u32| grid.cell(0, positions[p as usize][0]) / SLAB;
     let order = (0..positions.len() as u32).collect();
     let (order, _) = sort(order, lattice.len(), |p| first_node[p as usize]);

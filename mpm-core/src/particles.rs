@@ -44,7 +44,8 @@ pub struct Particles<const D: usize> {
     /// External force (N).
     #[serde(with = "rows")]
     pub external_force: Vec<[f64; D]>,
-    /// Relative deformation gradient ΔF of the step, Eq. (16); after the remedy, ΔF̄. At the start, F.
+    /// At the start, the deformation gradient F. Then the relative deformation gradient ΔF, or ΔF̄, of a step, where a
+    /// solver keeps it here; the explicit one doesn't.
     pub delta_f: Vec<SMatrix<f64, D, D>>,
     /// Displacement of the step (m).
     #[serde(with = "rows")]

@@ -144,11 +144,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Projection<'_, D, S, B> {
             .par_chunks_mut(CHUNK)
             .zip(particles.position.par_chunks(CHUNK))
             .with_max_len(AT_ONCE)
-            .for_each(|(weights, x)| {
-                lattice.for_each_stencil(x, &particles.half_size, |k, stencil| {
-                    weights[k] = stencil.weights()
-                });
-            });
+            .for_each(|(weights, x)| lattice.weights(x, &particles.half_size, weights));
         let volume = &particles.volume;
         let (weights, volumes) = (&averaging.weights, &mut averaging.volumes);
         scatter_values(lattice, self.slabs, weights, self.reach, volumes, |p| {

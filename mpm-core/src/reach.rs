@@ -33,8 +33,8 @@ impl Reach {
         }
         let length = lattice.row_length();
         let mut rows: Vec<Places> = vec![0..0; lattice.len() / length];
-        lattice.for_each_stencil(positions, half_size, |_, stencil| {
-            let (row, place) = (stencil.first() / length, stencil.first() % length);
+        lattice.for_each_first_node(positions, half_size, |_, first| {
+            let (row, place) = (first / length, first % length);
             rows[row] = union(&rows[row], &(place..place + 1));
         });
         if D == 3 {

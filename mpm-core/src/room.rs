@@ -2,6 +2,7 @@
 
 use crate::error::Fault;
 use crate::grid::Grid;
+use crate::number::Eight;
 
 /// Where particles may be.
 pub(crate) struct Room<const D: usize> {
@@ -22,15 +23,19 @@ impl<const D: usize> Room<D> {
         }
     }
 
+    /// Whether eight positions are between the ends.
+    #[inline(always)]
+    pub(crate) fn holds_all(&self, x: &[Eight; D]) -> bool {
+        let mut inside = Eight::splat(0.0).simd_le(Eight::splat(1.0));
+        for a in 0..D {
+            let (lo, hi) = (Eight::splat(self.lo[a]), Eight::splat(self.hi[a]));
+            inside = inside & x[a].simd_ge(lo) & x[a].simd_lt(hi);
+        }
+        inside.all()
+    }
+
     /// Brings a position on a periodic axis back between its ends (true when it had left) and checks the others.
     pub(crate) fn place(&self, x: &mut [f64; D]) -> Result<bool, Fault> {
-        let mut inside = true;
-        for a in 0..D {
-            inside &= x[a] >= self.lo[a] && x[a] < self.hi[a];
-        }
-        if inside {
-            return Ok(false);
-        }
         let mut wrapped = false;
         for (axis, value) in x.iter_mut().enumerate() {
             let (lo, hi) = (self.lo[axis], self.hi[axis]);

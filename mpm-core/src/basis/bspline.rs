@@ -28,7 +28,9 @@ pub struct BSpline<const S: usize> {
     origin: f64,
     /// Knot pattern of each knot interval, an index into `polynomials`.
     pattern: Vec<usize>,
-    /// Before the first and after the last of the intervals that have the pattern of the middle one.
+    /// The last interval, a whole number.
+    last: f64,
+    /// Before the first and after the last of the intervals whose knots are equally spaced; infinite if there is none.
     uniform: (f64, f64),
     /// Per pattern: coefficient of the k-th power of the local coordinate for each function.
     polynomials: Vec<[[f64; S]; S]>,
@@ -78,19 +80,23 @@ impl<const S: usize> Basis<S> for BSpline<S> {
                 })
             })
             .collect();
-        let middle = pattern[intervals / 2];
-        let of_middle = |interval: &usize| pattern[*interval] == middle;
-        let last_before = (0..intervals / 2).rev().find(|i| !of_middle(i));
-        let first_after = (intervals / 2..intervals).find(|i| !of_middle(i));
-        let uniform = (
-            last_before.map_or(-1.0, |i| i as f64),
-            first_after.unwrap_or(intervals) as f64,
-        );
+        // Of a function only the knots within its interval's reach matter.
+        let equally_spaced = |cell: &usize| {
+            let knots = &knots[cell + 1..=cell + 2 * degree];
+            knots.windows(2).all(|pair| pair[1] - pair[0] == 1.0)
+        };
+        let first = (0..intervals).find(equally_spaced);
+        let last = (0..intervals).rev().find(equally_spaced);
+        let uniform = match (first, last) {
+            (Some(first), Some(last)) => (first as f64 - 1.0, last as f64 + 1.0),
+            _ => (f64::INFINITY, f64::INFINITY),
+        };
         Self {
             h,
             inverse_h: 1.0 / h,
             origin,
             uniform,
+            last: (intervals - 1) as f64,
             pattern,
             polynomials,
             knots,
@@ -116,30 +122,41 @@ impl<const S: usize> Basis<S> for BSpline<S> {
 
     #[inline(always)]
     fn weights(&self, x: f64, _half_size: f64) -> AxisWeights<S> {
-        let (first, t) = self.place(x);
-        let c = &self.polynomials[self.pattern[first as usize]];
-        let (w, dw) = self.functions(t, |k, s| c[k][s]);
+        let (interval, t) = self.place(x);
+        let first = interval as usize;
+        let (w, slope) = if self.between_walls(interval) > 0.0 {
+            uniform_functions(t)
+        } else {
+            let c = &self.polynomials[self.pattern[first]];
+            functions(t, |k, s| c[k][s])
+        };
         AxisWeights {
-            first: first as usize,
+            first,
             w,
-            dw,
+            dw: self.per_metre(slope),
         }
     }
 
     #[inline(always)]
     fn weights_of_eight(&self, x: Eight, _half_size: Eight) -> EightAxisWeights<S> {
-        let (interval, t) = self.place(x);
-        let first = indices(interval);
+        let (first, t) = self.place(x);
+        let (mut w, mut slope) = uniform_functions(t);
         let (before, after) = self.uniform;
-        // Away from walls all have one pattern.
-        let (w, dw) = if interval.all_below(after) && (-interval).all_below(-before) {
-            let c = &self.polynomials[self.pattern[first[0]]];
-            self.functions(t, |k, s| Eight::splat(c[k][s]))
-        } else {
-            let c = first.map(|first| &self.polynomials[self.pattern[first]]);
-            self.functions(t, |k, s| Eight::pack(|p| c[p][k][s]))
-        };
-        EightAxisWeights { first, w, dw }
+        if !first.all_between(before, after) {
+            let inside = self.between_walls(first);
+            let c = indices(first).map(|first| &self.polynomials[self.pattern[first as usize]]);
+            let (near_w, near_slope): ([_; S], [_; S]) =
+                functions(t, |k, s| Eight::pack(|p| c[p][k][s]));
+            for s in 0..S {
+                w[s] = inside.if_positive(w[s], near_w[s]);
+                slope[s] = inside.if_positive(slope[s], near_slope[s]);
+            }
+        }
+        EightAxisWeights {
+            first,
+            w,
+            dw: self.per_metre(slope),
+        }
     }
 }
 
@@ -148,27 +165,72 @@ impl<const S: usize> BSpline<S> {
     #[inline(always)]
     fn place<T: Real>(&self, x: T) -> (T, T) {
         let distance = (x - T::splat(self.origin)) * T::splat(self.inverse_h);
-        let last = (self.pattern.len() - 1) as f64;
-        let first = distance.floor().at_least(0.0).at_most(last);
+        let first = distance.floor().clamped(0.0, self.last);
         (first, distance - first)
     }
 
-    /// Values and derivatives at the local coordinate `t`, from the coefficients `c(power, function)`.
+    /// Positive where all knots that the functions of `interval` have are equally spaced.
     #[inline(always)]
-    fn functions<T: Real>(&self, t: T, c: impl Fn(usize, usize) -> T) -> ([T; S], [T; S]) {
-        let mut w = std::array::from_fn(|s| c(S - 1, s));
-        let mut dw = [T::default(); S];
-        for k in (0..S - 1).rev() {
-            for s in 0..S {
-                dw[s] = dw[s] * t + w[s];
-                w[s] = w[s] * t + c(k, s);
-            }
-        }
-        for d in &mut dw {
+    fn between_walls<T: Real>(&self, interval: T) -> T {
+        let (before, after) = self.uniform;
+        (interval - T::splat(before)) * (T::splat(after) - interval)
+    }
+
+    /// Derivatives (1/m), from those in the local coordinate.
+    #[inline(always)]
+    fn per_metre<T: Real>(&self, mut slope: [T; S]) -> [T; S] {
+        for d in &mut slope {
             *d *= T::splat(self.inverse_h);
         }
-        (w, dw)
+        slope
     }
+}
+
+/// Values and derivatives at the local coordinate `t` between equally spaced knots, by the recursion of Cox and de
+/// Boor; a derivative is the difference of two functions of the degree below.
+#[inline(always)]
+fn uniform_functions<T: Real, const S: usize>(t: T) -> ([T; S], [T; S]) {
+    let number = |n: usize| T::splat(n as f64);
+    let left = number(1) - t;
+    let (mut w, mut slope) = ([T::default(); S], [T::default(); S]);
+    (w[0], w[1]) = (left, t);
+    (slope[0], slope[1]) = (-number(1), number(1));
+    for degree in 2..S {
+        if degree == S - 1 {
+            slope[0] = -w[0];
+            for s in 1..degree {
+                slope[s] = w[s - 1] - w[s];
+            }
+            slope[degree] = w[degree - 1];
+        }
+        let inverse = T::splat(1.0 / degree as f64);
+        w[degree] = inverse * t * w[degree - 1];
+        for s in (2..degree).rev() {
+            let rising = (t + number(degree - s)) * w[s - 1];
+            w[s] = inverse * (number(s + 1) - t).mul_add(w[s], rising);
+        }
+        w[0] *= inverse * left;
+        // All together are one.
+        w[1] = number(1) - w[0];
+        for s in 2..=degree {
+            w[1] -= w[s];
+        }
+    }
+    (w, slope)
+}
+
+/// Values and derivatives at the local coordinate `t`, from the coefficients `c(power, function)`.
+#[inline(always)]
+fn functions<T: Real, const S: usize>(t: T, c: impl Fn(usize, usize) -> T) -> ([T; S], [T; S]) {
+    let mut w = std::array::from_fn(|s| c(S - 1, s));
+    let mut slope = [T::default(); S];
+    for k in (0..S - 1).rev() {
+        for s in 0..S {
+            slope[s] = slope[s] * t + w[s];
+            w[s] = w[s] * t + c(k, s);
+        }
+    }
+    (w, slope)
 }
 
 /// Polynomials of the functions that are non-zero on `[cell, cell + 1]`, in the coordinate from

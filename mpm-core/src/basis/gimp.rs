@@ -5,7 +5,7 @@
 
 use super::{AxisNodes, AxisWeights, Basis, EightAxisWeights, WallTreatment};
 use crate::grid::Axis;
-use crate::number::{Eight, Real, indices};
+use crate::number::{Eight, Real};
 
 /// Nodes before the first vertex, for a particle domain that reaches over the end of the axis.
 const GHOSTS: usize = 1;
@@ -85,10 +85,6 @@ impl Basis<3> for Gimp {
     #[inline(always)]
     fn weights_of_eight(&self, x: Eight, half_size: Eight) -> EightAxisWeights<3> {
         let (first, w, dw) = self.functions(x, half_size);
-        EightAxisWeights {
-            first: indices(first),
-            w,
-            dw,
-        }
+        EightAxisWeights { first, w, dw }
     }
 }

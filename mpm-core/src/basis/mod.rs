@@ -39,8 +39,8 @@ impl<const S: usize> AxisWeights<S> {
 /// The non-zero functions of one axis at eight points.
 #[derive(Debug, Clone, Copy)]
 pub struct EightAxisWeights<const S: usize> {
-    /// Index of the first function at each point.
-    pub first: [usize; EIGHT],
+    /// Index of the first function at each point, a whole number.
+    pub first: Eight,
     /// Values.
     pub w: [Eight; S],
     /// Derivatives (1/m).
@@ -50,7 +50,7 @@ pub struct EightAxisWeights<const S: usize> {
 impl<const S: usize> EightAxisWeights<S> {
     /// No weight anywhere.
     pub const NONE: Self = Self {
-        first: [0; EIGHT],
+        first: Eight::ZERO,
         w: [Eight::ZERO; S],
         dw: [Eight::ZERO; S],
     };
@@ -60,7 +60,7 @@ impl<const S: usize> EightAxisWeights<S> {
     #[must_use]
     pub fn part(&self, k: usize) -> AxisWeights<S> {
         let mut part = AxisWeights {
-            first: self.first[k],
+            first: self.first.part(k) as usize,
             ..AxisWeights::NONE
         };
         for s in 0..S {
@@ -104,7 +104,7 @@ pub trait Basis<const S: usize>: Send + Sync + Sized {
     fn weights_of_eight(&self, x: Eight, half_size: Eight) -> EightAxisWeights<S> {
         let each: [_; EIGHT] = std::array::from_fn(|k| self.weights(x.part(k), half_size.part(k)));
         EightAxisWeights {
-            first: std::array::from_fn(|k| each[k].first),
+            first: Eight::pack(|k| each[k].first as f64),
             w: std::array::from_fn(|s| Eight::pack(|k| each[k].w[s])),
             dw: std::array::from_fn(|s| Eight::pack(|k| each[k].dw[s])),
         }

@@ -3,6 +3,7 @@
 mod contact;
 mod memory;
 pub mod remedy;
+mod rest;
 mod settings;
 mod sort;
 mod stages;
@@ -15,13 +16,16 @@ pub use settings::{Settings, courant_time_step};
 pub use transfer::Transfer;
 
 use crate::basis::Basis;
+use crate::body::{Chunk, check_jacobian};
 use crate::contact::RigidContact;
+use crate::eights::entries;
 use crate::error::{Error, Fault};
 use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Accumulated, Reaction, Residual, Totals};
 use crate::nodes::NodalState;
+use crate::number::{EIGHT, Eight};
 use crate::particles::Particles;
 use crate::projection::{Average, Averaging, Projection};
 use crate::reach::Reach;
@@ -30,6 +34,7 @@ use crate::simulation::{Field, Part, Simulation};
 use crate::stage::Prescribed;
 use crate::tensor::SymmetricTensor;
 use crate::work::Work;
+use remedy::Deformation;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use transfer::Flip;
@@ -44,7 +49,32 @@ struct ChunkSums {
     load_power: f64,
     largest_increment: f64,
     wrapped: bool,
-    fault: Option<(usize, Fault)>,
+    /// The first particle that has no volume, and the first that can't go where it should; by place in the columns.
+    collapsed: Option<(usize, Fault)>,
+    astray: Option<(usize, Fault)>,
+}
+
+impl ChunkSums {
+    /// Whether the Jacobians of the `k`-th eight of a chunk are positive and finite.
+    fn check_jacobians<const D: usize, M: Law>(
+        &mut self,
+        chunk: &Chunk<'_, D, M>,
+        k: usize,
+        j: Eight,
+    ) -> bool {
+        let (zero, infinity) = (Eight::ZERO, Eight::splat(f64::INFINITY));
+        if (j.simd_gt(zero) & j.simd_lt(infinity)).all() {
+            return true;
+        }
+        let checked = j.to_array().into_iter().take(entries(chunk.len(), k));
+        for (l, j) in checked.enumerate() {
+            if let Err(fault) = check_jacobian(j) {
+                let index = chunk.begin + k * EIGHT + l;
+                self.collapsed.get_or_insert((index, fault));
+            }
+        }
+        false
+    }
 }
 
 /// Sums of one chunk of nodes in the update.
@@ -80,8 +110,10 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     declared: Vec<Prescribed>,
     prescribed: Vec<Prescribed>,
     held: Vec<Held>,
-    /// The stress of every particle that enters the forces of a step (Pa); empty where that is the law's.
-    adjusted_stress: Vec<SymmetricTensor>,
+    /// The mean stress of every particle that enters the forces of a step (Pa); empty where that is the law's.
+    force_mean: Vec<f64>,
+    /// Between G2P and the law.
+    deformation: Deformation<D>,
     chunk_sums: Vec<ChunkSums>,
     node_sums: Vec<NodeSums>,
     /// Largest distance (m) that a particle can have moved since the particles were sorted.
@@ -101,15 +133,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
     fn step(&mut self) -> Result<(), Error> {
         self.apply_loads();
         self.apply_contacts()?;
-        self.adjust_stress();
+        self.average_stress();
         self.particles_to_grid();
         self.move_constraints();
         self.update_grid();
         self.grid_to_particles()?;
-        self.average_volume_change();
-        self.update_stress();
         self.keep_gaps_open(self.time + self.settings.dt)?;
-        self.move_particles()?;
+        self.average_volume_change()?;
+        self.sort_if_needed();
         self.filter_particles();
         self.time += self.settings.dt;
         self.work.steps += 1;
@@ -147,9 +178,15 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
 
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
         let work = self.work;
-        self.adjust_stress();
+        self.average_stress();
         self.work = work;
-        stress_of(&self.scene.body.particles.stress, &self.adjusted_stress).to_vec()
+        let p = &self.scene.body.particles;
+        let mut stress = p.stress.clone();
+        let columns = stress.iter_mut().zip(&self.force_mean);
+        for ((stress, mean), (j_bar, j)) in columns.zip(p.j_bar.iter().zip(&p.jacobian)) {
+            *stress = remedy::force_stress::<f64, D>(stress, j_bar / j, *mean);
+        }
+        stress
     }
 
     fn field(&mut self, field: Field) -> Vec<f64> {
@@ -204,19 +241,13 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn first_fault(&self) -> Result<(), Error> {
-        match self.chunk_sums.iter().find_map(|s| s.fault) {
+        let sums = &self.chunk_sums;
+        let collapsed = sums.iter().find_map(|s| s.collapsed);
+        match collapsed.or_else(|| sums.iter().find_map(|s| s.astray)) {
             Some((index, fault)) => Err(self.breakdown(index, fault)),
             None => Ok(()),
         }
     }
-}
-
-/// The stress that enters the forces: the law's, unless a remedy has `adjusted` it.
-fn stress_of<'a>(
-    law: &'a [SymmetricTensor],
-    adjusted: &'a [SymmetricTensor],
-) -> &'a [SymmetricTensor] {
-    if adjusted.is_empty() { law } else { adjusted }
 }
 
 /// Whether what moves `distance` (m) in a step stays within the CFL limit on cells of size `h` (m).

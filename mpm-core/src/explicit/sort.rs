@@ -8,8 +8,15 @@ use crate::order::stencil_order;
 use crate::reach::Reach;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
-    /// Sorts the particles when one of them may have left the neighbours of the cell where it was.
+    /// After the particles' motion: sorts them when one may have left the neighbours of the cell where it was.
     pub(super) fn sort_if_needed(&mut self) {
+        self.averaging.expire();
+        let mut largest = 0.0_f64;
+        for sums in &self.chunk_sums {
+            let jump = if sums.wrapped { f64::INFINITY } else { 0.0 };
+            largest = largest.max(sums.largest_increment + jump);
+        }
+        self.drift += largest;
         if self.drift > self.scene.grid.h {
             self.sort();
         }

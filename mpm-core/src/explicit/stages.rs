@@ -1,21 +1,22 @@
 //! The stages of the explicit step, in its order.
 
-use super::remedy::{self, Remedy};
-use super::transfer::{Given, Transfer};
-use super::{ChunkSums, NodeSums, Solver, check_cfl, stress_of};
+use super::rest::{ForceStress, Rest, force_stress_of};
+use super::transfer::{Given, Received, Transfer};
+use super::{ChunkSums, NodeSums, Solver};
 use crate::basis::Basis;
-use crate::body::check_jacobian;
+use crate::eights::{
+    AHEAD, Eights, block, blocks, components, entries, numbers, store, store_numbers, store_vectors,
+};
 use crate::error::Error;
+use crate::lattice::Stencils;
 use crate::material::Law;
 use crate::monitor::Residual;
 use crate::nodes::NodalState;
-use crate::parallel::{AT_ONCE, CHUNK, chunks_if_present, scatter};
-use crate::particles::Particles;
-use crate::projection::{Average, Projection};
-use crate::room::Room;
-use crate::space;
+use crate::number::{EIGHT, Eight};
+use crate::parallel::{for_each_chunk, scatter};
+use crate::projection::Projection;
+use crate::space::determinant_of_entries;
 use crate::stage::ForceFilter;
-use nalgebra::SMatrix;
 use rayon::prelude::*;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
@@ -44,30 +45,44 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     pub(super) fn particles_to_grid(&mut self) {
         let lattice = &self.lattice;
         let (transfer, p) = (&self.settings.transfer, &self.scene.body.particles);
-        let stress = stress_of(&p.stress, &self.adjusted_stress);
+        let force_mean = &self.force_mean;
         self.reach.clear(&mut self.nodes);
         scatter(
             &mut self.nodes,
             lattice.plane(),
             &self.slabs,
             |slab, nodes, origin| {
-                let x = &p.position[slab.clone()];
-                let (mass, v) = (&p.mass[slab.clone()], &p.velocity[slab.clone()]);
-                let affine = p.affine.get(slab.clone()).unwrap_or_default();
-                let (volume, stress) = (&p.volume[slab.clone()], &stress[slab.clone()]);
-                let external_force = p.external_force.get(slab).unwrap_or_default();
-                lattice.for_each_stencil(x, &p.half_size, |k, stencil| {
-                    let given = Given {
-                        position: &x[k],
-                        mass: mass[k],
-                        velocity: &v[k],
-                        affine: affine.get(k),
-                        volume: volume[k],
-                        stress: &stress[k],
-                        external_force: external_force.get(k),
-                    };
-                    transfer.particle_to_grid(lattice, stencil, &given, nodes, origin);
-                });
+                let x = Eights::of(&p.position[slab.clone()]);
+                let v = Eights::of(&p.velocity[slab.clone()]);
+                let mass = Eights::of(&p.mass[slab.clone()]);
+                let volume = Eights::of(&p.volume[slab.clone()]);
+                let affine = p.affine.get(slab.clone()).map(Eights::of);
+                let external_force = p.external_force.get(slab.clone()).map(Eights::of);
+                let stress = ForceStress::of(p, force_mean, slab.clone());
+                let mut stencils = Stencils::on(lattice);
+                let mut given = Given::default();
+                for k in 0..blocks(slab.len()) {
+                    x.fetch(k + AHEAD);
+                    v.fetch(k + AHEAD);
+                    mass.fetch(k + AHEAD);
+                    volume.fetch(k + AHEAD);
+                    stress.fetch(k + AHEAD);
+                    let (x, mass) = (components(x.at(k)), Eight::new(*mass.at(k)));
+                    let functions = lattice.functions(&x, &p.half_size);
+                    lattice.stencils(&functions, &mut stencils);
+                    given.set(
+                        mass,
+                        &components(v.at(k)),
+                        Eight::new(*volume.at(k)),
+                        &stress.at::<D>(k),
+                        external_force.as_ref().map(|force| components(force.at(k))),
+                    );
+                    let affine = affine.as_ref().map(|affine| affine.at(k));
+                    let gives = transfer.give(lattice, &functions, &x, mass, affine);
+                    for l in 0..entries(slab.len(), k) {
+                        transfer.particle_to_grid(stencils.at(l), &given, &gives, nodes, origin);
+                    }
+                }
             },
         );
         lattice.fold(&mut self.nodes);
@@ -117,93 +132,110 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         self.lattice.unfold(&mut self.nodes);
     }
 
-    /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16).
+    /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16); and in the same pass the rest of their
+    /// step, [`Rest`], unless the remedy averages before it.
     pub(super) fn grid_to_particles(&mut self) -> Result<(), Error> {
-        let (lattice, nodes, dt) = (&self.lattice, &self.nodes, self.settings.dt);
-        let p = &mut self.scene.body.particles;
+        let rest = self.rest();
+        let (lattice, nodes) = (&self.lattice, &self.nodes);
+        let body = &mut self.scene.body;
         let transfer = &mut self.settings.transfer;
-        let passes = 1 + transfer.prepare(lattice, p, &self.slabs, nodes, &self.prescribed);
-        let (transfer, chunks) = (&*transfer, self.chunk_sums.len());
-        let (half_size, external_force) = (&p.half_size, &p.external_force);
-        let stress = stress_of(&p.stress, &self.adjusted_stress);
-        (
-            self.chunk_sums.par_iter_mut(),
-            p.velocity.par_chunks_mut(CHUNK),
-            chunks_if_present(&mut p.affine, chunks),
-            p.increment.par_chunks_mut(CHUNK),
-            p.delta_f.par_chunks_mut(CHUNK),
-            p.jacobian.par_chunks_mut(CHUNK),
-            p.position.par_chunks(CHUNK),
-            p.volume.par_chunks(CHUNK),
-            stress.par_chunks(CHUNK),
-        )
-            .into_par_iter()
-            .with_max_len(AT_ONCE)
-            .enumerate()
-            .for_each(
-                |(c, (sums, v, affine, increment, delta_f, j, x, volume, stress))| {
-                    let mut chunk = ChunkSums::default();
-                    // All of one length: nothing is left to check between sums and what they are for.
-                    let (v, increment) = (&mut v[..x.len()], &mut increment[..x.len()]);
-                    let (delta_f, j) = (&mut delta_f[..x.len()], &mut j[..x.len()]);
-                    let (volume, stress) = (&volume[..x.len()], &stress[..x.len()]);
-                    lattice.for_each_stencil(x, half_size, |k, stencil| {
-                        let (stress, volume) = (stress[k], volume[k]);
-                        let b = affine.get_mut(k);
-                        let got =
-                            transfer.grid_to_particle(lattice, stencil, &x[k], nodes, &mut v[k], b);
-                        let gradient = SMatrix::<f64, D, D>::from_fn(|a, b| got.gradient[a][b]);
-                        delta_f[k] = SMatrix::identity() + gradient * dt;
-                        j[k] *= space::determinant(&delta_f[k]);
-                        if let Err(fault) = check_jacobian(j[k]) {
-                            chunk.fault.get_or_insert((c * CHUNK + k, fault));
+        let passes = 1 + transfer.prepare(
+            lattice,
+            &body.particles,
+            &self.slabs,
+            nodes,
+            &self.prescribed,
+        );
+        let (transfer, force_mean) = (&*transfer, self.force_mean.as_slice());
+        let half_size = body.particles.half_size;
+        let dt = Eight::splat(self.settings.dt);
+        let all = (body.chunk(), self.deformation.chunk());
+        for_each_chunk(
+            all,
+            &mut self.chunk_sums,
+            &|(mut p, mut deformation), sums| {
+                *sums = ChunkSums::default();
+                let (mut stress_power, mut load_power) = (Eight::ZERO, Eight::ZERO);
+                let mut stencils = Stencils::on(lattice);
+                let (mut received, mut receives) = (Received::default(), T::Receives::default());
+                for k in 0..blocks(p.len()) {
+                    p.fetch_motion(k + AHEAD);
+                    if !deformation.is_there() {
+                        p.fetch_rest(k + AHEAD);
+                    }
+                    let x = components(block(p.position, k, &mut None));
+                    let functions = lattice.functions(&x, &half_size);
+                    lattice.stencils(&functions, &mut stencils);
+                    let gives = transfer.give(lattice, &functions, &x, Eight::ZERO, None);
+                    for l in 0..EIGHT {
+                        let stencil = stencils.at(l);
+                        transfer.grid_to_particle(
+                            stencil,
+                            &gives,
+                            nodes,
+                            &mut received,
+                            &mut receives,
+                        );
+                    }
+                    let mut v = components(block(p.velocity, k, &mut None));
+                    let mut affine = (!p.affine.is_empty()).then(|| *block(p.affine, k, &mut None));
+                    let moving = transfer.receive(&received, &receives, &mut v, &mut affine);
+                    store_vectors(p.velocity, k, &v);
+                    if let Some(affine) = affine {
+                        store(p.affine, k, |l| affine[l]);
+                    }
+
+                    let stress = force_stress_of(&p, force_mean, k);
+                    let mut delta_f = [[Eight::ZERO; D]; D];
+                    let mut increment = [Eight::ZERO; D];
+                    let mut power = Eight::ZERO;
+                    for a in 0..D {
+                        increment[a] = dt * moving[a];
+                        for b in 0..D {
+                            let gradient = received.gradient(a, b);
+                            power = stress.get(a, b).mul_add(gradient, power);
+                            let identity = Eight::splat(f64::from(u8::from(a == b)));
+                            delta_f[a][b] = gradient.mul_add(dt, identity);
                         }
-                        let mut stress_power = 0.0;
+                    }
+                    stress_power += p.present(k, power * numbers(p.volume, k));
+                    if !p.external_force.is_empty() {
+                        let force = components(block(p.external_force, k, &mut None));
+                        let mut power = Eight::ZERO;
                         for a in 0..D {
-                            increment[k][a] = dt * got.moving[a];
-                            for b in 0..D {
-                                stress_power += stress.get(a, b) * got.gradient[a][b];
-                            }
+                            power = force[a].mul_add(received.velocity(a), power);
                         }
-                        if let Some(force) = external_force.get(c * CHUNK + k) {
-                            let powers = force.iter().zip(&got.velocity).map(|(f, v)| f * v);
-                            chunk.load_power += powers.sum::<f64>();
-                        }
-                        chunk.stress_power += volume * stress_power;
-                    });
-                    *sums = chunk;
-                },
-            );
+                        load_power += p.present(k, power);
+                    }
+                    let volume_change = determinant_of_entries(&delta_f);
+                    let j = numbers(p.jacobian, k) * volume_change;
+                    store_numbers(p.jacobian, k, j);
+                    if !p.increment.is_empty() {
+                        store_vectors(p.increment, k, &increment);
+                    }
+                    if !sums.check_jacobians(&p, k, j) {
+                        continue;
+                    }
+                    if deformation.is_there() {
+                        deformation.keep(k, &delta_f, volume_change, &increment);
+                    } else {
+                        rest.finish(&mut p, k, &delta_f, &increment, sums);
+                    }
+                }
+                sums.stress_power = stress_power.reduce_add();
+                sums.load_power = load_power.reduce_add();
+            },
+        );
         self.work.particle_node_pairs += passes * self.transfer_pairs * self.work.particles;
         for sums in &self.chunk_sums {
-            self.accumulated.stress_work += dt * sums.stress_power;
-            self.accumulated.load_work += dt * sums.load_power;
+            self.accumulated.stress_work += self.settings.dt * sums.stress_power;
+            self.accumulated.load_work += self.settings.dt * sums.load_power;
         }
         self.first_fault()
     }
 
-    /// The stress that enters the forces, where the remedy has a share in it.
-    pub(super) fn adjust_stress(&mut self) {
-        let mut stress = std::mem::take(&mut self.adjusted_stress);
-        self.with_remedy(|remedy, particles, average| {
-            remedy.force_stress(particles, average, &mut stress);
-        });
-        self.adjusted_stress = stress;
-    }
-
-    /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26).
-    pub(super) fn average_volume_change(&mut self) {
-        self.with_remedy(|remedy, particles, average| {
-            if let Some(next) = remedy.next_j_bar(particles, average) {
-                remedy::commit(particles, next);
-            }
-        });
-    }
-
-    fn with_remedy(
-        &mut self,
-        act: impl FnOnce(&mut dyn Remedy<D>, &mut Particles<D>, &mut dyn Average<D>),
-    ) {
+    /// The mean stress of the forces, where the remedy has a share in it.
+    pub(super) fn average_stress(&mut self) {
         let before = self.work.projections;
         let mut projection = Projection {
             lattice: &self.lattice,
@@ -212,71 +244,61 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             averaging: &mut self.averaging,
             count: &mut self.work.projections,
         };
-        act(
-            self.settings.remedy.as_mut(),
-            &mut self.scene.body.particles,
-            &mut projection,
-        );
+        let particles = &self.scene.body.particles;
+        let remedy = &mut self.settings.remedy;
+        remedy.force_mean(particles, &mut projection, &mut self.force_mean);
+        self.count_averages_since(before);
+    }
+
+    fn count_averages_since(&mut self, before: u64) {
         self.work.particle_node_pairs +=
             (self.work.projections - before) * self.transfer_pairs * self.work.particles;
     }
 
-    /// Stress, state and volume of the particles, Eqs. (15), (22).
-    pub(super) fn update_stress(&mut self) {
-        self.averaging.expire();
-        self.scene.body.update_stress(self.settings.dt);
+    /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; and the rest of the particles' step, [`Rest`],
+    /// unless it is done.
+    pub(super) fn average_volume_change(&mut self) -> Result<(), Error> {
+        let rest = self.rest();
+        let before = self.work.projections;
+        let mut projection = Projection {
+            lattice: &self.lattice,
+            slabs: &self.slabs,
+            reach: &self.reach,
+            averaging: &mut self.averaging,
+            count: &mut self.work.projections,
+        };
+        let (remedy, body) = (self.settings.remedy.as_mut(), &mut self.scene.body);
+        let next = remedy.next_j_bar(&body.particles, &self.deformation, &mut projection);
+        let all = (body.chunk(), self.deformation.chunk());
+        if all.1.is_there() {
+            for_each_chunk(all, &mut self.chunk_sums, &|(mut p, deformation), sums| {
+                let next = next.map(|next| &next[p.begin..p.begin + p.len()]);
+                for k in 0..blocks(p.len()) {
+                    p.fetch_rest(k + AHEAD);
+                    let delta_f = match next {
+                        Some(next) => {
+                            let (j_bar, next) = (numbers(p.j_bar, k), numbers(next, k));
+                            store_numbers(p.j_bar, k, next);
+                            deformation.averaged(k, j_bar, next)
+                        }
+                        None => deformation.raw(k),
+                    };
+                    rest.finish(&mut p, k, &delta_f, &deformation.increment(k), sums);
+                }
+            });
+        }
+        self.count_averages_since(before);
+        self.first_fault()
     }
 
-    /// New positions, Eq. (17).
-    pub(super) fn move_particles(&mut self) -> Result<(), Error> {
-        let grid = &self.scene.grid;
-        let wave_distance = self.wave_speed * self.settings.dt;
-        let p = &mut self.scene.body.particles;
-        let room = Room::new(grid, p.half_size.map(B::beyond_wall));
-        (
-            self.chunk_sums.par_iter_mut(),
-            p.position.par_chunks_mut(CHUNK),
-            p.increment.par_chunks(CHUNK),
+    fn rest(&self) -> Rest<D> {
+        let half_size = &self.scene.body.particles.half_size;
+        Rest::of::<S, B>(
+            &self.scene.grid,
+            self.settings.dt,
+            self.wave_speed,
+            half_size,
         )
-            .into_par_iter()
-            .with_max_len(AT_ONCE)
-            .enumerate()
-            .for_each(|(c, (sums, x, increment))| {
-                let mut largest = 0.0_f64;
-                for k in 0..x.len() {
-                    let mut next = x[k];
-                    let mut distance = 0.0_f64;
-                    for a in 0..D {
-                        next[a] += increment[k][a];
-                        distance = distance.max(increment[k][a].abs());
-                    }
-                    // A particle that breaks down stays where it is, so the state can be inspected.
-                    let checked = check_cfl(distance + wave_distance, grid.h)
-                        .and_then(|()| room.place(&mut next));
-                    match checked {
-                        Ok(wrapped) => {
-                            x[k] = next;
-                            largest = largest.max(distance);
-                            sums.wrapped |= wrapped;
-                        }
-                        Err(fault) => {
-                            sums.fault.get_or_insert((c * CHUNK + k, fault));
-                        }
-                    }
-                }
-                sums.largest_increment = largest;
-            });
-        let mut wrapped = false;
-        let mut largest = 0.0_f64;
-        for sums in &self.chunk_sums {
-            wrapped |= sums.wrapped;
-            largest = largest.max(sums.largest_increment);
-        }
-        self.drift += if wrapped { f64::INFINITY } else { largest };
-        let outcome = self.first_fault();
-        self.averaging.expire();
-        self.sort_if_needed();
-        outcome
     }
 
     pub(super) fn filter_particles(&mut self) {

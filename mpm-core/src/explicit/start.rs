@@ -1,5 +1,6 @@
 //! A solver at time zero.
 
+use super::remedy::Deformation;
 use super::{ChunkSums, Held, NodeSums, Settings, Solver, Transfer, check_cfl};
 use crate::basis::Basis;
 use crate::error::{Error, require};
@@ -38,7 +39,15 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         if scene.loads.is_empty() && scene.contacts.is_empty() {
             particles.external_force = Vec::new();
         }
+        particles.delta_f = Vec::new();
+        if scene.contacts.is_empty() {
+            particles.increment = Vec::new();
+        }
         let n = particles.len();
+        let deformation = match settings.remedy.averages() || !scene.contacts.is_empty() {
+            true => Deformation::of(settings.remedy.as_ref(), n),
+            false => Deformation::default(),
+        };
         let work = Work {
             particles: n as u64,
             nodes: lattice.len() as u64,
@@ -52,7 +61,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             declared: Vec::new(),
             prescribed: Vec::new(),
             held: vec![Held::default(); scene.constraints.len()],
-            adjusted_stress: Vec::new(),
+            force_mean: Vec::new(),
+            deformation,
             chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
             node_sums: vec![NodeSums::default(); lattice.len().div_ceil(NODE_CHUNK)],
             drift: 0.0,

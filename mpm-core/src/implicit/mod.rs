@@ -390,7 +390,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             particles.delta_f[p] = *f;
             if let Some(averaged) = trial.averaged.get(p) {
                 particles.j_bar[p] *= averaged;
-                particles.delta_f[p] *= stretch_of_volume::<D>(averaged / change);
+                particles.delta_f[p] *= stretch_of_volume::<f64, D>(averaged / change);
             }
         }
         self.scene.body.update_stress(dt);

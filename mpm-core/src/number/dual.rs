@@ -182,8 +182,18 @@ impl<const N: usize> Real for Dual<N> {
     }
 
     #[inline]
+    fn clamped(self, low: f64, high: f64) -> Self {
+        self.at_least(low).at_most(high)
+    }
+
+    #[inline]
     fn all_below(self, limit: f64) -> bool {
         self.value < limit
+    }
+
+    #[inline]
+    fn all_between(self, low: f64, high: f64) -> bool {
+        self.value > low && self.value < high
     }
 
     #[inline]

@@ -16,25 +16,30 @@ const SYMMETRIC: usize = 6;
 /// Bytes per particle and step.
 pub(super) fn bytes(dimension: usize, fbar: bool) -> f64 {
     let d = dimension;
-    let stencil = d;
-    let particle_to_grid = stencil + 1 + d + 1 + SYMMETRIC;
-    let grid_to_particle = stencil + 2 * d + 2 + 1 + SYMMETRIC + d + d * d;
-    let law = d * d + 2 + 2 * SYMMETRIC + SYMMETRIC + 1;
-    let motion = 2 * d + d;
-    let mut numbers = particle_to_grid + grid_to_particle + law + motion;
+    let place = d;
+    let particle_to_grid = place + 1 + d + 1 + SYMMETRIC;
+    // Velocity and J are read and written, volume and stress read.
+    let grid_to_particle = 2 * d + 2 + 1 + SYMMETRIC;
+    // State, place and volume are read and written, the stress is written, the reference volume read.
+    let rest = 2 * SYMMETRIC + 2 * d + 2 + SYMMETRIC + 1;
+    let mut numbers = particle_to_grid + grid_to_particle + rest;
     // Zeroed, added to, updated and read; a write is a read and a write.
     let passes_over_nodes = 1 + 2 + 2 + 1;
     let share = 1.0 / f64::from(1 << d);
     let mut bytes = share * (passes_over_nodes * size_of::<NodalState>()) as f64;
     if fbar {
+        // ΔF, its determinant and the displacement, kept by G2P and read again; J̄ ΔJ; volumes and values to the nodes and
+        // back; the new J̄.
+        let between = place + 2 * (d * d + 1 + d);
+        let product = 3;
+        let average = place + 1 + 2 + 1;
+        let new = 1 + 2 + 1;
+        numbers += between + product + average + new;
+        // Formed once, and read for the volumes, the values and the average.
         let weights = match d {
             2 => size_of::<Weights<2, 3>>(),
             _ => size_of::<Weights<3, 3>>(),
         };
-        let product = 1 + d * d + 1;
-        let scaling = 2 * d * d + 2 + 1;
-        // Weights are formed once, and read for the volumes, the values and the average.
-        numbers += product + stencil + 1 + 2 + 1 + scaling;
         bytes += (4 * weights) as f64;
         bytes += share * (2 * passes_over_nodes * NUMBER) as f64;
     }
@@ -59,6 +64,6 @@ pub(super) fn operations(dimension: usize, fbar: bool) -> f64 {
 pub(super) fn needed(dimension: usize, fbar: bool) -> f64 {
     let d = dimension;
     // Place in the seeding order; mass, two volumes and J.
-    let numbers = 4 + 3 * d + 2 * SYMMETRIC + d * d + usize::from(fbar);
+    let numbers = 4 + 3 * d + 2 * SYMMETRIC + usize::from(fbar);
     (size_of::<u32>() + NUMBER * numbers) as f64
 }

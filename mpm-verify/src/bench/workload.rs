@@ -186,10 +186,10 @@ mod tests {
             let mut turn = block.turn("scaling", 1, 1).unwrap();
             turn.timed.slice().unwrap();
             let held = turn.timed.held().unwrap() as f64;
-            // Displacements; with F̄ weights and values to be averaged.
+            // With F̄ ΔF, displacement, ΔJ, the new J̄ and the weights of its stencil.
             let works_with = match fbar {
-                true => size_of::<([f64; 2], Weights<2, 3>, f64)>(),
-                false => size_of::<[f64; 2]>(),
+                true => size_of::<([f64; 4], [f64; 2], [f64; 2], Weights<2, 3>)>(),
+                false => 0,
             };
             let of_particle = needed(2, fbar) + works_with as f64;
             // Its state, its volume and its value.

@@ -1,13 +1,13 @@
 //! Energy-consistent F̄: one average A in the rate of volume and in the pressure of the force.
 
-use super::{Remedy, fill};
+use super::{Deformation, Remedy, fill, fill_with_products, mean};
+use crate::eights::{AHEAD, Eights};
 use crate::memory::Memoryless;
+use crate::number::Eight;
 use crate::parallel::CHUNK;
 use crate::particles::Particles;
 use crate::projection::Average;
-use crate::space::determinant;
 use crate::tensor::SymmetricTensor;
-use nalgebra::SMatrix;
 use rayon::prelude::*;
 
 /// J̄ⁿ⁺¹ = J̄ⁿ A(ΔJ), less a relaxation of what Π can't see, and the force from the stress
@@ -22,7 +22,8 @@ use rayon::prelude::*;
 #[derive(Debug, Clone)]
 pub struct FbarConsistent {
     relaxation: f64,
-    field: Vec<f64>,
+    averaged: Vec<f64>,
+    next: Vec<f64>,
     rest: Vec<f64>,
 }
 
@@ -44,41 +45,53 @@ impl FbarConsistent {
     pub fn new(relaxation: f64) -> Self {
         Self {
             relaxation,
-            field: Vec::new(),
+            averaged: Vec::new(),
+            next: Vec::new(),
             rest: Vec::new(),
         }
     }
 
-    /// Replaces `field` by A `field` = Π field + ε r + (1 − ε) Π r with r = (I − Π) field.
-    fn average<const D: usize>(&mut self, particles: &Particles<D>, average: &mut dyn Average<D>) {
-        self.rest.clone_from(&self.field);
-        average.average(particles, &mut self.rest);
-        for_each_pair(&mut self.field, &mut self.rest, |_, field, smooth| {
-            let rough = *field - *smooth;
-            *field = *smooth + UNSEEN * rough;
-            *smooth = rough;
-        });
-        average.average(particles, &mut self.rest);
-        for_each_pair(&mut self.field, &mut self.rest, |_, field, seen| {
-            *field += (1.0 - UNSEEN) * *seen;
-        });
-    }
-
-    /// Takes (I − Π) θ (I − Π) `field` off `field`.
-    fn relax<const D: usize>(&mut self, particles: &Particles<D>, average: &mut dyn Average<D>) {
-        self.rest.clone_from(&self.field);
+    /// Takes (I − Π) θ (I − Π) J̄ off the next J̄.
+    fn relax<const D: usize>(
+        &mut self,
+        particles: &Particles<D>,
+        shear: &[f64],
+        average: &mut dyn Average<D>,
+    ) {
+        self.rest.clone_from(&self.next);
         average.average(particles, &mut self.rest);
         let relaxation = self.relaxation;
-        for_each_pair(&mut self.field, &mut self.rest, |p, field, rest| {
-            let theta = (relaxation * shear(&particles.delta_f[p])).min(1.0);
-            *rest = theta * (*field - *rest);
-            *field -= *rest;
+        for_each_pair(&mut self.next, &mut self.rest, |p, next, rest| {
+            let theta = (relaxation * shear[p]).min(1.0);
+            *rest = theta * (*next - *rest);
+            *next -= *rest;
         });
         average.average(particles, &mut self.rest);
-        for_each_pair(&mut self.field, &mut self.rest, |_, field, smooth| {
-            *field += *smooth;
+        for_each_pair(&mut self.next, &mut self.rest, |_, next, smooth| {
+            *next += *smooth;
         });
     }
+}
+
+/// Replaces `field` by A `field` = Π field + ε r + (1 − ε) Π r with r = (I − Π) field, which `rest` is for.
+fn sharpened<const D: usize>(
+    particles: &Particles<D>,
+    average: &mut dyn Average<D>,
+    field: &mut [f64],
+    rest: &mut Vec<f64>,
+) {
+    rest.clear();
+    rest.extend_from_slice(field);
+    average.average(particles, rest);
+    for_each_pair(field, rest, |_, field, smooth| {
+        let rough = *field - *smooth;
+        *field = *smooth + UNSEEN * rough;
+        *smooth = rough;
+    });
+    average.average(particles, rest);
+    for_each_pair(field, rest, |_, field, seen| {
+        *field += (1.0 - UNSEEN) * *seen;
+    });
 }
 
 /// `change(p, a, b)` for the entries of two fields at every particle p, in parallel.
@@ -93,25 +106,6 @@ fn for_each_pair(a: &mut [f64], b: &mut [f64], change: impl Fn(usize, &mut f64, 
         });
 }
 
-/// √2 ‖dev sym(ΔF − I)‖, the shear strain of a step; the deviator is that of the motion's own dimensions.
-fn shear<const D: usize>(delta_f: &SMatrix<f64, D, D>) -> f64 {
-    let strain = 0.5 * (delta_f + delta_f.transpose());
-    let mean = (0..D).map(|a| strain[(a, a)]).sum::<f64>() / D as f64;
-    let mut squares = 0.0;
-    for a in 0..D {
-        for b in 0..D {
-            let e = strain[(a, b)] - if a == b { mean } else { 0.0 };
-            squares += e * e;
-        }
-    }
-    (2.0 * squares).sqrt()
-}
-
-/// The part of a stress that works on a change of volume: in plane strain, the in-plane mean.
-fn mean<const D: usize>(stress: &SymmetricTensor) -> f64 {
-    (0..D).map(|a| stress.get(a, a)).sum::<f64>() / D as f64
-}
-
 impl Memoryless for FbarConsistent {}
 
 impl<const D: usize> Remedy<D> for FbarConsistent {
@@ -119,55 +113,42 @@ impl<const D: usize> Remedy<D> for FbarConsistent {
         particles.j_bar = particles.jacobian.clone();
     }
 
-    fn force_stress(
+    fn asks_for_shear(&self) -> bool {
+        self.relaxation > 0.0
+    }
+
+    fn force_mean(
         &mut self,
         particles: &Particles<D>,
         average: &mut dyn Average<D>,
-        stress: &mut Vec<SymmetricTensor>,
+        of_force: &mut Vec<f64>,
     ) {
-        stress.resize(particles.len(), SymmetricTensor::default());
-        stress
-            .par_chunks_mut(CHUNK)
-            .zip(particles.stress.par_chunks(CHUNK))
-            .zip(particles.jacobian.par_chunks(CHUNK))
-            .zip(particles.j_bar.par_chunks(CHUNK))
-            .for_each(|(((stress, own), j), j_bar)| {
-                for (((stress, own), j), j_bar) in stress.iter_mut().zip(own).zip(j).zip(j_bar) {
-                    *stress = own.scale_add_identity(j_bar / j, 0.0);
-                }
-            });
-        fill(&mut self.field, particles.len(), |p| mean::<D>(&stress[p]));
-        self.average(particles, average);
-        stress
-            .par_chunks_mut(CHUNK)
-            .zip(self.field.par_chunks(CHUNK))
-            .for_each(|(stress, averaged)| {
-                for (stress, averaged) in stress.iter_mut().zip(averaged) {
-                    *stress = stress.scale_add_identity(1.0, averaged - mean::<D>(stress));
-                }
-            });
+        fill(of_force, particles.len(), |chunk| {
+            let stress = Eights::of(&particles.stress[chunk.clone()]);
+            let j = Eights::of(&particles.jacobian[chunk.clone()]);
+            let j_bar = Eights::of(&particles.j_bar[chunk]);
+            move |k| {
+                stress.fetch(k + AHEAD);
+                let stress = stress.at(k);
+                let stress = SymmetricTensor::pack(|l| stress[l]);
+                Eight::new(*j_bar.at(k)) / Eight::new(*j.at(k)) * mean::<Eight, D>(&stress)
+            }
+        });
+        sharpened(particles, average, of_force, &mut self.rest);
     }
 
     fn next_j_bar(
         &mut self,
         particles: &Particles<D>,
+        deformation: &Deformation<D>,
         average: &mut dyn Average<D>,
     ) -> Option<&[f64]> {
-        fill(&mut self.field, particles.len(), |p| {
-            determinant(&particles.delta_f[p])
-        });
-        self.average(particles, average);
-        self.field
-            .par_chunks_mut(CHUNK)
-            .zip(particles.j_bar.par_chunks(CHUNK))
-            .for_each(|(field, j_bar)| {
-                for (next, j_bar) in field.iter_mut().zip(j_bar) {
-                    *next *= j_bar;
-                }
-            });
+        self.averaged.clone_from(&deformation.volume_change);
+        sharpened(particles, average, &mut self.averaged, &mut self.rest);
+        fill_with_products(&mut self.next, &particles.j_bar, &self.averaged);
         if self.relaxation > 0.0 {
-            self.relax(particles, average);
+            self.relax(particles, &deformation.shear, average);
         }
-        Some(&self.field)
+        Some(&self.next)
     }
 }

@@ -1,14 +1,14 @@
 //! Rate F̄: J̄ⁿ⁺¹ = J̄ⁿ Π(ΔJ).
 
-use super::{Remedy, fill};
+use super::{Deformation, Remedy, fill_with_products};
 use crate::memory::Memoryless;
 use crate::particles::Particles;
 use crate::projection::Average;
-use crate::space::determinant;
 
 /// Only the increment of the volume is averaged.
 #[derive(Debug, Clone, Default)]
 pub struct FbarRate {
+    averaged: Vec<f64>,
     next: Vec<f64>,
 }
 
@@ -22,15 +22,12 @@ impl<const D: usize> Remedy<D> for FbarRate {
     fn next_j_bar(
         &mut self,
         particles: &Particles<D>,
+        deformation: &Deformation<D>,
         average: &mut dyn Average<D>,
     ) -> Option<&[f64]> {
-        fill(&mut self.next, particles.len(), |p| {
-            determinant(&particles.delta_f[p])
-        });
-        average.average(particles, &mut self.next);
-        for (next, j_bar) in self.next.iter_mut().zip(&particles.j_bar) {
-            *next *= j_bar;
-        }
+        self.averaged.clone_from(&deformation.volume_change);
+        average.average(particles, &mut self.averaged);
+        fill_with_products(&mut self.next, &particles.j_bar, &self.averaged);
         Some(&self.next)
     }
 }

@@ -1,6 +1,6 @@
 //! Total F̄: J̄ⁿ⁺¹ = Π(Jⁿ⁺¹), Eqs. (18)–(21).
 
-use super::{Remedy, fill};
+use super::{Deformation, Remedy};
 use crate::memory::Memoryless;
 use crate::particles::Particles;
 use crate::projection::Average;
@@ -21,9 +21,10 @@ impl<const D: usize> Remedy<D> for FbarTotal {
     fn next_j_bar(
         &mut self,
         particles: &Particles<D>,
+        _deformation: &Deformation<D>,
         average: &mut dyn Average<D>,
     ) -> Option<&[f64]> {
-        fill(&mut self.next, particles.len(), |p| particles.jacobian[p]);
+        self.next.clone_from(&particles.jacobian);
         average.average(particles, &mut self.next);
         Some(&self.next)
     }

@@ -1,6 +1,6 @@
 //! Standard MPM: J̄ = J.
 
-use super::Remedy;
+use super::{Deformation, Remedy};
 use crate::memory::Memoryless;
 use crate::particles::Particles;
 use crate::projection::Average;
@@ -12,7 +12,16 @@ pub struct Standard;
 impl Memoryless for Standard {}
 
 impl<const D: usize> Remedy<D> for Standard {
-    fn next_j_bar(&mut self, _: &Particles<D>, _: &mut dyn Average<D>) -> Option<&[f64]> {
+    fn averages(&self) -> bool {
+        false
+    }
+
+    fn next_j_bar(
+        &mut self,
+        _: &Particles<D>,
+        _: &Deformation<D>,
+        _: &mut dyn Average<D>,
+    ) -> Option<&[f64]> {
         None
     }
 }

@@ -1,12 +1,14 @@
 use super::*;
 use crate::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use crate::eights::{block, matrix_entries, store};
 use crate::grid::{Axis, Grid};
 use crate::lattice::Lattice;
 use crate::material::{Law, NeoHookean};
+use crate::number::Lanes;
 use crate::order::stencil_order;
 use crate::projection::{Averaging, Projection};
 use crate::reach::Reach;
-use crate::space::embed;
+use crate::space::{determinant, determinant_of_entries, embed};
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 use proptest::prelude::*;
@@ -46,6 +48,43 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
         .average(&self.particles, &mut out);
         out
     }
+}
+
+/// The deformation of particles by these ΔF.
+fn deformation<const D: usize>(
+    remedy: &dyn Remedy<D>,
+    delta_f: &[SMatrix<f64, D, D>],
+) -> Deformation<D> {
+    let n = delta_f.len();
+    let mut deformation = Deformation::of(remedy, n);
+    if remedy.averages() {
+        let mut chunk = deformation.chunk();
+        for k in 0..blocks(n) {
+            let entries = matrix_entries(block(delta_f, k, &mut None));
+            let change = determinant_of_entries(&entries);
+            chunk.keep(k, &entries, change, &[Eight::ZERO; D]);
+        }
+    }
+    deformation
+}
+
+/// Makes `next` the J̄ of the particles; returns ΔF̄.
+fn take(
+    particles: &mut Particles<2>,
+    deformation: &mut Deformation<2>,
+    next: &[f64],
+) -> Vec<SMatrix<f64, 2, 2>> {
+    let chunk = deformation.chunk();
+    let mut averaged = vec![SMatrix::zeros(); next.len()];
+    for k in 0..blocks(next.len()) {
+        let j_bar = numbers(&particles.j_bar, k);
+        let delta_f = chunk.averaged(k, j_bar, numbers(next, k));
+        store(&mut averaged, k, |l| {
+            SMatrix::from_fn(|a, b| delta_f[a][b].part(l))
+        });
+    }
+    particles.j_bar.copy_from_slice(next);
+    averaged
 }
 
 /// A square of scattered particles of unequal volume between walls.
@@ -152,8 +191,13 @@ fn the_spread_of_the_average_is_as_stated_for_each_basis() {
     }
 }
 
-/// A body of four particles with given ΔF.
-fn small_body(remedy: &mut dyn Remedy<2>, steps: usize) -> (Vec<f64>, Bench<2, 3, Gimp>) {
+type Gradients = Vec<SMatrix<f64, 2, 2>>;
+
+/// A body of 36 particles with given ΔF; their determinants, the body and ΔF̄ of the last step.
+fn small_body(
+    remedy: &mut dyn Remedy<2>,
+    steps: usize,
+) -> (Vec<f64>, Bench<2, 3, Gimp>, Gradients) {
     let grid = Grid::new(1.0, [Axis::open(0.0, 6), Axis::open(0.0, 6)]).unwrap();
     let positions = (0..36)
         .map(|k| [2.25 + 0.3 * f64::from(k % 6), 2.25 + 0.3 * f64::from(k / 6)])
@@ -161,16 +205,21 @@ fn small_body(remedy: &mut dyn Remedy<2>, steps: usize) -> (Vec<f64>, Bench<2, 3
     let particles = Particles::new(positions, 0.09, 1.0, [0.15; 2]).unwrap();
     let mut bench = Bench::<2, 3, Gimp>::new(grid, particles);
     remedy.attach(&mut bench.particles);
-    let mut scaled = Vec::new();
+    let (mut raw, mut averaged) = (Vec::new(), Vec::new());
     for step in 0..steps {
         let mut particles = bench.particles.clone();
-        for p in 0..particles.len() {
-            let x = particles.position[p];
-            let grow = 0.01 * (x[0] * 5.0 + step as f64).sin() + 0.02 * (x[1] * 3.0).cos();
-            particles.delta_f[p] = nalgebra::SMatrix::<f64, 2, 2>::new(1.0 + grow, 0.1, -0.05, 1.0);
-            particles.jacobian[p] *= determinant(&particles.delta_f[p]);
+        raw = particles
+            .position
+            .iter()
+            .map(|x| {
+                let grow = 0.01 * (x[0] * 5.0 + step as f64).sin() + 0.02 * (x[1] * 3.0).cos();
+                SMatrix::<f64, 2, 2>::new(1.0 + grow, 0.1, -0.05, 1.0)
+            })
+            .collect();
+        for (j, f) in particles.jacobian.iter_mut().zip(&raw) {
+            *j *= determinant(f);
         }
-        scaled = particles.delta_f.clone();
+        let mut deformation = deformation(remedy, &raw);
         let mut averaging = Averaging::new(bench.lattice.len());
         let mut count = 0;
         let mut projection = Projection {
@@ -180,32 +229,31 @@ fn small_body(remedy: &mut dyn Remedy<2>, steps: usize) -> (Vec<f64>, Bench<2, 3
             averaging: &mut averaging,
             count: &mut count,
         };
-        let tried = remedy.next_j_bar(&particles, &mut projection);
+        let tried = remedy.next_j_bar(&particles, &deformation, &mut projection);
         let tried = tried.map(<[f64]>::to_vec);
-        if let Some(next) = remedy.next_j_bar(&particles, &mut projection) {
+        if let Some(next) = remedy.next_j_bar(&particles, &deformation, &mut projection) {
             assert_eq!(tried.as_deref(), Some(next), "a step tried again");
-            commit(&mut particles, next);
+            averaged = take(&mut particles, &mut deformation, next);
         }
         bench.particles = particles;
     }
-    let raw = scaled.iter().map(determinant).collect();
-    (raw, bench)
+    let raw = raw.iter().map(determinant).collect();
+    (raw, bench, averaged)
 }
 
 #[test]
 fn standard_changes_nothing_and_keeps_no_column() {
-    let (raw, bench) = small_body(&mut Standard, 2);
-    assert!(bench.particles.j_bar.is_empty());
-    let after: Vec<f64> = bench.particles.delta_f.iter().map(determinant).collect();
-    assert_eq!(raw, after);
+    let (_, bench, averaged) = small_body(&mut Standard, 2);
+    assert!(bench.particles.j_bar.is_empty() && averaged.is_empty());
+    assert!(!Remedy::<2>::averages(&Standard));
 }
 
 #[test]
 fn the_family_differs_in_the_averaged_jacobian_alone() {
     // Two steps; the formulas written out with Π applied from outside.
     let expected = |kind: &str| -> Vec<f64> {
-        let (first, bench) = small_body(&mut Standard, 1);
-        let (second, _) = small_body(&mut Standard, 2);
+        let (first, bench, _) = small_body(&mut Standard, 1);
+        let (second, _, _) = small_body(&mut Standard, 2);
         let product =
             |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
         match kind {
@@ -220,7 +268,7 @@ fn the_family_differs_in_the_averaged_jacobian_alone() {
         ("rate", Box::new(FbarRate::default())),
     ];
     for (kind, mut remedy) in remedies {
-        let (_, bench) = small_body(remedy.as_mut(), 2);
+        let (_, bench, _) = small_body(remedy.as_mut(), 2);
         for (j_bar, exact) in bench.particles.j_bar.iter().zip(expected(kind)) {
             assert!((j_bar - exact).abs() < ROUNDING, "{kind}: {j_bar} {exact}");
         }
@@ -230,10 +278,9 @@ fn the_family_differs_in_the_averaged_jacobian_alone() {
 #[test]
 fn the_assumed_gradient_has_the_averaged_volume_and_the_given_shape() {
     let mut remedy = FbarTotal::default();
-    let (raw, bench) = small_body(&mut remedy, 1);
-    for p in 0..raw.len() {
-        let assumed = bench.particles.delta_f[p];
-        assert!((determinant(&assumed) - bench.particles.j_bar[p]).abs() < ROUNDING);
+    let (_, bench, averaged) = small_body(&mut remedy, 1);
+    for (p, assumed) in averaged.iter().enumerate() {
+        assert!((determinant(assumed) - bench.particles.j_bar[p]).abs() < ROUNDING);
         // Shape: the ratio of two entries is untouched.
         assert!((assumed[(0, 1)] / assumed[(1, 0)] + 2.0).abs() < ROUNDING);
     }
@@ -283,32 +330,25 @@ fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
 ) {
     let law = NeoHookean::new(70.0, 0.49).unwrap();
     let (bench, states, gradients) = strained::<S, B>(&law, places, carried);
-    let act = |particles: &mut Particles<2>, remedy: &mut FbarConsistent, force: bool| {
-        let mut averaging = Averaging::new(bench.lattice.len());
-        let mut average = Projection {
-            lattice: &bench.lattice,
-            slabs: &bench.slabs,
-            reach: &bench.reach,
-            averaging: &mut averaging,
-            count: &mut 0,
-        };
-        if force {
-            let mut stress = Vec::new();
-            remedy.force_stress(particles, &mut average, &mut stress);
-            particles.stress = stress;
-        } else {
-            let next = remedy.next_j_bar(particles, &mut average).unwrap();
-            commit(particles, next);
-        }
+    let mut averaging = Averaging::new(bench.lattice.len());
+    let mut average = Projection {
+        lattice: &bench.lattice,
+        slabs: &bench.slabs,
+        reach: &bench.reach,
+        averaging: &mut averaging,
+        count: &mut 0,
     };
     let mut remedy = FbarConsistent::new(0.0);
-    let mut loaded = bench.particles.clone();
-    act(&mut loaded, &mut remedy, true);
+    let loaded = &bench.particles;
+    let mut mean = Vec::new();
+    remedy.force_mean(loaded, &mut average, &mut mean);
     let (mut power, mut scale) = (0.0, 0.0);
     for (k, l) in gradients.iter().enumerate() {
+        let ratio = loaded.j_bar[k] / loaded.jacobian[k];
+        let stress = force_stress::<f64, 2>(&loaded.stress[k], ratio, mean[k]);
         for a in 0..2 {
             for b in 0..2 {
-                let share = loaded.volume[k] * loaded.stress[k].get(a, b) * l[(a, b)];
+                let share = loaded.volume[k] * stress.get(a, b) * l[(a, b)];
                 power += share;
                 scale += share.abs();
             }
@@ -317,12 +357,13 @@ fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
     let epsilon = 1e-5;
     let mut stored = |sign: f64| -> f64 {
         let mut moved = bench.particles.clone();
-        for (delta_f, l) in moved.delta_f.iter_mut().zip(&gradients) {
-            *delta_f = SMatrix::identity() + l * (sign * epsilon);
-        }
-        act(&mut moved, &mut remedy, false);
-        let energy =
-            |k: usize| law.energy(&law.update(&embed(&moved.delta_f[k]), 1.0, &states[k]).1);
+        let small = |l: &SMatrix<f64, 2, 2>| SMatrix::identity() + l * (sign * epsilon);
+        let delta_f: Gradients = gradients.iter().map(small).collect();
+        let mut deformation = deformation(&remedy, &delta_f);
+        let next = remedy.next_j_bar(&moved, &deformation, &mut average);
+        let next = next.unwrap().to_vec();
+        let delta_f = take(&mut moved, &mut deformation, &next);
+        let energy = |k: usize| law.energy(&law.update(&embed(&delta_f[k]), 1.0, &states[k]).1);
         (0..moved.len())
             .map(|k| moved.reference_volume[k] * energy(k))
             .sum()
@@ -359,11 +400,9 @@ proptest! {
         let law = NeoHookean::new(70.0, 0.49).unwrap();
         let (bench, _, gradients) = strained::<3, Gimp>(&law, &places, &carried);
         let j_bar_after = |shear: f64| -> Vec<f64> {
-            let mut particles = bench.particles.clone();
-            for (delta_f, l) in particles.delta_f.iter_mut().zip(&gradients) {
-                // Without a change of volume, to first order and to second.
-                *delta_f = SMatrix::<f64, 2, 2>::new(1.0, shear * l[(0, 1)], 0.0, 1.0);
-            }
+            // Without a change of volume, to first order and to second.
+            let sheared = |l: &SMatrix<f64, 2, 2>| SMatrix::<f64, 2, 2>::new(1.0, shear * l[(0, 1)], 0.0, 1.0);
+            let delta_f: Gradients = gradients.iter().map(sheared).collect();
             let mut average = Projection {
                 lattice: &bench.lattice,
                 slabs: &bench.slabs,
@@ -372,7 +411,9 @@ proptest! {
                 count: &mut 0,
             };
             let mut remedy = FbarConsistent::new(100.0);
-            remedy.next_j_bar(&particles, &mut average).unwrap().to_vec()
+            let deformation = deformation(&remedy, &delta_f);
+            let next = remedy.next_j_bar(&bench.particles, &deformation, &mut average);
+            next.unwrap().to_vec()
         };
         let volume = &bench.particles.volume;
         let sum = |j: &[f64], power: i32| -> f64 {

@@ -20,11 +20,13 @@
 //! particle moves; near a node of hats C can then be large, on nodes of little mass.
 
 use super::Transfer;
-use super::kernel::{Given, Received, gather, spread};
-use crate::basis::Basis;
-use crate::lattice::{Arms, Lattice, Stencil};
+use super::kernel::{Given, Received, gather, padded, spread};
+use crate::basis::{Basis, EightAxisWeights};
+use crate::eights::matrix_entries;
+use crate::lattice::{Lattice, StencilRef};
 use crate::memory::Memoryless;
 use crate::nodes::{NodalState, Node};
+use crate::number::{EIGHT, Eight, Octet, Real};
 use crate::particles::Particles;
 use nalgebra::SMatrix;
 
@@ -50,21 +52,57 @@ fn outer<const D: usize>(slow: usize, fast: usize) -> [usize; D] {
     outer
 }
 
-/// The diagonal of D_p (m²).
+/// The diagonal of D_p (m²) of eight particles, from the functions that see them and their arms.
 #[inline(always)]
 pub fn second_moment<const D: usize, const S: usize>(
-    stencil: &Stencil<D, S>,
-    arms: &Arms<D, S>,
-) -> [f64; D] {
-    std::array::from_fn(|a| {
-        let terms = stencil.axis[a].w.iter().zip(&arms[a]);
-        terms.map(|(w, arm)| w * arm * arm).sum()
-    })
+    functions: &[EightAxisWeights<S>; D],
+    arms: &[[Eight; S]; D],
+) -> [Eight; D] {
+    let mut moment = [Eight::ZERO; D];
+    for a in 0..D {
+        for k in 0..S {
+            moment[a] += functions[a].w[k] * arms[a][k] * arms[a][k];
+        }
+    }
+    moment
+}
+
+/// The affine part of the momenta of eight particles, and the arms on which it acts.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+pub struct Affine<const D: usize, const S: usize> {
+    /// x_i − x_p (m), axis by axis.
+    arms: [[Octet; S]; D],
+    /// Columns of m C = m B D⁻¹ (kg/s).
+    slope: [[Octet; D]; D],
+}
+
+impl<const D: usize, const S: usize> Default for Affine<D, S> {
+    fn default() -> Self {
+        Self {
+            arms: [[[0.0; EIGHT]; S]; D],
+            slope: [[[0.0; EIGHT]; D]; D],
+        }
+    }
+}
+
+/// Moments B (m²/s) of eight particles, column by column.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+pub struct Moments<const D: usize>([[Octet; D]; D]);
+
+impl<const D: usize> Default for Moments<D> {
+    fn default() -> Self {
+        Self([[[0.0; EIGHT]; D]; D])
+    }
 }
 
 impl Memoryless for Apic {}
 
 impl<const D: usize> Transfer<D> for Apic {
+    type Gives<const S: usize> = Affine<D, S>;
+    type Receives = Moments<D>;
+
     fn attach(&self, particles: &mut Particles<D>) {
         particles
             .affine
@@ -72,89 +110,111 @@ impl<const D: usize> Transfer<D> for Apic {
     }
 
     #[inline(always)]
-    fn particle_to_grid<const S: usize, B: Basis<S>>(
+    fn give<const S: usize, B: Basis<S>>(
         &self,
         lattice: &Lattice<D, S, B>,
-        stencil: &Stencil<D, S>,
-        given: &Given<'_, D>,
+        functions: &[EightAxisWeights<S>; D],
+        x: &[Eight; D],
+        mass: Eight,
+        affine: Option<&[SMatrix<f64, D, D>; EIGHT]>,
+    ) -> Affine<D, S> {
+        let arms = lattice.arms_of_eight(functions, x);
+        let mut gives = Affine {
+            arms: arms.map(|arms| arms.map(Eight::to_array)),
+            ..Affine::default()
+        };
+        if let Some(affine) = affine {
+            let (moment, affine) = (second_moment(functions, &arms), matrix_entries(affine));
+            let smallest = Eight::splat(SINGULAR * lattice.grid.h * lattice.grid.h);
+            for a in 0..D {
+                let there = moment[a] - smallest;
+                let ratio = there.if_positive(mass / moment[a], Eight::ZERO);
+                for b in 0..D {
+                    gives.slope[a][b] = (ratio * affine[b][a]).to_array();
+                }
+            }
+        }
+        gives
+    }
+
+    #[inline(always)]
+    fn particle_to_grid<const S: usize>(
+        &self,
+        stencil: StencilRef<'_, D, S>,
+        given: &Given<D>,
+        gives: &Affine<D, S>,
         nodes: &mut [NodalState],
         origin: usize,
     ) {
-        let arms = lattice.arms(stencil, given.position);
-        let moment = second_moment(stencil, &arms);
-        let smallest = SINGULAR * lattice.grid.h * lattice.grid.h;
-        // Columns of m C = m B D⁻¹.
+        let l = stencil.place();
+        let momentum = given.momentum(l);
         let mut slope = [Node::ZERO; D];
         for a in 0..D {
-            if let Some(affine) = given.affine
-                && moment[a] > smallest
-            {
-                let mut column = [0.0; 4];
-                for b in 0..D {
-                    column[b] = given.mass * affine[(b, a)] / moment[a];
-                }
-                slope[a] = Node::from(column);
-            }
+            slope[a] = padded(&gives.slope[a], l);
         }
-        let momentum = given.momentum();
-        let along = &arms[D - 1];
-        let carried = |slow: usize, fast: usize, w: f64| {
+        let carried = |slow: usize, fast: usize, w: Node| {
             let outer = outer::<D>(slow, fast);
             let mut middle = momentum;
             for a in 0..D - 1 {
-                middle = slope[a].mul_add(Node::splat(arms[a][outer[a]]), middle);
+                middle = slope[a].mul_add(Node::splat(gives.arms[a][outer[a]][l]), middle);
             }
             let (middle, slope) = (middle * w, slope[D - 1] * w);
-            move |k: usize| slope.mul_add(Node::splat(along[k]), middle)
+            move |k: usize| slope.mul_add(Node::splat(gives.arms[D - 1][k][l]), middle)
         };
         spread(stencil, given, carried, nodes, origin);
     }
 
+    /// B_p = Σ_i w_ip v_i ⊗ (x_i − x_p).
     #[inline(always)]
-    fn grid_to_particle<const S: usize, B: Basis<S>>(
+    fn grid_to_particle<const S: usize>(
         &self,
-        lattice: &Lattice<D, S, B>,
-        stencil: &Stencil<D, S>,
-        position: &[f64; D],
+        stencil: StencilRef<'_, D, S>,
+        gives: &Affine<D, S>,
         nodes: &[NodalState],
-        velocity: &mut [f64; D],
-        affine: Option<&mut SMatrix<f64, D, D>>,
-    ) -> Received<D> {
-        let got = gather(stencil, nodes);
-        *velocity = got.velocity;
-        if let Some(affine) = affine {
-            *affine = moment_of_velocities(stencil, &lattice.arms(stencil, position), nodes);
+        received: &mut Received<D>,
+        receives: &mut Moments<D>,
+    ) {
+        let l = stencil.place();
+        let mut columns = [Node::ZERO; D];
+        let mut weighted = stencil.last();
+        for k in 0..S {
+            weighted[k] *= Node::splat(gives.arms[D - 1][k][l]);
         }
-        got
-    }
-}
-
-/// B_p = Σ_i w_ip v_i ⊗ (x_i − x_p) (m²/s).
-#[inline(always)]
-fn moment_of_velocities<const D: usize, const S: usize>(
-    stencil: &Stencil<D, S>,
-    arms: &Arms<D, S>,
-    nodes: &[NodalState],
-) -> SMatrix<f64, D, D> {
-    let mut columns = [Node::ZERO; D];
-    let last = stencil.last();
-    let (lines, rows) = Stencil::<D, S>::OUTER;
-    for slow in 0..lines {
-        for fast in 0..rows {
-            let (row, outer) = (stencil.row(slow, fast), outer::<D>(slow, fast));
-            let nodes = &nodes[row.node..row.node + S];
-            let (mut value, mut moment) = (Node::ZERO, Node::ZERO);
+        gather(stencil, nodes, received, |slow, fast, w, value, nodes| {
+            let outer = outer::<D>(slow, fast);
+            let mut moment = Node::ZERO;
             for k in 0..S {
-                let weighted = nodes[k].motion * last.w[k];
-                value += weighted;
-                moment = weighted.mul_add(Node::splat(arms[D - 1][k]), moment);
+                moment = nodes[k].motion.mul_add(weighted[k], moment);
             }
             for a in 0..D - 1 {
-                columns[a] = value.mul_add(Node::splat(row.w * arms[a][outer[a]]), columns[a]);
+                let arm = w * Node::splat(gives.arms[a][outer[a]][l]);
+                columns[a] = value.mul_add(arm, columns[a]);
             }
-            columns[D - 1] = moment.mul_add(Node::splat(row.w), columns[D - 1]);
+            columns[D - 1] = moment.mul_add(w, columns[D - 1]);
+        });
+        for a in 0..D {
+            for b in 0..D {
+                receives.0[a][b][l] = columns[a].as_array()[b];
+            }
         }
     }
-    let columns = columns.map(Node::to_array);
-    SMatrix::from_fn(|a, b| columns[b][a])
+
+    #[inline(always)]
+    fn receive(
+        &self,
+        received: &Received<D>,
+        receives: &Moments<D>,
+        velocity: &mut [Eight; D],
+        affine: &mut Option<[SMatrix<f64, D, D>; EIGHT]>,
+    ) -> [Eight; D] {
+        for a in 0..D {
+            velocity[a] = received.velocity(a);
+        }
+        if let Some(affine) = affine {
+            for (l, affine) in affine.iter_mut().enumerate() {
+                *affine = SMatrix::from_fn(|b, a| receives.0[a][b][l]);
+            }
+        }
+        *velocity
+    }
 }

@@ -5,11 +5,11 @@
 
 use super::Transfer;
 use super::kernel::{Given, Received, gather, spread};
-use crate::basis::Basis;
 use crate::error::{Error, require};
-use crate::lattice::{Lattice, Stencil};
+use crate::lattice::StencilRef;
 use crate::memory::Memoryless;
 use crate::nodes::NodalState;
+use crate::number::{EIGHT, Eight};
 use nalgebra::SMatrix;
 
 /// The blend η FLIP + (1 − η) PIC of Eq. (13); FLIP by default.
@@ -52,17 +52,20 @@ impl Default for Flip {
 impl Memoryless for Flip {}
 
 impl<const D: usize> Transfer<D> for Flip {
+    type Gives<const S: usize> = ();
+    type Receives = ();
+
     #[inline(always)]
-    fn particle_to_grid<const S: usize, B: Basis<S>>(
+    fn particle_to_grid<const S: usize>(
         &self,
-        _lattice: &Lattice<D, S, B>,
-        stencil: &Stencil<D, S>,
-        given: &Given<'_, D>,
+        stencil: StencilRef<'_, D, S>,
+        given: &Given<D>,
+        _gives: &(),
         nodes: &mut [NodalState],
         origin: usize,
     ) {
-        let momentum = given.momentum();
-        let carried = |_, _, w: f64| {
+        let momentum = given.momentum(stencil.place());
+        let carried = |_, _, w| {
             let row = momentum * w;
             move |_| row
         };
@@ -70,20 +73,32 @@ impl<const D: usize> Transfer<D> for Flip {
     }
 
     #[inline(always)]
-    fn grid_to_particle<const S: usize, B: Basis<S>>(
+    fn grid_to_particle<const S: usize>(
         &self,
-        _lattice: &Lattice<D, S, B>,
-        stencil: &Stencil<D, S>,
-        _position: &[f64; D],
+        stencil: StencilRef<'_, D, S>,
+        _gives: &(),
         nodes: &[NodalState],
-        velocity: &mut [f64; D],
-        _affine: Option<&mut SMatrix<f64, D, D>>,
-    ) -> Received<D> {
-        let got = gather(stencil, nodes);
+        received: &mut Received<D>,
+        _receives: &mut (),
+    ) {
+        gather(stencil, nodes, received, |_, _, _, _, _| {});
+    }
+
+    #[inline(always)]
+    fn receive(
+        &self,
+        received: &Received<D>,
+        _receives: &(),
+        velocity: &mut [Eight; D],
+        _affine: &mut Option<[SMatrix<f64, D, D>; EIGHT]>,
+    ) -> [Eight; D] {
+        let mut moving = [Eight::ZERO; D];
+        let (flip, pic) = (Eight::splat(self.eta), Eight::splat(1.0 - self.eta));
         for a in 0..D {
-            let flip = velocity[a] + got.increment[a];
-            velocity[a] = self.eta * flip + (1.0 - self.eta) * got.velocity[a];
+            moving[a] = received.velocity(a);
+            let changed = velocity[a] + received.increment(a);
+            velocity[a] = flip * changed + pic * moving[a];
         }
-        got
+        moving
     }
 }

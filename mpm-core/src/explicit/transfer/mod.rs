@@ -22,28 +22,46 @@ pub use flip::Flip;
 pub use kernel::{Given, Received};
 pub use xpic::Xpic;
 
-use crate::basis::Basis;
-use crate::lattice::{Lattice, Stencil};
+use crate::basis::{Basis, EightAxisWeights};
+use crate::lattice::{Lattice, StencilRef};
 use crate::memory::Memory;
 use crate::nodes::NodalState;
+use crate::number::{EIGHT, Eight};
 use crate::particles::Particles;
 use crate::stage::Prescribed;
 use nalgebra::SMatrix;
 use std::ops::Range;
 
 /// A particle–grid transfer. Its methods stand inside the loop over particles and nodes, so it is a
-/// type parameter of the solver.
+/// type parameter of the solver. They serve eight particles, or one of eight.
 pub trait Transfer<const D: usize>: Memory + Send + Sync {
+    /// What eight particles give to the nodes beside momentum, mass and forces, in memory.
+    type Gives<const S: usize>: Copy + Default;
+    /// What eight particles receive beside what all do, in memory.
+    type Receives: Copy + Default;
+
     /// Gives the particles the columns that the transfer needs; a column that is there is kept.
     fn attach(&self, _particles: &mut Particles<D>) {}
 
+    /// What particles at `x` (m) that see `functions` give, of mass (kg) and moment B (m²/s) where they carry one.
+    fn give<const S: usize, B: Basis<S>>(
+        &self,
+        _lattice: &Lattice<D, S, B>,
+        _functions: &[EightAxisWeights<S>; D],
+        _x: &[Eight; D],
+        _mass: Eight,
+        _affine: Option<&[SMatrix<f64, D, D>; EIGHT]>,
+    ) -> Self::Gives<S> {
+        Self::Gives::default()
+    }
+
     /// Adds a particle's mass, momentum and forces, Eqs. (7), (8), (10), to `nodes`, which begins at
     /// node `origin`.
-    fn particle_to_grid<const S: usize, B: Basis<S>>(
+    fn particle_to_grid<const S: usize>(
         &self,
-        lattice: &Lattice<D, S, B>,
-        stencil: &Stencil<D, S>,
-        given: &Given<'_, D>,
+        stencil: StencilRef<'_, D, S>,
+        given: &Given<D>,
+        gives: &Self::Gives<S>,
         nodes: &mut [NodalState],
         origin: usize,
     );
@@ -61,15 +79,23 @@ pub trait Transfer<const D: usize>: Memory + Send + Sync {
         0
     }
 
-    /// New velocity (m/s), and moment B (m²/s) where there is one, of a particle at `position` (m);
-    /// returns what else it receives, Eqs. (11)–(13).
-    fn grid_to_particle<const S: usize, B: Basis<S>>(
+    /// Gathers for a particle, Eqs. (11)–(13); `gives` are those of [`Transfer::give`].
+    fn grid_to_particle<const S: usize>(
         &self,
-        lattice: &Lattice<D, S, B>,
-        stencil: &Stencil<D, S>,
-        position: &[f64; D],
+        stencil: StencilRef<'_, D, S>,
+        gives: &Self::Gives<S>,
         nodes: &[NodalState],
-        velocity: &mut [f64; D],
-        affine: Option<&mut SMatrix<f64, D, D>>,
-    ) -> Received<D>;
+        received: &mut Received<D>,
+        receives: &mut Self::Receives,
+    );
+
+    /// New velocities (m/s), and moments B (m²/s) where there are such, from what particles received. Returns the
+    /// velocity that moves them: Σ_i w_ip v_iⁿ⁺¹, Eq. (17), unless the transfer has a form of its own.
+    fn receive(
+        &self,
+        received: &Received<D>,
+        receives: &Self::Receives,
+        velocity: &mut [Eight; D],
+        affine: &mut Option<[SMatrix<f64, D, D>; EIGHT]>,
+    ) -> [Eight; D];
 }

@@ -21,10 +21,12 @@
 use super::kernel::{Given, Received, gather};
 use super::{Flip, Transfer};
 use crate::basis::Basis;
+use crate::eights::{AHEAD, Eights, blocks, components, entries};
 use crate::error::{Error, require};
-use crate::lattice::{Lattice, Stencil};
+use crate::lattice::{Lattice, Stencil, StencilRef, Stencils};
 use crate::memory::Memoryless;
 use crate::nodes::{NodalState, Node};
+use crate::number::{EIGHT, Eight};
 use crate::parallel::scatter;
 use crate::particles::Particles;
 use crate::stage::Prescribed;
@@ -78,48 +80,88 @@ impl Xpic {
             lattice.plane(),
             slabs,
             |slab, mapped, origin| {
-                let x = &x[slab.clone()];
-                let mass = &mass[slab];
-                lattice.for_each_stencil(x, &particles.half_size, |p, stencil| {
-                    let (lines, rows) = Stencil::<D, S>::OUTER;
-                    let weights = stencil.last().w.map(Node::splat);
-                    let mut sum = Node::ZERO;
-                    for r in 0..lines * rows {
-                        let row = stencil.row(r / rows, r % rows);
-                        let mut row_sum = Node::ZERO;
-                        for (node, w) in nodes[row.node..row.node + S].iter().zip(weights) {
-                            row_sum = node.motion.mul_add(w, row_sum);
-                        }
-                        sum = row_sum.mul_add(Node::splat(row.w), sum);
+                let mass = &mass[slab.clone()];
+                let x = Eights::of(&x[slab]);
+                let mut stencils = Stencils::on(lattice);
+                for k in 0..blocks(mass.len()) {
+                    x.fetch(k + AHEAD);
+                    let functions = lattice.functions(&components(x.at(k)), &particles.half_size);
+                    lattice.stencils(&functions, &mut stencils);
+                    for l in 0..entries(mass.len(), k) {
+                        let sum = mapped_velocity(stencils.at(l), nodes) * mass[k * EIGHT + l];
+                        add_momentum(stencils.at(l), sum, mapped, origin);
                     }
-                    sum *= mass[p];
-                    for r in 0..lines * rows {
-                        let row = stencil.row(r / rows, r % rows);
-                        let (begin, row_sum) = (row.node - origin, sum * row.w);
-                        for (node, w) in mapped[begin..begin + S].iter_mut().zip(weights) {
-                            *node = row_sum.mul_add(w, *node);
-                        }
-                    }
-                });
+                }
             },
         );
         lattice.fold(&mut self.mapped);
     }
 }
 
+/// Σ_i w_ip u_i.
+#[inline(always)]
+fn mapped_velocity<const D: usize, const S: usize>(
+    stencil: StencilRef<'_, D, S>,
+    nodes: &[NodalState],
+) -> Node {
+    let (last, stride) = (stencil.last(), stencil.stride());
+    let (lines, rows) = Stencil::<D, S>::OUTER;
+    let mut sum = Node::ZERO;
+    for slow in 0..lines {
+        let (begin, length) = stencil.line(slow, 0);
+        let line = &nodes[begin..begin + length];
+        for fast in 0..rows {
+            let mut row_sum = Node::ZERO;
+            for k in 0..S {
+                row_sum = line[fast * stride + k].motion.mul_add(last[k], row_sum);
+            }
+            let weight = Node::splat(stencil.row_weight(slow, fast));
+            sum = row_sum.mul_add(weight, sum);
+        }
+    }
+    sum
+}
+
+/// Adds w_ip `momentum` to `mapped`, which begins at node `origin`.
+#[inline(always)]
+fn add_momentum<const D: usize, const S: usize>(
+    stencil: StencilRef<'_, D, S>,
+    momentum: Node,
+    mapped: &mut [Node],
+    origin: usize,
+) {
+    let (last, stride) = (stencil.last(), stencil.stride());
+    let (lines, rows) = Stencil::<D, S>::OUTER;
+    for slow in 0..lines {
+        let (begin, length) = stencil.line(slow, origin);
+        let line = &mut mapped[begin..begin + length];
+        for fast in 0..rows {
+            let row = momentum * stencil.row_weight(slow, fast);
+            for k in 0..S {
+                let node = &mut line[fast * stride + k];
+                *node = row.mul_add(last[k], *node);
+            }
+        }
+    }
+}
+
 impl Memoryless for Xpic {}
 
 impl<const D: usize> Transfer<D> for Xpic {
+    type Gives<const S: usize> = ();
+    /// From its own nodes: S (v* + a Δt) for the velocity, S v for the increment.
+    type Receives = Received<D>;
+
     #[inline(always)]
-    fn particle_to_grid<const S: usize, B: Basis<S>>(
+    fn particle_to_grid<const S: usize>(
         &self,
-        lattice: &Lattice<D, S, B>,
-        stencil: &Stencil<D, S>,
-        given: &Given<'_, D>,
+        stencil: StencilRef<'_, D, S>,
+        given: &Given<D>,
+        gives: &(),
         nodes: &mut [NodalState],
         origin: usize,
     ) {
-        Flip::default().particle_to_grid(lattice, stencil, given, nodes, origin);
+        Flip::default().particle_to_grid(stencil, given, gives, nodes, origin);
     }
 
     fn prepare<const S: usize, B: Basis<S>>(
@@ -162,21 +204,32 @@ impl<const D: usize> Transfer<D> for Xpic {
     }
 
     #[inline(always)]
-    fn grid_to_particle<const S: usize, B: Basis<S>>(
+    fn grid_to_particle<const S: usize>(
         &self,
-        _lattice: &Lattice<D, S, B>,
-        stencil: &Stencil<D, S>,
-        _position: &[f64; D],
+        stencil: StencilRef<'_, D, S>,
+        _gives: &(),
         nodes: &[NodalState],
-        velocity: &mut [f64; D],
-        _affine: Option<&mut SMatrix<f64, D, D>>,
-    ) -> Received<D> {
-        let mut got = gather(stencil, nodes);
-        let own = gather(stencil, &self.nodes);
+        received: &mut Received<D>,
+        receives: &mut Received<D>,
+    ) {
+        gather(stencil, nodes, received, |_, _, _, _, _| {});
+        gather(stencil, &self.nodes, receives, |_, _, _, _, _| {});
+    }
+
+    #[inline(always)]
+    fn receive(
+        &self,
+        _received: &Received<D>,
+        receives: &Received<D>,
+        velocity: &mut [Eight; D],
+        _affine: &mut Option<[SMatrix<f64, D, D>; EIGHT]>,
+    ) -> [Eight; D] {
+        let mut moving = [Eight::ZERO; D];
         for a in 0..D {
-            got.moving[a] = own.increment[a] + 0.5 * (own.velocity[a] - velocity[a]);
+            let next = receives.velocity(a);
+            moving[a] = receives.increment(a) + Eight::splat(0.5) * (next - velocity[a]);
+            velocity[a] = next;
         }
-        *velocity = own.velocity;
-        got
+        moving
     }
 }

@@ -1,0 +1,161 @@
+//! The rest of the particles' step, once ΔF is known: law, volume and place, eight particles at a time.
+
+use super::remedy::force_stress;
+use super::{ChunkSums, check_cfl};
+use crate::basis::Basis;
+use crate::body::Chunk;
+use crate::eights::{
+    Eights, block, components, entries, numbers, store, store_numbers, store_vectors,
+};
+use crate::grid::Grid;
+use crate::material::{Law, State};
+use crate::number::{EIGHT, Eight, Lanes};
+use crate::particles::Particles;
+use crate::room::Room;
+use crate::space::embed_entries;
+use crate::tensor::SymmetricTensor;
+use std::ops::Range;
+
+/// The stress that enters the forces: the law's, or the one with the `mean` that a remedy gives.
+pub(super) struct ForceStress<'a> {
+    stress: Eights<'a, SymmetricTensor>,
+    /// That mean, J̄ and J, where there is one.
+    adjusted: Option<[Eights<'a, f64>; 3]>,
+}
+
+impl<'a> ForceStress<'a> {
+    /// That of the particles in `range`.
+    #[inline(always)]
+    pub(super) fn of<const D: usize>(
+        p: &'a Particles<D>,
+        mean: &'a [f64],
+        range: Range<usize>,
+    ) -> Self {
+        let columns = |mean| [mean, &p.j_bar[range.clone()], &p.jacobian[range.clone()]];
+        Self {
+            stress: Eights::of(&p.stress[range.clone()]),
+            adjusted: mean
+                .get(range.clone())
+                .map(|mean| columns(mean).map(Eights::of)),
+        }
+    }
+
+    /// Asks for the `k`-th eight.
+    #[inline(always)]
+    pub(super) fn fetch(&self, k: usize) {
+        self.stress.fetch(k);
+        for column in self.adjusted.iter().flatten() {
+            column.fetch(k);
+        }
+    }
+
+    /// That of the `k`-th eight, in `D` dimensions.
+    #[inline(always)]
+    pub(super) fn at<const D: usize>(&self, k: usize) -> SymmetricTensor<Eight> {
+        let stress = self.stress.at(k);
+        let stress = SymmetricTensor::pack(|l| stress[l]);
+        match &self.adjusted {
+            Some([mean, j_bar, j]) => {
+                let ratio = Eight::new(*j_bar.at(k)) / Eight::new(*j.at(k));
+                force_stress::<Eight, D>(&stress, ratio, Eight::new(*mean.at(k)))
+            }
+            None => stress,
+        }
+    }
+}
+
+/// The same of the `k`-th eight of a chunk, with the `mean` of all particles.
+#[inline(always)]
+pub(super) fn force_stress_of<const D: usize, M: Law>(
+    p: &Chunk<'_, D, M>,
+    mean: &[f64],
+    k: usize,
+) -> SymmetricTensor<Eight> {
+    let mut spare = None;
+    let stress = block(p.stress, k, &mut spare);
+    let stress = SymmetricTensor::pack(|l| stress[l]);
+    match mean.get(p.begin..p.begin + p.len()) {
+        Some(mean) => {
+            let ratio = numbers(p.j_bar, k) / numbers(p.jacobian, k);
+            force_stress::<Eight, D>(&stress, ratio, numbers(mean, k))
+        }
+        None => stress,
+    }
+}
+
+/// What the rest of a step needs beside the particles.
+pub(super) struct Rest<const D: usize> {
+    dt: f64,
+    h: f64,
+    room: Room<D>,
+    /// How far a wave goes in a step (m).
+    wave_distance: f64,
+}
+
+impl<const D: usize> Rest<D> {
+    /// On `grid`, with steps of `dt` (s), waves of the given speed (m/s) and particles of these half sizes (m).
+    pub(super) fn of<const S: usize, B: Basis<S>>(
+        grid: &Grid<D>,
+        dt: f64,
+        wave_speed: f64,
+        half_size: &[f64; D],
+    ) -> Self {
+        Self {
+            dt,
+            h: grid.h,
+            room: Room::new(grid, half_size.map(B::beyond_wall)),
+            wave_distance: wave_speed * dt,
+        }
+    }
+
+    /// Stress, state and volume, Eqs. (15), (22), and position, Eq. (17), of the `k`-th eight of a chunk that deform by
+    /// `delta_f` and move by `increment` (m). A particle that breaks down stays where it is, so the state can be
+    /// inspected.
+    #[inline(never)]
+    pub(super) fn finish<M: Law>(
+        &self,
+        p: &mut Chunk<'_, D, M>,
+        k: usize,
+        delta_f: &[[Eight; D]; D],
+        increment: &[Eight; D],
+        sums: &mut ChunkSums,
+    ) {
+        let mut spare = None;
+        let states = block(p.states, k, &mut spare);
+        let before = M::State::pack::<Eight>(|l| states[l]);
+        let (stress, after) = p.law.response(&embed_entries(delta_f), self.dt, &before);
+        store(p.stress, k, |l| stress.part(l));
+        store(p.states, k, |l| M::State::part::<Eight>(&after, l));
+        let volume = numbers(p.jacobian, k) * numbers(p.reference_volume, k);
+        store_numbers(p.volume, k, volume);
+
+        let mut x = components(block(p.position, k, &mut None));
+        let mut distance = Eight::ZERO;
+        for a in 0..D {
+            x[a] += increment[a];
+            distance = distance.fast_max(increment[a].abs());
+        }
+        let reach = distance + Eight::splat(self.wave_distance);
+        if reach.simd_le(Eight::splat(self.h)).all() && self.room.holds_all(&x) {
+            store_vectors(p.position, k, &x);
+            let largest = distance.to_array().into_iter().fold(0.0, f64::max);
+            sums.largest_increment = sums.largest_increment.max(largest);
+            return;
+        }
+        for l in 0..entries(p.len(), k) {
+            let (mut next, distance) = (x.map(|x| x.part(l)), distance.part(l));
+            let checked = check_cfl(distance + self.wave_distance, self.h)
+                .and_then(|()| self.room.place(&mut next));
+            match checked {
+                Ok(wrapped) => {
+                    p.position[k * EIGHT + l] = next;
+                    sums.largest_increment = sums.largest_increment.max(distance);
+                    sums.wrapped |= wrapped;
+                }
+                Err(fault) => {
+                    sums.astray.get_or_insert((p.begin + k * EIGHT + l, fault));
+                }
+            }
+        }
+    }
+}
