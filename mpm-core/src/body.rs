@@ -154,25 +154,25 @@ pub struct Chunk<'a, const D: usize, M: Law> {
     pub begin: usize,
     /// What the law remembers.
     pub states: &'a mut [M::State],
-    /// Columns of [`Particles`].
+    /// Position x (m).
     pub position: &'a mut [[f64; D]],
-    /// …
+    /// Velocity v (m/s).
     pub velocity: &'a mut [[f64; D]],
-    /// …
+    /// Moment B (m²/s).
     pub affine: &'a mut [SMatrix<f64, D, D>],
-    /// …
+    /// Volume V (m³).
     pub volume: &'a mut [f64],
-    /// …
+    /// Jacobian J.
     pub jacobian: &'a mut [f64],
-    /// …
+    /// Averaged Jacobian J̄.
     pub j_bar: &'a mut [f64],
-    /// …
+    /// Cauchy stress (Pa).
     pub stress: &'a mut [SymmetricTensor],
-    /// …
+    /// Displacement of the step (m).
     pub increment: &'a mut [[f64; D]],
-    /// …
+    /// Reference volume V⁰ (m³).
     pub reference_volume: &'a [f64],
-    /// …
+    /// External force (N).
     pub external_force: &'a [[f64; D]],
 }
 

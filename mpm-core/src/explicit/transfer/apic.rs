@@ -118,7 +118,7 @@ impl<const D: usize> Transfer<D> for Apic {
         mass: Eight,
         affine: Option<&[SMatrix<f64, D, D>; EIGHT]>,
     ) -> Affine<D, S> {
-        let arms = lattice.arms_of_eight(functions, x);
+        let arms = lattice.arms(functions, x);
         let mut gives = Affine {
             arms: arms.map(|arms| arms.map(Eight::to_array)),
             ..Affine::default()

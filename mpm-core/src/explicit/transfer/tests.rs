@@ -139,7 +139,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
     fn spread_of(&self, k: usize) -> [f64; D] {
         let x = eight_times(&self.particles.position[k]);
         let functions = self.lattice.functions(&x, &self.particles.half_size);
-        let arms = self.lattice.arms_of_eight(&functions, &x);
+        let arms = self.lattice.arms(&functions, &x);
         second_moment(&functions, &arms).map(|moment| moment.part(0))
     }
 
