@@ -108,7 +108,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
     pub fn functions(&self, x: &[Eight; D], half_size: &[f64; D]) -> [EightAxisWeights<S>; D] {
         let mut functions = [EightAxisWeights::NONE; D];
         for a in 0..D {
-            functions[a] = self.bases[a].weights_of_eight(x[a], Eight::splat(half_size[a]));
+            functions[a] = self.bases[a].weights_of_eight(x[a], half_size[a]);
         }
         functions
     }

@@ -138,7 +138,7 @@ impl<const S: usize> Basis<S> for BSpline<S> {
     }
 
     #[inline(always)]
-    fn weights_of_eight(&self, x: Eight, _half_size: Eight) -> EightAxisWeights<S> {
+    fn weights_of_eight(&self, x: Eight, _half_size: f64) -> EightAxisWeights<S> {
         let (first, t) = self.place(x);
         let (mut w, mut slope) = uniform_functions(t);
         let (before, after) = self.uniform;

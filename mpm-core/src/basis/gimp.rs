@@ -22,17 +22,17 @@ pub struct Gimp {
 impl Gimp {
     /// Index of the first function, values and derivatives: of one particle, or of eight.
     #[inline(always)]
-    fn functions<T: Real>(&self, x: T, half_size: T) -> (T, [T; 3], [T; 3]) {
+    fn functions<T: Real>(&self, x: T, half_size: f64) -> (T, [T; 3], [T; 3]) {
         let (one, inverse_h) = (T::splat(1.0), T::splat(self.inverse_h));
-        let length = (half_size + half_size) * inverse_h;
-        let begin = (x - half_size - T::splat(self.origin)) * inverse_h;
+        let length = (half_size + half_size) * self.inverse_h;
+        let begin = (x - T::splat(half_size) - T::splat(self.origin)) * inverse_h;
         let first = begin.floor();
         // The domain [a, b] in units of cells from the first node; past `1` it lies in the next cell.
         let a = begin - first;
-        let b = a + length;
+        let b = a + T::splat(length);
         let inside = b.at_most(1.0);
         let over = b - inside;
-        let scale = one / length;
+        let scale = T::splat(1.0 / length);
         let half_scale = T::splat(0.5) * scale;
         let w0 = half_scale * ((one - a) * (one - a) - (one - inside) * (one - inside));
         let w2 = half_scale * over * over;
@@ -83,7 +83,7 @@ impl Basis<3> for Gimp {
     }
 
     #[inline(always)]
-    fn weights_of_eight(&self, x: Eight, half_size: Eight) -> EightAxisWeights<3> {
+    fn weights_of_eight(&self, x: Eight, half_size: f64) -> EightAxisWeights<3> {
         let (first, w, dw) = self.functions(x, half_size);
         EightAxisWeights { first, w, dw }
     }

@@ -101,8 +101,8 @@ pub trait Basis<const S: usize>: Send + Sync + Sized {
 
     /// The same for eight particles. A basis for which it pays computes them side by side.
     #[inline(always)]
-    fn weights_of_eight(&self, x: Eight, half_size: Eight) -> EightAxisWeights<S> {
-        let each: [_; EIGHT] = std::array::from_fn(|k| self.weights(x.part(k), half_size.part(k)));
+    fn weights_of_eight(&self, x: Eight, half_size: f64) -> EightAxisWeights<S> {
+        let each: [_; EIGHT] = std::array::from_fn(|k| self.weights(x.part(k), half_size));
         EightAxisWeights {
             first: Eight::pack(|k| each[k].first as f64),
             w: std::array::from_fn(|s| Eight::pack(|k| each[k].w[s])),

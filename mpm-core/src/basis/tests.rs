@@ -40,7 +40,7 @@ fn check<const S: usize, B: Basis<S>>(
     // Eight side by side have the bits of one after the other, wherever the others are.
     let beside = |k: usize| axis.lo + (place + 0.123 * k as f64).fract() * length;
     let places: [f64; EIGHT] = std::array::from_fn(|k| if k == 5 { x } else { beside(k) });
-    let eight = basis.weights_of_eight(Eight::pack(|k| places[k]), Eight::splat(half_size));
+    let eight = basis.weights_of_eight(Eight::pack(|k| places[k]), half_size);
     for (k, x) in places.into_iter().enumerate() {
         assert_eq!(eight.part(k), basis.weights(x, half_size), "{x}");
     }
