@@ -260,11 +260,11 @@ const FAULTS: [Fault; 26] = [
         seen_by: &[(AXIS, "order-displacement")],
     },
     Fault {
-        name: "G2P skips the particles that fill no eight",
+        name: "the last of eight particles receives what that of the eight before did",
         file: "explicit/stages.rs",
         sound: "0..EIGHT",
-        broken: "0..if entries(p.len(), k) < EIGHT { 0 } else { EIGHT }",
-        seen_by: &[(RATE, "completes")],
+        broken: "0..EIGHT - 1",
+        seen_by: &[(AXIS, "order-displacement")],
     },
     Fault {
         name: "the place of a particle is that before the step",
