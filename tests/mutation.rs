@@ -88,7 +88,32 @@ const RESTING: Runs = &["dam-break --remedy none --level h0.5 --set duration=0.1
 const SLIDE: Runs =
     &["landslide-2d --remedy fbar-consistent --level h0.4 --set reduction=2 --set duration=1.5"];
 
-const FAULTS: [Fault; 26] = [
+/// A beam in equilibrium, and one whose stress turns.
+const BEAM: Runs = &["cantilever --level h0.1"];
+const TURNED_BEAM: Runs = &["cantilever --level h0.1 --set law=jaumann"];
+
+const FAULTS: [Fault; 29] = [
+    Fault {
+        name: "the tangent is a tenth too soft",
+        file: "implicit/response.rs",
+        sound: "whole.slope[k]",
+        broken: "0.9 * whole.slope[k]",
+        seen_by: &[(BEAM, "newton")],
+    },
+    Fault {
+        name: "the ghost penalty vanishes",
+        file: "implicit/ghost.rs",
+        sound: "factor * moduli.young()",
+        broken: "0.0 * moduli.young()",
+        seen_by: &[(BEAM, "completes")],
+    },
+    Fault {
+        name: "Jaumann's stress turns by half of the rotation",
+        file: "material/hypoelastic.rs",
+        sound: "stress.push_forward(&cayley(0.5))",
+        broken: "stress.push_forward(&cayley(0.25))",
+        seen_by: &[(TURNED_BEAM, "corner")],
+    },
     Fault {
         name: "P2G drops the stress along the last axis",
         file: "explicit/transfer/kernel.rs",

@@ -8,7 +8,7 @@ use crate::metric::{Headline, Metric, Quantity, Sweep};
 use crate::parameter::{Parameter, Parameters};
 use crate::record::Record;
 use crate::results::ResultTable;
-use crate::scheme::Scheme;
+use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::sketch::Sketch;
 use crate::spec::{Level, RunSpec};
 use crate::verdict::Verdict;
@@ -144,6 +144,19 @@ impl Case {
         schemes.sort_by_key(|s| (s.transfer(), s.basis(), s.remedy()));
         schemes.dedup();
         schemes
+    }
+
+    /// The scheme whose parts stand for those that are not asked for, of a kind of solver or any: of the explicit one
+    /// always the same; of another the first in the plan.
+    #[must_use]
+    pub fn default_scheme(&self, solver: Option<&str>) -> Scheme {
+        let explicit = Scheme::flip(BasisName::Gimp, RemedyName::FbarConsistent);
+        let mut schemes = self.plan.iter().flat_map(|f| &f.schemes);
+        let own = schemes.find(|s| solver.is_none_or(|name| s.solver() == name));
+        match own {
+            Some(scheme) if scheme.solver() != explicit.solver() => *scheme,
+            _ => explicit,
+        }
     }
 
     /// The runs of a tier, each once: a tier has those of the ones below it.

@@ -40,18 +40,18 @@ pub(crate) enum Command {
         /// Scheme by its name, as `list` and records write it, in place of its parts
         #[arg(long, conflicts_with_all = ["solver", "basis", "remedy", "transfer"])]
         scheme: Option<String>,
-        /// Solver: explicit
-        #[arg(long, default_value = "explicit")]
-        solver: String,
-        /// Basis functions
-        #[arg(long, default_value = "gimp")]
-        basis: String,
-        /// Locking remedy
-        #[arg(long, default_value = "fbar-consistent")]
-        remedy: String,
-        /// Transfer
-        #[arg(long, default_value = "flip")]
-        transfer: String,
+        /// Solver: explicit or quasi-static (explicit if the case has it)
+        #[arg(long)]
+        solver: Option<String>,
+        /// Basis functions (gimp; of a quasi-static run those of its first in the case)
+        #[arg(long)]
+        basis: Option<String>,
+        /// Locking remedy (fbar-consistent; likewise)
+        #[arg(long)]
+        remedy: Option<String>,
+        /// Transfer of an explicit run (flip)
+        #[arg(long)]
+        transfer: Option<String>,
         /// Level of refinement (the coarsest if not given)
         #[arg(long)]
         level: Option<String>,

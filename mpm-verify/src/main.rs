@@ -84,7 +84,17 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             let case = cases::find(&case)?;
             let scheme = match scheme {
                 Some(name) => Scheme::parse(&name)?,
-                None => Scheme::of_parts(&solver, &basis, &remedy, &transfer)?,
+                None => {
+                    let [solver, basis, remedy, transfer] =
+                        [&solver, &basis, &remedy, &transfer].map(Option::as_deref);
+                    let own = case.default_scheme(solver);
+                    let [basis, remedy, transfer] = [
+                        basis.unwrap_or(own.basis().text()),
+                        remedy.unwrap_or(own.remedy().text()),
+                        transfer.unwrap_or(own.transfer().text()),
+                    ];
+                    Scheme::of_parts(solver.unwrap_or(own.solver()), basis, remedy, transfer)?
+                }
             };
             let level = match level {
                 Some(name) => find_level(case, &name)?,

@@ -6,6 +6,21 @@ use mpm_verify::{cases, golden};
 /// Particle–node pairs of the tier of pull requests.
 const PAIRS: u64 = 130_000_000_000;
 
+/// Entries of the matrices that it factorises, over all factorisations: some ten seconds of a processor, assembly and all.
+const NONZEROS: u64 = 40_000_000;
+
+#[test]
+fn the_pr_tier_factorises_few_enough_entries() {
+    let root = workspace().join("golden");
+    let planned = cases::all()
+        .iter()
+        .filter(|case| !golden::runs(case).is_empty());
+    let entries: u64 = planned
+        .map(|case| golden::nonzeros(&root, case.name).unwrap_or_else(|e| panic!("{e}")))
+        .sum();
+    assert!(entries > 0 && entries <= NONZEROS, "{entries} entries");
+}
+
 #[test]
 fn the_pr_tier_visits_few_enough_pairs() {
     let root = workspace().join("golden");

@@ -2,7 +2,6 @@
 
 use super::{code, json, mpm_verify, stderr, stdout, text};
 use mpm_verify::parameter::Parameters;
-use mpm_verify::scheme::{BasisName, RemedyName, Scheme};
 use mpm_verify::spec::RunSpec;
 
 /// Refused: exit code 2, one line on stderr that names what is wrong and what is allowed, and no
@@ -133,7 +132,7 @@ fn values_that_cannot_go_together_are_refused() {
     }
     refused(
         &["verify", "--tier", "quick", "--shard", "1/90"],
-        &["tier quick has 14 runs for 90 shards"],
+        &["tier quick has 15 runs for 90 shards"],
     );
     refused(
         &["verify", "--tier", "quick", "--shard", "3/2"],
@@ -185,7 +184,7 @@ fn list_and_explain_name_everything() {
     let listed = mpm_verify(&["list", "--format", "json", "--tier", "pr"]);
     let cases: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
     assert_eq!(cases[0]["case"], "cook");
-    assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 23);
+    assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 27);
     assert_eq!(cases[0]["tier"], "pr");
 
     let text = stdout(&mpm_verify(&["explain", "cook"]));
@@ -260,8 +259,8 @@ fn every_explained_parameter_is_accepted_and_recorded() {
 /// `run CASE` with nothing else: the scheme is there at every level, and the coarsest begins to run.
 #[test]
 fn every_case_runs_with_nothing_but_its_name() {
-    let scheme = Scheme::flip(BasisName::Gimp, RemedyName::FbarConsistent);
     for case in mpm_verify::cases::all() {
+        let scheme = case.default_scheme(None);
         assert!(case.schemes().contains(&scheme), "{}", case.name);
         let parameters = Parameters::new(&case.parameters, &[]).unwrap();
         for (k, &level) in case.levels.iter().enumerate() {

@@ -50,6 +50,9 @@ use nalgebra::SVector;
 use newton::{Failure, Newton, Solution, dot};
 use unknowns::{Pattern, Unknowns};
 
+/// Units in the last place by which a stress is rounded.
+const LAST_BITS: f64 = 4.0;
+
 /// A component of a node that a constraint holds.
 #[derive(Debug, Clone, Copy)]
 struct Held {
@@ -284,6 +287,20 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         forces
     }
 
+    /// What rounding of a stress by some last bits of the modulus of pressure waves makes of the forces, in their norm (N):
+    /// a nearly incompressible body has no smaller residual.
+    fn rounding(&self, elements: &Elements<D>) -> f64 {
+        let volume = &self.scene.body.particles.volume;
+        let mut reach = vec![0.0; self.functions.len()];
+        elements.scatter(0.0, &mut reach, |p, sums| {
+            for (sum, dw) in sums.iter_mut().zip(elements.gradients(p)) {
+                *sum += volume[p] * dot(dw, dw).sqrt();
+            }
+        });
+        let modulus = self.moduli.lambda + 2.0 * self.moduli.mu;
+        LAST_BITS * f64::EPSILON * modulus * dot(&reach, &reach).sqrt()
+    }
+
     /// A part of a load step, of `dt` (s).
     fn part(&mut self, dt: f64) -> Result<(), Failure> {
         self.sort();
@@ -295,9 +312,11 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             .analyse(&setting.pattern)
             .map_err(|_| Failure::Singular(0))?;
         self.work.analyses += self.direct.analyses - analyses;
+        let rounding = self.rounding(&setting.elements);
         let mut newton = Newton {
             step: setting.step(&self.scene.body, dt),
             settings: &self.settings,
+            rounding,
             external: &external,
             pattern: &setting.pattern,
             direct: &mut self.direct,

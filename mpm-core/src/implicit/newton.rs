@@ -13,8 +13,6 @@ use nalgebra::SVector;
 
 /// A correction is halved at most so often.
 const MOST_CUTS: u32 = 12;
-/// A residual of this share of the largest one on the way is rounding: of a motion without loads, such as a turn.
-const ROUNDING: f64 = 1e-13;
 /// Conjugate gradients take at most so many iterations.
 const MOST_GRADIENTS: u64 = 2000;
 /// The least relative accuracy of a linear solution by conjugate gradients; later ones are as good as the step's
@@ -50,6 +48,8 @@ pub(super) struct Solution<const D: usize> {
 pub(super) struct Newton<'a, const D: usize, M: Law> {
     pub(super) step: Step<'a, D, M>,
     pub(super) settings: &'a QuasiStatic,
+    /// Norm of the residual (N) that rounding of the stresses leaves.
+    pub(super) rounding: f64,
     /// External forces on the nodes (N).
     pub(super) external: &'a [SVector<f64, D>],
     pub(super) pattern: &'a Pattern,
@@ -74,23 +74,25 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         self.step.trial(u, self.external.len())
     }
 
-    /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: of the external forces, of those at
-    /// the start, or of reactions, whichever is the greatest.
+    /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: of the external forces, of the
+    /// internal ones at the start if there are none, and of reactions, if greater, where a constraint moves.
     fn residual(&self, trial: &Trial<D>, start: f64) -> (Vec<f64>, f64) {
         let forces = trial.internal.iter().zip(&trial.penalty).zip(self.external);
         let out: Vec<SVector<f64, D>> = forces.map(|((f, g), e)| e - f - g).collect();
         let residual = self.step.free(&out);
         let unknowns = self.step.unknowns;
+        let moves = unknowns.held.iter().flatten().any(|u| *u != 0.0);
         let mut held = 0.0;
         for (k, node) in unknowns.node.iter().enumerate() {
             for a in 0..D {
-                if unknowns.held[k * D + a].is_some() {
+                if unknowns.held[k * D + a].is_some() && moves {
                     held += out[*node][a] * out[*node][a];
                 }
             }
         }
         let external = norm(&self.step.free(self.external));
-        (residual, external.max(held.sqrt()).max(start))
+        let loads = if external > 0.0 { external } else { start };
+        (residual, loads.max(held.sqrt()))
     }
 
     /// Solves the step.
@@ -108,14 +110,12 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         let (mut residual, mut loads) = self.residual(&trial, start);
         let mut convergence = Convergence::default();
         let mut last = vec![0.0; u.len()];
-        let mut first: f64 = 0.0;
         let external = self.step.free(self.external);
         for iteration in 0..=self.settings.most_iterations {
             let size = norm(&residual);
             let share = if loads > 0.0 { size / loads } else { size };
             convergence.residuals.push(share);
-            first = first.max(size);
-            if share <= self.settings.tolerance || size <= ROUNDING * first {
+            if share <= self.settings.tolerance || size <= self.rounding {
                 convergence.force_ratio = size / norm(&external).max(f64::MIN_POSITIVE);
                 let work = dot(&external, &u).abs().max(f64::MIN_POSITIVE);
                 convergence.energy_ratio = dot(&residual, &last).abs() / work;

@@ -33,8 +33,8 @@ pub struct QuasiStatic {
     pub remedy: QuasiStaticRemedy,
     /// What holds functions that see hardly any material.
     pub stabilisation: Stabilisation,
-    /// A step has converged when the free nodes' residual is at most this share of the loads (of reactions, if they are
-    /// greater).
+    /// A step has converged when the free nodes' residual is at most this share of the loads; where a constraint moves, of
+    /// reactions, if they are greater.
     pub tolerance: f64,
     /// A step that takes more Newton iterations is halved.
     pub most_iterations: u32,

@@ -194,8 +194,8 @@ fn standing<const D: usize, M: Law>(
         })))
 }
 
-/// At the end the error of Newton's method is squared by an iteration: residuals in a row have e₂ ≤ C e₁² with the C of
-/// the pair before, within a factor, down to rounding.
+/// Near the end an iteration squares the error of Newton's method: of three residuals in a row ln(e₃/e₂)/ln(e₂/e₁) comes to
+/// two before rounding ends it.
 #[test]
 fn newton_converges_quadratically() {
     let settings = QuasiStatic {
@@ -217,7 +217,8 @@ fn newton_converges_quadratically() {
         let residuals: Vec<f64> = convergence.residuals.clone();
         let near: Vec<f64> = residuals.iter().copied().filter(|r| *r < 0.1).collect();
         let order = |k: usize| (near[k + 2] / near[k + 1]).ln() / (near[k + 1] / near[k]).ln();
-        assert!(near.len() >= 3 && order(0) > 1.7, "{residuals:?}");
+        let orders = (0..near.len().saturating_sub(2)).map(order);
+        assert!(orders.fold(0.0, f64::max) > 1.7, "{residuals:?}");
         assert!(convergence.force_ratio <= 1e-11 && convergence.energy_ratio < 1e-11);
     }
 }

@@ -5,9 +5,10 @@ pub mod scheme;
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::transfer::{Apic, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
-use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid};
-use mpm_core::{Error, Law, Scene, Simulation};
-use scheme::{BasisName, Explicit, Scheme, TransferName};
+use mpm_core::implicit::{self, QuasiStatic, QuasiStaticRemedy, Serendipity};
+use mpm_core::material::{Hencky, HenckyJ2, Hypoelastic, NeoHookean, NewtonianFluid};
+use mpm_core::{Error, Lattice, Law, Scene, Simulation};
+use scheme::{BasisName, Explicit, RemedyName, Scheme, TransferName};
 
 type Built<const D: usize> = Result<Box<dyn Simulation<D>>, Error>;
 
@@ -43,7 +44,9 @@ macro_rules! solvable {
                 scene: Scene<$dimension, Self>,
                 settings: Settings<$dimension>,
             ) -> Built<$dimension> {
-                let Scheme::Explicit(Explicit { basis, transfer, .. }) = scheme;
+                let Scheme::Explicit(Explicit { basis, transfer, .. }) = scheme else {
+                    return Err(other_solver("explicit"));
+                };
                 refuse_blend(transfer, settings.transfer.share())?;
                 match (transfer, basis) {
                     $((TransferName::Flip, BasisName::$flip) => $flip(scene, settings),)*
@@ -88,6 +91,90 @@ with_basis! {
     Gimp: 3, Gimp;
     Bspline2: 3, QuadraticBSpline;
     Bspline3: 4, CubicBSpline;
+}
+
+/// A law with the quasi-static solvers that are compiled for it.
+pub trait Equilibrium<const D: usize>: Law + Sized {
+    /// A quasi-static solver of `scene` by `scheme`, whose remedy stands for that of the settings.
+    ///
+    /// # Errors
+    /// The solver refuses the scene; the scheme is not quasi-static, or not compiled for this law in this dimension.
+    fn equilibrium(scheme: Scheme, scene: Scene<D, Self>, settings: QuasiStatic) -> Built<D>;
+}
+
+/// A quasi-static solver of `scene` by `scheme`.
+///
+/// # Errors
+/// As [`Equilibrium::equilibrium`].
+pub fn equilibrium<const D: usize, M: Equilibrium<D>>(
+    scheme: Scheme,
+    scene: Scene<D, M>,
+    settings: QuasiStatic,
+) -> Built<D> {
+    M::equilibrium(scheme, scene, settings)
+}
+
+/// Compiles quasi-static solvers for a law.
+macro_rules! static_solvers {
+    ($dimension:literal, $law:ty, [$($basis:ident: $functions:ty),*]) => {
+        impl Equilibrium<$dimension> for $law {
+            fn equilibrium(
+                scheme: Scheme,
+                scene: Scene<$dimension, Self>,
+                settings: QuasiStatic,
+            ) -> Built<$dimension> {
+                let Scheme::QuasiStatic(parts) = scheme else {
+                    return Err(other_solver("quasi-static"));
+                };
+                let settings = settings.remedy(static_remedy(parts.remedy)?);
+                match parts.basis {
+                    $(BasisName::$basis => {
+                        let solver =
+                            implicit::Solver::<$dimension, $functions, Self>::new(scene, settings)?;
+                        Ok(Box::new(solver))
+                    })*
+                    #[allow(unreachable_patterns, reason = "of a law that has them all")]
+                    basis => Err(not_compiled($dimension, basis, TransferName::Flip)),
+                }
+            }
+        }
+    };
+}
+
+static_solvers!(2, Hencky, [
+    Linear: Lattice<2, 2, Linear>,
+    Gimp: Lattice<2, 3, Gimp>,
+    Bspline2: Lattice<2, 3, QuadraticBSpline>,
+    Bspline3: Lattice<2, 4, CubicBSpline>,
+    Q8: Serendipity
+]);
+static_solvers!(2, NeoHookean, [
+    Gimp: Lattice<2, 3, Gimp>,
+    Bspline2: Lattice<2, 3, QuadraticBSpline>
+]);
+static_solvers!(2, Hypoelastic, [Bspline2: Lattice<2, 3, QuadraticBSpline>, Q8: Serendipity]);
+
+fn static_remedy(remedy: RemedyName) -> Result<QuasiStaticRemedy, Error> {
+    match remedy {
+        RemedyName::None => Ok(QuasiStaticRemedy::None),
+        RemedyName::FbarConsistent => Ok(QuasiStaticRemedy::FbarConsistent),
+        RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => {
+            Err(Error::Input {
+                what: "place of the remedy, of a quasi-static run, in the list none, fbar-recursive, fbar-total, fbar-rate, fbar-consistent,",
+                value: f64::from(remedy as u8),
+                allowed: "none or fbar-consistent: the others' forces follow from no energy",
+            })
+        }
+    }
+}
+
+/// The case's scene is solved by another kind of solver.
+fn other_solver(kind: &'static str) -> Error {
+    Error::Input {
+        what: "kinds of solver that this scene has for this scheme",
+        value: 0.0,
+        allowed: kind,
+    }
 }
 
 fn refuse_blend(transfer: TransferName, share: f64) -> Result<(), Error> {

@@ -20,7 +20,7 @@ pub enum NameError {
         allowed: &'static [&'static str],
     },
     /// A scheme that lacks a part.
-    #[error("scheme \"{0}\" is not of the form basis-remedy-transfer")]
+    #[error("scheme \"{0}\" is not of the form basis-remedy-transfer or quasi-static-basis-remedy")]
     Form(String),
 }
 
@@ -36,6 +36,8 @@ pub enum BasisName {
     Bspline2,
     /// Cubic B-splines.
     Bspline3,
+    /// Serendipity elements with eight nodes.
+    Q8,
 }
 
 /// Locking remedies.
@@ -64,6 +66,8 @@ pub enum TransferName {
     Apic,
     /// XPIC of order 2.
     Xpic2,
+    /// Of a solver without velocities.
+    None,
 }
 
 impl BasisName {
@@ -72,7 +76,7 @@ impl BasisName {
     pub const fn degree(self) -> usize {
         match self {
             Self::Linear => 1,
-            Self::Gimp | Self::Bspline2 => 2,
+            Self::Gimp | Self::Bspline2 | Self::Q8 => 2,
             Self::Bspline3 => 3,
         }
     }
@@ -127,13 +131,13 @@ macro_rules! plain_text {
 
 plain_text!(BasisName, "basis", [
     Self::Linear => "linear", Self::Gimp => "gimp",
-    Self::Bspline2 => "bspline2", Self::Bspline3 => "bspline3"]);
+    Self::Bspline2 => "bspline2", Self::Bspline3 => "bspline3", Self::Q8 => "q8"]);
 plain_text!(RemedyName, "remedy", [
     Self::None => "none", Self::FbarRecursive => "fbar-recursive",
     Self::FbarTotal => "fbar-total", Self::FbarRate => "fbar-rate",
     Self::FbarConsistent => "fbar-consistent"]);
 plain_text!(TransferName, "transfer", [
-    Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2"]);
+    Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2", Self::None => "none"]);
 
 /// A scheme, by the kind of its solver. Files and the command line hold its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -141,6 +145,8 @@ plain_text!(TransferName, "transfer", [
 pub enum Scheme {
     /// Explicit in time: basis-remedy-transfer.
     Explicit(Explicit),
+    /// Equilibrium at every load step: quasi-static-basis-remedy.
+    QuasiStatic(QuasiStatic),
 }
 
 /// A scheme of the explicit solver.
@@ -154,7 +160,34 @@ pub struct Explicit {
     pub transfer: TransferName,
 }
 
+/// A scheme of the quasi-static solver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct QuasiStatic {
+    /// Basis functions.
+    pub basis: BasisName,
+    /// Locking remedy.
+    pub remedy: RemedyName,
+}
+
+/// What names of quasi-static schemes begin with.
+const QUASI_STATIC: &str = "quasi-static";
+
 impl Scheme {
+    /// An explicit scheme, or without a transfer a quasi-static one.
+    #[must_use]
+    pub const fn new(basis: BasisName, remedy: RemedyName, transfer: TransferName) -> Self {
+        match transfer {
+            TransferName::None => Self::quasi_static(basis, remedy),
+            _ => Self::explicit(basis, remedy, transfer),
+        }
+    }
+
+    /// A quasi-static scheme.
+    #[must_use]
+    pub const fn quasi_static(basis: BasisName, remedy: RemedyName) -> Self {
+        Self::QuasiStatic(QuasiStatic { basis, remedy })
+    }
+
     /// An explicit scheme.
     #[must_use]
     pub const fn explicit(basis: BasisName, remedy: RemedyName, transfer: TransferName) -> Self {
@@ -176,6 +209,7 @@ impl Scheme {
     pub const fn solver(self) -> &'static str {
         match self {
             Self::Explicit(_) => "explicit",
+            Self::QuasiStatic(_) => QUASI_STATIC,
         }
     }
 
@@ -184,6 +218,7 @@ impl Scheme {
     pub const fn basis(self) -> BasisName {
         match self {
             Self::Explicit(e) => e.basis,
+            Self::QuasiStatic(q) => q.basis,
         }
     }
 
@@ -192,14 +227,16 @@ impl Scheme {
     pub const fn remedy(self) -> RemedyName {
         match self {
             Self::Explicit(e) => e.remedy,
+            Self::QuasiStatic(q) => q.remedy,
         }
     }
 
-    /// Its transfer.
+    /// Its transfer, if it has velocities.
     #[must_use]
     pub const fn transfer(self) -> TransferName {
         match self {
             Self::Explicit(e) => e.transfer,
+            Self::QuasiStatic(_) => TransferName::None,
         }
     }
 
@@ -213,17 +250,24 @@ impl Scheme {
         remedy: &str,
         transfer: &str,
     ) -> Result<Self, NameError> {
-        match solver {
-            "explicit" => Ok(Self::explicit(
-                BasisName::parse(basis)?,
-                RemedyName::parse(remedy)?,
-                TransferName::parse(transfer)?,
-            )),
-            _ => Err(NameError::Unknown {
-                kind: "solver",
-                given: solver.to_owned(),
-                allowed: &["explicit"],
-            }),
+        let (basis, remedy) = (BasisName::parse(basis)?, RemedyName::parse(remedy)?);
+        let unknown = |kind, given: &str, allowed| NameError::Unknown {
+            kind,
+            given: given.to_owned(),
+            allowed,
+        };
+        match (solver, TransferName::parse(transfer)?) {
+            ("explicit", TransferName::None) => {
+                let allowed = &["flip", "apic", "xpic2"];
+                Err(unknown("transfer of an explicit scheme", transfer, allowed))
+            }
+            ("explicit", transfer) => Ok(Self::explicit(basis, remedy, transfer)),
+            (QUASI_STATIC, TransferName::None) => Ok(Self::quasi_static(basis, remedy)),
+            (QUASI_STATIC, _) => {
+                let what = "transfer of a quasi-static scheme";
+                Err(unknown(what, transfer, &["none"]))
+            }
+            _ => Err(unknown("solver", solver, &["explicit", QUASI_STATIC])),
         }
     }
 
@@ -233,6 +277,7 @@ impl Scheme {
         let (basis, remedy, transfer) = (self.basis(), self.remedy(), self.transfer());
         match transfer {
             TransferName::Flip => format!("{basis} {remedy}"),
+            TransferName::None => format!("{basis} {remedy} static"),
             _ => format!("{basis} {remedy} {transfer}"),
         }
     }
@@ -242,6 +287,11 @@ impl Scheme {
     /// # Errors
     /// A part that is missing or unknown.
     pub fn parse(name: &str) -> Result<Self, NameError> {
+        if let Some((_, rest)) = name.split_once(QUASI_STATIC).filter(|(b, _)| b.is_empty()) {
+            let parts = rest.strip_prefix('-').and_then(|rest| rest.split_once('-'));
+            let (basis, remedy) = parts.ok_or_else(|| NameError::Form(name.to_owned()))?;
+            return Self::of_parts(QUASI_STATIC, basis, remedy, "none");
+        }
         let parts = name.split_once('-').and_then(|(basis, rest)| {
             let (remedy, transfer) = rest.rsplit_once('-')?;
             Some((basis, remedy, transfer))
@@ -269,6 +319,7 @@ impl fmt::Display for Scheme {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Explicit(e) => write!(f, "{}-{}-{}", e.basis, e.remedy, e.transfer),
+            Self::QuasiStatic(q) => write!(f, "{QUASI_STATIC}-{}-{}", q.basis, q.remedy),
         }
     }
 }
@@ -281,7 +332,19 @@ mod tests {
     fn a_scheme_reads_back_from_its_name() {
         let scheme = Scheme::flip(BasisName::Bspline2, RemedyName::FbarRate);
         assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
-        for bad in ["", "gimp", "gimp-flip", "gimp-none-", "gimp-fbar-flip"] {
+        let scheme = Scheme::quasi_static(BasisName::Gimp, RemedyName::FbarConsistent);
+        assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
+        for bad in [
+            "",
+            "gimp",
+            "gimp-flip",
+            "gimp-none-",
+            "gimp-fbar-flip",
+            "gimp-none-none",
+            "quasi-static",
+            "quasi-static-gimp",
+            "quasi-static-gimp-none-flip",
+        ] {
             assert!(Scheme::parse(bad).is_err(), "{bad}");
         }
     }

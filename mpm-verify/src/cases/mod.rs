@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::error::Error;
 use std::sync::LazyLock;
 
+mod cantilever;
 mod column;
 mod cook;
 mod dam_break;
@@ -43,6 +44,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         vibrating_bar::case(),
         column::case(),
         standing_wave::case(),
+        cantilever::case(),
     ]
 });
 

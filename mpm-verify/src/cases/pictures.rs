@@ -20,6 +20,7 @@ pub(super) fn basis_title(basis: BasisName) -> &'static str {
         BasisName::Gimp => "GIMP",
         BasisName::Bspline2 => "quadratic B-splines",
         BasisName::Bspline3 => "cubic B-splines",
+        BasisName::Q8 => "serendipity elements",
     }
 }
 

@@ -87,7 +87,7 @@ fn softening(r: &Record) -> Option<f64> {
     match r.basis() {
         BasisName::Linear | BasisName::Gimp => Some(if consistent { 0.064 } else { 0.25 }),
         BasisName::Bspline2 => Some(if consistent { 0.0 } else { 0.25 }),
-        BasisName::Bspline3 => None,
+        BasisName::Bspline3 | BasisName::Q8 => None,
     }
 }
 

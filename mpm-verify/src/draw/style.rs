@@ -35,12 +35,13 @@ pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>, markers: Markers) 
             BasisName::Gimp => Marker::Circle,
             BasisName::Bspline2 => Marker::Square,
             BasisName::Bspline3 => Marker::Triangle,
-            BasisName::Linear => Marker::Diamond,
+            BasisName::Linear | BasisName::Q8 => Marker::Diamond,
         },
         Markers::Transfer => match scheme.transfer() {
             TransferName::Flip => Marker::Circle,
             TransferName::Apic => Marker::Square,
             TransferName::Xpic2 => Marker::Triangle,
+            TransferName::None => Marker::Diamond,
         },
     };
     Series {
@@ -101,7 +102,7 @@ impl Panels {
             title: basis.to_string(),
             schemes: others
                 .iter()
-                .map(|&(remedy, transfer)| Scheme::explicit(basis, remedy, transfer))
+                .map(|&(remedy, transfer)| Scheme::new(basis, remedy, transfer))
                 .collect(),
             markers,
         };

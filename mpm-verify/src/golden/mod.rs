@@ -37,6 +37,8 @@ pub const MARGIN: f64 = 10.0;
 const CHECK: &str = "golden";
 /// The count that stands for the cost of a run, and that is told where none has changed.
 const PAIRS: &str = "work/particle_node_pairs";
+/// The count that stands for the cost of a run by Newton's method.
+const NONZEROS: &str = "work/nonzeros";
 
 /// File of the goldens of a case.
 #[must_use]
@@ -74,15 +76,30 @@ pub fn why_none(case: &Case, record: &Record) -> Option<String> {
 /// The case is not known, or a run has no golden.
 pub fn pairs(root: &Path, case: &str) -> Result<u64, Error> {
     let path = file(root, case);
-    let golden = Golden::read(&path)?;
-    let pairs_of = |run: String| {
+    let of_runs = counts(root, case, PAIRS)?.into_iter().map(|(run, count)| {
+        count.ok_or_else(|| Error::file(&path, format!("no {PAIRS} of {run}")))
+    });
+    of_runs.sum()
+}
+
+/// Entries of the matrices that all golden runs of a case factorise, over all factorisations; of runs without any none.
+///
+/// # Errors
+/// The case is not known.
+pub fn nonzeros(root: &Path, case: &str) -> Result<u64, Error> {
+    let of_runs = counts(root, case, NONZEROS)?;
+    Ok(of_runs.into_iter().filter_map(|(_, count)| count).sum())
+}
+
+/// A count of all golden runs of a case, where they have it.
+fn counts(root: &Path, case: &str, count: &str) -> Result<Vec<(String, Option<u64>)>, Error> {
+    let golden = Golden::read(&file(root, case))?;
+    let of_run = |run: String| {
         let columns = golden.run(&run).map_or(&[][..], |run| &run.columns);
-        match columns.iter().find(|c| c.quantity == PAIRS) {
-            Some(column) => Ok(column.points[0].value as u64),
-            None => Err(Error::file(&path, format!("no {PAIRS} of {run}"))),
-        }
+        let column = columns.iter().find(|c| c.quantity == count);
+        (run, column.map(|c| c.points[0].value as u64))
     };
-    runs(cases::find(case)?).into_iter().map(pairs_of).sum()
+    Ok(runs(cases::find(case)?).into_iter().map(of_run).collect())
 }
 
 fn of_drift(found: Finding) -> Verdict {

@@ -90,11 +90,15 @@ pub fn explain(case: &Case) -> String {
             p.name, p.unit, p.default, p.domain, p.meaning
         );
     }
-    let _ = writeln!(t, "\nSchemes (--basis B --remedy R --transfer T)");
+    let _ = writeln!(
+        t,
+        "\nSchemes (--solver S --basis B --remedy R --transfer T)"
+    );
     for s in case.schemes() {
         let _ = writeln!(
             t,
-            "  --basis {} --remedy {} --transfer {}",
+            "  --solver {} --basis {} --remedy {} --transfer {}",
+            s.solver(),
             s.basis(),
             s.remedy(),
             s.transfer()

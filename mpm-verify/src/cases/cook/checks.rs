@@ -10,7 +10,7 @@ use super::watch::CREEP;
 use crate::check::{Check, Finding, checks, judge, run, study};
 use crate::metric::Metric;
 use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 
 pub(super) use own::own_runs;
 
@@ -58,7 +58,7 @@ pub(super) fn checks() -> Vec<Check> {
             "all: kinetic energy + stress work + losses exceeds the load's work by no more than 0.1 % of it (the oscillation of symplectic Euler at CFL 0.3)"
             => run(|r| {
                 let why = "energy balance; symplectic Euler oscillates by ½ Δt times the power";
-                vec![judge(r, m::ENERGY_GAIN).at_most(GAIN, why)]
+                is_explicit(r).then(|| judge(r, m::ENERGY_GAIN).at_most(GAIN, why))
             });
         known_limit "never-at-rest":
             "fbar-recursive: rest is not reached within a period, by which the others are there"
@@ -77,8 +77,7 @@ pub(super) fn checks() -> Vec<Check> {
             => run(|r| {
                 let why = "a statically loaded elastic body has an equilibrium";
                 let found = judge(r, m::AT_REST).within(1.0, 0.0, why);
-                (!is_recursive(r) && !rests_late(r))
-                    .then_some(found)
+                (is_explicit(r) && !is_recursive(r) && !rests_late(r)).then_some(found)
             });
         known_limit "rests-late":
             "none, fbar-consistent with XPIC(2) and quadratic splines at h = 2 m: rest is not reached within two periods (within three it is)"
@@ -95,6 +94,12 @@ pub(super) fn checks() -> Vec<Check> {
                 let (metric, tolerance) = (m::REACTION_UY, REACTION * load.abs());
                 let found = judge(r, metric).within(-load, tolerance, "linear momentum at rest");
                 (!is_recursive(r)).then_some(found)
+            });
+        truth "static-reaction":
+            "quasi-static: the clamp's reaction balances the load to a hundred times the tolerance of Newton's method"
+            => run(|r| {
+                let why = "equilibrium";
+                (!is_explicit(r)).then(|| judge(r, m::REACTION_ERROR).at_most(1e-7, why))
             });
         known_limit "locked":
             "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m"
@@ -176,7 +181,7 @@ pub(super) fn checks() -> Vec<Check> {
         truth "no-creep":
             "fbar-total, fbar-rate, fbar-consistent: rms ln(J/J̄) changes by less than 1e-4 per period"
             => run(|r| {
-                if !is_free_of_locking(r) {
+                if !is_explicit(r) || !is_free_of_locking(r) {
                     return Vec::new();
                 }
                 vec![if is_compressible(r) {
@@ -201,6 +206,11 @@ fn is_free_of_locking(r: &Record) -> bool {
         r.remedy(),
         RemedyName::FbarTotal | RemedyName::FbarRate | RemedyName::FbarConsistent
     )
+}
+
+/// Whether a run has inertia, and comes to rest or doesn't.
+fn is_explicit(r: &Record) -> bool {
+    matches!(r.scheme(), Scheme::Explicit(_))
 }
 
 fn is_recursive(r: &Record) -> bool {

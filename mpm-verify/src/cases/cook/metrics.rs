@@ -29,6 +29,11 @@ metrics! { pub(super) OWN:
     ENERGY_LOSS = "energy_loss", "-",
         "largest excess of the load's work, likewise: what the transfer dissipates";
     PERIOD = "period", "s", "nominal fundamental period";
+    REACTION_ERROR = "reaction_error", "-",
+        "quasi-static: distance of the clamp's reaction from the load over the load; 10⁻⁹ if it is less";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "quasi-static: Newton iterations of all steps";
+    LINEAR_ITERATIONS = "linear_iterations", "-",
+        "quasi-static: solutions by factors, with F̄ iterations of conjugate gradients";
     FEM_MID_EDGE_ERROR = "fem_mid_edge_error", "-", "relative error of mid_edge_uy";
     FEM_EDGE_MEAN_ERROR = "fem_edge_mean_error", "-", "relative error of edge_mean_uy";
     FEM_TIP_ERROR = "fem_tip_error", "-", "relative error of tip_uy";

@@ -3,6 +3,7 @@
 //! Section 4.1 of Zhao, Jiang & Choo (2022). Set-up, choices and tolerances: `docs/cook.md`.
 
 mod checks;
+mod equilibrium;
 mod geometry;
 mod metrics;
 mod parameters;
@@ -16,10 +17,12 @@ mod watch;
 use super::family::{REMEDIES, family, more_particles, other_transfers, pairs};
 use crate::case::{Case, Family, FieldView, Tier};
 use crate::metric::{Quantity, Sweep, error};
-use crate::scheme::{BasisName, RemedyName};
+use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::spec::{Level, RunSpec};
+use equilibrium::Pressed;
 use metrics::{FEM_EDGE_MEAN_ERROR, HEADLINES, MEAN_STRESS_RMS_ERROR, TIP_UX};
 use parameters::POISSON_RATIO;
+use scene::forbid_static;
 use watch::Loaded;
 
 use BasisName::{Bspline2, Bspline3, Gimp};
@@ -74,7 +77,15 @@ pub(super) fn case() -> Case {
         cost: Box::new(cost),
         ladder: &[],
         own_runs: checks::own_runs,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Loaded::drive(spec, parameters)?))),
+        begin: Box::new(|spec, parameters| {
+            Ok(match spec.scheme {
+                Scheme::QuasiStatic(_) => Box::new(Pressed::drive(spec, parameters)?),
+                Scheme::Explicit(_) => {
+                    forbid_static(spec, parameters)?;
+                    Box::new(Loaded::drive(spec, parameters)?)
+                }
+            })
+        }),
         pictures: pictures::draw,
         tables: tables::all(),
         breaks_down: |_| None,
@@ -95,6 +106,17 @@ fn cost(spec: &RunSpec) -> f64 {
 const HALVED: &[&str] = &["cfl=0.15"];
 const LARGE: &[&str] = &["cfl=0.6"];
 const GIMPS: &[&str] = &["cfl=0.45"];
+// Loads under which explicit bodies leave the grid, with functions of the rim held.
+const TEN_TIMES: &[&str] = &["load=10", "load_steps=5", "ghost=0.001"];
+const FIFTY_TIMES: &[&str] = &["load=50", "load_steps=20", "ghost=0.001"];
+
+/// Quasi-static, without a remedy and with ours.
+fn statics(bases: &[BasisName]) -> Vec<Scheme> {
+    let of = |&basis: &BasisName| {
+        [RemedyName::None, FbarConsistent].map(|remedy| Scheme::quasi_static(basis, remedy))
+    };
+    bases.iter().flat_map(of).collect()
+}
 
 fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
     let none = RemedyName::None;
@@ -152,5 +174,9 @@ fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
         family(Long, &[h2, h1, half, quarter], &other_transfers(), &[]),
         three_per,
         four_per,
+        family(Pr, &[h2, h1], &statics(&[Gimp, Bspline2]), &[]),
+        family(Nightly, &[half, quarter], &statics(&[Gimp, Bspline2]), &[]),
+        family(Nightly, &[h1], &statics(&[Bspline2]), TEN_TIMES),
+        family(Nightly, &[h1], &statics(&[Bspline2]), FIFTY_TIMES),
     ]
 }

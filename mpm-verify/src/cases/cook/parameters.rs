@@ -23,14 +23,31 @@ parameters! { pub(super) const:
         "longest time to run, in fundamental periods of 60 s (at the default E and ρ); a run that creeps after one is stopped there";
     REST_WINDOW = "rest_window", "periods", "0.05", number(1e-3, 10.0, false),
         "time over which the criterion of rest must hold";
+    LOAD_STEPS = "load_steps", "-", "2", Domain::Integer { least: 1, most: 10_000 },
+        "quasi-static: steps of the load, which rises smoothly over them";
+    GHOST = "ghost", "-", "1e-8", number(0.0, 1.0, false),
+        "quasi-static: ghost penalty, in shares of Young's modulus; 0: none";
 }
+/// What only an explicit run has.
+pub(super) const OF_EXPLICIT: [&str; 8] = [
+    LOAD_RAMP.name,
+    DAMPING.name,
+    KINETIC_DAMPING.name,
+    CFL.name,
+    FLIP.name,
+    WALL.name,
+    MAX_PERIODS.name,
+    REST_WINDOW.name,
+];
+/// What only a quasi-static run has.
+pub(super) const OF_QUASI_STATIC: [&str; 2] = [LOAD_STEPS.name, GHOST.name];
 /// A word of [`LOAD_AT`].
 pub(super) const COLUMN: &str = "column";
 pub(super) const CFL: Parameter = common::CFL.with_default("0.3");
 pub(super) const WALL: Parameter = common::WALL.meaning("how B-splines meet the clamped side");
 
 /// All of them.
-pub(super) const ALL: [Parameter; 14] = [
+pub(super) const ALL: [Parameter; 16] = [
     YOUNG_MODULUS,
     POISSON_RATIO,
     DENSITY,
@@ -45,4 +62,6 @@ pub(super) const ALL: [Parameter; 14] = [
     MAX_PERIODS,
     REST_WINDOW,
     PPC_PER_DIRECTION,
+    LOAD_STEPS,
+    GHOST,
 ];

@@ -2,15 +2,17 @@
 
 use super::geometry::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT, seed};
 use super::parameters::{
-    CFL, COLUMN, DAMPING, DENSITY, FLIP, KINETIC_DAMPING, LOAD, LOAD_AT, LOAD_RAMP, MAX_PERIODS,
-    POISSON_RATIO, PPC_PER_DIRECTION, REST_WINDOW, YOUNG_MODULUS,
+    ALL, CFL, COLUMN, DAMPING, DENSITY, FLIP, GHOST, KINETIC_DAMPING, LOAD, LOAD_AT, LOAD_RAMP,
+    LOAD_STEPS, MAX_PERIODS, OF_EXPLICIT, OF_QUASI_STATIC, POISSON_RATIO, PPC_PER_DIRECTION,
+    REST_WINDOW, YOUNG_MODULUS,
 };
 use crate::cases::observe::settings;
 use crate::error::Error;
-use crate::parameter::Parameters;
+use crate::parameter::{Parameter, Parameters};
 use crate::spec::RunSpec;
 use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
+use mpm_core::implicit::{QuasiStatic, Stabilisation};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{DeadForce, End, KineticDamping, Wall, WallKind};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
@@ -18,6 +20,8 @@ use mpm_solvers::solver;
 
 /// Room of the grid beyond the membrane (m): right, below, above.
 const MARGIN: (f64, f64, f64) = (2.0, 2.0, 6.0);
+/// Headroom (m) of a quasi-static run per load over Young's modulus.
+const RISE: f64 = 20.0;
 /// The fundamental period (s) at E = 70 Pa and ρ = 1 kg/m³, rounded; it scales as √(ρ/E).
 const PERIOD: f64 = 60.0;
 /// Allowed load per metre of depth over Young's modulus (m).
@@ -65,6 +69,68 @@ pub(super) fn check_together(parameters: &Parameters) -> Result<(), Error> {
     Ok(())
 }
 
+/// That a run leaves alone the parameters `names`, which only another kind of solver has.
+fn forbid(spec: &RunSpec, parameters: &Parameters, names: &[&str]) -> Result<(), Error> {
+    let foreign = |p: &&Parameter| names.contains(&p.name);
+    for p in ALL.iter().filter(foreign) {
+        let (value, default) = (parameters.text(*p), p.parse(p.default)?.to_string());
+        if value != default {
+            return Err(Error::Input(format!(
+                "{} = {value} has no meaning with the solver {}; allowed: {default}",
+                p.name,
+                spec.scheme.solver()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// That an explicit run changes nothing that only a quasi-static one has.
+pub(super) fn forbid_static(spec: &RunSpec, parameters: &Parameters) -> Result<(), Error> {
+    forbid(spec, parameters, &OF_QUASI_STATIC)
+}
+
+/// That a quasi-static run changes nothing that only an explicit one has.
+pub(super) fn forbid_explicit(spec: &RunSpec, parameters: &Parameters) -> Result<(), Error> {
+    forbid(spec, parameters, &OF_EXPLICIT)
+}
+
+/// The membrane, its clamp and its load, which grows over `ramp` (s), with so much more `headroom` (m).
+fn scene(
+    spec: &RunSpec,
+    parameters: &Parameters,
+    (ramp, headroom): (f64, f64),
+) -> Result<Scene<2, NeoHookean>, mpm_core::Error> {
+    let h = spec.level.h;
+    let spacing = h / parameters.number(PPC_PER_DIRECTION);
+    let cells = |length: f64| (length / h).ceil() as usize;
+    let (right, below, above) = MARGIN;
+    let below = cells(below) as f64 * h;
+    let grid = Grid::new(
+        h,
+        [
+            Axis::bounded(0.0, cells(LENGTH + right), (Side::Wall, Side::Open)),
+            Axis::open(
+                -below,
+                cells(below + LEFT_HEIGHT + RIGHT_HEIGHT + above + headroom),
+            ),
+        ],
+    )?;
+    let particles = Particles::new(
+        spec.start_at(seed(spacing)),
+        spacing * spacing,
+        parameters.number(DENSITY),
+        [0.5 * spacing; 2],
+    )?;
+    let loads = loads(parameters, (spacing, ramp), &particles);
+    let scene = Scene::new(grid, Body::new(law(parameters)?, particles)?).constrain(Wall {
+        axis: 0,
+        end: End::Lo,
+        kind: WallKind::Fixed,
+    });
+    Ok(loads.into_iter().fold(scene, Scene::load))
+}
+
 /// The simulation at its start.
 ///
 /// # Errors
@@ -73,45 +139,44 @@ pub(super) fn begin(
     spec: &RunSpec,
     parameters: &Parameters,
 ) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
-    let h = spec.level.h;
     let number = |p| parameters.number(p);
-    let spacing = h / number(PPC_PER_DIRECTION);
-    let cells = |length: f64| (length / h).ceil() as usize;
-    let (right, below, above) = MARGIN;
-    let below = cells(below) as f64 * h;
-    let grid = Grid::new(
-        h,
-        [
-            Axis::bounded(0.0, cells(LENGTH + right), (Side::Wall, Side::Open)),
-            Axis::open(-below, cells(below + LEFT_HEIGHT + RIGHT_HEIGHT + above)),
-        ],
-    )?;
-    let particles = Particles::new(
-        spec.start_at(seed(spacing)),
-        spacing * spacing,
-        number(DENSITY),
-        [0.5 * spacing; 2],
-    )?;
-    let mut settings = settings(spec, parameters, time_step(h, parameters)?, number(DAMPING))?
-        .transfer(Flip::new(number(FLIP))?);
+    let dt = time_step(spec.level.h, parameters)?;
+    let mut settings =
+        settings(spec, parameters, dt, number(DAMPING))?.transfer(Flip::new(number(FLIP))?);
     if parameters.boolean(KINETIC_DAMPING) {
         settings = settings.filter_particles(KineticDamping::default());
     }
-    let loads = loads(parameters, spacing, &particles);
-    let scene = Scene::new(grid, Body::new(law(parameters)?, particles)?).constrain(Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Fixed,
-    });
-    let scene = loads.into_iter().fold(scene, Scene::load);
-    solver(spec.scheme, scene, settings)
+    let ramp = number(LOAD_RAMP) * period(parameters);
+    solver(spec.scheme, scene(spec, parameters, (ramp, 0.0))?, settings)
+}
+
+/// The same by the quasi-static solver. Time is the share of the steps.
+///
+/// # Errors
+/// As [`begin`].
+pub(super) fn equilibrium(
+    spec: &RunSpec,
+    parameters: &Parameters,
+) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    let mut settings = QuasiStatic::new(1.0 / parameters.number(LOAD_STEPS));
+    if parameters.number(GHOST) > 0.0 {
+        settings = settings.stabilised(Stabilisation::Ghost(parameters.number(GHOST)));
+    }
+    // The tip rises by 0.28 m a newton at first, and by less under larger loads.
+    let strain = parameters.number(LOAD) / parameters.number(YOUNG_MODULUS);
+    let headroom = (RISE * strain.abs()).max(MARGIN.2) - MARGIN.2;
+    let scene = scene(spec, parameters, (1.0, headroom))?;
+    mpm_solvers::equilibrium(spec.scheme, scene, settings)
 }
 
 /// The dead load: on the last column of particles, or on the last two with shares 3/2 and −1/2,
 /// whose resultant acts on the side itself.
-fn loads(parameters: &Parameters, spacing: f64, particles: &Particles<2>) -> Vec<DeadForce<2>> {
+fn loads(
+    parameters: &Parameters,
+    (spacing, ramp): (f64, f64),
+    particles: &Particles<2>,
+) -> Vec<DeadForce<2>> {
     let total = parameters.number(LOAD);
-    let ramp = parameters.number(LOAD_RAMP) * period(parameters);
     let column = |share: f64, from_edge: f64| {
         DeadForce::shared([0.0, share * total], ramp, particles, |x| {
             (x[0] - (LENGTH - from_edge * spacing)).abs() < 0.25 * spacing
@@ -136,7 +201,7 @@ mod tests {
             let set = [format!("load_at={name}"), "load_ramp=0".to_owned()];
             let parameters = Parameters::new(&ALL, &set).unwrap();
             let mut particles = Particles::new(seed(0.5), 0.25, 1.0, [0.25; 2]).unwrap();
-            for load in loads(&parameters, 0.5, &particles.clone()) {
+            for load in loads(&parameters, (0.5, 0.0), &particles.clone()) {
                 load.add(0.0, &mut particles);
             }
             let force: f64 = particles.external_force.iter().map(|f| f[1]).sum();

@@ -32,9 +32,10 @@ const REST: (f64, f64, f64) = (1e-3, 1e-5, 1e-4);
 /// Points on the right side whose mean is `edge_mean_uy`.
 const EDGE_POINTS: usize = 8;
 
-struct Probes {
-    mid_edge: PointProbe,
-    tip: PointProbe,
+/// Where the membrane is probed.
+pub(super) struct Probes {
+    pub(super) mid_edge: PointProbe,
+    pub(super) tip: PointProbe,
     edge: Vec<PointProbe>,
     stress: Vec<(Metric, PointProbe)>,
     tip_particle: usize,
@@ -111,22 +112,84 @@ impl Loaded {
             && time >= self.period.max(2.0 * self.ramp())
             && creep(seen, time).is_some_and(|line| line.slope * self.period > CREEP)
     }
+}
 
-    fn stress_error(&self, mean_stress: &[f64]) -> f64 {
-        if !solution(&self.parameters).is_ok_and(|s| s.poisson_ratio == 0.499) {
-            return f64::NAN;
-        }
-        let (field, scale) = (Reference::stored(), stress_scale(&self.parameters));
-        let counted = self.references.iter().zip(mean_stress);
-        let off = counted
-            .filter(|(x, _)| away_from_singularities(x))
-            .filter_map(|(x, s)| Some(s - scale * field.interpolate(*x)?));
-        rms(off)
+/// Rms over the particles at `references` (m) of the mean stress (Pa) less the reference, where that is known.
+fn stress_error(references: &[[f64; 2]], parameters: &Parameters, mean_stress: &[f64]) -> f64 {
+    if !solution(parameters).is_ok_and(|s| s.poisson_ratio == 0.499) {
+        return f64::NAN;
     }
+    let (field, scale) = (Reference::stored(), stress_scale(parameters));
+    let counted = references.iter().zip(mean_stress);
+    let off = counted
+        .filter(|(x, _)| away_from_singularities(x))
+        .filter_map(|(x, s)| Some(s - scale * field.interpolate(*x)?));
+    rms(off)
+}
+
+/// What is measured of the membrane's shape and stress, whatever brought it there.
+pub(super) fn of_shape(
+    run: &mut dyn Simulation<2>,
+    probes: &Probes,
+    references: &[[f64; 2]],
+    parameters: &Parameters,
+) -> Vec<(Metric, f64)> {
+    let [ux, uy] = [0, 1].map(|axis| displacement(run, axis));
+    let (mean_stress, averaged) = mean_stress(run);
+    let stress_rms = rms(mean_stress.iter().copied());
+    let board = checkerboard(&mean_stress, &averaged);
+    let mid_edge = probes.mid_edge.value(&uy);
+    let edge_mean = probes.edge_mean(&uy);
+    let tip = probes.tip.value(&uy);
+    let stress_error = stress_error(references, parameters, &mean_stress);
+    let mut values = vec![
+        (m::MID_EDGE_UY, mid_edge),
+        (m::EDGE_MEAN_UY, edge_mean),
+        (m::TIP_UY, tip),
+        (m::TIP_UY_NEAREST, uy[probes.tip_particle]),
+        (m::TIP_UX, probes.tip.value(&ux)),
+        (m::MEAN_STRESS_RMS_ERROR, stress_error),
+        (m::MEAN_STRESS_RMS, stress_rms),
+        (m::CHECKERBOARD_RMS, board),
+        (m::CHECKERBOARD_RATIO, board / stress_rms),
+    ];
+    let probed = probes.stress.iter();
+    values.extend(probed.map(|(metric, probe)| (*metric, probe.value(&mean_stress))));
+    if let Ok(reference) = solution(parameters) {
+        values.extend([
+            (
+                m::FEM_MID_EDGE_ERROR,
+                mid_edge / reference.mid_edge.uy - 1.0,
+            ),
+            (
+                m::FEM_EDGE_MEAN_ERROR,
+                edge_mean / reference.edge_mean_uy - 1.0,
+            ),
+            (m::FEM_TIP_ERROR, tip / reference.tip.uy - 1.0),
+        ]);
+    }
+    values
+}
+
+/// The particles as columns.
+pub(super) fn shape_columns(run: &mut dyn Simulation<2>) -> Vec<Column> {
+    let (mean_stress, averaged) = mean_stress(run);
+    let [ux, uy] = [0, 1].map(|axis| displacement(run, axis));
+    let p = run.particles();
+    let averaged_jacobian = |k: usize| p.j_bar.get(k).copied().unwrap_or(p.jacobian[k]);
+    let own = vec![
+        column("ux", "m", ux),
+        column("uy", "m", uy),
+        column("mean_stress", "Pa", mean_stress),
+        column("averaged_mean_stress", "Pa", averaged),
+        column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
+        column("averaged_jacobian", "-", p.seeded(averaged_jacobian)),
+    ];
+    [position_columns(p), reference_columns(p), own].concat()
 }
 
 /// Displacement (m) along an axis, in seeding order.
-fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
+pub(super) fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
     let p = run.particles();
     p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
 }
@@ -162,7 +225,11 @@ fn creep(seen: &Seen, time: f64) -> Option<Line> {
 }
 
 impl Probes {
-    fn new(references: &[[f64; 2]], radius: f64) -> Result<Self, Error> {
+    /// In particles at `references` (m), each within `radius` (m).
+    ///
+    /// # Errors
+    /// Too few particles.
+    pub(super) fn new(references: &[[f64; 2]], radius: f64) -> Result<Self, Error> {
         let at = |x: f64, y: f64| {
             PointProbe::new(references, [x, y], radius)
                 .ok_or_else(|| Error::Input(format!("no particles near ({x}, {y}) m to probe")))
@@ -283,48 +350,20 @@ impl Watch<2> for Loaded {
     }
 
     fn particles(&self, _: &Seen, stage: &mut Stage<2>) -> Vec<Column> {
-        let run = stage.run.as_mut();
-        let (mean_stress, averaged) = mean_stress(run);
-        let [ux, uy] = [0, 1].map(|axis| displacement(run, axis));
-        let p = run.particles();
-        let averaged_jacobian = |k: usize| p.j_bar.get(k).copied().unwrap_or(p.jacobian[k]);
-        let own = vec![
-            column("ux", "m", ux),
-            column("uy", "m", uy),
-            column("mean_stress", "Pa", mean_stress),
-            column("averaged_mean_stress", "Pa", averaged),
-            column("jacobian", "-", p.seeded(|k| p.jacobian[k])),
-            column("averaged_jacobian", "-", p.seeded(averaged_jacobian)),
-        ];
-        [position_columns(p), reference_columns(p), own].concat()
+        shape_columns(stage.run.as_mut())
     }
 
     fn metrics(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<(Metric, f64)> {
         let run = stage.run.as_mut();
-        let [ux, uy] = [0, 1].map(|axis| displacement(run, axis));
-        let (mean_stress, averaged) = mean_stress(run);
+        let mut values = of_shape(run, &self.probes, &self.references, &self.parameters);
         let (totals, time) = (run.totals(), run.time());
         let creep = creep(seen, time);
-        let stress_rms = rms(mean_stress.iter().copied());
-        let board = checkerboard(&mean_stress, &averaged);
         let window = self.parameters.number(REST_WINDOW) * self.period;
         let residuals = &seen.work_residuals;
         let in_window = (window / time * residuals.len() as f64) as usize;
         let last = &residuals[residuals.len().saturating_sub(in_window + 1)..];
-        let mid_edge = self.probes.mid_edge.value(&uy);
-        let edge_mean = self.probes.edge_mean(&uy);
-        let tip = self.probes.tip.value(&uy);
         let load_work = totals.accumulated.load_work;
-        let mut values = vec![
-            (m::MID_EDGE_UY, mid_edge),
-            (m::EDGE_MEAN_UY, edge_mean),
-            (m::TIP_UY, tip),
-            (m::TIP_UY_NEAREST, uy[self.probes.tip_particle]),
-            (m::TIP_UX, self.probes.tip.value(&ux)),
-            (m::MEAN_STRESS_RMS_ERROR, self.stress_error(&mean_stress)),
-            (m::MEAN_STRESS_RMS, stress_rms),
-            (m::CHECKERBOARD_RMS, board),
-            (m::CHECKERBOARD_RATIO, board / stress_rms),
+        values.extend([
             (m::CREEP_RATE, creep.map_or(f64::NAN, |l| l.slope)),
             (m::CREEP_LINEARITY, creep.map_or(f64::NAN, |l| l.r_squared)),
             (m::LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
@@ -340,22 +379,7 @@ impl Watch<2> for Loaded {
             (m::ENERGY_GAIN, seen.energy_defect.0 / load_work),
             (m::ENERGY_LOSS, seen.energy_defect.1 / load_work),
             (m::PERIOD, self.period),
-        ];
-        let probed = self.probes.stress.iter();
-        values.extend(probed.map(|(metric, probe)| (*metric, probe.value(&mean_stress))));
-        if let Ok(reference) = solution(&self.parameters) {
-            values.extend([
-                (
-                    m::FEM_MID_EDGE_ERROR,
-                    mid_edge / reference.mid_edge.uy - 1.0,
-                ),
-                (
-                    m::FEM_EDGE_MEAN_ERROR,
-                    edge_mean / reference.edge_mean_uy - 1.0,
-                ),
-                (m::FEM_TIP_ERROR, tip / reference.tip.uy - 1.0),
-            ]);
-        }
+        ]);
         values
     }
 }

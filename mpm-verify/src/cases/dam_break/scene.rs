@@ -207,7 +207,7 @@ fn compressed(water: &Hydrostatic, x: &[f64; 2]) -> ([f64; 2], SMatrix<f64, 2, 2
 /// pressure is the same all along a cell, the force on it is exact.
 fn gate_of(basis: BasisName, h: f64) -> RigidNodes<2> {
     let reach = match basis {
-        BasisName::Linear | BasisName::Gimp => 0.0,
+        BasisName::Linear | BasisName::Gimp | BasisName::Q8 => 0.0,
         BasisName::Bspline2 => 0.5 * h,
         BasisName::Bspline3 => h,
     };

@@ -206,7 +206,7 @@ fn slope(record: &Record) -> Finding {
 /// inside of its edge only. To a plastic jump of velocity that matters little, but elastic pressures peak at the edge.
 fn soft_edge(record: &Record) -> f64 {
     match record.basis() {
-        BasisName::Linear | BasisName::Gimp => 0.0,
+        BasisName::Linear | BasisName::Gimp | BasisName::Q8 => 0.0,
         BasisName::Bspline2 | BasisName::Bspline3 => {
             WIDTH_TO_SLOPE * 2.0 * record.discretisation.h / WIDTH
         }

@@ -12,7 +12,7 @@ pub(super) const WIDTH: f64 = 1.0;
 pub(super) fn effective_width(basis: BasisName, h: f64) -> (f64, f64) {
     match basis {
         BasisName::Bspline2 => (WIDTH, 0.0),
-        BasisName::Linear | BasisName::Gimp => (WIDTH + h, 0.0),
+        BasisName::Linear | BasisName::Gimp | BasisName::Q8 => (WIDTH + h, 0.0),
         BasisName::Bspline3 => (WIDTH + 0.5 * h, 0.5 * h),
     }
 }

@@ -1,0 +1,28 @@
+//! What is measured of the cantilever.
+
+use crate::metric::metrics;
+
+metrics! { pub(super) ALL:
+    CORNER_UX = "corner_ux", "m",
+        "u_x of the lower right corner, (1, 0) m, extrapolated linearly from the nearest particles";
+    CORNER_UY = "corner_uy", "m", "u_y of that corner, likewise";
+    EDGE_MEAN_UX = "edge_mean_ux", "m",
+        "u_x averaged over the right side, extrapolated from the last two columns of particles";
+    EDGE_MEAN_UY = "edge_mean_uy", "m", "u_y, likewise";
+    CORNER_ERROR = "corner_error", "-",
+        "distance of corner_uy from the reference over the reference";
+    EDGE_MEAN_ERROR = "edge_mean_error", "-", "of edge_mean_uy, likewise";
+    STRESS_MIN = "stress_min", "Pa", "least σ_xx at a particle: compression";
+    STRESS_MAX = "stress_max", "Pa", "greatest σ_xx at a particle: tension";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
+    CUTS = "cut_steps", "-", "load steps that were taken in parts";
+    LOG10_CONDITION = "log10_condition", "-",
+        "log₁₀ of the estimated condition, in the 1-norm, of the stiffness at the end, scaled to a diagonal of ones";
+    FORCE_RATIO = "force_ratio", "-",
+        "largest out-of-balance force ratio of a step, the paper's Eq. (37); the tolerance, if it is less";
+    ENERGY_RATIO = "energy_ratio", "-",
+        "largest work of a step's residual on its last correction over that of the loads, for the paper's Eq. (38); likewise";
+    REACTION_ERROR = "reaction_error", "-",
+        "distance of the clamp's reaction from the weight over the weight; likewise";
+    MASS = "mass", "kg/m", "mass of the beam";
+}

@@ -1,0 +1,82 @@
+//! The truth: finite elements of high order, at one load and three laws.
+
+use super::parameters::{HENCKY, LAW, NEO_HOOKEAN, POISSON_RATIO, WEIGHT, YOUNG_MODULUS};
+use crate::parameter::Parameters;
+use serde::Deserialize;
+use std::sync::OnceLock;
+
+const SOLUTIONS: &str = include_str!("../../../references/cantilever.json");
+
+#[derive(Debug, Deserialize)]
+struct Document {
+    method: String,
+    #[serde(rename = "at_4_kN_per_m3")]
+    solutions: Solutions,
+}
+
+#[derive(Debug, Deserialize)]
+struct Solutions {
+    hencky: Solution,
+    neo_hookean: Solution,
+    jaumann: Solution,
+}
+
+/// Displacements (m).
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+pub(super) struct Solution {
+    /// Of the corner (1, 0).
+    pub(super) bottom_right: [f64; 2],
+    /// Mean over the right side, if it was kept.
+    pub(super) right_edge_mean: Option<[f64; 2]>,
+    /// Uncertainty.
+    pub(super) uncertainty: f64,
+}
+
+fn document() -> Option<&'static Document> {
+    static DOCUMENT: OnceLock<Option<Document>> = OnceLock::new();
+    DOCUMENT
+        .get_or_init(|| serde_json::from_str(SOLUTIONS).ok())
+        .as_ref()
+}
+
+/// The solution for `parameters`: displacements depend on ν and weight over E alone.
+pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, String> {
+    let stored = &document()
+        .ok_or("the stored reference can't be read")?
+        .solutions;
+    let load = parameters.number(WEIGHT) / parameters.number(YOUNG_MODULUS);
+    if (load - 0.04).abs() > 1e-12 || parameters.number(POISSON_RATIO) != 0.0 {
+        return Err("the reference is for ν = 0 and weight/E = 0.04/m".to_owned());
+    }
+    Ok(if parameters.is(LAW, HENCKY) {
+        &stored.hencky
+    } else if parameters.is(LAW, NEO_HOOKEAN) {
+        &stored.neo_hookean
+    } else {
+        &stored.jaumann
+    })
+}
+
+/// The references in words.
+pub(super) fn describe() -> Vec<String> {
+    let Some(document) = document() else {
+        return Vec::new();
+    };
+    let s = &document.solutions;
+    let laws = [
+        ("Hencky", &s.hencky),
+        ("neo-Hookean", &s.neo_hookean),
+        ("Jaumann", &s.jaumann),
+    ];
+    let line = |(name, s): (&str, &Solution)| {
+        let [ux, uy] = s.bottom_right;
+        format!(
+            "{name}: corner (1, 0) moves by ({ux:.6}, {uy:.6}) m ± {:.0e} m",
+            s.uncertainty
+        )
+    };
+    let mut lines = vec![document.method.clone()];
+    lines.extend(laws.map(line));
+    lines.push("B. Wang, P. J. Vardon, M. A. Hicks & Z. Chen (2016), doi:10.1016/j.compgeo.2015.08.008: (−0.38, −0.61) m, which none of these laws gives".to_owned());
+    lines
+}
