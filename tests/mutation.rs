@@ -282,7 +282,7 @@ const FAULTS: [Fault; 29] = [
         file: "lattice/stencils.rs",
         sound: "self.of.rows[slow][fast][a][self.l]",
         broken: "self.of.rows[slow][fast][a][self.l.max(1)]",
-        seen_by: &[(AXIS, "order-displacement")],
+        seen_by: &[(RATE, "no-energy-gain")],
     },
     Fault {
         name: "the last of eight particles receives what that of the eight before did",
@@ -296,7 +296,7 @@ const FAULTS: [Fault; 29] = [
         file: "explicit/rest.rs",
         sound: "x[a] += increment[a]",
         broken: "x[a] += Eight::ZERO * increment[a]",
-        seen_by: &[(DAM, "front")],
+        seen_by: &[(AXIS, "order-displacement")],
     },
     Fault {
         name: "the water is as viscous as tar",
