@@ -1,7 +1,7 @@
 //! Finite-strain material point method (MPM) with the F̄ family of locking remedies.
 //!
 //! The method is that of Zhao, Jiang & Choo, "Circumventing volumetric locking in explicit
-//! material point methods" (2022); equation numbers in this crate are theirs. A [`Scene`] is a [`Grid`], a [`Body`] and
+//! material point methods" (2023); equation numbers in this crate are theirs. A [`Scene`] is a [`Grid`], a [`Body`] and
 //! what acts on it; a solver, behind [`Simulation`], moves it. There are two kinds: the
 //! [explicit](explicit::Solver) one, whose `step` is the algorithm, and the [quasi-static](implicit::Solver) one. What is
 //! shared:

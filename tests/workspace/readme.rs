@@ -75,21 +75,22 @@ fn every_command_of_the_readme_works() {
     }
 }
 
+/// The pages of the repository.
+fn documents() -> Vec<String> {
+    let root = super::workspace();
+    let pages = super::files(&root.join("docs")).into_keys();
+    let docs = pages.map(|name| format!("docs/{}", name.display()));
+    let at_root = ["README", "ARCHITECTURE", "CHANGELOG", "CONTRIBUTING"];
+    let at_root = at_root.map(|name| format!("{name}.md"));
+    let all = docs.chain(at_root).chain(["golden/README.md".to_owned()]);
+    all.filter(|name| name.ends_with(".md")).collect()
+}
+
 #[test]
 fn every_link_of_the_documents_leads_somewhere() {
-    for file in [
-        "README.md",
-        "ARCHITECTURE.md",
-        "docs/method.md",
-        "docs/cook.md",
-        "docs/remedy.md",
-        "docs/exact.md",
-        "docs/verification.md",
-        "docs/continuous.md",
-        "golden/README.md",
-    ] {
-        let text = read(file);
-        let folder = std::path::Path::new(file).parent().unwrap();
+    for file in documents() {
+        let text = read(&file);
+        let folder = std::path::Path::new(&file).parent().unwrap();
         for target in text
             .split("](")
             .skip(1)

@@ -1,7 +1,7 @@
 //! Uniform generalised interpolation (uGIMP).
 //!
 //! Bardenhagen & Kober (2004): hat functions averaged over the particle's domain of fixed size,
-//! w_i(x) = 1/(2l) ∫_{x−l}^{x+l} N_i dx. Zhao et al. 2022, section 4, use this form.
+//! w_i(x) = 1/(2l) ∫_{x−l}^{x+l} N_i dx. Zhao et al. 2023, section 4, use this form.
 
 use super::{AxisNodes, AxisWeights, Basis, EightAxisWeights, WallTreatment};
 use crate::grid::Axis;

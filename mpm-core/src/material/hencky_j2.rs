@@ -5,7 +5,7 @@
 //! √(2/3) of the strength in uniaxial tension and √2 times the undrained shear strength s_u of plane strain:
 //! κ = √(2/3) σ_y = √2 s_u. Flow is associated and keeps the volume. Strength falls with the equivalent
 //! plastic strain ε, ε̇ = √(2/3) γ̇ with the flow γ̇ = ‖ε̇ᵖ‖, as κ = κ_r + (κ_p − κ_r) e^(−η ε): Section 4.4
-//! of Zhao, Jiang & Choo (2022); perfect plasticity, Section 4.2, has
+//! of Zhao, Jiang & Choo (2023); perfect plasticity, Section 4.2, has
 //! κ_r = κ_p. Integrated by the exponential map (Simo 1992, doi:10.1016/0045-7825(92)90123-2), which returns
 //! along a radius, for any size of the step: exact where the direction of flow doesn't turn, of first order in
 //! the step where it does.

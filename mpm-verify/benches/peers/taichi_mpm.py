@@ -1,4 +1,4 @@
-"""The explicit step of Zhao et al. (2022) in Taichi, for `mpm-verify bench --peers taichi`.
+"""The explicit step of Zhao et al. (2023) in Taichi, for `mpm-verify bench --peers taichi`.
 
 FLIP, forces from the gradients of quadratic B-splines, neo-Hookean law, stress at the end of the step; with --fbar the
 recursive F-bar remedy, Eq. (26). The scene is that of the bench's workloads W2 and W3 (`src/bench/workload.rs`).

@@ -66,7 +66,7 @@ pub(super) fn case() -> Case {
             error(FREQUENCY_ERROR, "relative error of the frequency"),
             error(DAMPING, "−ln of the amplitude's ratio"),
         ],
-        tables: vec![results()],
+        tables: vec![results(), softenings()],
         ..motion.case(names, parameters)
     }
 }
@@ -122,6 +122,52 @@ fn results() -> ResultTable {
         |r| r.is_default() && is_flip(r),
         &[SCHEME],
         errors.into_iter().chain([orders]).chain(amplitudes),
+    )
+}
+
+/// (1 − square of the frequency over that without a remedy)/(kh)².
+fn softenings() -> ResultTable {
+    let of_level = LEVELS.map(|(level, n)| {
+        Column::row(format!("n = {n}"), move |runs, all| {
+            let found = |runs: &[&Record], remedy: Option<RemedyName>, basis: BasisName| {
+                let mut at = runs
+                    .iter()
+                    .filter(|r| r.level == level && r.basis() == basis);
+                at.find(|r| remedy.is_none_or(|own| own == r.remedy()))
+                    .map(|r| (r.metric(FREQUENCY_RATIO), resolution(r)))
+            };
+            let averaged = runs.first().filter(|r| r.remedy() != RemedyName::None);
+            let Some(basis) = averaged.map(|r| r.basis()) else {
+                return String::new();
+            };
+            let soft = found(runs, None, basis);
+            let hard = found(all, Some(RemedyName::None), basis);
+            match (soft, hard) {
+                (Some((soft, kh)), Some((hard, _))) => {
+                    fixed(4).text((1.0 - (soft / hard).powi(2)) / (kh * kh))
+                }
+                _ => String::new(),
+            }
+        })
+    });
+    let predicted = Column::row("predicted", |runs, _| {
+        let averaged = runs.first().filter(|r| r.remedy() != RemedyName::None);
+        averaged.map_or_else(String::new, |r| {
+            fixed(3).text(softening(r).unwrap_or(f64::NAN))
+        })
+    });
+    ResultTable::new(
+        "vibrating-bar-softening",
+        |r| {
+            let compared = [
+                RemedyName::None,
+                RemedyName::FbarRate,
+                RemedyName::FbarConsistent,
+            ];
+            r.is_default() && is_flip(r) && compared.contains(&r.remedy())
+        },
+        &[SCHEME],
+        of_level.into_iter().chain([predicted]),
     )
 }
 

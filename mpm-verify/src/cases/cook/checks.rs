@@ -106,7 +106,7 @@ pub(super) fn checks() -> Vec<Check> {
             => run(|r| {
                 let (metric, why) = (
                     m::CHECKERBOARD_RATIO,
-                    "standard MPM locks: Zhao et al. 2022, Figure 3",
+                    "standard MPM locks: Zhao et al. 2023, Figure 3",
                 );
                 let found = judge(r, metric).above(LOCKED, why);
                 let gimp = r.remedy() == RemedyName::None && r.basis() == BasisName::Gimp;
@@ -251,7 +251,7 @@ fn particle_count(r: &Record) -> Finding {
             r.work.particles as f64,
             *count,
             0.0,
-            "Zhao et al. 2022, section 4.1 (h = 1 and ½); the same rule elsewhere",
+            "Zhao et al. 2023, section 4.1 (h = 1 and ½); the same rule elsewhere",
         ),
         _ => {
             let why = "counted for two particles per direction only";

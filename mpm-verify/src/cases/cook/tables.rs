@@ -4,7 +4,7 @@ use super::metrics as m;
 use crate::cases::family::transfers;
 use crate::cases::parameters::CFL;
 use crate::record::Record;
-use crate::results::{CELLS, Column, PAIR, ResultTable, SCHEME, fixed, is_flip, percent};
+use crate::results::{BASIS, CELLS, Column, PAIR, ResultTable, SCHEME, fixed, is_flip, percent};
 use crate::scheme::RemedyName;
 
 /// Levels and what they are called.
@@ -28,12 +28,12 @@ pub(super) fn all() -> Vec<ResultTable> {
     let error = |r: &Record| percent(2).text(r.metric(m::FEM_MID_EDGE_ERROR));
     vec![
         results(),
+        overview(),
         transfers("cook-transfers", &[PAIR, CELLS], &["3", "4"], error),
         poisson(),
     ]
 }
 
-/// Where no run has the case's own time step one with another stands in: the state of rest hardly depends on it.
 fn results() -> ResultTable {
     let errors = LEVELS.map(|(level, title)| {
         Column::text(format!("mid-edge error, {title}"), mid_edge).of(move |r| r.level == level)
@@ -44,13 +44,37 @@ fn results() -> ResultTable {
     });
     ResultTable::new(
         "cook",
-        |r| {
-            let stands_in = r.changes_only(CFL.name) && r.remedy() != RemedyName::FbarRecursive;
-            is_flip(r) && (r.is_default() || stands_in)
-        },
+        is_shown,
         &[SCHEME],
         errors.into_iter().chain(checkerboards),
     )
+}
+
+/// What is said first: locking, creep and where convergence stops.
+fn overview() -> ResultTable {
+    const RUNS: [(RemedyName, &str, &str); 6] = [
+        (RemedyName::None, "h1", "1 m"),
+        (RemedyName::None, "h0.5", "½ m"),
+        (RemedyName::FbarRecursive, "h1", "1 m"),
+        (RemedyName::FbarConsistent, "h2", "2 m"),
+        (RemedyName::FbarConsistent, "h1", "1 m"),
+        (RemedyName::FbarConsistent, "h0.5", "½ m"),
+    ];
+    let text = |r: &Record| {
+        let noise = fixed(2).text(r.metric(m::CHECKERBOARD_RATIO));
+        format!("{}, {noise}", mid_edge(r))
+    };
+    let column = |(remedy, level, h): (RemedyName, &'static str, &str)| {
+        Column::text(format!("{remedy}, {h}"), text)
+            .of(move |r| r.remedy() == remedy && r.level == level)
+    };
+    ResultTable::new("cook-overview", is_shown, &[BASIS], RUNS.map(column))
+}
+
+/// Where no run has the case's own time step one with another stands in: the state of rest hardly depends on it.
+fn is_shown(r: &Record) -> bool {
+    let stands_in = r.changes_only(CFL.name) && r.remedy() != RemedyName::FbarRecursive;
+    is_flip(r) && (r.is_default() || stands_in)
 }
 
 /// Over Poisson's ratios at h = 1 m.

@@ -160,7 +160,7 @@ fn particle_count(r: &Record) -> Vec<Finding> {
         r.work.particles as f64,
         f64::from(r.discretisation.ppc) * cells,
         0.0,
-        "Zhao et al. 2022, section 4.3: 3,200 at h = 0.25 m",
+        "Zhao et al. 2023, section 4.3: 3,200 at h = 0.25 m",
     )]
 }
 
@@ -340,7 +340,7 @@ fn arrival(r: &Record) -> Option<Finding> {
 
 fn locked(r: &Record) -> Option<Finding> {
     let metric = m::FRONT_RMS_ERROR;
-    let source = "standard MPM locks: Zhao et al. 2022, Figure 12";
+    let source = "standard MPM locks: Zhao et al. 2023, Figure 12";
     let found = || judge(r, metric).above(front_bound(r), source);
     let judged = !is_averaged(r) && r.basis() == BasisName::Gimp && front_is_open(r).is_none();
     judged.then(found)

@@ -180,7 +180,7 @@ fn particle_count(record: &Record) -> Finding {
     }
     let cells = 6.0 / record.discretisation.h;
     let count = (per_cell * cells * cells).round();
-    let why = "Zhao et al. 2022, section 4.2: 230,400 at B/20 with 4 × 4; 57,600 with 2 × 2";
+    let why = "Zhao et al. 2023, section 4.2: 230,400 at B/20 with 4 × 4; 57,600 with 2 × 2";
     Finding::within(METRIC, record.work.particles as f64, count, 0.0, why)
 }
 
@@ -237,7 +237,7 @@ fn locked(record: &Record, what: Locks, metric: Metric, bound: f64) -> Vec<Findi
             .into_iter()
             .collect();
     }
-    let why = "standard MPM locks: Zhao et al. 2022, Figure 8";
+    let why = "standard MPM locks: Zhao et al. 2023, Figure 8";
     vec![judge(record, metric).above(bound, why)]
 }
 

@@ -1,6 +1,6 @@
 //! A rigid strip footing on a cohesive, nearly incompressible ground.
 //!
-//! Section 4.2 of Zhao, Jiang & Choo (2022). Set-up, choices and tolerances: `docs/footing.md`.
+//! Section 4.2 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/footing.md`.
 
 mod checks;
 mod geometry;

@@ -84,7 +84,7 @@ fn of_ground() -> Vec<Check> {
             => run(|r| {
                 in_section(r).map(|section| {
                     let count = (section * r.metric(m::PARTICLES_ACROSS)).round();
-                    let why = "Zhao et al. 2022, section 4.4: 311,250 at h = 0.2 m";
+                    let why = "Zhao et al. 2023, section 4.4: 311,250 at h = 0.2 m";
                     judge(r, m::PARTICLES).within(count, 0.0, why)
                 })
             });
@@ -137,7 +137,7 @@ fn of_rest() -> Vec<Check> {
                     return Vec::new();
                 }
                 let above = |metric: Metric, bound| {
-                    let why = "standard MPM locks: Zhao et al. 2022, Figure 15";
+                    let why = "standard MPM locks: Zhao et al. 2023, Figure 15";
                     judge(r, metric).above(bound, why)
                 };
                 vec![
@@ -298,7 +298,7 @@ fn of_slide() -> Vec<Check> {
         known_limit "locked":
             "none with GIMP, likewise: it does not"
             => run(|r| {
-                let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
+                let why = "standard MPM locks: Zhao et al. 2023, Figure 14";
                 let found = judge(r, METRIC).at_most(FAILED, why);
                 let judged = must_fail(r) && is_locked(r);
                 judged.then_some(found)

@@ -1,6 +1,6 @@
 //! Landslides of a slope of soft clay that loses its strength as it flows, in plane strain and in three dimensions.
 //!
-//! Section 4.4 of Zhao, Jiang & Choo (2022). Set-up, choices and tolerances: `docs/landslide.md`.
+//! Section 4.4 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/landslide.md`.
 
 mod checks;
 mod ground;
@@ -53,7 +53,7 @@ const LIMITS: &[&str] = &[
 
 fn references() -> Vec<String> {
     vec![
-        "Zhao, Jiang & Choo (2022), section 4.4, Figures 14 to 16: in kind; the paper gives no numbers but those of the set-up".to_owned(),
+        "Zhao, Jiang & Choo (2023), section 4.4, Figures 14 to 16: in kind; the paper gives no numbers but those of the set-up".to_owned(),
         "Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base, so the slope's factor of safety is 1.65 before and 1.00 after the reduction".to_owned(),
     ]
 }

@@ -7,6 +7,7 @@ pub(super) mod metrics;
 pub(super) mod pictures;
 mod scene;
 mod sketch;
+mod tables;
 mod watch;
 
 use super::parameters;
@@ -86,7 +87,7 @@ impl Manufactured {
             own_runs: crate::record::of_defaults,
             begin: Box::new(move |spec, p| self.begin(spec, p)),
             pictures: |_| Ok(()),
-            tables: Vec::new(),
+            tables: tables::of(name),
             breaks_down: |_| None,
             parameters,
         }

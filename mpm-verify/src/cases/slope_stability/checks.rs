@@ -38,7 +38,7 @@ pub(super) fn checks() -> Vec<Check> {
             "none with GIMP, and with quadratic splines at h > 0.2 m: the slope still stands at a factor above all that"
             => run(|r| {
                 bounds(r).filter(|_| locks(r)).map(|(_, upper)| {
-                    let why = "standard MPM locks: Zhao et al. 2022, Figure 14";
+                    let why = "standard MPM locks: Zhao et al. 2023, Figure 14";
                     let bound = upper - resolution(r);
                     judge(r, STANDS_AT).above(bound, why)
                 })
