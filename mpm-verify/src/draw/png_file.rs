@@ -26,7 +26,8 @@ pub fn write_small_png(path: &Path, image: &RgbImage) -> Result<(), PlotError> {
     let write = |bytes: &mut Vec<u8>| match with_palette(image) {
         Some((palette, indices)) => {
             let mut encoder = encoder(bytes, size, png::ColorType::Indexed);
-            encoder.set_filter(png::Filter::NoFilter);
+            encoder.set_filter(png::FilterType::NoFilter);
+            encoder.set_adaptive_filter(png::AdaptiveFilterType::NonAdaptive);
             encoder.set_palette(palette.concat());
             encoder.write_header()?.write_image_data(&indices)
         }
@@ -66,8 +67,8 @@ fn encoder(
     let mut encoder = png::Encoder::new(bytes, width, height);
     encoder.set_color(colour);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
-    encoder.set_filter(png::Filter::Adaptive);
+    encoder.set_compression(png::Compression::Best);
+    encoder.set_adaptive_filter(png::AdaptiveFilterType::Adaptive);
     encoder
 }
 
