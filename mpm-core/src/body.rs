@@ -2,11 +2,11 @@
 
 use crate::eights::{entries, fetch};
 use crate::error::{Error, Fault};
-use crate::material::Law;
+use crate::material::{Law, State};
 use crate::memory::{MemoryError, Saved};
 use crate::monitor::{Accumulated, Totals};
 use crate::number::{EIGHT, Eight};
-use crate::parallel::{Front, cut};
+use crate::parallel::Front;
 use crate::particles::{Particles, permute};
 use crate::space;
 use crate::tensor::SymmetricTensor;
@@ -57,12 +57,24 @@ impl<const D: usize, M: Law> Body<D, M> {
         &self.states
     }
 
-    /// Speed of pressure waves (m/s) where the undeformed material is least dense.
+    /// Least density of the undeformed material (kg/m³).
     #[must_use]
-    pub fn wave_speed(&self) -> f64 {
+    pub fn least_density(&self) -> f64 {
         let p = &self.particles;
         let densities = p.mass.iter().zip(&p.reference_volume).map(|(m, v)| m / v);
-        self.law.wave_speed(densities.fold(f64::INFINITY, f64::min))
+        densities.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Greatest [`Law::wave_modulus`] of its particles (Pa).
+    #[must_use]
+    pub fn wave_modulus(&self) -> f64 {
+        let p = &self.particles;
+        let columns = p.jacobian.iter().zip(&p.stress).zip(&self.states);
+        let moduli = columns.map(|((j, stress), state)| {
+            let state = M::State::pack::<f64>(|_| *state);
+            self.law.wave_modulus(*j, stress, &state)
+        });
+        moduli.fold(0.0, f64::max)
     }
 
     /// Stress and state of the particles after the deformation ΔF̄ of their `delta_f` over `dt` (s), Eq. (22), and
@@ -229,29 +241,23 @@ impl<const D: usize, M: Law> Chunk<'_, D, M> {
 }
 
 impl<const D: usize, M: Law> Front for Chunk<'_, D, M> {
-    fn front(&mut self, n: usize) -> Self {
+    fn front(&mut self, pieces: usize, size: usize) -> Self {
         let begin = self.begin;
-        self.begin += n;
+        self.begin += self.len().min(pieces * size);
         Self {
             law: self.law,
             begin,
-            states: cut(&mut self.states, n),
-            position: cut(&mut self.position, n),
-            velocity: cut(&mut self.velocity, n),
-            affine: cut(&mut self.affine, n),
-            volume: cut(&mut self.volume, n),
-            jacobian: cut(&mut self.jacobian, n),
-            j_bar: cut(&mut self.j_bar, n),
-            stress: cut(&mut self.stress, n),
-            increment: cut(&mut self.increment, n),
-            reference_volume: self
-                .reference_volume
-                .split_off(..n.min(self.reference_volume.len()))
-                .unwrap_or_default(),
-            external_force: self
-                .external_force
-                .split_off(..n.min(self.external_force.len()))
-                .unwrap_or_default(),
+            states: self.states.front(pieces, size),
+            position: self.position.front(pieces, size),
+            velocity: self.velocity.front(pieces, size),
+            affine: self.affine.front(pieces, size),
+            volume: self.volume.front(pieces, size),
+            jacobian: self.jacobian.front(pieces, size),
+            j_bar: self.j_bar.front(pieces, size),
+            stress: self.stress.front(pieces, size),
+            increment: self.increment.front(pieces, size),
+            reference_volume: self.reference_volume.front(pieces, size),
+            external_force: self.external_force.front(pieces, size),
         }
     }
 }

@@ -6,6 +6,14 @@ use wide::f64x4;
 /// A nodal vector, padded to four components; the last one is free for a scalar (the mass).
 pub type Node = f64x4;
 
+/// A vector of a node, from its components.
+#[must_use]
+pub fn padded<const D: usize>(vector: &[f64; D]) -> Node {
+    let mut padded = [0.0; 4];
+    padded[..D].copy_from_slice(vector);
+    Node::from(padded)
+}
+
 /// What the nodes hold during a step: one cache line each.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C, align(64))]

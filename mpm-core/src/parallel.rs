@@ -26,43 +26,96 @@ pub const PLANES_BEFORE: usize = 2;
 /// Planes in a run.
 const RUN: usize = 2 * SLAB;
 
-/// Pieces of columns that threads share.
-pub trait Front: Send {
-    /// Takes the first `n` particles off, or all if there are fewer.
-    #[must_use]
-    fn front(&mut self, n: usize) -> Self;
+/// Both, side by side where a thread is free. All that is shared among threads goes through this one instance: what
+/// lies behind it is compiled once, not with every kernel.
+#[inline(never)]
+fn join(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
+    rayon::join(a, b);
 }
 
-/// Takes the first `n` entries off a column, or all if there are fewer: of a column that isn't there, nothing.
-pub fn cut<'a, T>(column: &mut &'a mut [T], n: usize) -> &'a mut [T] {
-    let n = n.min(column.len());
-    column.split_off_mut(..n).unwrap_or_default()
+/// Columns that threads share in pieces.
+pub trait Front: Send {
+    /// Takes off the first `pieces` pieces of `size` entries, or all if there are fewer.
+    #[must_use]
+    fn front(&mut self, pieces: usize, size: usize) -> Self;
+}
+
+impl<T: Send> Front for &mut [T] {
+    fn front(&mut self, pieces: usize, size: usize) -> Self {
+        let n = self.len().min(pieces * size);
+        self.split_off_mut(..n).unwrap_or_default()
+    }
+}
+
+impl<T: Sync> Front for &[T] {
+    fn front(&mut self, pieces: usize, size: usize) -> Self {
+        let n = self.len().min(pieces * size);
+        self.split_off(..n).unwrap_or_default()
+    }
 }
 
 impl<A: Front, B: Front> Front for (A, B) {
-    fn front(&mut self, n: usize) -> Self {
-        (self.0.front(n), self.1.front(n))
+    fn front(&mut self, pieces: usize, size: usize) -> Self {
+        (self.0.front(pieces, size), self.1.front(pieces, size))
     }
 }
 
-/// `visit(chunk, sums)` for chunks of [`CHUNK`] particles and what is summed over each.
-pub fn for_each_chunk<P: Front, T: Send>(
+/// One entry a piece: what is summed over it.
+pub struct PerPiece<'a, T>(pub &'a mut [T]);
+
+impl<T: Send> Front for PerPiece<'_, T> {
+    fn front(&mut self, pieces: usize, _size: usize) -> Self {
+        let n = self.0.len().min(pieces);
+        Self(self.0.split_off_mut(..n).unwrap_or_default())
+    }
+}
+
+/// `visit(first, piece)` for every piece of `size` entries of columns that have `n`; the piece begins at `first`.
+pub fn for_each_piece<P: Front>(all: P, n: usize, size: usize, visit: &(impl Fn(usize, P) + Sync)) {
+    in_pieces(all, 0..n.div_ceil(size), size, visit);
+}
+
+fn in_pieces<P: Front>(
     mut all: P,
+    pieces: Range<usize>,
+    size: usize,
+    visit: &(impl Fn(usize, P) + Sync),
+) {
+    if pieces.len() > AT_ONCE {
+        let middle = pieces.start + pieces.len() / 2;
+        let mut before = Some(all.front(middle - pieces.start, size));
+        let mut after = Some(all);
+        join(
+            &mut || {
+                if let Some(front) = before.take() {
+                    in_pieces(front, pieces.start..middle, size, visit);
+                }
+            },
+            &mut || {
+                if let Some(rest) = after.take() {
+                    in_pieces(rest, middle..pieces.end, size, visit);
+                }
+            },
+        );
+    } else {
+        for piece in pieces {
+            visit(piece * size, all.front(1, size));
+        }
+    }
+}
+
+/// `visit(piece, sums)` for pieces of [`CHUNK`] particles and what is summed over each.
+pub fn for_each_chunk<P: Front, T: Send>(
+    all: P,
     sums: &mut [T],
     visit: &(impl Fn(P, &mut T) + Sync),
 ) {
-    if sums.len() > AT_ONCE {
-        let (before, after) = sums.split_at_mut(sums.len() / 2);
-        let front = all.front(before.len() * CHUNK);
-        rayon::join(
-            || for_each_chunk(front, before, visit),
-            || for_each_chunk(all, after, visit),
-        );
-    } else {
-        for sums in sums {
-            visit(all.front(CHUNK), sums);
+    let n = sums.len() * CHUNK;
+    for_each_piece((all, PerPiece(sums)), n, CHUNK, &|_, (piece, sums)| {
+        if let Some(sums) = sums.0.first_mut() {
+            visit(piece, sums);
         }
-    }
+    });
 }
 
 /// Scatters particles to `nodes`: `kernel(particles, nodes of the run, index of the run's first node)`
@@ -96,9 +149,9 @@ fn run_by_run<T: Send>(
         let half = runs / 2;
         let (before, after) = nodes.split_at_mut(nodes.len().min(half * run));
         let (slabs_before, slabs_after) = slabs.split_at(2 * half);
-        rayon::join(
-            || run_by_run(before, first, run, slabs_before, kernel),
-            || run_by_run(after, first + half * run, run, slabs_after, kernel),
+        join(
+            &mut || run_by_run(before, first, run, slabs_before, kernel),
+            &mut || run_by_run(after, first + half * run, run, slabs_after, kernel),
         );
     } else if let Some(particles) = slabs.first() {
         kernel(particles.clone(), nodes, first);

@@ -2,9 +2,9 @@
 
 use crate::error::{Error, require};
 use crate::memory::{MemoryError, row, rows};
+use crate::parallel::{CHUNK, for_each_piece};
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Columns of one body. All have one entry per particle, but `j_bar`, `affine` and `external_force`,
@@ -201,8 +201,14 @@ impl<const D: usize> Particles<D> {
 }
 
 /// Puts a column in the order `order`; an empty column stays empty.
-pub(crate) fn permute<T: Copy + Send + Sync>(column: &mut Vec<T>, order: &[u32]) {
+pub(crate) fn permute<T: Copy + Send + Sync>(column: &mut [T], order: &[u32]) {
     if !column.is_empty() {
-        *column = order.par_iter().map(|&p| column[p as usize]).collect();
+        let before = column.to_vec();
+        let columns = (column, order);
+        for_each_piece(columns, order.len(), CHUNK, &|_, (column, order)| {
+            for (entry, p) in column.iter_mut().zip(order) {
+                *entry = before[*p as usize];
+            }
+        });
     }
 }

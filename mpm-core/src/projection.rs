@@ -7,11 +7,10 @@ mod patch;
 
 use crate::basis::Basis;
 use crate::lattice::{Lattice, Weights};
-use crate::parallel::{AT_ONCE, CHUNK, scatter};
+use crate::parallel::{CHUNK, NODE_CHUNK, for_each_piece, scatter};
 use crate::particles::Particles;
 use crate::reach::Reach;
 use patch::{Patch, ROW};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Something that averages a particle field.
@@ -106,21 +105,21 @@ fn gather_values<const D: usize, const S: usize, B: Basis<S>>(
     nodes: &[f64],
     field: &mut [f64],
 ) {
-    field
-        .par_chunks_mut(CHUNK)
-        .zip(weights.par_chunks(CHUNK))
-        .with_max_len(AT_ONCE)
-        .for_each(|(field, weights)| {
-            let mut p = 0;
-            while p < field.len() {
-                let first = weights[p].first();
-                let patch = Patch::of(lattice, first, nodes);
-                while p < field.len() && weights[p].first() == first {
-                    field[p] = patch.sum(&weights[p]);
-                    p += 1;
-                }
+    for_each_piece((field, weights), weights.len(), CHUNK, &|_,
+                                                             (
+        field,
+        weights,
+    )| {
+        let mut p = 0;
+        while p < field.len() {
+            let first = weights[p].first();
+            let patch = Patch::of(lattice, first, nodes);
+            while p < field.len() && weights[p].first() == first {
+                field[p] = patch.sum(&weights[p]);
+                p += 1;
             }
-        });
+        }
+    });
 }
 
 /// Divides nodal values by nodal volumes, where there are any.
@@ -139,12 +138,10 @@ impl<const D: usize, const S: usize, B: Basis<S>> Projection<'_, D, S, B> {
         averaging
             .weights
             .resize(particles.len(), Weights::default());
-        averaging
-            .weights
-            .par_chunks_mut(CHUNK)
-            .zip(particles.position.par_chunks(CHUNK))
-            .with_max_len(AT_ONCE)
-            .for_each(|(weights, x)| lattice.weights(x, &particles.half_size, weights));
+        let columns = (&mut averaging.weights[..], &particles.position[..]);
+        for_each_piece(columns, particles.len(), CHUNK, &|_, (weights, x)| {
+            lattice.weights(x, &particles.half_size, weights);
+        });
         let volume = &particles.volume;
         let (weights, volumes) = (&averaging.weights, &mut averaging.volumes);
         scatter_values(lattice, self.slabs, weights, self.reach, volumes, |p| {
@@ -165,11 +162,13 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, 
         scatter_values(lattice, self.slabs, weights, self.reach, values, |p| {
             volume[p] * given[p]
         });
-        let volumes = self.reach.chunks(&mut averaging.volumes);
-        self.reach
-            .chunks(values)
-            .zip(volumes)
-            .for_each(|(values, volumes)| values.zip(volumes).for_each(|(q, v)| divide(q, v)));
+        let fields = (&mut values[..], &averaging.volumes[..]);
+        let (reach, n) = (self.reach, averaging.volumes.len());
+        for_each_piece(fields, n, NODE_CHUNK, &|begin, (values, volumes)| {
+            for part in reach.within(begin, values.len()) {
+                divide(&mut values[part.clone()], &volumes[part]);
+            }
+        });
         lattice.unfold(values);
         gather_values(lattice, weights, values, field);
         *self.count += 1;

@@ -6,8 +6,7 @@
 
 use crate::basis::Basis;
 use crate::lattice::Lattice;
-use crate::parallel::NODE_CHUNK;
-use rayon::prelude::*;
+use crate::parallel::{NODE_CHUNK, for_each_piece};
 use std::ops::Range;
 
 /// Runs of consecutive nodes, in their order.
@@ -72,44 +71,24 @@ impl Reach {
         after > 0 && self.runs[after - 1].contains(&node)
     }
 
-    /// A nodal field in chunks of [`NODE_CHUNK`], and of each chunk the values of what is within reach, run by run.
-    pub fn chunks<'a, T: Send>(
-        &'a self,
-        field: &'a mut [T],
-    ) -> impl IndexedParallelIterator<Item = impl Iterator<Item = &'a mut [T]>> {
-        field
-            .par_chunks_mut(NODE_CHUNK)
-            .enumerate()
-            .map(|(c, chunk)| self.parts(chunk, c * NODE_CHUNK))
-    }
-
-    /// Of a piece of a nodal field whose first node is `origin` the values of what is within reach, run by run.
-    fn parts<'a, T>(
-        &'a self,
-        piece: &'a mut [T],
-        origin: usize,
-    ) -> impl Iterator<Item = &'a mut [T]> {
-        let end = origin + piece.len();
-        let first = self.runs.partition_point(|run| run.end <= origin);
-        let mut rest = piece;
-        let mut begin = origin;
+    /// What is within reach of a piece of the nodes that begins at node `begin` and has `n`: by places in the piece.
+    pub fn within(&self, begin: usize, n: usize) -> impl Iterator<Item = Range<usize>> {
+        let end = begin + n;
+        let first = self.runs.partition_point(|run| run.end <= begin);
         self.runs[first..]
             .iter()
             .take_while(move |run| run.start < end)
-            .map(move |run| {
-                let run = run.start.max(origin)..run.end.min(end);
-                let (_, from_run) = std::mem::take(&mut rest).split_at_mut(run.start - begin);
-                let (part, after) = from_run.split_at_mut(run.len());
-                rest = after;
-                begin = run.end;
-                part
-            })
+            .map(move |run| run.start.max(begin) - begin..run.end.min(end) - begin)
     }
 
     /// Sets a nodal field to zero.
     pub fn clear<T: Copy + Default + Send>(&self, field: &mut [T]) {
-        self.chunks(field)
-            .for_each(|parts| parts.for_each(|part| part.fill(T::default())));
+        let n = field.len();
+        for_each_piece(field, n, NODE_CHUNK, &|begin, piece| {
+            for part in self.within(begin, piece.len()) {
+                piece[part].fill(T::default());
+            }
+        });
     }
 }
 

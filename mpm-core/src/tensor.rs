@@ -126,6 +126,27 @@ impl<T: Real> SymmetricTensor<T> {
         self.trace() / T::splat(3.0)
     }
 
+    /// A number that no eigenvalue exceeds, and the greatest one where the axes are principal: of Gershgorin's circles.
+    #[must_use]
+    #[inline]
+    pub fn greatest_at_most(&self) -> T {
+        let (xy, yz, xz) = (self.xy.abs(), self.yz.abs(), self.xz.abs());
+        let greater = |a: T, b: T| (a - b).if_positive(a, b);
+        greater(
+            greater(self.xx + (xy + xz), self.yy + (xy + yz)),
+            self.zz + (xz + yz),
+        )
+    }
+
+    /// A number that no eigenvalue falls below, and the least one where the axes are principal.
+    #[must_use]
+    #[inline]
+    pub fn least_at_least(&self) -> T {
+        -self
+            .scale_add_identity(T::splat(-1.0), T::default())
+            .greatest_at_most()
+    }
+
     /// Determinant.
     #[must_use]
     #[inline]

@@ -121,6 +121,20 @@ impl<const D: usize> RigidFace<D> {
         let before = ends.all(|(a, (x, [lo, hi]))| a == self.axis || (x >= lo && x <= hi));
         before.then(|| self.sign * (x[self.axis] - self.position))
     }
+
+    /// Whether what lies at `x` (m), less the face's displacement, is in the body or within `distance` (m) of the face
+    /// along every axis.
+    #[must_use]
+    pub fn is_near(&self, x: &[f64; D], distance: f64) -> bool {
+        let mut ends = x.iter().zip(&self.extent).enumerate();
+        ends.all(|(a, (x, [lo, hi]))| {
+            if a == self.axis {
+                self.sign * (x - self.position) <= distance
+            } else {
+                *x >= lo - distance && *x <= hi + distance
+            }
+        })
+    }
 }
 
 #[cfg(test)]

@@ -25,6 +25,8 @@ pub struct RigidContact<const D: usize> {
     stretch: Vec<[f64; D]>,
     /// The same at the end of the step that was tried last.
     tried: Vec<[f64; D]>,
+    /// The particles that may touch the body before they are sorted again, by place.
+    near: Vec<u32>,
     /// What the particles do to the body.
     reaction: Reaction,
 }
@@ -48,6 +50,7 @@ impl<const D: usize> RigidContact<D> {
             friction: None,
             stretch: Vec::new(),
             tried: Vec::new(),
+            near: Vec::new(),
             reaction: Reaction::default(),
         }
     }
@@ -81,6 +84,29 @@ impl<const D: usize> RigidContact<D> {
         }
     }
 
+    /// Finds the particles that may touch the body until they and the body have moved by `motion` (m). All others lose
+    /// their stick.
+    pub(crate) fn find_near(&mut self, time: f64, motion: f64, particles: &Particles<D>) {
+        let moved = self.face.displacement(time);
+        let distance = self.barrier.distance() + motion;
+        self.near.clear();
+        for (k, x) in particles.position.iter().enumerate() {
+            if self.face.is_near(&difference(x, &moved), distance) {
+                self.near.push(k as u32);
+            } else if self.friction.is_some() {
+                let id = particles.id[k] as usize;
+                (self.stretch[id], self.tried[id]) = ([0.0; D], [0.0; D]);
+            }
+        }
+    }
+
+    /// The farthest that the body moves along an axis from `time` (s) in a step of `dt` (s) (m).
+    pub(crate) fn motion(&self, time: f64, dt: f64) -> f64 {
+        let ends = [time + dt, time].map(|time| self.face.displacement(time));
+        let steps = difference(&ends[0], &ends[1]).map(f64::abs);
+        steps.into_iter().fold(0.0, f64::max)
+    }
+
     /// Adds the contact forces at `time` (s), the end of a step of `dt` (s), to the particles' external forces. The sticks
     /// start from where the last [`commit`](Self::commit) left them, however often a step is tried.
     pub(crate) fn try_step(
@@ -94,7 +120,8 @@ impl<const D: usize> RigidContact<D> {
         let (axis, sign) = (self.face.axis(), self.face.sign());
         let mut stiffest = Stiffest::default();
         self.reaction.force = [0.0; 3];
-        for k in 0..particles.len() {
+        for &k in &self.near {
+            let k = k as usize;
             let id = particles.id[k] as usize;
             let tried = self.tried.get_mut(id);
             let gap = self.face.gap(&difference(&particles.position[k], &moved));
@@ -142,8 +169,9 @@ impl<const D: usize> RigidContact<D> {
         particles: &Particles<D>,
     ) -> Result<(), (usize, Fault)> {
         let moved = self.face.displacement(time);
-        let columns = particles.position.iter().zip(&particles.increment);
-        for (k, (x, increment)) in columns.enumerate() {
+        for &k in &self.near {
+            let k = k as usize;
+            let (x, increment) = (&particles.position[k], &particles.increment[k]);
             let next = std::array::from_fn(|a| x[a] + increment[a] - moved[a]);
             if let Some(gap) = self.face.gap(&next).filter(|&gap| gap <= 0.0) {
                 return Err((k, Fault::GapClosed(gap)));
@@ -199,6 +227,7 @@ mod tests {
     }
 
     fn forces(contact: &mut RigidContact<2>, particles: &mut Particles<2>) -> Vec<[f64; 2]> {
+        contact.find_near(0.0, 1.0, particles);
         particles.external_force.fill([0.0; 2]);
         contact.try_step(0.0, 0.1, particles);
         particles.external_force.clone()
@@ -242,6 +271,7 @@ mod tests {
     #[test]
     fn the_stiffest_is_named_with_what_it_feels() {
         let (mut contact, mut particles) = touching();
+        contact.find_near(0.0, 1.0, &particles);
         let stiffest = contact.try_step(0.0, 0.1, &mut particles);
         assert_eq!(stiffest.particle, 0);
         assert_eq!(stiffest.ratio, contact.barrier.stiffness(0.5));

@@ -28,7 +28,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             )?;
             contact.attach(scene.body.particles.len());
         }
-        self.keep_gaps_open(0.0)
+        Ok(())
     }
 
     /// Adds the contact forces to the external ones.
@@ -44,7 +44,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                 stiffest = found;
             }
         }
-        let cfl = contact_cfl(self.wave_speed * dt / self.scene.grid.h, ratio, dt);
+        let cfl = contact_cfl(self.wave_speed() * dt / self.scene.grid.h, ratio, dt);
         if ratio > 0.0 && cfl > CFL_LIMIT {
             let limit = CFL_LIMIT;
             let fault = Fault::UnstableTimeStep { cfl, limit };

@@ -93,6 +93,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         })?;
         self.slabs = slabs;
         self.drift = drift;
+        self.wave_modulus = self.scene.body.wave_modulus();
         self.find_reach();
         Ok(())
     }

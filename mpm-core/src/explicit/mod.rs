@@ -24,7 +24,7 @@ use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Accumulated, Reaction, Residual, Totals};
-use crate::nodes::NodalState;
+use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight};
 use crate::particles::Particles;
 use crate::projection::{Average, Averaging, Projection};
@@ -48,6 +48,8 @@ struct ChunkSums {
     stress_power: f64,
     load_power: f64,
     largest_increment: f64,
+    /// Greatest moduli ρ₀ c² of waves (Pa), lane by lane.
+    wave_modulus: Eight,
     wrapped: bool,
     /// The first particle that has no volume, and the first that can't go where it should; by place in the columns.
     collapsed: Option<(usize, Fault)>,
@@ -86,6 +88,8 @@ struct NodeSums {
     kinetic_energy: f64,
     /// Power that filters take (W).
     damping: f64,
+    /// Momentum after the update (kg m/s).
+    momentum: Node,
 }
 
 /// A constraint in a step.
@@ -103,6 +107,8 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     lattice: Lattice<D, S, B>,
     slabs: Vec<Range<usize>>,
     nodes: Vec<NodalState>,
+    /// The acceleration of all material in the step (m/s²).
+    gravity: Node,
     averaging: Averaging<D, S>,
     /// The nodes that particles see until they are sorted again; all others are zero.
     reach: Reach,
@@ -118,7 +124,9 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     node_sums: Vec<NodeSums>,
     /// Largest distance (m) that a particle can have moved since the particles were sorted.
     drift: f64,
-    wave_speed: f64,
+    /// Least density of the undeformed material (kg/m³), and the greatest modulus ρ₀ c² of waves (Pa).
+    density: f64,
+    wave_modulus: f64,
     time: f64,
     accumulated: Accumulated,
     residual: Residual,
@@ -140,6 +148,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.grid_to_particles()?;
         self.keep_gaps_open(self.time + self.settings.dt)?;
         self.average_volume_change()?;
+        self.find_fastest_wave();
         self.sort_if_needed();
         self.filter_particles();
         self.time += self.settings.dt;
@@ -222,6 +231,18 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             count: &mut uncounted,
         }
         .average(&self.scene.body.particles, field);
+    }
+
+    /// After the law: the greatest modulus of waves.
+    fn find_fastest_wave(&mut self) {
+        let moduli = self.chunk_sums.iter().map(|sums| sums.wave_modulus);
+        let greatest = moduli.fold(Eight::ZERO, Eight::fast_max);
+        self.wave_modulus = greatest.to_array().into_iter().fold(0.0, f64::max);
+    }
+
+    /// Speed of the fastest wave (m/s).
+    fn wave_speed(&self) -> f64 {
+        (self.wave_modulus / self.density).sqrt()
     }
 
     fn breakdown(&self, index: usize, fault: Fault) -> Error {

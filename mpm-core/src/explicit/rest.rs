@@ -88,23 +88,24 @@ pub(super) struct Rest<const D: usize> {
     dt: f64,
     h: f64,
     room: Room<D>,
-    /// How far a wave goes in a step (m).
-    wave_distance: f64,
+    /// The square of how far a wave goes in a step, over its modulus ρ₀ c² (m²/Pa).
+    reach: f64,
 }
 
 impl<const D: usize> Rest<D> {
-    /// On `grid`, with steps of `dt` (s), waves of the given speed (m/s) and particles of these half sizes (m).
+    /// On `grid`, with steps of `dt` (s) and particles of these half sizes (m), the least dense of which have the
+    /// given reference density (kg/m³).
     pub(super) fn of<const S: usize, B: Basis<S>>(
         grid: &Grid<D>,
         dt: f64,
-        wave_speed: f64,
+        density: f64,
         half_size: &[f64; D],
     ) -> Self {
         Self {
             dt,
             h: grid.h,
             room: Room::new(grid, half_size.map(B::beyond_wall)),
-            wave_distance: wave_speed * dt,
+            reach: dt * dt / density,
         }
     }
 
@@ -126,8 +127,10 @@ impl<const D: usize> Rest<D> {
         let (stress, after) = p.law.response(&embed_entries(delta_f), self.dt, &before);
         store(p.stress, k, |l| stress.part(l));
         store(p.states, k, |l| M::State::part::<Eight>(&after, l));
-        let volume = numbers(p.jacobian, k) * numbers(p.reference_volume, k);
-        store_numbers(p.volume, k, volume);
+        let j = numbers(p.jacobian, k);
+        store_numbers(p.volume, k, j * numbers(p.reference_volume, k));
+        let modulus = p.law.wave_modulus(j, &stress, &after);
+        sums.wave_modulus = sums.wave_modulus.fast_max(modulus);
 
         let mut x = components(block(p.position, k, &mut None));
         let mut distance = Eight::ZERO;
@@ -135,8 +138,11 @@ impl<const D: usize> Rest<D> {
             x[a] += increment[a];
             distance = distance.fast_max(increment[a].abs());
         }
-        let reach = distance + Eight::splat(self.wave_distance);
-        if reach.simd_le(Eight::splat(self.h)).all() && self.room.holds_all(&x) {
+        // A wave and the particle stay within a cell in a step.
+        let left = Eight::splat(self.h) - distance;
+        let reached = modulus * Eight::splat(self.reach);
+        let within = left.simd_ge(Eight::ZERO) & reached.simd_le(left * left);
+        if within.all() && self.room.holds_all(&x) {
             store_vectors(p.position, k, &x);
             let largest = distance.to_array().into_iter().fold(0.0, f64::max);
             sums.largest_increment = sums.largest_increment.max(largest);
@@ -144,8 +150,9 @@ impl<const D: usize> Rest<D> {
         }
         for l in 0..entries(p.len(), k) {
             let (mut next, distance) = (x.map(|x| x.part(l)), distance.part(l));
-            let checked = check_cfl(distance + self.wave_distance, self.h)
-                .and_then(|()| self.room.place(&mut next));
+            let wave = reached.part(l).sqrt();
+            let checked =
+                check_cfl(distance + wave, self.h).and_then(|()| self.room.place(&mut next));
             match checked {
                 Ok(wrapped) => {
                     p.position[k * EIGHT + l] = next;

@@ -11,13 +11,12 @@ use crate::error::Error;
 use crate::lattice::Stencils;
 use crate::material::Law;
 use crate::monitor::Residual;
-use crate::nodes::NodalState;
+use crate::nodes::{NodalState, Node, padded};
 use crate::number::{EIGHT, Eight};
-use crate::parallel::{for_each_chunk, scatter};
+use crate::parallel::{NODE_CHUNK, PerPiece, for_each_chunk, for_each_piece, scatter};
 use crate::projection::Projection;
 use crate::space::determinant_of_entries;
 use crate::stage::ForceFilter;
-use rayon::prelude::*;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// Sets the prescribed velocities to those in the middle of the step, and notes the forces on what they hold.
@@ -30,14 +29,20 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         }
         for p in &mut self.prescribed {
             p.velocity = self.held[p.by].amplitude * p.full_velocity;
-            p.force = self.nodes[p.node].change.as_array()[p.axis];
+            let node = &self.nodes[p.node];
+            p.force = (node.change + self.gravity * node.mass()).as_array()[p.axis];
         }
     }
 
+    /// Forces on particles; of what accelerates all material alike, its share in the nodes' update.
     pub(super) fn apply_loads(&mut self) {
         self.scene.body.particles.external_force.fill([0.0; D]);
+        self.gravity = Node::ZERO;
         for load in &self.scene.loads {
-            load.add(self.time, &mut self.scene.body.particles);
+            match load.acceleration(self.time) {
+                Some(acceleration) => self.gravity += padded(&acceleration),
+                None => load.add(self.time, &mut self.scene.body.particles),
+            }
         }
     }
 
@@ -90,19 +95,21 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 
     /// New nodal velocities, Eq. (9), with filters and constraints.
     pub(super) fn update_grid(&mut self) {
-        let dt = self.settings.dt;
+        let (dt, gravity) = (self.settings.dt, self.gravity);
         let filters = &self.settings.force_filters;
-        self.reach
-            .chunks(&mut self.nodes)
-            .zip(&mut self.node_sums)
-            .for_each(|(parts, sums)| {
-                *sums = NodeSums::default();
-                parts
-                    .flatten()
-                    .for_each(|node| update_node::<D>(node, dt, filters, sums));
-            });
+        let (reach, n) = (&self.reach, self.nodes.len());
+        let fields = (&mut self.nodes[..], PerPiece(&mut self.node_sums));
+        for_each_piece(fields, n, NODE_CHUNK, &|begin, (nodes, sums)| {
+            let mut of_piece = NodeSums::default();
+            for node in reach.within(begin, nodes.len()).flatten() {
+                update_node::<D>(&mut nodes[node], dt, gravity, filters, &mut of_piece);
+            }
+            sums.0.fill(of_piece);
+        });
         let mut residual = Residual::default();
+        let mut momentum = Node::ZERO;
         for sums in &self.node_sums {
+            momentum += sums.momentum;
             residual.free_force += sums.free_force;
             residual.kinetic_energy += sums.kinetic_energy;
             self.accumulated.damping += dt * sums.damping;
@@ -126,9 +133,13 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                 mass * (0.5 * (before * before - held * held) + (free - before) * held);
             *change += held - free;
             *velocity = held;
+            momentum.as_mut_array()[c.axis] += mass * (held - free);
             residual.kinetic_energy += node.kinetic_energy();
         }
         self.residual = residual;
+        for (g, momentum) in gravity.as_array()[..D].iter().zip(momentum.as_array()) {
+            self.accumulated.load_work += dt * g * momentum;
+        }
         self.lattice.unfold(&mut self.nodes);
     }
 
@@ -293,12 +304,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 
     fn rest(&self) -> Rest<D> {
         let half_size = &self.scene.body.particles.half_size;
-        Rest::of::<S, B>(
-            &self.scene.grid,
-            self.settings.dt,
-            self.wave_speed,
-            half_size,
-        )
+        Rest::of::<S, B>(&self.scene.grid, self.settings.dt, self.density, half_size)
     }
 
     pub(super) fn filter_particles(&mut self) {
@@ -313,6 +319,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 fn update_node<const D: usize>(
     node: &mut NodalState,
     dt: f64,
+    gravity: Node,
     filters: &[Box<dyn ForceFilter>],
     sums: &mut NodeSums,
 ) {
@@ -324,6 +331,7 @@ fn update_node<const D: usize>(
     for v in &mut node.motion.as_mut_array()[..D] {
         *v /= mass;
     }
+    node.change += gravity * mass;
     for filter in filters {
         sums.damping += filter.filter(node);
     }
@@ -334,4 +342,5 @@ fn update_node<const D: usize>(
     node.change *= dt / mass;
     node.motion += node.change;
     sums.kinetic_energy += node.kinetic_energy();
+    sums.momentum += node.motion * mass;
 }

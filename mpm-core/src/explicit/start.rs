@@ -7,7 +7,7 @@ use crate::error::{Error, require};
 use crate::lattice::Lattice;
 use crate::material::Law;
 use crate::monitor::{Accumulated, Residual};
-use crate::nodes::NodalState;
+use crate::nodes::{NodalState, Node};
 use crate::parallel::{CHUNK, NODE_CHUNK};
 use crate::projection::Averaging;
 use crate::reach::Reach;
@@ -36,7 +36,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let lattice = Lattice::new(scene.grid, settings.wall);
         settings.remedy.attach(particles);
         settings.transfer.attach(particles);
-        if scene.loads.is_empty() && scene.contacts.is_empty() {
+        let mut loads = scene.loads.iter();
+        let on_nodes = loads.all(|load| load.acceleration(0.0).is_some());
+        if on_nodes && scene.contacts.is_empty() {
             particles.external_force = Vec::new();
         }
         particles.delta_f = Vec::new();
@@ -56,6 +58,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let mut solver = Self {
             slabs: Vec::new(),
             nodes: vec![NodalState::default(); lattice.len()],
+            gravity: Node::ZERO,
             averaging: Averaging::new(lattice.len()),
             reach: Reach::everything(&lattice),
             declared: Vec::new(),
@@ -66,7 +69,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
             node_sums: vec![NodeSums::default(); lattice.len().div_ceil(NODE_CHUNK)],
             drift: 0.0,
-            wave_speed: scene.body.wave_speed(),
+            density: scene.body.least_density(),
+            wave_modulus: scene.body.wave_modulus(),
             time: 0.0,
             accumulated: Accumulated::default(),
             residual: Residual::default(),
@@ -80,6 +84,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         solver.attach_contacts()?;
         solver.declare_constraints();
         solver.sort();
+        solver.keep_gaps_open(0.0)?;
         Ok(solver)
     }
 
@@ -107,7 +112,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn check_positions(&mut self) -> Result<(), Error> {
-        check_cfl(self.wave_speed * self.settings.dt, self.scene.grid.h)
+        check_cfl(self.wave_speed() * self.settings.dt, self.scene.grid.h)
             .map_err(|fault| self.breakdown(0, fault))?;
         let beyond = self.scene.body.particles.half_size.map(B::beyond_wall);
         let room = Room::new(&self.scene.grid, beyond);

@@ -63,7 +63,15 @@ impl Law for Hencky {
             + 0.5 * self.bulk_modulus * log_jacobian * log_jacobian
     }
 
-    fn wave_speed(&self, density: f64) -> f64 {
-        ((self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus) / density).sqrt()
+    /// K + 4μ/3 − τ₁ along the least Kirchhoff stress τ₁.
+    #[inline(always)]
+    fn wave_modulus<T: Real>(
+        &self,
+        j: T,
+        stress: &SymmetricTensor<T>,
+        _b: &SymmetricTensor<T>,
+    ) -> T {
+        let undeformed = self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus;
+        T::splat(undeformed) - j * stress.least_at_least()
     }
 }

@@ -239,8 +239,16 @@ impl Law for HenckyJ2 {
             + 0.5 * self.bulk_modulus * log_jacobian * log_jacobian
     }
 
-    fn wave_speed(&self, density: f64) -> f64 {
-        ((self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus) / density).sqrt()
+    /// K + 4μ/3 − τ₁ along the least Kirchhoff stress τ₁ of elastic material.
+    #[inline(always)]
+    fn wave_modulus<T: Real>(
+        &self,
+        j: T,
+        stress: &SymmetricTensor<T>,
+        _state: &ElastoplasticState<T>,
+    ) -> T {
+        let undeformed = self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus;
+        T::splat(undeformed) - j * stress.least_at_least()
     }
 }
 

@@ -144,8 +144,15 @@ impl Law for Hypoelastic {
         deviator * deviator / (4.0 * self.mu) + stress.mean() * stress.mean() / (2.0 * bulk)
     }
 
-    fn wave_speed(&self, density: f64) -> f64 {
-        ((self.lambda + 2.0 * self.mu) / density).sqrt()
+    /// J (λ + 2μ): uniaxial strain turns no stress.
+    #[inline(always)]
+    fn wave_modulus<T: Real>(
+        &self,
+        j: T,
+        _stress: &SymmetricTensor<T>,
+        _state: &SymmetricTensor<T>,
+    ) -> T {
+        j * T::splat(self.lambda + 2.0 * self.mu)
     }
 }
 

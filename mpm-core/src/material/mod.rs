@@ -151,8 +151,20 @@ pub trait Law: Send + Sync {
     /// Stored energy per reference volume (J/m³).
     fn energy(&self, state: &Self::State) -> f64;
 
+    /// ρ₀ c² (Pa) of the fastest pressure wave, of speed c along the material that it deforms, or more: never less. `j`
+    /// is the Jacobian, ρ₀ the density of undeformed material.
+    fn wave_modulus<T: Real>(
+        &self,
+        j: T,
+        stress: &SymmetricTensor<T>,
+        state: &StateOf<Self, T>,
+    ) -> T;
+
     /// Speed of pressure waves (m/s) in undeformed material of the given density (kg/m³).
-    fn wave_speed(&self, density: f64) -> f64;
+    fn wave_speed(&self, density: f64) -> f64 {
+        let state = State::pack::<f64>(|_| self.initial_state());
+        (self.wave_modulus(1.0, &SymmetricTensor::default(), &state) / density).sqrt()
+    }
 }
 
 #[cfg(test)]

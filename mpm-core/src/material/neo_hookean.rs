@@ -80,7 +80,15 @@ impl Law for NeoHookean {
             + 0.5 * self.lambda * log_jacobian * log_jacobian
     }
 
-    fn wave_speed(&self, density: f64) -> f64 {
-        ((self.lambda + 2.0 * self.mu) / density).sqrt()
+    /// λ + μ + μ b₁ − λ ln J along the greatest stretch √b₁.
+    #[inline(always)]
+    fn wave_modulus<T: Real>(
+        &self,
+        j: T,
+        stress: &SymmetricTensor<T>,
+        b: &SymmetricTensor<T>,
+    ) -> T {
+        let stretches = b.greatest_at_most() + b.mean();
+        T::splat(self.lambda) + T::splat(self.mu) * stretches - j * stress.mean()
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Load, smooth_rise};
 use crate::memory::Memoryless;
+use crate::parallel::{CHUNK, for_each_piece};
 use crate::particles::Particles;
 
 /// A field of body force per unit mass (N/kg) as a function of the reference position (m) and time (s).
@@ -14,17 +15,36 @@ impl<const D: usize> Memoryless for BodyForce<D> {}
 
 impl<const D: usize> Load<D> for BodyForce<D> {
     fn add(&self, time: f64, particles: &mut Particles<D>) {
-        let columns = particles
-            .external_force
-            .iter_mut()
-            .zip(&particles.reference)
-            .zip(&particles.mass);
-        for ((force, reference), mass) in columns {
-            let b = (self.0)(reference, time);
-            for (f, b) in force.iter_mut().zip(b) {
-                *f += mass * b;
+        let (n, p) = (particles.len(), particles);
+        let columns = (&mut p.external_force[..], (&p.reference[..], &p.mass[..]));
+        for_each_piece(columns, n, CHUNK, &|_, (forces, (reference, mass))| {
+            for (force, (reference, mass)) in forces.iter_mut().zip(reference.iter().zip(mass)) {
+                let b = (self.0)(reference, time);
+                for (f, b) in force.iter_mut().zip(b) {
+                    *f += mass * b;
+                }
+            }
+        });
+    }
+}
+
+/// An acceleration (m/s²) of all material as a function of time (s).
+pub struct Gravity<const D: usize>(pub Box<dyn Fn(f64) -> [f64; D] + Send + Sync>);
+
+impl<const D: usize> Memoryless for Gravity<D> {}
+
+impl<const D: usize> Load<D> for Gravity<D> {
+    fn add(&self, time: f64, particles: &mut Particles<D>) {
+        let acceleration = (self.0)(time);
+        for (force, mass) in particles.external_force.iter_mut().zip(&particles.mass) {
+            for (f, a) in force.iter_mut().zip(acceleration) {
+                *f += mass * a;
             }
         }
+    }
+
+    fn acceleration(&self, time: f64) -> Option<[f64; D]> {
+        Some((self.0)(time))
     }
 }
 

@@ -18,7 +18,7 @@ mod rigid_nodes;
 mod wall;
 
 pub use kinetic_damping::KineticDamping;
-pub use load::{BodyForce, DeadForce, ForceField};
+pub use load::{BodyForce, DeadForce, ForceField, Gravity};
 pub use local_damping::LocalDamping;
 pub use rest::{Observation, RestCriterion};
 pub use rigid_nodes::RigidNodes;
@@ -32,6 +32,12 @@ use crate::particles::Particles;
 pub trait Load<const D: usize>: Memory + Send {
     /// Adds the load at `time` (s) to the particles' external force (N).
     fn add(&self, time: f64, particles: &mut Particles<D>);
+
+    /// The acceleration (m/s²) at `time` (s) that the load gives to all material alike, if it is such a load: a solver
+    /// may apply it to the nodes and leave the particles' forces alone.
+    fn acceleration(&self, _time: f64) -> Option<[f64; D]> {
+        None
+    }
 }
 
 /// A filter of nodal forces.

@@ -4,7 +4,7 @@ use mpm_core::basis::Gimp;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::{Settings, Solver, contact_cfl, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::stage::{BodyForce, End, LocalDamping, smooth_rise, smooth_stroke};
+use mpm_core::stage::{End, Gravity, LocalDamping, smooth_rise, smooth_stroke};
 use mpm_core::{Axis, Body, Error, Fault, Grid, Part, Particles, Scene, Simulation};
 
 const H: f64 = 0.5;
@@ -79,7 +79,7 @@ fn under<const D: usize>(
     (scene, settings): Setting<D>,
     b: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
 ) -> Setting<D> {
-    let gravity = BodyForce(Box::new(move |_: &[f64; D], t| b(t)));
+    let gravity = Gravity(Box::new(b));
     (scene.load(gravity), settings)
 }
 

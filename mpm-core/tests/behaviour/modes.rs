@@ -50,8 +50,8 @@ impl Law for Prestressed {
         self.mean * (state - 1.0) + self.bulk.energy(state)
     }
 
-    fn wave_speed(&self, density: f64) -> f64 {
-        self.bulk.wave_speed(density)
+    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, state: &T) -> T {
+        self.bulk.wave_modulus(j, stress, state)
     }
 }
 

@@ -10,7 +10,11 @@ use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::projection::Average;
-use mpm_core::stage::{BodyForce, Constraint, End, KineticDamping, LocalDamping, Wall, WallKind};
+use mpm_core::simulation::Part;
+use mpm_core::stage::Load;
+use mpm_core::stage::{
+    BodyForce, Constraint, End, Gravity, KineticDamping, LocalDamping, Wall, WallKind,
+};
 use mpm_core::{Axis, Basis, Error, Fault, Grid, Memoryless, Particles, Side, Simulation};
 use std::f64::consts::PI;
 
@@ -233,6 +237,45 @@ fn damping_takes_energy_and_says_how_much() {
     assert!(LocalDamping::new(f64::NAN).is_err());
 }
 
+/// Of a body in a box: where its particles are, the work of its weight and the force on the floor, when nodes take the
+/// weight and when particles do.
+#[test]
+fn nodes_take_the_weight_as_particles_do() {
+    let run = |load: Box<dyn Load<2>>| {
+        let particles = block(0.5, 2, [0, 0], [8, 6]);
+        let grid = Grid::new(0.5, [Axis::walls(0.0, 8); 2]).unwrap();
+        let (mut scene, settings) = scene(grid, particles);
+        scene.loads.push(load);
+        for axis in 0..2 {
+            let kind = WallKind::Roller;
+            scene = scene.constrain(Wall {
+                axis,
+                end: End::Lo,
+                kind,
+            });
+        }
+        let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings).unwrap();
+        let forces = solver.particles().external_force.len();
+        for _ in 0..40 {
+            solver.step().unwrap();
+        }
+        let y: Vec<f64> = solver.particles().position.iter().map(|x| x[1]).collect();
+        let floor = solver.on(Part::Constraint(1)).force[1];
+        (forces, y, solver.totals().accumulated.load_work, floor)
+    };
+    let weight = |t: f64| [0.1 * t, -1.0 - t];
+    let on_nodes = run(Box::new(Gravity(Box::new(weight))));
+    let on_particles = run(Box::new(BodyForce(Box::new(move |_, t| weight(t)))));
+    assert_eq!((on_nodes.0, on_particles.0), (0, on_particles.1.len()));
+    let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-11, "{a} for {b}");
+    for (a, b) in on_nodes.1.iter().zip(&on_particles.1) {
+        near(*a, *b);
+    }
+    near(on_nodes.2, on_particles.2);
+    near(on_nodes.3, on_particles.3);
+    assert!(on_nodes.2 > 0.0 && on_nodes.3 < 0.0);
+}
+
 /// A long body that falls, with nodes enough for several threads: their energy is that of the particles, their
 /// out-of-balance force what damping leaves of the weight, the power of damping the rest of it.
 #[test]
@@ -246,7 +289,7 @@ fn sums_over_nodes_are_those_of_a_falling_body_however_many_nodes() {
     let (mut scene, mut settings) = scene(grid, particles);
     scene
         .loads
-        .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -GRAVITY]))));
+        .push(Box::new(Gravity(Box::new(|_| [0.0, -GRAVITY]))));
     settings
         .force_filters
         .push(Box::new(LocalDamping::new(ALPHA).unwrap()));

@@ -4,11 +4,10 @@ use super::{Deformation, Remedy, fill, fill_with_products, mean};
 use crate::eights::{AHEAD, Eights};
 use crate::memory::Memoryless;
 use crate::number::Eight;
-use crate::parallel::CHUNK;
+use crate::parallel::{CHUNK, for_each_piece};
 use crate::particles::Particles;
 use crate::projection::Average;
 use crate::tensor::SymmetricTensor;
-use rayon::prelude::*;
 
 /// J̄ⁿ⁺¹ = J̄ⁿ A(ΔJ), less a relaxation of what Π can't see, and the force from the stress
 /// (J̄/J) dev σ + A((J̄/J) p) I, with A = I − (1 − ε)(I − Π)², ε = 0.01.
@@ -96,14 +95,12 @@ fn sharpened<const D: usize>(
 
 /// `change(p, a, b)` for the entries of two fields at every particle p, in parallel.
 fn for_each_pair(a: &mut [f64], b: &mut [f64], change: impl Fn(usize, &mut f64, &mut f64) + Sync) {
-    a.par_chunks_mut(CHUNK)
-        .zip(b.par_chunks_mut(CHUNK))
-        .enumerate()
-        .for_each(|(c, (a, b))| {
-            for (k, (a, b)) in a.iter_mut().zip(b).enumerate() {
-                change(c * CHUNK + k, a, b);
-            }
-        });
+    let n = a.len();
+    for_each_piece((a, b), n, CHUNK, &|begin, (a, b)| {
+        for (k, (a, b)) in a.iter_mut().zip(b).enumerate() {
+            change(begin + k, a, b);
+        }
+    });
 }
 
 impl Memoryless for FbarConsistent {}

@@ -26,12 +26,11 @@ pub use standard::Standard;
 use crate::eights::{Eights, blocks, numbers, store_numbers};
 use crate::memory::Memory;
 use crate::number::{Eight, Real};
-use crate::parallel::{AT_ONCE, CHUNK, Front, cut};
+use crate::parallel::{CHUNK, Front, for_each_piece};
 use crate::particles::Particles;
 use crate::projection::Average;
 use crate::space::stretch_of_volume;
 use crate::tensor::SymmetricTensor;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// How particles move and deform in a step, where something stands between G2P and the law that needs it of all: in
@@ -80,12 +79,12 @@ pub struct DeformationChunk<'a, const D: usize> {
 }
 
 impl<const D: usize> Front for DeformationChunk<'_, D> {
-    fn front(&mut self, n: usize) -> Self {
+    fn front(&mut self, pieces: usize, size: usize) -> Self {
         Self {
-            delta_f: cut(&mut self.delta_f, blocks(n)),
-            increment: cut(&mut self.increment, blocks(n)),
-            volume_change: cut(&mut self.volume_change, n),
-            shear: cut(&mut self.shear, n),
+            delta_f: self.delta_f.front(pieces, blocks(size)),
+            increment: self.increment.front(pieces, blocks(size)),
+            volume_change: self.volume_change.front(pieces, size),
+            shear: self.shear.front(pieces, size),
         }
     }
 }
@@ -208,15 +207,12 @@ fn fill<F: Fn(usize) -> Eight>(
     of_chunk: impl Fn(Range<usize>) -> F + Sync,
 ) {
     out.resize(n, 0.0);
-    out.par_chunks_mut(CHUNK)
-        .with_max_len(AT_ONCE)
-        .enumerate()
-        .for_each(|(c, out)| {
-            let f = of_chunk(c * CHUNK..c * CHUNK + out.len());
-            for k in 0..blocks(out.len()) {
-                store_numbers(out, k, f(k));
-            }
-        });
+    for_each_piece(&mut out[..], n, CHUNK, &|begin, out| {
+        let f = of_chunk(begin..begin + out.len());
+        for k in 0..blocks(out.len()) {
+            store_numbers(out, k, f(k));
+        }
+    });
 }
 
 /// The part of a stress that works on a change of volume: in plane strain, the in-plane mean.

@@ -16,7 +16,7 @@ use crate::spec::RunSpec;
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NewtonianFluid};
-use mpm_core::stage::{BodyForce, End, LocalDamping, RigidNodes, Wall, WallKind, smooth_rise};
+use mpm_core::stage::{End, Gravity, LocalDamping, RigidNodes, Wall, WallKind, smooth_rise};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
 use mpm_solvers::solver;
 use nalgebra::{SMatrix, Vector3};
@@ -137,7 +137,7 @@ impl Dam {
             WallKind::Separable
         };
         let walls = [(1, End::Lo), (0, End::Lo), (0, End::Hi)];
-        let weight = BodyForce(Box::new(move |_, time| {
+        let weight = Gravity(Box::new(move |time| {
             [0.0, -GRAVITY * smooth_rise(time, rise)]
         }));
         let body = Body::new(self.law, self.particles()?)?;

@@ -11,7 +11,7 @@ use crate::parameter::Parameters;
 use crate::spec::RunSpec;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{HenckyJ2, Law, Strength};
-use mpm_core::stage::{BodyForce, End, Wall, WallKind, smooth_rise};
+use mpm_core::stage::{End, Gravity, Wall, WallKind, smooth_rise};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side};
 use std::f64::consts::SQRT_2;
 
@@ -156,7 +156,7 @@ impl<const D: usize> Ground<D> {
         let half_size = [0.5 * self.spacing; D];
         let places = spec.start_at(self.seed());
         let particles = Particles::new(places, volume, self.density, half_size)?;
-        let weight = BodyForce(Box::new(move |_: &[f64; D], time| {
+        let weight = Gravity(Box::new(move |time| {
             let mut g = [0.0; D];
             g[1] = -GRAVITY * smooth_rise(time, rise);
             g
