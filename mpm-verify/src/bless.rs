@@ -6,11 +6,11 @@ use crate::record::{Record, Status, Version};
 use crate::report::describe::{drift_line, verdict_line};
 use crate::run::checkpoint::Saving;
 use crate::study::gather::Gathered;
-use crate::study::judge::has_truth;
+use crate::study::judge::outcome_of_run;
 use crate::study::plan::PlannedRun;
 use crate::study::schedule::{Listener, Task, run_all};
 use crate::study::summary::CaseStudy;
-use crate::verdict::Verdict;
+use crate::verdict::{Outcome, Verdict};
 use std::fmt::Write;
 
 /// The runs of a case that have drifted, and what speaks against blessing them.
@@ -51,7 +51,8 @@ impl<'a> Candidates<'a> {
                 let _ = writeln!(t, "{} {}  {}", record.case, record.folder(), drift_line(v));
             }
         }
-        let untold = self.drifted.iter().filter(|r| !has_truth(r)).count();
+        let unjudged = |r: &&&Record| outcome_of_run(r) == Outcome::NotJudged;
+        let untold = self.drifted.iter().filter(unjudged).count();
         let _ = writeln!(
             t,
             "{} of {} runs have drifted or have no golden; bookkeeping alone judges {untold} of these",

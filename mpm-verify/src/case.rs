@@ -4,10 +4,10 @@ use crate::check::Check;
 use crate::error::Error;
 use crate::gallery::Gallery;
 use crate::job::Job;
-use crate::metric::{Headline, Metric, Quantity, Sweep};
+use crate::metric::{Metric, Quantity, Sweep};
 use crate::parameter::{Parameter, Parameters};
 use crate::record::Record;
-use crate::results::ResultTable;
+use crate::results::{Column, ResultTable};
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::sketch::Sketch;
 use crate::spec::{Level, RunSpec};
@@ -30,7 +30,9 @@ pub enum Tier {
 
 impl Tier {
     /// All, in their order.
-    const ALL: [Self; 4] = [Self::Quick, Self::Pr, Self::Nightly, Self::Long];
+    pub const ALL: [Self; 4] = [Self::Quick, Self::Pr, Self::Nightly, Self::Long];
+    /// Their names.
+    pub const NAMES: [&str; 4] = ["quick", "pr", "nightly", "long"];
 
     /// By its name.
     ///
@@ -38,18 +40,13 @@ impl Tier {
     /// There is none of that name.
     pub fn parse(name: &str) -> Result<Self, Error> {
         let found = Self::ALL.into_iter().find(|t| t.to_string() == name);
-        found.ok_or_else(|| Error::unknown("tier", name, ["quick", "pr", "nightly", "long"]))
+        found.ok_or_else(|| Error::unknown("tier", name, Self::NAMES))
     }
 }
 
 impl fmt::Display for Tier {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Quick => "quick",
-            Self::Pr => "pr",
-            Self::Nightly => "nightly",
-            Self::Long => "long",
-        })
+        f.write_str(Self::NAMES[*self as usize])
     }
 }
 
@@ -94,7 +91,7 @@ pub struct Case {
     /// Checks.
     pub checks: Vec<Check>,
     /// What the table of results shows.
-    pub headlines: Vec<Headline>,
+    pub headlines: Vec<Column>,
     /// Quantities whose convergence is studied.
     pub quantities: Vec<Quantity>,
     /// Parameters over whose values the errors are drawn.

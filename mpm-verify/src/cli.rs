@@ -2,66 +2,100 @@
 
 pub(crate) mod run;
 
-use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+use mpm_verify::case::{Case, Tier};
+use mpm_verify::cases;
 use mpm_verify::error::Error;
 use mpm_verify::run::checkpoint;
+use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use mpm_verify::study::plan::Shard;
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Verification bench of the locking-free material point method.
-#[derive(Debug, Parser)]
-#[command(version, about)]
+///
+/// Begin with `mpm-verify list`, `mpm-verify run cook --out out` or `mpm-verify verify --tier quick`. Exit codes: 0 all
+/// good, 1 a check against the truth failed, 2 usage or input, 3 drift from the goldens only, 4 a run broke down and was
+/// not known to.
+#[derive(Parser)]
+#[command(version, max_term_width = 100, arg_required_else_help = true)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
 }
 
-#[derive(Debug, Subcommand)]
+/// How much is said.
+#[derive(Args, Clone, Copy)]
+pub(crate) struct Told {
+    /// Say nothing but the verdict
+    #[arg(long, short, conflicts_with = "json")]
+    pub(crate) quiet: bool,
+    /// Say it as JSON, without progress
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+impl Told {
+    /// Whether progress is shown.
+    pub(crate) fn progress(self) -> bool {
+        !self.quiet && !self.json
+    }
+}
+
+#[derive(Subcommand)]
 pub(crate) enum Command {
-    /// List the cases with their schemes and levels
+    /// List the cases: what they are, their runs in each tier, what they cost
     List {
-        /// Only the runs of this tier: quick, pr, nightly, long
-        #[arg(long)]
-        tier: Option<String>,
-        /// text or json
-        #[arg(long, default_value = "text")]
+        /// List the runs of this tier
+        #[arg(long, value_parser = tier())]
+        tier: Option<Tier>,
+        /// As text or as JSON
+        #[arg(long, default_value = "text", value_parser = ["text", "json"])]
         format: String,
     },
     /// Parameters, schemes, levels, metrics, checks, references and limits of a case
     Explain {
         /// The case
-        case: String,
+        #[arg(value_parser = case(), hide_possible_values = true)]
+        case: &'static Case,
+        /// Say it as JSON
+        #[arg(long)]
+        json: bool,
     },
-    /// Run one case once
+    /// Run one case once, judge it and, with --out, draw it
     Run {
         /// The case
-        case: String,
-        /// Scheme by its name, as `list` and records write it, in place of its parts
-        #[arg(long, conflicts_with_all = ["solver", "basis", "remedy", "transfer"])]
-        scheme: Option<String>,
-        /// Solver: explicit or quasi-static (explicit if the case has it)
-        #[arg(long)]
+        #[arg(value_parser = case(), hide_possible_values = true)]
+        case: &'static Case,
+        /// Scheme by its name, as `explain` and records write it, in place of its parts
+        #[arg(long, value_parser = Schemes, hide_possible_values = true,
+            conflicts_with_all = ["solver", "basis", "remedy", "transfer"])]
+        scheme: Option<Scheme>,
+        /// Solver (explicit if the case has it)
+        #[arg(long, value_parser = Scheme::SOLVERS.to_vec())]
         solver: Option<String>,
         /// Basis functions (gimp; of a quasi-static run those of its first in the case)
-        #[arg(long)]
-        basis: Option<String>,
+        #[arg(long, value_parser = one_of(BasisName::NAMES, BasisName::parse))]
+        basis: Option<BasisName>,
         /// Locking remedy (fbar-consistent; likewise)
-        #[arg(long)]
-        remedy: Option<String>,
+        #[arg(long, value_parser = one_of(RemedyName::NAMES, RemedyName::parse))]
+        remedy: Option<RemedyName>,
         /// Transfer of an explicit run (flip)
-        #[arg(long)]
-        transfer: Option<String>,
+        #[arg(long, value_parser = one_of(TransferName::NAMES, TransferName::parse))]
+        transfer: Option<TransferName>,
         /// Level of refinement (the coarsest if not given)
         #[arg(long)]
         level: Option<String>,
         /// Change a parameter
         #[arg(long = "set", value_name = "NAME=VALUE")]
         set: Vec<String>,
-        /// Start every particle a last bit beside its place
+        /// Perturb every initial coordinate by one unit in the last place
         #[arg(long)]
         perturb: bool,
-        /// Folder for record, series, particles and VTU
+        /// Folder for record, series, particles, VTU and pictures
         #[arg(long, group = "folder")]
         out: Option<PathBuf>,
         /// In place of --out: go on in this folder from the checkpoint that the same run has left there,
@@ -72,19 +106,22 @@ pub(crate) enum Command {
         #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
         checkpoint_every: u64,
         /// Threads (all cores if not given)
-        #[arg(long)]
+        #[arg(long, value_parser = threads())]
         threads: Option<usize>,
+        #[command(flatten)]
+        told: Told,
     },
     /// Run a tier of cases, judge them and write the report
     Verify {
         /// The cases (all if none is given)
-        cases: Vec<String>,
-        /// quick, pr, nightly or long
-        #[arg(long, default_value = "pr")]
-        tier: String,
+        #[arg(value_parser = case(), hide_possible_values = true)]
+        cases: Vec<&'static Case>,
+        /// Which runs
+        #[arg(long, default_value = "pr", value_parser = tier())]
+        tier: Tier,
         /// Make only the i-th of n shares of the runs; `report` puts the shares together
-        #[arg(long, value_name = "I/N")]
-        shard: Option<String>,
+        #[arg(long, value_name = "I/N", value_parser = Shard::parse, default_value = "1/1", hide_default_value = true)]
+        shard: Shard,
         /// Keep the runs that are there already, if this very program made them, and go on with those that
         /// it has left a checkpoint of
         #[arg(long)]
@@ -95,14 +132,16 @@ pub(crate) enum Command {
         /// Folder of the report
         #[arg(long, default_value = "reports/latest")]
         out: PathBuf,
-        /// Folder of the goldens
-        #[arg(long, default_value = "golden")]
-        golden: PathBuf,
-        /// Runs side by side (as many as there are cores if not given)
+        /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
         #[arg(long)]
+        golden: Option<PathBuf>,
+        /// Runs side by side (as many as there are cores if not given)
+        #[arg(long, value_parser = threads())]
         threads: Option<usize>,
+        #[command(flatten)]
+        told: Told,
     },
-    /// Judge again what `verify` has left and rebuild the report, without simulating
+    /// Judge again what `verify` or `run` has left and rebuild the report, without simulating
     Report {
         /// The folder, or those of all shards
         #[arg(required = true)]
@@ -110,17 +149,19 @@ pub(crate) enum Command {
         /// Folder of the report (that of the runs if there is one only)
         #[arg(long)]
         out: Option<PathBuf>,
-        /// Folder of the goldens
-        #[arg(long, default_value = "golden")]
-        golden: PathBuf,
-        /// Add this night (YYYY-MM-DD) to the report's history and draw the trends
+        /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
+        #[arg(long)]
+        golden: Option<PathBuf>,
+        /// Add this night (YYYY-MM-DD) to the report's history
         #[arg(long, value_name = "DATE", requires = "commit")]
         night: Option<String>,
         /// The commit of that night
         #[arg(long, requires = "night")]
         commit: Option<String>,
+        #[command(flatten)]
+        told: Told,
     },
-    /// Keep of a night's report a row a run, trends and, of all cases, the gist of the summary
+    /// Keep of a night's report a row a run, its history and, of all cases, the summary
     Keep {
         /// Folder of the report
         report: PathBuf,
@@ -137,8 +178,9 @@ pub(crate) enum Command {
         #[arg(long, default_value = ".")]
         root: PathBuf,
     },
-    /// Draw the pictures of README and docs: errors over cell size and cost from the rows that are kept, and what finished
-    /// runs suffice for; the others are named and left
+    /// Draw the pictures of README and docs from the rows that are kept and from finished runs
+    ///
+    /// What they do not suffice for is named and left.
     Pictures {
         /// The folder that `verify` has written, or those of all shards
         #[arg(long, value_name = "FOLDER", num_args = 1..)]
@@ -147,11 +189,11 @@ pub(crate) enum Command {
         #[arg(long, default_value = ".")]
         root: PathBuf,
     },
-    /// Tell which runs of a tier have no row in what is kept of nights (exit code 2), and which rows another program made
+    /// Name the runs of a tier that no kept row is of (exit code 2), and the rows that another program made
     Complete {
-        /// quick, pr, nightly or long
-        #[arg(long, default_value = "nightly")]
-        tier: String,
+        /// Which runs
+        #[arg(long, default_value = "nightly", value_parser = tier())]
+        tier: Tier,
         /// The rows that `keep` has written
         #[arg(long, default_value = "reports/nightly/results.csv")]
         rows: PathBuf,
@@ -159,18 +201,19 @@ pub(crate) enum Command {
     /// Accept drift: take what `verify` has left as the new golden (refused while the truth is missed)
     Bless {
         /// The case
-        case: String,
+        #[arg(value_parser = case(), hide_possible_values = true)]
+        case: &'static Case,
         /// Why the results have changed
         #[arg(long)]
         reason: String,
         /// The folder that `verify` has written, or those of all shards
         #[arg(long, default_value = "reports/latest", num_args = 1..)]
         from: Vec<PathBuf>,
-        /// Folder of the goldens
-        #[arg(long, default_value = "golden")]
-        golden: PathBuf,
-        /// Runs side by side (as many as there are cores if not given)
+        /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
         #[arg(long)]
+        golden: Option<PathBuf>,
+        /// Runs side by side (as many as there are cores if not given)
+        #[arg(long, value_parser = threads())]
         threads: Option<usize>,
     },
     /// Compare two report folders: numbers, verdicts, pictures
@@ -182,6 +225,8 @@ pub(crate) enum Command {
         /// Folder for the comparison with its pictures (old | new | difference)
         #[arg(long)]
         out: Option<PathBuf>,
+        #[command(flatten)]
+        told: Told,
     },
     /// Evaluate an exact solution at a reference point, as JSON
     Exact {
@@ -200,16 +245,16 @@ pub(crate) enum Command {
     /// Measure speed: workloads, problems and laws take turns; with --peers, other programs with them
     Bench {
         /// Rounds, after one that isn't measured
-        #[arg(long, default_value_t = 7)]
+        #[arg(long, default_value_t = 7, value_parser = RangedU64ValueParser::<usize>::new().range(1..=1000))]
         rounds: usize,
         /// Numbers of threads, as 1,2 (one and all cores if not given)
-        #[arg(long, value_delimiter = ',')]
+        #[arg(long, value_delimiter = ',', value_parser = threads())]
         threads: Vec<usize>,
         /// Leave out the cost over the number of particles
         #[arg(long)]
         no_scaling: bool,
-        /// Compare with other programs: taichi
-        #[arg(long)]
+        /// Compare with other programs
+        #[arg(long, value_parser = ["taichi"])]
         peers: Option<String>,
         /// The Python interpreter that has the peers' packages
         #[arg(long, default_value = "python3", requires = "peers")]
@@ -218,31 +263,88 @@ pub(crate) enum Command {
         #[arg(long, default_value = "reports/bench")]
         out: PathBuf,
     },
+    /// Print what makes a shell complete the program's commands, options and names
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
 }
 
-/// The gist of an error of the command line's syntax.
-pub(crate) fn one_line(error: &clap::Error) -> String {
-    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        let command = Cli::command();
-        let names: Vec<&str> = command.get_subcommands().map(|c| c.get_name()).collect();
-        return format!("a command is missing; allowed: {}", names.join(", "));
+/// One of some names, as what it stands for.
+fn one_of<T, E>(
+    names: &'static [&'static str],
+    parse: fn(&str) -> Result<T, E>,
+) -> impl TypedValueParser<Value = T>
+where
+    T: Clone + Send + Sync + 'static,
+    E: std::error::Error + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(names).try_map(move |name| parse(&name))
+}
+
+fn tier() -> impl TypedValueParser<Value = Tier> {
+    one_of(&Tier::NAMES, Tier::parse)
+}
+
+fn case() -> impl TypedValueParser<Value = &'static Case> {
+    let value = |case: &Case| PossibleValue::new(case.name).help(case.title);
+    let names = cases::all().iter().map(value);
+    PossibleValuesParser::new(names).try_map(|name| cases::find(&name))
+}
+
+/// More threads than this are surely a slip.
+fn threads() -> RangedU64ValueParser<usize> {
+    RangedU64ValueParser::new().range(1..=1024)
+}
+
+/// Schemes by their names, of which shells complete those of all cases.
+#[derive(Clone)]
+struct Schemes;
+
+impl TypedValueParser for Schemes {
+    type Value = Scheme;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &std::ffi::OsStr,
+    ) -> Result<Scheme, clap::Error> {
+        let parse = |name: &str| Scheme::parse(name);
+        parse.parse_ref(command, argument, value)
     }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let schemes = cases::all().iter().flat_map(Case::schemes);
+        let names: std::collections::BTreeSet<String> = schemes.map(|s| s.to_string()).collect();
+        Some(Box::new(names.into_iter().map(PossibleValue::new)))
+    }
+}
+
+/// An error of the command line's syntax, on one line.
+pub(crate) fn one_line(error: &clap::Error) -> String {
     let text = error.to_string();
     let lines: Vec<&str> = text
         .lines()
         .map(str::trim)
-        .take_while(|line| !line.starts_with("Usage"))
+        .take_while(|line| !line.starts_with("Usage") && !line.starts_with("For more information"))
         .filter(|line| !line.is_empty())
         .collect();
     lines.join(" ").trim_start_matches("error: ").to_owned()
 }
 
-/// Writes to standard output, which may be closed.
-pub(crate) fn say(text: &str) -> Result<(), Error> {
-    match io::stdout().write_all(text.as_bytes()) {
+/// Writes to standard output, which may be closed; colours stay on a terminal that shows them.
+pub(crate) fn say(text: impl Display) -> Result<(), Error> {
+    match write!(anstream::stdout().lock(), "{text}") {
         Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
             Err(Error::Input(format!("standard output: {e}")))
         }
         _ => Ok(()),
     }
+}
+
+/// Writes JSON to standard output.
+pub(crate) fn say_json(value: &impl serde::Serialize) -> Result<(), Error> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| Error::Input(e.to_string()))?;
+    say(text + "\n")
 }

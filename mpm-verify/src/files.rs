@@ -46,7 +46,7 @@ pub fn discard(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// Removes a folder of an earlier report, if there is one.
+/// Removes a folder of an earlier run, if there is one.
 ///
 /// # Errors
 /// It is there and can't be removed.
@@ -57,22 +57,37 @@ pub fn discard_folder(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// Removes the files with one of some extensions that lie in a folder, if it is there.
+/// The files with one of some extensions that lie in a folder, if it is there.
 ///
 /// # Errors
-/// The folder can't be read, or a file can't be removed.
-pub fn discard_all(folder: &Path, extensions: &[&str]) -> Result<(), Error> {
-    if !folder.exists() {
-        return Ok(());
-    }
-    for entry in fs::read_dir(folder).map_err(|e| Error::file(folder, e))? {
-        let path = entry.map_err(|e| Error::file(folder, e))?.path();
+/// The folder can't be read.
+pub fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, Error> {
+    let mut entries = entries(folder)?;
+    entries.retain(|path| {
         let extension = path.extension().and_then(|e| e.to_str());
-        if path.is_file() && extension.is_some_and(|e| extensions.contains(&e)) {
-            discard(&path)?;
-        }
+        path.is_file() && extension.is_some_and(|e| extensions.contains(&e))
+    });
+    Ok(entries)
+}
+
+/// The folders in a folder, if it is there.
+///
+/// # Errors
+/// The folder can't be read.
+pub fn folders_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut entries = entries(folder)?;
+    entries.retain(|path| path.is_dir());
+    Ok(entries)
+}
+
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    if !folder.exists() {
+        return Ok(Vec::new());
     }
-    Ok(())
+    let entries = fs::read_dir(folder).map_err(|e| Error::file(folder, e))?;
+    let path = |entry: std::io::Result<fs::DirEntry>| entry.map(|e| e.path());
+    let paths: Result<Vec<PathBuf>, _> = entries.map(path).collect();
+    paths.map_err(|e| Error::file(folder, e))
 }
 
 /// Writes a file by way of a temporary one beside it.

@@ -17,6 +17,20 @@ pub struct Picture {
     pub caption: String,
 }
 
+impl Picture {
+    /// Pictures in the folder of a case that one caption serves, each after the first as a further part of it.
+    pub(crate) fn of_files(case: &str, files: Vec<PathBuf>, caption: &str) -> Vec<Self> {
+        let picture = |(k, path): (usize, PathBuf)| Self {
+            file: format!("{case}/{}", path.file_name().unwrap_or_default().display()),
+            caption: match k {
+                0 => caption.to_owned(),
+                k => format!("Part {}: {caption}", k + 1),
+            },
+        };
+        files.into_iter().enumerate().map(picture).collect()
+    }
+}
+
 /// The folder of a run.
 pub type FolderOf<'a> = &'a dyn Fn(&Record) -> Result<PathBuf, Error>;
 

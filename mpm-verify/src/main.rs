@@ -3,16 +3,17 @@
 mod cli;
 mod progress;
 
-use clap::Parser;
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
 use cli::run::run_one;
-use cli::{Cli, Command, one_line, say};
+use cli::{Cli, Command, Told, one_line, say, say_json};
 use mpm_verify::bench::{self, Peers};
 use mpm_verify::bless::Candidates;
-use mpm_verify::case::{Case, Tier, find_level};
+use mpm_verify::case::{Case, find_level};
 use mpm_verify::cases;
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::exact;
-use mpm_verify::golden::Goldens;
+use mpm_verify::golden::{self, Goldens};
 use mpm_verify::night::Night;
 use mpm_verify::record::Version;
 use mpm_verify::report::diff::Difference;
@@ -32,6 +33,11 @@ use std::time::Duration;
 fn main() -> std::process::ExitCode {
     let outcome = match Cli::try_parse() {
         Ok(cli) => dispatch(cli.command),
+        Err(help) if help.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            // Nothing more can be done if stderr is closed.
+            let _ = help.print();
+            Ok(ExitCode::Input)
+        }
         Err(error) if error.use_stderr() => Err(Error::Input(one_line(&error))),
         Err(help) => help
             .print()
@@ -46,24 +52,29 @@ fn main() -> std::process::ExitCode {
     std::process::ExitCode::from(code as u8)
 }
 
-/// More threads than this are surely a slip.
-const MAX_THREADS: usize = 1024;
-
-fn parse_threads(threads: Option<usize>) -> Result<usize, Error> {
-    match threads {
-        Some(n) if !(1..=MAX_THREADS).contains(&n) => Err(Error::Input(format!(
-            "--threads {n} is not allowed; allowed: 1 to {MAX_THREADS}"
-        ))),
-        Some(n) => Ok(n),
-        None => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
-    }
+/// All cores, unless it is said how many threads.
+fn or_all_cores(threads: Option<usize>) -> usize {
+    threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
 }
 
 fn dispatch(command: Command) -> Result<ExitCode, Error> {
     match command {
-        Command::List { tier, format } => list(tier.as_deref(), &format),
-        Command::Explain { case } => {
-            say(&describe::explain(cases::find(&case)?))?;
+        Command::List { tier, format } => {
+            match &*format {
+                "json" => say_json(&describe::list_json(cases::all(), tier))?,
+                _ => {
+                    let goldens = golden::place(None);
+                    let pairs = |case: &str| golden::pairs(&goldens, case).ok();
+                    say(describe::list_text(cases::all(), tier, pairs))?;
+                }
+            }
+            Ok(ExitCode::Good)
+        }
+        Command::Explain { case, json } => {
+            match json {
+                true => say_json(&describe::explain_json(case))?,
+                false => say(describe::explain(case))?,
+            }
             Ok(ExitCode::Good)
         }
         Command::Run {
@@ -80,20 +91,18 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             resume,
             checkpoint_every,
             threads,
+            told,
         } => {
-            let case = cases::find(&case)?;
             let scheme = match scheme {
-                Some(name) => Scheme::parse(&name)?,
+                Some(scheme) => scheme,
                 None => {
-                    let [solver, basis, remedy, transfer] =
-                        [&solver, &basis, &remedy, &transfer].map(Option::as_deref);
-                    let own = case.default_scheme(solver);
-                    let [basis, remedy, transfer] = [
-                        basis.unwrap_or(own.basis().text()),
-                        remedy.unwrap_or(own.remedy().text()),
-                        transfer.unwrap_or(own.transfer().text()),
-                    ];
-                    Scheme::of_parts(solver.unwrap_or(own.solver()), basis, remedy, transfer)?
+                    let own = case.default_scheme(solver.as_deref());
+                    Scheme::of_parts(
+                        solver.as_deref().unwrap_or(own.solver()),
+                        basis.unwrap_or(own.basis()),
+                        remedy.unwrap_or(own.remedy()),
+                        transfer.unwrap_or(own.transfer()),
+                    )?
                 }
             };
             let level = match level {
@@ -109,10 +118,10 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             let saving = saving(checkpoint_every, resume.is_some());
             let folder = resume.or(out);
             let place = folder.as_deref().map(|folder| (folder, saving));
-            run_one(case, &spec, place, parse_threads(threads)?)
+            run_one(case, &spec, place, or_all_cores(threads), told)
         }
         Command::Verify {
-            cases: names,
+            cases: named,
             tier,
             shard,
             resume,
@@ -120,14 +129,13 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             out,
             golden,
             threads,
+            told,
         } => {
-            let shard = match shard {
-                Some(text) => Shard::parse(&text)?,
-                None => Shard::WHOLE,
-            };
-            let plan = Plan::new(chosen(names)?, Tier::parse(&tier)?, shard)?;
+            let chosen = |c: &&Case| named.is_empty() || named.iter().any(|n| n.name == c.name);
+            let plan = Plan::new(cases::all().iter().filter(chosen), tier, shard)?;
             let saving = saving(checkpoint_every, resume);
-            verify(&plan, saving, &out, &golden, parse_threads(threads)?)
+            let golden = golden::place(golden);
+            verify(&plan, saving, &out, &golden, or_all_cores(threads), told)
         }
         Command::Report {
             folders,
@@ -135,6 +143,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             golden,
             night,
             commit,
+            told,
         } => {
             let out = match (out, &folders[..]) {
                 (Some(out), _) => out,
@@ -149,22 +158,23 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 Some((date, commit)) => Some(Night::new(&date, &commit)?),
                 None => None,
             };
-            report_on(&folders, &out, &Goldens::open(&golden)?, night.as_ref())
+            let goldens = Goldens::open(&golden::place(golden))?;
+            report_on(&folders, &out, &goldens, night.as_ref(), told)
         }
         Command::Keep { report, into } => {
             let rows = keep(&report, &into)?;
-            say(&format!("{rows} runs are kept in {}\n", into.display()))?;
+            say(format!("{rows} runs are kept in {}\n", into.display()))?;
             Ok(ExitCode::Good)
         }
         Command::Tables { check, root } => tables(&root, check),
         Command::Pictures { from, root } => {
-            say(&shown::draw(&root, &from)?)?;
+            say(shown::draw(&root, &from)?)?;
             Ok(ExitCode::Good)
         }
         Command::Complete { tier, rows } => {
-            let plan = Plan::new(cases::all(), Tier::parse(&tier)?, Shard::WHOLE)?;
+            let plan = Plan::new(cases::all(), tier, Shard::WHOLE)?;
             let found = Completeness::of(&plan, &rows, &Version::current().source)?;
-            say(&found.to_string())?;
+            say(&found)?;
             found.require().map(|()| ExitCode::Good)
         }
         Command::Bless {
@@ -174,18 +184,27 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             golden,
             threads,
         } => bless(
-            cases::find(&case)?,
+            case,
             &reason,
             &from,
-            &golden,
-            parse_threads(threads)?,
+            &golden::place(golden),
+            or_all_cores(threads),
         ),
-        Command::Diff { old, new, out } => {
+        Command::Diff {
+            old,
+            new,
+            out,
+            told,
+        } => {
             let difference = Difference::between(&old, &new)?;
             if let Some(out) = out {
                 difference.write(&out)?;
             }
-            say(&difference.text())?;
+            match told {
+                Told { json: true, .. } => say_json(&difference.json())?,
+                Told { quiet: true, .. } => say(difference.counts() + "\n")?,
+                _ => say(difference.text())?,
+            }
             Ok(difference.exit_code())
         }
         Command::Exact {
@@ -194,7 +213,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             time,
             set,
         } => {
-            say(&exact::State::ask(&name, &at, &time, &set)?.json()?)?;
+            say(exact::State::ask(&name, &at, &time, &set)?.json()?)?;
             Ok(ExitCode::Good)
         }
         Command::Bench {
@@ -206,12 +225,12 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             out,
         } => {
             let options = bench::Options {
-                rounds: parse_rounds(rounds)?,
-                threads: compared_threads(threads)?,
+                rounds,
+                threads: compared_threads(threads),
                 scaling: !no_scaling,
-                peers: peers.map(|name| Peers::of(&name, python)).transpose()?,
+                peers: peers.map(|_| Peers::taichi(python)),
             };
-            let bar = progress::single("bench");
+            let bar = progress::single("bench", true);
             let text = bench::measure(&options, &out, &|share| {
                 bar.set_position((share * progress::SCALE) as u64);
             })?;
@@ -219,53 +238,25 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             say(&text)?;
             Ok(ExitCode::Good)
         }
-    }
-}
-
-/// More rounds than this are surely a slip.
-const MAX_ROUNDS: usize = 1000;
-
-fn parse_rounds(rounds: usize) -> Result<usize, Error> {
-    match rounds {
-        1..=MAX_ROUNDS => Ok(rounds),
-        _ => Err(Error::Input(format!(
-            "--rounds {rounds} is not allowed; allowed: 1 to {MAX_ROUNDS}"
-        ))),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "mpm-verify", &mut script);
+            say(String::from_utf8_lossy(&script))?;
+            Ok(ExitCode::Good)
+        }
     }
 }
 
 /// One thread and the others that are asked for, all cores if none is.
-fn compared_threads(asked: Vec<usize>) -> Result<Vec<usize>, Error> {
-    let mut threads = vec![1];
-    if asked.is_empty() {
-        threads.push(parse_threads(None)?);
-    }
-    for n in asked {
-        threads.push(parse_threads(Some(n))?);
-    }
+fn compared_threads(asked: Vec<usize>) -> Vec<usize> {
+    let mut threads = match asked.is_empty() {
+        true => vec![or_all_cores(None)],
+        false => asked,
+    };
+    threads.push(1);
     threads.sort_unstable();
     threads.dedup();
-    Ok(threads)
-}
-
-/// The named cases, in the order of all; all if none is named.
-fn chosen(names: Vec<String>) -> Result<Vec<&'static Case>, Error> {
-    for name in &names {
-        cases::find(name)?;
-    }
-    let asked = |c: &&Case| names.is_empty() || names.iter().any(|n| n == c.name);
-    Ok(cases::all().iter().filter(asked).collect())
-}
-
-fn list(tier: Option<&str>, format: &str) -> Result<ExitCode, Error> {
-    let tier = tier.map(Tier::parse).transpose()?;
-    let text = match format {
-        "text" => describe::list_text(cases::all(), tier),
-        "json" => describe::list_json(cases::all(), tier),
-        other => return Err(Error::unknown("format", other, ["text", "json"])),
-    };
-    say(&text)?;
-    Ok(ExitCode::Good)
+    threads
 }
 
 /// Fills the tables of the pages in `root`, or, to check, says which are stale.
@@ -274,7 +265,7 @@ fn tables(root: &Path, check: bool) -> Result<ExitCode, Error> {
     for page in Page::all(root)? {
         for name in &page.stale {
             let what = if check { "stale" } else { "filled" };
-            say(&format!("{}: {name} {what}\n", page.file.display()))?;
+            say(format!("{}: {name} {what}\n", page.file.display()))?;
         }
         if check && !page.stale.is_empty() {
             code = ExitCode::TruthFailed;
@@ -298,33 +289,34 @@ fn verify(
     out: &Path,
     golden: &Path,
     workers: usize,
+    told: Told,
 ) -> Result<ExitCode, Error> {
     let names = plan.own().map(|run| run.folder().display().to_string());
-    let listener = progress::Runs::new(names.collect());
+    let listener = progress::Runs::new(names.collect(), told.progress());
     // A folder of goldens that is not there is told before hours of runs.
     let goldens = Goldens::open(golden)?;
     discard_report(out)?;
     let records = make_runs(plan, out, saving, workers, &listener)?;
     listener.finish();
     if plan.shard == Shard::WHOLE {
-        return report_on(&[out.to_path_buf()], out, &goldens, None);
+        return report_on(&[out.to_path_buf()], out, &goldens, None, told);
     }
-    let failed = records.iter().filter(|r| exit_code(r) != ExitCode::Good);
-    for record in failed {
-        say(&describe::record(record))?;
+    let code = records.iter().map(exit_code).max();
+    if told.json {
+        say_json(&records)?;
+        return Ok(code.unwrap_or(ExitCode::Good));
     }
-    say(&format!(
+    for record in records.iter().filter(|r| exit_code(r) != ExitCode::Good) {
+        say(describe::record(cases::find(&record.case)?, record) + "\n")?;
+    }
+    say(format!(
         "shard {} of tier {}: {} runs; `mpm-verify report` with the folders of all {} shards judges them together\n",
         plan.shard,
         plan.tier,
         records.len(),
         plan.shard.count
     ))?;
-    Ok(records
-        .iter()
-        .map(exit_code)
-        .max()
-        .unwrap_or(ExitCode::Good))
+    Ok(code.unwrap_or(ExitCode::Good))
 }
 
 fn report_on(
@@ -332,13 +324,20 @@ fn report_on(
     out: &Path,
     goldens: &Goldens,
     night: Option<&Night>,
+    told: Told,
 ) -> Result<ExitCode, Error> {
     discard_report(out)?;
     let gathered = Gathered::read(folders)?;
     let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
     let summary = write_report(&gathered, judged, goldens, night, out)?;
-    say(&describe::verdict_summary(&summary))?;
-    say(&format!("Report: {}\n", out.join("index.html").display()))?;
+    match told {
+        Told { json: true, .. } => say_json(&describe::verification_json(&summary))?,
+        Told { quiet: true, .. } => say(describe::verification_line(&summary))?,
+        _ => {
+            say(format!("Report: {}\n", out.join("index.html").display()))?;
+            say(describe::verification(&summary))?;
+        }
+    }
     Ok(summary.exit_code())
 }
 
@@ -362,12 +361,12 @@ fn bless(
         return Err(Error::Input(format!("the folder has no runs of {name}")));
     };
     let candidates = Candidates::of(&study)?;
-    say(&candidates.table())?;
+    say(candidates.table())?;
     if let Some(refusal) = candidates.refusal() {
         say(&refusal)?;
         return Ok(ExitCode::TruthFailed);
     }
-    let listener = progress::Runs::new(candidates.twin_names());
+    let listener = progress::Runs::new(candidates.twin_names(), true);
     let blessed = candidates.bless(&gathered, &goldens, reason, workers, &listener)?;
     listener.finish();
     let blessed = match blessed {
@@ -377,6 +376,6 @@ fn bless(
             return Ok(ExitCode::RunFailed);
         }
     };
-    say(&format!("{blessed} goldens blessed: {reason}\n"))?;
+    say(format!("{blessed} goldens blessed: {reason}\n"))?;
     Ok(ExitCode::Good)
 }

@@ -48,7 +48,7 @@ impl From<Metric> for String {
 }
 
 /// A quantity whose convergence over the levels is studied.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
     /// The metric.
     pub metric: Metric,
@@ -57,6 +57,28 @@ pub struct Quantity {
     /// Whether the metric is an error, whose exact value is zero; if not, Richardson's extrapolation
     /// stands in for the exact value.
     pub is_error: bool,
+    /// The order of an error, where theory gives it.
+    pub order: Option<f64>,
+    /// The uncertainty of the reference of an error: below it, nothing is told.
+    pub uncertainty: Option<f64>,
+}
+
+impl Quantity {
+    /// Of this order by theory.
+    pub(crate) const fn of_order(self, order: f64) -> Self {
+        Self {
+            order: Some(order),
+            ..self
+        }
+    }
+
+    /// Against a reference with this uncertainty.
+    pub(crate) const fn known_to(self, uncertainty: f64) -> Self {
+        Self {
+            uncertainty: Some(uncertainty),
+            ..self
+        }
+    }
 }
 
 /// A parameter over whose values the errors are drawn.
@@ -72,39 +94,21 @@ pub struct Sweep {
     pub logarithmic: bool,
 }
 
-/// A column of the table of results.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Headline {
-    /// The metric.
-    pub metric: Metric,
-    /// Heading, with unit.
-    pub heading: &'static str,
-    /// Factor from the metric's unit to that of the heading.
-    pub factor: f64,
-    /// Decimals shown.
-    pub decimals: usize,
-}
-
 /// An error whose convergence is studied, by metric and label.
 pub(crate) const fn error(metric: Metric, label: &'static str) -> Quantity {
     Quantity {
         metric,
         label,
         is_error: true,
+        order: None,
+        uncertainty: None,
     }
 }
 
-/// A column of the table of results by metric, heading, factor to the heading's unit and decimals.
-pub(crate) const fn headline(
-    metric: Metric,
-    heading: &'static str,
-    factor: f64,
-    decimals: usize,
-) -> Headline {
-    Headline {
-        metric,
-        heading,
-        factor,
-        decimals,
+/// What is no error, by metric and label.
+pub(crate) const fn value(metric: Metric, label: &'static str) -> Quantity {
+    Quantity {
+        is_error: false,
+        ..error(metric, label)
     }
 }

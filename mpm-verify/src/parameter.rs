@@ -56,12 +56,21 @@ impl fmt::Display for Domain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number { least, most, below } => {
+                let [least, most] = [least, most].map(|x| short(*x));
                 write!(f, "{least} to {}{most}", if *below { "below " } else { "" })
             }
             Self::Integer { least, most } => write!(f, "a whole number from {least} to {most}"),
             Self::Boolean => f.write_str("true, false"),
             Self::Choice(words) => f.write_str(&words.join(", ")),
         }
+    }
+}
+
+/// A bound as short as it can be written.
+fn short(x: f64) -> String {
+    match x != 0.0 && !(1e-4..1e6).contains(&x.abs()) {
+        true => format!("{x:e}"),
+        false => x.to_string(),
     }
 }
 
@@ -173,12 +182,13 @@ impl Parameters {
     /// The defaults of `known`, changed by `assignments` of the form `name=value`.
     ///
     /// # Errors
-    /// An assignment that is malformed, of an unknown parameter, or of a value that is not allowed.
+    /// An assignment that is malformed, of an unknown parameter, the second of one, or of a value that is not allowed.
     pub fn new(known: &[Parameter], assignments: &[String]) -> Result<Self, Error> {
         let mut values = BTreeMap::new();
         for p in known {
             values.insert(p.name.to_owned(), p.parse(p.default)?);
         }
+        let mut assigned = BTreeSet::new();
         for assignment in assignments {
             let Some((name, text)) = assignment.split_once('=') else {
                 return Err(Error::Input(format!(
@@ -192,6 +202,9 @@ impl Parameters {
                     known.iter().map(|p| p.name),
                 ));
             };
+            if !assigned.insert(name) {
+                return Err(Error::Input(format!("parameter {name} is set twice")));
+            }
             values.insert(name.to_owned(), p.parse(text)?);
         }
         Ok(Self(values))
@@ -274,5 +287,8 @@ mod tests {
         let unknown = Parameters::new(&[RATIO], &["nu=0.4".into()]).unwrap_err();
         assert!(unknown.to_string().contains("allowed: poisson_ratio"));
         assert!(Parameters::new(&[RATIO], &["nu".into()]).is_err());
+        let twice = ["poisson_ratio=0.4".into(), "poisson_ratio=0.4".into()];
+        let twice = Parameters::new(&[RATIO], &twice).unwrap_err();
+        assert!(twice.to_string().contains("poisson_ratio is set twice"));
     }
 }

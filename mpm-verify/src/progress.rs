@@ -2,7 +2,8 @@
 
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::error::Error;
-use mpm_verify::record::{Record, Status};
+use mpm_verify::record::Record;
+use mpm_verify::report::describe;
 use mpm_verify::study::schedule::Listener;
 use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
@@ -15,9 +16,12 @@ fn style() -> ProgressStyle {
         .unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// A bar for one run; hidden where stderr is no terminal.
-pub(crate) fn single(message: &str) -> ProgressBar {
-    let bar = ProgressBar::new(SCALE as u64).with_style(style());
+/// A bar for one run; hidden unless `shown`, and where stderr is no terminal.
+pub(crate) fn single(message: &str, shown: bool) -> ProgressBar {
+    let bar = match shown {
+        true => ProgressBar::new(SCALE as u64).with_style(style()),
+        false => ProgressBar::hidden(),
+    };
     bar.set_message(message.to_owned());
     bar
 }
@@ -29,13 +33,14 @@ pub(crate) struct Runs {
     running: Mutex<Vec<Option<ProgressBar>>>,
     ended: Mutex<usize>,
     terminal: bool,
+    shown: bool,
 }
 
 impl Runs {
-    pub(crate) fn new(names: Vec<String>) -> Self {
+    pub(crate) fn new(names: Vec<String>, shown: bool) -> Self {
         let terminal = io::stderr().is_terminal();
         let bars = MultiProgress::new();
-        if !terminal {
+        if !(terminal && shown) {
             bars.set_draw_target(ProgressDrawTarget::hidden());
         }
         Self {
@@ -44,6 +49,7 @@ impl Runs {
             names,
             bars,
             terminal,
+            shown,
         }
     }
 
@@ -53,6 +59,9 @@ impl Runs {
     }
 
     fn say(&self, line: &str) {
+        if !self.shown {
+            return;
+        }
         if self.terminal {
             let _ = self.bars.println(line);
         } else {
@@ -64,7 +73,8 @@ impl Runs {
 impl Listener for Runs {
     fn progress(&self, run: usize, share: f64) {
         if let Ok(mut running) = self.running.lock() {
-            let bar = running[run].get_or_insert_with(|| self.bars.add(single(&self.names[run])));
+            let bar = running[run]
+                .get_or_insert_with(|| self.bars.add(single(&self.names[run], self.shown)));
             bar.set_position((share * SCALE) as u64);
         }
     }
@@ -74,21 +84,15 @@ impl Listener for Runs {
     }
 
     fn ended(&self, run: usize, record: &Record) {
-        let failed = record.verdicts.iter().filter(|v| v.failed()).count();
-        let outcome = match (record.status, failed) {
-            (Status::Failed, _) if record.broke_down() => "FAILED".to_owned(),
-            (Status::Failed, _) => "broke down, as known".to_owned(),
-            (Status::Ok, 0) => "ok".to_owned(),
-            (Status::Ok, n) => format!("{n} checks failed"),
-        };
         let count = self.ended.lock().map_or(0, |mut ended| {
             *ended += 1;
             *ended
         });
         let line = format!(
-            "[{count}/{}] {}  {outcome}  {:.1} s",
+            "[{count}/{}] {}  {}  {:.1} s",
             self.names.len(),
             self.names[run],
+            describe::outcome_word(record),
             record.time.wall_s
         );
         let bar = self.running.lock().ok().and_then(|mut r| r[run].take());

@@ -116,8 +116,24 @@ enum Cell {
 
 /// A column of a table of results.
 pub struct Column {
-    title: String,
+    /// Title, with unit.
+    pub title: String,
+    /// The metric that it shows, if it shows one as it is.
+    pub metric: Option<Metric>,
     cell: Cell,
+}
+
+/// A column by metric, title, factor from the metric's unit to that of the title and decimals; more than five decimals
+/// stand for two of a power of ten.
+pub(crate) fn headline(metric: Metric, title: &str, factor: f64, decimals: usize) -> Column {
+    let format = match decimals {
+        0..=5 => fixed(decimals),
+        _ => scientific(2),
+    };
+    Column {
+        metric: Some(metric),
+        ..Column::metric(title, metric, format.times(factor))
+    }
 }
 
 impl Column {
@@ -128,6 +144,7 @@ impl Column {
     ) -> Self {
         Self {
             title: title.into(),
+            metric: None,
             cell: Cell::Run(Box::new(|_| true), Box::new(text)),
         }
     }
@@ -153,6 +170,7 @@ impl Column {
     ) -> Self {
         Self {
             title: title.into(),
+            metric: None,
             cell: Cell::Row(Box::new(text)),
         }
     }
@@ -164,6 +182,15 @@ impl Column {
             row @ Cell::Row(_) => row,
         };
         Self { cell, ..self }
+    }
+
+    /// What it says of a run by itself; nothing if it speaks of several.
+    #[must_use]
+    pub fn of_run(&self, run: &Record) -> String {
+        match &self.cell {
+            Cell::Run(of, text) if of(run) => text(run),
+            _ => String::new(),
+        }
     }
 
     /// Processor time (s).

@@ -10,6 +10,8 @@ pub enum Kind {
     Truth,
     /// A known limit of the scheme is still there; red when it vanishes.
     KnownLimit,
+    /// That what was once observed, and no theory demands, is observed still.
+    Regression,
     /// Against the blessed golden.
     Drift,
     /// That nothing was lost on the way: mass, counts, completion. It holds of a wrong solution as well, so it does
@@ -53,6 +55,12 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// Whether the check says of a result that it is right or wrong: one against the truth or of a known limit.
+    #[must_use]
+    pub fn judges(&self) -> bool {
+        matches!(self.kind, Kind::Truth | Kind::KnownLimit)
+    }
+
     /// Whether what the check states is so, a known limit included; nothing where it was not judged.
     #[must_use]
     pub fn holds(&self) -> Option<bool> {

@@ -121,7 +121,7 @@ fn what_cannot_be_answered_is_refused_with_what_is_allowed() {
     );
     refused(
         &["patch", "--at", "0.3,0.4", "--time", "inf"],
-        &["--time", "not finite", "1000000"],
+        &["--time", "not finite", "1e6"],
     );
     refused(
         &["patch", "--at", "0.3,0.4", "--time", "1e9"],

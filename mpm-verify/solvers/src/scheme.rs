@@ -100,6 +100,9 @@ impl RemedyName {
 macro_rules! plain_text {
     ($type:ty, $kind:literal, [$($variant:expr => $text:literal),+]) => {
         impl $type {
+            /// The names.
+            pub const NAMES: &[&str] = &[$($text),+];
+
             /// The name as it stands on the command line and in records.
             #[must_use]
             pub fn text(self) -> &'static str {
@@ -116,7 +119,7 @@ macro_rules! plain_text {
                 Err(NameError::Unknown {
                     kind: $kind,
                     given: name.to_owned(),
-                    allowed: &[$($text),+],
+                    allowed: Self::NAMES,
                 })
             }
         }
@@ -204,6 +207,9 @@ impl Scheme {
         Self::explicit(basis, remedy, TransferName::Flip)
     }
 
+    /// The kinds of solvers.
+    pub const SOLVERS: &[&str] = &["explicit", QUASI_STATIC];
+
     /// Name of the solver's kind, as `--solver` takes it.
     #[must_use]
     pub const fn solver(self) -> &'static str {
@@ -246,28 +252,31 @@ impl Scheme {
     /// One of them is unknown.
     pub fn of_parts(
         solver: &str,
-        basis: &str,
-        remedy: &str,
-        transfer: &str,
+        basis: BasisName,
+        remedy: RemedyName,
+        transfer: TransferName,
     ) -> Result<Self, NameError> {
-        let (basis, remedy) = (BasisName::parse(basis)?, RemedyName::parse(remedy)?);
         let unknown = |kind, given: &str, allowed| NameError::Unknown {
             kind,
             given: given.to_owned(),
             allowed,
         };
-        match (solver, TransferName::parse(transfer)?) {
+        match (solver, transfer) {
             ("explicit", TransferName::None) => {
                 let allowed = &["flip", "apic", "xpic2"];
-                Err(unknown("transfer of an explicit scheme", transfer, allowed))
+                Err(unknown(
+                    "transfer of an explicit scheme",
+                    transfer.text(),
+                    allowed,
+                ))
             }
             ("explicit", transfer) => Ok(Self::explicit(basis, remedy, transfer)),
             (QUASI_STATIC, TransferName::None) => Ok(Self::quasi_static(basis, remedy)),
             (QUASI_STATIC, _) => {
                 let what = "transfer of a quasi-static scheme";
-                Err(unknown(what, transfer, &["none"]))
+                Err(unknown(what, transfer.text(), &["none"]))
             }
-            _ => Err(unknown("solver", solver, &["explicit", QUASI_STATIC])),
+            _ => Err(unknown("solver", solver, Self::SOLVERS)),
         }
     }
 
@@ -290,14 +299,16 @@ impl Scheme {
         if let Some((_, rest)) = name.split_once(QUASI_STATIC).filter(|(b, _)| b.is_empty()) {
             let parts = rest.strip_prefix('-').and_then(|rest| rest.split_once('-'));
             let (basis, remedy) = parts.ok_or_else(|| NameError::Form(name.to_owned()))?;
-            return Self::of_parts(QUASI_STATIC, basis, remedy, "none");
+            let (basis, remedy) = (BasisName::parse(basis)?, RemedyName::parse(remedy)?);
+            return Ok(Self::quasi_static(basis, remedy));
         }
         let parts = name.split_once('-').and_then(|(basis, rest)| {
             let (remedy, transfer) = rest.rsplit_once('-')?;
             Some((basis, remedy, transfer))
         });
         let (basis, remedy, transfer) = parts.ok_or_else(|| NameError::Form(name.to_owned()))?;
-        Self::of_parts("explicit", basis, remedy, transfer)
+        let (basis, remedy) = (BasisName::parse(basis)?, RemedyName::parse(remedy)?);
+        Self::of_parts("explicit", basis, remedy, TransferName::parse(transfer)?)
     }
 }
 

@@ -46,18 +46,11 @@ struct Peer {
 const SCRIPT: &str = "mpm-verify/benches/peers/taichi_mpm.py";
 
 impl Peers {
-    /// The peers of a name, run by a Python interpreter.
-    ///
-    /// # Errors
-    /// There are none of this name.
-    pub fn of(name: &str, python: PathBuf) -> Result<Self, Error> {
-        match name {
-            "taichi" => Ok(Self {
-                python,
-                script: PathBuf::from(SCRIPT),
-            }),
-            _ => Err(Error::unknown("peer", name, ["taichi"])),
-        }
+    /// Taichi, run by a Python interpreter that has it.
+    #[must_use]
+    pub fn taichi(python: PathBuf) -> Self {
+        let script = PathBuf::from(SCRIPT);
+        Self { python, script }
     }
 
     /// Idiomatic and tuned Taichi of every workload on each number of threads, to be the same as those that are there.
@@ -244,6 +237,5 @@ mod tests {
         assert!(error(&none).contains("requirements.txt"));
         none.script = folder.path().join("no-script");
         assert!(error(&none).contains("no-script"));
-        assert!(Peers::of("warp", PathBuf::new()).is_err());
     }
 }

@@ -1,6 +1,6 @@
 //! What the pictures of several problems have in common: their runs, curves by remedy, and how they are hung.
 
-use crate::draw::style::{Markers, series};
+use crate::draw::style::history;
 use crate::draw::{Chart, FieldFigure, Series, draw_charts, draw_fields};
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -90,7 +90,7 @@ impl<'a, 'g> Exhibit<'a, 'g> {
         for &remedy in remedies {
             if let Some(record) = self.find(basis, remedy, level) {
                 let scheme = Scheme::flip(basis, remedy);
-                let mut curve = series(scheme, points(record)?, Markers::None);
+                let mut curve = history(scheme, points(record)?);
                 curve.name = remedy_title(remedy);
                 curves.push(curve);
             }

@@ -12,10 +12,10 @@ use super::mms_vortex_box::{NULL_SPACE, feeds_null_space};
 use crate::case::{Case, Tier};
 use crate::check::{Check, Finding, judge, run, study};
 use crate::exact::vibrating_bar::{ENTRY, LENGTH, VibratingBar};
-use crate::metric::{Metric, error, headline};
+use crate::metric::{Metric, error};
 use crate::parameter::Parameters;
 use crate::record::Record;
-use crate::results::{Column, ResultTable, SCHEME, fixed, is_flip, order, scientific};
+use crate::results::{Column, ResultTable, SCHEME, fixed, headline, is_flip, order, scientific};
 use crate::scheme::{BasisName, RemedyName};
 use std::f64::consts::PI;
 

@@ -1,20 +1,20 @@
 //! The command `run`: one run of a case, begun or gone on with.
 
-use super::say;
+use super::{Told, say, say_json};
 use crate::progress;
 use mpm_verify::case::Case;
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::files::read_versioned;
 use mpm_verify::parameter::Parameters;
 use mpm_verify::record::{self, Record};
-use mpm_verify::report::describe;
+use mpm_verify::report::{describe, single};
 use mpm_verify::run::checkpoint::{self, Identity, Saving};
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
-use mpm_verify::study::judge::{exit_code, has_truth, judged_run};
+use mpm_verify::study::judge::{exit_code, judged_run};
 use std::path::Path;
 
-/// Runs `spec` of `case`, and says what it found.
+/// Runs `spec` of `case`, draws it into its folder, if it has one, and says what it found.
 ///
 /// # Errors
 /// The case does not offer the scheme, the folder holds another run, or those of [`judged_run`].
@@ -23,12 +23,13 @@ pub(crate) fn run_one(
     spec: &RunSpec,
     place: Option<(&Path, Saving)>,
     threads: usize,
+    told: Told,
 ) -> Result<ExitCode, Error> {
     let offered = case.schemes();
     if !offered.contains(&spec.scheme) {
         let names: Vec<String> = offered.iter().map(Scheme::to_string).collect();
         return Err(Error::unknown(
-            "scheme",
+            &format!("scheme of {}", case.name),
             &spec.scheme.to_string(),
             names.iter().map(String::as_str),
         ));
@@ -36,27 +37,46 @@ pub(crate) fn run_one(
     if let Some((folder, Saving { resume: true, .. })) = place {
         if let Some(record) = ended(case, spec, folder)? {
             checkpoint::discard(folder)?;
-            say(&describe::record(&record))?;
-            say("This run has ended before; there is nothing to resume.\n")?;
-            return Ok(exit_code(&record));
+            if told.progress() {
+                say("This run has ended before; there is nothing to resume.\n\n")?;
+            }
+            return tell(case, &record, told);
         }
-        if !folder.join(checkpoint::FILE).exists() {
-            say(&format!(
+        if !folder.join(checkpoint::FILE).exists() && told.progress() {
+            say(format!(
                 "{}: no checkpoint; the run begins.\n",
                 folder.display()
             ))?;
         }
     }
-    let bar = progress::single(&format!("{} {}", case.name, spec.folder()));
+    let bar = progress::single(&format!("{} {}", case.name, spec.folder()), told.progress());
     let record = judged_run(case, spec, place, threads, &|share| {
         bar.set_position((share * progress::SCALE) as u64);
     })?;
     bar.finish_and_clear();
-    say(&describe::record(&record))?;
-    if !has_truth(&record) {
-        say("No check against the truth applies to this run.\n")?;
+    if let Some((folder, _)) = place {
+        let pictures = single::draw(&record, folder)?;
+        if told.progress() {
+            let names = pictures
+                .iter()
+                .map(|p| folder.join(&p.file).display().to_string());
+            say(names
+                .map(|name| format!("Picture: {name}\n"))
+                .collect::<String>())?;
+        }
+    } else if told.progress() {
+        say("Nothing is kept or drawn: --out DIR does.\n")?;
     }
-    Ok(exit_code(&record))
+    tell(case, &record, told)
+}
+
+fn tell(case: &Case, record: &Record, told: Told) -> Result<ExitCode, Error> {
+    match told {
+        Told { json: true, .. } => say_json(record)?,
+        Told { quiet: true, .. } => say(describe::run_line(record))?,
+        _ => say(describe::record(case, record))?,
+    }
+    Ok(exit_code(record))
 }
 
 /// The record of this very run in a folder, or `None` if it has not ended there.

@@ -108,7 +108,7 @@ const DOTTED: &[f64] = &[1.0, 8.0];
 const DASH_DOT: &[f64] = &[20.0, 9.0, 1.0, 9.0];
 
 /// An entry of a legend, with all that shows how its curve is drawn.
-#[derive(PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 struct Entry<'a> {
     name: &'a str,
     colour: Rgb,
@@ -117,6 +117,26 @@ struct Entry<'a> {
     pattern: Option<&'static [f64]>,
     hollow: bool,
     band: bool,
+}
+
+/// The entries that all charts have in common, if they differ in markers at most; those are left out.
+fn common<'a>(plans: &[Plan<'a>]) -> Option<Vec<Entry<'a>>> {
+    let mut entries = plans.first()?.entries.clone();
+    for plan in &plans[1..] {
+        if plan.entries.len() != entries.len() {
+            return None;
+        }
+        for (entry, other) in entries.iter_mut().zip(&plan.entries) {
+            if entry.marker != other.marker {
+                entry.marker = Marker::None;
+            }
+            let marker = entry.marker;
+            if *entry != (Entry { marker, ..*other }) {
+                return None;
+            }
+        }
+    }
+    Some(entries)
 }
 
 fn entries(chart: &Chart) -> Vec<Entry<'_>> {
@@ -416,7 +436,7 @@ impl<'a> Plan<'a> {
 
 /// Draws a grid of charts, `columns` in a row, as one PNG file, and the same as SVG beside it.
 ///
-/// Charts with the same series share one legend; otherwise each has its own. It lies below the axes,
+/// Charts with the same series, be it with other markers, share one legend; otherwise each has its own. It lies below the axes,
 /// or to the right of at most two columns if it is a single one of more than six entries.
 ///
 /// # Errors
@@ -437,7 +457,8 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
     let right = 16.0 + most(&|p| p.axes.x.label_width()) / 2.0;
     let top = 16.0 + most(&|p| p.title.height());
     let bottom = most(&|p| p.axes.below());
-    let shared = plans.iter().all(|p| p.entries == first.entries);
+    let common = common(&plans);
+    let shared = common.is_some();
     let named = first.entries.iter().filter(|e| !e.name.is_empty());
     let beside = shared && named.count() > 6 && columns < 3;
 
@@ -448,7 +469,9 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
         (true, _) => grid_width(natural),
         _ => natural,
     };
-    let legends = plans.iter().map(|p| Legend::new(&p.entries, room));
+    let legends = plans
+        .iter()
+        .map(|p| Legend::new(common.as_deref().unwrap_or(&p.entries), room));
     let legends: Vec<_> = legends.collect();
     let widest = largest(legends.iter().map(|l| l.width));
     let highest = largest(legends.iter().map(|l| l.height)) + 16.0;

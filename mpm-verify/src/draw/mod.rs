@@ -12,6 +12,7 @@ mod field;
 mod font;
 mod png_file;
 mod raster;
+mod ratios;
 mod shape;
 pub(crate) mod sketch;
 mod solid;
@@ -25,6 +26,7 @@ pub use chart::{
 };
 pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
 pub use png_file::write_small_png;
+pub use ratios::{Ratio, Ratios, draw_ratios};
 pub use shape::Marker;
 pub use solid::{SolidFigure, SolidPanel, animate_solids, draw_solids};
 

@@ -39,7 +39,7 @@ pub fn write_small_png(path: &Path, image: &RgbImage) -> Result<(), PlotError> {
 }
 
 /// Writes pictures of one size as an animated PNG that repeats for ever, each shown for a `delay` of hundredths of a
-/// second.
+/// second; beside it one from the middle, `NAME.still.png`, for who shows the first alone.
 pub(super) fn save_animation(
     path: &Path,
     frames: &[RgbImage],
@@ -56,7 +56,8 @@ pub(super) fn save_animation(
             writer.write_image_data(frame)?;
         }
         writer.finish()
-    })
+    })?;
+    write_small_png(&path.with_extension("still.png"), &frames[frames.len() / 2])
 }
 
 fn encoder(

@@ -3,46 +3,33 @@
 use super::{Chart, Dash, Marker, PlotError, Series, draw_charts, share_ranges};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// More curves than this can't be told apart on one pair of axes.
 const MOST_CURVES: usize = 8;
+/// Panels of a picture, at most.
+const MOST_PANELS: usize = 6;
 
-/// What the markers of curves tell.
-#[derive(Clone, Copy)]
-pub(crate) enum Markers {
-    /// Nothing: the curves have too many points for markers.
-    None,
-    /// The basis.
-    Basis,
-    /// The transfer, of curves of one basis.
-    Transfer,
-}
-
-/// The curve of a scheme: colour and line tell the remedy.
-pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>, markers: Markers) -> Series {
-    // Total and rate nearly coincide: the dashed line and the hollow marker let the other show.
-    let (colour, dash) = match scheme.remedy() {
-        RemedyName::None => (6, Dash::Dotted),
-        RemedyName::FbarRecursive => (1, Dash::Solid),
-        RemedyName::FbarTotal => (2, Dash::Solid),
-        RemedyName::FbarRate => (0, Dash::Dashed),
-        RemedyName::FbarConsistent => (3, Dash::Solid),
+/// The curve of a scheme: its colour tells the remedy, its marker the basis, its line the transfer (solid FLIP, dashed
+/// APIC, dotted XPIC; markers of the latter two are hollow).
+pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
+    let colour = match scheme.remedy() {
+        RemedyName::None => 6,
+        RemedyName::FbarRecursive => 1,
+        RemedyName::FbarTotal => 2,
+        RemedyName::FbarRate => 0,
+        RemedyName::FbarConsistent => 3,
     };
-    let marker = match markers {
-        Markers::None => Marker::None,
-        Markers::Basis => match scheme.basis() {
-            BasisName::Gimp => Marker::Circle,
-            BasisName::Bspline2 => Marker::Square,
-            BasisName::Bspline3 => Marker::Triangle,
-            BasisName::Linear | BasisName::Q8 => Marker::Diamond,
-        },
-        Markers::Transfer => match scheme.transfer() {
-            TransferName::Flip => Marker::Circle,
-            TransferName::Apic => Marker::Square,
-            TransferName::Xpic2 => Marker::Triangle,
-            TransferName::None => Marker::Diamond,
-        },
+    let marker = match scheme.basis() {
+        BasisName::Gimp => Marker::Circle,
+        BasisName::Bspline2 => Marker::Square,
+        BasisName::Bspline3 => Marker::Triangle,
+        BasisName::Linear | BasisName::Q8 => Marker::Diamond,
+    };
+    let dash = match scheme.transfer() {
+        TransferName::Flip | TransferName::None => Dash::Solid,
+        TransferName::Apic => Dash::Dashed,
+        TransferName::Xpic2 => Dash::Dotted,
     };
     Series {
         name: scheme.title(),
@@ -53,19 +40,26 @@ pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>, markers: Markers) 
     }
 }
 
+/// The same against time: of too many points for markers.
+pub(crate) fn history(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
+    Series {
+        marker: Marker::None,
+        ..series(scheme, points)
+    }
+}
+
 /// Schemes whose curves share a pair of axes.
 pub(crate) struct Panel {
     /// What they have in common; may be empty.
     pub(crate) title: String,
     pub(crate) schemes: Vec<Scheme>,
-    markers: Markers,
 }
 
 impl Panel {
     /// The curve of every scheme.
     pub(crate) fn curves(&self, points: impl Fn(Scheme) -> Vec<(f64, f64)>) -> Vec<Series> {
         let curve = |scheme: &Scheme| {
-            let mut curve = series(*scheme, points(*scheme), self.markers);
+            let mut curve = series(*scheme, points(*scheme));
             // What the title says already would keep panels from sharing a legend.
             let common = format!("{} ", self.title);
             if let Some(rest) = curve.name.strip_prefix(&common) {
@@ -86,15 +80,10 @@ impl Panels {
         let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis()).collect();
         let others: BTreeSet<_> = schemes.iter().map(|s| (s.remedy(), s.transfer())).collect();
         let transfers: BTreeSet<_> = others.iter().map(|(_, transfer)| transfer).collect();
-        let markers = match transfers.len() {
-            1 => Markers::Basis,
-            _ => Markers::Transfer,
-        };
         if schemes.len() <= MOST_CURVES && transfers.len() == 1 {
             return Self(vec![Panel {
                 title: String::new(),
                 schemes: schemes.iter().copied().collect(),
-                markers,
             }]);
         }
         // Each panel has the same curves, be they empty, and so all have one legend.
@@ -104,19 +93,18 @@ impl Panels {
                 .iter()
                 .map(|&(remedy, transfer)| Scheme::new(basis, remedy, transfer))
                 .collect(),
-            markers,
         };
         Self(bases.into_iter().map(of_basis).collect())
     }
 
-    /// Draws a row of panels with common ranges for each of `items` that has something to show;
-    /// returns whether any has.
+    /// Draws a row of panels with common ranges for each of `items` that has something to show. A picture has
+    /// [`MOST_PANELS`] at most: what is more goes into `NAME-2.png` and so on. Returns the files.
     pub(crate) fn draw<T>(
         &self,
         path: &Path,
         items: impl IntoIterator<Item = T>,
         chart: impl Fn(&T, &Panel) -> Chart,
-    ) -> Result<bool, PlotError> {
+    ) -> Result<Vec<PathBuf>, PlotError> {
         let mut charts = Vec::new();
         for item in items {
             let mut row: Vec<Chart> = self.0.iter().map(|p| chart(&item, p)).collect();
@@ -127,10 +115,19 @@ impl Panels {
                 charts.extend(row);
             }
         }
-        if !charts.is_empty() {
-            draw_charts(path, &charts, self.0.len().max(2))?;
-        }
-        Ok(!charts.is_empty())
+        let across = self.0.len().max(1);
+        let rows = (MOST_PANELS / across).max(1);
+        let pictures = charts.chunks(rows * across).enumerate();
+        let draw = |(k, charts): (usize, &[Chart])| {
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            let file = match k {
+                0 => path.to_path_buf(),
+                k => path.with_file_name(format!("{stem}-{}.png", k + 1)),
+            };
+            draw_charts(&file, charts, across.max(2))?;
+            Ok(file)
+        };
+        pictures.map(draw).collect()
     }
 }
 
@@ -187,10 +184,39 @@ mod tests {
         );
         all.pop_last();
         let panels = looks(&all);
-        assert_eq!(panels[0], panels[1]);
+        let plain = |panel: &[Series]| -> Vec<Series> {
+            let plain = |s: &Series| Series {
+                marker: Marker::None,
+                ..s.clone()
+            };
+            panel.iter().map(plain).collect()
+        };
+        assert_eq!(plain(&panels[0]), plain(&panels[1]));
         let look = |s: &Series| (s.colour, format!("{:?} {:?}", s.marker, s.dash));
         let looks: BTreeSet<_> = panels[0].iter().map(look).collect();
         assert_eq!(looks.len(), 12);
         assert_eq!(panels[0][1].name, "none apic");
+    }
+
+    #[test]
+    fn a_picture_has_six_panels_at_most() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let all = schemes(
+            &[BasisName::Gimp, BasisName::Bspline2],
+            &[TransferName::Flip, TransferName::Apic],
+        );
+        let chart = |_: &usize, panel: &Panel| {
+            Chart::new("", ["", ""], panel.curves(|_| vec![(1.0, 1.0), (2.0, 2.0)]))
+        };
+        let files = Panels::new(&all).draw(&path, 0..4, chart).unwrap();
+        assert_eq!(files, [path.clone(), path.with_file_name("a-2.png")]);
+        assert!(files.iter().all(|file| file.exists()));
+        assert!(
+            Panels(Vec::new())
+                .draw(&path, 0..4, chart)
+                .unwrap()
+                .is_empty()
+        );
     }
 }

@@ -31,7 +31,10 @@ impl Goldens {
     /// There is no such folder. A file that is missing or damaged is drift of its case.
     pub fn open(root: &Path) -> Result<Self, Error> {
         if !root.is_dir() {
-            return Err(Error::file(root, "no folder of goldens"));
+            return Err(Error::file(
+                root,
+                "no folder of goldens: name one with --golden",
+            ));
         }
         let read = |name| match file(root, name) {
             path if path.exists() => Golden::read(&path).map_err(|e| e.to_string()),

@@ -46,6 +46,15 @@ pub fn file(root: &Path, case: &str) -> PathBuf {
     root.join(format!("{case}.csv"))
 }
 
+/// The folder of the goldens: `asked`, or that of the working directory, or else of the checkout that the program was
+/// built from.
+#[must_use]
+pub fn place(asked: Option<PathBuf>) -> PathBuf {
+    let here = PathBuf::from("golden");
+    let built = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../golden");
+    asked.unwrap_or_else(|| if here.is_dir() { here } else { built() })
+}
+
 /// Picture of the first run of a case.
 #[must_use]
 pub fn picture_file(root: &Path, case: &str) -> PathBuf {

@@ -4,7 +4,7 @@ use super::price;
 use crate::cases;
 use crate::distinct;
 use crate::draw::style::{Panel, Panels};
-use crate::draw::{Chart, Dash, Marker, Scale, Series, SlopeTriangle};
+use crate::draw::{Chart, Dash, Marker, ReferenceLine, Scale, Series, SlopeTriangle};
 use crate::error::Error;
 use crate::files::{write_csv, write_json};
 use crate::gallery::Picture;
@@ -13,19 +13,13 @@ use crate::scheme::Scheme;
 use crate::study::convergence::{Convergence, Point, precision};
 use crate::study::summary::CaseStudy;
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The picture that shows times taken.
 pub(super) const CPU_PICTURE: &str = "cpu-precision.png";
-/// Likewise for what is no error.
-pub(super) const CPU_VALUE_PICTURE: &str = "cpu-value.png";
 /// What a run's error must be of that of its scheme's line so far for the line to go on to it: else runs with a smaller time
 /// step, dearer and no better, would bend the line.
 const GAIN: f64 = 0.9;
-/// A value is far off the bulk if it lies farther than so many times the range of the middle half from that half.
-const FAR: f64 = 10.0;
-/// Margin of a range about the bulk, as a share of it.
-const MARGIN: f64 = 0.05;
 /// Colour of the front.
 const FRONT: usize = 7;
 /// Room between a slope triangle and the curves above it, as a ratio of errors.
@@ -44,9 +38,8 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
     let mut pictures = Vec::new();
     let mut draw = |diagram: &Diagram, name: &str, against: Against, caption: String| {
         let file = format!("{}/{name}", study.case);
-        if diagram.draw(&out.join(&file), against)? {
-            pictures.push(Picture { file, caption });
-        }
+        let files = diagram.draw(&out.join(&file), against)?;
+        pictures.extend(Picture::of_files(&study.case, files, &caption));
         Ok::<(), Error>(())
     };
     let errors = || study.convergence.iter().filter(|c| c.is_error);
@@ -68,7 +61,7 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
             format!("convergence-{}.png", slug(set))
         };
         let caption = format!(
-            "Error against cell size{changed}, for every scheme, converging or not. Both axes are logarithmic; the triangle shows an order."
+            "Error against cell size{changed}, for every scheme, converging or not. Both axes are logarithmic; a triangle shows the order that theory gives, a dashed line the uncertainty of the reference."
         );
         draw(&diagram, &name, Against::Size, caption)?;
     }
@@ -77,19 +70,12 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         entries: costs.iter().collect(),
         quantities: &case.quantities,
     };
-    for (cost, error, value) in [
-        (&PAIRS, "work-precision.png", "work-value.png"),
-        (&TIME, CPU_PICTURE, CPU_VALUE_PICTURE),
-    ] {
+    for (cost, name) in [(&PAIRS, "work-precision.png"), (&TIME, CPU_PICTURE)] {
         let what = cost.what;
         let caption = format!(
-            "Error against its cost in {what}. A line joins those runs of a scheme that are better by a tenth than the line so far, whatever their time step and number of particles per cell; dots are its other runs. The front of what no run of any scheme beats is the same in every panel of an error; rings mark the runs that make it."
+            "Error against its cost in {what}. Each line joins a scheme's best runs at rising cost, each at least a tenth more accurate than the last, whatever their time step and number of particles per cell; dots are its other runs. The grey staircase is the front over all schemes, the same in every panel of an error; runs on it are ringed."
         );
-        draw(&diagram, error, Against::Cost(cost), caption)?;
-        let caption = format!(
-            "What has no exact value, against its cost in {what}: how soon each scheme settles, and where. Runs of another time step or number of particles per cell, and slices of a problem, are lines of their own; what lies far off the bulk is cut off."
-        );
-        draw(&diagram, value, Against::CostOfValues(cost), caption)?;
+        draw(&diagram, name, Against::Cost(cost), caption)?;
     }
     Ok(pictures)
 }
@@ -156,12 +142,7 @@ enum Against {
     Size,
     /// Errors against cost.
     Cost(&'static Cost),
-    /// What is no error against cost.
-    CostOfValues(&'static Cost),
 }
-
-/// The point at which a line ends and another of the same look begins.
-const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 /// Quantities that share their axes.
 struct Diagram<'a> {
@@ -170,17 +151,13 @@ struct Diagram<'a> {
 }
 
 impl Diagram<'_> {
-    /// Draws every quantity that has something to show; returns whether any has.
-    fn draw(&self, path: &Path, against: Against) -> Result<bool, Error> {
+    /// Draws every quantity that has something to show; returns the files.
+    fn draw(&self, path: &Path, against: Against) -> Result<Vec<PathBuf>, Error> {
         let schemes: BTreeSet<Scheme> = self.entries.iter().map(|c| c.scheme).collect();
-        let errors = !matches!(against, Against::CostOfValues(_));
-        let quantities = self.quantities.iter().filter(|q| q.is_error == errors);
-        // A value has something to show once a scheme has two.
-        let quantities = quantities.filter(|q| errors || self.of(q).any(|c| c.points.len() > 1));
+        let quantities = self.quantities.iter().filter(|q| q.is_error);
         let chart = |quantity: &&Quantity, panel: &Panel| match against {
             Against::Size => self.by_size(quantity, panel),
             Against::Cost(cost) => self.error_by_cost(quantity, cost, panel),
-            Against::CostOfValues(cost) => self.value_by_cost(quantity, cost, panel),
         };
         Ok(Panels::new(&schemes).draw(path, quantities, chart)?)
     }
@@ -197,11 +174,8 @@ impl Diagram<'_> {
             let own = self.of(quantity).filter(|c| c.scheme == scheme);
             own.flat_map(|c| positive(c, |p| p.h)).collect()
         });
-        let orders = self
-            .of(quantity)
-            .filter(|c| panel.schemes.contains(&c.scheme))
-            .filter_map(|c| Some(c.order.as_ref()?.order));
-        let slope_triangle = typical_order(orders.collect())
+        let slope_triangle = quantity
+            .order
             .and_then(|slope| below_the_curves(slope, series.iter().map(|s| &s.points[..])));
         Chart {
             slope_triangle,
@@ -236,51 +210,23 @@ impl Diagram<'_> {
         self.axes(quantity, cost.label, panel, series.collect())
     }
 
-    fn value_by_cost(&self, quantity: &Quantity, cost: &Cost, panel: &Panel) -> Chart {
-        let points = |c: &Convergence| -> Vec<(f64, f64)> {
-            let points = c.points.iter().map(|p| ((cost.of)(p), p.value));
-            points.filter(|(x, _)| *x > 0.0).collect()
-        };
-        let series = panel.curves(|scheme| {
-            let own = self.of(quantity).filter(|c| c.scheme == scheme);
-            let curves: Vec<Vec<_>> = own.map(points).collect();
-            curves.join(&GAP)
-        });
-        let all = self.of(quantity).flat_map(points).map(|p| p.1).collect();
-        Chart {
-            y_scale: Scale::Linear,
-            y_range: bulk(all),
-            ..self.axes(quantity, cost.label, panel, series)
-        }
-    }
-
     /// A chart of `series`, with logarithmic axes.
     fn axes(&self, quantity: &Quantity, x: &str, panel: &Panel, series: Vec<Series>) -> Chart {
         let negative = |c: &Convergence| c.points.iter().any(|p| p.value < 0.0);
-        let signed = quantity.is_error && self.of(quantity).any(negative);
+        let signed = self.of(quantity).any(negative);
         let labels = [x, &error_label(quantity, signed)];
+        let uncertainty = quantity.uncertainty.map(|value| ReferenceLine {
+            name: "uncertainty of the reference".to_owned(),
+            value,
+            band: None,
+        });
         Chart {
             x_scale: Scale::Log10,
             y_scale: Scale::Log10,
+            reference_lines: uncertainty.into_iter().collect(),
             ..Chart::new(panel.title.clone(), labels, series)
         }
     }
-}
-
-/// Where the bulk of `values` lies, with a margin, if others lie so far off that they would leave it no room.
-fn bulk(mut values: Vec<f64>) -> Option<(f64, f64)> {
-    values.sort_by(f64::total_cmp);
-    let quartile = |k: usize| values.get(k * values.len() / 4).copied();
-    let (lower, upper) = (quartile(1)?, quartile(3)?);
-    let reach = FAR * (upper - lower);
-    let near: Vec<f64> = values
-        .iter()
-        .copied()
-        .filter(|v| (lower - reach..=upper + reach).contains(v))
-        .collect();
-    let (least, most) = (near.first()?, near.last()?);
-    let margin = MARGIN * (most - least);
-    (near.len() < values.len() && margin > 0.0).then_some((least - margin, most + margin))
 }
 
 /// The magnitudes of an error. One of zero has no logarithm.
@@ -296,13 +242,6 @@ pub(super) fn error_label(quantity: &Quantity, signed: bool) -> String {
     } else {
         quantity.label.to_owned()
     }
-}
-
-/// The median of observed orders as a whole number, at least one; none where errors grow with refinement.
-fn typical_order(mut orders: Vec<f64>) -> Option<f64> {
-    orders.sort_by(f64::total_cmp);
-    let median = orders.get(orders.len() / 2).filter(|m| **m > 0.0)?;
-    Some(median.round().max(1.0))
 }
 
 /// A triangle at the right end, below every curve that passes there.
@@ -393,7 +332,7 @@ mod tests {
         let picture = folder.path().join("a.png");
         let drawn =
             Panels::new(&schemes).draw(&picture, [error(metric("e", "-", ""), "error")], chart);
-        assert!(drawn.unwrap() && picture.exists());
+        assert!(drawn.unwrap() == [picture.clone()] && picture.exists());
         let [chart] = &charts.borrow()[..] else {
             panic!("one panel");
         };
@@ -414,34 +353,6 @@ mod tests {
         let dots = chart.series.iter().filter(|s| s.marker == Marker::Dot);
         assert_eq!(dots.map(|s| s.points.len()).collect::<Vec<_>>(), [5, 2]);
         assert_eq!(chart.y_label, "|error|");
-    }
-
-    #[test]
-    fn what_is_no_error_keeps_its_sign_and_what_lies_far_off_is_cut_off() {
-        let mut values = curve(RemedyName::None, &[(10, -0.2), (100, 4.0)]);
-        values.is_error = false;
-        let diagram = Diagram {
-            entries: vec![&values],
-            quantities: &[],
-        };
-        let quantity = Quantity {
-            metric: metric("e", "-", ""),
-            label: "run-out (m)",
-            is_error: false,
-        };
-        let folder = tempfile::tempdir().unwrap();
-        let chart = |quantity: &Quantity, panel: &Panel| {
-            let chart = diagram.value_by_cost(quantity, &PAIRS, panel);
-            assert_eq!(chart.y_label, "run-out (m)");
-            assert_eq!(chart.series[0].points[0], (10.0, -0.2));
-            chart
-        };
-        let schemes = [values.scheme].into();
-        let drawn = Panels::new(&schemes).draw(&folder.path().join("a.png"), [quantity], chart);
-        assert!(drawn.unwrap());
-        assert_eq!(bulk(vec![1.0, 2.0, 3.0, 4.0]), None);
-        let far = bulk(vec![1.0, 2.0, 3.0, 2.0, 4.0, 1.5, 2.5, 90.0]).unwrap();
-        assert!((far.0 - 0.85).abs() < 1e-12 && (far.1 - 4.15).abs() < 1e-12);
     }
 
     #[test]
@@ -466,12 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn one_level_has_no_triangle_and_no_order_no_slope() {
+    fn one_level_has_no_triangle() {
         assert_eq!(below_the_curves(1.0, [&[(1.0, 0.1)][..]].into_iter()), None);
-        assert_eq!(typical_order(Vec::new()), None);
-        assert_eq!(typical_order(vec![0.2]), Some(1.0));
-        assert_eq!(typical_order(vec![-0.2]), None);
-        assert_eq!(typical_order(vec![-1.8, -0.3, 2.0]), None);
-        assert_eq!(typical_order(vec![1.8, 2.3, -1.0]), Some(2.0));
     }
 }

@@ -1,237 +1,257 @@
-//! Text for the terminal: lists, explanations, verdicts.
+//! Text for the terminal: lists, explanations, verdicts. Lines fit [`WIDTH`]; colours are for whoever prints to keep or
+//! to drop.
 
-use crate::accuracy::Order;
+use super::words::{bless_commands, demand, kind, number, outcome, quantity, sentence};
 use crate::case::{Case, Tier};
-use crate::metric::Headline;
-use crate::record::{Record, Status};
-use crate::results::fixed;
-use crate::study::convergence::Convergence;
-use crate::study::summary::{CaseStudy, Summary};
+use crate::error::ExitCode;
+use crate::record::Record;
+use crate::study::judge::{exit_code, outcome_of_run};
+use crate::study::summary::Summary;
 use crate::verdict::{Kind, Outcome, Verdict};
+use anstyle::{AnsiColor, Style};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// What made the runs of a case: the program, the night and the commit, as far as they are known.
-#[must_use]
-pub fn made_by(study: &CaseStudy) -> [String; 3] {
-    let program = study
-        .program()
-        .map(|v| format!("mpm-verify {}, source {}", v.mpm_verify, v.source));
-    let night = study.night.as_ref();
-    [
-        program,
-        night.map(|n| n.date.to_string()),
-        night.map(|n| n.commit.clone()),
-    ]
-    .map(|known| known.unwrap_or_else(|| "–".to_owned()))
+/// Columns of a line.
+const WIDTH: usize = 100;
+/// Columns of the meaning of a metric, beside its name and value.
+const MEANING: usize = 47;
+/// Particle–node pairs that a core visits in a second, roughly: 1.5·10⁸ to 1.5·10⁹, by dimension, basis and remedy.
+const PAIRS_PER_SECOND: f64 = 8e8;
+
+/// How an outcome is coloured.
+fn style(of: Outcome) -> Style {
+    match of {
+        Outcome::Right => AnsiColor::Green.on_default(),
+        Outcome::WrongAsKnown => AnsiColor::Yellow.on_default(),
+        Outcome::NotJudged => Style::new().dimmed(),
+        Outcome::Failed => AnsiColor::Red.on_default().bold(),
+    }
 }
 
-/// The cases as text, with the runs of a tier if one is given.
-#[must_use]
-pub fn list_text(cases: &[Case], tier: Option<Tier>) -> String {
-    let mut text = String::new();
-    for case in cases {
-        let levels: Vec<&str> = case.levels.iter().map(|l| l.name).collect();
-        let _ = writeln!(text, "{}  {}", case.name, case.title);
-        let _ = writeln!(text, "  levels: {}", levels.join(" "));
-        match tier {
-            None => {
-                let _ = writeln!(text, "  schemes:");
-                for scheme in case.schemes() {
-                    let _ = writeln!(text, "    {scheme}");
-                }
-            }
-            Some(tier) => {
-                let _ = writeln!(text, "  runs of tier {tier}:");
-                for spec in case.runs(tier) {
-                    let _ = writeln!(text, "    {}", spec.folder());
-                }
-            }
-        }
+/// A text in the colour of an outcome.
+fn painted(of: Outcome, text: &str) -> String {
+    let style = style(of);
+    format!("{style}{text}{style:#}")
+}
+
+/// A text in lines that begin with `indent`.
+fn wrapped(text: &str, first: &str, indent: &str) -> String {
+    let options = textwrap::Options::new(WIDTH)
+        .initial_indent(first)
+        .subsequent_indent(indent);
+    textwrap::fill(text, options) + "\n"
+}
+
+/// The start of a text that fits so many columns.
+fn cut(text: &str, columns: usize) -> String {
+    match text.chars().count() > columns {
+        true => text.chars().take(columns - 1).collect::<String>() + "…",
+        false => text.to_owned(),
     }
-    text
+}
+
+/// The cases, a line each: what they are, how many runs each tier has, and what the runs of tier pr cost as far as
+/// `pairs` gives their particle–node pairs; with a tier, its runs.
+#[must_use]
+pub fn list_text(
+    cases: &[Case],
+    tier: Option<Tier>,
+    pairs: impl Fn(&str) -> Option<u64>,
+) -> String {
+    if let Some(tier) = tier {
+        let runs = cases.iter().flat_map(|case| {
+            let runs = case.runs(tier).into_iter();
+            runs.map(move |spec| format!("{} {}\n", case.name, spec.folder()))
+        });
+        return runs.collect();
+    }
+    let [quick, pr, nightly, long] = Tier::NAMES;
+    let mut t = format!(
+        "{:20} {:38} {quick:>5} {pr:>4} {nightly:>7} {long:>5}  CPU of pr\n",
+        "case", "what it is",
+    );
+    for case in cases {
+        let [quick, pr, nightly, long] = Tier::ALL.map(|tier| case.runs(tier).len());
+        let cost = pairs(case.name).filter(|n| *n > 0).map_or_else(
+            || number(None),
+            |n| format!("{:>5.0} s", (n as f64 / PAIRS_PER_SECOND).ceil()),
+        );
+        let title = cut(case.title, 38);
+        let _ = writeln!(
+            t,
+            "{:20} {title:38} {quick:>5} {pr:>4} {nightly:>7} {long:>5}  {cost:>9}",
+            case.name
+        );
+    }
+    t + "\nRuns by tier; each has those of the tiers before it. CPU time is estimated from the goldens' counts.\n\
+         `list --tier TIER` names its runs, `explain CASE` says all about a case, `run CASE` runs it.\n"
 }
 
 /// The same as JSON.
 #[must_use]
-pub fn list_json(cases: &[Case], tier: Option<Tier>) -> String {
-    let cases: Vec<Value> = cases
-        .iter()
-        .map(|case| {
-            let mut entry = json!({
-                "case": case.name,
-                "title": case.title,
-                "levels": case.levels.iter().map(|l| l.name).collect::<Vec<_>>(),
-                "schemes": case.schemes(),
-            });
-            if let Some(tier) = tier {
-                entry["tier"] = json!(tier.to_string());
-                entry["runs"] = case
-                    .runs(tier)
-                    .iter()
-                    .map(|s| json!({"scheme": s.scheme, "level": s.level.name, "set": s.set}))
-                    .collect();
-            }
-            entry
-        })
-        .collect();
-    format!("{:#}\n", Value::Array(cases))
+pub fn list_json(cases: &[Case], tier: Option<Tier>) -> Value {
+    let entry = |case: &Case| {
+        let mut entry = json!({
+            "case": case.name,
+            "title": case.title,
+            "levels": case.levels.iter().map(|l| l.name).collect::<Vec<_>>(),
+            "schemes": case.schemes(),
+        });
+        if let Some(tier) = tier {
+            let runs = case.runs(tier).into_iter();
+            entry["tier"] = json!(tier.to_string());
+            entry["runs"] = runs
+                .map(|s| json!({"scheme": s.scheme, "level": s.level.name, "set": s.set}))
+                .collect();
+        }
+        entry
+    };
+    cases.iter().map(entry).collect()
 }
 
 /// Everything about a case.
 #[must_use]
 pub fn explain(case: &Case) -> String {
-    let mut t = format!("{}: {}\n\n{}\n", case.name, case.title, case.description);
-    let _ = writeln!(t, "\nParameters (--set name=value)");
+    let mut t = format!("{}: {}\n\n", case.name, case.title);
+    t += &wrapped(case.description, "", "");
+    t += "\nParameters (--set name=value)\n";
     for p in &case.parameters {
-        let _ = writeln!(
-            t,
-            "  {} ({})  default {}, allowed {}\n      {}",
-            p.name, p.unit, p.default, p.domain, p.meaning
+        let head = format!(
+            "{} ({})  default {}, allowed {}",
+            p.name, p.unit, p.default, p.domain
         );
+        t += &wrapped(&head, "  ", "      ");
+        t += &wrapped(p.meaning, "      ", "      ");
     }
-    let _ = writeln!(
-        t,
-        "\nSchemes (--solver S --basis B --remedy R --transfer T)"
-    );
-    for s in case.schemes() {
-        let _ = writeln!(
-            t,
-            "  --solver {} --basis {} --remedy {} --transfer {}",
-            s.solver(),
-            s.basis(),
-            s.remedy(),
-            s.transfer()
-        );
+    t += "\nSchemes (--scheme NAME, or its parts: --basis, --remedy, --transfer)\n";
+    let names: Vec<String> = case.schemes().iter().map(ToString::to_string).collect();
+    for pair in names.chunks(2) {
+        let line: String = pair.iter().map(|name| format!("  {name:40}")).collect();
+        t += line.trim_end();
+        t += "\n";
     }
-    let _ = writeln!(t, "\nLevels (--level L)");
+    t += "\nLevels (--level L)\n";
     for l in &case.levels {
         let _ = writeln!(t, "  {}  cells of {} m", l.name, l.h);
     }
-    let _ = writeln!(t, "\nMetrics");
-    for m in &case.metrics {
-        let _ = writeln!(t, "  {} ({})  {}", m.name, m.unit, m.meaning);
-    }
-    let _ = writeln!(t, "\nChecks");
-    for c in &case.checks {
-        let _ = writeln!(t, "  {} [{}]  {}", c.name, kind(c.kind), c.statement);
-    }
-    let _ = writeln!(t, "\nReferences");
-    for r in &case.references {
-        let _ = writeln!(t, "  {r}");
-    }
-    let _ = writeln!(t, "\nLimits");
-    for l in case.limits {
-        let _ = writeln!(t, "  {l}");
+    let metrics = case.metrics.iter();
+    let metrics = metrics.map(|m| format!("{} ({})  {}", m.name, m.unit, m.meaning));
+    let checks = case.checks.iter();
+    let checks = checks.map(|c| format!("{} [{}]  {}", c.name, kind(c.kind), c.statement));
+    let limits = case.limits.iter().map(|l| (*l).to_owned());
+    let lists: [(&str, Vec<String>); 4] = [
+        ("Metrics", metrics.collect()),
+        ("Checks", checks.collect()),
+        ("References", case.references.clone()),
+        ("Limits", limits.collect()),
+    ];
+    for (title, entries) in lists {
+        let _ = writeln!(t, "\n{title}");
+        t.extend(entries.iter().map(|entry| wrapped(entry, "  ", "      ")));
     }
     t
 }
 
-/// Name of a kind of check.
+/// The same as JSON.
 #[must_use]
-pub fn kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Truth => "TRUTH",
-        Kind::KnownLimit => "known limit",
-        Kind::Drift => "DRIFT",
-        Kind::Bookkeeping => "bookkeeping",
-    }
+pub fn explain_json(case: &Case) -> Value {
+    let parameters = case.parameters.iter().map(|p| {
+        let allowed = p.domain.to_string();
+        json!({"name": p.name, "unit": p.unit, "default": p.default, "allowed": allowed, "meaning": p.meaning})
+    });
+    let metrics = case.metrics.iter();
+    let metrics = metrics.map(|m| json!({"name": m.name, "unit": m.unit, "meaning": m.meaning}));
+    let checks = case.checks.iter();
+    let checks = checks.map(|c| json!({"name": c.name, "kind": c.kind, "statement": c.statement}));
+    json!({
+        "case": case.name,
+        "title": case.title,
+        "description": case.description,
+        "parameters": parameters.collect::<Value>(),
+        "schemes": case.schemes(),
+        "levels": case.levels.iter().map(|l| json!({"name": l.name, "h": l.h})).collect::<Value>(),
+        "metrics": metrics.collect::<Value>(),
+        "checks": checks.collect::<Value>(),
+        "references": case.references,
+        "limits": case.limits,
+    })
 }
 
-/// Outcome of a verdict in a word or two.
-#[must_use]
-pub fn outcome(verdict: &Verdict) -> &'static str {
-    match verdict.outcome {
-        Outcome::Right => "right",
-        Outcome::WrongAsKnown => "wrong as known",
-        Outcome::NotJudged => "not judged",
-        Outcome::Failed => "FAILED",
-    }
-}
-
-/// A number of a verdict, or a dash.
-#[must_use]
-pub fn number(value: Option<f64>) -> String {
-    match value {
-        None => "–".to_owned(),
-        Some(0.0) => "0".to_owned(),
-        Some(x) if (1e-3..1e5).contains(&x.abs()) => {
-            let text = format!("{x:.6}");
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        }
-        Some(x) => format!("{x:.3e}"),
-    }
-}
-
-/// The observed order, of an error with its uncertainty (95 %), or a dash.
-#[must_use]
-pub fn order(c: &Convergence) -> String {
-    match (&c.order, &c.extrapolation) {
-        (Some(o), _) => o.to_string(),
-        (None, Some(r)) => format!("{:.2}", r.order),
-        (None, None) => number(None),
-    }
-}
-
-/// The orders of an error between successive levels, or a dash.
-#[must_use]
-pub fn local_orders(c: &Convergence) -> String {
-    c.order
-        .as_ref()
-        .map_or_else(|| number(None), Order::between)
-}
-
-/// A cell of the table of results, or a dash.
-#[must_use]
-pub fn headline(record: &Record, headline: &Headline) -> String {
-    let format = fixed(headline.decimals).times(headline.factor);
-    format.text(record.metric(headline.metric))
-}
-
-/// One verdict on a line.
+/// One verdict: outcome, check, metric and demand; where it is not right, why.
 #[must_use]
 pub fn verdict_line(v: &Verdict) -> String {
-    format!(
-        "{:14} [{}] {}: {} = {} (reference {}, tolerance {}) {}",
-        outcome(v),
-        kind(v.kind),
-        v.check,
-        v.metric,
-        number(v.value),
-        number(v.reference),
-        number(v.tolerance),
-        v.source
-    )
+    let name = format!("{:14}", outcome(v.outcome));
+    let told = match v.kind {
+        Kind::Truth | Kind::KnownLimit => v.check.clone(),
+        other => format!("{} [{}]", v.check, kind(other)),
+    };
+    let line = match v.outcome {
+        Outcome::Failed if v.check == "completes" => told,
+        Outcome::NotJudged => format!("{told:24} {}", v.metric),
+        _ => format!("{told:24} {} = {}", v.metric, demand(v)),
+    };
+    let line = wrapped(&line, &format!("{name}  "), &" ".repeat(18));
+    let rest = line.strip_prefix(&name).unwrap_or(&line);
+    let why = match v.outcome {
+        Outcome::Right => String::new(),
+        _ => wrapped(&v.source, &" ".repeat(18), &" ".repeat(18)),
+    };
+    format!("{}{rest}{why}", painted(v.outcome, &name))
 }
 
-/// A run: metrics and verdicts.
+/// A run: its metrics in the order of its case, its verdicts, and the verdict on it in one line at the end.
 #[must_use]
-pub fn record(r: &Record) -> String {
-    let mut t = format!(
-        "{} {} {} {}\n",
-        r.case,
-        r.scheme(),
-        r.level,
-        r.set.join(" ")
-    );
-    if let Some(e) = &r.error {
-        let _ = writeln!(t, "FAILED ({}): {}", e.kind, e.message);
-    }
-    for (name, metric) in &r.metrics {
-        let _ = writeln!(t, "  {name} = {} {}", number(metric.value), metric.unit);
-    }
+pub fn record(case: &Case, r: &Record) -> String {
+    let set = r.set.iter().map(|assignment| format!("  {assignment}"));
+    let set: String = set.collect();
+    let mut t = format!("{}  {}  {}{set}\n", r.case, r.scheme(), r.level);
     let _ = writeln!(
         t,
-        "  {} particles, {} steps, {:.1} s, {:.0} ns per particle and step",
+        "  {} particles, {} steps, {:.1} s, {:.0} ns per particle and step\n",
         r.work.particles,
         r.work.steps,
         r.time.wall_s,
         1e9 * r.time.wall_s / r.work.particle_steps.max(1) as f64
     );
-    for v in &r.verdicts {
-        let _ = writeln!(t, "{}", verdict_line(v));
+    for m in &case.metrics {
+        if let Some(measured) = r.metrics.get(m.name) {
+            let value = quantity(measured.value, &measured.unit);
+            let meaning = cut(m.meaning, MEANING);
+            let line = format!("  {:26} {value:>20}   {meaning}", m.name);
+            let _ = writeln!(t, "{}", line.trim_end());
+        }
     }
-    t
+    t += "\n";
+    let told = r.verdicts.iter();
+    let told = told.filter(|v| v.kind != Kind::Bookkeeping || v.failed());
+    t.extend(told.map(verdict_line));
+    let counted = r
+        .verdicts
+        .iter()
+        .filter(|v| v.kind == Kind::Bookkeeping && !v.failed());
+    let counted: Vec<&str> = counted.map(|v| &*v.check).collect();
+    if !counted.is_empty() {
+        let _ = writeln!(t, "{:14}  {} hold", "bookkeeping", counted.join(", "));
+    }
+    if let Some(e) = &r.error {
+        t += &wrapped(&e.message, "", "");
+    }
+    t + "\n" + &run_line(r)
+}
+
+/// The outcome of a run, in its colour.
+#[must_use]
+pub fn outcome_word(r: &Record) -> String {
+    let of = outcome_of_run(r);
+    painted(of, outcome(of))
+}
+
+/// The verdict on a run, in one line.
+#[must_use]
+pub fn run_line(r: &Record) -> String {
+    let of = outcome_of_run(r);
+    format!("Verdict: {}\n", painted(of, &cut(&sentence(r), WIDTH - 9)))
 }
 
 /// How far a result is from its golden, relative to it; infinite where there is nothing to compare.
@@ -256,60 +276,147 @@ pub fn drift_line(v: &Verdict) -> String {
     }
 }
 
-/// What a verification found: failures first, then counts.
+/// What failed in a verification: checks, drift, breakdowns that were not known.
 #[must_use]
-pub fn verdict_summary(summary: &Summary) -> String {
+pub fn failures(summary: &Summary) -> String {
     let mut t = String::new();
     for (study, record, verdict) in summary.verdicts().filter(|(_, _, v)| v.misses_the_truth()) {
-        let run = record.map_or_else(String::new, |r| {
-            format!("{} {} {} ", r.scheme(), r.level, r.set.join(" "))
-        });
-        let _ = writeln!(t, "{} {run}{}", study.case, verdict_line(verdict));
+        let run = record.map_or_else(|| "runs together".to_owned(), Record::folder);
+        let _ = writeln!(t, "{} {run}", study.case);
+        t += &verdict_line(verdict);
     }
     for record in summary.cases.iter().flat_map(|c| &c.records) {
         let drifting: Vec<&Verdict> = record.verdicts.iter().filter(|v| v.drifts()).collect();
         let worst = drifting
             .iter()
             .max_by(|a, b| relative_difference(a).total_cmp(&relative_difference(b)));
+        let name = format!("{} {}", record.case, record.folder());
         if let Some(worst) = worst {
-            let _ = writeln!(
-                t,
-                "FAIL [DRIFT] {} {}: {} compared with the golden differ, the most {}",
-                record.case,
-                record.folder(),
-                drifting.len(),
+            let count = drifting.len();
+            let differ = format!(
+                "{name}: {count} values differ from the golden, most of all {}",
                 drift_line(worst)
             );
+            t += &painted(Outcome::Failed, "FAILED [DRIFT]");
+            t += &wrapped(&differ, " ", "  ");
         }
-        if let (Status::Failed, Some(e)) = (record.status, &record.error) {
-            let _ = writeln!(
-                t,
-                "{} {} {}: {}",
-                record.case,
-                record.scheme(),
-                record.level,
-                e.message
-            );
+        if let Some(e) = record.error.as_ref().filter(|_| record.broke_down()) {
+            t += &painted(Outcome::Failed, "BROKE DOWN");
+            t += &wrapped(&format!("{name}: {}", e.message), " ", "  ");
         }
-    }
-    let _ = writeln!(t, "{}", summary.counts);
-    for command in bless_commands(summary) {
-        let _ = writeln!(t, "If the drift is meant: {command}");
     }
     t
 }
 
-/// The commands that accept the drift of each case that has drifted and misses no truth.
+/// What a verification found: failures first, then counts, at the end the verdict in one line.
 #[must_use]
-pub fn bless_commands(summary: &Summary) -> Vec<String> {
-    let meets = |name: &str, test: fn(&Verdict) -> bool| {
-        summary
-            .verdicts()
-            .any(|(study, _, v)| study.case == name && test(v))
+pub fn verification(summary: &Summary) -> String {
+    let mut t = failures(summary);
+    let _ = writeln!(t, "{}", summary.counts);
+    for command in bless_commands(summary) {
+        let _ = writeln!(t, "If the drift is meant: {command}");
+    }
+    t + &verification_line(summary)
+}
+
+/// The verdict on a verification, in one line.
+#[must_use]
+pub fn verification_line(summary: &Summary) -> String {
+    let c = summary.counts;
+    let (of, what) = match summary.exit_code() {
+        ExitCode::Good => (
+            Outcome::Right,
+            format!(
+                "nothing failed; {} of {} runs are wrong as known",
+                c.wrong_as_known_runs, c.runs
+            ),
+        ),
+        ExitCode::Drift => (
+            Outcome::Failed,
+            format!(
+                "FAILED: {} values have drifted from the goldens; no check failed",
+                c.drifted
+            ),
+        ),
+        _ => (
+            Outcome::Failed,
+            format!(
+                "FAILED: {} of {} runs, {} checks",
+                c.failed_runs,
+                c.runs,
+                summary.failures()
+            ),
+        ),
     };
-    let cases = summary.cases.iter().map(|study| study.case.as_str());
-    cases
-        .filter(|case| meets(case, Verdict::drifts) && !meets(case, Verdict::misses_the_truth))
-        .map(|case| format!("mpm-verify bless {case} --reason \"why the results have changed\""))
-        .collect()
+    format!("Verdict: {}\n", painted(of, &what))
+}
+
+/// What a verification found, as JSON: its counts, and each run that did not end well.
+#[must_use]
+pub fn verification_json(summary: &Summary) -> Value {
+    let records = summary.cases.iter().flat_map(|s| &s.records);
+    let failed = records.filter(|r| exit_code(r) as u8 != 0);
+    let failed = failed.map(|r| json!({"case": r.case, "run": r.folder(), "verdict": sentence(r)}));
+    json!({
+        "tier": summary.tier,
+        "exit_code": summary.exit_code() as u8,
+        "counts": summary.counts,
+        "failed_runs": failed.collect::<Value>(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases;
+    use crate::check::Finding;
+    use crate::record::fixture::record as run;
+    use crate::report::fixture;
+
+    /// Columns of a line, without its colours.
+    fn columns(line: &str) -> usize {
+        let mut plain = Vec::new();
+        let mut stream = anstream::StripStream::new(&mut plain);
+        std::io::Write::write_all(&mut stream, line.as_bytes()).unwrap();
+        String::from_utf8(plain).unwrap().chars().count()
+    }
+
+    #[test]
+    fn lines_fit() {
+        let mut texts = vec![list_text(cases::all(), None, |_| Some(10))];
+        for case in cases::all() {
+            texts.push(explain(case));
+            let long = "a reason ".repeat(30);
+            let checks = [Kind::Truth, Kind::KnownLimit, Kind::Regression].map(|kind| {
+                let limit = Finding::above("log_jacobian_gap_rms", 2.0, 1.0, long.clone());
+                limit.verdict("creep-grows-as-dt-falls", kind)
+            });
+            let mut own = run("h2", checks.to_vec());
+            for m in &case.metrics {
+                let (value, unit) = (Some(-1.234_567e-9), m.unit.to_owned());
+                let measured = crate::record::Measured { value, unit };
+                own.metrics.insert(m.name.to_owned(), measured);
+            }
+            texts.push(record(case, &own));
+        }
+        texts.push(failures(&fixture::summary()));
+        for line in texts.iter().flat_map(|text| text.lines()) {
+            assert!(columns(line) <= WIDTH, "{line}");
+        }
+    }
+
+    #[test]
+    fn a_run_ends_with_its_verdict() {
+        let limit = Finding::above("m", 2.0, 1.0, "it makes energy")
+            .verdict("makes-energy", Kind::KnownLimit);
+        let exact = Finding::within("m", 1.0, 1.0, 0.0, "").verdict("exact", Kind::Truth);
+        let cook = cases::find("cook").unwrap();
+        let text = record(cook, &run("h2", vec![exact, limit]));
+        assert!(text.contains("it makes energy"), "{text}");
+        let last = text.lines().last().unwrap();
+        assert!(
+            last.contains("wrong as known: makes-energy; 1 check right"),
+            "{last}"
+        );
+    }
 }

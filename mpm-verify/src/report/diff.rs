@@ -1,8 +1,7 @@
 //! The difference of two report folders.
 
-use super::convergence::{CPU_PICTURE, CPU_VALUE_PICTURE};
-use super::describe::{number, outcome};
-use super::history::TRENDS;
+use super::convergence::CPU_PICTURE;
+use super::words::{number, outcome};
 use crate::draw::triptych::{different_pixels, triptych};
 use crate::draw::write_small_png;
 use crate::error::{Error, ExitCode};
@@ -11,6 +10,7 @@ use crate::study::summary::{SCHEMA, Summary};
 use crate::table::Sheet;
 use crate::verdict::Verdict;
 use image::RgbImage;
+use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
@@ -76,16 +76,35 @@ impl Difference {
         }
     }
 
+    /// How much differs.
+    #[must_use]
+    pub fn counts(&self) -> String {
+        let counts = [self.numbers.len(), self.verdicts.len(), self.pictures.len()];
+        let [numbers, verdicts, pictures] = counts;
+        format!("{numbers} numbers, {verdicts} verdicts and {pictures} pictures differ.")
+    }
+
+    /// The difference as JSON; of pictures the names of the files.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let entry =
+            |what: &str, old: Value, new: Value| json!({"what": what, "old": old, "new": new});
+        let numbers = self.numbers.iter();
+        let verdicts = self.verdicts.iter();
+        json!({
+            "old": self.names[0],
+            "new": self.names[1],
+            "numbers": numbers.map(|(what, a, b)| entry(what, json!(a), json!(b))).collect::<Value>(),
+            "verdicts": verdicts.map(|(what, a, b)| entry(what, json!(a), json!(b))).collect::<Value>(),
+            "pictures": self.pictures.iter().map(|p| json!(p.file)).collect::<Value>(),
+        })
+    }
+
     /// The difference in Markdown.
     #[must_use]
     pub fn text(&self) -> String {
         let [old, new] = &self.names;
-        let mut t = format!(
-            "# {old} against {new}\n\n{} numbers, {} verdicts and {} pictures differ.\n",
-            self.numbers.len(),
-            self.verdicts.len(),
-            self.pictures.len()
-        );
+        let mut t = format!("# {old} against {new}\n\n{}\n", self.counts());
         let verdicts = self.verdicts.iter();
         let verdicts = verdicts.map(|(what, a, b)| vec![what.clone(), (*a).into(), (*b).into()]);
         let numbers = self.numbers.iter().map(|(what, a, b)| {
@@ -183,7 +202,7 @@ fn outcomes(summary: &Summary) -> BTreeMap<String, &'static str> {
         .verdicts()
         .map(|(study, record, v)| {
             let run = record.map(crate::record::Record::folder);
-            (name(&study.case, run, v), outcome(v))
+            (name(&study.case, run, v), outcome(v.outcome))
         })
         .collect()
 }
@@ -191,7 +210,7 @@ fn outcomes(summary: &Summary) -> BTreeMap<String, &'static str> {
 /// Whether a picture shows times taken, which no two runs share.
 fn shows_time(path: &Path) -> bool {
     let name = path.file_name().and_then(|n| n.to_str()).unwrap_or("");
-    [CPU_PICTURE, CPU_VALUE_PICTURE].contains(&name) || name.starts_with(TRENDS)
+    name == CPU_PICTURE
 }
 
 /// Collects the PNG files below `folder`, as paths relative to `root`.

@@ -1,11 +1,8 @@
-//! Trends over nights: errors, orders and cost, kept in a table beside the report.
+//! Numbers of nights: errors, orders and cost, kept in a table beside the report.
 
 use crate::cases;
-use crate::draw::style::{Panel, Panels};
-use crate::draw::{Chart, Scale};
 use crate::error::Error;
 use crate::files::write_whole;
-use crate::gallery::Picture;
 use crate::night::Night;
 use crate::scheme::Scheme;
 use crate::study::convergence::Convergence;
@@ -16,8 +13,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 const FILE: &str = "history.csv";
-/// How the pictures' names begin.
-pub(super) const TRENDS: &str = "trends-";
 const COST: &str = "cpu_s";
 const PAIRS: &str = "particle_node_pairs";
 const ORDER: &str = "order of ";
@@ -34,27 +29,18 @@ struct Row {
     value: f64,
 }
 
-impl Row {
-    fn scheme(&self) -> Result<Scheme, Error> {
-        Ok(Scheme::parse(
-            self.run.split('/').next().unwrap_or_default(),
-        )?)
-    }
-}
-
 /// Adds a night of a case to the history in `out` (replacing that case's rows if the night is there
-/// already) and draws the case's trends, once there are two nights.
+/// already).
 ///
 /// # Errors
 /// The history is damaged, or a file can't be written.
-pub(super) fn add(study: &CaseStudy, night: &Night, out: &Path) -> Result<Option<Picture>, Error> {
+pub(super) fn add(study: &CaseStudy, night: &Night, out: &Path) -> Result<(), Error> {
     let path = out.join(FILE);
     let mut rows = read(&path)?;
     rows.retain(|row| row.night != night.date || row.case != study.case);
     let ladder = cases::find(&study.case)?.ladder;
     rows.extend(rows_of(study, ladder, night));
-    write(&mut rows, &path)?;
-    draw(study, &rows, out)
+    write(&mut rows, &path)
 }
 
 /// Takes the nights of the history in `from` into that in `into`, case by case; other nights stay.
@@ -126,65 +112,6 @@ fn rows_of(study: &CaseStudy, ladder: &[&str], night: &Night) -> Vec<Row> {
     rows
 }
 
-/// What is watched of a quantity: how it is labelled and scaled.
-fn axis(quantity: &str) -> (String, Scale) {
-    match quantity {
-        COST => ("CPU time of all runs (s)".to_owned(), Scale::Log10),
-        PAIRS => ("particle–node pairs".to_owned(), Scale::Log10),
-        q if q.starts_with(ORDER) => (q.to_owned(), Scale::Linear),
-        q => (format!("|{q}|, finest level"), Scale::Log10),
-    }
-}
-
-/// The errors at the finest level, the orders and the cost of a case, scheme by scheme, from two nights on.
-fn draw(study: &CaseStudy, rows: &[Row], out: &Path) -> Result<Option<Picture>, Error> {
-    let own: Vec<&Row> = rows.iter().filter(|r| r.case == study.case).collect();
-    let (Some(first), Some(last)) = (own.first(), own.last()) else {
-        return Ok(None);
-    };
-    let first = first.night;
-    if first == last.night {
-        return Ok(None);
-    }
-    let mut quantities: Vec<&str> = Vec::new();
-    let mut points = Vec::new();
-    for row in &own {
-        if !quantities.contains(&row.quantity.as_str()) {
-            quantities.push(&row.quantity);
-        }
-        points.push((row.scheme()?, *row));
-    }
-    quantities.sort_by_key(|q| ([COST, PAIRS].contains(q), q.starts_with(ORDER)));
-    let chart = |quantity: &&str, panel: &Panel| {
-        let (y_label, y_scale) = axis(quantity);
-        let series = panel.curves(|scheme| {
-            let of_curve = points
-                .iter()
-                .filter(|(s, r)| *s == scheme && r.quantity == *quantity);
-            of_curve
-                // An error of zero has no logarithm.
-                .filter(|(_, r)| y_scale == Scale::Linear || r.value > 0.0)
-                .map(|(_, r)| (f64::from((r.night - first).get_days()), r.value))
-                .collect()
-        });
-        let labels = [&*format!("days since {first}"), &y_label];
-        Chart {
-            y_scale,
-            ..Chart::new(panel.title.clone(), labels, series)
-        }
-    };
-    let schemes: BTreeSet<Scheme> = points.iter().map(|(scheme, _)| *scheme).collect();
-    let file = format!("{TRENDS}{}.png", study.case);
-    let drawn = Panels::new(&schemes).draw(&out.join(&file), quantities, chart)?;
-    Ok(drawn.then(|| Picture {
-        file,
-        caption: format!(
-            "{}: errors, orders and cost, night by night (data: {FILE}).",
-            study.case
-        ),
-    }))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,14 +125,12 @@ mod tests {
             run.case = case.to_owned();
             let study = CaseStudy::new(case, vec![run]);
             let night = Night::new(date, commit).unwrap();
-            let picture = add(&study, &night, folder.path()).unwrap();
-            picture.map(|p| p.file)
+            add(&study, &night, folder.path()).unwrap();
         };
-        let trends = Some("trends-cook.png".to_owned());
-        assert_eq!(add("column", "2026-01-02", "a"), None);
-        assert_eq!(add("cook", "2026-01-02", "a"), None);
-        assert_eq!(add("cook", "2026-01-01", "b"), trends);
-        assert_eq!(add("cook", "2026-01-02", "c"), trends);
+        add("column", "2026-01-02", "a");
+        add("cook", "2026-01-02", "a");
+        add("cook", "2026-01-01", "b");
+        add("cook", "2026-01-02", "c");
         let rows = read(&folder.path().join(FILE)).unwrap();
         let told = rows
             .iter()

@@ -1,11 +1,11 @@
 //! The verdicts in the format of JUnit, which continuous integration servers show.
 
-use super::describe::{kind, number};
+use super::words::{demand, kind, outcome};
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::{Failure, Record};
 use crate::study::summary::{CaseStudy, Summary};
-use crate::verdict::Verdict;
+use crate::verdict::{Outcome, Verdict};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::path::Path;
 use std::time::Duration;
@@ -63,22 +63,24 @@ fn name(verdict: &Verdict) -> String {
 }
 
 fn status(verdict: &Verdict) -> TestCaseStatus {
-    let mut status = match verdict.holds() {
-        Some(true) => return TestCaseStatus::success(),
-        Some(false) => TestCaseStatus::non_success(NonSuccessKind::Failure),
-        None => TestCaseStatus::skipped(),
+    let mut status = match verdict.outcome {
+        Outcome::Right => return TestCaseStatus::success(),
+        Outcome::Failed => TestCaseStatus::non_success(NonSuccessKind::Failure),
+        // As other test runners tell of what is expected to fail.
+        Outcome::WrongAsKnown | Outcome::NotJudged => TestCaseStatus::skipped(),
     };
-    if verdict.failed() {
-        status.set_type(kind(verdict.kind)).set_message(format!(
-            "value {}, reference {}, tolerance {}: {}",
-            number(verdict.value),
-            number(verdict.reference),
-            number(verdict.tolerance),
-            verdict.source
-        ));
-    } else {
-        status.set_message(&*verdict.source);
-    }
+    let (of, told) = match verdict.outcome {
+        Outcome::NotJudged => (outcome(verdict.outcome), verdict.source.clone()),
+        Outcome::WrongAsKnown => (
+            outcome(verdict.outcome),
+            format!("{}: {}", demand(verdict), verdict.source),
+        ),
+        _ => (
+            kind(verdict.kind),
+            format!("{}: {}", demand(verdict), verdict.source),
+        ),
+    };
+    status.set_type(of).set_message(told);
     status
 }
 

@@ -4,6 +4,7 @@
 //! night and the program that made it.
 
 use super::rows::{Row, read, text};
+use super::speed::Speed;
 use super::{SUMMARY, history, summary};
 use crate::cases;
 use crate::error::Error;
@@ -52,7 +53,7 @@ pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
         .iter()
         .all(|c| found.cases.iter().any(|s| s.case == c.name));
     let told = match whole {
-        true => Some(summary::gist(&found)?),
+        true => Some(summary::text(&found, &Speed::of(&found.cases))?),
         false => None,
     };
     require_small(&results, rows.len(), MOST_ROWS)?;
@@ -70,7 +71,11 @@ pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
 /// a page may cite them.
 fn rows_of(study: &CaseStudy, night: &Night, former: &[Row]) -> Result<Vec<Row>, Error> {
     let case = cases::find(&study.case)?;
-    let mut cited: BTreeSet<&str> = case.headlines.iter().map(|h| h.metric.name).collect();
+    let mut cited: BTreeSet<&str> = case
+        .headlines
+        .iter()
+        .filter_map(|h| Some(h.metric?.name))
+        .collect();
     cited.extend(case.quantities.iter().map(|q| q.metric.name));
     cited.extend(
         former

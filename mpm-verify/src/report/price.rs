@@ -1,13 +1,13 @@
 //! What an error costs: the runs that no other beats, and the cost to reach a target error.
 
-use super::describe;
+use super::words;
 use crate::cases;
 use crate::metric::Quantity;
 use crate::scheme::{RemedyName, Scheme};
 use crate::study::convergence::{Convergence, Point, precision};
 use crate::study::summary::CaseStudy;
 use crate::table::Sheet;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// By rising cost, the points whose error is less than `gain` times that of the point before: with a gain of one, those that
 /// no other beats in both.
@@ -35,6 +35,8 @@ pub(super) fn steps(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
 /// What a target error costs with every scheme.
 #[derive(Debug, PartialEq)]
 pub(super) struct Prices {
+    /// Whether it is an error of the stress, not of the motion.
+    pub(super) of_stress: bool,
     /// The metric.
     pub(super) metric: String,
     /// What it is.
@@ -48,11 +50,11 @@ pub(super) struct Prices {
 /// What a target error costs with a scheme.
 #[derive(Debug, PartialEq)]
 pub(super) struct Price {
-    scheme: Scheme,
+    pub(super) scheme: Scheme,
     /// The least error that it has reached.
     pub(super) least: f64,
     /// Particle–node pairs and CPU time (s), if it has reached the target.
-    cost: Option<Cost>,
+    pub(super) cost: Option<Cost>,
     /// The time step and particles per cell with which it costs that, if they aren't the case's own.
     set: Vec<String>,
 }
@@ -67,19 +69,36 @@ pub(super) struct Cost {
 }
 
 impl Prices {
-    /// Of the first error of a case in its own problem, if two schemes have it at two levels.
-    pub(super) fn of(study: &CaseStudy) -> Option<Self> {
-        let case = cases::find(&study.case).ok()?;
-        let quantity = case.quantities.iter().find(|q| q.is_error)?;
-        let mut curves = precision(case, &study.records);
-        curves.retain(|c| c.metric == quantity.metric.name);
-        Self::over(&curves, quantity)
+    /// Of the errors of a case in its own problem that two schemes have at two levels: the first of the motion, then the
+    /// last of the stress, which is that of the pressure.
+    pub(super) fn of(study: &CaseStudy) -> Vec<Self> {
+        let Ok(case) = cases::find(&study.case) else {
+            return Vec::new();
+        };
+        let curves = precision(case, &study.records);
+        let of_metric = |q: &Quantity| {
+            let own = curves.iter().filter(|c| c.metric == q.metric.name);
+            Self::over(&own.collect::<Vec<_>>(), q)
+        };
+        let priced = |of_stress| {
+            let mut errors = case
+                .quantities
+                .iter()
+                .filter(move |q| q.is_error && is_of_stress(q) == of_stress);
+            if of_stress {
+                errors.last()
+            } else {
+                errors.next()
+            }
+        };
+        let priced = [priced(false), priced(true)].into_iter().flatten();
+        priced.filter_map(of_metric).collect()
     }
 
     /// Of curves of an error.
-    fn over(curves: &[Convergence], quantity: &Quantity) -> Option<Self> {
+    fn over(curves: &[&Convergence], quantity: &Quantity) -> Option<Self> {
         let mut schemes = BTreeMap::<Scheme, Vec<&Convergence>>::new();
-        for curve in curves {
+        for &curve in curves {
             schemes.entry(curve.scheme).or_default().push(curve);
         }
         schemes.retain(|_, own| own.iter().any(|c| c.points.len() > 1));
@@ -109,11 +128,23 @@ impl Prices {
         let key = |row: &Price| row.cost.map_or(f64::INFINITY, |c| c.pairs);
         rows.sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.least.total_cmp(&b.least)));
         Some(Self {
+            of_stress: is_of_stress(quantity),
             metric: quantity.metric.into(),
             label: quantity.label,
             target,
             rows,
         })
+    }
+
+    /// The cheapest row of a remedy that reaches the target.
+    pub(super) fn cheapest(&self, remedy: RemedyName) -> Option<&Price> {
+        let mut reached = self.rows.iter().filter(|row| row.cost.is_some());
+        reached.find(|row| row.scheme.remedy() == remedy)
+    }
+
+    /// Whether a remedy has been run, be it that it doesn't reach the target.
+    pub(super) fn has(&self, remedy: RemedyName) -> bool {
+        self.rows.iter().any(|row| row.scheme.remedy() == remedy)
     }
 
     /// How many times as many pairs as the cheapest, as shown.
@@ -147,7 +178,7 @@ impl Price {
             return ["not reached".to_owned(), String::new()];
         };
         let bound = if cost.at_most { "≤ " } else { "" };
-        let short = |value: f64| describe::number(Some(value));
+        let short = |value: f64| words::number(Some(value));
         [
             format!("{bound}{}", short(rounded(1e-6 * cost.pairs))),
             format!("{bound}{}", short(rounded(cost.cpu_s))),
@@ -205,7 +236,7 @@ impl Prices {
         ];
         let row = |row: &Price| {
             let [pairs, cpu] = row.shown();
-            let least = describe::number(Some(rounded(row.least)));
+            let least = words::number(Some(rounded(row.least)));
             vec![row.name(), pairs, cpu, self.relative(row), least]
         };
         Sheet::new(head).with(self.rows.iter().map(row))
@@ -213,69 +244,13 @@ impl Prices {
 
     /// The target as shown.
     pub(super) fn aim(&self) -> String {
-        describe::number(Some(rounded(self.target)))
+        words::number(Some(rounded(self.target)))
     }
 }
 
-/// The table in Markdown, if there is anything to compare.
-pub(super) fn table(study: &CaseStudy) -> Option<String> {
-    let prices = Prices::of(study)?;
-    Some(format!(
-        "\n### Cost of an error\n\nTo reach {} in `{}`, as half of the schemes do:\n\n{}",
-        prices.aim(),
-        prices.metric,
-        prices.table().markdown()
-    ))
-}
-
-/// For each case what its target costs with the cheapest scheme, and how many times as much with the cheapest of each
-/// remedy, in Markdown; nothing where no case has an error.
-pub(super) fn overview(studies: &[CaseStudy]) -> String {
-    let prices = studies
-        .iter()
-        .filter_map(|s| Some((&s.case, Prices::of(s)?)));
-    let prices: Vec<(&String, Prices)> = prices.collect();
-    if prices.is_empty() {
-        return String::new();
-    }
-    let all = prices.iter().flat_map(|(_, prices)| &prices.rows);
-    let remedies: BTreeSet<RemedyName> = all.map(|row| row.scheme.remedy()).collect();
-    let rows = prices.iter().filter_map(|(case, prices)| {
-        let first = prices.rows.first()?;
-        let [pairs, cpu] = first.shown();
-        let label = prices.label.to_owned();
-        let row = [
-            (*case).clone(),
-            label,
-            prices.aim(),
-            first.name(),
-            pairs,
-            cpu,
-        ];
-        let of_remedy = remedies.iter().map(|remedy| {
-            let own = prices
-                .rows
-                .iter()
-                .find(|row| row.scheme.remedy() == *remedy);
-            let ratio = own.map(|row| prices.relative(row));
-            let ratio = ratio.filter(|ratio| !ratio.is_empty());
-            ratio.unwrap_or_else(|| "–".to_owned())
-        });
-        Some(row.into_iter().chain(of_remedy).collect())
-    });
-    let head = [
-        "case",
-        "error",
-        "target",
-        "cheapest",
-        "pairs (10⁶)",
-        "CPU time (s)",
-    ];
-    let head = head.into_iter().chain(remedies.iter().map(|r| r.text()));
-    format!(
-        "\n## Speed against error\n\nWhat the least error that half of the schemes reach costs with the cheapest scheme, and how many times as many particle–node pairs with the cheapest of each remedy:\n\n{}",
-        Sheet::new(head).with(rows).markdown()
-    )
+/// Whether an error is one of the stress.
+fn is_of_stress(quantity: &Quantity) -> bool {
+    quantity.metric.unit == "Pa"
 }
 
 #[cfg(test)]
@@ -345,7 +320,7 @@ mod tests {
             curve(RemedyName::FbarTotal, &[], &[coarse]),
         ];
         let quantity = crate::metric::error(crate::metric::metric("e", "-", ""), "error");
-        let prices = Prices::over(&curves, &quantity).unwrap();
+        let prices = Prices::over(&curves.each_ref(), &quantity).unwrap();
         let told = prices
             .rows
             .iter()

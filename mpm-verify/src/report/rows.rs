@@ -8,7 +8,7 @@ use crate::record::{
     Discretisation, Failure, Machine, Measured, Record, SCHEMA, Status, Timing, Version, WorkDone,
 };
 use crate::scheme::Scheme;
-use crate::verdict::{Kind, Outcome, Verdict};
+use crate::verdict::{Outcome, Verdict};
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -47,7 +47,7 @@ pub(super) struct Row {
 
 impl Row {
     pub(super) fn of(record: &Record, night: &Night, cited: &BTreeSet<&str>) -> Self {
-        let judged = |v: &&Verdict| !matches!(v.kind, Kind::Drift | Kind::Bookkeeping);
+        let judged = |v: &&Verdict| v.judges();
         let count = |outcome| {
             let verdicts = record.verdicts.iter().filter(judged);
             verdicts.filter(|v| v.outcome == outcome).count()

@@ -1,5 +1,6 @@
 //! The pictures that README and docs show, each with what it is drawn from.
 
+use super::speed::Speed;
 use super::{convergence, draw_own, rows, sweep};
 use crate::bench;
 use crate::case::Tier;
@@ -44,7 +45,7 @@ use Source::{Bench, Rows, Runs};
 use Tier::{Nightly, Pr};
 
 /// Folder, which is a case's but for the bench, and file, both of the report and of the pages; charts are SVG.
-const SHOWN: [(&str, &str, Source); 24] = [
+const SHOWN: [(&str, &str, Source); 25] = [
     ("bench", "scaling.svg", Bench),
     ("column", "creep.svg", Runs(Pr)),
     ("cook", "convergence.svg", Rows),
@@ -66,6 +67,7 @@ const SHOWN: [(&str, &str, Source); 24] = [
     ("mms-vortex-box", "sweep-poisson_ratio.svg", Rows),
     ("mms-vortex-ring", "convergence.svg", Rows),
     ("mms-wall-pressure", "convergence.svg", Rows),
+    ("results", "speed-against-error.svg", Rows),
     ("slope-stability", "work-precision.svg", Rows),
     ("standing-wave", "energy.svg", Runs(Nightly)),
     ("vibrating-bar", "convergence.svg", Rows),
@@ -130,6 +132,7 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
             .metrics
             .retain(|name, _| !IN_TABLES.contains(&&**name));
     }
+    let mut studies = Vec::new();
     for case in cases::all() {
         let of_case = records.iter().filter(|r| r.case == case.name);
         let mut study = CaseStudy::new(case.name, of_case.cloned().collect());
@@ -138,7 +141,9 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
             convergence::draw(&study, out)?;
             sweep::draw(&study, out)?;
         }
+        studies.push(study);
     }
+    Speed::of(&studies).draw(&out.join("results"))?;
     Ok(())
 }
 

@@ -1,11 +1,12 @@
 //! The summary in Markdown.
 
-use super::describe::{self, bless_commands, headline, kind, local_orders, number, order, outcome};
-use super::{price, remedies};
+use super::remedies;
+use super::speed::Speed;
+use super::words::{self, bless_commands, kind, local_orders, number, order, outcome};
 use crate::cases;
 use crate::error::Error;
-use crate::files::write_whole;
-use crate::metric::Headline;
+use crate::files::{write_csv, write_whole};
+use crate::metric::Metric;
 use crate::record::Record;
 use crate::study::convergence::Convergence;
 use crate::study::summary::{CaseStudy, Summary};
@@ -15,55 +16,39 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// Writes `summary.md` into `out`.
-pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
+pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), Error> {
     let path = out.join("summary.md");
-    write_whole(&path, text(summary)?.as_bytes())
+    write_whole(&path, text(summary, speed)?.as_bytes())
 }
 
-fn text(summary: &Summary) -> Result<String, Error> {
-    let mut t = head(summary);
-    for study in &summary.cases {
-        let _ = writeln!(t, "\n## {}\n", study.case);
-        let headlines = &cases::find(&study.case)?.headlines;
-        t.push_str(&results(headlines, &study.records).markdown());
-        orders(study.convergence.iter(), &mut t);
-        t.push_str(&price::table(study).unwrap_or_default());
-    }
-    for picture in summary.cases.iter().flat_map(|s| &s.pictures) {
-        let _ = writeln!(
-            t,
-            "\n![{}]({})\n\n{}",
-            picture.caption, picture.file, picture.caption
-        );
-    }
-    verdicts(summary, &mut t);
-    Ok(t)
-}
-
-/// What is kept of the summary: without rows of runs and verdicts that hold, and of orders those of what the tables of
-/// results show, at the parameters that have the most levels.
+/// What failed and drifted, tables over all cases, and of each case the orders of what its table of results shows, at the
+/// parameters that have the most levels.
 ///
 /// # Errors
 /// A case that is not known.
-pub(super) fn gist(summary: &Summary) -> Result<String, Error> {
-    let mut t = head(summary);
+pub(super) fn text(summary: &Summary, speed: &Speed) -> Result<String, Error> {
+    let mut t = head(summary, speed);
     for study in &summary.cases {
         let case = cases::find(&study.case)?;
-        let _ = writeln!(t, "\n## {}", study.case);
         let shown = |c: &&Convergence| {
             let mut headlines = case.headlines.iter();
-            c.set == case.ladder && headlines.any(|h| h.metric.name == c.metric)
+            let shows = |m: Metric| m.name == c.metric;
+            c.set == case.ladder && headlines.any(|h| h.metric.is_some_and(shows))
         };
-        orders(study.convergence.iter().filter(shown), &mut t);
-        t.push_str(&price::table(study).unwrap_or_default());
+        orders(&study.case, study.convergence.iter().filter(shown), &mut t);
     }
     Ok(t)
 }
 
 /// What is said of all cases together.
-fn head(summary: &Summary) -> String {
+fn head(summary: &Summary, speed: &Speed) -> String {
     let (tier, counts) = (&summary.tier, summary.counts);
+    let counts = counts.to_string().replace('\n', "  \n");
     let mut t = format!("# Verification, tier {tier}\n\n{counts}\n");
+    if !speed.is_empty() {
+        let (advice, table) = (speed.advice(), speed.table().markdown());
+        let _ = write!(t, "\n## Speed against error\n\n{advice}\n\n{table}");
+    }
     for command in bless_commands(summary) {
         let _ = writeln!(t, "\nIf the drift is meant, accept it with `{command}`.");
     }
@@ -77,7 +62,6 @@ fn head(summary: &Summary) -> String {
             let _ = writeln!(t, "\n## Remedies against criteria, {basis}\n\n{table}");
         }
     }
-    t.push_str(&price::overview(&summary.cases));
     t
 }
 
@@ -85,7 +69,7 @@ fn head(summary: &Summary) -> String {
 pub(super) fn programs(summary: &Summary) -> Sheet {
     let row = |study: &CaseStudy| {
         let first = [study.case.clone(), study.records.len().to_string()];
-        first.into_iter().chain(describe::made_by(study)).collect()
+        first.into_iter().chain(words::made_by(study)).collect()
     };
     let head = ["case", "runs", "program", "night", "commit"];
     Sheet::new(head).with(summary.cases.iter().map(row))
@@ -104,7 +88,7 @@ fn failures(summary: &Summary, t: &mut String) {
             );
         }
     }
-    if summary.counts.failed > 0 {
+    if summary.failures() > 0 {
         let _ = writeln!(t, "\n## Failed checks\n");
         table(summary, t, Verdict::misses_the_truth);
     }
@@ -140,25 +124,8 @@ fn drift(summary: &Summary, t: &mut String) {
     let _ = write!(t, "\n## Drift\n\n{}", sheet.markdown());
 }
 
-fn results(headlines: &[Headline], records: &[Record]) -> Sheet {
-    let head = ["scheme", "level", "changed", "particles", "steps"];
-    let head = head.into_iter().chain(headlines.iter().map(|h| h.heading));
-    let row = |r: &Record| {
-        let run = [r.scheme().title(), r.level.clone(), r.set.join(" ")];
-        let work = [r.work.particles, r.work.steps].map(|n| n.to_string());
-        let cells = headlines.iter().map(|h| headline(r, h));
-        let cpu = [format!("{:.1}", r.time.cpu_s)];
-        run.into_iter()
-            .chain(work)
-            .chain(cells)
-            .chain(cpu)
-            .collect()
-    };
-    Sheet::new(head.chain(["CPU (s)"])).with(records.iter().map(row))
-}
-
 /// The order of every error, if there is one.
-fn orders<'a>(convergence: impl Iterator<Item = &'a Convergence>, t: &mut String) {
+fn orders<'a>(case: &str, convergence: impl Iterator<Item = &'a Convergence>, t: &mut String) {
     let row = |c: &Convergence| {
         let levels = match &c.points[..] {
             [] => String::new(),
@@ -186,46 +153,52 @@ fn orders<'a>(convergence: impl Iterator<Item = &'a Convergence>, t: &mut String
     ];
     let sheet = Sheet::new(head).with(convergence.filter(|c| c.is_error).map(row));
     if !sheet.rows.is_empty() {
-        let _ = write!(t, "\n### Orders\n\n{}", sheet.markdown());
+        let _ = write!(t, "\n## Orders, {case}\n\n{}", sheet.markdown());
     }
 }
 
-fn verdicts(summary: &Summary, t: &mut String) {
-    let _ = writeln!(t, "\n## All verdicts\n");
-    table(summary, t, |v| v.kind != Kind::Drift);
+const VERDICT: [&str; 9] = [
+    "outcome",
+    "kind",
+    "check",
+    "run",
+    "metric",
+    "value",
+    "reference",
+    "tolerance",
+    "source",
+];
+
+/// The cells of a verdict: numbers as `shown`.
+fn cells(run: Option<&Record>, v: &Verdict, shown: fn(Option<f64>) -> String) -> Vec<String> {
+    let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
+    let words = [outcome(v.outcome), kind(v.kind), &v.check, &run, &v.metric].map(str::to_owned);
+    let numbers = [v.value, v.reference, v.tolerance].map(shown);
+    [&words[..], &numbers, std::slice::from_ref(&v.source)].concat()
+}
+
+/// Writes every verdict of a case, those of drift apart, into `verdicts.csv` of its folder.
+pub(super) fn write_verdicts(study: &CaseStudy, out: &Path) -> Result<(), Error> {
+    let of_runs = study
+        .records
+        .iter()
+        .flat_map(|r| r.verdicts.iter().map(move |v| (Some(r), v)));
+    let all = of_runs.chain(study.verdicts.iter().map(|v| (None, v)));
+    let exact = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
+    let told = all.filter(|(_, v)| v.kind != Kind::Drift);
+    let rows = told.map(|(run, v)| cells(run, v, exact));
+    let path = out.join(&study.case).join("verdicts.csv");
+    write_csv(&path, &VERDICT.map(str::to_owned), rows)
 }
 
 fn table(summary: &Summary, t: &mut String, keep: impl Fn(&Verdict) -> bool) {
     let shown = summary.verdicts().filter(|(_, _, v)| keep(v));
-    let rows = shown.map(|(study, record, v)| {
-        let run = record.map_or_else(
-            || study.case.clone(),
-            |r| format!("{} {} {}", r.scheme().title(), r.level, r.set.join(" ")),
-        );
-        vec![
-            outcome(v).to_owned(),
-            kind(v.kind).to_owned(),
-            v.check.clone(),
-            run.trim().to_owned(),
-            v.metric.clone(),
-            number(v.value),
-            number(v.reference),
-            number(v.tolerance),
-            v.source.clone(),
-        ]
+    let rows = shown.map(|(study, run, v)| {
+        let mut cells = cells(run, v, number);
+        cells[3] = format!("{} {}", study.case, cells[3]);
+        cells
     });
-    let head = [
-        "outcome",
-        "kind",
-        "check",
-        "run",
-        "metric",
-        "value",
-        "reference",
-        "tolerance",
-        "source",
-    ];
-    t.push_str(&Sheet::new(head).with(rows).markdown());
+    t.push_str(&Sheet::new(VERDICT).with(rows).markdown());
 }
 
 #[cfg(test)]
@@ -253,7 +226,7 @@ mod tests {
         }
         let mut t = String::new();
         let all = convergence(cases::find("cook").unwrap(), &records);
-        orders(all.iter(), &mut t);
+        orders("cook", all.iter(), &mut t);
         let rows: Vec<&str> = t.lines().skip(5).collect();
         let row = |changed: &str| {
             format!(
@@ -262,7 +235,7 @@ mod tests {
         };
         assert_eq!(rows, [row(""), row("load=2")]);
         let mut none = String::new();
-        orders([].iter(), &mut none);
+        orders("cook", [].iter(), &mut none);
         assert!(none.is_empty());
     }
 }

@@ -35,15 +35,12 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         runs.write(&errors, &out.join(file("csv")))?;
         let schemes: BTreeSet<Scheme> = runs.of_scheme.keys().copied().collect();
         let chart = |quantity: &&Quantity, panel: &Panel| runs.chart(quantity, panel);
-        if Panels::new(&schemes).draw(&out.join(file("png")), errors, chart)? {
-            pictures.push(Picture {
-                file: file("png"),
-                caption: format!(
-                    "Error at level {} over the values of {}, for every scheme that ran at least {LEAST_VALUES} of them.",
-                    runs.level, sweep.parameter.name
-                ),
-            });
-        }
+        let files = Panels::new(&schemes).draw(&out.join(file("png")), errors, chart)?;
+        let caption = format!(
+            "Error at level {} over the values of {}, for every scheme that ran at least {LEAST_VALUES} of them.",
+            runs.level, sweep.parameter.name
+        );
+        pictures.extend(Picture::of_files(&study.case, files, &caption));
     }
     Ok(pictures)
 }

@@ -1,13 +1,16 @@
 //! The tables of results in README and docs, filled from the rows that are kept.
 //!
-//! A table stands between `<!-- table NAME -->` and `<!-- end -->`, each on a line of its own.
+//! A table stands between `<!-- table NAME -->` and `<!-- end -->`, each on a line of its own; that of speed against error
+//! may begin with its name alone.
 
+use super::speed::{self, Speed};
 use super::{remedies, rows};
 use crate::cases;
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::Record;
 use crate::results::ResultTable;
+use crate::study::summary::CaseStudy;
 use jiff::civil::Date;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -72,7 +75,9 @@ impl Page {
             let Some(comment) = line.trim_end().strip_prefix("<!-- ") else {
                 continue;
             };
-            let Some(name) = line.trim_end().strip_prefix(BEGIN) else {
+            let named = line.trim_end().strip_prefix(BEGIN);
+            let bare = Some(comment).filter(|rest| rest.starts_with(speed::NAME));
+            let Some(name) = named.or(bare) else {
                 return Err(refuse(format!("nothing fills the block <!-- {comment}")));
             };
             let name = name.trim_end_matches(CLOSE);
@@ -132,11 +137,21 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
         let text = sheet.markdown() + &oldest.unwrap_or_default();
         (table.name.clone(), text)
     };
+    let studies = cases::all().iter().map(|case| {
+        let own = kept.iter().filter(|(r, _)| r.case == case.name);
+        CaseStudy::new(case.name, own.map(|(r, _)| r.clone()).collect())
+    });
+    let speed = Speed::of(&studies.collect::<Vec<_>>());
+    let told = match speed.is_empty() {
+        true => String::new(),
+        false => format!("{}\n{}\n", speed.table().markdown(), speed.advice()),
+    };
     let of_cases = cases::all().iter();
     let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
     let over_cases = remedies::all();
     let over_cases = over_cases.iter().map(|t| table(t, None));
-    of_cases.chain(over_cases).collect()
+    let speed = [(speed::NAME.to_owned(), told)];
+    of_cases.chain(over_cases).chain(speed).collect()
 }
 
 #[cfg(test)]

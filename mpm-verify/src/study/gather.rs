@@ -14,6 +14,9 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+/// File of a run's record.
+const RECORD: &str = "record.json";
+
 /// The runs of a whole plan, gathered from the folders of its shards.
 #[derive(Debug)]
 pub struct Gathered {
@@ -23,12 +26,30 @@ pub struct Gathered {
 }
 
 impl Gathered {
-    /// Reads every record of a plan; `folders` are those of all its shards, in any order.
+    /// One run by itself, whose outputs lie in `folder`.
+    #[must_use]
+    pub fn single(record: Record, folder: &Path) -> Self {
+        let place = format!("{}/{}", record.case, record.folder());
+        Self {
+            tier: "of a single run".to_owned(),
+            folders: BTreeMap::from([(place, folder.to_path_buf())]),
+            studies: vec![CaseStudy::new(&record.case.clone(), vec![record])],
+        }
+    }
+
+    /// Reads every record of a plan; `folders` are those of all its shards, in any order, or that of a single run.
     ///
     /// # Errors
     /// A folder holds no plan, the plans are not shares of one whole, a shard is missing or there
     /// twice, a run has no record, or a record is damaged, of another schema, run or program.
     pub fn read(folders: &[PathBuf]) -> Result<Self, Error> {
+        if let [folder] = folders
+            && !Plan::is_in(folder)
+            && folder.join(RECORD).exists()
+        {
+            let record = read_versioned(&folder.join(RECORD), record::SCHEMA)?;
+            return Ok(Self::single(record, folder));
+        }
         let plans = read_plans(folders)?;
         let (_, whole) = &plans[0];
         let mut gathered = Self {
@@ -172,7 +193,7 @@ fn read_plans(folders: &[PathBuf]) -> Result<Vec<(&Path, Plan)>, Error> {
 
 /// The record of a planned run, or `None` if the run has not ended.
 fn read_record(folder: &Path, run: &PlannedRun) -> Result<Option<Record>, Error> {
-    let path = folder.join("record.json");
+    let path = folder.join(RECORD);
     if !path.exists() {
         return Ok(None);
     }

@@ -49,13 +49,34 @@ fn breaks_down(record: &Record, why: &str) -> Verdict {
     Finding::above("run", broke, 0.0, why).verdict(BREAKS_DOWN, Kind::KnownLimit)
 }
 
-/// Whether at least one check against the truth, beyond completion, was applied to a run, or it broke
-/// down as it is known to.
+/// The outcome of verdicts together, those of drift apart: failed if one fails, wrong as known if a known limit is there,
+/// right if a check against the truth holds, else not judged.
+pub fn outcome_of<'a>(verdicts: impl Iterator<Item = &'a Verdict> + Clone) -> Outcome {
+    let judged = |outcome| {
+        let mut all = verdicts.clone();
+        all.any(|v| v.judges() && v.outcome == outcome)
+    };
+    match verdicts.clone().any(Verdict::misses_the_truth) {
+        true => Outcome::Failed,
+        false if judged(Outcome::WrongAsKnown) => Outcome::WrongAsKnown,
+        false if judged(Outcome::Right) => Outcome::Right,
+        false => Outcome::NotJudged,
+    }
+}
+
+/// The outcome of a run.
 #[must_use]
-pub fn has_truth(record: &Record) -> bool {
-    let judges = |kind| matches!(kind, Kind::Truth | Kind::KnownLimit);
-    let mut verdicts = record.verdicts.iter();
-    verdicts.any(|v| judges(v.kind) && v.outcome != Outcome::NotJudged)
+pub fn outcome_of_run(record: &Record) -> Outcome {
+    match record.broke_down() {
+        true => Outcome::Failed,
+        false => outcome_of(record.verdicts.iter()),
+    }
+}
+
+/// Whether a run broke down as it is known to.
+#[must_use]
+pub fn broke_as_known(record: &Record) -> bool {
+    record.status == Status::Failed && !record.broke_down()
 }
 
 /// How the program should end after one run.

@@ -168,6 +168,12 @@ impl Plan {
         write_json(&folder.join(FILE), self)
     }
 
+    /// Whether a folder has a plan.
+    #[must_use]
+    pub fn is_in(folder: &Path) -> bool {
+        folder.join(FILE).exists()
+    }
+
     /// Reads the plan of a folder.
     ///
     /// # Errors
@@ -177,7 +183,7 @@ impl Plan {
         if !path.exists() {
             return Err(Error::file(
                 folder,
-                format!("no {FILE}: not a folder that `verify` has written"),
+                format!("no {FILE} and no record: not a folder that `verify` or `run` has written"),
             ));
         }
         let plan: Self = crate::files::read_versioned(&path, SCHEMA)?;

@@ -1,12 +1,12 @@
 //! What a verification found: the runs of each case, the verdicts on them and their counts.
 
 use super::convergence::Convergence;
-use super::judge::has_truth;
+use super::judge::{broke_as_known, outcome_of_run};
 use crate::cases;
 use crate::error::ExitCode;
 use crate::gallery::Picture;
 use crate::night::Night;
-use crate::record::{Record, Status, Version};
+use crate::record::{Record, Version};
 use crate::verdict::{Kind, Outcome, Verdict};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -61,8 +61,17 @@ pub struct Counts {
     pub broke_down: usize,
     /// Runs that broke down as they are known to.
     pub broke_down_as_known: usize,
-    /// Runs of which bookkeeping alone says anything.
+    /// Runs that are right.
+    #[serde(default)]
+    pub right_runs: usize,
+    /// Runs that are wrong as known.
+    #[serde(default)]
+    pub wrong_as_known_runs: usize,
+    /// Runs that no check against the truth applies to.
     pub not_judged_runs: usize,
+    /// Runs that failed.
+    #[serde(default)]
+    pub failed_runs: usize,
     /// Checks against the truth that hold.
     pub right: usize,
     /// Known limits that are there.
@@ -75,6 +84,12 @@ pub struct Counts {
     pub bookkeeping_right: usize,
     /// Bookkeeping that doesn't.
     pub bookkeeping_failed: usize,
+    /// Regression checks that hold.
+    #[serde(default)]
+    pub regression_right: usize,
+    /// Those that don't.
+    #[serde(default)]
+    pub regression_failed: usize,
     /// Comparisons with goldens that hold.
     pub undrifted: usize,
     /// Those that don't.
@@ -83,21 +98,32 @@ pub struct Counts {
 
 impl fmt::Display for Counts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{} runs: {} right, {} wrong as known, {} not judged, {} FAILED.",
+            self.runs,
+            self.right_runs,
+            self.wrong_as_known_runs,
+            self.not_judged_runs,
+            self.failed_runs
+        )?;
+        writeln!(
+            f,
+            "Broke down: {} unexpectedly, {} as known.",
+            self.broke_down, self.broke_down_as_known
+        )?;
+        writeln!(
+            f,
+            "Checks: {} right, {} wrong as known, {} not judged, {} FAILED.",
+            self.right, self.wrong_as_known, self.not_judged, self.failed
+        )?;
         write!(
             f,
-            "{} runs, of which bookkeeping alone judges {}; broke down: {} unexpectedly, {} as known. \
-             Checks: {} right, {} wrong as known, {} not judged, {} failed. \
-             Bookkeeping: {} right, {} failed. Against goldens: {} hold, {} drift.",
-            self.runs,
-            self.not_judged_runs,
-            self.broke_down,
-            self.broke_down_as_known,
-            self.right,
-            self.wrong_as_known,
-            self.not_judged,
-            self.failed,
+            "Beside these: bookkeeping, {} hold, {} FAILED; regression, {} hold, {} FAILED; against goldens, {} hold, {} drift.",
             self.bookkeeping_right,
             self.bookkeeping_failed,
+            self.regression_right,
+            self.regression_failed,
             self.undrifted,
             self.drifted
         )
@@ -137,13 +163,20 @@ impl Summary {
     pub fn exit_code(&self) -> ExitCode {
         if self.counts.broke_down > 0 {
             ExitCode::RunFailed
-        } else if self.counts.failed + self.counts.bookkeeping_failed > 0 {
+        } else if self.failures() > 0 {
             ExitCode::TruthFailed
         } else if self.counts.drifted > 0 {
             ExitCode::Drift
         } else {
             ExitCode::Good
         }
+    }
+
+    /// Checks that failed, those of drift apart.
+    #[must_use]
+    pub fn failures(&self) -> usize {
+        let c = self.counts;
+        c.failed + c.bookkeeping_failed + c.regression_failed
     }
 
     /// All verdicts, each with the run it is about (none for those on runs together).
@@ -161,17 +194,23 @@ impl Summary {
 fn count(summary: &Summary) -> Counts {
     let mut counts = Counts::default();
     for record in summary.cases.iter().flat_map(|study| &study.records) {
-        let unexpected = record.broke_down();
         counts.runs += 1;
-        counts.broke_down += usize::from(unexpected);
-        counts.broke_down_as_known += usize::from(record.status == Status::Failed && !unexpected);
-        counts.not_judged_runs += usize::from(!has_truth(record));
+        counts.broke_down += usize::from(record.broke_down());
+        counts.broke_down_as_known += usize::from(broke_as_known(record));
+        *match outcome_of_run(record) {
+            Outcome::Right => &mut counts.right_runs,
+            Outcome::WrongAsKnown => &mut counts.wrong_as_known_runs,
+            Outcome::NotJudged => &mut counts.not_judged_runs,
+            Outcome::Failed => &mut counts.failed_runs,
+        } += 1;
     }
     for (_, _, verdict) in summary.verdicts() {
         *match (verdict.kind, verdict.outcome) {
             (Kind::Drift, Outcome::Failed) => &mut counts.drifted,
             (Kind::Drift, _) => &mut counts.undrifted,
             (_, Outcome::NotJudged) => &mut counts.not_judged,
+            (Kind::Regression, Outcome::Failed) => &mut counts.regression_failed,
+            (Kind::Regression, _) => &mut counts.regression_right,
             (Kind::Bookkeeping, Outcome::Failed) => &mut counts.bookkeeping_failed,
             (Kind::Bookkeeping, _) => &mut counts.bookkeeping_right,
             (_, Outcome::Right) => &mut counts.right,

@@ -13,8 +13,9 @@ mod watch;
 
 use super::family::family;
 use crate::case::{Case, Family, FieldView, Tier};
-use crate::metric::{error, headline};
+use crate::metric::error;
 use crate::record::Record;
+use crate::results::headline;
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::spec::{Level, RunSpec};
 use metrics::{

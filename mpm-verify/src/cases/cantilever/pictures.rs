@@ -4,7 +4,7 @@ use super::metrics::CORNER_ERROR;
 use super::parameters::LOAD_STEPS;
 use super::reference::solution;
 use super::scene::{DEPTH, LENGTH};
-use crate::draw::style::{Markers, series};
+use crate::draw::style::series;
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Scale, Series, draw_charts,
     draw_fields,
@@ -98,7 +98,7 @@ fn convergence(gallery: &mut Gallery) -> Result<(), Error> {
             name: basis.to_string(),
             dash: Dash::Solid,
             colour: basis as usize,
-            ..series(scheme, points, Markers::Basis)
+            ..series(scheme, points)
         };
         if let Some(first) = runs.first() {
             of_cells.push(curve(points.collect(), first.scheme()));

@@ -18,8 +18,8 @@ use crate::case::{Case, Family, Tier};
 use crate::check::{Check, Finding, judge, run};
 use crate::exact::hydrostatic::{ENTRY, HEIGHT};
 use crate::exact::parameters::GRAVITY;
-use crate::metric::headline;
 use crate::record::Record;
+use crate::results::headline;
 use crate::scheme::{BasisName, RemedyName};
 use crate::spec::Level;
 

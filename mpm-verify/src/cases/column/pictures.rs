@@ -1,7 +1,7 @@
 //! The picture of the hydrostatic column: who creeps.
 
 use crate::cases::pictures::is_shown;
-use crate::draw::style::{Markers, series};
+use crate::draw::style::history;
 use crate::draw::{Chart, Scale, draw_charts};
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -23,7 +23,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
             // The start itself has no logarithm.
             let points = points.filter(|(t, u)| *t > 0.0 && *u > 0.0);
             let points = points.map(|(t, u)| (steps(t), u)).collect();
-            curves.push(series(record.scheme(), points, Markers::None));
+            curves.push(history(record.scheme(), points));
         }
         if !curves.is_empty() {
             let labels = ["steps (10⁵)", "rms distance from rest (m)"];

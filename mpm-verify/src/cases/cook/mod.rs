@@ -16,11 +16,11 @@ mod watch;
 
 use super::family::{REMEDIES, family, more_particles, other_transfers, pairs};
 use crate::case::{Case, Family, FieldView, Tier};
-use crate::metric::{Quantity, Sweep, error};
+use crate::metric::{Sweep, error, value};
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::spec::{Level, RunSpec};
 use equilibrium::Pressed;
-use metrics::{FEM_EDGE_MEAN_ERROR, HEADLINES, MEAN_STRESS_RMS_ERROR, TIP_UX};
+use metrics::{FEM_EDGE_MEAN_ERROR, MEAN_STRESS_RMS_ERROR, TIP_UX, headlines};
 use parameters::POISSON_RATIO;
 use scene::forbid_static;
 use watch::Loaded;
@@ -49,15 +49,11 @@ pub(super) fn case() -> Case {
         levels: levels.to_vec(),
         metrics: metrics::all(),
         checks: checks::checks(),
-        headlines: HEADLINES.to_vec(),
+        headlines: headlines(),
         quantities: vec![
             error(FEM_EDGE_MEAN_ERROR, "relative error of edge-mean u_y"),
             error(MEAN_STRESS_RMS_ERROR, "rms error of σ_m (Pa)"),
-            Quantity {
-                metric: TIP_UX,
-                label: "tip u_x (m)",
-                is_error: false,
-            },
+            value(TIP_UX, "tip u_x (m)"),
         ],
         sweeps: vec![Sweep {
             parameter: POISSON_RATIO,

@@ -3,7 +3,7 @@
 use super::checks::own_runs;
 use super::metrics::{FEM_MID_EDGE_ERROR, FEM_TIP_ERROR, MID_EDGE_UY, TIP_UY};
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
-use crate::draw::style::{Markers, series};
+use crate::draw::style::series;
 use crate::draw::{Chart, FieldFigure, FieldPanel, ReferenceLine, Scale, Series};
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -41,7 +41,7 @@ fn over_levels(
             .filter(|(x, y)| x.is_finite() && y.is_finite())
             .collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let curve = || series(Scheme::flip(basis, remedy), points.clone(), Markers::Basis);
+        let curve = || series(Scheme::flip(basis, remedy), points.clone());
         (!points.is_empty()).then(curve)
     };
     let pairs = BASES

@@ -16,7 +16,8 @@ mod watch;
 use super::family::{family, pairs};
 use crate::case::{Case, Family, FieldView, Tier};
 use crate::drive::Drive;
-use crate::metric::{Headline, Quantity, Sweep, error, headline};
+use crate::metric::{Quantity, Sweep, error, value};
+use crate::results::{Column, headline};
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::spec::{Level, RunSpec};
 use metrics as m;
@@ -45,34 +46,28 @@ const LADDER: &[&str] = &["cfl=0.3"];
 /// Until the front has met the wall.
 const SHORT: &[&str] = &["cfl=0.3", "duration=0.6"];
 
-const HEADLINES: &[Headline] = &[
-    headline(m::FRONT_X_EARLY, "front at 0.4 s (m)", 1.0, 3),
-    headline(m::FRONT_RMS_ERROR, "front, rms error (m)", 1.0, 3),
-    headline(m::ARRIVAL_ERROR, "arrival, error (ms)", 1e3, 1),
-    headline(m::ENERGY_RATIO, "energy at 0.4 s (–)", 1.0, 4),
-    headline(m::ENERGY_RATIO_2S, "energy at 2 s (–)", 1.0, 3),
-    headline(m::MOTION_RATIO_2S, "without stress work (–)", 1.0, 3),
-    headline(m::PRESSURE_RMS, "p rms at 0.4 s (kPa)", 1e-3, 1),
-    headline(m::CHECKERBOARD_RMS, "p − Πp rms (kPa)", 1e-3, 2),
-    headline(m::TENSION_SHARE, "in tension (%)", 100.0, 1),
-    headline(m::COVERED_EARLY, "covered at 0.4 s (m²)", 1.0, 2),
-    headline(m::WALL_IMPULSE, "wall impulse (kN s/m)", 1e-3, 2),
-    headline(m::LOG_JACOBIAN_GAP, "ln(J/J̄) at 0.4 s (–)", 1.0, 4),
-];
+fn headlines() -> Vec<Column> {
+    vec![
+        headline(m::FRONT_X_EARLY, "front at 0.4 s (m)", 1.0, 3),
+        headline(m::FRONT_RMS_ERROR, "front, rms error (m)", 1.0, 3),
+        headline(m::ARRIVAL_ERROR, "arrival, error (ms)", 1e3, 1),
+        headline(m::ENERGY_RATIO, "energy at 0.4 s (–)", 1.0, 4),
+        headline(m::ENERGY_RATIO_2S, "energy at 2 s (–)", 1.0, 3),
+        headline(m::MOTION_RATIO_2S, "without stress work (–)", 1.0, 3),
+        headline(m::PRESSURE_RMS, "p rms at 0.4 s (kPa)", 1e-3, 1),
+        headline(m::CHECKERBOARD_RMS, "p − Πp rms (kPa)", 1e-3, 2),
+        headline(m::TENSION_SHARE, "in tension (%)", 100.0, 1),
+        headline(m::COVERED_EARLY, "covered at 0.4 s (m²)", 1.0, 2),
+        headline(m::WALL_IMPULSE, "wall impulse (kN s/m)", 1e-3, 2),
+        headline(m::LOG_JACOBIAN_GAP, "ln(J/J̄) at 0.4 s (–)", 1.0, 4),
+    ]
+}
 
 const QUANTITIES: &[Quantity] = &[
     error(m::FRONT_RMS_ERROR, "rms error of the front (m)"),
     error(m::ARRIVAL_ERROR, "error of the arrival (s)"),
-    Quantity {
-        metric: m::WALL_IMPULSE,
-        label: "impulse on the wall (N s/m)",
-        is_error: false,
-    },
-    Quantity {
-        metric: m::CENTRE_X_MEAN,
-        label: "mean centre of mass (m)",
-        is_error: false,
-    },
+    value(m::WALL_IMPULSE, "impulse on the wall (N s/m)"),
+    value(m::CENTRE_X_MEAN, "mean centre of mass (m)"),
 ];
 
 const SWEEPS: &[Sweep] = &[
@@ -109,7 +104,7 @@ pub(super) fn case() -> Case {
         plan: plan(),
         metrics: m::ALL.to_vec(),
         checks: checks::checks(),
-        headlines: HEADLINES.to_vec(),
+        headlines: headlines(),
         quantities: QUANTITIES.to_vec(),
         sweeps: SWEEPS.to_vec(),
         watched: &["front", "energy", "front_force", "pressure_rms"],

@@ -1,6 +1,7 @@
 //! What is measured of a footing.
 
-use crate::metric::{Headline, Metric, headline, metrics};
+use crate::metric::{Metric, metrics};
+use crate::results::{Column, headline};
 
 metrics! { pub(super) OWN:
     NC_B = "nc_b", "-",
@@ -60,14 +61,16 @@ pub(super) fn all() -> Vec<Metric> {
 }
 
 /// What the table of results shows.
-pub(super) const HEADLINES: &[Headline] = &[
-    headline(NC_B, "N_c by B (–)", 1.0, 3),
-    headline(NC_B_PLUS_H, "N_c by B + h (–)", 1.0, 3),
-    headline(NC_EFFECTIVE, "N_c by effective width (–)", 1.0, 3),
-    headline(PLATEAU_RISE, "rise (%/10⁻³)", 100.0, 2),
-    headline(ELASTIC_SLOPE, "slope (–)", 1.0, 0),
-    headline(FORCE_IMBALANCE, "imbalance (%)", 100.0, 2),
-    headline(MECHANISM_WIDTH, "mechanism (B)", 1.0, 2),
-    headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2),
-    headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (10⁻⁶)", 1e6, 2),
-];
+pub(super) fn headlines() -> Vec<Column> {
+    vec![
+        headline(NC_B, "N_c by B (–)", 1.0, 3),
+        headline(NC_B_PLUS_H, "N_c by B + h (–)", 1.0, 3),
+        headline(NC_EFFECTIVE, "N_c by effective width (–)", 1.0, 3),
+        headline(PLATEAU_RISE, "rise (%/10⁻³)", 100.0, 2),
+        headline(ELASTIC_SLOPE, "slope (–)", 1.0, 0),
+        headline(FORCE_IMBALANCE, "imbalance (%)", 100.0, 2),
+        headline(MECHANISM_WIDTH, "mechanism (B)", 1.0, 2),
+        headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2),
+        headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (10⁻⁶)", 1e6, 2),
+    ]
+}

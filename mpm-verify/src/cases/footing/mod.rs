@@ -19,7 +19,7 @@ use crate::case::{Case, Family, FieldView, Tier};
 use crate::metric::{Sweep, error};
 use crate::scheme::{BasisName, RemedyName};
 use crate::spec::{Level, RunSpec};
-use metrics::{HEADLINES, PRANDTL_ERROR};
+use metrics::{PRANDTL_ERROR, headlines};
 use own::{SMALL, own_runs};
 use parameters::PENETRATION_RATE;
 use watch::Pressing;
@@ -51,7 +51,7 @@ pub(super) fn case() -> Case {
         levels: levels.to_vec(),
         metrics: metrics::all(),
         checks: checks::checks(),
-        headlines: HEADLINES.to_vec(),
+        headlines: headlines(),
         quantities: vec![error(
             PRANDTL_ERROR,
             "relative error of the contact pressure",

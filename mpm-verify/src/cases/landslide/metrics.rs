@@ -1,6 +1,7 @@
 //! What is measured of a slide.
 
-use crate::metric::{Headline, headline, metrics};
+use crate::metric::metrics;
+use crate::results::{Column, headline};
 
 metrics! { pub(super) METRICS:
     PARTICLES = "particles", "-", "number of particles";
@@ -57,16 +58,18 @@ metrics! { pub(super) METRICS:
 }
 
 /// What the table of results shows.
-pub(super) const HEADLINES: &[Headline] = &[
-    headline(RUNOUT_2_5S, "run-out at 2.5 s (m)", 1.0, 2),
-    headline(RUNOUT_END, "run-out at the end (m)", 1.0, 2),
-    headline(BULK_RUNOUT_END, "of the bulk (m)", 1.0, 2),
-    headline(SETTLEMENT_END, "settlement (m)", 1.0, 2),
-    headline(FAILED_SHARE_END, "failed (%)", 100.0, 1),
-    headline(FAILURE_TIME, "fails at (s)", 1.0, 2),
-    headline(RETROGRESSION_END, "retrogression (m)", 1.0, 2),
-    headline(SHEAR_BANDS_END, "shear bands", 1.0, 0),
-    headline(CHECKERBOARD_AT_REST, "σ_m − Πσ_m at rest (γH)", 1.0, 4),
-    headline(UNACCOUNTED_ENERGY, "unaccounted energy (%)", 100.0, 2),
-    headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4),
-];
+pub(super) fn headlines() -> Vec<Column> {
+    vec![
+        headline(RUNOUT_2_5S, "run-out at 2.5 s (m)", 1.0, 2),
+        headline(RUNOUT_END, "run-out at the end (m)", 1.0, 2),
+        headline(BULK_RUNOUT_END, "of the bulk (m)", 1.0, 2),
+        headline(SETTLEMENT_END, "settlement (m)", 1.0, 2),
+        headline(FAILED_SHARE_END, "failed (%)", 100.0, 1),
+        headline(FAILURE_TIME, "fails at (s)", 1.0, 2),
+        headline(RETROGRESSION_END, "retrogression (m)", 1.0, 2),
+        headline(SHEAR_BANDS_END, "shear bands", 1.0, 0),
+        headline(CHECKERBOARD_AT_REST, "σ_m − Πσ_m at rest (γH)", 1.0, 4),
+        headline(UNACCOUNTED_ENERGY, "unaccounted energy (%)", 100.0, 2),
+        headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4),
+    ]
+}

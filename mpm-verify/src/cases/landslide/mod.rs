@@ -19,11 +19,11 @@ pub(super) use sketch::sketch;
 
 use super::family::{family, more_particles, other_transfers, pairs};
 use crate::case::{Begin, Case, Family, FieldView, Tier};
-use crate::metric::{Quantity, Sweep};
+use crate::metric::{Sweep, value};
 use crate::parameter::Parameter;
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::spec::{Level, RunSpec};
-use metrics::{HEADLINES, METRICS, RUNOUT_2_5S};
+use metrics::{METRICS, RUNOUT_2_5S, headlines};
 use parameters::{CFL, PARAMETERS, REDUCTION, parameters_3d};
 use plane_strain::Beside;
 use watch::Slide;
@@ -103,12 +103,8 @@ fn slope(
         plan,
         metrics: METRICS.to_vec(),
         checks: checks::checks(),
-        headlines: HEADLINES.to_vec(),
-        quantities: vec![Quantity {
-            metric: RUNOUT_2_5S,
-            label: "run-out at 2.5 s (m)",
-            is_error: false,
-        }],
+        headlines: headlines(),
+        quantities: vec![value(RUNOUT_2_5S, "run-out at 2.5 s (m)")],
         sweeps: vec![
             Sweep {
                 parameter: REDUCTION,

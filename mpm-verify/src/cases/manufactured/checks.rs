@@ -255,7 +255,7 @@ pub(in crate::cases) fn orders(of: &'static [(Metric, Claims)]) -> [Check; 4] {
                 _ => None,
             }),
         ),
-        Check::truth(
+        Check::regression(
             "observed-order",
             "where no theory gives the order: it lies in the band stated with the verdict",
             on_ladders(of, |l| match l.claim {

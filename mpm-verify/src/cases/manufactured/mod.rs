@@ -17,7 +17,7 @@ use crate::exact::Exact;
 use crate::job::Job;
 use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use crate::spec::{Level, RunSpec};
-use metrics::{ERRORS, HEADLINES, METRICS};
+use metrics::{ERRORS, METRICS, headlines};
 use mpm_core::stage::WallKind;
 use watch::Motion;
 
@@ -76,7 +76,7 @@ impl Manufactured {
             plan: Vec::new(),
             metrics: METRICS.to_vec(),
             checks: Vec::new(),
-            headlines: HEADLINES.to_vec(),
+            headlines: headlines(),
             quantities: ERRORS.to_vec(),
             sweeps: Vec::new(),
             watched: &["displacement_l2", "log_jacobian_gap_rms"],

@@ -1,7 +1,7 @@
 //! Pictures of motions: the mean stress of one that locks, the energy of one that lasts.
 
 use super::super::family::REMEDIES;
-use crate::draw::style::{Markers, series};
+use crate::draw::style::history;
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, Scale, Series, draw_charts, draw_fields,
     share_ranges,
@@ -75,7 +75,7 @@ pub(crate) fn kinetic_energy(gallery: &mut Gallery, set: &[&str]) -> Result<(), 
                 };
                 let broke = run.is_some_and(|r| r.status == Status::Failed);
                 let end = points.last().copied().filter(|_| broke);
-                let mut curve = series(scheme, points, Markers::None);
+                let mut curve = history(scheme, points);
                 curve.name = remedy.to_string();
                 let cross = Series {
                     name: String::new(),

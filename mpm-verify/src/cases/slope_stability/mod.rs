@@ -8,13 +8,15 @@ mod tables;
 mod watch;
 
 use super::family::{family, pairs};
+use super::landslide::STABILITY;
 use super::landslide::parameters::{
     CFL, CREST, DENSITY, FACE_ANGLE, FLOOR, HEIGHT, POISSON_RATIO, PPC_PER_DIRECTION, WALL,
     YOUNG_MODULUS,
 };
 use crate::case::{Case, Tier};
-use crate::metric::{error, headline, metrics};
+use crate::metric::{error, metrics};
 use crate::parameter::{Domain, Parameter, number, parameters};
+use crate::results::headline;
 use crate::scheme::{BasisName, RemedyName};
 use crate::spec::Level;
 use watch::Trials;
@@ -99,7 +101,9 @@ pub(super) fn case() -> Case {
             headline(FAILS_AT, "fails at", 1.0, 3),
             headline(MOVED_STANDING, "moved, standing (mm)", 1e3, 1),
         ],
-        quantities: vec![error(FACTOR_ERROR, "relative error of the factor")],
+        quantities: vec![error(FACTOR_ERROR, "relative error of the factor").known_to(
+            (STABILITY.2 - STABILITY.1) / (2.0 * STABILITY.0),
+        )],
         sweeps: Vec::new(),
         watched: &["factor", "moved"],
         field: None,

@@ -1,0 +1,114 @@
+//! The pictures of one run by itself.
+
+use super::draw_own;
+use crate::cases;
+use crate::draw::{Chart, FieldFigure, FieldPanel, Series, draw_charts, draw_fields};
+use crate::error::Error;
+use crate::gallery::Picture;
+use crate::record::Record;
+use crate::run::series;
+use crate::study::gather::Gathered;
+use crate::study::summary::CaseStudy;
+use crate::table::Table;
+use std::path::Path;
+
+/// Draws what the case draws of the run in `folder` and, against time, what its readers should see first. The pictures
+/// lie in a folder of the case's name.
+///
+/// # Errors
+/// A file of the run is damaged, or a picture can't be written.
+pub fn draw(record: &Record, folder: &Path) -> Result<Vec<Picture>, Error> {
+    let study = CaseStudy::new(&record.case, vec![record.clone()]);
+    let gathered = Gathered::single(record.clone(), folder);
+    let mut pictures = draw_own(&study, &gathered, folder)?;
+    pictures.extend(own(record, folder, folder)?);
+    Ok(pictures)
+}
+
+/// Draws the run in `folder`: its particles, and what it went through.
+pub(super) fn own(record: &Record, folder: &Path, out: &Path) -> Result<Vec<Picture>, Error> {
+    let pictures = [field(record, folder, out)?, history(record, folder, out)?];
+    Ok(pictures.into_iter().flatten().collect())
+}
+
+/// Draws the particles of a plane run in `folder` at its end, coloured by what its readers should see first.
+fn field(record: &Record, folder: &Path, out: &Path) -> Result<Option<Picture>, Error> {
+    let path = folder.join("particles.csv");
+    if !path.exists() || record.discretisation.dim != 2 {
+        return Ok(None);
+    }
+    let view = cases::find(&record.case)?.field;
+    let value = view.map_or("mean_stress", |view| view.value);
+    let table = Table::read(&path)?;
+    let header = table.iter().map(|(header, _)| header);
+    let label = header
+        .filter(|h| h.split(" (").next() == Some(value))
+        .last();
+    let (Some(label), Some(range)) = (label, bulk(table.column(value))) else {
+        return Ok(None);
+    };
+    let d = &record.discretisation;
+    let title = format!("{} {}", record.scheme().title(), record.level);
+    let figure = FieldFigure {
+        title: String::new(),
+        panels: vec![FieldPanel {
+            title,
+            points: table.points("x", "y"),
+            values: table.column(value).to_vec(),
+            size: d.h / f64::from(d.ppc).sqrt(),
+            outline: Vec::new(),
+        }],
+        columns: 1,
+        range,
+        label: label.replace('_', " "),
+        window: view.map(|view| view.window.into()),
+    };
+    let file = format!("{}/particles.png", record.case);
+    draw_fields(&out.join(&file), &figure)?;
+    let caption = format!("{}: particles at the end.", record.folder());
+    Ok(Some(Picture { file, caption }))
+}
+
+/// The range of all values but those in the lowest and the highest hundredth; about zero where both signs occur.
+fn bulk(values: &[f64]) -> Option<(f64, f64)> {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let (low, high) = (
+        sorted.get(sorted.len() / 100)?,
+        sorted.get(sorted.len() * 99 / 100)?,
+    );
+    let most = low.abs().max(high.abs());
+    match low * high < 0.0 {
+        true => Some((-most, most)),
+        false if low < high => Some((*low, *high)),
+        false => None,
+    }
+}
+
+/// Draws the columns of the time series of the run in `folder` that its readers should see first, a chart each.
+fn history(record: &Record, folder: &Path, out: &Path) -> Result<Option<Picture>, Error> {
+    let path = folder.join(series::FILE);
+    let case = cases::find(&record.case)?;
+    if !path.exists() || case.watched.is_empty() {
+        return Ok(None);
+    }
+    let table = Table::read(&path)?;
+    let chart = |name: &&str| {
+        let points = table.points("time", name);
+        let header = table.iter().map(|(header, _)| header);
+        let label = header.filter(|h| h.split(" (").next() == Some(name)).last();
+        Chart::new(
+            "",
+            ["time (s)", label.unwrap_or(name)],
+            vec![Series::line("", points, 0)],
+        )
+    };
+    let charts: Vec<Chart> = case.watched.iter().map(chart).collect();
+    let file = format!("{}/history.png", record.case);
+    if !charts.iter().any(Chart::shows_something) {
+        return Ok(None);
+    }
+    draw_charts(&out.join(&file), &charts, charts.len().min(2))?;
+    let caption = format!("{}: what the run went through.", record.folder());
+    Ok(Some(Picture { file, caption }))
+}

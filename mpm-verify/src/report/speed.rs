@@ -1,0 +1,284 @@
+//! Speed against error of all problems: what a target error costs with each remedy, and when F̄ is worth its price.
+
+use super::price::Prices;
+use crate::cases;
+use crate::distinct;
+use crate::draw::{Ratio, Ratios, draw_ratios};
+use crate::error::Error;
+use crate::gallery::Picture;
+use crate::scheme::{BasisName, RemedyName};
+use crate::study::summary::CaseStudy;
+use crate::table::Sheet;
+use std::path::Path;
+
+/// Standard MPM, and the F̄ that neither creeps nor makes energy: the two to choose from. The others are there for
+/// comparison.
+const STANDARD: RemedyName = RemedyName::None;
+const OURS: RemedyName = RemedyName::FbarConsistent;
+/// Name of the picture, and of the table on pages.
+pub(super) const NAME: &str = "speed-against-error";
+
+/// The prices of all problems that have any.
+pub(super) struct Speed(Vec<(&'static str, Prices)>);
+
+impl Speed {
+    pub(super) fn of<'a>(studies: impl IntoIterator<Item = &'a CaseStudy>) -> Self {
+        let prices = studies.into_iter().flat_map(|study| {
+            let title = cases::find(&study.case).map_or("", |case| case.title);
+            Prices::of(study).into_iter().map(move |p| (title, p))
+        });
+        Self(prices.collect())
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// A row a problem and error: the target, what it costs with the cheapest scheme, and how many times as many
+    /// particle–node pairs with the cheapest of each remedy.
+    pub(super) fn table(&self) -> Sheet {
+        let all = self.0.iter().flat_map(|(_, prices)| &prices.rows);
+        let mut remedies = distinct(all.map(|row| row.scheme.remedy()));
+        remedies.sort_unstable();
+        let row = |(title, prices): &(&str, Prices)| {
+            let first = &prices.rows[0];
+            let [pairs, cpu] = first.shown();
+            let of = format!("{} {}", prices.label, prices.aim());
+            let ratio = |remedy: &RemedyName| match prices.cheapest(*remedy) {
+                Some(own) => prices.relative(own),
+                None if prices.has(*remedy) => "never".to_owned(),
+                None => "–".to_owned(),
+            };
+            let row = [(*title).to_owned(), of, first.name(), pairs, cpu];
+            row.into_iter().chain(remedies.iter().map(ratio)).collect()
+        };
+        let head = [
+            "problem",
+            "target: error",
+            "cheapest scheme",
+            "pairs (10⁶)",
+            "CPU (s)",
+        ];
+        let head = head.into_iter().chain(remedies.iter().map(|r| r.text()));
+        Sheet::new(head).with(self.0.iter().map(row))
+    }
+
+    /// When F̄ is worth its price, and which scheme to take.
+    pub(super) fn advice(&self) -> String {
+        let [motion, stress] = [false, true].map(|of_stress| {
+            let worth = |(_, p): &&(&'static str, Prices)| {
+                p.of_stress == of_stress && ratio(p).is_some_and(is_worth_it)
+            };
+            list(self.0.iter().filter(worth).map(|(title, _)| *title))
+        });
+        let mut elsewhere: Vec<f64> = self
+            .0
+            .iter()
+            .filter_map(|(_, p)| match ratio(p) {
+                Some(Ratio::Of(ratio)) if ratio >= 1.0 && !p.of_stress => Some(ratio),
+                _ => None,
+            })
+            .collect();
+        elsewhere.sort_by(f64::total_cmp);
+        let dearer = match (elsewhere.first(), elsewhere.last()) {
+            (Some(least), Some(most)) => format!(
+                "For the motion elsewhere it costs {least:.1} to {most:.1} times as much as standard MPM: do without. "
+            ),
+            _ => String::new(),
+        };
+        let never = |remedy: RemedyName, name: &str| {
+            let not = |(_, p): &&(&str, Prices)| p.has(remedy) && p.cheapest(remedy).is_none();
+            let titles = self
+                .0
+                .iter()
+                .filter(not)
+                .map(|(title, p)| match p.of_stress {
+                    true => format!("{title} (pressure)"),
+                    false => format!("{title} (motion)"),
+                });
+            format!("{name} never reaches the target in: {}.", list(titles))
+        };
+        format!(
+            "Take F̄ ({OURS}) for the motion in: {motion}; for the pressure in: {stress}. There it is cheaper than \
+             standard MPM for the same error, or alone in reaching it. {dearer}Of F̄ take {}, of standard MPM {}. {} {} \
+             The other F̄ are there for comparison: they creep or make energy.",
+            self.basis(OURS),
+            self.basis(STANDARD),
+            never(STANDARD, "Standard MPM"),
+            never(OURS, "F̄")
+        )
+    }
+
+    /// The basis with which a remedy reaches most targets at the least cost.
+    fn basis(&self, remedy: RemedyName) -> String {
+        let of_all = self
+            .0
+            .iter()
+            .filter_map(|(_, p)| Some(p.cheapest(remedy)?.scheme.basis()));
+        let of_all: Vec<BasisName> = of_all.collect();
+        let count = |basis: &BasisName| of_all.iter().filter(|b| *b == basis).count();
+        let best = distinct(of_all.iter().copied())
+            .into_iter()
+            .max_by_key(count);
+        best.map_or_else(
+            || "–".to_owned(),
+            |basis| {
+                format!(
+                    "{basis} (the cheapest on {} of {})",
+                    count(&basis),
+                    of_all.len()
+                )
+            },
+        )
+    }
+
+    /// Draws what F̄ costs over what standard MPM costs.
+    pub(super) fn draw(&self, out: &Path) -> Result<Option<Picture>, Error> {
+        let row = |title: &&'static str| {
+            let of = |of_stress| {
+                let mut own = self
+                    .0
+                    .iter()
+                    .filter(|(of, p)| of == title && p.of_stress == of_stress);
+                own.next().and_then(|(_, p)| ratio(p))
+            };
+            ((*title).to_owned(), vec![of(false), of(true)])
+        };
+        let mut rows: Vec<_> = distinct(self.0.iter().map(|(title, _)| *title))
+            .iter()
+            .map(row)
+            .collect();
+        rows.retain(|(_, ratios)| ratios.iter().any(Option::is_some));
+        if rows.is_empty() {
+            return Ok(None);
+        }
+        let ratios = Ratios {
+            title: "Cost of F̄ over that of standard MPM, for the same error".to_owned(),
+            sides: ["F̄ is cheaper", "standard MPM is cheaper"].map(str::to_owned),
+            ends: ["standard MPM never gets there", "F̄ never gets there"].map(str::to_owned),
+            kinds: ["error of the motion", "error of the pressure"]
+                .map(str::to_owned)
+                .to_vec(),
+            rows,
+        };
+        let file = format!("{NAME}.png");
+        draw_ratios(&out.join(&file), &ratios)?;
+        let caption = format!(
+            "Particle–node pairs of the cheapest scheme with {OURS} over those of the cheapest without a remedy, to the \
+             error that half of all schemes reach. At the ends: only one of the two reaches it."
+        );
+        Ok(Some(Picture { file, caption }))
+    }
+}
+
+/// What F̄ costs over what standard MPM costs, if both have been run and one reaches the target.
+fn ratio(prices: &Prices) -> Option<Ratio> {
+    if !(prices.has(OURS) && prices.has(STANDARD)) {
+        return None;
+    }
+    let pairs = |remedy| prices.cheapest(remedy)?.cost.map(|cost| cost.pairs);
+    match (pairs(OURS), pairs(STANDARD)) {
+        (Some(ours), Some(standard)) => Some(Ratio::Of(ours / standard)),
+        (Some(_), None) => Some(Ratio::Least),
+        (None, Some(_)) => Some(Ratio::Most),
+        (None, None) => None,
+    }
+}
+
+fn is_worth_it(ratio: Ratio) -> bool {
+    match ratio {
+        Ratio::Of(ratio) => ratio < 1.0,
+        Ratio::Least => true,
+        Ratio::Most => false,
+    }
+}
+
+/// Names in a sentence.
+fn list(names: impl Iterator<Item = impl Into<String>>) -> String {
+    let names: Vec<String> = names.map(Into::into).collect();
+    match names.is_empty() {
+        true => "none".to_owned(),
+        false => names.join(", "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Measured;
+    use crate::record::fixture::record;
+    use crate::scheme::Scheme;
+
+    /// Cook's membrane, where standard MPM never comes near and the pressure takes F̄ more.
+    fn cook() -> CaseStudy {
+        let run = |remedy, level: &str, (h, pairs): (f64, u64), errors: [f64; 2]| {
+            let mut run = record(level, Vec::new());
+            run.scheme = Scheme::flip(BasisName::Gimp, remedy);
+            (run.discretisation.h, run.work.particle_node_pairs) = (h, pairs);
+            for (name, value) in ["fem_edge_mean_error", "mean_stress_rms_error"]
+                .into_iter()
+                .zip(errors)
+            {
+                let (value, unit) = (Some(value), "-".to_owned());
+                run.metrics
+                    .insert(name.to_owned(), Measured { value, unit });
+            }
+            run
+        };
+        let runs = [
+            run(STANDARD, "h2", (2.0, 100), [0.5, 0.4]),
+            run(STANDARD, "h1", (1.0, 400), [0.4, 0.1]),
+            run(OURS, "h2", (2.0, 400), [0.2, 0.4]),
+            run(OURS, "h1", (1.0, 1600), [0.05, 0.1]),
+        ];
+        CaseStudy::new("cook", runs.to_vec())
+    }
+
+    #[test]
+    fn the_price_of_a_remedy_is_that_of_the_motion_and_that_of_the_pressure() {
+        let mut study = cook();
+        // What half reach is what the worse of two reaches.
+        study.records[3].metrics.insert(
+            "fem_edge_mean_error".to_owned(),
+            Measured {
+                value: Some(0.45),
+                unit: "-".to_owned(),
+            },
+        );
+        let speed = Speed::of([&study]);
+        let rows = speed.table().rows;
+        assert_eq!(rows.len(), 2);
+        assert_eq!(
+            rows[1][..3],
+            ["Cook's membrane", "rms error of σ_m (Pa) 0.1", "gimp none"]
+        );
+        assert_eq!(rows[1][5..], ["1.0", "4.0"]);
+    }
+
+    #[test]
+    fn the_advice_follows_from_the_prices() {
+        let speed = Speed::of([&cook()]);
+        let advice = speed.advice();
+        assert!(
+            advice.starts_with(
+                "Take F̄ (fbar-consistent) for the motion in: none; for the pressure in: none."
+            ),
+            "{advice}"
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let picture = speed.draw(folder.path()).unwrap().unwrap();
+        assert!(
+            folder
+                .path()
+                .join(picture.file)
+                .with_extension("svg")
+                .exists()
+        );
+        assert!(Speed::of([]).draw(folder.path()).unwrap().is_none());
+        assert!(
+            is_worth_it(Ratio::Least)
+                && is_worth_it(Ratio::Of(0.5))
+                && !is_worth_it(Ratio::Of(1.0))
+        );
+    }
+}
