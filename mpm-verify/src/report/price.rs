@@ -86,7 +86,7 @@ impl Prices {
                 .iter()
                 .filter(move |q| q.is_error && is_of_stress(q) == of_stress);
             if of_stress {
-                errors.last()
+                errors.next_back()
             } else {
                 errors.next()
             }
