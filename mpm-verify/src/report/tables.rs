@@ -19,6 +19,8 @@ use std::path::{Path, PathBuf};
 const BEGIN: &str = "<!-- table ";
 const CLOSE: &str = " -->";
 const END: &str = "<!-- end -->";
+/// Columns of a line of text.
+const LINE: usize = 110;
 const RESULTS: &str = "reports/nightly/results.csv";
 
 /// A page with its tables as they should be.
@@ -144,7 +146,12 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
     let speed = Speed::of(&studies.collect::<Vec<_>>());
     let told = match speed.is_empty() {
         true => String::new(),
-        false => format!("{}\n{}\n", speed.table().markdown(), speed.advice()),
+        false => {
+            let options = textwrap::Options::new(LINE);
+            let options = options.word_splitter(textwrap::WordSplitter::NoHyphenation);
+            let advice = textwrap::fill(&speed.advice(), options);
+            format!("{}\n{advice}\n", speed.table().markdown())
+        }
     };
     let of_cases = cases::all().iter();
     let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
