@@ -210,6 +210,7 @@ fn a_single_run_is_drawn_and_has_a_report() {
     let report = mpm_verify(&["report", out, "--golden", text(&super::golden())]);
     assert_eq!(code(&report), 0, "{}{}", stdout(&report), stderr(&report));
     let page = std::fs::read_to_string(folder.path().join("cook.html")).unwrap();
+    let page = page.replace("&#x2f;", "/");
     assert!(page.contains("cook/particles.png") && page.contains("gimp-fbar-consistent-flip"));
 }
 

@@ -378,7 +378,7 @@ mod tests {
         let mut plain = Vec::new();
         let mut stream = anstream::StripStream::new(&mut plain);
         std::io::Write::write_all(&mut stream, line.as_bytes()).unwrap();
-        String::from_utf8(plain).unwrap().chars().count()
+        textwrap::core::display_width(&String::from_utf8(plain).unwrap())
     }
 
     #[test]
