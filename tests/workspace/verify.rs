@@ -288,7 +288,7 @@ fn the_quick_tier_verifies_and_reports() {
         ["wrong-as-known", "wrong-as-known"]
     );
     let written = std::fs::read_to_string(out.join("summary.md")).unwrap();
-    assert!(written.contains("| gimp fbar-rate | h2 |"));
+    assert!(written.contains("| fem_edge_mean_error | gimp fbar-rate |"));
     is_picture(&out.join("cook/rest.png"));
     let data = std::fs::read_to_string(out.join("cook/rest.csv")).unwrap();
     assert!(data.starts_with("chart,quantity,series,"));
