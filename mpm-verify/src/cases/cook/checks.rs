@@ -1,6 +1,7 @@
 //! Checks of Cook's membrane. The tolerances are derived in `docs/cook.md`.
 
 mod own;
+mod rim;
 mod studies;
 
 use super::metrics::{self as m, MEAN_STRESSES};
@@ -119,6 +120,15 @@ pub(super) fn checks() -> Vec<Check> {
         truth "edge-mean":
             "fbar-total, fbar-rate, fbar-consistent: mean u_y of the right side, likewise"
             => run(|r| displacement(r, Measure::EdgeMean));
+        truth "load-at-its-place":
+            "quasi-static fbar-consistent with the functions of the rim held by a ghost penalty of 0.001 or more, or GIMP's one step on the lattice, at h ≤ 1 m: mid-edge and mean u_y of the right side within 1 % · h/(1 m) of the FEM solution with the load on the same line of material"
+            => run(rim::at_the_loads_place);
+        known_limit "soft-rim":
+            "quasi-static fbar-consistent with the rim left to itself, in more than one step, at h = 1 m: mid-edge and mean u_y of the right side exceed that FEM solution by more than the error of a locking-free element"
+            => run(rim::too_soft);
+        known_limit "short-by-the-loads-place":
+            "quasi-static fbar-consistent with GIMP and a rim that is held, or in one step on the lattice, at h = 1 m: mid-edge and mean u_y of the right side fall short of the FEM solution with the load on the side by more than 1 %, of which the load's place takes 1.1 %; mid-edge and edge-mean are not judged there"
+            => run(rim::short_by_the_loads_place);
         truth "tip":
             "fbar-total, fbar-rate, fbar-consistent: u_y at (48, 60) m within 2 % of the FEM reference; above h = 1 m as for mid-edge"
             => run(|r| displacement(r, Measure::Tip));
@@ -337,6 +347,10 @@ fn displacement(r: &Record, of: Measure) -> Vec<Finding> {
         Err(why) => return vec![Finding::not_applicable(metric, why)],
         Ok(reference) => reference,
     };
+    if rim::is_short(r) && of != Measure::Tip {
+        let why = "see short-by-the-loads-place";
+        return vec![Finding::not_applicable(metric, why)];
+    }
     if is_too_stiff(r) {
         let found = Finding::not_applicable(metric, "see too-stiff-with-more-particles");
         return (of == Measure::Tip).then_some(found).into_iter().collect();

@@ -102,6 +102,9 @@ fn cost(spec: &RunSpec) -> f64 {
 const HALVED: &[&str] = &["cfl=0.15"];
 const LARGE: &[&str] = &["cfl=0.6"];
 const GIMPS: &[&str] = &["cfl=0.45"];
+// One step, on the lattice, with and without functions of the rim held.
+const ONE_STEP: &[&str] = &["load_steps=1"];
+const HELD: &[&str] = &["load_steps=1", "ghost=0.001"];
 // Loads under which explicit bodies leave the grid, with functions of the rim held.
 const TEN_TIMES: &[&str] = &["load=10", "load_steps=5", "ghost=0.001"];
 const FIFTY_TIMES: &[&str] = &["load=50", "load_steps=20", "ghost=0.001"];
@@ -124,6 +127,7 @@ fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
     let rate = two(&[FbarRate]);
     let totals = two(&[FbarTotal, FbarRate]);
     let cubic = pairs(&[Bspline3], &[none, FbarTotal, FbarRate]);
+    let averaged = [Gimp, Bspline2].map(|basis| Scheme::quasi_static(basis, FbarConsistent));
     let [three_per, four_per] = more_particles(Long, &[h2, h1]);
     vec![
         family(Quick, &[h2], &gimp(&REMEDIES), &[]),
@@ -171,6 +175,9 @@ fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
         three_per,
         four_per,
         family(Pr, &[h2, h1], &statics(&[Gimp, Bspline2]), &[]),
+        family(Pr, &[h1], &averaged, HELD),
+        family(Pr, &[h1], &averaged[..1], ONE_STEP),
+        family(Nightly, &[h1, half], &averaged, &["ghost=0.001"]),
         family(Nightly, &[half, quarter], &statics(&[Gimp, Bspline2]), &[]),
         family(Nightly, &[h1], &statics(&[Bspline2]), TEN_TIMES),
         family(Nightly, &[h1], &statics(&[Bspline2]), FIFTY_TIMES),

@@ -23,10 +23,10 @@ parameters! { pub(super) const:
         "longest time to run, in fundamental periods of 60 s (at the default E and ρ); a run that creeps after one is stopped there";
     REST_WINDOW = "rest_window", "periods", "0.05", number(1e-3, 10.0, false),
         "time over which the criterion of rest must hold";
-    LOAD_STEPS = "load_steps", "-", "2", Domain::Integer { least: 1, most: 10_000 },
-        "quasi-static: steps of the load, which rises smoothly over them";
+    LOAD_STEPS = "load_steps", "-", "4", Domain::Integer { least: 1, most: 10_000 },
+        "quasi-static: steps of the load, which rises smoothly over them; one that finds no equilibrium is halved";
     GHOST = "ghost", "-", "1e-8", number(0.0, 1.0, false),
-        "quasi-static: ghost penalty, in shares of Young's modulus; 0: none";
+        "quasi-static: ghost penalty, in shares of Young's modulus; the root of rounding, which only keeps the matrix regular; 0: none";
 }
 /// What only an explicit run has.
 pub(super) const OF_EXPLICIT: [&str; 8] = [
