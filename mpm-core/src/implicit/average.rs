@@ -21,12 +21,7 @@ impl Average {
         nodes: usize,
         volume: &[f64],
     ) -> Self {
-        let mut of_nodes = vec![0.0; nodes];
-        elements.scatter(0.0, &mut of_nodes, |p, sums| {
-            for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
-                *sum += w * volume[p];
-            }
-        });
+        let of_nodes = elements.volumes(nodes, volume);
         let inverse = |v: &f64| if *v > 0.0 { 1.0 / v } else { 0.0 };
         Self {
             volume: volume.to_vec(),

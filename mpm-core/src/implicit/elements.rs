@@ -1,5 +1,6 @@
 //! The functions that see the particles, as they are at a step's start and stay in all of it.
 
+use super::extension::Shares;
 use super::interpolation::{Functions, Interpolation};
 use crate::particles::Particles;
 use nalgebra::SMatrix;
@@ -8,18 +9,20 @@ use std::ops::{AddAssign, Range};
 
 /// Particles in runs that the same nodes see, with values and gradients of the functions.
 pub(super) struct Elements<const D: usize> {
-    /// Functions that see a particle.
-    pub(super) support: usize,
     /// Particles of every element.
     pub(super) particles: Vec<Range<usize>>,
-    /// Nodes of every element, `support` of them each; images are their originals.
-    pub(super) node: Vec<usize>,
+    /// Nodes of the elements, one after the other; images are their originals.
+    node: Vec<usize>,
+    /// Where the nodes of every element begin, and those of the last one end.
+    first_node: Vec<usize>,
     /// Of every particle the element.
     element: Vec<usize>,
-    /// Of every particle, `support` values.
+    /// Values of the functions that see a particle, one particle after the other.
     w: Vec<f64>,
-    /// Of every particle, `support` gradients (1/m).
+    /// Gradients (1/m), likewise.
     dw: Vec<[f64; D]>,
+    /// Where the functions of every particle begin, and those of the last one end.
+    first: Vec<usize>,
 }
 
 /// The order of particles by element, stable within one.
@@ -48,12 +51,13 @@ impl<const D: usize> Elements<D> {
         let support = functions_of.support();
         let count = particles.len();
         let mut elements = Self {
-            support,
             particles: Vec::new(),
             node: Vec::new(),
+            first_node: vec![0],
             element: Vec::with_capacity(count),
             w: Vec::with_capacity(count * support),
             dw: Vec::with_capacity(count * support),
+            first: vec![0],
         };
         let mut functions = Functions::new();
         let mut last = None;
@@ -64,6 +68,7 @@ impl<const D: usize> Elements<D> {
                 elements.particles.push(p..p);
                 let nodes = functions.node.iter().map(|node| originals[*node]);
                 elements.node.extend(nodes);
+                elements.first_node.push(elements.node.len());
             }
             if let Some(run) = elements.particles.last_mut() {
                 run.end = p + 1;
@@ -71,25 +76,96 @@ impl<const D: usize> Elements<D> {
             elements.element.push(elements.particles.len() - 1);
             elements.w.extend_from_slice(&functions.w);
             elements.dw.extend_from_slice(&functions.dw);
+            elements.first.push(elements.w.len());
         }
         elements
     }
 
+    /// The same where nodes follow others by their shares: functions of those that are followed take up those of the
+    /// followers.
+    pub(super) fn extended(&self, shares: &Shares) -> Self {
+        let mut extended = Self {
+            particles: self.particles.clone(),
+            node: Vec::new(),
+            first_node: vec![0],
+            element: self.element.clone(),
+            w: Vec::new(),
+            dw: Vec::new(),
+            first: vec![0],
+        };
+        for (element, run) in self.particles.iter().enumerate() {
+            // Of every function so far, whose it becomes a part of: place among the new ones, and share.
+            let mut nodes: Vec<usize> = Vec::new();
+            let mut place = |node: usize| {
+                let known = nodes.iter().position(|n| *n == node);
+                known.unwrap_or_else(|| {
+                    nodes.push(node);
+                    nodes.len() - 1
+                })
+            };
+            let parts: Vec<Vec<(usize, f64)>> = self
+                .nodes_of(element)
+                .iter()
+                .map(|node| match &shares[*node][..] {
+                    [] => vec![(place(*node), 1.0)],
+                    followed => followed.iter().map(|(n, s)| (place(*n), *s)).collect(),
+                })
+                .collect();
+            for p in run.clone() {
+                let begin = extended.w.len();
+                extended.w.resize(begin + nodes.len(), 0.0);
+                extended.dw.resize(begin + nodes.len(), [0.0; D]);
+                let (_, w, dw) = self.seen(p);
+                for ((w, dw), parts) in w.iter().zip(dw).zip(&parts) {
+                    for (place, share) in parts {
+                        extended.w[begin + place] += share * w;
+                        for (sum, slope) in extended.dw[begin + place].iter_mut().zip(dw) {
+                            *sum += share * slope;
+                        }
+                    }
+                }
+                extended.first.push(extended.w.len());
+            }
+            extended.node.extend(nodes);
+            extended.first_node.push(extended.node.len());
+        }
+        extended
+    }
+
+    /// Volume (m³) of every one of `nodes` nodes; NaN of one that no element has.
+    pub(super) fn volumes(&self, nodes: usize, volume: &[f64]) -> Vec<f64> {
+        let mut volumes = vec![f64::NAN; nodes];
+        for node in &self.node {
+            volumes[*node] = 0.0;
+        }
+        self.scatter(0.0, &mut volumes, |p, sums| {
+            for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
+                *sum += w * volume[p];
+            }
+        });
+        volumes
+    }
+
+    /// Pairs of a particle and a function that sees it.
+    pub(super) fn pairs(&self) -> usize {
+        self.w.len()
+    }
+
     /// The nodes of an element.
     pub(super) fn nodes_of(&self, element: usize) -> &[usize] {
-        &self.node[element * self.support..(element + 1) * self.support]
+        &self.node[self.first_node[element]..self.first_node[element + 1]]
     }
 
     /// The nodes that see a particle, with values and gradients of their functions.
     pub(super) fn seen(&self, particle: usize) -> (&[usize], &[f64], &[[f64; D]]) {
-        let range = particle * self.support..(particle + 1) * self.support;
+        let range = self.first[particle]..self.first[particle + 1];
         let nodes = self.nodes_of(self.element[particle]);
         (nodes, &self.w[range.clone()], &self.dw[range])
     }
 
     /// Values and gradients of the functions that see a particle.
     pub(super) fn gradients(&self, particle: usize) -> &[[f64; D]] {
-        &self.dw[particle * self.support..(particle + 1) * self.support]
+        &self.dw[self.first[particle]..self.first[particle + 1]]
     }
 
     /// ΔF = I + Σ u ⊗ ∇w of a particle, Eq. (3) of `docs/implicit.md`, for the nodal increments `u` (m).
@@ -117,8 +193,9 @@ impl<const D: usize> Elements<D> {
         let sums: Vec<T> = self
             .particles
             .par_iter()
-            .flat_map_iter(|run| {
-                let mut sums = vec![zero; self.support];
+            .enumerate()
+            .flat_map_iter(|(element, run)| {
+                let mut sums = vec![zero; self.nodes_of(element).len()];
                 for p in run.clone() {
                     of(p, &mut sums);
                 }

@@ -206,7 +206,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
 
     /// Σ ∇w · H · ∇w over the particles of an element.
     fn of_element(&self, element: usize, tangents: &[Tangent]) -> DMatrix<f64> {
-        let size = self.elements.support * D;
+        let size = self.elements.nodes_of(element).len() * D;
         let mut stiffness = DMatrix::zeros(size, size);
         for p in self.elements.particles[element].clone() {
             let t = &tangents[p];

@@ -1,9 +1,10 @@
 //! What the implicit solver asks of the functions on a grid.
 
+use super::extension::{Nodes, Shares};
 use super::penalty::{Moduli, Penalty};
 use super::pieces::Pieces;
 use super::settings::Stabilisation;
-use super::{ghost, soft};
+use super::{extension, ghost, soft};
 use crate::basis::WallTreatment;
 use crate::error::Error;
 use crate::grid::Grid;
@@ -90,6 +91,10 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
         moduli: Moduli,
         particles: &Particles<D>,
     ) -> Vec<Penalty>;
+
+    /// The shares by which nodes that see hardly any material follow others, of functions that offer the
+    /// [extension](Stabilisation::Extension).
+    fn extension(&self, nodes: &Nodes) -> Shares;
 }
 
 impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<D, S, B> {
@@ -148,7 +153,7 @@ impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<
             Stabilisation::Soft(factor) if !B::POINTWISE => Err(Error::Input {
                 what: "soft stiffness for functions that depend on a particle's size, factor",
                 value: factor,
-                allowed: "none or a ghost penalty; soft with linear functions and B-splines",
+                allowed: "none, ghost or extension; soft with linear functions and B-splines",
             }),
             _ => Ok(()),
         }
@@ -161,9 +166,13 @@ impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<
         particles: &Particles<D>,
     ) -> Vec<Penalty> {
         match stabilisation {
-            Stabilisation::None => Vec::new(),
+            Stabilisation::None | Stabilisation::Extension => Vec::new(),
             Stabilisation::Ghost(factor) => ghost::penalties(self, factor, moduli, particles),
             Stabilisation::Soft(factor) => soft::penalties(self, S, factor, moduli),
         }
+    }
+
+    fn extension(&self, nodes: &Nodes) -> Shares {
+        extension::shares(self, nodes)
     }
 }

@@ -10,6 +10,7 @@
 mod average;
 mod elements;
 mod equilibrium;
+mod extension;
 mod ghost;
 mod interpolation;
 mod linear;
@@ -24,6 +25,7 @@ mod soft;
 mod start;
 mod unknowns;
 
+pub use extension::{Nodes, Shares};
 pub use interpolation::{Functions, Interpolation};
 pub use penalty::{Moduli, Penalty};
 pub use pieces::{AxisPieces, Pieces};
@@ -216,7 +218,21 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// The functions at the particles, and the average.
     fn averaging(&self) -> (Elements<D>, Average) {
         let particles = &self.scene.body.particles;
-        let elements = Elements::new(&self.functions, &self.originals, particles);
+        let mut elements = Elements::new(&self.functions, &self.originals, particles);
+        if self.settings.stabilisation == Stabilisation::Extension {
+            let volume = elements.volumes(self.functions.len(), &particles.volume);
+            let held: Vec<bool> = self
+                .held
+                .iter()
+                .map(|h| h.iter().any(Option::is_some))
+                .collect();
+            let nodes = Nodes {
+                originals: &self.originals,
+                volume: &volume,
+                held: &held,
+            };
+            elements = elements.extended(&self.functions.extension(&nodes));
+        }
         let average = Average::new(&elements, self.functions.len(), &particles.volume);
         (elements, average)
     }

@@ -68,9 +68,8 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 impl<const D: usize, M: Law> Newton<'_, D, M> {
     /// A trial of these increments.
     fn trial(&mut self, u: &[f64]) -> Result<Trial<D>, (usize, Fault)> {
-        let elements = self.step.elements;
         // Deformations are gathered, forces scattered.
-        self.work.particle_node_pairs += 2 * self.work.particles * elements.support as u64;
+        self.work.particle_node_pairs += 2 * self.step.elements.pairs() as u64;
         self.step.trial(u, self.external.len())
     }
 

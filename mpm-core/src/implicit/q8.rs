@@ -2,10 +2,11 @@
 //!
 //! Corners and mid-sides stand on a lattice of half the cell size, whose points in the middle of cells are no nodes.
 
+use super::extension::{Nodes, Shares};
 use super::interpolation::{Functions, Interpolation};
 use super::penalty::{Moduli, Penalty};
 use super::settings::Stabilisation;
-use super::soft;
+use super::{extension, soft};
 use crate::error::{Error, require};
 use crate::grid::Grid;
 use crate::particles::Particles;
@@ -129,7 +130,12 @@ impl Interpolation<2> for Serendipity {
             Stabilisation::Ghost(factor) => Err(Error::Input {
                 what: "ghost penalty of serendipity elements, factor",
                 value: factor,
-                allowed: "none or a soft stiffness: their derivatives jump across all faces",
+                allowed: "none or soft: their derivatives jump across all faces",
+            }),
+            Stabilisation::Extension => Err(Error::Input {
+                what: "extension of serendipity elements, share of a full function",
+                value: extension::HARDLY,
+                allowed: "none or soft: mid-side functions have no linear extension by neighbours along an axis",
             }),
             _ => Ok(()),
         }
@@ -145,6 +151,11 @@ impl Interpolation<2> for Serendipity {
             Stabilisation::Soft(factor) => soft::penalties(self, POINTS, factor, moduli),
             _ => Vec::new(),
         }
+    }
+
+    /// Not [offered](Self::offers): every node has its own unknowns.
+    fn extension(&self, nodes: &Nodes) -> Shares {
+        vec![Vec::new(); nodes.volume.len()]
     }
 }
 

@@ -149,9 +149,12 @@ static_solvers!(2, Hencky, [
     Q8: Serendipity
 ]);
 static_solvers!(2, NeoHookean, [
+    Linear: Lattice<2, 2, Linear>,
     Gimp: Lattice<2, 3, Gimp>,
-    Bspline2: Lattice<2, 3, QuadraticBSpline>
+    Bspline2: Lattice<2, 3, QuadraticBSpline>,
+    Bspline3: Lattice<2, 4, CubicBSpline>
 ]);
+static_solvers!(3, NeoHookean, [Gimp: Lattice<3, 3, Gimp>, Bspline2: Lattice<3, 3, QuadraticBSpline>]);
 static_solvers!(2, Hypoelastic, [Bspline2: Lattice<2, 3, QuadraticBSpline>, Q8: Serendipity]);
 
 fn static_remedy(remedy: RemedyName) -> Result<QuasiStaticRemedy, Error> {

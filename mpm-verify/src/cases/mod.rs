@@ -14,6 +14,7 @@ mod landslide;
 mod manufactured;
 mod mms_axis;
 mod mms_double_shear;
+mod mms_static;
 mod mms_swirl;
 mod mms_vortex_box;
 mod mms_vortex_pressure;
@@ -41,6 +42,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         mms_vortex_pressure::case(),
         mms_double_shear::case(),
         mms_swirl::case(),
+        mms_static::case(),
         vibrating_bar::case(),
         column::case(),
         standing_wave::case(),

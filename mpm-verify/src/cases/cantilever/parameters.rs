@@ -11,6 +11,7 @@ pub(super) const GAUSS: &str = "gauss";
 pub(super) const NONE: &str = "none";
 pub(super) const SOFT: &str = "soft";
 pub(super) const GHOST: &str = "ghost";
+pub(super) const EXTENSION: &str = "extension";
 
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("1e5");
 pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0");
@@ -23,10 +24,10 @@ parameters! { pub(super) const:
         "where particles start: in the middle of equal parts of a cell, or, the paper's subdivision, two Gauss points in each half of their number";
     LOAD_STEPS = "load_steps", "-", "20", Domain::Integer { least: 1, most: 10_000, },
         "equal steps of the weight";
-    STABILISATION = "stabilisation", "-", GHOST, Domain::Choice(&[NONE, SOFT, GHOST]),
+    STABILISATION = "stabilisation", "-", GHOST, Domain::Choice(&[NONE, SOFT, GHOST, EXTENSION]),
         "what holds functions that see hardly any material";
     STABILISATION_FACTOR = "stabilisation_factor", "-", "0.01", number(1e-8, 1.0, false),
-        "its share of Young's modulus, or of the stiffness of the mesh";
+        "of ghost its share of Young's modulus, of soft that of the stiffness of the mesh";
     WEIGHT = "weight", "N/m³", "4000", number(1.0, 1e6, false),
         "weight of the initial volume at the end";
     TOLERANCE = "tolerance", "-", "1e-9", number(1e-13, 1e-2, false),

@@ -1,8 +1,9 @@
 //! Where the cantilever begins: grid, clamp and weight.
 
 use super::parameters::{
-    GAUSS, GHOST, HENCKY, JAUMANN, LAW, LOAD_STEPS, NEO_HOOKEAN, POINTS, POINTS_PER_DIRECTION,
-    POISSON_RATIO, SOFT, STABILISATION, STABILISATION_FACTOR, TOLERANCE, WEIGHT, YOUNG_MODULUS,
+    EXTENSION, GAUSS, GHOST, HENCKY, JAUMANN, LAW, LOAD_STEPS, NEO_HOOKEAN, POINTS,
+    POINTS_PER_DIRECTION, POISSON_RATIO, SOFT, STABILISATION, STABILISATION_FACTOR, TOLERANCE,
+    WEIGHT, YOUNG_MODULUS,
 };
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
@@ -60,6 +61,8 @@ pub(super) fn settings(parameters: &Parameters) -> QuasiStatic {
         Stabilisation::Ghost(factor)
     } else if parameters.is(STABILISATION, SOFT) {
         Stabilisation::Soft(factor)
+    } else if parameters.is(STABILISATION, EXTENSION) {
+        Stabilisation::Extension
     } else {
         Stabilisation::None
     };

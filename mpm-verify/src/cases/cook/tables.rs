@@ -1,11 +1,12 @@
 //! Tables of its results.
 
+use super::checks::rim;
 use super::metrics as m;
 use crate::cases::family::transfers;
 use crate::cases::parameters::CFL;
 use crate::record::Record;
 use crate::results::{BASIS, CELLS, Column, PAIR, ResultTable, SCHEME, fixed, is_flip, percent};
-use crate::scheme::RemedyName;
+use crate::scheme::{RemedyName, TransferName};
 
 /// Levels and what they are called.
 const LEVELS: [(&str, &str); 4] = [
@@ -31,7 +32,55 @@ pub(super) fn all() -> Vec<ResultTable> {
         overview(),
         transfers("cook-transfers", &[PAIR, CELLS], &["3", "4"], error),
         poisson(),
+        statics(),
+        rims(),
     ]
+}
+
+/// The quasi-static solver over the cells, beside the explicit one's cost.
+fn statics() -> ResultTable {
+    let of = |level: &'static str| move |r: &Record| r.level == level;
+    let error = |r: &Record| percent(2).text(r.metric(m::FEM_MID_EDGE_ERROR));
+    let errors = LEVELS.map(|(level, title)| {
+        Column::text(format!("mid-edge error, {title}"), error).of(of(level))
+    });
+    let checkerboard =
+        Column::metric("checkerboard, h = 1 m", m::CHECKERBOARD_RATIO, fixed(2)).of(of("h1"));
+    let cpu = LEVELS.map(|(level, title)| {
+        Column::value(format!("CPU (s), {title}"), |r| r.time.cpu_s, fixed(1)).of(of(level))
+    });
+    ResultTable::new(
+        "cook-static",
+        |r| r.transfer() == TransferName::None && r.is_default(),
+        &[SCHEME],
+        errors.into_iter().chain([checkerboard]).chain(cpu),
+    )
+}
+
+/// What a rim that is held, one step, and a larger load come to.
+fn rims() -> ResultTable {
+    let error = |metric| move |r: &Record| percent(2).text(r.metric(metric));
+    ResultTable::new(
+        "cook-rim",
+        |r| r.transfer() == TransferName::None && r.level == "h1",
+        &[
+            SCHEME,
+            ("changed", |r| {
+                if r.is_default() {
+                    "–".to_owned()
+                } else {
+                    r.set.join(", ")
+                }
+            }),
+        ],
+        [
+            Column::text("mid-edge error", error(m::FEM_MID_EDGE_ERROR)),
+            Column::value("of the load at its place", rim::mid_edge_error, percent(2)),
+            Column::metric("mid-edge u_y (m)", m::MID_EDGE_UY, fixed(4)),
+            Column::metric("Newton iterations", m::NEWTON_ITERATIONS, fixed(0)),
+            Column::metric("linear iterations", m::LINEAR_ITERATIONS, fixed(0)),
+        ],
+    )
 }
 
 fn results() -> ResultTable {

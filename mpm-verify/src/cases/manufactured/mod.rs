@@ -3,10 +3,12 @@
 //! Choices, gates and tolerances: `docs/manufactured.md`.
 
 pub(super) mod checks;
+mod errors;
 pub(super) mod metrics;
 pub(super) mod pictures;
 mod scene;
 mod sketch;
+mod slow;
 mod tables;
 mod watch;
 
@@ -19,6 +21,7 @@ use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use crate::spec::{Level, RunSpec};
 use metrics::{ERRORS, METRICS, headlines};
 use mpm_core::stage::WallKind;
+use slow::Slow;
 use watch::Motion;
 
 /// What holds the body.
@@ -93,6 +96,24 @@ impl Manufactured {
         }
     }
 
+    /// A case of this motion, so slow that it is always in equilibrium.
+    pub(super) fn slow_case(self, names: [&'static str; 3], parameters: Vec<Parameter>) -> Case {
+        Case {
+            metrics: [&metrics::OF_SLOW, metrics::STATIC].concat(),
+            headlines: metrics::slow_headlines(),
+            quantities: metrics::SLOW_ERRORS.to_vec(),
+            watched: &["displacement_l2", "newton_iterations"],
+            cost: Box::new(|spec| 1e-4 * spec.level.h.powi(-3)),
+            begin: Box::new(move |spec, p| {
+                Ok(match (self.solution)(p)?.dimension() {
+                    3 => Box::new(Slow::<3>::drive(self, spec, p)?),
+                    _ => Box::new(Slow::<2>::drive(self, spec, p)?),
+                })
+            }),
+            ..self.case(names, parameters)
+        }
+    }
+
     fn begin(self, spec: &RunSpec, p: &Parameters) -> Result<Box<dyn Job>, Error> {
         Ok(match (self.solution)(p)?.dimension() {
             1 => Box::new(Motion::<1>::drive(self, spec, p)?),
@@ -118,6 +139,8 @@ pub(super) fn levels() -> Vec<Level> {
 
 parameters! { pub(super) const:
     DURATION = "duration", "s", "1", number(1e-9, 1e6, false), "time to run";
+    LOAD_STEPS = "load_steps", "-", "4", Domain::Integer { least: 1, most: 10_000 },
+        "quasi-static: equal steps of time";
     RELAXATION = "relaxation", "-", "10", number(0.0, 1e9, false),
         "relaxation β of the remedy fbar-consistent";
     STEP_POISSON_RATIO = "step_poisson_ratio", "-", "0.49", number(0.0, 0.5, true),

@@ -11,10 +11,11 @@ use crate::spec::{Level, RunSpec};
 use mpm_core::explicit::remedy::FbarConsistent;
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::explicit::{Remedy, courant_time_step};
+use mpm_core::implicit::QuasiStatic;
 use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
 use mpm_core::stage::{BodyForce, End, Wall, WallKind};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
-use mpm_solvers::{Solvable, solver};
+use mpm_solvers::{Equilibrium, Solvable, solver};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -103,14 +104,11 @@ where
 {
     let number = |p| parameters.number(p);
     let (grid, walls) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
+    let forcing = forcing(solution);
     let remedy: Box<dyn Remedy<D>> = match spec.scheme.remedy() {
         RemedyName::FbarConsistent => Box::new(FbarConsistent::new(number(RELAXATION))),
         other => other.build(),
     };
-    let exact = Arc::clone(solution);
-    let forcing = BodyForce(Box::new(move |x: &[f64; D], t| {
-        components(&exact.body_force(&vector(x), t))
-    }));
     let settings = settings(spec, parameters, dt, 0.0)?
         .transfer(Flip::new(number(FLIP))?)
         .remedy(remedy);
@@ -127,6 +125,37 @@ where
             solver(spec.scheme, scene, settings)?
         }
     })
+}
+
+/// The quasi-static solver of a solid at time zero, of steps `dt` (s).
+///
+/// # Errors
+/// As [`begin`].
+pub(super) fn equilibrium<const D: usize>(
+    case: Manufactured,
+    spec: &RunSpec,
+    parameters: &Parameters,
+    solution: &Arc<dyn Exact>,
+    dt: f64,
+) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
+where
+    NeoHookean: Equilibrium<D>,
+{
+    let (grid, walls) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
+    let per_direction = parameters.number(PPC_PER_DIRECTION);
+    let particles = seed(spec, per_direction, solution.as_ref(), dt)?;
+    let Material { mu, lambda, .. } = solution.material();
+    let scene = Scene::new(grid, Body::new(NeoHookean { mu, lambda }, particles)?);
+    let scene = scene.load(forcing(solution)).constrain_all(walls);
+    mpm_solvers::equilibrium(spec.scheme, scene, QuasiStatic::new(dt))
+}
+
+/// The body force that the motion needs.
+fn forcing<const D: usize>(solution: &Arc<dyn Exact>) -> BodyForce<D> {
+    let exact = Arc::clone(solution);
+    BodyForce(Box::new(move |x: &[f64; D], t| {
+        components(&exact.body_force(&vector(x), t))
+    }))
 }
 
 /// Components in three dimensions; those that are missing are zero.

@@ -1,8 +1,8 @@
 //! The simulation of a motion that is known in closed form, in any dimension and of any law.
 
-use super::Manufactured;
 use super::metrics as m;
 use super::scene::{Timing, begin, vector};
+use super::{Manufactured, errors};
 use crate::cases::observe::{column, discretisation, position_columns, reference_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
@@ -13,10 +13,9 @@ use crate::parameter::Parameters;
 use crate::record::Discretisation;
 use crate::spec::RunSpec;
 use crate::statistics::{fit_line, rms};
+use mpm_core::Simulation;
 use mpm_core::material::{NeoHookean, NewtonianFluid};
-use mpm_core::{Particles, Simulation};
 use mpm_solvers::Solvable;
-use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -95,19 +94,6 @@ where
 }
 
 impl<const D: usize> Motion<D> {
-    /// Displacement minus the exact one (m); across a periodic end the nearest image counts.
-    fn displacement_error(&self, p: &Particles<D>, k: usize, t: f64) -> Vector3<f64> {
-        let x = vector(&p.reference[k]);
-        let exact = x + self.solution.displacement(&x, t);
-        let mut error = vector(&p.position[k]) - exact;
-        let grid_extent = self.solution.extent();
-        for a in 0..D {
-            let length = grid_extent[a][1] - grid_extent[a][0];
-            error[a] -= length * (error[a] / length).round();
-        }
-        error
-    }
-
     /// Means of J̄ and J over each cell, by the particles' reference positions.
     fn cell_means(&self, run: &dyn Simulation<D>) -> Vec<[f64; 2]> {
         let (p, h, extent) = (
@@ -154,8 +140,8 @@ impl<const D: usize> Motion<D> {
             mode: self.mode(run),
         };
         seen.rows.push(row);
-        let p = run.particles();
-        let errors = (0..p.len()).map(|k| self.displacement_error(p, k, row.time).norm());
+        let (p, solution) = (run.particles(), self.solution.as_ref());
+        let errors = (0..p.len()).map(|k| errors::of_displacement(solution, p, k, row.time).norm());
         let mut values = vec![
             row.time,
             rms(errors),
@@ -189,60 +175,39 @@ impl<const D: usize> Motion<D> {
         times.map(|s| scale(s * run.time())).fold(0.0, f64::max)
     }
 
-    /// Cauchy stress of the motion and of the exact solution (Pa), in the particles' order.
-    fn stresses(&self, run: &mut dyn Simulation<D>) -> Vec<(Matrix3<f64>, Matrix3<f64>)> {
-        let t = run.time();
-        let stress = run.force_stress();
-        let references = &run.particles().reference;
-        let pairs = references.iter().zip(stress).map(|(x, s)| {
-            let x = vector(x);
-            let f = self.solution.deformation_gradient(&x, t);
-            let p = self.solution.first_piola(&x, t);
-            (s.to_matrix(), p * f.transpose() / f.determinant())
-        });
-        pairs.collect()
-    }
-
     /// Errors of displacement, velocity, stress and mean stress of every particle, and the projections
     /// of displacement and velocity on the exact ones.
     fn errors(&self, run: &mut dyn Simulation<D>) -> ([Vec<f64>; 4], [f64; 2]) {
         let (t, dt) = (run.time(), self.discretisation.dt);
-        let stresses = self.stresses(run);
+        let stresses = errors::of_stress(self.solution.as_ref(), run);
         let p = run.particles();
-        let mut errors = [const { Vec::new() }; 4];
+        let mut found = [const { Vec::new() }; 4];
         let mut projections = [(0.0, 0.0); 2];
-        for (k, (stress, exact_stress)) in stresses.iter().enumerate() {
+        for (k, stress) in stresses.iter().enumerate() {
             let x = vector(&p.reference[k]);
             let exact = [
                 self.solution.displacement(&x, t),
                 self.solution.velocity(&x, t - 0.5 * dt),
             ];
             let off = [
-                self.displacement_error(p, k, t),
+                errors::of_displacement(self.solution.as_ref(), p, k, t),
                 vector(&p.velocity[k]) - exact[1],
             ];
             for (sums, (exact, off)) in projections.iter_mut().zip(exact.iter().zip(&off)) {
                 sums.0 += (exact + off).dot(exact);
                 sums.1 += exact.norm_squared();
             }
-            let stress_off = stress - exact_stress;
             let values = [
                 off[0].norm(),
                 off[1].norm(),
-                stress_off.norm(),
-                (stress_off.trace() / 3.0).abs(),
+                stress.norm(),
+                (stress.trace() / 3.0).abs(),
             ];
-            for (errors, value) in errors.iter_mut().zip(values) {
+            for (errors, value) in found.iter_mut().zip(values) {
                 errors.push(value);
             }
         }
-        (errors, projections.map(|(along, squares)| along / squares))
-    }
-
-    fn body_mass(&self) -> f64 {
-        let extent = self.solution.extent();
-        let volume: f64 = extent[..D].iter().map(|[lo, hi]| hi - lo).product();
-        volume * self.solution.material().density
+        (found, projections.map(|(along, squares)| along / squares))
     }
 
     /// Frequency over the exact one from the zeros of the mode, and its amplitude in the last period
@@ -394,7 +359,7 @@ where
             (m::LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
             (m::KINETIC_ENERGY_PEAK, peak),
             (m::MASS, totals.mass),
-            (m::BODY_MASS, self.body_mass()),
+            (m::BODY_MASS, errors::mass::<D>(self.solution.as_ref())),
         ];
         let names = [
             [m::DISPLACEMENT_L2, m::DISPLACEMENT_LINF],

@@ -1,6 +1,6 @@
 //! Checks over several records.
 
-use super::{is_recursive, m, own_runs};
+use super::{is_recursive, m, own_runs, rim};
 use crate::check::Finding;
 use crate::record::Record;
 use std::collections::BTreeMap;
@@ -40,7 +40,7 @@ pub(super) fn error_falls(records: &[Record]) -> Vec<Finding> {
     ladders.retain(|_, ladder| ladder.len() >= 2);
     let worst = |(scheme, mut ladder): (_, Vec<&Record>)| {
         ladder.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
-        let errors = ladder.iter().map(|r| r.metric(m::FEM_MID_EDGE_ERROR).abs());
+        let errors = ladder.iter().map(|r| rim::mid_edge_error(r).abs());
         let errors: Vec<f64> = errors.collect();
         let pairs = errors.windows(2);
         let ratios = pairs.map(|pair| pair[1] / pair[0].max(REST_NOISE));
@@ -52,7 +52,7 @@ pub(super) fn error_falls(records: &[Record]) -> Vec<Finding> {
         };
         let levels = errors.len();
         Finding::at_most(
-            format!("fem_mid_edge_error of {scheme} over {levels} levels, largest ratio"),
+            format!("mid-edge error of {scheme} over {levels} levels, largest ratio"),
             worst,
             1.0,
             "a consistent scheme converges; errors below 0.2 % count as that, since rest admits 0.1 % of either run",

@@ -1,0 +1,48 @@
+//! How far a run is from the exact motion.
+
+use super::scene::vector;
+use crate::exact::Exact;
+use mpm_core::{Particles, Simulation};
+use nalgebra::{Matrix3, Vector3};
+
+/// Displacement of a particle minus the exact one (m); across a periodic end the nearest image counts.
+pub(super) fn of_displacement<const D: usize>(
+    solution: &dyn Exact,
+    p: &Particles<D>,
+    k: usize,
+    t: f64,
+) -> Vector3<f64> {
+    let x = vector(&p.reference[k]);
+    let exact = x + solution.displacement(&x, t);
+    let mut error = vector(&p.position[k]) - exact;
+    let grid_extent = solution.extent();
+    for a in 0..D {
+        let length = grid_extent[a][1] - grid_extent[a][0];
+        error[a] -= length * (error[a] / length).round();
+    }
+    error
+}
+
+/// Cauchy stress of a run, as it enters the forces, minus that of the exact motion (Pa), in the particles' order.
+pub(super) fn of_stress<const D: usize>(
+    solution: &dyn Exact,
+    run: &mut dyn Simulation<D>,
+) -> Vec<Matrix3<f64>> {
+    let t = run.time();
+    let stress = run.force_stress();
+    let references = &run.particles().reference;
+    let pairs = references.iter().zip(stress).map(|(x, s)| {
+        let x = vector(x);
+        let f = solution.deformation_gradient(&x, t);
+        let p = solution.first_piola(&x, t);
+        s.to_matrix() - p * f.transpose() / f.determinant()
+    });
+    pairs.collect()
+}
+
+/// Mass of the body (kg).
+pub(super) fn mass<const D: usize>(solution: &dyn Exact) -> f64 {
+    let extent = solution.extent();
+    let volume: f64 = extent[..D].iter().map(|[lo, hi]| hi - lo).product();
+    volume * solution.material().density
+}
