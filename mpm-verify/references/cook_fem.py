@@ -24,9 +24,11 @@ the right side and the mean of u_y over that side, the mean Cauchy stress
 (trace of the 3D tensor / 3, tension positive) at material points, and how
 these displacements change when the whole load acts on x = 48 - h/4 instead.
 cook_mean_stress.csv holds the mean stress on a lattice of material points.
+cook_loads.json holds these displacements under 10 to 50 N.
 
     python cook_fem.py --poisson-ratio 0.499      one solution, JSON on stdout
     python cook_fem.py --regenerate               rewrite the two data files
+    python cook_fem.py --large-loads              rewrite cook_loads.json
     python cook_fem.py --check                    recompute and compare them
 """
 
@@ -44,6 +46,7 @@ from skfem import Basis, ElementQuad1, ElementQuad2, ElementQuadP, MeshQuad
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "cook.json"
 LATTICE = HERE / "cook_mean_stress.csv"
+LARGE = HERE / "cook_loads.json"
 
 WIDTH = 48.0
 YOUNG_MODULUS, LOAD = 70.0, 1.0
@@ -52,6 +55,8 @@ LATTICE_POISSON_RATIO = 0.499
 LATTICE_SPACING = 0.5
 INSET_SPACINGS = (2.0, 1.0, 0.5, 0.25)  # the load line lies at 48 - h/4
 PROBES = ((24, 36), (16, 30), (36, 48), (24, 24), (8, 20), (8, 40), (44, 52))
+LARGE_LOADS = (10.0, 20.0, 30.0, 40.0, 50.0)  # N
+LARGE_LOADS_SPACING = 1.0  # the load acts on the side and at 48 - h/4
 TIP, MID_EDGE = (48.0, 60.0), (48.0, 52.0)
 
 ELEMENTS, DEGREE = 10, 5  # of the stored solutions
@@ -160,14 +165,20 @@ def inverse_transpose(F):
 
 
 class Solution:
-    """Static equilibrium by Newton's method from the undeformed state."""
+    """Static equilibrium by Newton's method from the undeformed state, by a load that is
+    raised once or further."""
 
     def __init__(self, membrane, poisson_ratio, young_modulus=YOUNG_MODULUS, load=LOAD):
-        self.membrane = m = membrane
+        self.membrane = membrane
         self.mu = young_modulus / (2 * (1 + poisson_ratio))
         self.lam = 2 * self.mu * poisson_ratio / (1 - 2 * poisson_ratio)
-        self.values = np.zeros(m.size)
+        self.values = np.zeros(membrane.size)
         self.linearised_pressure = 0.0
+        self.raise_to(load)
+
+    def raise_to(self, load):
+        """The equilibrium under another load, from the present one."""
+        m = self.membrane
         self.residuals = []  # relative to the load
         scale = np.linalg.norm(load * m.load)
         for _ in range(25):
@@ -368,6 +379,42 @@ class Family:
         }
 
 
+def under_large_loads(**discretisation):
+    """Tip, mid-edge and mean u_y over the loads, for each line that the load acts on."""
+    found = {}
+    for inset in (0.0, LARGE_LOADS_SPACING / 4):
+        membrane = Membrane(load_x=WIDTH - inset, **discretisation)
+        step = LARGE_LOADS[0] / 4
+        solution = Solution(membrane, LATTICE_POISSON_RATIO, load=step)
+        for k in range(2, 1 + round(LARGE_LOADS[-1] / step)):
+            solution.raise_to(k * step)
+            if k * step in LARGE_LOADS:
+                found[inset, k * step] = solution.displacements()[[1, 3, 4]]
+                print(inset, k * step, found[inset, k * step], file=sys.stderr, flush=True)
+    return found
+
+
+def large_loads():
+    fine = under_large_loads(elements=ELEMENTS - 4, layers=LAYERS - 6, degree=DEGREE - 1)
+    coarse = under_large_loads(elements=ELEMENTS - 4, layers=LAYERS - 7, degree=DEGREE - 2)
+    results = {
+        "schema": 1,
+        "method": "As cook.json, the load raised in steps; uncertainty from a coarser mesh of one degree less.",
+        "poisson_ratio": LATTICE_POISSON_RATIO,
+        "h": LARGE_LOADS_SPACING,
+        "solutions": [
+            {
+                "load_over_young_modulus": load / YOUNG_MODULUS,
+                "load_inset": inset,
+                **dict(zip(("tip_uy", "mid_edge_uy", "edge_mean_uy"), (round(float(v), 6) for v in values))),
+                "uncertainty": uncertainty([difference(values, coarse[inset, load])]),
+            }
+            for (inset, load), values in fine.items()
+        ],
+    }
+    LARGE.write_text(json.dumps(results, indent=1) + "\n")
+
+
 def difference(a, b):
     return float(np.abs(np.asarray(a) - np.asarray(b)).max())
 
@@ -460,11 +507,14 @@ def main():
     parser.add_argument("--out", type=Path, help="write the JSON here instead of to stdout")
     action = parser.add_mutually_exclusive_group()
     action.add_argument("--regenerate", action="store_true", help="rewrite the two data files")
+    action.add_argument("--large-loads", action="store_true", help="rewrite cook_loads.json")
     action.add_argument("--check", action="store_true", help="exit 1 unless they are reproduced")
     arguments = parser.parse_args()
 
     if arguments.regenerate:
         return regenerate()
+    if arguments.large_loads:
+        return large_loads()
     if arguments.check:
         return sys.exit(0 if check() else 1)
 

@@ -25,6 +25,88 @@ fn refused(arguments: &[&str], needles: &[&str]) {
 }
 
 #[test]
+fn a_quasi_static_run_says_what_it_does_not_solve() {
+    let beam = |set: &[&str], needles: &[&str]| {
+        let set = set.iter().flat_map(|s| ["--set", s]);
+        refused(
+            &["run", "cantilever"]
+                .into_iter()
+                .chain(set)
+                .collect::<Vec<_>>(),
+            needles,
+        );
+    };
+    let on = |basis: &str, set: &str, needles: &[&str]| {
+        refused(
+            &["run", "cantilever", "--basis", basis, "--set", set],
+            needles,
+        );
+    };
+    beam(&["load_steps=0"], &["load_steps", "1 to 10000"]);
+    beam(&["tolerance=1"], &["tolerance", "0.01"]);
+    beam(
+        &["stabilisation=glue"],
+        &["glue", "none, soft, ghost, extension"],
+    );
+    on(
+        "q8",
+        "stabilisation=ghost",
+        &["ghost penalty", "none or soft"],
+    );
+    on(
+        "q8",
+        "stabilisation=extension",
+        &["extension", "none or soft"],
+    );
+    on(
+        "gimp",
+        "stabilisation=soft",
+        &["soft stiffness", "ghost or extension"],
+    );
+    on("gimp", "law=jaumann", &["basis", "allowed"]);
+    refused(
+        &[
+            "run",
+            "cook",
+            "--solver",
+            "quasi-static",
+            "--remedy",
+            "fbar-rate",
+        ],
+        &[
+            "quasi-static-gimp-fbar-rate",
+            "quasi-static-gimp-fbar-consistent",
+        ],
+    );
+    refused(
+        &[
+            "run",
+            "cook",
+            "--solver",
+            "quasi-static",
+            "--set",
+            "cfl=0.1",
+        ],
+        &["cfl", "quasi-static"],
+    );
+    refused(
+        &["run", "cook", "--set", "ghost=0.1"],
+        &["ghost", "explicit"],
+    );
+    refused(
+        &[
+            "run",
+            "mms-static",
+            "--set",
+            "dimension=3",
+            "--set",
+            "pressure=1",
+        ],
+        &["pressure", "allowed: 0"],
+    );
+}
+
+#[test]
 fn unknown_names_are_refused_with_those_that_exist() {
     refused(
         &["run", "cok"],
@@ -133,7 +215,7 @@ fn values_that_cannot_go_together_are_refused() {
     }
     refused(
         &["verify", "--tier", "quick", "--shard", "1/90"],
-        &["tier quick has 15 runs for 90 shards"],
+        &["tier quick has 16 runs for 90 shards"],
     );
     refused(
         &["verify", "--tier", "quick", "--shard", "3/2"],

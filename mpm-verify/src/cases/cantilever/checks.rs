@@ -2,14 +2,16 @@
 
 use super::metrics::{
     CORNER_ERROR, CORNER_UY, FORCE_RATIO, LOG10_CONDITION, MASS, NEWTON_ITERATIONS, REACTION_ERROR,
+    STRESS_ERROR, STRESSES,
 };
 use super::parameters::{
     EXTENSION, GHOST, JAUMANN_LINEAR, LAW, LOAD_STEPS, NONE, POINTS_PER_DIRECTION, STABILISATION,
     TOLERANCE,
 };
-use super::reference::solution;
+use super::reference::{solution, stresses};
 use super::watch::VOLUME;
 use crate::check::{Check, Finding, run, study};
+use crate::metric::Metric;
 use crate::record::{Record, Status};
 use crate::scheme::BasisName;
 
@@ -92,8 +94,13 @@ pub(super) fn checks() -> Vec<Check> {
             run(|r| is_splines(r).then(|| corner(r))),
         ),
         Check::truth(
+            "stress",
+            "likewise: σ_xx at six points near the clamp within h |∇σ_xx| of the finite elements",
+            run(|r| if is_splines(r) { stress(r) } else { Vec::new() }),
+        ),
+        Check::truth(
             "falls",
-            "likewise: the error falls from level to level",
+            "likewise: the errors of u_y and of these stresses fall from level to level",
             study(falls),
         ),
         Check::truth(
@@ -150,6 +157,27 @@ fn corner(r: &Record) -> Finding {
     Finding::within(CORNER_UY, r.metric(CORNER_UY), exact, tolerance, why)
 }
 
+/// σ_xx at points near the clamp; the tolerance moves the point by a cell.
+fn stress(r: &Record) -> Vec<Finding> {
+    let known = match stresses(&r.parameters) {
+        Ok(known) => known,
+        Err(why) => return vec![Finding::not_applicable(STRESS_ERROR, why)],
+    };
+    let found = STRESSES.iter().filter_map(|&(metric, at)| {
+        let exact = known.at(at)?;
+        let tolerance = r.discretisation.h * exact.gradient + known.uncertainty_stress;
+        let why = "finite elements of degree 5, this project; tolerance: the point moved by a cell";
+        Some(Finding::within(
+            metric,
+            r.metric(metric),
+            exact.value,
+            tolerance,
+            why,
+        ))
+    });
+    found.collect()
+}
+
 /// Of runs that have ended, in the order of the plan.
 fn ended(records: &[Record]) -> impl Iterator<Item = &Record> {
     records.iter().filter(|r| r.status == Status::Ok)
@@ -164,15 +192,18 @@ fn falls(records: &[Record]) -> Vec<Finding> {
         };
         let mut own: Vec<&Record> = ended(records).filter(own).collect();
         own.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
-        let fall = |pair: &[&Record]| {
-            let (coarse, fine) = (pair[0].metric(CORNER_ERROR), pair[1].metric(CORNER_ERROR));
+        let fall = |metric: Metric, pair: &[&Record]| {
+            let (coarse, fine) = (pair[0].metric(metric), pair[1].metric(metric));
             let what = format!(
-                "{by}: error at {} over that at {}",
-                pair[1].level, pair[0].level
+                "{by}: {} at {} over that at {}",
+                metric.name, pair[1].level, pair[0].level
             );
             Finding::at_most(what, fine / coarse, 1.0, "convergence under refinement")
         };
-        own.windows(2).map(fall).collect::<Vec<_>>()
+        let both = [CORNER_ERROR, STRESS_ERROR];
+        let pairs = own.windows(2);
+        let found = pairs.flat_map(|pair| both.map(|metric| fall(metric, pair)));
+        found.collect::<Vec<_>>()
     };
     [GHOST, EXTENSION]
         .into_iter()

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use std::sync::OnceLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/cantilever.json");
+const STRESSES: &str = include_str!("../../../references/cantilever_stress.json");
 
 #[derive(Debug, Deserialize)]
 struct Document {
@@ -30,6 +31,53 @@ pub(super) struct Solution {
     pub(super) right_edge_mean: Option<[f64; 2]>,
     /// Uncertainty.
     pub(super) uncertainty: f64,
+}
+
+/// σ_xx at material points under 4 kN/m³.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Stresses {
+    stress_xx: Vec<Stress>,
+    /// Uncertainty (Pa).
+    pub(super) uncertainty_stress: f64,
+}
+
+/// σ_xx (Pa) and its gradient (Pa/m) at a material point (m).
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(super) struct Stress {
+    x: f64,
+    y: f64,
+    pub(super) value: f64,
+    pub(super) gradient: f64,
+}
+
+impl Stresses {
+    /// At a point (m), where it is known.
+    pub(super) fn at(&self, point: [f64; 2]) -> Option<&Stress> {
+        self.stress_xx.iter().find(|s| [s.x, s.y] == point)
+    }
+}
+
+/// The stresses for `parameters`, of which those of rates are not known.
+pub(super) fn stresses(parameters: &Parameters) -> Result<&'static Stresses, String> {
+    #[derive(Debug, Deserialize)]
+    struct Document {
+        hencky: Stresses,
+        neo_hookean: Stresses,
+    }
+    static DOCUMENT: OnceLock<Option<Document>> = OnceLock::new();
+    let stored = DOCUMENT.get_or_init(|| serde_json::from_str(STRESSES).ok());
+    let stored = stored.as_ref().ok_or("the stored stresses can't be read")?;
+    solution(parameters)?;
+    if parameters.number(YOUNG_MODULUS) != 1e5 {
+        return Err("the reference is for E = 100 kPa".to_owned());
+    }
+    if parameters.is(LAW, HENCKY) {
+        Ok(&stored.hencky)
+    } else if parameters.is(LAW, NEO_HOOKEAN) {
+        Ok(&stored.neo_hookean)
+    } else {
+        Err("no reference stresses of Jaumann's law".to_owned())
+    }
 }
 
 fn document() -> Option<&'static Document> {

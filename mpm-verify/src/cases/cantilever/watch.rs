@@ -2,13 +2,14 @@
 
 use super::metrics as m;
 use super::parameters::{LOAD_STEPS, POINTS_PER_DIRECTION, TOLERANCE, WEIGHT};
-use super::reference::solution;
+use super::reference::{solution, stresses};
 use super::scene::{DEPTH, LENGTH, begin, counts, seed};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
 use crate::metric::Metric;
 use crate::parameter::Parameters;
+use crate::probe::PointProbe;
 use crate::record::Discretisation;
 use crate::spec::RunSpec;
 use mpm_core::Simulation;
@@ -33,6 +34,7 @@ pub(super) struct Bending {
     references: Vec<[f64; 2]>,
     /// Particles along the length and the depth.
     counts: [usize; 2],
+    stress: Vec<(Metric, [f64; 2], PointProbe)>,
 }
 
 impl Bending {
@@ -43,6 +45,10 @@ impl Bending {
     pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
         let h = spec.level.h;
         let per_direction = parameters.number(POINTS_PER_DIRECTION);
+        let references = spec.start_at(seed(h, parameters));
+        let probes = m::STRESSES
+            .iter()
+            .filter_map(|&(metric, at)| Some((metric, at, PointProbe::new(&references, at, h)?)));
         let bending = Self {
             spec: spec.clone(),
             parameters: parameters.clone(),
@@ -53,7 +59,8 @@ impl Bending {
                 dt: 1.0 / parameters.number(LOAD_STEPS),
                 wall: "open-knot".to_owned(),
             },
-            references: spec.start_at(seed(h, parameters)),
+            stress: probes.collect(),
+            references,
             counts: counts(h, parameters),
         };
         Ok(Drive::new(bending, Seen::default())?)
@@ -86,13 +93,34 @@ impl Bending {
         (-run.on(Part::Constraint(0)).force[1] / weight - 1.0).abs()
     }
 
+    /// σ_xx (Pa) at the points of the reference, and its distance from there, as far as it is known.
+    fn stress_at_points(&self, run: &dyn Simulation<2>) -> Vec<(Metric, f64)> {
+        let p = run.particles();
+        let field = p.seeded(|k| p.stress[k].xx);
+        let mut values: Vec<(Metric, f64)> = Vec::new();
+        let mut squares = [0.0; 2];
+        let known = stresses(&self.parameters);
+        for (metric, at, probe) in &self.stress {
+            let value = probe.value(&field);
+            values.push((*metric, value));
+            if let Some(exact) = known.as_ref().ok().and_then(|known| known.at(*at)) {
+                squares[0] += (value - exact.value).powi(2);
+                squares[1] += exact.value.powi(2);
+            }
+        }
+        if squares[1] > 0.0 {
+            values.push((m::STRESS_ERROR, (squares[0] / squares[1]).sqrt()));
+        }
+        values
+    }
+
     fn volume(&self, run: &dyn Simulation<2>) -> f64 {
         run.particles().reference_volume.iter().sum()
     }
 }
 
 /// Least and greatest σ_xx (Pa).
-fn stresses(run: &dyn Simulation<2>) -> [f64; 2] {
+fn extremes(run: &dyn Simulation<2>) -> [f64; 2] {
     let stress = run.particles().stress.iter().map(|s| s.xx);
     stress.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], s| {
         [lo.min(s), hi.max(s)]
@@ -152,7 +180,7 @@ impl Watch<2> for Bending {
         };
         let [corner_x, mean_x] = self.tip(run, 0);
         let [corner_y, mean_y] = self.tip(run, 1);
-        let [least, greatest] = stresses(run);
+        let [least, greatest] = extremes(run);
         let totals = run.totals();
         Ok(vec![
             run.time(),
@@ -200,7 +228,7 @@ impl Watch<2> for Bending {
         let run = stage.run.as_ref();
         let [corner_x, mean_x] = self.tip(run, 0);
         let [corner_y, mean_y] = self.tip(run, 1);
-        let [least, greatest] = stresses(run);
+        let [least, greatest] = extremes(run);
         // What is less is rounding, which no golden should hold.
         let tolerance = self.parameters.number(TOLERANCE);
         let mut values = vec![
@@ -218,6 +246,7 @@ impl Watch<2> for Bending {
             (m::REACTION_ERROR, self.reaction_error(run).max(tolerance)),
             (m::MASS, run.totals().mass),
         ];
+        values.extend(self.stress_at_points(run));
         if let Ok(truth) = solution(&self.parameters) {
             let [_, corner] = truth.bottom_right;
             values.push((m::CORNER_ERROR, (corner_y / corner - 1.0).abs()));

@@ -106,8 +106,13 @@ const GIMPS: &[&str] = &["cfl=0.45"];
 const ONE_STEP: &[&str] = &["load_steps=1"];
 const HELD: &[&str] = &["load_steps=1", "ghost=0.001"];
 // Loads under which explicit bodies leave the grid, with functions of the rim held.
-const TEN_TIMES: &[&str] = &["load=10", "load_steps=5", "ghost=0.001"];
-const FIFTY_TIMES: &[&str] = &["load=50", "load_steps=20", "ghost=0.001"];
+const LARGE_LOADS: [&[&str]; 5] = [
+    &["load=10", "load_steps=5", "ghost=0.001"],
+    &["load=20", "load_steps=8", "ghost=0.001"],
+    &["load=30", "load_steps=12", "ghost=0.001"],
+    &["load=40", "load_steps=16", "ghost=0.001"],
+    &["load=50", "load_steps=20", "ghost=0.001"],
+];
 
 /// Quasi-static, without a remedy and with ours.
 fn statics(bases: &[BasisName]) -> Vec<Scheme> {
@@ -122,14 +127,14 @@ fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
     let three = [Gimp, Bspline2, Bspline3];
     let gimp = |remedies: &[RemedyName]| pairs(&[Gimp], remedies);
     let two = |remedies: &[RemedyName]| pairs(&[Gimp, Bspline2], remedies);
-    let all = pairs(&three, &REMEDIES);
+    let every = pairs(&three, &REMEDIES);
     let averages = two(&[none, FbarTotal, FbarRate]);
     let rate = two(&[FbarRate]);
     let totals = two(&[FbarTotal, FbarRate]);
     let cubic = pairs(&[Bspline3], &[none, FbarTotal, FbarRate]);
     let averaged = [Gimp, Bspline2].map(|basis| Scheme::quasi_static(basis, FbarConsistent));
     let [three_per, four_per] = more_particles(Long, &[h2, h1]);
-    vec![
+    let mut all = vec![
         family(Quick, &[h2], &gimp(&REMEDIES), &[]),
         family(Quick, &[h2], &gimp(&[FbarRecursive]), HALVED),
         family(Pr, &[h2], &two(&REMEDIES), &[]),
@@ -137,8 +142,8 @@ fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
         family(Pr, &[h1], &gimp(&[none, FbarRecursive]), &[]),
         family(Pr, &[h1], &pairs(&[Bspline2], &[none]), &[]),
         family(Pr, &[h1], &gimp(&[FbarConsistent]), LARGE),
-        family(Nightly, &[h2], &all, &[]),
-        family(Nightly, &[h1], &all, &[]),
+        family(Nightly, &[h2], &every, &[]),
+        family(Nightly, &[h1], &every, &[]),
         family(Nightly, &[half, quarter], &gimp(&[none]), GIMPS),
         family(
             Nightly,
@@ -176,10 +181,10 @@ fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
         four_per,
         family(Pr, &[h2, h1], &statics(&[Gimp, Bspline2]), &[]),
         family(Pr, &[h1], &averaged, HELD),
-        family(Pr, &[h1], &averaged[..1], ONE_STEP),
+        family(Nightly, &[h1], &averaged[..1], ONE_STEP),
         family(Nightly, &[h1, half], &averaged, &["ghost=0.001"]),
         family(Nightly, &[half, quarter], &statics(&[Gimp, Bspline2]), &[]),
-        family(Nightly, &[h1], &statics(&[Bspline2]), TEN_TIMES),
-        family(Nightly, &[h1], &statics(&[Bspline2]), FIFTY_TIMES),
-    ]
+    ];
+    all.extend(LARGE_LOADS.map(|set| family(Nightly, &[h1], &statics(&[Bspline2]), set)));
+    all
 }

@@ -10,6 +10,8 @@ use std::sync::LazyLock;
 const SOLUTIONS: &str = include_str!("../../../references/cook.json");
 const FIELD: &str = include_str!("../../../references/cook_mean_stress.csv");
 
+const LARGE_LOADS: &str = include_str!("../../../references/cook_loads.json");
+
 /// Young's modulus (Pa) of the stored solutions; stresses scale with it.
 const MODULUS: f64 = 70.0;
 /// Spacing of the lattice of the reference field (m); its first point is at half of it.
@@ -92,6 +94,36 @@ pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, Str
         .iter()
         .find(|s| s.poisson_ratio == nu)
         .ok_or_else(|| format!("no reference at ν = {nu}"))
+}
+
+/// Deflections of the right side (m) under a large load.
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(super) struct LargeLoad {
+    load_over_young_modulus: f64,
+    /// How far (m) from the right side it acts.
+    load_inset: f64,
+    pub(super) mid_edge_uy: f64,
+    pub(super) edge_mean_uy: f64,
+    pub(super) uncertainty: f64,
+}
+
+/// The solution under a load of 10 to 50 N that acts `inset` (m) from the side, if it is stored.
+pub(super) fn large_load(parameters: &Parameters, inset: f64) -> Option<&'static LargeLoad> {
+    #[derive(Debug, Deserialize)]
+    struct Document {
+        poisson_ratio: f64,
+        solutions: Vec<LargeLoad>,
+    }
+    static DOCUMENT: LazyLock<Option<Document>> =
+        LazyLock::new(|| serde_json::from_str(LARGE_LOADS).ok());
+    let document = DOCUMENT.as_ref()?;
+    let ratio = parameters.number(LOAD) / parameters.number(YOUNG_MODULUS);
+    let same = |s: &&LargeLoad| {
+        let load = s.load_over_young_modulus;
+        (ratio - load).abs() < 1e-9 * load && (s.load_inset - inset).abs() < 1e-9
+    };
+    let known = parameters.number(POISSON_RATIO) == document.poisson_ratio;
+    document.solutions.iter().find(same).filter(|_| known)
 }
 
 /// What the stored stresses are to be multiplied with for `parameters`.

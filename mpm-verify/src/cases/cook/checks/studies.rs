@@ -40,7 +40,7 @@ pub(super) fn error_falls(records: &[Record]) -> Vec<Finding> {
     ladders.retain(|_, ladder| ladder.len() >= 2);
     let worst = |(scheme, mut ladder): (_, Vec<&Record>)| {
         ladder.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
-        let errors = ladder.iter().map(|r| rim::mid_edge_error(r).abs());
+        let errors = ladder.iter().map(|r| rim::falling_error(r).abs());
         let errors: Vec<f64> = errors.collect();
         let pairs = errors.windows(2);
         let ratios = pairs.map(|pair| pair[1] / pair[0].max(REST_NOISE));
