@@ -89,13 +89,13 @@ pub(super) const ERRORS: &[Quantity] = &[
 /// The table's columns of a quasi-static run.
 pub(super) fn slow_headlines() -> Vec<Column> {
     vec![
-    headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 8),
-    headline(STRESS_L2, "σ rms error (Pa)", 1.0, 2),
-    headline(MEAN_STRESS_L2, "σ_m rms error (Pa)", 1.0, 2),
-    headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 6),
-    headline(DISPLACEMENT_SCALE, "u rms (m)", 1.0, 6),
-    headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-]
+        headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 8),
+        headline(STRESS_L2, "σ rms error (Pa)", 1.0, 2),
+        headline(MEAN_STRESS_L2, "σ_m rms error (Pa)", 1.0, 2),
+        headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 6),
+        headline(DISPLACEMENT_SCALE, "u rms (m)", 1.0, 6),
+        headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
+    ]
 }
 
 /// The errors of a quasi-static run whose convergence is studied.
