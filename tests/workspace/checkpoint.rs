@@ -468,7 +468,8 @@ fn goes_on(case: &Case, spec: &RunSpec) {
     let name = format!("{} {}", case.name, spec.folder());
     let (rows, at_end) = drive(case, spec, &[]);
     let n = rows.len();
-    assert!(n > 4, "{name}: {n} rows");
+    // One after the first row, one in the middle, one before the last.
+    assert!(n > 3, "{name}: {n} rows");
     let (again, end_again) = drive(case, spec, &[1, n / 3, n / 2, n - 1]);
     assert!(rows == again, "{name}: rows differ");
     assert!(at_end == end_again, "{name}: the end differs");

@@ -70,12 +70,15 @@ pub(super) struct Cost {
 
 impl Prices {
     /// Of the errors of a case in its own problem that two schemes have at two levels: the first of the motion, then the
-    /// last of the stress, which is that of the pressure.
+    /// last of the stress, which is that of the pressure. Of the case's own kind of solver: another kind does other work
+    /// for a pair, and more beside it.
     pub(super) fn of(study: &CaseStudy) -> Vec<Self> {
         let Ok(case) = cases::find(&study.case) else {
             return Vec::new();
         };
-        let curves = precision(case, &study.records);
+        let kind = case.default_scheme(None).solver();
+        let mut curves = precision(case, &study.records);
+        curves.retain(|curve| curve.scheme.solver() == kind);
         let of_metric = |q: &Quantity| {
             let own = curves.iter().filter(|c| c.metric == q.metric.name);
             Self::over(&own.collect::<Vec<_>>(), q)
