@@ -1,4 +1,4 @@
-//! Text for the terminal: lists, explanations, verdicts. Lines fit [`WIDTH`]; colours are for whoever prints to keep or
+//! Text for the terminal: lists, explanations, verdicts. Lines fit 100 columns; colours are for whoever prints to keep or
 //! to drop.
 
 use super::words::{bless_commands, demand, kind, number, outcome, quantity, sentence};
