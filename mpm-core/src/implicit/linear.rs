@@ -26,11 +26,10 @@ enum Factors {
 /// Solves systems of one pattern after the other; the order of elimination is kept as long as the pattern is.
 pub(super) struct Direct {
     symmetric: bool,
-    pattern: Pattern,
+    /// The pattern of the matrices; it can be of a solver that was saved, whose factors are not kept.
+    pub(super) pattern: Pattern,
     factors: Factors,
     memory: MemBuffer,
-    /// Orders of elimination found.
-    pub(super) analyses: u64,
 }
 
 fn matrix<'a>(pattern: &'a Pattern, values: &'a [f64]) -> SparseColMatRef<'a, usize, f64> {
@@ -47,7 +46,6 @@ impl Direct {
             pattern: Pattern::default(),
             factors: Factors::None,
             memory: MemBuffer::new(faer::dyn_stack::StackReq::EMPTY),
-            analyses: 0,
         }
     }
 
@@ -57,7 +55,6 @@ impl Direct {
             return Ok(());
         }
         self.pattern = pattern.clone();
-        self.analyses += 1;
         let n = pattern.len();
         let structure =
             SymbolicSparseColMatRef::new_checked(n, n, &pattern.begin, None, &pattern.row);

@@ -1,5 +1,8 @@
-//! What a solver remembers: particles and their states, what the stages remember, and the sums so far.
+//! What a solver remembers: particles and their states, what the stages remember, the sums so far, and the pattern of
+//! its matrices, so that a new one is counted as one.
 
+use super::linear::Direct;
+use super::unknowns::Pattern;
 use super::{Interpolation, Solver};
 use crate::material::Law;
 use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
@@ -24,12 +27,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
             save_all(&self.scene.loads)?,
             save_all(&self.scene.constraints)?,
         );
-        Saved::of(&(self.scene.body.save()?, sums, stages))
+        Saved::of(&(self.scene.body.save()?, sums, stages, &self.direct.pattern))
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        type All = (Saved, Sums, (Vec<Saved>, Vec<Saved>));
-        let (body, sums, (loads, constraints)): All = saved.read("a quasi-static solver")?;
+        type All = (Saved, Sums, (Vec<Saved>, Vec<Saved>), Pattern);
+        let (body, sums, (loads, constraints), pattern): All =
+            saved.read("a quasi-static solver")?;
         let (time, accumulated, residual, convergence, work, reactions) = sums;
         MemoryError::unless_equal("constraints", reactions.len(), self.reactions.len())?;
         MemoryError::unless_equal("nodes", work.nodes as usize, self.functions.len())?;
@@ -42,6 +46,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
         self.convergence = convergence;
         self.work = work;
         self.reactions = reactions;
+        self.direct = Direct::new(M::CONSERVATIVE);
+        self.direct.pattern = pattern;
         Ok(())
     }
 }

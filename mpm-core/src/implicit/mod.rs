@@ -323,11 +323,10 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let setting = self.setting(dt);
         let earlier = self.external(self.time, &setting.elements);
         let external = self.external(self.time + dt, &setting.elements);
-        let analyses = self.direct.analyses;
+        self.work.analyses += u64::from(self.direct.pattern != setting.pattern);
         self.direct
             .analyse(&setting.pattern)
             .map_err(|_| Failure::Singular(0))?;
-        self.work.analyses += self.direct.analyses - analyses;
         let rounding = self.rounding(&setting.elements);
         let mut newton = Newton {
             step: setting.step(&self.scene.body, dt),

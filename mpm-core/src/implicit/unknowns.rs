@@ -2,6 +2,7 @@
 
 use super::elements::Elements;
 use super::penalty::Penalty;
+use serde::{Deserialize, Serialize};
 
 /// No unknown.
 const NONE: usize = usize::MAX;
@@ -67,7 +68,7 @@ impl<const D: usize> Unknowns<D> {
 
 /// Where the entries of the stiffness matrix are: column by column, rows in order. Held unknowns have their diagonal
 /// alone.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Pattern {
     /// Where each column begins, and the last one ends.
     pub(super) begin: Vec<usize>,
