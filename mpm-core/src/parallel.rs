@@ -136,7 +136,8 @@ pub fn scatter<T: Send>(
 }
 
 /// Runs of `run` nodes of one colour, the first of which begins at node `first`, and the slabs from its own on. Slabs
-/// are few and unlike, so each is for the next thread that is free.
+/// are few and unlike, so each is for the next thread that is free; what has as few particles as a thread takes at once
+/// anyhow wakes no other one.
 fn run_by_run<T: Send>(
     nodes: &mut [T],
     first: usize,
@@ -149,10 +150,15 @@ fn run_by_run<T: Send>(
         let half = runs / 2;
         let (before, after) = nodes.split_at_mut(nodes.len().min(half * run));
         let (slabs_before, slabs_after) = slabs.split_at(2 * half);
-        join(
+        let particles = slabs.last().map_or(0, |s| s.end) - slabs.first().map_or(0, |s| s.start);
+        let parts: [&mut (dyn FnMut() + Send); 2] = [
             &mut || run_by_run(before, first, run, slabs_before, kernel),
             &mut || run_by_run(after, first + half * run, run, slabs_after, kernel),
-        );
+        ];
+        match parts {
+            [a, b] if particles > AT_ONCE * CHUNK => join(a, b),
+            parts => parts.into_iter().for_each(|part| part()),
+        }
     } else if let Some(particles) = slabs.first() {
         kernel(particles.clone(), nodes, first);
     }

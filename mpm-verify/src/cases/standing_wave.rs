@@ -3,7 +3,7 @@
 //! Set-up, choices and tolerances: `docs/standing-wave.md`.
 
 use super::family::{REMEDIES, family, levels, pairs};
-use super::manufactured::checks::mass;
+use super::manufactured::checks::{mass, motion_lost};
 use super::manufactured::metrics::{
     AMPLITUDE_RATIO, DISPLACEMENT_L2, ENERGY_GAIN, ENERGY_LOSS, FREQUENCY_ERROR, FREQUENCY_RATIO,
     LOG_JACOBIAN_GAP,
@@ -195,6 +195,11 @@ fn periods(name: &str, shows: fn(&Record) -> bool) -> ResultTable {
 fn checks() -> Vec<Check> {
     vec![
         mass(),
+        motion_lost(|_| {
+            Some(
+                "the phase is lost, or particles have left their order, as only what Π sees is stiff (docs/modes.md)",
+            )
+        }),
         Check::known_limit(
             "locks",
             "none with GIMP: the frequency is off by more than ½ (kh)² + 1 %",

@@ -3,7 +3,7 @@
 //! Set-up, choices and tolerances: `docs/vibrating-bar.md`.
 
 use super::family::{BASES, REMEDIES, family, levels, pairs};
-use super::manufactured::checks::{Claim, Claims, is_sound, mass, orders};
+use super::manufactured::checks::{Claim, Claims, is_sound, mass, motion_lost, orders};
 use super::manufactured::metrics::{
     AMPLITUDE_RATIO, DAMPING, ENERGY_GAIN, ENERGY_LOSS, FREQUENCY_ERROR, FREQUENCY_RATIO,
 };
@@ -174,6 +174,11 @@ fn softenings() -> ResultTable {
 fn checks() -> Vec<Check> {
     let mut checks = vec![
         mass(),
+        motion_lost(|_| {
+            Some(
+                "after N periods the phase is off by 2πN times the error of the frequency, which is judged",
+            )
+        }),
         Check::known_limit(
             "fades",
             "fbar-recursive: nine tenths of the energy are gone after a hundred periods",

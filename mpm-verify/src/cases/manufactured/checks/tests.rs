@@ -112,3 +112,37 @@ fn the_order_in_time_comes_from_successive_differences() {
     }
     assert!(judged(0).failed());
 }
+
+/// Outcomes of the checks of a motion on a run whose error is so many times the motion.
+fn of_error(claims: &'static [(Metric, Claims)], share: f64) -> Vec<(String, Outcome)> {
+    let mut r = at_ratio(RemedyName::None, "0.3", share);
+    let all = [POISSON_RATIO, YOUNG_MODULUS, DENSITY, ANGULAR_FREQUENCY];
+    r.parameters = Parameters::new(&all, &r.set).unwrap();
+    r.metrics.insert(
+        DISPLACEMENT_SCALE.into(),
+        Measured {
+            value: Some(1.0),
+            unit: "m".to_owned(),
+        },
+    );
+    let wave = Wave {
+        number: 100.0,
+        shear: true,
+    };
+    let checks = of_motion(claims, wave);
+    let judged = checks
+        .iter()
+        .filter(|c| c.kind != crate::verdict::Kind::Bookkeeping);
+    let verdicts = judged.flat_map(|c| c.of_run(&r));
+    verdicts.map(|v| (v.check, v.outcome)).collect()
+}
+
+#[test]
+fn an_error_above_the_motion_is_wrong_as_known_or_failed() {
+    let bound = |outcome| ("error-bound".to_owned(), outcome);
+    let lost = ("motion-lost".to_owned(), WrongAsKnown);
+    assert_eq!(of_error(SECOND, 0.9), [bound(Right)]);
+    assert_eq!(of_error(SECOND, 1.1), [bound(Failed)]);
+    assert_eq!(of_error(OPEN, 0.9), [bound(NotJudged)]);
+    assert_eq!(of_error(OPEN, 1.1), [bound(NotJudged), lost]);
+}
