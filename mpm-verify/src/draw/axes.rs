@@ -1,10 +1,18 @@
 //! Axes: ranges, ticks and their labels, and the box that they make.
 
+use super::backend::{Failure, Sheet, lettering, line, placed, units};
 use super::canvas::Canvas;
 use super::colour::{INK, Rgb};
 use super::font::{Block, LABEL, SMALL};
 use super::largest;
 use super::shape::{Frame, Point};
+use plotters::chart::{ChartBuilder, ChartContext};
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::element::Rectangle;
+use plotters::style::TextStyle;
+use plotters::style::text_anchor::{HPos, VPos};
+use std::ops::Range;
 
 const GRID: Rgb = 0xE2E2E2;
 const MINOR_GRID: Rgb = 0xF1F1F1;
@@ -12,6 +20,8 @@ const MINOR_GRID: Rgb = 0xF1F1F1;
 pub(super) const TICK: f64 = 20.0;
 /// Distance from an axis to its label below.
 const LABEL_DROP: f64 = TICK + 33.0;
+/// Positions beyond this, in pixels, are moved to it: outside any picture.
+const FAR: f64 = 1e4;
 
 /// Ticks as positions on the axis (log axes: of the logarithm) with labels; minor ones have none.
 type Ticks = Vec<(f64, String)>;
@@ -98,7 +108,12 @@ fn log_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
     ticks
 }
 
-/// An axis: its range (log axes: of the logarithm), its length in pixels, and its ticks.
+/// What plotters draws within the axes.
+pub(super) type Plot<'c> = ChartContext<'c, &'c mut Canvas, Cartesian2d<Axis, Axis>>;
+
+/// An axis: its range (log axes: of the logarithm), its length in pixels, and its ticks. Plotters' own logarithmic axis has
+/// ticks at decades alone, and its linear one labels of one form.
+#[derive(Clone)]
 pub(super) struct Axis {
     log: bool,
     pub(super) range: (f64, f64),
@@ -133,9 +148,23 @@ impl Axis {
         (position - self.range.0) / (self.range.1 - self.range.0) * self.length
     }
 
-    /// Pixels from the start of the axis to a value.
+    /// Pixels from the start of the axis to a value; on a log axis, far before it to one that isn't positive.
     pub(super) fn at(&self, value: f64) -> f64 {
-        self.pixels(if self.log { value.log10() } else { value })
+        self.pixels(if self.log {
+            value.max(0.0).log10()
+        } else {
+            value
+        })
+    }
+
+    /// The value at a distance from the start.
+    fn value(&self, pixels: f64) -> f64 {
+        let position = self.range.0 + pixels / self.length * (self.range.1 - self.range.0);
+        if self.log {
+            10f64.powf(position)
+        } else {
+            position
+        }
     }
 
     pub(super) fn label_width(&self) -> f64 {
@@ -146,6 +175,43 @@ impl Axis {
     pub(super) fn marks(&self) -> impl Iterator<Item = (f64, &str)> {
         let place = |t: &(f64, String)| self.pixels(t.0).round();
         self.ticks.iter().map(move |t| (place(t), t.1.as_str()))
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    // Plotters ends an area before its last unit, on the left and at the bottom of the picture alike.
+    fn map(&self, value: &f64, (start, end): (i32, i32)) -> i32 {
+        let along = units(self.at(*value).clamp(-FAR, FAR));
+        if start < end {
+            start + along
+        } else {
+            start + 1 - along
+        }
+    }
+
+    fn axis_pixel_range(&self, (start, end): (i32, i32)) -> Range<i32> {
+        start.min(end)..start.max(end) + 1
+    }
+
+    fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
+        let minor = hint.weight().allow_light_points();
+        let chosen = self.marks().filter(|mark| mark.1.is_empty() == minor);
+        chosen.map(|mark| self.value(mark.0)).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.value(0.0)..self.value(self.length)
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, value: &f64) -> String {
+        let at = self.at(*value).round();
+        let label = self.marks().find(|mark| mark.0 == at && !mark.1.is_empty());
+        label.map(|mark| mark.1.to_owned()).unwrap_or_default()
     }
 }
 
@@ -211,49 +277,59 @@ impl Axes {
         [left, top, left + self.x.length, top + self.y.length]
     }
 
-    pub(super) fn draw_grid(&self, canvas: &mut Canvas, [left, top, right, bottom]: Frame) {
-        for (major, colour) in [(false, MINOR_GRID), (true, GRID)] {
-            let chosen = |mark: &(f64, &str)| mark.1.is_empty() != major;
-            for x in self.x.marks().filter(chosen).map(|m| left + m.0) {
-                canvas.rectangle([x - 1.0, top, x + 1.0, bottom], colour, 1.0);
-            }
-            for y in self.y.marks().filter(chosen).map(|m| bottom - m.0) {
-                canvas.rectangle([left, y - 1.0, right, y + 1.0], colour, 1.0);
-            }
+    /// Draws the axes of a box, labels and grid where asked for, and a title above; see [`draw_box`] for the box itself.
+    pub(super) fn draw<'c>(
+        &self,
+        sheet: &Sheet<'c>,
+        [left, top, right, _]: Frame,
+        title: &Block,
+        labels: [bool; 2],
+        grid: bool,
+    ) -> Result<Plot<'c>, Failure> {
+        let margin = LABEL.margin();
+        let (beside, below) = (units(self.left() - margin), units(self.below() - margin));
+        let (width, height) = placed((self.x.length, self.y.length));
+        let corner = (units(left) - beside, units(top));
+        let place = sheet
+            .clone()
+            .shrink(corner, (beside + width, height + below));
+        let mut plot = ChartBuilder::on(&place)
+            .y_label_area_size(beside)
+            .x_label_area_size(below)
+            .build_cartesian_2d(self.x.clone(), self.y.clone())?;
+        let blank = |_: &f64| String::new();
+        let mut mesh = plot.configure_mesh();
+        mesh.light_line_style(line(MINOR_GRID, 2.0))
+            .bold_line_style(line(GRID, 2.0))
+            .axis_style(line(INK, 2.0))
+            .label_style(TextStyle::from(SMALL))
+            .axis_desc_style(TextStyle::from(LABEL))
+            .set_all_tick_mark_size(units(TICK / 2.0));
+        if !grid {
+            mesh.disable_mesh();
         }
+        match labels[0] {
+            true => mesh.x_desc(&*self.x_label.text),
+            false => mesh.x_label_formatter(&blank),
+        };
+        match labels[1] {
+            true => mesh.y_desc(&*self.y_label.text),
+            false => mesh.y_label_formatter(&blank),
+        };
+        mesh.draw()?;
+        let above = ((left + right) / 2.0, top - 12.0 - title.font.margin());
+        let style = lettering(title.font, HPos::Center, VPos::Bottom);
+        sheet.draw_text(&title.text, &style, placed(above))?;
+        Ok(plot)
     }
+}
 
-    /// Draws the box and its ticks, labels of the two axes where asked for, and a title above.
-    pub(super) fn draw(&self, canvas: &mut Canvas, frame: Frame, title: &Block, on: [bool; 2]) {
-        let [left, top, right, bottom] = frame;
-        for x in [left, right] {
-            canvas.rectangle([x - 1.0, top - 1.0, x + 1.0, bottom + 1.0], INK, 1.0);
-        }
-        for y in [top, bottom] {
-            canvas.rectangle([left - 1.0, y - 1.0, right + 1.0, y + 1.0], INK, 1.0);
-        }
-        let length = |label: &str| if label.is_empty() { 5.0 } else { 10.0 };
-        for (x, label) in self.x.marks().map(|m| (left + m.0, m.1)) {
-            canvas.rectangle([x - 1.0, bottom, x + 1.0, bottom + length(label)], INK, 1.0);
-            if on[0] {
-                canvas.text(label, (x, bottom + TICK), SMALL, (0.5, 0.0), false);
-            }
-        }
-        for (y, label) in self.y.marks().map(|m| (bottom - m.0, m.1)) {
-            canvas.rectangle([left - length(label), y - 1.0, left, y + 1.0], INK, 1.0);
-            if on[1] {
-                canvas.text(label, (left - TICK, y), SMALL, (1.0, 0.5), false);
-            }
-        }
-        let (middle, beside) = ((left + right) / 2.0, left - self.left());
-        canvas.block(title, (middle, top - 12.0 - title.height()), false);
-        if on[0] {
-            canvas.block(&self.x_label, (middle, bottom + LABEL_DROP), false);
-        }
-        if on[1] {
-            canvas.block(&self.y_label, (beside, (top + bottom) / 2.0), true);
-        }
-    }
+/// Draws the box of axes, over what has been drawn within.
+pub(super) fn draw_box(plot: &Plot) -> Result<(), Failure> {
+    let area = plot.plotting_area().strip_coord_spec();
+    let (width, height) = area.dim_in_pixel();
+    let corners = [(0, 0), (width as i32, height as i32)];
+    area.draw(&Rectangle::new(corners, line(INK, 2.0)))
 }
 
 #[cfg(test)]

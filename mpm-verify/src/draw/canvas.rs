@@ -2,15 +2,12 @@
 //! ([`svg`]).
 
 use super::colour::Rgb;
-use super::font::{Block, Font};
+use super::font::{Block, CAPITAL, Font, LEADING};
 use super::shape::{Frame, Marker, Point, Shape};
 use super::{PlotError, png_file, raster, svg};
 use crate::files::write_whole;
 use image::RgbImage;
 use std::path::Path;
-
-/// Coordinates beyond this are moved to it: far outside any picture.
-const FAR: f64 = 1e5;
 
 pub(super) struct Canvas {
     pub(super) size: (u32, u32),
@@ -53,7 +50,7 @@ impl Canvas {
         });
     }
 
-    /// Draws a polyline, which a point that is not finite interrupts.
+    /// Draws a polyline.
     pub(super) fn stroke(
         &mut self,
         points: &[Point],
@@ -61,16 +58,12 @@ impl Canvas {
         colour: Rgb,
         pattern: &'static [f64],
     ) {
-        let known = |p: &Point| !p.0.is_nan() && !p.1.is_nan();
-        for points in points.split(|p| !known(p)).filter(|part| part.len() > 1) {
-            let near = |v: f64| v.clamp(-FAR, FAR);
-            self.shapes.push(Shape::Line {
-                points: points.iter().map(|p| (near(p.0), near(p.1))).collect(),
-                width,
-                colour,
-                pattern,
-            });
-        }
+        self.shapes.push(Shape::Line {
+            points: points.to_vec(),
+            width,
+            colour,
+            pattern,
+        });
     }
 
     /// Draws a marker with a white rim, filled or hollow.
@@ -83,30 +76,35 @@ impl Canvas {
         });
     }
 
-    /// Draws one line of text; `anchor` is the fraction of its width and of a capital's height (from
-    /// the top) that lies at the point. Turned text reads upwards, with `anchor` turned along.
+    /// Draws lines of text; `anchor` is the fraction of each one's width, and of the height from the first one's capitals
+    /// to the last baseline, that lies at the point. Turned text reads upwards, with `anchor` turned along.
     pub(super) fn text(&mut self, text: &str, at: Point, font: Font, anchor: Point, turned: bool) {
-        let back = anchor.0 * font.width(text);
-        let down = (1.0 - anchor.1) * super::font::CAPITAL * font.size;
-        let at = match turned {
-            true => (at.0 + down, at.1 + back),
-            false => (at.0 - back, at.1 + down),
-        };
-        self.shapes.push(Shape::Text {
-            text: text.to_owned(),
-            at,
-            font,
-            turned,
-        });
+        let above = anchor.1 * font.height(text);
+        for (k, line) in text.lines().enumerate() {
+            let back = anchor.0 * font.width(line);
+            let down = (k as f64 * LEADING + CAPITAL) * font.size - above;
+            let at = match turned {
+                true => (at.0 + down, at.1 + back),
+                false => (at.0 - back, at.1 + down),
+            };
+            self.shapes.push(Shape::Text {
+                text: line.to_owned(),
+                at,
+                font,
+                turned,
+            });
+        }
     }
 
     /// Draws centred lines of text downwards from `at` (turned: rightwards).
-    pub(super) fn block(&mut self, block: &Block, at: Point, turned: bool) {
-        for (down, line) in block.placed() {
-            let shift = if turned { (down, 0.0) } else { (0.0, down) };
-            let at = (at.0 + shift.0, at.1 + shift.1);
-            self.text(line, at, block.font, (0.5, 0.0), turned);
-        }
+    pub(super) fn block(&mut self, block: &Block, (x, y): Point, turned: bool) {
+        let margin = block.font.margin();
+        let at = if turned {
+            (x + margin, y)
+        } else {
+            (x, y + margin)
+        };
+        self.text(&block.text, at, block.font, (0.5, 0.0), turned);
     }
 
     /// Writes the picture as PNG.

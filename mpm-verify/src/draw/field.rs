@@ -1,6 +1,7 @@
 //! Panels of particle fields in the plane.
 
-use super::axes::{Axes, Axis, TICK, extent, widen};
+use super::axes::{Axes, Axis, TICK, draw_box, extent, widen};
+use super::backend::{Failure, Own, Sheet};
 use super::bar::{BAR, BAR_TIP, draw_bar};
 use super::canvas::Canvas;
 use super::colour::{INK, channels, colour_of};
@@ -10,6 +11,7 @@ use super::raster::FINE;
 use super::shape::Point;
 use super::{EDGE, PlotError, SOLID, finite, largest, nothing};
 use image::RgbImage;
+use plotters::drawing::IntoDrawingArea;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -144,21 +146,28 @@ fn compose_fields(path: &Path, figure: &FieldFigure) -> Result<Canvas, PlotError
     let mut canvas = Canvas::new((width, head + full + EDGE));
     canvas.block(&heading, (width / 2.0, EDGE), false);
 
-    for (k, (panel, title)) in panels.iter().zip(&titles).enumerate() {
-        let (row, column) = (k / columns, k % columns);
-        let middle = EDGE + left + column as f64 * pitch + cell / 2.0;
-        let down = row as f64 * (top + y.length + ROW_GAP);
-        let down = down + if row + 1 == rows { extra } else { 0.0 };
-        let frame = axes.frame((middle - x.length / 2.0, head + down + top));
-        let image = squares(panel, &axes, bar.range);
-        canvas.image(image, (frame[0], frame[1]));
-        let place = |p: &Point| (frame[0] + x.at(p.0), frame[3] - y.at(p.1));
-        let outline = panel.outline.iter().chain(panel.outline.first());
-        let outline: Vec<Point> = outline.map(place).collect();
-        canvas.stroke(&outline, 2.0, INK, SOLID);
-        let labels = [k + columns >= panels.len(), column == 0];
-        axes.draw(&mut canvas, frame, title, labels);
-    }
+    let draw = |sheet: Sheet| -> Result<(), Failure> {
+        for (k, (panel, title)) in panels.iter().zip(&titles).enumerate() {
+            let (row, column) = (k / columns, k % columns);
+            let middle = EDGE + left + column as f64 * pitch + cell / 2.0;
+            let down = row as f64 * (top + y.length + ROW_GAP);
+            let down = down + if row + 1 == rows { extra } else { 0.0 };
+            let frame = axes.frame((middle - x.length / 2.0, head + down + top));
+            sheet.draw(&Own::new(Vec::new(), |canvas, _| {
+                canvas.image(squares(panel, &axes, bar.range), (frame[0], frame[1]))
+            }))?;
+            let labels = [k + columns >= panels.len(), column == 0];
+            let mut plot = axes.draw(&sheet, frame, title, labels, false)?;
+            let outline = panel.outline.iter().chain(panel.outline.first());
+            let outline: Vec<Point> = outline.filter(|p| finite(p)).copied().collect();
+            plot.draw_series([Own::new(outline, |canvas, points| {
+                canvas.stroke(points, 2.0, INK, SOLID)
+            })])?;
+            draw_box(&plot)?;
+        }
+        Ok(())
+    };
+    draw((&mut canvas).into_drawing_area()).map_err(|e| PlotError::write(path, &e))?;
     let shown = || panels.iter().flat_map(|p| &p.values);
     let beyond = [
         shown().any(|v| *v < bar.range.0),

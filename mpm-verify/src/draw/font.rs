@@ -19,7 +19,7 @@ pub(super) const LABEL: Font = font(28.0, false);
 pub(super) const TITLE: Font = font(29.0, true);
 pub(super) const HEADING: Font = font(32.0, true);
 /// Distance of text lines and height of a capital or digit, in sizes of the font.
-const LEADING: f64 = 1.35;
+pub(super) const LEADING: f64 = 1.35;
 pub(super) const CAPITAL: f64 = 0.73;
 
 impl Font {
@@ -41,11 +41,22 @@ impl Font {
             advances.map(|advance| unit * f64::from(advance)).sum()
         })
     }
+
+    /// From the first line's capitals to the last one's baseline (pixels).
+    pub(super) fn height(self, text: &str) -> f64 {
+        let more = text.lines().count().saturating_sub(1);
+        (more as f64 * LEADING + CAPITAL) * self.size
+    }
+
+    /// What a block has above its first capitals and below its last baseline (pixels).
+    pub(super) fn margin(self) -> f64 {
+        (LEADING - CAPITAL) / 2.0 * self.size
+    }
 }
 
 /// Lines of text.
 pub(super) struct Block {
-    pub(super) lines: Vec<String>,
+    pub(super) text: String,
     pub(super) font: Font,
 }
 
@@ -61,22 +72,16 @@ impl Block {
                 _ => lines.push(word.to_string()),
             }
         }
-        Self { lines, font }
+        let text = lines.join("\n");
+        Self { text, font }
     }
 
     pub(super) fn height(&self) -> f64 {
-        self.lines.len() as f64 * self.font.size * LEADING
+        self.text.lines().count() as f64 * self.font.size * LEADING
     }
 
     pub(super) fn width(&self) -> f64 {
-        largest(self.lines.iter().map(|line| self.font.width(line)))
-    }
-
-    /// The lines with the distances of their capitals from the top of the block.
-    pub(super) fn placed(&self) -> impl Iterator<Item = (f64, &str)> {
-        let down = |k: usize| (k as f64 * LEADING + (LEADING - CAPITAL) / 2.0) * self.font.size;
-        let lines = self.lines.iter().enumerate();
-        lines.map(move |(k, line)| (down(k), line.as_str()))
+        largest(self.text.lines().map(|line| self.font.width(line)))
     }
 }
 

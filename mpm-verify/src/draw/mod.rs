@@ -4,12 +4,15 @@
 //! clipped and no legend can hide data. The same input gives the same bytes.
 
 mod axes;
+mod backend;
 mod bar;
 mod canvas;
 mod chart;
 mod colour;
 mod field;
 mod font;
+mod legend;
+mod plot;
 mod png_file;
 mod raster;
 mod ratios;
@@ -21,10 +24,10 @@ mod svg;
 pub(crate) mod triptych;
 
 pub use chart::{
-    Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, draw_charts, share_ranges,
-    share_ranges_of_columns,
+    Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, share_ranges, share_ranges_of_columns,
 };
 pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
+pub use plot::draw_charts;
 pub use png_file::write_small_png;
 pub use ratios::{Ratio, Ratios, draw_ratios};
 pub use shape::Marker;
@@ -179,6 +182,35 @@ mod tests {
         };
         assert!(draw("a.png", "b.png") == draw("c.png", "d.png"));
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6);
+    }
+
+    #[test]
+    fn curves_go_straight_on_beyond_their_axes_and_gaps_stay_open() {
+        let folder = tempfile::tempdir().unwrap();
+        let nan = (f64::NAN, 0.0);
+        let points = vec![
+            (0.0, 0.0),
+            (2.0, 2.0),
+            nan,
+            (0.5, 0.0),
+            (1.0, 0.5),
+            nan,
+            nan,
+        ];
+        let chart = Chart {
+            x_range: Some((0.0, 1.0)),
+            y_range: Some((0.0, 1.0)),
+            ..Chart::new("", ["x", "y"], vec![Series::line("", points, 0)])
+        };
+        draw_charts(&folder.path().join("a.png"), &[chart], 1).unwrap();
+        let picture = std::fs::read_to_string(folder.path().join("a.svg")).unwrap();
+        let curves: Vec<&str> = picture.lines().filter(|l| l.contains("#0072B2")).collect();
+        // The box is 1180 by 760 pixels.
+        let ends = ["l2360 -1520\"", "l590 -380\""];
+        assert!(
+            curves.len() == 2 && (0..2).all(|k| curves[k].contains(ends[k])),
+            "{curves:?}"
+        );
     }
 
     #[test]
