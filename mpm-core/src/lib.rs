@@ -64,4 +64,4 @@ pub use particles::Particles;
 pub use scene::Scene;
 pub use simulation::{Field, Part, Simulation};
 pub use tensor::SymmetricTensor;
-pub use work::Work;
+pub use work::{Spent, Work};

@@ -5,7 +5,7 @@ use crate::memory::{Memory, Saved};
 use crate::monitor::{Convergence, Reaction, Residual, Totals};
 use crate::particles::Particles;
 use crate::tensor::SymmetricTensor;
-use crate::work::Work;
+use crate::work::{Spent, Work};
 
 /// What the body acts on, by its place in the scene's list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,6 +54,11 @@ pub trait Simulation<const D: usize>: Memory + Send {
     }
     /// What the run did so far.
     fn work(&self) -> Work;
+
+    /// Wall time that the parts of Newton's iterations took since this solver was made; nothing of other solvers.
+    fn spent(&self) -> Spent {
+        Spent::default()
+    }
     /// What the body does to a part of the scene; NaN of a part that there isn't.
     fn on(&self, part: Part) -> Reaction;
     /// The stress of every particle (Pa) that enters the next forces: the law's, with the remedy's share.

@@ -32,3 +32,17 @@ pub struct Work {
     /// Entries of the factorised matrices, summed over the factorisations.
     pub nonzeros: u64,
 }
+
+/// Wall time (s) that the parts of Newton's iterations took: of this machine, and so neither a count nor kept by a
+/// checkpoint.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spent {
+    /// Forces of trials.
+    pub forces: f64,
+    /// Derivatives at the particles, and matrices of them.
+    pub assembly: f64,
+    /// Orders of elimination and factors.
+    pub factorisation: f64,
+    /// Solutions of linear systems.
+    pub solution: f64,
+}

@@ -3,7 +3,7 @@
 use crate::job::{Column, Job, Snapshot};
 use crate::metric::Metric;
 use crate::record::{Discretisation, Measured, WorkDone};
-use mpm_core::{Error, Memory, MemoryError, Saved, Simulation};
+use mpm_core::{Error, Memory, MemoryError, Saved, Simulation, Spent};
 use serde::{Serialize, de::DeserializeOwned};
 use std::collections::BTreeMap;
 
@@ -166,6 +166,10 @@ impl<const D: usize, W: Watch<D>> Job for Drive<D, W> {
 
     fn work(&self) -> WorkDone {
         self.stage.work()
+    }
+
+    fn spent(&self) -> Spent {
+        self.stage.run.spent()
     }
 }
 

@@ -1,7 +1,7 @@
 //! A running simulation, as the harness drives it.
 
 use crate::record::{Discretisation, Measured, WorkDone};
-use mpm_core::Memory;
+use mpm_core::{Memory, Spent};
 use std::collections::BTreeMap;
 
 /// A named particle column with its unit.
@@ -50,4 +50,8 @@ pub trait Job: Memory + Send {
     fn metrics(&mut self) -> BTreeMap<String, Measured>;
     /// Work so far.
     fn work(&self) -> WorkDone;
+    /// Where the time of the simulation of now went, as far as it tells.
+    fn spent(&self) -> Spent {
+        Spent::default()
+    }
 }

@@ -71,12 +71,54 @@ const SLIDE: Runs =
 const BEAM: Runs = &["cantilever --level h0.1"];
 const TURNED_BEAM: Runs = &["cantilever --level h0.1 --set law=jaumann"];
 
-pub(crate) const FAULTS: [Fault; 32] = [
+/// A membrane in equilibrium, in one step on the lattice; and one far bent.
+const MEMBRANE: Runs =
+    &["cook --solver quasi-static --remedy fbar-consistent --level h1 --set load_steps=1"];
+const BENT_MEMBRANE: Runs = &[
+    "cook --solver quasi-static --basis bspline2 --remedy none --level h1 --set load=10 --set load_steps=5 --set ghost=0.001",
+];
+/// A slow vortex over the cells, and over Poisson's ratios.
+const SLOW: Runs = &[
+    "mms-static --level n8",
+    "mms-static --level n16",
+    "mms-static --level n32",
+];
+const SLOW_RATIOS: Runs = &[
+    "mms-static --level n8",
+    "mms-static --level n8 --set poisson_ratio=0.3",
+];
+
+pub(crate) const FAULTS: [Fault; 35] = [
+    Fault {
+        name: "a particle in equilibrium has a fiftieth more volume",
+        file: "implicit/equilibrium.rs",
+        sound: "particles.reference_volume[p] * j",
+        broken: "1.02 * particles.reference_volume[p] * j",
+        seen_by: &[
+            (MEMBRANE, "load-at-its-place"),
+            (BENT_MEMBRANE, "large-loads"),
+            (SLOW, "order-displacement"),
+        ],
+    },
+    Fault {
+        name: "a load step ends before its load",
+        file: "implicit/mod.rs",
+        sound: "self.external(self.time + dt, &setting.elements)",
+        broken: "self.external(self.time + 0.9 * dt, &setting.elements)",
+        seen_by: &[(MEMBRANE, "static-reaction")],
+    },
+    Fault {
+        name: "F-bar in variational form averages nothing",
+        file: "implicit/average.rs",
+        sound: "smooth[p] + UNSEEN * rough[p] + (1.0 - UNSEEN) * seen[p]",
+        broken: "smooth[p] + rough[p] + 0.0 * seen[p]",
+        seen_by: &[(SLOW_RATIOS, "no-locking")],
+    },
     Fault {
         name: "the tangent is a tenth too soft",
         file: "implicit/response.rs",
-        sound: "whole.slope[k]",
-        broken: "0.9 * whole.slope[k]",
+        sound: "whole.slope[D * k + l]",
+        broken: "0.9 * whole.slope[D * k + l]",
         seen_by: &[(BEAM, "newton")],
     },
     Fault {

@@ -3,9 +3,10 @@
 //! V A is symmetric, and so Aᵀ = V A V⁻¹ of the volumes V at the step's start.
 
 use super::elements::Elements;
+use rayon::prelude::*;
 
 /// The share ε of a field that Π can't see which A keeps, as the explicit remedy does.
-const UNSEEN: f64 = 0.01;
+pub(super) const UNSEEN: f64 = 0.01;
 
 /// A, frozen in a step.
 pub(super) struct Average {
@@ -53,7 +54,7 @@ impl Average {
                 .map(|(node, w)| w * of_nodes[*node])
                 .sum()
         };
-        (0..field.len()).map(gather).collect()
+        (0..field.len()).into_par_iter().map(gather).collect()
     }
 
     /// A `field`.

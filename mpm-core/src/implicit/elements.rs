@@ -5,7 +5,11 @@ use super::interpolation::{Functions, Interpolation};
 use crate::particles::Particles;
 use nalgebra::SMatrix;
 use rayon::prelude::*;
+use std::mem::take;
 use std::ops::{AddAssign, Range};
+
+/// Elements that one thread sums at once.
+const BATCH: usize = 64;
 
 /// Particles in runs that the same nodes see, with values and gradients of the functions.
 pub(super) struct Elements<const D: usize> {
@@ -170,8 +174,21 @@ impl<const D: usize> Elements<D> {
 
     /// ΔF = I + Σ u ⊗ ∇w of a particle, Eq. (3) of `docs/implicit.md`, for the nodal increments `u` (m).
     pub(super) fn deformation(&self, particle: usize, u: &[[f64; D]]) -> SMatrix<f64, D, D> {
+        self.gather(SMatrix::identity(), particle, u)
+    }
+
+    /// Σ u ⊗ ∇w at a particle, for nodal values `u`.
+    pub(super) fn gradient(&self, particle: usize, u: &[[f64; D]]) -> SMatrix<f64, D, D> {
+        self.gather(SMatrix::zeros(), particle, u)
+    }
+
+    fn gather(
+        &self,
+        mut f: SMatrix<f64, D, D>,
+        particle: usize,
+        u: &[[f64; D]],
+    ) -> SMatrix<f64, D, D> {
         let (nodes, _, dw) = self.seen(particle);
-        let mut f = SMatrix::identity();
         for (node, dw) in nodes.iter().zip(dw) {
             for i in 0..D {
                 for j in 0..D {
@@ -190,18 +207,26 @@ impl<const D: usize> Elements<D> {
         nodes: &mut [T],
         of: impl Fn(usize, &mut [T]) + Sync,
     ) {
-        let sums: Vec<T> = self
-            .particles
-            .par_iter()
-            .enumerate()
-            .flat_map_iter(|(element, run)| {
-                let mut sums = vec![zero; self.nodes_of(element).len()];
-                for p in run.clone() {
-                    of(p, &mut sums);
+        let mut sums = vec![zero; self.node.len()];
+        let mut rest = &mut sums[..];
+        let mut batches = Vec::new();
+        for first in (0..self.particles.len()).step_by(BATCH) {
+            let last = self.particles.len().min(first + BATCH);
+            let count = self.first_node[last] - self.first_node[first];
+            let (own, others) = take(&mut rest).split_at_mut(count);
+            batches.push((first..last, own));
+            rest = others;
+        }
+        batches.into_par_iter().for_each(|(elements, mut rest)| {
+            for element in elements {
+                let count = self.nodes_of(element).len();
+                let (own, others) = take(&mut rest).split_at_mut(count);
+                for p in self.particles[element].clone() {
+                    of(p, own);
                 }
-                sums
-            })
-            .collect();
+                rest = others;
+            }
+        });
         for (node, sum) in self.node.iter().zip(sums) {
             nodes[*node] += sum;
         }

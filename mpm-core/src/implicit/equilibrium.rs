@@ -1,9 +1,10 @@
 //! Forces and stiffness of a step: what its equations are made of.
 
-use super::average::Average;
+use super::average::{Average, UNSEEN};
 use super::elements::Elements;
+use super::newton::dot;
 use super::penalty::Penalty;
-use super::response::{MOST, Particle, Tangent};
+use super::response::{Particle, Square, Tangent};
 use super::unknowns::{Pattern, Unknowns};
 use crate::body::{Body, check_jacobian};
 use crate::error::Fault;
@@ -11,9 +12,8 @@ use crate::material::Law;
 use crate::space::{determinant, embed};
 use nalgebra::{DMatrix, SMatrix, SVector};
 use rayon::prelude::*;
+use std::array::from_fn;
 
-/// The share of the volumetric stiffness of F̄ that its preconditioner has locally.
-const LOCAL_SHARE: f64 = 0.1;
 /// Elements whose matrices are held at once.
 const BATCH: usize = 256;
 
@@ -105,8 +105,9 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let mut internal = vec![SVector::zeros(); nodes];
         elements.scatter(SVector::zeros(), &mut internal, |p, sums| {
             let (answer, share) = (&answers[p], share.get(p).copied().unwrap_or(0.0));
-            let stress: [f64; MOST] =
-                std::array::from_fn(|i| answer.stress[i] + share * answer.cofactor[i]);
+            let stress: Square<D> = from_fn(|i| {
+                from_fn(|j| answer.stress[D * i + j] + share * answer.cofactor[D * i + j])
+            });
             add_forces(&stress, elements.gradients(p), sums);
         });
         let penalty = self.penalty_forces(&u);
@@ -137,7 +138,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
     }
 
     /// The derivatives of every particle's answer at a trial.
-    pub(super) fn tangents(&self, trial: &Trial<D>) -> Vec<Tangent> {
+    pub(super) fn tangents(&self, trial: &Trial<D>) -> Vec<Tangent<D>> {
         (0..trial.f.len())
             .into_par_iter()
             .map(|p| {
@@ -148,39 +149,44 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             .collect()
     }
 
-    /// The entries of the stiffness matrix, Eq. (5); with F̄ of its local part, Eq. (13), which preconditions.
-    pub(super) fn stiffness(&self, tangents: &[Tangent], pattern: &Pattern) -> Vec<f64> {
+    /// The entries of the stiffness matrix, Eq. (5); with F̄ of what preconditions it, Eq. (13), where a node's pressure
+    /// comes after its displacements.
+    pub(super) fn stiffness(&self, tangents: &[Tangent<D>], pattern: &Pattern) -> Vec<f64> {
         let mut values = vec![0.0; pattern.entries()];
-        let unknowns = self.unknowns;
-        let mut add = |nodes: &[usize], stiffness: &DMatrix<f64>| {
-            for (j, column) in nodes.iter().enumerate() {
-                let Some(column) = unknowns.of(*column) else {
-                    continue;
-                };
-                for b in 0..D {
-                    if unknowns.held[column + b].is_some() {
+        let (unknowns, elements, width) = (self.unknowns, self.elements, pattern.width);
+        let mut add = |nodes: &[usize], matrix: &DMatrix<f64>| {
+            let own = matrix.nrows() / nodes.len();
+            let places: Vec<Option<usize>> = nodes.iter().map(|n| unknowns.of(*n)).collect();
+            for (j, column) in places.iter().enumerate() {
+                let Some(column) = *column else { continue };
+                for (i, row) in places.iter().enumerate() {
+                    let Some(row) = *row else { continue };
+                    // The free columns of a node have the same rows, and its free rows follow one another.
+                    let first = |node: usize| (0..width).find(|a| unknowns.is_free(node, *a));
+                    let Some((a, b)) = first(row).zip(first(column)) else {
                         continue;
-                    }
-                    for (i, row) in nodes.iter().enumerate() {
-                        let Some(row) = unknowns.of(*row) else {
-                            continue;
-                        };
-                        for a in 0..D {
-                            if let Some(place) = pattern.place(row + a, column + b) {
-                                values[place] += stiffness[(i * D + a, j * D + b)];
-                            }
+                    };
+                    let (row_of, column_of) = (row * width, column * width);
+                    let Some(place) = pattern.place(row_of + a, column_of + b) else {
+                        continue;
+                    };
+                    let offset = place - pattern.begin[column_of + b];
+                    for b in (0..own).filter(|b| unknowns.is_free(column, *b)) {
+                        let begin = pattern.begin[column_of + b] + offset;
+                        let rows = (0..own).filter(|a| unknowns.is_free(row, *a));
+                        for (place, a) in (begin..).zip(rows) {
+                            values[place] += matrix[(i * own + a, j * own + b)];
                         }
                     }
                 }
             }
         };
-        let elements = self.elements;
         for first in (0..elements.particles.len()).step_by(BATCH) {
             let batch = first..elements.particles.len().min(first + BATCH);
             let matrices: Vec<DMatrix<f64>> = batch
                 .clone()
                 .into_par_iter()
-                .map(|element| self.of_element(element, tangents))
+                .map(|element| self.of_element(element, tangents, width))
                 .collect();
             for (element, matrix) in batch.zip(&matrices) {
                 add(elements.nodes_of(element), matrix);
@@ -189,85 +195,108 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         for Penalty { node, stiffness } in self.penalties {
             add(node, stiffness);
         }
-        // Held unknowns are eliminated; what stands for them is of the order of the others.
-        let diagonal = |i: usize| pattern.place(i, i);
-        let free = (0..pattern.len()).filter(|i| unknowns.held[*i].is_none());
-        let greatest = free
-            .filter_map(diagonal)
-            .fold(0.0, |g: f64, k| g.max(values[k]));
-        let stand_in = if greatest > 0.0 { greatest } else { 1.0 };
-        for i in (0..pattern.len()).filter(|i| unknowns.held[*i].is_some()) {
-            if let Some(place) = diagonal(i) {
-                values[place] = stand_in;
-            }
-        }
+        self.stand_in(pattern, &mut values);
         values
     }
 
-    /// Σ ∇w · H · ∇w over the particles of an element.
-    fn of_element(&self, element: usize, tangents: &[Tangent]) -> DMatrix<f64> {
-        let size = self.elements.nodes_of(element).len() * D;
-        let mut stiffness = DMatrix::zeros(size, size);
+    /// Held unknowns are eliminated, and pressures that no particle resists: what stands for them is of the order of the
+    /// others.
+    fn stand_in(&self, pattern: &Pattern, values: &mut [f64]) {
+        let width = pattern.width;
+        let diagonals = (0..self.unknowns.node.len()).flat_map(|k| {
+            (0..width).filter_map(move |a| {
+                let i = k * width + a;
+                Some((k, a, pattern.place(i, i)?))
+            })
+        });
+        let greatest = diagonals
+            .clone()
+            .filter(|(k, a, _)| self.unknowns.is_free(*k, *a))
+            .fold(0.0, |g: f64, (_, _, place)| g.max(values[place]));
+        let stand_in = if greatest > 0.0 { greatest } else { 1.0 };
+        for (k, a, place) in diagonals {
+            if !self.unknowns.is_free(k, a) {
+                values[place] = stand_in;
+            } else if a == D && values[place] >= 0.0 {
+                values[place] = -stand_in;
+            }
+        }
+    }
+
+    /// Σ ∇w · H · ∇w over the particles of an element; with a pressure, what couples it to changes of volume, and its own.
+    fn of_element(&self, element: usize, tangents: &[Tangent<D>], width: usize) -> DMatrix<f64> {
+        let size = self.elements.nodes_of(element).len() * width;
+        let mut matrix = DMatrix::zeros(size, size);
         for p in self.elements.particles[element].clone() {
             let t = &tangents[p];
-            let volumetric = LOCAL_SHARE * t.pull_by_a;
-            let h = |i: usize, k: usize| {
-                t.stress_by_f[i][k] + volumetric * t.cofactor[i] * t.cofactor[k]
-            };
-            let dw = self.elements.gradients(p);
+            let own = UNSEEN * UNSEEN * t.pull_by_a;
+            let (_, w, dw) = self.elements.seen(p);
+            let volume = |g: &[f64; D], b: usize| dot(&t.cofactor[b], g);
             for (j, g) in dw.iter().enumerate() {
                 for b in 0..D {
-                    let mut column = [0.0; MOST];
-                    for (i, c) in column.iter_mut().enumerate().take(D * D) {
-                        *c = (0..D).map(|d| h(i, D * b + d) * g[d]).sum();
-                    }
+                    let change = volume(g, b);
+                    let column: Square<D> = from_fn(|a| {
+                        from_fn(|c| {
+                            dot(&t.stress_by_f[a][c][b], g) + own * t.cofactor[a][c] * change
+                        })
+                    });
                     for (i, f) in dw.iter().enumerate() {
                         for a in 0..D {
-                            let k: f64 = (0..D).map(|c| f[c] * column[D * a + c]).sum();
-                            stiffness[(i * D + a, j * D + b)] += k;
+                            matrix[(i * width + a, j * width + b)] += dot(f, &column[a]);
                         }
                     }
                 }
             }
+            if width == D {
+                continue;
+            }
+            let resistance = t.pull_by_a.max(0.0);
+            for (i, w) in w.iter().enumerate() {
+                let pressure = i * width + D;
+                matrix[(pressure, pressure)] -= w * resistance;
+                for (j, g) in dw.iter().enumerate() {
+                    for b in 0..D {
+                        let change = w * resistance * volume(g, b);
+                        matrix[(pressure, j * width + b)] += change;
+                        matrix[(j * width + b, pressure)] += change;
+                    }
+                }
+            }
         }
-        stiffness
+        matrix
     }
 
     /// K `x` with the exact stiffness of F̄, Eq. (12); `x` is zero at held unknowns, and so is the product.
-    pub(super) fn apply(&self, tangents: &[Tangent], x: &[f64], nodes: usize) -> Vec<f64> {
+    pub(super) fn apply(&self, tangents: &[Tangent<D>], x: &[f64], nodes: usize) -> Vec<f64> {
         let elements = self.elements;
         let mut u = vec![[0.0; D]; nodes];
         self.unknowns.spread(x, &mut u);
         let change: Vec<SMatrix<f64, D, D>> = (0..tangents.len())
             .into_par_iter()
-            .map(|p| elements.deformation(p, &u) - SMatrix::identity())
+            .map(|p| elements.gradient(p, &u))
             .collect();
-        let double = |with: &[f64; MOST], p: usize| -> f64 {
-            (0..D * D)
-                .map(|k| with[k] * change[p][(k / D, k % D)])
-                .sum()
+        let of_particles = |of: &(dyn Fn(usize) -> f64 + Sync)| -> Vec<f64> {
+            (0..tangents.len()).into_par_iter().map(of).collect()
         };
-        let count = tangents.len();
-        let volume: Vec<f64> = (0..count)
-            .map(|p| double(&tangents[p].cofactor, p))
-            .collect();
-        let averaged = self.average.map(|a| a.apply(elements, &volume));
-        let share = averaged
-            .as_ref()
-            .zip(self.average)
-            .map(|(averaged, average)| {
-                let pull = |p: usize| {
-                    double(&tangents[p].pull_by_f, p) + tangents[p].pull_by_a * averaged[p]
-                };
-                average.transposed(elements, &(0..count).map(pull).collect::<Vec<_>>())
+        let averages = self.average.map(|average| {
+            let volume = of_particles(&|p| double(&tangents[p].cofactor, &change[p]));
+            let averaged = average.apply(elements, &volume);
+            let pull = of_particles(&|p| {
+                double(&tangents[p].pull_by_f, &change[p]) + tangents[p].pull_by_a * averaged[p]
             });
+            (averaged, average.transposed(elements, &pull))
+        });
         let mut forces = self.penalty_forces(&u);
         elements.scatter(SVector::zeros(), &mut forces, |p, sums| {
             let t = &tangents[p];
-            let of = |field: &Option<Vec<f64>>| field.as_ref().map_or(0.0, |f| f[p]);
-            let (averaged, share) = (of(&averaged), of(&share));
-            let stress: [f64; MOST] = std::array::from_fn(|i| {
-                double(&t.stress_by_f[i], p) + averaged * t.stress_by_a[i] + share * t.cofactor[i]
+            let averages = averages.as_ref();
+            let (averaged, share) = averages.map_or((0.0, 0.0), |(a, s)| (a[p], s[p]));
+            let stress: Square<D> = from_fn(|i| {
+                from_fn(|j| {
+                    double(&t.stress_by_f[i][j], &change[p])
+                        + averaged * t.stress_by_a[i][j]
+                        + share * t.cofactor[i][j]
+                })
             });
             add_forces(&stress, elements.gradients(p), sums);
         });
@@ -289,12 +318,23 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
 }
 
 /// Adds P ∇w to the forces of an element's nodes.
-fn add_forces<const D: usize>(stress: &[f64; MOST], dw: &[[f64; D]], sums: &mut [SVector<f64, D>]) {
+fn add_forces<const D: usize>(stress: &Square<D>, dw: &[[f64; D]], sums: &mut [SVector<f64, D>]) {
     for (sum, dw) in sums.iter_mut().zip(dw) {
         for i in 0..D {
             for j in 0..D {
-                sum[i] += stress[D * i + j] * dw[j];
+                sum[i] += stress[i][j] * dw[j];
             }
         }
     }
+}
+
+/// `a` : `b`.
+fn double<const D: usize>(a: &Square<D>, b: &SMatrix<f64, D, D>) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..D {
+        for j in 0..D {
+            sum += a[i][j] * b[(i, j)];
+        }
+    }
+    sum
 }

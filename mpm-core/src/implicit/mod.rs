@@ -43,13 +43,13 @@ use crate::scene::Scene;
 use crate::simulation::{Field, Part, Simulation};
 use crate::space::{determinant, stretch_of_volume};
 use crate::tensor::SymmetricTensor;
-use crate::work::Work;
+use crate::work::{Spent, Work};
 use average::Average;
 use elements::Elements;
 use equilibrium::{Step, Trial};
 use linear::Direct;
 use nalgebra::SVector;
-use newton::{Failure, Newton, Solution, dot};
+use newton::{Failure, Newton, Solution, clocked, dot};
 use unknowns::{Pattern, Unknowns};
 
 /// Units in the last place by which a stress is rounded.
@@ -81,6 +81,7 @@ pub struct Solver<const D: usize, I, M: Law> {
     convergence: Convergence,
     reactions: Vec<Reaction>,
     work: Work,
+    spent: Spent,
 }
 
 /// What a part of a step works with.
@@ -152,6 +153,10 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
 
     fn work(&self) -> Work {
         self.work
+    }
+
+    fn spent(&self) -> Spent {
+        self.spent
     }
 
     fn on(&self, part: Part) -> Reaction {
@@ -264,8 +269,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         };
         let nodes = self.functions.len();
         let unknowns = Unknowns::new(nodes, &elements, &penalties, prescribed);
-        let pattern = Pattern::new(&unknowns, &elements, &penalties);
         let averages = self.settings.remedy == QuasiStaticRemedy::FbarConsistent;
+        let width = D + usize::from(averages);
+        let pattern = Pattern::new(width, &unknowns, &elements, &penalties);
         Setting {
             elements,
             penalties,
@@ -324,9 +330,11 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let earlier = self.external(self.time, &setting.elements);
         let external = self.external(self.time + dt, &setting.elements);
         self.work.analyses += u64::from(self.direct.pattern != setting.pattern);
-        self.direct
-            .analyse(&setting.pattern)
-            .map_err(|_| Failure::Singular(0))?;
+        let direct = &mut self.direct;
+        clocked(&mut self.spent.factorisation, || {
+            direct.analyse(&setting.pattern)
+        })
+        .map_err(|_| Failure::Singular(0))?;
         let rounding = self.rounding(&setting.elements);
         let mut newton = Newton {
             step: setting.step(&self.scene.body, dt),
@@ -336,6 +344,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             pattern: &setting.pattern,
             direct: &mut self.direct,
             work: &mut self.work,
+            spent: &mut self.spent,
+            worn: true,
         };
         let solution = newton.solve()?;
         let places = self.places_after(&setting.elements, &solution.trial)?;

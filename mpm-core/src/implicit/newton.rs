@@ -8,13 +8,16 @@ use super::unknowns::Pattern;
 use crate::error::Fault;
 use crate::material::Law;
 use crate::monitor::Convergence;
-use crate::work::Work;
+use crate::work::{Spent, Work};
 use nalgebra::SVector;
+use std::time::Instant;
 
 /// A correction is halved at most so often.
 const MOST_CUTS: u32 = 12;
 /// Conjugate gradients take at most so many iterations.
 const MOST_GRADIENTS: u64 = 2000;
+/// Factors precondition until conjugate gradients take more iterations than this: as many as new ones cost.
+const MANY_GRADIENTS: u64 = 40;
 /// The least relative accuracy of a linear solution by conjugate gradients; later ones are as good as the step's
 /// residual, which keeps Newton's order.
 const COARSE: f64 = 1e-2;
@@ -55,6 +58,17 @@ pub(super) struct Newton<'a, const D: usize, M: Law> {
     pub(super) pattern: &'a Pattern,
     pub(super) direct: &'a mut Direct,
     pub(super) work: &'a mut Work,
+    pub(super) spent: &'a mut Spent,
+    /// Whether new factors are wanted: of a stiffness always, of what only preconditions it when it does so badly.
+    pub(super) worn: bool,
+}
+
+/// Adds the time (s) that `work` takes to `spent`.
+pub(super) fn clocked<T>(spent: &mut f64, work: impl FnOnce() -> T) -> T {
+    let begun = Instant::now();
+    let done = work();
+    *spent += begun.elapsed().as_secs_f64();
+    done
 }
 
 pub(super) fn norm(x: &[f64]) -> f64 {
@@ -70,7 +84,8 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
     fn trial(&mut self, u: &[f64]) -> Result<Trial<D>, (usize, Fault)> {
         // Deformations are gathered, forces scattered.
         self.work.particle_node_pairs += 2 * self.step.elements.pairs() as u64;
-        self.step.trial(u, self.external.len())
+        let nodes = self.external.len();
+        clocked(&mut self.spent.forces, || self.step.trial(u, nodes))
     }
 
     /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: of the external forces, of the
@@ -168,40 +183,61 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         share: f64,
         iteration: u32,
     ) -> Result<Vec<f64>, Failure> {
-        let tangents = self.step.tangents(trial);
-        let values = self.step.stiffness(&tangents, self.pattern);
-        self.work.assemblies += 1;
-        self.work.factorisations += 1;
-        self.work.nonzeros += self.pattern.entries() as u64;
-        let factorised = self.direct.factorise(&values);
-        factorised.map_err(|_| Failure::Singular(iteration))?;
-        let found = if self.step.average.is_some() {
+        let step = &self.step;
+        let tangents = clocked(&mut self.spent.assembly, || step.tangents(trial));
+        if self.worn {
+            let pattern = self.pattern;
+            let values = clocked(&mut self.spent.assembly, || {
+                step.stiffness(&tangents, pattern)
+            });
+            self.work.assemblies += 1;
+            self.work.factorisations += 1;
+            self.work.nonzeros += pattern.entries() as u64;
+            let factorised = clocked(&mut self.spent.factorisation, || {
+                self.direct.factorise(&values)
+            });
+            factorised.map_err(|_| Failure::Singular(iteration))?;
+        }
+        let begun = Instant::now();
+        let found = if step.average.is_some() {
             let enough = 0.1 * self.settings.tolerance / share;
             let accuracy = share.min(COARSE).max(enough).max(1e-12);
-            self.conjugate_gradients(&tangents, residual, accuracy)
+            let before = self.work.linear_iterations;
+            let found = self.conjugate_gradients(&tangents, residual, accuracy);
+            self.worn = self.work.linear_iterations - before > MANY_GRADIENTS;
+            found
         } else {
             self.work.linear_iterations += 1;
-            let mut x = residual.to_vec();
-            self.direct.solve(&mut x);
-            Some(x)
+            Some(self.by_factors(residual))
         };
+        self.spent.solution += begun.elapsed().as_secs_f64();
         let usable = |x: &Vec<f64>| x.iter().all(|x| x.is_finite());
         found.filter(usable).ok_or(Failure::Singular(iteration))
     }
 
-    /// Conjugate gradients with the exact stiffness of F̄, preconditioned by the factors of its local part. Where the
+    /// The displacements that the factors give for `right`, without forces on what else the matrix has.
+    fn by_factors(&mut self, right: &[f64]) -> Vec<f64> {
+        let mut x = vec![0.0; self.pattern.len()];
+        for (x, r) in x.chunks_exact_mut(self.pattern.width).zip(right.chunks(D)) {
+            x[..D].copy_from_slice(r);
+        }
+        self.direct.solve(&mut x);
+        let of_nodes = x.chunks_exact(self.pattern.width);
+        of_nodes.flat_map(|x| x[..D].iter().copied()).collect()
+    }
+
+    /// Conjugate gradients with the exact stiffness of F̄, preconditioned by the factors of Eq. (13). Where the
     /// stiffness is not positive they stop at what they have.
     fn conjugate_gradients(
         &mut self,
-        tangents: &[Tangent],
+        tangents: &[Tangent<D>],
         right: &[f64],
         accuracy: f64,
     ) -> Option<Vec<f64>> {
         let nodes = self.external.len();
         let mut x = vec![0.0; right.len()];
         let mut rest = right.to_vec();
-        let mut direction = rest.clone();
-        self.direct.solve(&mut direction);
+        let mut direction = self.by_factors(&rest);
         let mut product = dot(&rest, &direction);
         let target = accuracy * norm(right);
         for iteration in 0..MOST_GRADIENTS {
@@ -221,8 +257,7 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
             for (r, a) in rest.iter_mut().zip(&image) {
                 *r -= length * a;
             }
-            let mut next = rest.clone();
-            self.direct.solve(&mut next);
+            let next = self.by_factors(&rest);
             let ahead = dot(&rest, &next);
             let share = ahead / product;
             for (d, z) in direction.iter_mut().zip(&next) {

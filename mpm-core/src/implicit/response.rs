@@ -10,7 +10,7 @@ use crate::tensor::determinant;
 use nalgebra::{Matrix3, SMatrix};
 
 /// Most components of a ΔF.
-pub(super) const MOST: usize = 9;
+const MOST: usize = 9;
 
 /// A particle at the start of a step.
 pub(super) struct Particle<'a, M: Law> {
@@ -34,19 +34,22 @@ pub(super) struct Response<T> {
     pub(super) cofactor: [T; MOST],
 }
 
-/// The derivatives of an answer by ΔF, in place D k + l, and by a.
+/// A component for every pair of axes.
+pub(super) type Square<const D: usize> = [[f64; D]; D];
+
+/// The derivatives of an answer by ΔF and by a.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Tangent {
+pub(super) struct Tangent<const D: usize> {
     /// ∂P/∂ΔF, with that of the cofactor times its share of the averaged q.
-    pub(super) stress_by_f: [[f64; MOST]; MOST],
+    pub(super) stress_by_f: [[Square<D>; D]; D],
     /// ∂P/∂a.
-    pub(super) stress_by_a: [f64; MOST],
+    pub(super) stress_by_a: Square<D>,
     /// ∂q/∂ΔF.
-    pub(super) pull_by_f: [f64; MOST],
+    pub(super) pull_by_f: Square<D>,
     /// ∂q/∂a.
     pub(super) pull_by_a: f64,
     /// The cofactor of ΔF.
-    pub(super) cofactor: [f64; MOST],
+    pub(super) cofactor: Square<D>,
 }
 
 /// `x^(1/D)`.
@@ -125,7 +128,7 @@ impl<M: Law> Particle<'_, M> {
         f: &SMatrix<f64, D, D>,
         averaged: Option<f64>,
         share: f64,
-    ) -> Tangent {
+    ) -> Tangent<D> {
         // Components of ΔF and one more: two instances serve all, as each takes its time to compile.
         if D < 3 {
             self.derive::<D, 5>(f, averaged, share)
@@ -139,7 +142,7 @@ impl<M: Law> Particle<'_, M> {
         f: &SMatrix<f64, D, D>,
         averaged: Option<f64>,
         share: f64,
-    ) -> Tangent {
+    ) -> Tangent<D> {
         let variables = Matrix3::from_fn(|i, j| {
             if i < D && j < D {
                 Dual::<N>::variable(f[(i, j)], D * i + j)
@@ -150,20 +153,27 @@ impl<M: Law> Particle<'_, M> {
         let averaged = averaged.map(|a| Dual::variable(a, D * D));
         let answer = self.respond::<_, D>(&variables, averaged);
         let mut tangent = Tangent {
-            stress_by_f: [[0.0; MOST]; MOST],
-            stress_by_a: [0.0; MOST],
-            pull_by_f: [0.0; MOST],
+            stress_by_f: [[[[0.0; D]; D]; D]; D],
+            stress_by_a: [[0.0; D]; D],
+            pull_by_f: [[0.0; D]; D],
             pull_by_a: 0.0,
-            cofactor: answer.cofactor.map(|c| c.value),
+            cofactor: [[0.0; D]; D],
         };
-        for i in 0..D * D {
-            let whole = answer.stress[i] + Dual::splat(share) * answer.cofactor[i];
-            for k in 0..D * D {
-                tangent.stress_by_f[i][k] = whole.slope[k];
-            }
-            if averaged.is_some() {
-                tangent.stress_by_a[i] = whole.slope[D * D];
-                tangent.pull_by_f[i] = answer.pull.slope[i];
+        for i in 0..D {
+            for j in 0..D {
+                let place = D * i + j;
+                let cofactor = answer.cofactor[place];
+                let whole = answer.stress[place] + Dual::splat(share) * cofactor;
+                tangent.cofactor[i][j] = cofactor.value;
+                for k in 0..D {
+                    for l in 0..D {
+                        tangent.stress_by_f[i][j][k][l] = whole.slope[D * k + l];
+                    }
+                }
+                if averaged.is_some() {
+                    tangent.stress_by_a[i][j] = whole.slope[D * D];
+                    tangent.pull_by_f[i][j] = answer.pull.slope[place];
+                }
             }
         }
         if averaged.is_some() {

@@ -8,7 +8,7 @@ use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
 use crate::room::Room;
 use crate::scene::Scene;
 use crate::stage::Bound;
-use crate::work::Work;
+use crate::work::{Spent, Work};
 use nalgebra::Matrix3;
 
 impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
@@ -106,6 +106,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             convergence: Convergence::default(),
             reactions: vec![Reaction::default(); scene.constraints.len()],
             work,
+            spent: Spent::default(),
             functions,
             scene,
             settings,

@@ -9,8 +9,8 @@ const NONE: usize = usize::MAX;
 
 /// The components of displacement of the nodes that a step moves.
 pub(super) struct Unknowns<const D: usize> {
-    /// Of every node the place of its first component, `NONE` of one that sees nothing.
-    first: Vec<usize>,
+    /// Of every node its place among those that move, `NONE` of one that sees nothing.
+    place: Vec<usize>,
     /// The nodes, in their order.
     pub(super) node: Vec<usize>,
     /// Of every unknown the increment (m) at which it is held.
@@ -39,13 +39,13 @@ impl<const D: usize> Unknowns<D> {
             seen[*node] = true;
         }
         let node: Vec<usize> = (0..nodes).filter(|n| seen[*n]).collect();
-        let mut first = vec![NONE; nodes];
+        let mut place = vec![NONE; nodes];
         let mut held = Vec::with_capacity(node.len() * D);
         for (k, node) in node.iter().enumerate() {
-            first[*node] = k * D;
+            place[*node] = k;
             held.extend((0..D).map(|axis| prescribed(*node, axis)));
         }
-        Self { first, node, held }
+        Self { place, node, held }
     }
 
     /// How many unknowns there are, held ones included.
@@ -53,9 +53,14 @@ impl<const D: usize> Unknowns<D> {
         self.held.len()
     }
 
-    /// The place of a node's first component, if it moves.
+    /// The place of a node among those that move, if it does.
     pub(super) fn of(&self, node: usize) -> Option<usize> {
-        Some(self.first[node]).filter(|first| *first != NONE)
+        Some(self.place[node]).filter(|place| *place != NONE)
+    }
+
+    /// Whether a component of the node at a place is free: of a pressure, behind the displacements, always.
+    pub(super) fn is_free(&self, place: usize, component: usize) -> bool {
+        component >= D || self.held[place * D + component].is_none()
     }
 
     /// The nodal increments with the values `u` of the unknowns (m).
@@ -66,10 +71,11 @@ impl<const D: usize> Unknowns<D> {
     }
 }
 
-/// Where the entries of the stiffness matrix are: column by column, rows in order. Held unknowns have their diagonal
-/// alone.
+/// Where the entries of a matrix are: column by column, rows in order. Held unknowns have their diagonal alone.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Pattern {
+    /// Components of a node: its displacements, and with F̄ a pressure.
+    pub(super) width: usize,
     /// Where each column begins, and the last one ends.
     pub(super) begin: Vec<usize>,
     /// Row of every entry.
@@ -77,7 +83,9 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
+    /// Of matrices with `width` components a node.
     pub(super) fn new<const D: usize>(
+        width: usize,
         unknowns: &Unknowns<D>,
         elements: &Elements<D>,
         penalties: &[Penalty],
@@ -86,7 +94,7 @@ impl Pattern {
         let mut join = |nodes: &[usize]| {
             let places: Vec<usize> = nodes.iter().filter_map(|n| unknowns.of(*n)).collect();
             for place in &places {
-                beside[place / D].extend_from_slice(&places);
+                beside[*place].extend_from_slice(&places);
             }
         };
         for element in 0..elements.particles.len() {
@@ -96,20 +104,22 @@ impl Pattern {
             join(&penalty.node);
         }
         let mut pattern = Self {
+            width,
             begin: vec![0],
             row: Vec::new(),
         };
         for (k, beside) in beside.iter_mut().enumerate() {
             beside.sort_unstable();
             beside.dedup();
-            for column in k * D..(k + 1) * D {
-                if unknowns.held[column].is_some() {
-                    pattern.row.push(column);
+            for column in 0..width {
+                if unknowns.is_free(k, column) {
+                    let of_node = |node: usize| {
+                        let free = (0..width).filter(move |a| unknowns.is_free(node, *a));
+                        free.map(move |a| node * width + a)
+                    };
+                    pattern.row.extend(beside.iter().copied().flat_map(of_node));
                 } else {
-                    let rows = beside.iter().flat_map(|first| *first..first + D);
-                    pattern
-                        .row
-                        .extend(rows.filter(|row| unknowns.held[*row].is_none()));
+                    pattern.row.push(k * width + column);
                 }
                 pattern.begin.push(pattern.row.len());
             }

@@ -1,6 +1,6 @@
 //! The aims and what was measured of them.
 
-use super::{Bench, Measured, Spread, model, ratio};
+use super::{Bench, Measured, Sample, Spread, model, newton, ratio};
 
 /// One aim.
 pub(super) struct Aim {
@@ -34,6 +34,8 @@ const SCALING: f64 = 1.1;
 const MEMORY: [f64; 2] = [1.2, 1.3];
 /// Time of a law (ns).
 const LAW: f64 = 30.0;
+/// Time of assembly, factorisation and solution in a Newton iteration (s).
+const ITERATION: f64 = 1.0;
 
 fn at_least(what: String, limit: f64, measured: Spread) -> Aim {
     Aim {
@@ -63,6 +65,7 @@ pub(super) fn of(bench: &Bench) -> Vec<Aim> {
     scaling(bench, &mut aims);
     memory(bench, &mut aims);
     laws(bench, &mut aims);
+    iterations(bench, &mut aims);
     aims
 }
 
@@ -170,6 +173,22 @@ fn laws(bench: &Bench, aims: &mut Vec<Aim>) {
         if let Some(spread) = law.cpu_ns() {
             let what = format!("5. law, {}: time per particle", law.name);
             aims.push(at_most(what, LAW, " ns", spread));
+        }
+    }
+}
+
+fn iterations(bench: &Bench, aims: &mut Vec<Aim>) {
+    for scheme in newton::schemes().map(|scheme| scheme.to_string()) {
+        let part = |(part, _): &(&str, _)| bench.find("newton", &newton::name(&scheme, part), 1);
+        let parts: Vec<&Measured> = newton::PARTS.iter().skip(1).filter_map(part).collect();
+        let rounds = parts.iter().map(|m| m.samples.len()).min().unwrap_or(0);
+        let seconds = |s: &Sample| s.cpu_s / s.updates as f64;
+        let of_round = |k: usize| parts.iter().map(|m| seconds(&m.samples[k])).sum();
+        if let Some(spread) = Spread::of((0..rounds).map(of_round)) {
+            let what = format!(
+                "6. {scheme}, Cook at h = ½ m: assembly, factorisation and solution of a Newton iteration, one thread"
+            );
+            aims.push(at_most(what, ITERATION, " s", spread));
         }
     }
 }

@@ -8,6 +8,7 @@ mod laws;
 mod local;
 mod machine;
 mod model;
+mod newton;
 mod peer;
 mod problems;
 mod summary;
@@ -42,7 +43,7 @@ pub struct Options {
 /// A slice of work.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sample {
-    /// Particle updates; of laws, particles; of memory, bytes.
+    /// Particle updates; of Newton's method, iterations; of laws, particles; of memory, bytes.
     pub updates: u64,
     /// Wall time (s).
     pub wall_s: f64,
@@ -76,7 +77,7 @@ struct Outcome {
 /// What one thing on one number of threads has taken.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// What it belongs to: `workload`, `problem`, `law`, `scaling`, `memory`, `peer`.
+    /// What it belongs to: `workload`, `problem`, `newton`, `law`, `scaling`, `memory`, `peer`.
     pub group: String,
     /// Its name.
     pub name: String,
@@ -229,7 +230,7 @@ pub fn measure(options: &Options, out: &Path, progress: &dyn Fn(f64)) -> Result<
         measured: Vec::new(),
     };
     // Groups whose ratios matter take turns; one after the other, so that what waits doesn't fill the memory.
-    let mut groups: Vec<Group> = vec![together, problems::turns, laws::turns];
+    let mut groups: Vec<Group> = vec![together, problems::turns, newton::turns, laws::turns];
     if options.scaling {
         groups.extend([workload::scaling::<2>, workload::scaling::<3>]);
     }
@@ -427,6 +428,37 @@ mod tests {
         let two = format!("{what} 2 threads as on one, same bits");
         let three = format!("{what} 3 threads as on one, OTHER BITS");
         assert_eq!(told, [(two.as_str(), true), (three.as_str(), false)]);
+    }
+
+    #[test]
+    fn assembly_factors_and_solution_of_an_iteration_are_added_up() {
+        let parts = [
+            "iteration",
+            "forces",
+            "assembly",
+            "factorisation",
+            "solution",
+        ];
+        let scheme = newton::schemes().next().unwrap().to_string();
+        let part = |(k, part): (usize, &&str)| Turn {
+            group: "newton",
+            name: newton::name(&scheme, part),
+            ..turn(0.05 * k as f64, None)
+        };
+        let turns = parts.iter().enumerate().map(part).collect();
+        let mut bench = bench(take_turns(turns, 1, &|_| ()).unwrap());
+        for m in &mut bench.measured {
+            m.samples[0].updates = 1;
+        }
+        let aim = |bench: &Bench| {
+            let aims = aims::of(bench);
+            let aim = aims.iter().find(|a| a.what.starts_with('6')).unwrap();
+            (aim.measured.median, aim.met)
+        };
+        let (seconds, met) = aim(&bench);
+        assert!((seconds - 0.912).abs() < 1e-9 && met, "{seconds}");
+        bench.measured[2].samples[0].cpu_s += 0.1;
+        assert!(!aim(&bench).1);
     }
 
     #[test]

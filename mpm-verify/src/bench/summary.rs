@@ -1,6 +1,6 @@
 //! Tables and pictures of what was measured.
 
-use super::{Bench, Measured, Spread, aims, model};
+use super::{Bench, Measured, Spread, aims, model, newton};
 use crate::draw::{Chart, Marker, Scale, Series, draw_charts};
 use crate::error::Error;
 use crate::files::{write_csv, write_whole};
@@ -31,6 +31,7 @@ pub(super) fn write(bench: &Bench, out: &Path) -> Result<String, Error> {
         workloads(bench),
         peers(bench),
         problems(bench),
+        iterations(bench),
         sizes(bench),
     ] {
         text += &part;
@@ -176,6 +177,45 @@ fn problems(bench: &Bench) -> String {
         "10⁶ updates/s, wall, threads",
     ];
     table("Problems", header, ones.map(row))
+}
+
+fn iterations(bench: &Bench) -> String {
+    let row = |scheme: String| {
+        let of = |part: &str| bench.find("newton", &newton::name(&scheme, part), 1);
+        let whole = of(newton::WHOLE)?;
+        let milliseconds = |m: Option<&Measured>| {
+            let per = |m: &Measured| {
+                let each = m.samples.iter();
+                Spread::of(each.map(|s| 1e3 * s.cpu_s / s.updates as f64))
+            };
+            spread(m.and_then(per), 0)
+        };
+        let [forces, assembly, factors, solution] =
+            newton::PARTS.map(|(part, _)| milliseconds(of(part)));
+        let particles = whole.particles.to_string();
+        let all = milliseconds(Some(whole));
+        Some([
+            scheme.clone(),
+            particles,
+            all,
+            forces,
+            assembly,
+            factors,
+            solution,
+        ])
+    };
+    let header = [
+        "Cook, load steps",
+        "particles",
+        "iteration (ms)",
+        "forces",
+        "assembly",
+        "factorisation",
+        "solution",
+    ];
+    let title = "Newton's iterations, one thread";
+    let rows = newton::schemes().map(|s| s.to_string());
+    table(title, header, rows.filter_map(row))
 }
 
 fn sizes(bench: &Bench) -> String {

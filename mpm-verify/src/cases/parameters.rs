@@ -15,11 +15,18 @@ parameters! { pub(super) const:
     WALL = "wall", "-", "open-knot", Domain::Choice(&["open-knot", WALL_LINE]), "how B-splines meet walls";
     PPC_PER_DIRECTION = "ppc_per_direction", "-", "2", Domain::Integer { least: 1, most: 4 },
         "particles per cell and direction";
+    LOAD_STEPS = "load_steps", "-", "4", Domain::Integer { least: 1, most: 10_000 },
+        "equal steps of the load";
     STEP_SCALING = "step_scaling", "-", "h", Domain::Choice(&["h", "h2"]),
         "h: the time step shrinks with h; h2: with h², from the one at eight cells per side";
 }
 
 /// Whether a run was of its case's own problem, however divided in space and time.
 pub(crate) fn is_of_own_problem(record: &Record) -> bool {
-    record.changes_none_but(&[CFL.name, STEP_SCALING.name, PPC_PER_DIRECTION.name])
+    record.changes_none_but(&[
+        CFL.name,
+        STEP_SCALING.name,
+        LOAD_STEPS.name,
+        PPC_PER_DIRECTION.name,
+    ])
 }

@@ -154,8 +154,9 @@ fn plan([h1, h2, h3, h4]: [Level; 4]) -> Vec<Family> {
     ];
     all.extend(gimp.map(|set| family(Nightly, &[h2], &schemes(&[Gimp]), set)));
     // The paper's elements, points, law and stabilisation: Figures 2 to 4.
-    let papers: [&'static [&'static str]; 6] = [
+    let papers: [&'static [&'static str]; 7] = [
         &PAPER,
+        &["law=jaumann-linear", "points=gauss", "stabilisation=none"],
         &[
             "law=jaumann-linear",
             "points=gauss",

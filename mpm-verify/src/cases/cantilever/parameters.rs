@@ -15,6 +15,9 @@ pub(super) const EXTENSION: &str = "extension";
 
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("1e5");
 pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0");
+pub(super) const LOAD_STEPS: Parameter = common::LOAD_STEPS
+    .with_default("20")
+    .meaning("equal steps of the weight");
 parameters! { pub(super) const:
     LAW = "law", "-", HENCKY, Domain::Choice(&[HENCKY, NEO_HOOKEAN, JAUMANN, JAUMANN_LINEAR]),
         "elastic law; jaumann is integrated to second order, jaumann-linear as the paper does";
@@ -22,8 +25,6 @@ parameters! { pub(super) const:
         "particles per cell and direction";
     POINTS = "points", "-", "uniform", Domain::Choice(&["uniform", GAUSS]),
         "where particles start: in the middle of equal parts of a cell, or, the paper's subdivision, two Gauss points in each half of their number";
-    LOAD_STEPS = "load_steps", "-", "20", Domain::Integer { least: 1, most: 10_000, },
-        "equal steps of the weight";
     STABILISATION = "stabilisation", "-", GHOST, Domain::Choice(&[NONE, SOFT, GHOST, EXTENSION]),
         "what holds functions that see hardly any material";
     STABILISATION_FACTOR = "stabilisation_factor", "-", "0.01", number(1e-8, 1.0, false),

@@ -133,7 +133,7 @@ pub(super) fn checks() -> Vec<Check> {
             "quasi-static fbar-consistent with the functions of the rim held by a ghost penalty of 0.001 or more, or GIMP's one step on the lattice, at h ≤ 1 m: mid-edge and mean u_y of the right side within 1 % · h/(1 m), the tip within 2 %, of the FEM solution with the load on the same line of material"
             => run(rim::at_the_loads_place);
         known_limit "soft-rim":
-            "quasi-static fbar-consistent with the rim left to itself, in more than one step, at h = 1 m: mid-edge, mean and tip u_y of the right side exceed that FEM solution by more than the error of a locking-free element"
+            "quasi-static fbar-consistent with the rim left to itself, with GIMP in more than one step, at h = 1 m: mid-edge, mean and tip u_y of the right side exceed that FEM solution by more than the error of a locking-free element"
             => run(rim::too_soft);
         known_limit "short-by-the-loads-place":
             "quasi-static fbar-consistent with GIMP and a rim that is held, or in one step on the lattice, at h ≤ 1 m: mid-edge and mean u_y of the right side fall short of the FEM solution with the load on the side by more than the tolerance, where the load's place and the error of a locking-free element take more than that; mid-edge, edge-mean and tip are not judged there"

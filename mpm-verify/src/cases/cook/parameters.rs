@@ -23,8 +23,6 @@ parameters! { pub(super) const:
         "longest time to run, in fundamental periods of 60 s (at the default E and ρ); a run that creeps after one is stopped there";
     REST_WINDOW = "rest_window", "periods", "0.05", number(1e-3, 10.0, false),
         "time over which the criterion of rest must hold";
-    LOAD_STEPS = "load_steps", "-", "4", Domain::Integer { least: 1, most: 10_000 },
-        "quasi-static: steps of the load, which rises smoothly over them; one that finds no equilibrium is halved";
     GHOST = "ghost", "-", "1e-8", number(0.0, 1.0, false),
         "quasi-static: ghost penalty, in shares of Young's modulus; the root of rounding, which only keeps the matrix regular; 0: none";
 }
@@ -43,6 +41,9 @@ pub(super) const OF_EXPLICIT: [&str; 8] = [
 pub(super) const OF_QUASI_STATIC: [&str; 2] = [LOAD_STEPS.name, GHOST.name];
 /// A word of [`LOAD_AT`].
 pub(super) const COLUMN: &str = "column";
+pub(super) const LOAD_STEPS: Parameter = common::LOAD_STEPS.meaning(
+    "quasi-static: steps of the load, which rises smoothly over them; one that finds no equilibrium is halved",
+);
 pub(super) const CFL: Parameter = common::CFL.with_default("0.3");
 pub(super) const WALL: Parameter = common::WALL.meaning("how B-splines meet the clamped side");
 
