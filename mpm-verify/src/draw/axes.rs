@@ -44,7 +44,7 @@ fn superscript(exponent: i32) -> String {
 }
 
 /// Label of a tick among ticks `step` apart, whose largest magnitude is `largest`.
-fn tick_label(value: f64, step: f64, largest: f64) -> String {
+pub(super) fn tick_label(value: f64, step: f64, largest: f64) -> String {
     if value.abs() < 1e-6 * step {
         return "0".to_string();
     }

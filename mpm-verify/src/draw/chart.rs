@@ -1,6 +1,6 @@
 //! Line charts: their data, and the ranges of their axes.
 
-use super::axes::{Axis, extent, widen};
+use super::axes::{Axis, extent, tick_label, widen};
 use super::shape::{Marker, Point};
 use super::{PlotError, finite, nothing};
 use std::path::Path;
@@ -104,6 +104,19 @@ impl Series {
             colour,
             marker: Marker::None,
             dash: Dash::Solid,
+        }
+    }
+}
+
+impl ReferenceLine {
+    /// A value that is known to an uncertainty: its band is hardly ever wide enough to be seen, so the name tells it too.
+    #[must_use]
+    pub fn known_to(name: &str, value: f64, uncertainty: f64) -> Self {
+        let tolerance = tick_label(uncertainty, uncertainty, uncertainty);
+        Self {
+            name: format!("{name} ± {tolerance}"),
+            value,
+            band: Some(uncertainty),
         }
     }
 }

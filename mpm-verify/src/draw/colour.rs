@@ -35,6 +35,18 @@ pub(super) fn channels(colour: Rgb) -> [u8; 3] {
     [red, green, blue]
 }
 
+/// Ends of the colours of a stress or pressure that is expected to lie between zero and `most`. What has the wrong sign, such as
+/// tension in sand, is seen too, up to a quarter of that: the colours diverge from zero.
+#[must_use]
+pub const fn signed(most: f64) -> (f64, f64) {
+    let least = -0.25 * most;
+    if most < least {
+        (most, least)
+    } else {
+        (least, most)
+    }
+}
+
 /// Colour of a value on the scale of a range; beyond its ends the colour of the end.
 pub(super) fn colour_of(value: f64, range: (f64, f64)) -> Rgb {
     on_scale(value, range, &SEQUENTIAL)
@@ -84,6 +96,8 @@ mod tests {
         assert_eq!(stone_of(0.0, (-2.0, 2.0)), DIVERGING[5]);
         assert_eq!(colour_of(0.0, (-2.0, 2.0)), DIVERGING[5]);
         assert_eq!(colour_of(0.0, (-1.0, 3.0)), DIVERGING[5]);
+        assert_eq!(signed(-2.0), (-2.0, 0.5));
+        assert_eq!(colour_of(0.0, signed(8.0)), DIVERGING[5]);
         assert!((0..50).all(|k| of(k, (-1.0, 1.0)) > of(k + 1, (-1.0, 1.0))));
         assert!((0..50).all(|k| of(-k, (-1.0, 1.0)) > of(-k - 1, (-1.0, 1.0))));
     }

@@ -26,6 +26,7 @@ pub(crate) mod triptych;
 pub use chart::{
     Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, share_ranges, share_ranges_of_columns,
 };
+pub use colour::signed;
 pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
 pub use plot::draw_charts;
 pub use png_file::write_small_png;

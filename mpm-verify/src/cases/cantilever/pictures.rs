@@ -121,16 +121,18 @@ fn paths(gallery: &mut Gallery) -> Result<Vec<Chart>, Error> {
                 dash: Dash::Solid,
             });
         }
-        let of_elements = |r: &Record| Some(solution(&r.parameters).ok()?.right_edge_mean?[axis]);
+        let of_elements = |r: &Record| {
+            let known = solution(&r.parameters).ok()?;
+            let (name, value) = ("finite elements (Hencky)", known.right_edge_mean?[axis]);
+            Some(ReferenceLine::known_to(name, value, known.uncertainty))
+        };
         let default = gallery.records.iter().find(|r| r.is_default());
-        let line = |name: &str, value| ReferenceLine {
-            name: name.to_owned(),
-            value,
+        let truth = default.and_then(of_elements);
+        let papers = ReferenceLine {
+            name: "paper, corner".to_owned(),
+            value: CORNER_OF_PAPER[axis],
             band: None,
         };
-        let truth = default.and_then(of_elements);
-        let truth = truth.map(|value| line("finite elements (Hencky)", value));
-        let papers = line("paper, corner", CORNER_OF_PAPER[axis]);
         charts.push(Chart {
             reference_lines: truth.into_iter().chain([papers]).collect(),
             ..Chart::new(title, ["weight (kN/m³)", label], curves)

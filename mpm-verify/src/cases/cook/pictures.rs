@@ -2,6 +2,7 @@
 
 use super::checks::own_runs;
 use super::metrics::{FEM_MID_EDGE_ERROR, FEM_TIP_ERROR, MID_EDGE_UY, TIP_UY};
+use super::reference::solution;
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::style::series;
 use crate::draw::{Chart, FieldFigure, FieldPanel, ReferenceLine, Scale, Series};
@@ -107,16 +108,13 @@ fn displacement(runs: &mut Exhibit) -> Result<(), Error> {
         let curves = over_levels(runs, &at_rest, |r| (r.discretisation.h, r.metric(metric)));
         let reference = runs.records.iter().find_map(|r| {
             let exact = r.metric(metric) / (1.0 + r.metric(error));
-            exact.is_finite().then_some(exact)
+            let uncertainty = solution(&r.parameters).ok()?.uncertainty_displacement;
+            let line = || ReferenceLine::known_to("FEM reference", exact, uncertainty);
+            exact.is_finite().then(line)
         });
-        let line = |value| ReferenceLine {
-            name: "FEM reference".to_owned(),
-            value,
-            band: None,
-        };
         Chart {
             x_scale: Scale::Log10,
-            reference_lines: reference.map(line).into_iter().collect(),
+            reference_lines: reference.into_iter().collect(),
             ..Chart::new(title, ["cell size h (m)", "u_y (m)"], curves)
         }
     };

@@ -2,10 +2,11 @@
 
 use super::LADDER;
 use super::parameters::{CFL, DURATION};
-use super::reference::{TANK, front_curve, time_scale};
+use super::reference::{TANK, front_curve, time_scale, uncertainty};
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, Series, animate_fields, share_ranges_of_columns,
+    signed,
 };
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -36,8 +37,8 @@ const DELAY: u16 = 15;
 const HEIGHT: f64 = 3.2;
 const OUTLINE: [(f64, f64); 4] = [(0.0, HEIGHT), (0.0, 0.0), (TANK, 0.0), (TANK, HEIGHT)];
 const WINDOW: ((f64, f64), (f64, f64)) = ((0.0, TANK), (0.0, HEIGHT));
-/// Pressures (kPa) of the colour scale.
-const PRESSURES: (f64, f64) = (0.0, 20.0);
+/// Greatest pressure (kPa) of the colour scale.
+const MOST_PRESSURE: f64 = 20.0;
 const LEVELS: [&str; 4] = ["h0.0625", "h0.125", "h0.25", "h0.5"];
 
 /// Draws everything there are runs for.
@@ -112,7 +113,7 @@ fn figure(title: String, panels: Vec<FieldPanel>, columns: usize) -> FieldFigure
         title,
         panels,
         columns,
-        range: PRESSURES,
+        range: signed(MOST_PRESSURE),
         label: "pressure (kPa)".to_owned(),
         window: Some(WINDOW),
     }
@@ -218,7 +219,7 @@ fn chart(title: String, label: &str, column: &str, mut curves: Vec<Series>) -> C
         curves.push(Series {
             marker: Marker::Circle,
             dash: Dash::Dashed,
-            ..Series::line("inviscid", points, 7)
+            ..Series::line(format!("inviscid ± {} m", uncertainty()), points, 7)
         });
     }
     Chart::new(title, ["time (s)", label], curves)

@@ -2,10 +2,11 @@
 
 use super::own::own_runs;
 use super::parameters::PENETRATION;
-use super::reference::{EXACT, limit_curve};
+use super::reference::{EXACT, limit_curve, limit_uncertainty};
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::{
     Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_charts, share_ranges,
+    signed,
 };
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -27,7 +28,7 @@ const MOST: f64 = 10.0;
 const ABOUT: (f64, f64) = (4.8, 5.8);
 /// What is drawn of the ground (m): so far to the right and down.
 const NEAR: (f64, f64) = (2.5, 2.0);
-/// The mean normal stress (kPa) is drawn from this to zero.
+/// Least mean normal stress (kPa) that is drawn.
 const LEAST_STRESS: f64 = -0.6;
 /// Decimal logarithm of the plastic strains drawn.
 const STRAINS: (f64, f64) = (-5.0, -2.0);
@@ -108,11 +109,11 @@ fn curves(runs: &mut Exhibit) -> Result<(), Error> {
     let (name, path) = ("load-settlement", runs.place("load-settlement"));
     share_ranges(&path, &mut charts)?;
     runs.gallery.write_curves("load-settlement.csv", &charts)?;
-    let about: Vec<Chart> = charts
-        .iter()
-        .take(BASES.len())
-        .map(about_the_limit)
-        .collect();
+    let about = |chart: &Chart| Chart {
+        y_range: Some(ABOUT),
+        ..chart.clone()
+    };
+    let about: Vec<Chart> = charts.iter().take(BASES.len()).map(about).collect();
     charts.splice(BASES.len()..BASES.len(), about);
     draw_charts(&path, &charts, 2)?;
     runs.hang(
@@ -131,7 +132,11 @@ fn chart(runs: &Exhibit, title: String, mut curves: Vec<Series>) -> Chart {
         curves.push(Series {
             marker: Marker::Circle,
             dash: Dash::Dashed,
-            ..Series::line("finite elements, h → 0", points, 7)
+            ..Series::line(
+                format!("finite elements, h → 0, ± {}", limit_uncertainty()),
+                points,
+                7,
+            )
         });
     }
     Chart {
@@ -190,7 +195,7 @@ fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let title = format!("{of}, {}", level_title(level));
     runs.fields(
         &format!("mean-stress-{basis}"),
-        &figure(title, panels, (LEAST_STRESS, 0.0), "mean normal stress (kPa)"),
+        &figure(title, panels, signed(LEAST_STRESS), "mean normal stress (kPa)"),
         format!("Mean normal stress at the end with {of}: standard MPM against F̄. The paper's Figure 10 (data: particles.csv of each run)."),
     )
 }
@@ -231,15 +236,4 @@ fn mechanism(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
         ),
         format!("Equivalent plastic strain at the end, {remedy}, {of}: the bands along which Prandtl's wedges slide."),
     )
-}
-
-/// The part of a chart of loads about Prandtl's.
-fn about_the_limit(chart: &Chart) -> Chart {
-    let (least, most) = ABOUT;
-    let mut chart = chart.clone();
-    chart.y_range = Some(ABOUT);
-    for series in &mut chart.series {
-        series.points.retain(|(_, q)| (least..=most).contains(q));
-    }
-    chart
 }

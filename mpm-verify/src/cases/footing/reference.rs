@@ -115,6 +115,11 @@ pub(super) fn limit_curve() -> Vec<(f64, f64)> {
     points.map(|p| (p.settlement, p.pressure)).collect()
 }
 
+/// Uncertainty of its greatest pressures.
+pub(super) fn limit_uncertainty() -> f64 {
+    document().map_or(f64::NAN, |d| d.extrapolated.limit_uncertainty)
+}
+
 /// Strength over Young's modulus of the reference.
 pub(super) fn strength_ratio() -> f64 {
     document().map_or(f64::NAN, |d| d.strength / d.young_modulus)

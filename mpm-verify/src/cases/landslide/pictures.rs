@@ -5,7 +5,7 @@ use super::parameters::DURATION;
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::{
     Chart, FieldFigure, FieldPanel, Series, SolidFigure, SolidPanel, animate_fields,
-    animate_solids, draw_solids, share_ranges_of_columns,
+    animate_solids, draw_solids, share_ranges_of_columns, signed,
 };
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -63,7 +63,7 @@ const FIELDS: [Field; 2] = [
         name: "mean-stress",
         column: "mean_stress",
         factor: 1e-3,
-        range: (-120.0, 0.0),
+        range: signed(-120.0),
         label: "mean normal stress (kPa)",
         figure: "Figure 15",
     },
