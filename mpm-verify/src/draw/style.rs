@@ -10,8 +10,8 @@ const MOST_CURVES: usize = 8;
 /// Panels of a picture, at most.
 const MOST_PANELS: usize = 6;
 
-/// The curve of a scheme: its colour tells the remedy and the kind of solver, its marker the basis, its line the transfer (solid FLIP, dashed
-/// APIC, dotted XPIC; markers of the latter two are hollow).
+/// The curve of a scheme: its colour tells the remedy and the kind of solver, its marker the basis, its line the
+/// transfer (solid FLIP, dashed APIC, dotted XPIC; markers of the latter two are hollow).
 pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
     let colour = match scheme.remedy() {
         RemedyName::None if scheme.transfer() == TransferName::None => 4,
