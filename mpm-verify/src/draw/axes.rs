@@ -111,8 +111,8 @@ fn log_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
 /// What plotters draws within the axes.
 pub(super) type Plot<'c> = ChartContext<'c, &'c mut Canvas, Cartesian2d<Axis, Axis>>;
 
-/// An axis: its range (log axes: of the logarithm), its length in pixels, and its ticks. Plotters' own logarithmic axis has
-/// ticks at decades alone, and its linear one labels of one form.
+/// An axis: its range (log axes: of the logarithm), its length in pixels, and its ticks. Plotters' own logarithmic axis
+/// has ticks at decades alone, and its linear one labels of one form.
 #[derive(Clone)]
 pub(super) struct Axis {
     log: bool,
@@ -277,7 +277,7 @@ impl Axes {
         [left, top, left + self.x.length, top + self.y.length]
     }
 
-    /// Draws the axes of a box, labels and grid where asked for, and a title above; see [`draw_box`] for the box itself.
+    /// Draws the axes of a box, labels and grid where asked for, and a title above; [`draw_box`] draws the box itself.
     pub(super) fn draw<'c>(
         &self,
         sheet: &Sheet<'c>,

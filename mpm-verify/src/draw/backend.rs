@@ -16,7 +16,8 @@ use plotters_backend::{
 };
 use std::convert::Infallible;
 
-/// Plotters counts in whole numbers, these to a pixel of the picture: as fine as what draws pixels, for up to 21 000 of them.
+/// Plotters counts in whole numbers, these to a pixel of the picture: as fine as what draws pixels, for up to 21 000 of
+/// them along a side.
 const UNITS: f64 = 1e5;
 
 /// The picture, or a part of it, as plotters sees it.

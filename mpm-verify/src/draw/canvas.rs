@@ -76,8 +76,8 @@ impl Canvas {
         });
     }
 
-    /// Draws lines of text; `anchor` is the fraction of each one's width, and of the height from the first one's capitals
-    /// to the last baseline, that lies at the point. Turned text reads upwards, with `anchor` turned along.
+    /// Draws lines of text; `anchor` is the fraction of each one's width, and of the height from the first one's
+    /// capitals to the last baseline, that lies at the point. Turned text reads upwards, with `anchor` turned along.
     pub(super) fn text(&mut self, text: &str, at: Point, font: Font, anchor: Point, turned: bool) {
         let above = anchor.1 * font.height(text);
         for (k, line) in text.lines().enumerate() {

@@ -109,7 +109,7 @@ impl Series {
 }
 
 impl ReferenceLine {
-    /// A value that is known to an uncertainty: its band is hardly ever wide enough to be seen, so the name tells it too.
+    /// A value that is known to an uncertainty: its band is hardly ever wide enough to be seen, so the name tells it.
     #[must_use]
     pub fn known_to(name: &str, value: f64, uncertainty: f64) -> Self {
         let tolerance = tick_label(uncertainty, uncertainty, uncertainty);

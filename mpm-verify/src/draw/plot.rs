@@ -103,8 +103,8 @@ impl<'a> Plan<'a> {
 
 /// Draws a grid of charts, `columns` in a row, as one PNG file, and the same as SVG beside it.
 ///
-/// Charts with the same series, be it with other markers, share one legend; otherwise each has its own. It lies below the axes,
-/// or to the right of at most two columns if it is a single one of more than six entries.
+/// Charts with the same series, be it with other markers, share one legend; otherwise each has its own. It lies below
+/// the axes, or to the right of at most two columns if it is a single one of more than six entries.
 ///
 /// # Errors
 ///
