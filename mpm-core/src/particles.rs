@@ -7,7 +7,7 @@ use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
 
-/// Columns of one body. All have one entry per particle, but `j_bar`, `affine` and `external_force`,
+/// Columns of one body. All have one entry per particle, but `j_bar`, `acceleration`, `affine` and `external_force`,
 /// which are empty in a run without a remedy, transfer or load that needs them.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(bound = "")]
@@ -26,6 +26,9 @@ pub struct Particles<const D: usize> {
     /// Velocity v (m/s).
     #[serde(with = "rows")]
     pub velocity: Vec<[f64; D]>,
+    /// Acceleration (m/s²), where a time rule keeps it.
+    #[serde(with = "rows")]
+    pub acceleration: Vec<[f64; D]>,
     /// Moment B of the nodal velocities around the particle (m²/s), row by component of velocity. At
     /// the start it is zero unless given: C D for a velocity gradient C.
     pub affine: Vec<SMatrix<f64, D, D>>,
@@ -79,6 +82,7 @@ impl<const D: usize> Particles<D> {
             reference: positions.clone(),
             position: positions,
             velocity: vec![[0.0; D]; n],
+            acceleration: Vec::new(),
             affine: Vec::new(),
             mass: vec![density * volume; n],
             reference_volume: vec![volume; n],
@@ -141,12 +145,13 @@ impl<const D: usize> Particles<D> {
     }
 
     /// The lengths of the columns, by name.
-    fn lengths(&self) -> [(&'static str, usize); 14] {
+    fn lengths(&self) -> [(&'static str, usize); 15] {
         [
             ("id", self.id.len()),
             ("reference", self.reference.len()),
             ("position", self.position.len()),
             ("velocity", self.velocity.len()),
+            ("acceleration", self.acceleration.len()),
             ("affine", self.affine.len()),
             ("mass", self.mass.len()),
             ("reference_volume", self.reference_volume.len()),
@@ -187,6 +192,7 @@ impl<const D: usize> Particles<D> {
         permute(&mut self.reference, order);
         permute(&mut self.position, order);
         permute(&mut self.velocity, order);
+        permute(&mut self.acceleration, order);
         permute(&mut self.affine, order);
         permute(&mut self.mass, order);
         permute(&mut self.reference_volume, order);

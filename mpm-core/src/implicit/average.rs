@@ -22,7 +22,7 @@ impl Average {
         nodes: usize,
         volume: &[f64],
     ) -> Self {
-        let of_nodes = elements.volumes(nodes, volume);
+        let of_nodes = elements.sums(nodes, volume);
         let inverse = |v: &f64| if *v > 0.0 { 1.0 / v } else { 0.0 };
         Self {
             volume: volume.to_vec(),

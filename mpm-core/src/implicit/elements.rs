@@ -3,7 +3,7 @@
 use super::extension::Shares;
 use super::interpolation::{Functions, Interpolation};
 use crate::particles::Particles;
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 use std::mem::take;
 use std::ops::{AddAssign, Range};
@@ -136,18 +136,25 @@ impl<const D: usize> Elements<D> {
         extended
     }
 
-    /// Volume (m³) of every one of `nodes` nodes; NaN of one that no element has.
-    pub(super) fn volumes(&self, nodes: usize, volume: &[f64]) -> Vec<f64> {
-        let mut volumes = vec![f64::NAN; nodes];
+    /// Σ w `of` of every one of `nodes` nodes, such as its volume or mass; NaN of one that no element has.
+    pub(super) fn sums(&self, nodes: usize, of: &[f64]) -> Vec<f64> {
+        let mut sums = vec![f64::NAN; nodes];
         for node in &self.node {
-            volumes[*node] = 0.0;
+            sums[*node] = 0.0;
         }
-        self.scatter(0.0, &mut volumes, |p, sums| {
+        self.scatter(0.0, &mut sums, |p, sums| {
             for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
-                *sum += w * volume[p];
+                *sum += w * of[p];
             }
         });
-        volumes
+        sums
+    }
+
+    /// Σ w of a field on the nodes at a particle.
+    pub(super) fn gather(&self, particle: usize, field: &[SVector<f64, D>]) -> SVector<f64, D> {
+        let (nodes, w, _) = self.seen(particle);
+        let pairs = nodes.iter().zip(w);
+        pairs.fold(SVector::zeros(), |sum, (node, w)| sum + field[*node] * *w)
     }
 
     /// Pairs of a particle and a function that sees it.

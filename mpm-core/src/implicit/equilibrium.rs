@@ -2,6 +2,7 @@
 
 use super::average::{Average, UNSEEN};
 use super::elements::Elements;
+use super::inertia::Inertia;
 use super::newton::dot;
 use super::penalty::Penalty;
 use super::response::{Particle, Square, Tangent};
@@ -26,6 +27,8 @@ pub(super) struct Step<'a, const D: usize, M: Law> {
     pub(super) penalties: &'a [Penalty],
     /// A, with F̄.
     pub(super) average: Option<&'a Average>,
+    /// Inertia, in dynamics.
+    pub(super) inertia: Option<&'a Inertia<D>>,
 }
 
 /// A trial: nodal increments and what they make of the body.
@@ -40,8 +43,8 @@ pub(super) struct Trial<const D: usize> {
     share: Vec<f64>,
     /// Forces of the body's stress on the nodes (N).
     pub(super) internal: Vec<SVector<f64, D>>,
-    /// Forces of the penalties (N).
-    pub(super) penalty: Vec<SVector<f64, D>>,
+    /// Forces of the penalties, and c M x of inertia (N).
+    pub(super) resistance: Vec<SVector<f64, D>>,
 }
 
 impl<const D: usize, M: Law> Step<'_, D, M> {
@@ -110,18 +113,32 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             });
             add_forces(&stress, elements.gradients(p), sums);
         });
-        let penalty = self.penalty_forces(&u);
+        let resistance = self.resistance(&u);
         Ok(Trial {
             u,
             f,
             averaged,
             share,
             internal,
-            penalty,
+            resistance,
         })
     }
 
-    fn penalty_forces(&self, u: &[[f64; D]]) -> Vec<SVector<f64, D>> {
+    /// What is linear in the increments: penalties and inertia.
+    fn resistance(&self, u: &[[f64; D]]) -> Vec<SVector<f64, D>> {
+        let mut forces = self.penalty_forces(u);
+        if let Some(inertia) = self.inertia {
+            let u: Vec<SVector<f64, D>> = u.iter().map(|u| SVector::from(*u)).collect();
+            let products = inertia.mass.times(self.elements, &u);
+            for (force, product) in forces.iter_mut().zip(products) {
+                *force += product * inertia.factor;
+            }
+        }
+        forces
+    }
+
+    /// Forces of the penalties (N) against increments.
+    pub(super) fn penalty_forces(&self, u: &[[f64; D]]) -> Vec<SVector<f64, D>> {
         let mut forces = vec![SVector::zeros(); u.len()];
         for Penalty { node, stiffness } in self.penalties {
             for (j, column) in node.iter().enumerate() {
@@ -195,8 +212,24 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         for Penalty { node, stiffness } in self.penalties {
             add(node, stiffness);
         }
+        self.add_lumped(pattern, &mut values);
         self.stand_in(pattern, &mut values);
         values
+    }
+
+    /// The lumped share of c M.
+    fn add_lumped(&self, pattern: &Pattern, values: &mut [f64]) {
+        let Some(inertia) = self.inertia else {
+            return;
+        };
+        let lumped = inertia.factor * inertia.mass.lumped;
+        for (k, node) in self.unknowns.node.iter().enumerate() {
+            for i in k * pattern.width..k * pattern.width + D {
+                if let Some(place) = pattern.place(i, i) {
+                    values[place] += lumped * inertia.mass.node[*node];
+                }
+            }
+        }
     }
 
     /// Held unknowns are eliminated, and pressures that no particle resists: what stands for them is of the order of the
@@ -232,6 +265,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             let own = UNSEEN * UNSEEN * t.pull_by_a;
             let (_, w, dw) = self.elements.seen(p);
             let volume = |g: &[f64; D], b: usize| dot(&t.cofactor[b], g);
+            let inertia = self.inertia.map_or(0.0, |i| i.factor * i.mass.shared(p));
             for (j, g) in dw.iter().enumerate() {
                 for b in 0..D {
                     let change = volume(g, b);
@@ -242,7 +276,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
                     });
                     for (i, f) in dw.iter().enumerate() {
                         for a in 0..D {
-                            matrix[(i * width + a, j * width + b)] += dot(f, &column[a]);
+                            let m = if a == b { inertia * w[i] * w[j] } else { 0.0 };
+                            matrix[(i * width + a, j * width + b)] += dot(f, &column[a]) + m;
                         }
                     }
                 }
@@ -286,7 +321,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             });
             (averaged, average.transposed(elements, &pull))
         });
-        let mut forces = self.penalty_forces(&u);
+        let mut forces = self.resistance(&u);
         elements.scatter(SVector::zeros(), &mut forces, |p, sums| {
             let t = &tangents[p];
             let averages = averages.as_ref();

@@ -8,10 +8,12 @@
 //! don't exist here.
 
 mod average;
+mod dynamics;
 mod elements;
 mod equilibrium;
 mod extension;
 mod ghost;
+mod inertia;
 mod interpolation;
 mod linear;
 mod memory;
@@ -30,7 +32,7 @@ pub use interpolation::{Functions, Interpolation};
 pub use penalty::{Moduli, Penalty};
 pub use pieces::{AxisPieces, Pieces};
 pub use q8::Serendipity;
-pub use settings::{QuasiStatic, QuasiStaticRemedy, Stabilisation};
+pub use settings::{Remedy, Settings, Stabilisation, TimeRule};
 
 use crate::body::Body;
 use crate::error::Error;
@@ -47,6 +49,7 @@ use crate::work::{Spent, Work};
 use average::Average;
 use elements::Elements;
 use equilibrium::{Step, Trial};
+use inertia::Inertia;
 use linear::Direct;
 use nalgebra::SVector;
 use newton::{Failure, Newton, Solution, clocked, dot};
@@ -67,7 +70,7 @@ struct Held {
 /// The quasi-static solver for one body on the functions `I`.
 pub struct Solver<const D: usize, I, M: Law> {
     scene: Scene<D, M>,
-    settings: QuasiStatic,
+    settings: Settings,
     functions: I,
     /// Of every node the one that it is an image of.
     originals: Vec<usize>,
@@ -91,6 +94,7 @@ struct Setting<const D: usize> {
     unknowns: Unknowns<D>,
     pattern: Pattern,
     average: Option<Average>,
+    inertia: Option<Inertia<D>>,
 }
 
 impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I, M> {
@@ -215,6 +219,7 @@ impl<const D: usize> Setting<D> {
             unknowns: &self.unknowns,
             penalties: &self.penalties,
             average: self.average.as_ref(),
+            inertia: self.inertia.as_ref(),
         }
     }
 }
@@ -225,7 +230,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let particles = &self.scene.body.particles;
         let mut elements = Elements::new(&self.functions, &self.originals, particles);
         if self.settings.stabilisation == Stabilisation::Extension {
-            let volume = elements.volumes(self.functions.len(), &particles.volume);
+            let volume = elements.sums(self.functions.len(), &particles.volume);
             let held: Vec<bool> = self
                 .held
                 .iter()
@@ -253,6 +258,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         for node in penalties.iter_mut().flat_map(|p| &mut p.node) {
             *node = self.originals[*node];
         }
+        let place = self.settings.rule.place();
         let increments: Vec<f64> = self
             .scene
             .constraints
@@ -260,7 +266,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             .map(|c| {
                 // Simpson's rule: exact where an amplitude is a cubic, as smooth rises are.
                 let at = |share: f64| c.amplitude(self.time + share * dt);
-                dt * (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
+                place * dt * (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
             })
             .collect();
         let prescribed = |node: usize, axis: usize| {
@@ -269,10 +275,12 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         };
         let nodes = self.functions.len();
         let unknowns = Unknowns::new(nodes, &elements, &penalties, prescribed);
-        let averages = self.settings.remedy == QuasiStaticRemedy::FbarConsistent;
+        let averages = self.settings.remedy == Remedy::FbarConsistent;
         let width = D + usize::from(averages);
         let pattern = Pattern::new(width, &unknowns, &elements, &penalties);
+        let inertia = Inertia::of(self.settings.rule, dt, &elements, nodes, particles);
         Setting {
+            inertia,
             elements,
             penalties,
             unknowns,
@@ -327,8 +335,16 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     fn part(&mut self, dt: f64) -> Result<(), Failure> {
         self.sort();
         let setting = self.setting(dt);
+        let place = self.settings.rule.place();
         let earlier = self.external(self.time, &setting.elements);
-        let external = self.external(self.time + dt, &setting.elements);
+        let external = self.external(self.time + place * dt, &setting.elements);
+        let mut driving = external.clone();
+        for (force, push) in driving
+            .iter_mut()
+            .zip(setting.inertia.iter().flat_map(|i| &i.push))
+        {
+            *force += push;
+        }
         self.work.analyses += u64::from(self.direct.pattern != setting.pattern);
         let direct = &mut self.direct;
         clocked(&mut self.spent.factorisation, || {
@@ -340,7 +356,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             step: setting.step(&self.scene.body, dt),
             settings: &self.settings,
             rounding,
-            external: &external,
+            external: &driving,
             pattern: &setting.pattern,
             direct: &mut self.direct,
             work: &mut self.work,
@@ -348,11 +364,31 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             worn: true,
         };
         let solution = newton.solve()?;
-        let places = self.places_after(&setting.elements, &solution.trial)?;
-        self.observe(&setting, &solution, [&earlier, &external], dt);
-        self.commit(&solution.trial, &places, dt);
+        let end = self.end_of_step(&setting, &solution, dt)?;
+        let end = end.as_ref().unwrap_or(&solution.trial);
+        let places = self.places_after(&setting.elements, end)?;
+        self.observe(&setting, &solution, end, [&earlier, &external], dt);
+        self.accelerate(&setting, &solution, &external, dt);
+        self.commit(end, &places, dt);
         self.convergence = solution.convergence;
         Ok(())
+    }
+
+    /// The trial at the end of a step, where the equations hold elsewhere.
+    fn end_of_step(
+        &mut self,
+        setting: &Setting<D>,
+        solution: &Solution<D>,
+        dt: f64,
+    ) -> Result<Option<Trial<D>>, Failure> {
+        let place = self.settings.rule.place();
+        if place == 1.0 {
+            return Ok(None);
+        }
+        self.work.particle_node_pairs += 2 * setting.elements.pairs() as u64;
+        let whole: Vec<f64> = solution.u.iter().map(|u| u / place).collect();
+        let step = setting.step(&self.scene.body, dt);
+        Ok(Some(step.trial(&whole, self.functions.len())?))
     }
 
     /// The places (m) to which a trial moves the particles.
@@ -384,14 +420,22 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         &mut self,
         setting: &Setting<D>,
         solution: &Solution<D>,
+        end: &Trial<D>,
         [earlier, external]: [&[SVector<f64, D>]; 2],
         dt: f64,
     ) {
         let trial = &solution.trial;
         let step = setting.step(&self.scene.body, dt);
-        let out: Vec<SVector<f64, D>> = (trial.internal.iter().zip(&trial.penalty).zip(external))
-            .map(|((f, g), e)| e - f - g)
-            .collect();
+        let mut out: Vec<SVector<f64, D>> =
+            (trial.internal.iter().zip(&trial.resistance).zip(external))
+                .map(|((f, g), e)| e - f - g)
+                .collect();
+        for (out, push) in out
+            .iter_mut()
+            .zip(setting.inertia.iter().flat_map(|i| &i.push))
+        {
+            *out += push;
+        }
         self.residual = Residual {
             free_force: step.free(&out).iter().map(|f| f.abs()).sum(),
             ..Residual::default()
@@ -400,13 +444,14 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             reaction.force = [0.0; 3];
         }
         let work_of = |forces: &[SVector<f64, D>]| -> f64 {
-            let pairs = forces.iter().zip(&trial.u);
+            let pairs = forces.iter().zip(&end.u);
             pairs.map(|(f, u)| dot(f.as_slice(), u)).sum()
         };
+        let [first, last] = self.settings.rule.shares();
         self.accumulated.stress_work +=
-            0.5 * (work_of(&solution.before) + work_of(&trial.internal));
-        self.accumulated.load_work += 0.5 * (work_of(earlier) + work_of(external));
-        self.accumulated.damping += 0.5 * work_of(&trial.penalty);
+            first * work_of(&solution.before) + last * work_of(&trial.internal);
+        self.accumulated.load_work += first * work_of(earlier) + last * work_of(external);
+        self.accumulated.damping += 0.5 * work_of(&step.penalty_forces(&end.u));
         let mut moved = 0.0;
         for node in &setting.unknowns.node {
             for a in 0..D {
@@ -417,7 +462,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
                     reaction.force[a] += force;
                     reaction.impulse[a] += force * dt;
                     let before = earlier[*node][a] - solution.before[*node][a];
-                    moved += 0.5 * (before + force) * trial.u[*node][a];
+                    moved += (first * before + last * force) * end.u[*node][a];
                 }
             }
         }

@@ -3,7 +3,7 @@
 use super::equilibrium::{Step, Trial};
 use super::linear::Direct;
 use super::response::Tangent;
-use super::settings::QuasiStatic;
+use super::settings::Settings;
 use super::unknowns::Pattern;
 use crate::error::Fault;
 use crate::material::Law;
@@ -41,6 +41,8 @@ impl From<(usize, Fault)> for Failure {
 
 /// The solution of a step.
 pub(super) struct Solution<const D: usize> {
+    /// The increments of the unknowns (m).
+    pub(super) u: Vec<f64>,
     pub(super) trial: Trial<D>,
     pub(super) convergence: Convergence,
     /// Internal forces at the step's start (N).
@@ -50,10 +52,10 @@ pub(super) struct Solution<const D: usize> {
 /// A step with the loads at its end, and what solves it.
 pub(super) struct Newton<'a, const D: usize, M: Law> {
     pub(super) step: Step<'a, D, M>,
-    pub(super) settings: &'a QuasiStatic,
+    pub(super) settings: &'a Settings,
     /// Norm of the residual (N) that rounding of the stresses leaves.
     pub(super) rounding: f64,
-    /// External forces on the nodes (N).
+    /// External forces on the nodes (N), and in dynamics what the particles bring along.
     pub(super) external: &'a [SVector<f64, D>],
     pub(super) pattern: &'a Pattern,
     pub(super) direct: &'a mut Direct,
@@ -88,10 +90,14 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         clocked(&mut self.spent.forces, || self.step.trial(u, nodes))
     }
 
-    /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: of the external forces, of the
-    /// internal ones at the start if there are none, and of reactions, if greater, where a constraint moves.
+    /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: the greatest of those of the external
+    /// forces, of the internal ones at the start, and, where a constraint moves, of reactions.
     fn residual(&self, trial: &Trial<D>, start: f64) -> (Vec<f64>, f64) {
-        let forces = trial.internal.iter().zip(&trial.penalty).zip(self.external);
+        let forces = trial
+            .internal
+            .iter()
+            .zip(&trial.resistance)
+            .zip(self.external);
         let out: Vec<SVector<f64, D>> = forces.map(|((f, g), e)| e - f - g).collect();
         let residual = self.step.free(&out);
         let unknowns = self.step.unknowns;
@@ -105,8 +111,7 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
             }
         }
         let external = norm(&self.step.free(self.external));
-        let loads = if external > 0.0 { external } else { start };
-        (residual, loads.max(held.sqrt()))
+        (residual, external.max(start).max(held.sqrt()))
     }
 
     /// Solves the step.
@@ -134,6 +139,7 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
                 let work = dot(&external, &u).abs().max(f64::MIN_POSITIVE);
                 convergence.energy_ratio = dot(&residual, &last).abs() / work;
                 return Ok(Solution {
+                    u,
                     trial,
                     convergence,
                     before,

@@ -19,20 +19,88 @@ pub enum Stabilisation {
 
 /// Locking remedies of a quasi-static run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum QuasiStaticRemedy {
+pub enum Remedy {
     /// Standard MPM.
     None,
     /// F̄ in variational form, with A = I − (1 − ε)(I − Π)².
     FbarConsistent,
 }
 
+/// The equations of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TimeRule {
+    /// Equilibrium at the end of the step: there are no velocities.
+    Static,
+    /// The implicit midpoint rule with the mass (1 − β) M_c + β M_l; the share β is given. Conservation of momentum to
+    /// rounding, of energy to second order without gain: `docs/implicit.md`.
+    Midpoint {
+        /// β, the share of the lumped mass.
+        lumped: f64,
+    },
+    /// Newmark's rule with the lumped mass, equilibrium at the end of the step, as Eqs. (22) to (32) of Wang et al. 2016,
+    /// doi:10.1016/j.compgeo.2015.10.007, are printed.
+    Newmark {
+        /// α of Eq. (23).
+        alpha: f64,
+        /// δ of Eq. (22).
+        delta: f64,
+    },
+}
+
+impl TimeRule {
+    /// Where in a step its equations hold, in shares of it.
+    pub(super) fn place(self) -> f64 {
+        match self {
+            Self::Midpoint { .. } => 0.5,
+            Self::Static | Self::Newmark { .. } => 1.0,
+        }
+    }
+
+    /// What a force does on the way through a step, of its value at the start and that where the equations hold.
+    pub(super) fn shares(self) -> [f64; 2] {
+        match self {
+            Self::Midpoint { .. } => [0.0, 1.0],
+            Self::Static | Self::Newmark { .. } => [0.5, 0.5],
+        }
+    }
+
+    fn check(self) -> Result<(), Error> {
+        match self {
+            Self::Static => Ok(()),
+            Self::Midpoint { lumped } => require(
+                (0.0..=1.0).contains(&lumped),
+                "share of the lumped mass",
+                lumped,
+                "from 0 to 1",
+            ),
+            Self::Newmark { alpha, delta } => {
+                require(
+                    delta >= 0.5,
+                    "delta of Newmark's rule",
+                    delta,
+                    "at least 0.5: less is unstable",
+                )?;
+                let least = 0.25 * (delta + 0.5) * (delta + 0.5);
+                require(
+                    alpha >= least,
+                    "alpha of Newmark's rule",
+                    alpha,
+                    "at least (delta + 1/2)²/4: less is not stable for every step",
+                )
+            }
+        }
+    }
+}
+
 /// How the implicit solver solves a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct QuasiStatic {
+pub struct Settings {
     /// Duration of a load step (s), or its share of the load: whatever the loads take for time.
     pub dt: f64,
+    /// The equations of a step.
+    pub rule: TimeRule,
     /// The locking remedy.
-    pub remedy: QuasiStaticRemedy,
+    pub remedy: Remedy,
     /// What holds functions that see hardly any material.
     pub stabilisation: Stabilisation,
     /// A step has converged when the free nodes' residual is at most this share of the loads; where a constraint moves, of
@@ -47,18 +115,25 @@ pub struct QuasiStatic {
 /// Least and greatest tolerance: below the first rounding decides.
 const TOLERANCES: [f64; 2] = [1e-13, 1e-2];
 
-impl QuasiStatic {
-    /// Steps of `dt` (s), without remedy and stabilisation.
+impl Settings {
+    /// Static steps of `dt` (s), without remedy and stabilisation.
     #[must_use]
     pub fn new(dt: f64) -> Self {
         Self {
             dt,
-            remedy: QuasiStaticRemedy::None,
+            rule: TimeRule::Static,
+            remedy: Remedy::None,
             stabilisation: Stabilisation::None,
             tolerance: 1e-9,
             most_iterations: 25,
             most_halvings: 8,
         }
+    }
+
+    /// With a time rule.
+    #[must_use]
+    pub fn rule(self, rule: TimeRule) -> Self {
+        Self { rule, ..self }
     }
 
     /// With a stabilisation.
@@ -72,12 +147,13 @@ impl QuasiStatic {
 
     /// With a remedy.
     #[must_use]
-    pub fn remedy(self, remedy: QuasiStaticRemedy) -> Self {
+    pub fn remedy(self, remedy: Remedy) -> Self {
         Self { remedy, ..self }
     }
 
     pub(super) fn check(&self) -> Result<(), Error> {
         require(self.dt > 0.0, "load step", self.dt, "positive (s)")?;
+        self.rule.check()?;
         let [least, greatest] = TOLERANCES;
         require(
             self.tolerance >= least && self.tolerance <= greatest,

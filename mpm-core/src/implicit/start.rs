@@ -1,7 +1,7 @@
 //! A solver before its first step.
 
 use super::linear::Direct;
-use super::{Held, Interpolation, Moduli, QuasiStatic, QuasiStaticRemedy, Solver};
+use super::{Held, Interpolation, Moduli, Remedy, Settings, Solver, TimeRule};
 use crate::error::{Error, require};
 use crate::material::Law;
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
@@ -17,7 +17,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// # Errors
     /// A setting or particle that is not allowed; a stabilisation that the functions don't offer; F̄ with a law that is
     /// not conservative; a contact, or a constraint on one side only; a particle off the grid.
-    pub fn new(mut scene: Scene<D, M>, settings: QuasiStatic) -> Result<Self, Error> {
+    pub fn new(mut scene: Scene<D, M>, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
         let contacts = scene.contacts.len();
         require(
@@ -37,7 +37,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             one_sided as f64,
             "none: walls are fixed or rollers there",
         )?;
-        let averages = settings.remedy == QuasiStaticRemedy::FbarConsistent;
+        let averages = settings.remedy == Remedy::FbarConsistent;
         require(
             M::CONSERVATIVE || !averages,
             "F-bar in variational form, of laws without a potential",
@@ -71,8 +71,14 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
                 fault,
             })?;
         }
-        // What only the explicit step needs.
-        particles.velocity = Vec::new();
+        // What a step of this rule doesn't need.
+        match settings.rule {
+            TimeRule::Static => particles.velocity = Vec::new(),
+            TimeRule::Midpoint { .. } => {}
+            TimeRule::Newmark { .. } => {
+                particles.acceleration = vec![[0.0; D]; particles.len()];
+            }
+        }
         particles.affine = Vec::new();
         particles.increment = Vec::new();
         if scene.loads.is_empty() {
@@ -95,7 +101,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
                 });
             }
         });
-        Ok(Self {
+        let mut solver = Self {
             originals: functions.originals(),
             held,
             moduli,
@@ -110,7 +116,12 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             functions,
             scene,
             settings,
-        })
+        };
+        if let TimeRule::Newmark { .. } = settings.rule {
+            let started = solver.start_accelerations();
+            started.map_err(|failure| solver.error(failure))?;
+        }
+        Ok(solver)
     }
 }
 

@@ -32,6 +32,7 @@ macro_rules! every_basis {
 }
 
 // After the macro, which it uses.
+mod dynamics;
 mod stiffness;
 
 /// Two places in a cell, in shares of it.
@@ -112,9 +113,9 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
     let volume = p.reference_volume[0];
     let some = Particles::new(within.collect(), volume, 1000.0, p.half_size).unwrap();
     scene.body = Body::new(law.clone(), some).unwrap();
-    let settings = QuasiStatic {
+    let settings = Settings {
         tolerance: 1e-13,
-        ..QuasiStatic::new(1.0).stabilised(stabilisation)
+        ..Settings::new(1.0).stabilised(stabilisation)
     };
     let mut solver = Solver::<D, I, M>::new(scene.constrain(Affine(gradient)), settings).unwrap();
     solver.step().unwrap();
@@ -201,11 +202,11 @@ fn standing<const D: usize, M: Law>(
 /// two before rounding ends it.
 #[test]
 fn newton_converges_quadratically() {
-    let settings = QuasiStatic {
+    let settings = Settings {
         tolerance: 1e-11,
-        ..QuasiStatic::new(1.0).stabilised(Stabilisation::Ghost(0.01))
+        ..Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01))
     };
-    for remedy in [QuasiStaticRemedy::None, QuasiStaticRemedy::FbarConsistent] {
+    for remedy in [Remedy::None, Remedy::FbarConsistent] {
         let scene = standing::<2, _>(
             4,
             Places::Uniform,
@@ -252,7 +253,7 @@ fn bar_error<I: Interpolation<1>>(cells: usize) -> f64 {
     let law = NeoHookean::new(YOUNG, 0.0).unwrap();
     let (height, weight) = (H * cells as f64, 0.3 * YOUNG / (H * cells as f64));
     let scene = standing::<1, _>(cells, Places::Gauss, law, weight);
-    let mut solver = Solver::<1, I, _>::new(scene, QuasiStatic::new(1.0)).unwrap();
+    let mut solver = Solver::<1, I, _>::new(scene, Settings::new(1.0)).unwrap();
     solver.step().unwrap();
     assert_eq!(solver.convergence().unwrap().parts, 1);
     let p = solver.particles();
@@ -284,7 +285,7 @@ fn bits<const D: usize, I: Interpolation<D>, M: Law>(solver: &Solver<D, I, M>) -
 }
 
 /// Ground between walls that yields under its weight.
-fn loaded(remedy: QuasiStaticRemedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
+fn loaded(remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
     let strength = Strength::softening(2e3, 1e3, 1.0).unwrap();
     let law = HenckyJ2::new(YOUNG, POISSON, strength).unwrap();
     let axes = [
@@ -299,7 +300,7 @@ fn loaded(remedy: QuasiStaticRemedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
     let scene = filled(axes, 8, Places::Uniform, law)
         .constrain_all([roller(0, End::Lo), roller(0, End::Hi), roller(1, End::Lo)])
         .load(BodyForce(Box::new(|_, t| [0.0, -4.0 * t])));
-    let settings = QuasiStatic::new(0.5)
+    let settings = Settings::new(0.5)
         .remedy(remedy)
         .stabilised(Stabilisation::Ghost(0.01));
     Solver::new(scene, settings).unwrap()
@@ -307,7 +308,7 @@ fn loaded(remedy: QuasiStaticRemedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
 
 #[test]
 fn the_number_of_threads_changes_no_bit() {
-    for remedy in [QuasiStaticRemedy::None, QuasiStaticRemedy::FbarConsistent] {
+    for remedy in [Remedy::None, Remedy::FbarConsistent] {
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new()
                 .num_threads(threads)
@@ -327,11 +328,11 @@ fn the_number_of_threads_changes_no_bit() {
 
 #[test]
 fn a_run_that_was_stopped_goes_on_as_if_it_had_not() {
-    let mut straight = loaded(QuasiStaticRemedy::FbarConsistent);
+    let mut straight = loaded(Remedy::FbarConsistent);
     straight.step().unwrap();
     let saved = straight.save().unwrap();
     straight.step().unwrap();
-    let mut resumed = loaded(QuasiStaticRemedy::FbarConsistent);
+    let mut resumed = loaded(Remedy::FbarConsistent);
     resumed.restore(&saved).unwrap();
     resumed.step().unwrap();
     assert_eq!(bits(&straight), bits(&resumed));
@@ -347,7 +348,7 @@ fn reactions_balance_the_weight() {
     let scene = standing::<2, _>(4, Places::Uniform, law, 1e3);
     let mut solver = Solver::<2, Quadratics<2>, _>::new(
         scene,
-        QuasiStatic::new(1.0).stabilised(Stabilisation::Ghost(0.01)),
+        Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01)),
     )
     .unwrap();
     solver.step().unwrap();
@@ -376,7 +377,7 @@ fn loner(stabilisation: Stabilisation) -> f64 {
         end: End::Lo,
         kind: WallKind::Fixed,
     };
-    let settings = QuasiStatic::new(1.0).stabilised(stabilisation);
+    let settings = Settings::new(1.0).stabilised(stabilisation);
     Solver::<2, Quadratics<2>, _>::new(scene.constrain(wall), settings)
         .unwrap()
         .condition()
@@ -404,26 +405,26 @@ fn what_is_not_allowed_is_named() {
             1e3,
         )
     };
-    let refused = |settings: QuasiStatic, what: &str| {
+    let refused = |settings: Settings, what: &str| {
         let error = Solver::<2, Means<2>, _>::new(scene(), settings)
             .err()
             .unwrap();
         assert!(error.to_string().contains(what), "{error}");
     };
-    refused(QuasiStatic::new(0.0), "load step");
+    refused(Settings::new(0.0), "load step");
     refused(
-        QuasiStatic {
+        Settings {
             tolerance: 0.5,
-            ..QuasiStatic::new(1.0)
+            ..Settings::new(1.0)
         },
         "tolerance",
     );
     refused(
-        QuasiStatic::new(1.0).stabilised(Stabilisation::Ghost(-1.0)),
+        Settings::new(1.0).stabilised(Stabilisation::Ghost(-1.0)),
         "stabilisation",
     );
     refused(
-        QuasiStatic::new(1.0).stabilised(Stabilisation::Soft(0.01)),
+        Settings::new(1.0).stabilised(Stabilisation::Soft(0.01)),
         "ghost",
     );
     let wall = Wall {
@@ -431,10 +432,10 @@ fn what_is_not_allowed_is_named() {
         end: End::Hi,
         kind: WallKind::Separable,
     };
-    let error = Solver::<2, Means<2>, _>::new(scene().constrain(wall), QuasiStatic::new(1.0));
+    let error = Solver::<2, Means<2>, _>::new(scene().constrain(wall), Settings::new(1.0));
     assert!(error.err().unwrap().to_string().contains("one-sided"));
     let law = Hypoelastic::new(YOUNG, POISSON, JaumannUpdate::Split).unwrap();
-    let settings = QuasiStatic::new(1.0).remedy(QuasiStaticRemedy::FbarConsistent);
+    let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
     let error =
         Solver::<2, Means<2>, _>::new(standing::<2, _>(4, Places::Uniform, law, 1e3), settings);
     assert!(error.err().unwrap().to_string().contains("remedy none"));
@@ -445,9 +446,9 @@ fn what_is_not_allowed_is_named() {
 fn no_equilibrium_is_an_error() {
     let law = Hencky::new(YOUNG, POISSON).unwrap();
     let scene = full::<2, _>(4, Places::Uniform, law).load(BodyForce(Box::new(|_, _| [0.0, -1.0])));
-    let settings = QuasiStatic {
+    let settings = Settings {
         most_halvings: 2,
-        ..QuasiStatic::new(1.0)
+        ..Settings::new(1.0)
     };
     let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
     let before = solver.particles().reference.clone();

@@ -5,7 +5,7 @@ pub mod scheme;
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::transfer::{Apic, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
-use mpm_core::implicit::{self, QuasiStatic, QuasiStaticRemedy, Serendipity};
+use mpm_core::implicit::{self, Serendipity};
 use mpm_core::material::{Hencky, HenckyJ2, Hypoelastic, NeoHookean, NewtonianFluid};
 use mpm_core::{Error, Lattice, Law, Scene, Simulation};
 use scheme::{BasisName, Explicit, RemedyName, Scheme, TransferName};
@@ -93,40 +93,40 @@ with_basis! {
     Bspline3: 4, CubicBSpline;
 }
 
-/// A law with the quasi-static solvers that are compiled for it.
-pub trait Equilibrium<const D: usize>: Law + Sized {
-    /// A quasi-static solver of `scene` by `scheme`, whose remedy stands for that of the settings.
+/// A law with the implicit solvers that are compiled for it.
+pub trait Solved<const D: usize>: Law + Sized {
+    /// An implicit solver of `scene` by `scheme`, whose remedy stands for that of the settings; the rule of time is theirs.
     ///
     /// # Errors
-    /// The solver refuses the scene; the scheme is not quasi-static, or not compiled for this law in this dimension.
-    fn equilibrium(scheme: Scheme, scene: Scene<D, Self>, settings: QuasiStatic) -> Built<D>;
+    /// The solver refuses the scene; the scheme is not implicit, or not compiled for this law in this dimension.
+    fn implicit(scheme: Scheme, scene: Scene<D, Self>, settings: implicit::Settings) -> Built<D>;
 }
 
-/// A quasi-static solver of `scene` by `scheme`.
+/// An implicit solver of `scene` by `scheme`.
 ///
 /// # Errors
-/// As [`Equilibrium::equilibrium`].
-pub fn equilibrium<const D: usize, M: Equilibrium<D>>(
+/// As [`Solved::implicit`].
+pub fn implicit<const D: usize, M: Solved<D>>(
     scheme: Scheme,
     scene: Scene<D, M>,
-    settings: QuasiStatic,
+    settings: implicit::Settings,
 ) -> Built<D> {
-    M::equilibrium(scheme, scene, settings)
+    M::implicit(scheme, scene, settings)
 }
 
-/// Compiles quasi-static solvers for a law.
-macro_rules! static_solvers {
+/// Compiles implicit solvers for a law.
+macro_rules! implicit_solvers {
     ($dimension:literal, $law:ty, [$($basis:ident: $functions:ty),*]) => {
-        impl Equilibrium<$dimension> for $law {
-            fn equilibrium(
+        impl Solved<$dimension> for $law {
+            fn implicit(
                 scheme: Scheme,
                 scene: Scene<$dimension, Self>,
-                settings: QuasiStatic,
+                settings: implicit::Settings,
             ) -> Built<$dimension> {
-                let Scheme::QuasiStatic(parts) = scheme else {
-                    return Err(other_solver("quasi-static"));
+                let Scheme::Implicit(parts) = scheme else {
+                    return Err(other_solver("an implicit one"));
                 };
-                let settings = settings.remedy(static_remedy(parts.remedy)?);
+                let settings = settings.remedy(implicit_remedy(parts.remedy)?);
                 match parts.basis {
                     $(BasisName::$basis => {
                         let solver =
@@ -141,29 +141,29 @@ macro_rules! static_solvers {
     };
 }
 
-static_solvers!(2, Hencky, [
+implicit_solvers!(2, Hencky, [
     Linear: Lattice<2, 2, Linear>,
     Gimp: Lattice<2, 3, Gimp>,
     Bspline2: Lattice<2, 3, QuadraticBSpline>,
     Bspline3: Lattice<2, 4, CubicBSpline>,
     Q8: Serendipity
 ]);
-static_solvers!(2, NeoHookean, [
+implicit_solvers!(2, NeoHookean, [
     Linear: Lattice<2, 2, Linear>,
     Gimp: Lattice<2, 3, Gimp>,
     Bspline2: Lattice<2, 3, QuadraticBSpline>,
     Bspline3: Lattice<2, 4, CubicBSpline>
 ]);
-static_solvers!(3, NeoHookean, [Gimp: Lattice<3, 3, Gimp>, Bspline2: Lattice<3, 3, QuadraticBSpline>]);
-static_solvers!(2, Hypoelastic, [Bspline2: Lattice<2, 3, QuadraticBSpline>, Q8: Serendipity]);
+implicit_solvers!(3, NeoHookean, [Gimp: Lattice<3, 3, Gimp>, Bspline2: Lattice<3, 3, QuadraticBSpline>]);
+implicit_solvers!(2, Hypoelastic, [Bspline2: Lattice<2, 3, QuadraticBSpline>, Q8: Serendipity]);
 
-fn static_remedy(remedy: RemedyName) -> Result<QuasiStaticRemedy, Error> {
+fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {
     match remedy {
-        RemedyName::None => Ok(QuasiStaticRemedy::None),
-        RemedyName::FbarConsistent => Ok(QuasiStaticRemedy::FbarConsistent),
+        RemedyName::None => Ok(implicit::Remedy::None),
+        RemedyName::FbarConsistent => Ok(implicit::Remedy::FbarConsistent),
         RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => {
             Err(Error::Input {
-                what: "place of the remedy, of a quasi-static run, in the list none, fbar-recursive, fbar-total, fbar-rate, fbar-consistent,",
+                what: "place of the remedy, of an implicit run, in the list none, fbar-recursive, fbar-total, fbar-rate, fbar-consistent,",
                 value: f64::from(remedy as u8),
                 allowed: "none or fbar-consistent: the others' forces follow from no energy",
             })

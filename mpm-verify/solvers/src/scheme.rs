@@ -20,7 +20,7 @@ pub enum NameError {
         allowed: &'static [&'static str],
     },
     /// A scheme that lacks a part.
-    #[error("scheme \"{0}\" is not of the form basis-remedy-transfer or quasi-static-basis-remedy")]
+    #[error("scheme \"{0}\" is not of the form basis-remedy-transfer or solver-basis-remedy")]
     Form(String),
 }
 
@@ -66,7 +66,7 @@ pub enum TransferName {
     Apic,
     /// XPIC of order 2.
     Xpic2,
-    /// Of a solver without velocities.
+    /// Of an implicit solver, which has no choice of it.
     None,
 }
 
@@ -142,14 +142,28 @@ plain_text!(RemedyName, "remedy", [
 plain_text!(TransferName, "transfer", [
     Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2", Self::None => "none"]);
 
+/// Kinds of implicit solvers, by the equations of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum RuleName {
+    /// Equilibrium at every load step.
+    QuasiStatic,
+    /// The implicit midpoint rule.
+    Midpoint,
+    /// Newmark's rule, as Wang et al. 2016 print it.
+    Newmark,
+}
+
+plain_text!(RuleName, "solver", [
+    Self::QuasiStatic => "quasi-static", Self::Midpoint => "midpoint", Self::Newmark => "newmark"]);
+
 /// A scheme, by the kind of its solver. Files and the command line hold its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub enum Scheme {
     /// Explicit in time: basis-remedy-transfer.
     Explicit(Explicit),
-    /// Equilibrium at every load step: quasi-static-basis-remedy.
-    QuasiStatic(QuasiStatic),
+    /// Implicit: rule-basis-remedy, such as quasi-static-gimp-none.
+    Implicit(Implicit),
 }
 
 /// A scheme of the explicit solver.
@@ -163,34 +177,18 @@ pub struct Explicit {
     pub transfer: TransferName,
 }
 
-/// A scheme of the quasi-static solver.
+/// A scheme of the implicit solver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct QuasiStatic {
+pub struct Implicit {
+    /// The equations of a step.
+    pub rule: RuleName,
     /// Basis functions.
     pub basis: BasisName,
     /// Locking remedy.
     pub remedy: RemedyName,
 }
 
-/// What names of quasi-static schemes begin with.
-const QUASI_STATIC: &str = "quasi-static";
-
 impl Scheme {
-    /// An explicit scheme, or without a transfer a quasi-static one.
-    #[must_use]
-    pub const fn new(basis: BasisName, remedy: RemedyName, transfer: TransferName) -> Self {
-        match transfer {
-            TransferName::None => Self::quasi_static(basis, remedy),
-            _ => Self::explicit(basis, remedy, transfer),
-        }
-    }
-
-    /// A quasi-static scheme.
-    #[must_use]
-    pub const fn quasi_static(basis: BasisName, remedy: RemedyName) -> Self {
-        Self::QuasiStatic(QuasiStatic { basis, remedy })
-    }
-
     /// An explicit scheme.
     #[must_use]
     pub const fn explicit(basis: BasisName, remedy: RemedyName, transfer: TransferName) -> Self {
@@ -207,15 +205,40 @@ impl Scheme {
         Self::explicit(basis, remedy, TransferName::Flip)
     }
 
+    /// An implicit scheme.
+    #[must_use]
+    pub const fn implicit(rule: RuleName, basis: BasisName, remedy: RemedyName) -> Self {
+        Self::Implicit(Implicit {
+            rule,
+            basis,
+            remedy,
+        })
+    }
+
+    /// A quasi-static scheme.
+    #[must_use]
+    pub const fn quasi_static(basis: BasisName, remedy: RemedyName) -> Self {
+        Self::implicit(RuleName::QuasiStatic, basis, remedy)
+    }
+
+    /// The same kind of scheme with another basis and remedy.
+    #[must_use]
+    pub const fn with(self, basis: BasisName, remedy: RemedyName) -> Self {
+        match self {
+            Self::Explicit(e) => Self::explicit(basis, remedy, e.transfer),
+            Self::Implicit(i) => Self::implicit(i.rule, basis, remedy),
+        }
+    }
+
     /// The kinds of solvers.
-    pub const SOLVERS: &[&str] = &["explicit", QUASI_STATIC];
+    pub const SOLVERS: &[&str] = &["explicit", "quasi-static", "midpoint", "newmark"];
 
     /// Name of the solver's kind, as `--solver` takes it.
     #[must_use]
-    pub const fn solver(self) -> &'static str {
+    pub fn solver(self) -> &'static str {
         match self {
             Self::Explicit(_) => "explicit",
-            Self::QuasiStatic(_) => QUASI_STATIC,
+            Self::Implicit(i) => i.rule.text(),
         }
     }
 
@@ -224,7 +247,7 @@ impl Scheme {
     pub const fn basis(self) -> BasisName {
         match self {
             Self::Explicit(e) => e.basis,
-            Self::QuasiStatic(q) => q.basis,
+            Self::Implicit(i) => i.basis,
         }
     }
 
@@ -233,16 +256,16 @@ impl Scheme {
     pub const fn remedy(self) -> RemedyName {
         match self {
             Self::Explicit(e) => e.remedy,
-            Self::QuasiStatic(q) => q.remedy,
+            Self::Implicit(i) => i.remedy,
         }
     }
 
-    /// Its transfer, if it has velocities.
+    /// Its transfer, if it has a choice of it.
     #[must_use]
     pub const fn transfer(self) -> TransferName {
         match self {
             Self::Explicit(e) => e.transfer,
-            Self::QuasiStatic(_) => TransferName::None,
+            Self::Implicit(_) => TransferName::None,
         }
     }
 
@@ -261,19 +284,16 @@ impl Scheme {
             given: given.to_owned(),
             allowed,
         };
-        match (solver, transfer) {
-            ("explicit", TransferName::None) => {
-                let allowed = &["flip", "apic", "xpic2"];
-                Err(unknown(
-                    "transfer of an explicit scheme",
-                    transfer.text(),
-                    allowed,
-                ))
+        let none = transfer == TransferName::None;
+        match (solver, RuleName::parse(solver)) {
+            ("explicit", _) if none => {
+                let what = "transfer of an explicit scheme";
+                Err(unknown(what, transfer.text(), &["flip", "apic", "xpic2"]))
             }
-            ("explicit", transfer) => Ok(Self::explicit(basis, remedy, transfer)),
-            (QUASI_STATIC, TransferName::None) => Ok(Self::quasi_static(basis, remedy)),
-            (QUASI_STATIC, _) => {
-                let what = "transfer of a quasi-static scheme";
+            ("explicit", _) => Ok(Self::explicit(basis, remedy, transfer)),
+            (_, Ok(rule)) if none => Ok(Self::implicit(rule, basis, remedy)),
+            (_, Ok(_)) => {
+                let what = "transfer of an implicit scheme";
                 Err(unknown(what, transfer.text(), &["none"]))
             }
             _ => Err(unknown("solver", solver, Self::SOLVERS)),
@@ -283,11 +303,14 @@ impl Scheme {
     /// In short, for people: FLIP goes without saying.
     #[must_use]
     pub fn title(self) -> String {
-        let (basis, remedy, transfer) = (self.basis(), self.remedy(), self.transfer());
-        match transfer {
-            TransferName::Flip => format!("{basis} {remedy}"),
-            TransferName::None => format!("{basis} {remedy} static"),
-            _ => format!("{basis} {remedy} {transfer}"),
+        let (basis, remedy) = (self.basis(), self.remedy());
+        match self {
+            Self::Explicit(e) if e.transfer == TransferName::Flip => format!("{basis} {remedy}"),
+            Self::Explicit(e) => format!("{basis} {remedy} {}", e.transfer),
+            Self::Implicit(i) if i.rule == RuleName::QuasiStatic => {
+                format!("{basis} {remedy} static")
+            }
+            Self::Implicit(i) => format!("{basis} {remedy} {}", i.rule),
         }
     }
 
@@ -296,11 +319,13 @@ impl Scheme {
     /// # Errors
     /// A part that is missing or unknown.
     pub fn parse(name: &str) -> Result<Self, NameError> {
-        if let Some((_, rest)) = name.split_once(QUASI_STATIC).filter(|(b, _)| b.is_empty()) {
-            let parts = rest.strip_prefix('-').and_then(|rest| rest.split_once('-'));
-            let (basis, remedy) = parts.ok_or_else(|| NameError::Form(name.to_owned()))?;
-            let (basis, remedy) = (BasisName::parse(basis)?, RemedyName::parse(remedy)?);
-            return Ok(Self::quasi_static(basis, remedy));
+        for rule in [RuleName::QuasiStatic, RuleName::Midpoint, RuleName::Newmark] {
+            if let Some(rest) = name.strip_prefix(rule.text()) {
+                let parts = rest.strip_prefix('-').and_then(|rest| rest.split_once('-'));
+                let (basis, remedy) = parts.ok_or_else(|| NameError::Form(name.to_owned()))?;
+                let (basis, remedy) = (BasisName::parse(basis)?, RemedyName::parse(remedy)?);
+                return Ok(Self::implicit(rule, basis, remedy));
+            }
         }
         let parts = name.split_once('-').and_then(|(basis, rest)| {
             let (remedy, transfer) = rest.rsplit_once('-')?;
@@ -330,7 +355,7 @@ impl fmt::Display for Scheme {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Explicit(e) => write!(f, "{}-{}-{}", e.basis, e.remedy, e.transfer),
-            Self::QuasiStatic(q) => write!(f, "{QUASI_STATIC}-{}-{}", q.basis, q.remedy),
+            Self::Implicit(i) => write!(f, "{}-{}-{}", i.rule, i.basis, i.remedy),
         }
     }
 }
@@ -343,8 +368,10 @@ mod tests {
     fn a_scheme_reads_back_from_its_name() {
         let scheme = Scheme::flip(BasisName::Bspline2, RemedyName::FbarRate);
         assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
-        let scheme = Scheme::quasi_static(BasisName::Gimp, RemedyName::FbarConsistent);
-        assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
+        for rule in [RuleName::QuasiStatic, RuleName::Midpoint, RuleName::Newmark] {
+            let scheme = Scheme::implicit(rule, BasisName::Gimp, RemedyName::FbarConsistent);
+            assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
+        }
         for bad in [
             "",
             "gimp",
@@ -355,6 +382,7 @@ mod tests {
             "quasi-static",
             "quasi-static-gimp",
             "quasi-static-gimp-none-flip",
+            "midpointgimp-none",
         ] {
             assert!(Scheme::parse(bad).is_err(), "{bad}");
         }

@@ -80,8 +80,12 @@ impl Panels {
     /// All schemes in one panel while they can be told apart, else a panel for every basis.
     pub(crate) fn new(schemes: &BTreeSet<Scheme>) -> Self {
         let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis()).collect();
-        let others: BTreeSet<_> = schemes.iter().map(|s| (s.remedy(), s.transfer())).collect();
-        let transfers: BTreeSet<_> = others.iter().map(|(_, transfer)| transfer).collect();
+        // Of one basis, as all the same curves.
+        let others: BTreeSet<Scheme> = schemes
+            .iter()
+            .map(|s| s.with(BasisName::Linear, s.remedy()))
+            .collect();
+        let transfers: BTreeSet<_> = others.iter().map(|s| s.transfer()).collect();
         if schemes.len() <= MOST_CURVES && transfers.len() == 1 {
             return Self(vec![Panel {
                 title: String::new(),
@@ -93,7 +97,7 @@ impl Panels {
             title: basis.to_string(),
             schemes: others
                 .iter()
-                .map(|&(remedy, transfer)| Scheme::new(basis, remedy, transfer))
+                .map(|other| other.with(basis, other.remedy()))
                 .collect(),
         };
         Self(bases.into_iter().map(of_basis).collect())

@@ -12,7 +12,7 @@ fn noise(k: usize) -> f64 {
 /// A strained body with free faces, held at one end, on a trial of random increments.
 fn strained<const D: usize, I: Interpolation<D>, M: Law>(
     law: M,
-    remedy: QuasiStaticRemedy,
+    remedy: Remedy,
 ) -> Solver<D, I, M> {
     let f = SMatrix::<f64, D, D>::from_fn(|i, j| {
         f64::from(u8::from(i == j)) + 0.04 * noise(3 * i + j + 1)
@@ -25,7 +25,7 @@ fn strained<const D: usize, I: Interpolation<D>, M: Law>(
         end: End::Lo,
         kind: WallKind::Fixed,
     };
-    let settings = QuasiStatic::new(1.0)
+    let settings = Settings::new(1.0)
         .remedy(remedy)
         .stabilised(Stabilisation::Ghost(0.01));
     let mut solver = Solver::new(scene.constrain(wall), settings).unwrap();
@@ -47,7 +47,7 @@ fn random_values(count: usize, held: &[Option<f64>], size: f64, seed: usize) -> 
 /// K x is what central differences of the forces along x extrapolate to, and the assembled matrix times x without F̄.
 fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
     law: M,
-    remedy: QuasiStaticRemedy,
+    remedy: Remedy,
 ) {
     let solver = strained::<D, I, M>(law, remedy);
     let setting = solver.setting(1.0);
@@ -63,7 +63,7 @@ fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: La
         let sum = trial
             .internal
             .iter()
-            .zip(&trial.penalty)
+            .zip(&trial.resistance)
             .map(|(f, g)| f + g);
         step.free(&sum.collect::<Vec<_>>())
     };
@@ -93,7 +93,7 @@ fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: La
         error.sqrt(),
         known.sqrt()
     );
-    if remedy == QuasiStaticRemedy::None {
+    if remedy == Remedy::None {
         let values = step.stiffness(&tangents, &setting.pattern);
         let assembled = multiply(&setting.pattern, &values, &x);
         let apart = assembled.iter().zip(&product).map(|(a, b)| (a - b).powi(2));
@@ -118,7 +118,7 @@ fn ground() -> HenckyJ2 {
 
 #[test]
 fn stiffness_is_the_slope_of_the_forces() {
-    for remedy in [QuasiStaticRemedy::None, QuasiStaticRemedy::FbarConsistent] {
+    for remedy in [Remedy::None, Remedy::FbarConsistent] {
         every_basis!(
             tangent_is_the_slope_of_the_forces,
             1,
@@ -145,20 +145,12 @@ fn stiffness_is_the_slope_of_the_forces() {
     }
     for update in [JaumannUpdate::Split, JaumannUpdate::Linear] {
         let law = Hypoelastic::new(YOUNG, POISSON, update).unwrap();
-        every_basis!(
-            tangent_is_the_slope_of_the_forces,
-            2,
-            law,
-            QuasiStaticRemedy::None
-        );
+        every_basis!(tangent_is_the_slope_of_the_forces, 2, law, Remedy::None);
     }
 }
 
 /// max |K − Kᵀ| over max |K|.
-fn asymmetry<const D: usize, I: Interpolation<D>, M: Law>(
-    law: M,
-    remedy: QuasiStaticRemedy,
-) -> f64 {
+fn asymmetry<const D: usize, I: Interpolation<D>, M: Law>(law: M, remedy: Remedy) -> f64 {
     let solver = strained::<D, I, M>(law, remedy);
     let setting = solver.setting(1.0);
     let step = setting.step(&solver.scene.body, 1.0);
@@ -179,8 +171,8 @@ fn asymmetry<const D: usize, I: Interpolation<D>, M: Law>(
 
 #[test]
 fn stiffness_is_symmetric_where_there_is_a_potential() {
-    let none = QuasiStaticRemedy::None;
-    for remedy in [none, QuasiStaticRemedy::FbarConsistent] {
+    let none = Remedy::None;
+    for remedy in [none, Remedy::FbarConsistent] {
         let found = [
             asymmetry::<2, Quadratics<2>, _>(NeoHookean::new(YOUNG, POISSON).unwrap(), remedy),
             asymmetry::<2, Means<2>, _>(Hencky::new(YOUNG, POISSON).unwrap(), remedy),

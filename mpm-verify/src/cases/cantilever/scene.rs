@@ -7,11 +7,11 @@ use super::parameters::{
 };
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
-use mpm_core::implicit::{QuasiStatic, Stabilisation};
+use mpm_core::implicit::{Settings, Stabilisation};
 use mpm_core::material::{Hencky, Hypoelastic, JaumannUpdate, Law, NeoHookean};
 use mpm_core::stage::{BodyForce, End, Wall, WallKind};
 use mpm_core::{Axis, Body, Error, Grid, Particles, Scene, Side, Simulation};
-use mpm_solvers::{Equilibrium, equilibrium};
+use mpm_solvers::{Solved, implicit};
 
 /// Length and depth (m).
 pub(super) const LENGTH: f64 = 1.0;
@@ -55,7 +55,7 @@ pub(super) fn seed(h: f64, parameters: &Parameters) -> Vec<[f64; 2]> {
 }
 
 /// How the run is solved.
-pub(super) fn settings(parameters: &Parameters) -> QuasiStatic {
+pub(super) fn settings(parameters: &Parameters) -> Settings {
     let factor = parameters.number(STABILISATION_FACTOR);
     let stabilisation = if parameters.is(STABILISATION, GHOST) {
         Stabilisation::Ghost(factor)
@@ -66,9 +66,9 @@ pub(super) fn settings(parameters: &Parameters) -> QuasiStatic {
     } else {
         Stabilisation::None
     };
-    QuasiStatic {
+    Settings {
         tolerance: parameters.number(TOLERANCE),
-        ..QuasiStatic::new(1.0 / parameters.number(LOAD_STEPS)).stabilised(stabilisation)
+        ..Settings::new(1.0 / parameters.number(LOAD_STEPS)).stabilised(stabilisation)
     }
 }
 
@@ -94,7 +94,7 @@ pub(super) fn begin(
     }
 }
 
-fn of_law<M: Law + Equilibrium<2>>(
+fn of_law<M: Law + Solved<2>>(
     spec: &RunSpec,
     parameters: &Parameters,
     law: M,
@@ -124,5 +124,5 @@ fn of_law<M: Law + Equilibrium<2>>(
             kind: WallKind::Fixed,
         })
         .load(BodyForce(Box::new(move |_, share| [0.0, -weight * share])));
-    equilibrium(spec.scheme, scene, settings(parameters))
+    implicit(spec.scheme, scene, settings(parameters))
 }

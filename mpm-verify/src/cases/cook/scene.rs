@@ -12,7 +12,7 @@ use crate::parameter::{Parameter, Parameters};
 use crate::spec::RunSpec;
 use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
-use mpm_core::implicit::{QuasiStatic, Stabilisation};
+use mpm_core::implicit::{Settings, Stabilisation};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{DeadForce, End, KineticDamping, Wall, WallKind};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
@@ -158,7 +158,7 @@ pub(super) fn equilibrium(
     spec: &RunSpec,
     parameters: &Parameters,
 ) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
-    let mut settings = QuasiStatic::new(1.0 / parameters.number(LOAD_STEPS));
+    let mut settings = Settings::new(1.0 / parameters.number(LOAD_STEPS));
     if parameters.number(GHOST) > 0.0 {
         settings = settings.stabilised(Stabilisation::Ghost(parameters.number(GHOST)));
     }
@@ -166,7 +166,7 @@ pub(super) fn equilibrium(
     let strain = parameters.number(LOAD) / parameters.number(YOUNG_MODULUS);
     let headroom = (RISE * strain.abs()).max(MARGIN.2) - MARGIN.2;
     let scene = scene(spec, parameters, (1.0, headroom))?;
-    mpm_solvers::equilibrium(spec.scheme, scene, settings)
+    mpm_solvers::implicit(spec.scheme, scene, settings)
 }
 
 /// The dead load: on the last column of particles, or on the last two with shares 3/2 and −1/2,

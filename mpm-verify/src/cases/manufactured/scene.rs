@@ -11,11 +11,11 @@ use crate::spec::{Level, RunSpec};
 use mpm_core::explicit::remedy::FbarConsistent;
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::explicit::{Remedy, courant_time_step};
-use mpm_core::implicit::QuasiStatic;
+use mpm_core::implicit::Settings;
 use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
 use mpm_core::stage::{BodyForce, End, Wall, WallKind};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
-use mpm_solvers::{Equilibrium, Solvable, solver};
+use mpm_solvers::{Solvable, Solved, solver};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -139,7 +139,7 @@ pub(super) fn equilibrium<const D: usize>(
     dt: f64,
 ) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
 where
-    NeoHookean: Equilibrium<D>,
+    NeoHookean: Solved<D>,
 {
     let (grid, walls) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
     let per_direction = parameters.number(PPC_PER_DIRECTION);
@@ -147,7 +147,7 @@ where
     let Material { mu, lambda, .. } = solution.material();
     let scene = Scene::new(grid, Body::new(NeoHookean { mu, lambda }, particles)?);
     let scene = scene.load(forcing(solution)).constrain_all(walls);
-    mpm_solvers::equilibrium(spec.scheme, scene, QuasiStatic::new(dt))
+    mpm_solvers::implicit(spec.scheme, scene, Settings::new(dt))
 }
 
 /// The body force that the motion needs.

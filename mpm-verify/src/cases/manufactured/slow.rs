@@ -15,7 +15,7 @@ use crate::spec::RunSpec;
 use crate::statistics::rms;
 use mpm_core::Simulation;
 use mpm_core::material::NeoHookean;
-use mpm_solvers::Equilibrium;
+use mpm_solvers::Solved;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ pub(super) struct Slow<const D: usize> {
 
 impl<const D: usize> Slow<D>
 where
-    NeoHookean: Equilibrium<D>,
+    NeoHookean: Solved<D>,
 {
     /// A run at its start.
     ///
@@ -85,7 +85,7 @@ where
 
 impl<const D: usize> Watch<D> for Slow<D>
 where
-    NeoHookean: Equilibrium<D>,
+    NeoHookean: Solved<D>,
 {
     type Seen = Seen;
 

@@ -1,0 +1,146 @@
+//! Velocities and accelerations after a step, by its time rule.
+
+use super::equilibrium::Step;
+use super::newton::{Failure, Solution};
+use super::settings::TimeRule;
+use super::{Interpolation, Setting, Solver};
+use crate::material::Law;
+use nalgebra::SVector;
+
+/// A field on the nodes.
+type Field<const D: usize> = Vec<SVector<f64, D>>;
+
+impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+    /// Gives the particles the velocities at the end of a step of `dt` (s), under the `external` forces (N) where the
+    /// equations hold.
+    pub(super) fn accelerate(
+        &mut self,
+        setting: &Setting<D>,
+        solution: &Solution<D>,
+        external: &[SVector<f64, D>],
+        dt: f64,
+    ) {
+        match self.settings.rule {
+            TimeRule::Static => {}
+            TimeRule::Midpoint { .. } => self.by_force(setting, solution, external, dt),
+            TimeRule::Newmark { delta, .. } => self.by_acceleration(setting, solution, delta, dt),
+        }
+        if let Some(inertia) = &setting.inertia {
+            let velocity = &self.scene.body.particles.velocity;
+            let momentum = inertia
+                .mass
+                .scatter(&setting.elements, |p| SVector::from(velocity[p]));
+            let energy = momentum.iter().zip(&inertia.mass.node);
+            self.residual.kinetic_energy = energy
+                .filter(|(_, m)| **m > 0.0)
+                .map(|(p, m)| 0.5 * p.norm_squared() / m)
+                .sum();
+        }
+    }
+
+    /// Gives the particles the accelerations of the start, M_l a = F_ext − F_int.
+    pub(super) fn start_accelerations(&mut self) -> Result<(), Failure> {
+        self.sort();
+        let dt = self.settings.dt;
+        let setting = self.setting(dt);
+        let Some(inertia) = &setting.inertia else {
+            return Ok(());
+        };
+        let external = self.external(self.time, &setting.elements);
+        let step = setting.step(&self.scene.body, dt);
+        let rest = vec![0.0; setting.unknowns.len()];
+        let internal = step.trial(&rest, external.len())?.internal;
+        let forces: Field<D> = external.iter().zip(&internal).map(|(e, f)| e - f).collect();
+        let elements = &setting.elements;
+        let held = |node: usize, axis: usize| self.held_change(node, axis, dt).map(|v| v / dt);
+        let (acceleration, _) = inertia.mass.solve(elements, &forces, held);
+        for (p, a) in self
+            .scene
+            .body
+            .particles
+            .acceleration
+            .iter_mut()
+            .enumerate()
+        {
+            *a = elements.gather(p, &acceleration).into();
+        }
+        Ok(())
+    }
+
+    /// Change over a step of `dt` (s) of the velocity (m/s) at which a component of a node is held.
+    fn held_change(&self, node: usize, axis: usize, dt: f64) -> Option<f64> {
+        let held = self.held[node][axis]?;
+        let constraint = &self.scene.constraints[held.by];
+        let [before, after] = [self.time, self.time + dt].map(|time| constraint.amplitude(time));
+        Some(held.velocity * (after - before))
+    }
+
+    /// The midpoint rule: M_β Δv = Δt (F_ext − F_int), which keeps momentum whatever Newton's method leaves.
+    fn by_force(
+        &mut self,
+        setting: &Setting<D>,
+        solution: &Solution<D>,
+        external: &[SVector<f64, D>],
+        dt: f64,
+    ) {
+        let Some(inertia) = &setting.inertia else {
+            return;
+        };
+        let (elements, mass) = (&setting.elements, &inertia.mass);
+        let step: Step<D, M> = setting.step(&self.scene.body, dt);
+        let penalty = step.penalty_forces(&solution.trial.u);
+        let forces = solution.trial.internal.iter().zip(&penalty).zip(external);
+        let impulse: Field<D> = forces.map(|((f, g), e)| (e - f - g) * dt).collect();
+        let (change, iterations) = mass.solve(elements, &impulse, |node, axis| {
+            self.held_change(node, axis, dt)
+        });
+        // Particles take ½ Δvᵀ M_c Δv where the nodes gave ½ Δvᵀ M_β Δv.
+        let shared = mass.scatter(elements, |p| elements.gather(p, &change));
+        let pairs = change.iter().zip(&shared).zip(&mass.node);
+        let lost = pairs.map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
+        self.accumulated.lumping_loss += 0.5 * mass.lumped * lost.sum::<f64>();
+        self.work.linear_iterations += iterations;
+        let particles = &mut self.scene.body.particles;
+        for (p, velocity) in particles.velocity.iter_mut().enumerate() {
+            *velocity = (SVector::from(*velocity) + elements.gather(p, &change)).into();
+        }
+    }
+
+    /// Newmark's rule: nodal accelerations by Eq. (30), and the particles' by Eqs. (31) and (32) of Wang et al. 2016.
+    fn by_acceleration(
+        &mut self,
+        setting: &Setting<D>,
+        solution: &Solution<D>,
+        delta: f64,
+        dt: f64,
+    ) {
+        let Some(inertia) = &setting.inertia else {
+            return;
+        };
+        let (elements, mass) = (&setting.elements, &inertia.mass);
+        // What the nodes had, (v/(α Δt) + (1/(2α) − 1) a), is the push over their mass.
+        let u = solution.trial.u.iter().map(|u| SVector::from(*u));
+        let columns = u.zip(&inertia.push).zip(&mass.node);
+        let acceleration: Field<D> = columns
+            .map(|((u, push), m)| {
+                let had = if *m > 0.0 {
+                    push / *m
+                } else {
+                    SVector::zeros()
+                };
+                u * inertia.factor - had
+            })
+            .collect();
+        let particles = &mut self.scene.body.particles;
+        let columns = particles
+            .velocity
+            .iter_mut()
+            .zip(&mut particles.acceleration);
+        for (p, (velocity, before)) in columns.enumerate() {
+            let after = elements.gather(p, &acceleration);
+            let mean = SVector::from(*before) * (1.0 - delta) + after * delta;
+            *velocity = (SVector::from(*velocity) + mean * dt).into();
+            *before = after.into();
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Inertia of a step: what dynamics adds to equilibrium, `docs/implicit.md`.
+//!
+//! A time rule makes of F_ext − f(u) = M a an equation in the increment x at the place where it holds,
+//! c M x + f(x) = F_ext + b, with a factor c (1/s²) and what particles bring along, b (N).
+
+use super::elements::Elements;
+use super::newton::dot;
+use super::settings::TimeRule;
+use crate::particles::Particles;
+use nalgebra::SVector;
+
+/// What a mass is solved to, and in how many iterations at most.
+const TO: f64 = 1e-15;
+const MOST: usize = 500;
+
+/// The mass M_β = (1 − β) M_c + β M_l on the functions of a step: M_c = Σ m w wᵀ, and M_l its sums of rows.
+pub(super) struct Mass {
+    /// The share β.
+    pub(super) lumped: f64,
+    /// Mass of every particle (kg).
+    particle: Vec<f64>,
+    /// Mass of every node (kg), zero of one that sees none.
+    pub(super) node: Vec<f64>,
+}
+
+impl Mass {
+    fn new<const D: usize>(
+        elements: &Elements<D>,
+        nodes: usize,
+        particle: &[f64],
+        lumped: f64,
+    ) -> Self {
+        let of_nodes = elements.sums(nodes, particle);
+        Self {
+            lumped,
+            particle: particle.to_vec(),
+            node: of_nodes.iter().map(|m| m.max(0.0)).collect(),
+        }
+    }
+
+    /// (1 − β) m of a particle (kg), of which a pair of functions has w w.
+    pub(super) fn shared(&self, particle: usize) -> f64 {
+        (1.0 - self.lumped) * self.particle[particle]
+    }
+
+    /// Σ m w `of`(particle) of every node.
+    pub(super) fn scatter<const D: usize>(
+        &self,
+        elements: &Elements<D>,
+        of: impl Fn(usize) -> SVector<f64, D> + Sync,
+    ) -> Vec<SVector<f64, D>> {
+        let mut nodes = vec![SVector::zeros(); self.node.len()];
+        elements.scatter(SVector::zeros(), &mut nodes, |p, sums| {
+            let value = of(p) * self.particle[p];
+            for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
+                *sum += value * *w;
+            }
+        });
+        nodes
+    }
+
+    /// M `x`.
+    pub(super) fn times<const D: usize>(
+        &self,
+        elements: &Elements<D>,
+        x: &[SVector<f64, D>],
+    ) -> Vec<SVector<f64, D>> {
+        let shared = 1.0 - self.lumped;
+        let mut product = self.scatter(elements, |p| elements.gather(p, x) * shared);
+        for ((sum, x), m) in product.iter_mut().zip(x).zip(&self.node) {
+            *sum += x * (self.lumped * m);
+        }
+        product
+    }
+
+    /// The field that is `held` where something holds it, and elsewhere M times it is `right`, and how many iterations of
+    /// conjugate gradients found it. Nodes without mass get zero.
+    pub(super) fn solve<const D: usize>(
+        &self,
+        elements: &Elements<D>,
+        right: &[SVector<f64, D>],
+        held: impl Fn(usize, usize) -> Option<f64>,
+    ) -> (Vec<SVector<f64, D>>, u64) {
+        let fixed = |node: usize, axis: usize| {
+            let nothing = (self.node[node] <= 0.0).then_some(0.0);
+            held(node, axis).or(nothing)
+        };
+        let at = |node: usize| SVector::from_fn(|a, _| fixed(node, a).unwrap_or(0.0));
+        let free = |mut field: Vec<SVector<f64, D>>| {
+            for (node, value) in field.iter_mut().enumerate() {
+                for a in 0..D {
+                    if fixed(node, a).is_some() {
+                        value[a] = 0.0;
+                    }
+                }
+            }
+            field
+        };
+        let mut x: Vec<SVector<f64, D>> = (0..right.len()).map(at).collect();
+        let carried = self.times(elements, &x);
+        let mut rest = free(right.iter().zip(&carried).map(|(r, c)| r - c).collect());
+        let over_mass = |field: &[SVector<f64, D>]| -> Vec<SVector<f64, D>> {
+            let pairs = field.iter().zip(&self.node);
+            pairs
+                .map(|(r, m)| if *m > 0.0 { r / *m } else { SVector::zeros() })
+                .collect()
+        };
+        let inner = |a: &[SVector<f64, D>], b: &[SVector<f64, D>]| {
+            a.iter()
+                .zip(b)
+                .map(|(a, b)| dot(a.as_slice(), b.as_slice()))
+                .sum::<f64>()
+        };
+        let mut direction = over_mass(&rest);
+        let mut product = inner(&rest, &direction);
+        let enough = TO * TO * product;
+        for iteration in 0..MOST {
+            if product <= enough {
+                return (x, iteration as u64);
+            }
+            let image = free(self.times(elements, &direction));
+            let length = product / inner(&direction, &image);
+            for (((x, d), r), i) in x.iter_mut().zip(&direction).zip(&mut rest).zip(&image) {
+                *x += d * length;
+                *r -= i * length;
+            }
+            let next = over_mass(&rest);
+            let ahead = inner(&rest, &next);
+            for (d, z) in direction.iter_mut().zip(&next) {
+                *d = z + *d * (ahead / product);
+            }
+            product = ahead;
+        }
+        (x, MOST as u64)
+    }
+}
+
+/// c M x and b of a step.
+pub(super) struct Inertia<const D: usize> {
+    /// M.
+    pub(super) mass: Mass,
+    /// c (1/s²).
+    pub(super) factor: f64,
+    /// b (N).
+    pub(super) push: Vec<SVector<f64, D>>,
+}
+
+impl<const D: usize> Inertia<D> {
+    /// Of a step of `dt` (s) of a rule, if it has any.
+    pub(super) fn of(
+        rule: TimeRule,
+        dt: f64,
+        elements: &Elements<D>,
+        nodes: usize,
+        particles: &Particles<D>,
+    ) -> Option<Self> {
+        let velocity = |p: usize| SVector::from(particles.velocity[p]);
+        let (lumped, factor) = match rule {
+            TimeRule::Static => return None,
+            TimeRule::Midpoint { lumped } => (lumped, 4.0 / (dt * dt)),
+            TimeRule::Newmark { alpha, .. } => (1.0, 1.0 / (alpha * dt * dt)),
+        };
+        let mass = Mass::new(elements, nodes, &particles.mass, lumped);
+        let push = mass.scatter(elements, |p| match rule {
+            TimeRule::Newmark { alpha, .. } => {
+                let acceleration = SVector::from(particles.acceleration[p]);
+                velocity(p) / (alpha * dt) + acceleration * (0.5 / alpha - 1.0)
+            }
+            _ => velocity(p) * (2.0 / dt),
+        });
+        Some(Self { mass, factor, push })
+    }
+}

@@ -1,0 +1,174 @@
+//! Momentum, energy and time order of what moves.
+
+use super::*;
+use crate::stage::Gravity;
+
+const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.05 };
+const NEWMARK: TimeRule = TimeRule::Newmark {
+    alpha: 0.25,
+    delta: 0.5,
+};
+/// A wave crosses a cell in 25 ms.
+const DT: f64 = 0.01;
+
+/// A block in the middle of a grid of `CELLS` + 4 cells that turns, stretches and drifts.
+fn tumbling<M: Law>(law: M) -> Scene<2, M> {
+    let mut scene = filled([Axis::open(0.0, CELLS + 4); 2], CELLS, Places::Uniform, law);
+    let shift = 2.0 * H;
+    let p = &mut scene.body.particles;
+    for k in 0..p.len() {
+        let [x, y] = p.position[k];
+        p.velocity[k] = [
+            0.3 - 0.8 * (y - CENTRE) + 0.5 * (x - CENTRE),
+            0.1 + 1.1 * (x - CENTRE),
+        ];
+        p.position[k] = [x + shift, y + shift];
+        p.reference[k] = p.position[k];
+    }
+    scene
+}
+
+fn rubber() -> NeoHookean {
+    NeoHookean::new(YOUNG, POISSON).unwrap()
+}
+
+fn moving<I: Interpolation<2>, M: Law>(law: M, rule: TimeRule) -> Solver<2, I, M> {
+    let settings = Settings {
+        tolerance: 1e-12,
+        ..Settings::new(DT).rule(rule)
+    };
+    Solver::new(tumbling(law), settings).unwrap()
+}
+
+/// Nothing outside acts: both rules keep linear momentum, and Newton's tolerance doesn't matter to the midpoint rule.
+fn keeps_momentum<const D: usize, I: Interpolation<2>, M: Law + Clone>(law: M) {
+    for rule in [MIDPOINT, NEWMARK] {
+        let mut solver = moving::<I, M>(law.clone(), rule);
+        let before = solver.totals().momentum;
+        for _ in 0..5 {
+            solver.step().unwrap();
+        }
+        let after = solver.totals().momentum;
+        for a in 0..2 {
+            let change = (after[a] - before[a]).abs();
+            assert!(change < 1e-12 * before[0], "{rule:?}: {change}");
+        }
+    }
+}
+
+#[test]
+fn momentum_is_kept() {
+    every_basis!(keeps_momentum, 2, rubber());
+}
+
+/// ΔT + F_int · u = −½ β Δvᵀ (M_l − M_c) Δv, whatever the body does.
+fn balances<const D: usize, I: Interpolation<2>, M: Law>(law: M) {
+    let mut solver = moving::<I, M>(law, MIDPOINT);
+    for _ in 0..5 {
+        let before = solver.totals();
+        solver.step().unwrap();
+        let after = solver.totals();
+        let [before_sums, after_sums] = [before.accumulated, after.accumulated];
+        let gained = after.kinetic_energy - before.kinetic_energy;
+        let given = after_sums.stress_work - before_sums.stress_work;
+        let lost = after_sums.lumping_loss - before_sums.lumping_loss;
+        assert!(lost > 0.0);
+        let gap = gained + given + lost;
+        assert!(gap.abs() < 1e-8 * before.kinetic_energy, "{gap}");
+        assert!(lost > 1e3 * gap.abs(), "{lost}");
+    }
+}
+
+#[test]
+fn the_midpoint_rule_loses_what_the_lumped_mass_takes() {
+    every_basis!(balances, 2, rubber());
+}
+
+/// Constant acceleration is exact with both rules.
+#[test]
+fn a_body_falls_freely() {
+    for rule in [MIDPOINT, NEWMARK] {
+        let mut scene = filled([Axis::open(0.0, 8); 2], CELLS, Places::Uniform, rubber());
+        for x in &mut scene.body.particles.position {
+            *x = x.map(|x| x + 3.0 * H);
+        }
+        let scene = scene.load(Gravity(Box::new(|_| [0.0, -9.81])));
+        let settings = Settings {
+            tolerance: 1e-13,
+            ..Settings::new(DT).rule(rule)
+        };
+        let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
+        for _ in 0..10 {
+            solver.step().unwrap();
+        }
+        let time: f64 = 10.0 * DT;
+        let p = solver.particles();
+        for ((x0, x), v) in p.reference.iter().zip(&p.position).zip(&p.velocity) {
+            let fallen = x[1] - (x0[1] + 3.0 * H);
+            assert!((fallen + 0.5 * 9.81 * time * time).abs() < 1e-9, "{rule:?}");
+            assert!(
+                (v[1] + 9.81 * time).abs() < 1e-9 && v[0].abs() < 1e-9,
+                "{rule:?}"
+            );
+        }
+    }
+}
+
+/// A box between rollers that swings along its first axis.
+fn swinging() -> Scene<2, NeoHookean> {
+    let mut scene = full::<2, _>(CELLS, Places::Uniform, rubber());
+    let p = &mut scene.body.particles;
+    for (x, v) in p.position.iter().zip(&mut p.velocity) {
+        *v = [
+            0.1 * (std::f64::consts::PI * x[0] / (H * CELLS as f64)).sin(),
+            0.0,
+        ];
+    }
+    let roller = |axis, end| Wall {
+        axis,
+        end,
+        kind: WallKind::Roller,
+    };
+    let ends = [0, 1].map(|axis| [roller(axis, End::Lo), roller(axis, End::Hi)]);
+    scene.constrain_all(ends.into_iter().flatten())
+}
+
+/// The error of the displacement falls with the square of the step.
+#[test]
+fn the_midpoint_rule_is_of_second_order() {
+    let at = |steps: u32| {
+        let settings = Settings {
+            tolerance: 1e-12,
+            ..Settings::new(0.08 / f64::from(steps)).rule(TimeRule::Midpoint { lumped: 0.0 })
+        };
+        let mut solver = Solver::<2, Quadratics<2>, _>::new(swinging(), settings).unwrap();
+        for _ in 0..steps {
+            solver.step().unwrap();
+        }
+        let p = solver.particles();
+        p.seeded(|k| p.position[k])
+    };
+    let runs = [4, 8, 16, 32].map(at);
+    let apart = |a: &[[f64; 2]], b: &[[f64; 2]]| {
+        let squares = a
+            .iter()
+            .zip(b)
+            .map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    let ratio = apart(&runs[1], &runs[2]) / apart(&runs[2], &runs[3]);
+    assert!((ratio - 4.0).abs() < 0.3, "{ratio}");
+}
+
+#[test]
+fn unstable_rules_are_refused() {
+    let refused = |rule: TimeRule, what: &str| {
+        let error = Solver::<2, Means<2>, _>::new(tumbling(rubber()), Settings::new(DT).rule(rule));
+        let error = error.err().unwrap().to_string();
+        assert!(error.contains(what), "{error}");
+    };
+    refused(TimeRule::Midpoint { lumped: 1.5 }, "lumped mass");
+    let newmark = |alpha, delta| TimeRule::Newmark { alpha, delta };
+    refused(newmark(0.25, 0.4), "delta");
+    refused(newmark(0.1, 0.5), "alpha");
+}
