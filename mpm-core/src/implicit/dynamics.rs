@@ -7,6 +7,9 @@ use super::{Interpolation, Setting, Solver};
 use crate::material::Law;
 use nalgebra::SVector;
 
+/// Share of the heaviest node's mass below which a node's is rounding.
+const WEIGHTLESS: f64 = 1e-12;
+
 /// A field on the nodes.
 type Field<const D: usize> = Vec<SVector<f64, D>>;
 
@@ -96,8 +99,12 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         });
         // Particles take ½ Δvᵀ M_c Δv where the nodes gave ½ Δvᵀ M_β Δv.
         let shared = mass.scatter(elements, |p| elements.gather(p, &change));
+        // Nodes without a share worth the name have no particles that could miss it.
+        let least = WEIGHTLESS * mass.heaviest();
         let pairs = change.iter().zip(&shared).zip(&mass.node);
-        let lost = pairs.map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
+        let lost = pairs
+            .filter(|(_, m)| **m > least)
+            .map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
         self.accumulated.lumping_loss += 0.5 * mass.lumped * lost.sum::<f64>();
         self.work.linear_iterations += iterations;
         let particles = &mut self.scene.body.particles;

@@ -2,7 +2,7 @@
 
 use super::average::{Average, UNSEEN};
 use super::elements::Elements;
-use super::inertia::Inertia;
+use super::inertia::{Inertia, Mass};
 use super::newton::dot;
 use super::penalty::Penalty;
 use super::response::{Particle, Square, Tangent};
@@ -15,6 +15,9 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 use rayon::prelude::*;
 use std::array::from_fn;
 
+/// Share of the heaviest node's mass that the tangent gives to every node, and that none has in equilibrium: a function
+/// that is zero at all its particles has gradients there, and may have fewer of them than unknowns.
+const REGULAR: f64 = 1e-9;
 /// Elements whose matrices are held at once.
 const BATCH: usize = 256;
 
@@ -222,11 +225,12 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let Some(inertia) = self.inertia else {
             return;
         };
-        let lumped = inertia.factor * inertia.mass.lumped;
-        for (k, node) in self.unknowns.node.iter().enumerate() {
+        let Mass { lumped, node, .. } = &inertia.mass;
+        let floor = REGULAR * inertia.mass.heaviest();
+        for (k, n) in self.unknowns.node.iter().enumerate() {
             for i in k * pattern.width..k * pattern.width + D {
                 if let Some(place) = pattern.place(i, i) {
-                    values[place] += lumped * inertia.mass.node[*node];
+                    values[place] += inertia.factor * (lumped * node[*n] + floor);
                 }
             }
         }

@@ -38,6 +38,11 @@ impl Mass {
         }
     }
 
+    /// Mass of the heaviest node (kg).
+    pub(super) fn heaviest(&self) -> f64 {
+        self.node.iter().copied().fold(0.0, f64::max)
+    }
+
     /// (1 − β) m of a particle (kg), of which a pair of functions has w w.
     pub(super) fn shared(&self, particle: usize) -> f64 {
         (1.0 - self.lumped) * self.particle[particle]

@@ -8,6 +8,7 @@ mod cantilever;
 mod column;
 mod cook;
 mod dam_break;
+mod discs;
 mod family;
 mod footing;
 mod landslide;
@@ -47,6 +48,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         column::case(),
         standing_wave::case(),
         cantilever::case(),
+        discs::case(),
     ]
 });
 

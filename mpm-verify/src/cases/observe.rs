@@ -1,8 +1,9 @@
 //! What several problems set and observe in the same way.
 
 use super::parameters::{PPC_PER_DIRECTION, WALL, WALL_LINE};
+use crate::error::Error;
 use crate::job::Column;
-use crate::parameter::Parameters;
+use crate::parameter::{Parameter, Parameters};
 use crate::record::Discretisation;
 use crate::spec::RunSpec;
 use crate::statistics::rms;
@@ -51,6 +52,30 @@ pub(super) fn discretisation(
         dt,
         wall: parameters.text(WALL),
     }
+}
+
+/// That a run leaves alone those of `all` parameters with these `names`, which only another kind of solver has.
+///
+/// # Errors
+/// It changes one of them.
+pub(super) fn forbid(
+    spec: &RunSpec,
+    parameters: &Parameters,
+    all: &[Parameter],
+    names: &[&str],
+) -> Result<(), Error> {
+    let foreign = |p: &&Parameter| names.contains(&p.name);
+    for p in all.iter().filter(foreign) {
+        let (value, default) = (parameters.text(*p), p.parse(p.default)?.to_string());
+        if value != default {
+            return Err(Error::Input(format!(
+                "{} = {value} has no meaning with the solver {}; allowed: {default}",
+                p.name,
+                spec.scheme.solver()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Where particles are.

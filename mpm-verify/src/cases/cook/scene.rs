@@ -6,9 +6,9 @@ use super::parameters::{
     LOAD_STEPS, MAX_PERIODS, OF_EXPLICIT, OF_QUASI_STATIC, POISSON_RATIO, PPC_PER_DIRECTION,
     REST_WINDOW, YOUNG_MODULUS,
 };
-use crate::cases::observe::settings;
+use crate::cases::observe::{forbid, settings};
 use crate::error::Error;
-use crate::parameter::{Parameter, Parameters};
+use crate::parameter::Parameters;
 use crate::spec::RunSpec;
 use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
@@ -69,30 +69,14 @@ pub(super) fn check_together(parameters: &Parameters) -> Result<(), Error> {
     Ok(())
 }
 
-/// That a run leaves alone the parameters `names`, which only another kind of solver has.
-fn forbid(spec: &RunSpec, parameters: &Parameters, names: &[&str]) -> Result<(), Error> {
-    let foreign = |p: &&Parameter| names.contains(&p.name);
-    for p in ALL.iter().filter(foreign) {
-        let (value, default) = (parameters.text(*p), p.parse(p.default)?.to_string());
-        if value != default {
-            return Err(Error::Input(format!(
-                "{} = {value} has no meaning with the solver {}; allowed: {default}",
-                p.name,
-                spec.scheme.solver()
-            )));
-        }
-    }
-    Ok(())
-}
-
 /// That an explicit run changes nothing that only a quasi-static one has.
 pub(super) fn forbid_static(spec: &RunSpec, parameters: &Parameters) -> Result<(), Error> {
-    forbid(spec, parameters, &OF_QUASI_STATIC)
+    forbid(spec, parameters, &ALL, &OF_QUASI_STATIC)
 }
 
 /// That a quasi-static run changes nothing that only an explicit one has.
 pub(super) fn forbid_explicit(spec: &RunSpec, parameters: &Parameters) -> Result<(), Error> {
-    forbid(spec, parameters, &OF_EXPLICIT)
+    forbid(spec, parameters, &ALL, &OF_EXPLICIT)
 }
 
 /// The membrane, its clamp and its load, which grows over `ramp` (s), with so much more `headroom` (m).

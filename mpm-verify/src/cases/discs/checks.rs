@@ -1,0 +1,109 @@
+//! What is checked of the discs. The bounds are derived in `docs/discs.md`.
+
+use super::metrics::{
+    ANGULAR_MOMENTUM_ERROR, ASYMMETRY, ENERGY_GAIN, MASS, MOMENTUM_ERROR, NEWTON_ITERATIONS,
+};
+use super::parameters::{LUMPED, OFFSET, STEP_FACTOR, TOLERANCE};
+use super::scene::RADIUS;
+use crate::check::{Check, Finding, judge, run};
+use crate::record::Record;
+use crate::scheme::{RuleName, Scheme};
+
+/// Roundings of a step's sum of forces, in shares of the discs' momentum.
+const ROUNDINGS: f64 = 16.0;
+/// What a rule that conserves energy may gain.
+const NO_GAIN: f64 = 1e-4;
+/// What is above it is not conserved.
+const GAINED: f64 = 1e-3;
+/// What rounding may become in the collision.
+const MIRRORED: f64 = 1e-6;
+
+fn rule(r: &Record) -> Option<RuleName> {
+    match r.scheme() {
+        Scheme::Explicit(_) => None,
+        Scheme::Implicit(parts) => Some(parts.rule),
+    }
+}
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check::bookkeeping(
+            "mass",
+            "the discs have the mass of circles, as far as a lattice of particles can tell: a particle's width along the rim",
+            run(|r| {
+                let circles = 2.0 * 1000.0 * std::f64::consts::PI * RADIUS * RADIUS;
+                let width = r.discretisation.h / f64::from(r.discretisation.ppc).sqrt();
+                let why = "density times the area of two circles";
+                Some(judge(r, MASS).within(circles, circles * width / RADIUS, why))
+            }),
+        ),
+        Check::truth(
+            "momentum",
+            "all: linear momentum changes by no more than rounding in every step, and with newmark by what Newton's method leaves",
+            run(|r| {
+                let left = match rule(r) {
+                    Some(RuleName::Newmark) => r.parameters.number(TOLERANCE),
+                    _ => 0.0,
+                };
+                let steps = r.work.steps as f64;
+                let bound = steps * (ROUNDINGS * f64::EPSILON + left);
+                let why = "internal forces sum to zero, as the functions sum to one";
+                Some(judge(r, MOMENTUM_ERROR).at_most(bound.max(1e-12), why))
+            }),
+        ),
+        Check::truth(
+            "no-energy-gain",
+            "midpoint, β above 0, head on: kinetic and stored energy never above their start by more than 10⁻⁴",
+            run(|r| {
+                let why = "a lumped share takes energy, the rule gives none: docs/implicit.md";
+                let found = judge(r, ENERGY_GAIN).at_most(NO_GAIN, why);
+                let head_on = r.parameters.number(OFFSET) == 0.0;
+                let blended = head_on && r.parameters.number(LUMPED) > 0.0;
+                (rule(r) == Some(RuleName::Midpoint) && blended).then_some(found)
+            }),
+        ),
+        Check::known_limit(
+            "newmark-gains",
+            "newmark at 10 and 100 times the paper's step, head on: energy rises above its start by more than 10⁻³",
+            run(|r| {
+                let why = "equilibrium at the end of the step with velocities of another place";
+                let found = judge(r, ENERGY_GAIN).above(GAINED, why);
+                let long = !r.parameters.is(STEP_FACTOR, "1");
+                let head_on = r.parameters.number(OFFSET) == 0.0;
+                (rule(r) == Some(RuleName::Newmark) && long && head_on).then_some(found)
+            }),
+        ),
+        Check::truth(
+            "mirror",
+            "all without offset: particles stay mirror images about the centre",
+            run(|r| {
+                let why = "the scene and the lattice are; rounding grows in the collision";
+                let found = judge(r, ASYMMETRY).at_most(MIRRORED, why);
+                (r.parameters.number(OFFSET) == 0.0).then_some(found)
+            }),
+        ),
+        Check::truth(
+            "angular-momentum",
+            "midpoint, consistent mass: angular momentum changes by no more than what Newton's method leaves and the rounding of every step",
+            run(|r| {
+                let steps = r.work.steps as f64;
+                let bound = steps * (r.parameters.number(TOLERANCE) + ROUNDINGS * f64::EPSILON);
+                let why = "M_c moves a turning field of velocities as the particles do";
+                let found = judge(r, ANGULAR_MOMENTUM_ERROR).at_most(bound, why);
+                let consistent = r.parameters.number(LUMPED) == 0.0;
+                (rule(r) == Some(RuleName::Midpoint) && consistent).then_some(found)
+            }),
+        ),
+        Check::truth(
+            "newton",
+            "implicit: at most seven Newton iterations a step, as four squarings lead from a tenth to the tolerance, and three more lead there",
+            run(|r| {
+                let bound = 7.0 * r.work.steps as f64;
+                let why = "quadratic convergence with the exact tangent";
+                let found =
+                    Finding::at_most(NEWTON_ITERATIONS, r.metric(NEWTON_ITERATIONS), bound, why);
+                rule(r).map(|_| found)
+            }),
+        ),
+    ]
+}

@@ -1,0 +1,128 @@
+//! Where the discs begin: grid, particles and velocities.
+
+use super::parameters::{
+    ALL, ALPHA, DELTA, LUMPED, OFFSET, POISSON_RATIO, PPC_PER_DIRECTION, SPEED, STEP_FACTOR,
+    TOLERANCE, YOUNG_MODULUS,
+};
+use crate::cases::observe::{forbid, settings};
+use crate::error::Error;
+use crate::parameter::Parameters;
+use crate::scheme::{RuleName, Scheme};
+use crate::spec::RunSpec;
+use mpm_core::implicit::{self, TimeRule};
+use mpm_core::material::NeoHookean;
+use mpm_core::{Axis, Body, Grid, Particles, Scene, Simulation};
+
+/// Radius (m) of the discs, and where their centres are.
+pub(super) const RADIUS: f64 = 0.2;
+pub(super) const CENTRES: [[f64; 2]; 2] = [[0.2, 0.2], [0.8, 0.8]];
+/// The centre of symmetry (m).
+pub(super) const MIDDLE: f64 = 0.5;
+/// Side of the square of cells (m), and room around it.
+const SIDE: f64 = 1.0;
+const ROOM: f64 = 0.2;
+/// Density (kg/m³).
+const DENSITY: f64 = 1000.0;
+/// The paper's time step (s), and how long it runs at which speed (m/s).
+const STEP: f64 = 0.0025;
+const DURATION: f64 = 37.5;
+const AT_SPEED: f64 = 0.005;
+
+/// Time step (s), and how many there are.
+pub(super) fn timing(parameters: &Parameters) -> (f64, u64) {
+    let duration = DURATION * AT_SPEED / parameters.number(SPEED);
+    let dt = STEP * step_factor(parameters);
+    (dt, (duration / dt).ceil() as u64)
+}
+
+/// Time step over the paper's.
+pub(super) fn step_factor(parameters: &Parameters) -> f64 {
+    parameters.text(STEP_FACTOR).parse().unwrap_or(1.0)
+}
+
+/// That the parameters are those of the run's solver.
+///
+/// # Errors
+/// One that has no meaning with it is changed.
+pub(super) fn check(spec: &RunSpec, parameters: &Parameters) -> Result<(), Error> {
+    let foreign: &[&str] = match spec.scheme {
+        Scheme::Explicit(_) => &["step_factor", "lumped", "alpha", "delta", "tolerance"],
+        Scheme::Implicit(parts) => match parts.rule {
+            RuleName::Midpoint => &["alpha", "delta", "wall"],
+            RuleName::Newmark => &["lumped", "wall"],
+            RuleName::QuasiStatic => {
+                let solvers = ["explicit", "midpoint", "newmark"];
+                return Err(Error::unknown(
+                    "solver of bodies that move",
+                    "quasi-static",
+                    solvers,
+                ));
+            }
+        },
+    };
+    forbid(spec, parameters, &ALL, foreign)
+}
+
+/// The particles' places (m) of one disc after the other; those of the second are those of the first, mirrored about the
+/// centre.
+pub(super) fn seed(h: f64, parameters: &Parameters) -> Vec<[f64; 2]> {
+    let spacing = h / parameters.number(PPC_PER_DIRECTION);
+    let along = (2.0 * RADIUS / spacing).round() as usize;
+    let place = |k: usize| (k as f64 + 0.5) * spacing;
+    let [[x0, y0], _] = CENTRES;
+    let first = (0..along * along).map(|k| [place(k / along), place(k % along)]);
+    let first: Vec<[f64; 2]> = first
+        .filter(|[x, y]| (x - x0).hypot(y - y0) <= RADIUS)
+        .collect();
+    let aside = parameters.number(OFFSET) * std::f64::consts::FRAC_1_SQRT_2;
+    let mirrored = |[x, y]: &[f64; 2]| [2.0 * MIDDLE - x - aside, 2.0 * MIDDLE - y + aside];
+    let second: Vec<[f64; 2]> = first.iter().map(mirrored).collect();
+    [first, second].concat()
+}
+
+/// The simulation at its start.
+///
+/// # Errors
+/// The parameters don't make a scene, or the scheme doesn't solve it.
+pub(super) fn begin(
+    spec: &RunSpec,
+    parameters: &Parameters,
+) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    let number = |p| parameters.number(p);
+    let h = spec.level.h;
+    let room = (ROOM / h).round();
+    let cells = (SIDE / h).round() + 2.0 * room;
+    let grid = Grid::new(h, [Axis::open(-room * h, cells as usize); 2])?;
+    let spacing = h / number(PPC_PER_DIRECTION);
+    let places = spec.start_at(seed(h, parameters));
+    let half = places.len() / 2;
+    let mut particles = Particles::new(places, spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
+    let speed = number(SPEED);
+    for (k, velocity) in particles.velocity.iter_mut().enumerate() {
+        *velocity = if k < half { [speed; 2] } else { [-speed; 2] };
+    }
+    let law = NeoHookean::new(number(YOUNG_MODULUS), number(POISSON_RATIO))?;
+    let scene = Scene::new(grid, Body::new(law, particles)?);
+    let (dt, _) = timing(parameters);
+    let rule = match spec.scheme {
+        Scheme::Explicit(_) => {
+            let settings = settings(spec, parameters, dt, 0.0)?;
+            return mpm_solvers::solver(spec.scheme, scene, settings);
+        }
+        Scheme::Implicit(parts) => match parts.rule {
+            RuleName::QuasiStatic => TimeRule::Static,
+            RuleName::Midpoint => TimeRule::Midpoint {
+                lumped: number(LUMPED),
+            },
+            RuleName::Newmark => TimeRule::Newmark {
+                alpha: number(ALPHA),
+                delta: number(DELTA),
+            },
+        },
+    };
+    let settings = implicit::Settings {
+        tolerance: number(TOLERANCE),
+        ..implicit::Settings::new(dt).rule(rule)
+    };
+    mpm_solvers::implicit(spec.scheme, scene, settings)
+}
