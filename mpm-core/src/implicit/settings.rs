@@ -38,7 +38,7 @@ pub enum TimeRule {
         lumped: f64,
     },
     /// Newmark's rule with the lumped mass, equilibrium at the end of the step, as Eqs. (22) to (32) of Wang et al. 2016,
-    /// doi:10.1016/j.compgeo.2015.10.007, are printed.
+    /// doi:10.1016/j.compgeo.2015.08.008, are printed.
     Newmark {
         /// α of Eq. (23).
         alpha: f64,
