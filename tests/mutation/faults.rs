@@ -67,6 +67,9 @@ const RESTING: Runs = &["dam-break --remedy none --level h0.5 --set duration=0.1
 const SLIDE: Runs =
     &["landslide-2d --remedy fbar-consistent --level h0.4 --set reduction=2 --set duration=1.5"];
 
+/// Discs that collide.
+const DISCS: Runs = &["discs --scheme midpoint-gimp-none --set step_factor=100"];
+
 /// A beam in equilibrium, and one whose stress turns.
 const BEAM: Runs = &["cantilever --level h0.1"];
 const TURNED_BEAM: Runs = &["cantilever --level h0.1 --set law=jaumann"];
@@ -88,7 +91,7 @@ const SLOW_RATIOS: Runs = &[
     "mms-static --level n8 --set poisson_ratio=0.3",
 ];
 
-pub(crate) const FAULTS: [Fault; 35] = [
+pub(crate) const FAULTS: [Fault; 38] = [
     Fault {
         name: "a particle in equilibrium has a fiftieth more volume",
         file: "implicit/equilibrium.rs",
@@ -346,6 +349,27 @@ pub(crate) const FAULTS: [Fault; 35] = [
         sound: "self.near.push(k as u32)",
         broken: "if k % 2 == 0 { self.near.push(k as u32) }",
         seen_by: &[(BARRIER, "prandtl")],
+    },
+    Fault {
+        name: "half of the lumped mass is lost",
+        file: "implicit/inertia.rs",
+        sound: "x * (self.lumped * m)",
+        broken: "x * (0.5 * self.lumped * m)",
+        seen_by: &[(DISCS, "no-energy-gain")],
+    },
+    Fault {
+        name: "particles take a tenth too much of their nodes' change",
+        file: "implicit/dynamics.rs",
+        sound: "SVector::from(*velocity) + elements.value(p, &change)",
+        broken: "SVector::from(*velocity) + elements.value(p, &change) * 1.1",
+        seen_by: &[(DISCS, "no-energy-gain")],
+    },
+    Fault {
+        name: "the midpoint rule moves farther than its velocity",
+        file: "implicit/inertia.rs",
+        sound: "4.0 / (dt * dt)",
+        broken: "3.9 / (dt * dt)",
+        seen_by: &[(DISCS, "no-energy-gain")],
     },
 ];
 

@@ -65,7 +65,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             .iter_mut()
             .enumerate()
         {
-            *a = elements.gather(p, &acceleration).into();
+            *a = elements.value(p, &acceleration).into();
         }
         Ok(())
     }
@@ -98,7 +98,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             self.held_change(node, axis, dt)
         });
         // Particles take ½ Δvᵀ M_c Δv where the nodes gave ½ Δvᵀ M_β Δv.
-        let shared = mass.scatter(elements, |p| elements.gather(p, &change));
+        let shared = mass.scatter(elements, |p| elements.value(p, &change));
         // Nodes without a share worth the name have no particles that could miss it.
         let least = WEIGHTLESS * mass.heaviest();
         let pairs = change.iter().zip(&shared).zip(&mass.node);
@@ -109,7 +109,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         self.work.linear_iterations += iterations;
         let particles = &mut self.scene.body.particles;
         for (p, velocity) in particles.velocity.iter_mut().enumerate() {
-            *velocity = (SVector::from(*velocity) + elements.gather(p, &change)).into();
+            *velocity = (SVector::from(*velocity) + elements.value(p, &change)).into();
         }
     }
 
@@ -144,7 +144,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             .iter_mut()
             .zip(&mut particles.acceleration);
         for (p, (velocity, before)) in columns.enumerate() {
-            let after = elements.gather(p, &acceleration);
+            let after = elements.value(p, &acceleration);
             let mean = SVector::from(*before) * (1.0 - delta) + after * delta;
             *velocity = (SVector::from(*velocity) + mean * dt).into();
             *before = after.into();

@@ -151,7 +151,7 @@ impl<const D: usize> Elements<D> {
     }
 
     /// Σ w of a field on the nodes at a particle.
-    pub(super) fn gather(&self, particle: usize, field: &[SVector<f64, D>]) -> SVector<f64, D> {
+    pub(super) fn value(&self, particle: usize, field: &[SVector<f64, D>]) -> SVector<f64, D> {
         let (nodes, w, _) = self.seen(particle);
         let pairs = nodes.iter().zip(w);
         pairs.fold(SVector::zeros(), |sum, (node, w)| sum + field[*node] * *w)

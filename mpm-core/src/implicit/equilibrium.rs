@@ -17,7 +17,7 @@ use std::array::from_fn;
 
 /// Share of the heaviest node's mass that the tangent gives to every node, and that none has in equilibrium: a function
 /// that is zero at all its particles has gradients there, and may have fewer of them than unknowns.
-const REGULAR: f64 = 1e-9;
+const REGULAR: f64 = 1e-14;
 /// Elements whose matrices are held at once.
 const BATCH: usize = 256;
 

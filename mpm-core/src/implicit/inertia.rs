@@ -71,7 +71,7 @@ impl Mass {
         x: &[SVector<f64, D>],
     ) -> Vec<SVector<f64, D>> {
         let shared = 1.0 - self.lumped;
-        let mut product = self.scatter(elements, |p| elements.gather(p, x) * shared);
+        let mut product = self.scatter(elements, |p| elements.value(p, x) * shared);
         for ((sum, x), m) in product.iter_mut().zip(x).zip(&self.node) {
             *sum += x * (self.lumped * m);
         }
