@@ -4,7 +4,7 @@ use super::parameters::STEP_FACTOR;
 use super::scene::{CENTRES, RADIUS};
 use super::watch::IN_CONTACT;
 use crate::draw::style::history;
-use crate::draw::{Chart, FieldFigure, FieldPanel, Series, draw_charts, draw_fields};
+use crate::draw::{Chart, Dash, FieldFigure, FieldPanel, Series, draw_charts, draw_fields};
 use crate::error::Error;
 use crate::gallery::Gallery;
 use crate::record::{Record, Status};
@@ -27,6 +27,7 @@ fn energies(gallery: &mut Gallery) -> Result<(), Error> {
     for factor in ["1", "10", "100"] {
         let own = |r: &&Record| {
             r.status == Status::Ok
+                && r.level == "h0.05"
                 && r.parameters.is(STEP_FACTOR, factor)
                 && r.changes_none_but(&[STEP_FACTOR.name])
         };
@@ -38,7 +39,12 @@ fn energies(gallery: &mut Gallery) -> Result<(), Error> {
             let scheme = record.scheme();
             curves.push(Series {
                 name: format!("{} {}", scheme.solver(), scheme.basis()),
-                colour: curves.len(),
+                colour: scheme.basis() as usize,
+                dash: match scheme.solver() {
+                    "midpoint" => Dash::Solid,
+                    "newmark" => Dash::Dashed,
+                    _ => Dash::Dotted,
+                },
                 ..history(scheme, points)
             });
         }
