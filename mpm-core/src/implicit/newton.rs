@@ -90,8 +90,9 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         clocked(&mut self.spent.forces, || self.step.trial(u, nodes))
     }
 
-    /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: the greatest of those of the external
-    /// forces, of the internal ones at the start, and, where a constraint moves, of reactions.
+    /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: of the external forces, of the
+    /// internal ones at the start if there are none or if bodies swing, and of reactions, if greater, where a constraint
+    /// moves.
     fn residual(&self, trial: &Trial<D>, start: f64) -> (Vec<f64>, f64) {
         let forces = trial
             .internal
@@ -111,7 +112,9 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
             }
         }
         let external = norm(&self.step.free(self.external));
-        (residual, external.max(start).max(held.sqrt()))
+        let inner = external == 0.0 || self.step.inertia.is_some();
+        let loads = if inner { external.max(start) } else { external };
+        (residual, loads.max(held.sqrt()))
     }
 
     /// Solves the step.
