@@ -5,6 +5,7 @@ pub(crate) mod run;
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
+use mpm_verify::bench;
 use mpm_verify::case::{Case, Tier};
 use mpm_verify::cases;
 use mpm_verify::error::Error;
@@ -250,9 +251,9 @@ pub(crate) enum Command {
         /// Numbers of threads, as 1,2 (one and all cores if not given)
         #[arg(long, value_delimiter = ',', value_parser = threads())]
         threads: Vec<usize>,
-        /// Leave out the cost over the number of particles
-        #[arg(long)]
-        no_scaling: bool,
+        /// Measure these alone, as newton,laws (all if not given); `scaling` is the cost over the number of particles
+        #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(bench::GROUPS))]
+        only: Vec<String>,
         /// Compare with other programs
         #[arg(long, value_parser = ["taichi"])]
         peers: Option<String>,

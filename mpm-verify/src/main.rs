@@ -228,7 +228,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
         Command::Bench {
             rounds,
             threads,
-            no_scaling,
+            only,
             peers,
             python,
             out,
@@ -236,7 +236,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             let options = bench::Options {
                 rounds,
                 threads: compared_threads(threads),
-                scaling: !no_scaling,
+                only,
                 peers: peers.map(|_| Peers::taichi(python)),
             };
             let bar = progress::single("bench", true);

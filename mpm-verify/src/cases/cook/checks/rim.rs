@@ -25,6 +25,12 @@ fn is_held(r: &Record) -> bool {
     on_lattice || r.parameters.number(GHOST) >= HOLDS
 }
 
+/// Whether the run is the one that is known to stall for its soft rim.
+pub(super) fn stalls(r: &Record) -> bool {
+    let splines = r.basis() == BasisName::Bspline2 && is_free_of_locking(r);
+    splines && !is_explicit(r) && r.is_default() && r.level == "h0.25"
+}
+
 /// Whether the run is a quasi-static one whose place of the load finite elements know: two particles per direction.
 fn is_judged_place(r: &Record) -> bool {
     let column = r.parameters.is(LOAD_AT, COLUMN);
