@@ -20,7 +20,7 @@ use mpm_verify::record::Version;
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::{describe, discard_report, keep::keep, shown, tables::Page, write_report};
 use mpm_verify::run::checkpoint::Saving;
-use mpm_verify::scheme::Scheme;
+use mpm_verify::scheme::{Scheme, TransferName};
 use mpm_verify::spec::RunSpec;
 use mpm_verify::study::complete::Completeness;
 use mpm_verify::study::gather::Gathered;
@@ -106,11 +106,16 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 Some(scheme) => scheme,
                 None => {
                     let own = case.default_scheme(solver.as_deref());
+                    let solver = solver.as_deref().unwrap_or(own.solver());
+                    let usual = match solver == own.solver() {
+                        true => own.transfer(),
+                        false => TransferName::None,
+                    };
                     Scheme::of_parts(
-                        solver.as_deref().unwrap_or(own.solver()),
+                        solver,
                         basis.unwrap_or(own.basis()),
                         remedy.unwrap_or(own.remedy()),
-                        transfer.unwrap_or(own.transfer()),
+                        transfer.unwrap_or(usual),
                     )?
                 }
             };

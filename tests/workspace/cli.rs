@@ -135,8 +135,12 @@ fn unknown_names_are_refused_with_those_that_exist() {
         &["gimp-none", "basis-remedy-transfer"],
     );
     refused(
-        &["run", "cook", "--solver", "newmark"],
+        &["run", "cook", "--solver", "poro"],
         &["solver", "explicit", "quasi-static"],
+    );
+    refused(
+        &["run", "cook", "--solver", "newmark"],
+        &["newmark-gimp-fbar-consistent", "quasi-static-gimp-none"],
     );
     refused(
         &[
@@ -215,7 +219,7 @@ fn values_that_cannot_go_together_are_refused() {
     }
     refused(
         &["verify", "--tier", "quick", "--shard", "1/90"],
-        &["tier quick has 16 runs for 90 shards"],
+        &["tier quick has 17 runs for 90 shards"],
     );
     refused(
         &["verify", "--tier", "quick", "--shard", "3/2"],

@@ -79,7 +79,8 @@ pub(super) fn case() -> Case {
 }
 
 fn cost(spec: &RunSpec) -> f64 {
-    let steps = Parameters::new(&parameters::ALL, &spec.set).map_or(0, |p| scene::timing(&p).1);
+    let steps = Parameters::new(&parameters::ALL, &spec.set)
+        .map_or(0, |p| scene::timing(spec.level.h, &p).1);
     let a_step = match spec.scheme {
         Scheme::Explicit(_) => 1e-5,
         Scheme::Implicit(_) => 1e-3,
@@ -99,7 +100,12 @@ fn schemes(rules: &[RuleName]) -> Vec<Scheme> {
 }
 
 fn plan([h1, h2]: [Level; 2]) -> Vec<Family> {
-    let explicit = [Gimp, Linear, Bspline2].map(|b| Scheme::flip(b, RemedyName::None));
+    let explicit = [Gimp, Bspline2].map(|b| Scheme::flip(b, RemedyName::None));
+    // F̄ for who asks for nothing else, and what breaks down.
+    let others = [
+        Scheme::flip(Gimp, RemedyName::FbarConsistent),
+        Scheme::flip(Linear, RemedyName::None),
+    ];
     let both = schemes(&[Midpoint, Newmark]);
     let midpoint = schemes(&[Midpoint]);
     vec![
@@ -107,6 +113,8 @@ fn plan([h1, h2]: [Level; 2]) -> Vec<Family> {
         family(Quick, &[h1], &both[..1], LONG_STEP),
         family(Pr, &[h1], &both, LONG_STEP),
         family(Pr, &[h1], &midpoint[..1], OFFSET_LONG),
+        family(Nightly, &[h1, h2], &others, &[]),
+        family(Nightly, &[h2], &explicit, &[]),
         family(Nightly, &[h1], &explicit, &["offset=0.1"]),
         family(Nightly, &[h1], &both, OFFSET_LONG),
         family(Nightly, &[h1], &both, STEPS),

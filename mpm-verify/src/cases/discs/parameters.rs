@@ -13,7 +13,7 @@ parameters! { pub(super) const:
     OFFSET = "offset", "m", "0", number(0.0, 0.2, false),
         "shift of the upper disc across the line of motion";
     STEP_FACTOR = "step_factor", "-", "1", Domain::Choice(&["1", "10", "100"]),
-        "time step over 2.5 ms; explicit: 1";
+        "time step over 2.5 ms at h = 0.05 m, and in proportion to h; explicit: 1";
     LUMPED = "lumped", "-", "0.1", number(0.0, 1.0, false),
         "midpoint: share β of the lumped mass, the rest is consistent";
     ALPHA = "alpha", "-", "0.25", number(0.0, 2.0, false),

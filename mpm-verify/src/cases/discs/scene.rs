@@ -23,15 +23,16 @@ const SIDE: f64 = 1.0;
 const ROOM: f64 = 0.2;
 /// Density (kg/m³).
 const DENSITY: f64 = 1000.0;
-/// The paper's time step (s), and how long it runs at which speed (m/s).
+/// The paper's cell size (m) and time step (s), and how long it runs at which speed (m/s).
+pub(super) const CELL: f64 = 0.05;
 const STEP: f64 = 0.0025;
 const DURATION: f64 = 37.5;
 const AT_SPEED: f64 = 0.005;
 
-/// Time step (s), and how many there are.
-pub(super) fn timing(parameters: &Parameters) -> (f64, u64) {
+/// Time step (s) with cells of size `h` (m), and how many there are.
+pub(super) fn timing(h: f64, parameters: &Parameters) -> (f64, u64) {
     let duration = DURATION * AT_SPEED / parameters.number(SPEED);
-    let dt = STEP * step_factor(parameters);
+    let dt = STEP * (h / CELL) * step_factor(parameters);
     (dt, (duration / dt).ceil() as u64)
 }
 
@@ -103,7 +104,7 @@ pub(super) fn begin(
     }
     let law = NeoHookean::new(number(YOUNG_MODULUS), number(POISSON_RATIO))?;
     let scene = Scene::new(grid, Body::new(law, particles)?);
-    let (dt, _) = timing(parameters);
+    let (dt, _) = timing(h, parameters);
     let rule = match spec.scheme {
         Scheme::Explicit(_) => {
             let settings = settings(spec, parameters, dt, 0.0)?;

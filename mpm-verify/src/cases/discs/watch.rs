@@ -2,7 +2,7 @@
 
 use super::metrics as m;
 use super::parameters::OFFSET;
-use super::scene::{MIDDLE, RADIUS, begin, check, seed, step_factor, timing};
+use super::scene::{CELL, MIDDLE, RADIUS, begin, check, seed, step_factor, timing};
 use crate::cases::observe::{column, discretisation, position_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
@@ -65,7 +65,7 @@ impl Collision {
     /// The parameters don't make a scene.
     pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
         check(spec, parameters)?;
-        let (dt, steps) = timing(parameters);
+        let (dt, steps) = timing(spec.level.h, parameters);
         let collision = Self {
             spec: spec.clone(),
             parameters: parameters.clone(),
@@ -186,7 +186,9 @@ impl Watch<2> for Collision {
         let start = *seen
             .start
             .get_or_insert_with(|| self.sums(stage.run.as_ref()));
-        let steps = ((ROW / step_factor(&self.parameters)) as u64).min(self.steps - seen.steps);
+        let finer = CELL / self.spec.level.h;
+        let steps = (ROW * finer / step_factor(&self.parameters)).round() as u64;
+        let steps = steps.min(self.steps - seen.steps);
         let before = stage.run.work().newton_iterations;
         for _ in 0..steps {
             stage.steps(1)?;
