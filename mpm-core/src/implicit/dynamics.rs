@@ -16,29 +16,38 @@ type Field<const D: usize> = Vec<SVector<f64, D>>;
 impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// Gives the particles the velocities at the end of a step of `dt` (s), under the `external` forces (N) where the
     /// equations hold.
+    ///
+    /// # Errors
+    /// The mass is singular; the velocities are then as they were.
     pub(super) fn accelerate(
         &mut self,
         setting: &Setting<D>,
         solution: &Solution<D>,
         external: &[SVector<f64, D>],
         dt: f64,
-    ) {
+    ) -> Result<(), Failure> {
         match self.settings.rule {
             TimeRule::Static => {}
-            TimeRule::Midpoint { .. } => self.by_force(setting, solution, external, dt),
+            TimeRule::Midpoint { .. } => self.by_force(setting, solution, external, dt)?,
             TimeRule::Newmark { delta, .. } => self.by_acceleration(setting, solution, delta, dt),
         }
-        if let Some(inertia) = &setting.inertia {
-            let velocity = &self.scene.body.particles.velocity;
-            let momentum = inertia
-                .mass
-                .scatter(&setting.elements, |p| SVector::from(velocity[p]));
-            let energy = momentum.iter().zip(&inertia.mass.node);
-            self.residual.kinetic_energy = energy
-                .filter(|(_, m)| **m > 0.0)
-                .map(|(p, m)| 0.5 * p.norm_squared() / m)
-                .sum();
-        }
+        Ok(())
+    }
+
+    /// Kinetic energy (J) of the velocities that the particles have on the nodes of a step, with the lumped mass.
+    pub(super) fn nodal_kinetic_energy(&self, setting: &Setting<D>) -> f64 {
+        let Some(inertia) = &setting.inertia else {
+            return 0.0;
+        };
+        let velocity = &self.scene.body.particles.velocity;
+        let momentum = inertia
+            .mass
+            .scatter(&setting.elements, |p| SVector::from(velocity[p]));
+        let pairs = momentum.iter().zip(&inertia.mass.node);
+        pairs
+            .filter(|(_, m)| **m > 0.0)
+            .map(|(p, m)| 0.5 * p.norm_squared() / m)
+            .sum()
     }
 
     /// Gives the particles the accelerations of the start, M_l a = F_ext − F_int.
@@ -56,7 +65,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let forces: Field<D> = external.iter().zip(&internal).map(|(e, f)| e - f).collect();
         let elements = &setting.elements;
         let held = |node: usize, axis: usize| self.held_change(node, axis, dt).map(|v| v / dt);
-        let (acceleration, _) = inertia.mass.solve(elements, &forces, held);
+        let (acceleration, _) = inertia.mass.solve(elements, &forces, held)?;
         for (p, a) in self
             .scene
             .body
@@ -85,9 +94,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         solution: &Solution<D>,
         external: &[SVector<f64, D>],
         dt: f64,
-    ) {
+    ) -> Result<(), Failure> {
         let Some(inertia) = &setting.inertia else {
-            return;
+            return Ok(());
         };
         let (elements, mass) = (&setting.elements, &inertia.mass);
         let step: Step<D, M> = setting.step(&self.scene.body, dt);
@@ -96,7 +105,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let impulse: Field<D> = forces.map(|((f, g), e)| (e - f - g) * dt).collect();
         let (change, iterations) = mass.solve(elements, &impulse, |node, axis| {
             self.held_change(node, axis, dt)
-        });
+        })?;
         // Particles take ½ Δvᵀ M_c Δv where the nodes gave ½ Δvᵀ M_β Δv.
         let shared = mass.scatter(elements, |p| elements.value(p, &change));
         // Nodes without a share worth the name have no particles that could miss it.
@@ -111,6 +120,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         for (p, velocity) in particles.velocity.iter_mut().enumerate() {
             *velocity = (SVector::from(*velocity) + elements.value(p, &change)).into();
         }
+        Ok(())
     }
 
     /// Newmark's rule: nodal accelerations by Eq. (30), and the particles' by Eqs. (31) and (32) of Wang et al. 2016.
@@ -128,7 +138,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         // What the nodes had, (v/(α Δt) + (1/(2α) − 1) a), is the push over their mass.
         let u = solution.trial.u.iter().map(|u| SVector::from(*u));
         let columns = u.zip(&inertia.push).zip(&mass.node);
-        let acceleration: Field<D> = columns
+        let mut acceleration: Field<D> = columns
             .map(|((u, push), m)| {
                 let had = if *m > 0.0 {
                     push / *m
@@ -138,6 +148,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
                 u * inertia.factor - had
             })
             .collect();
+        for (node, acceleration) in acceleration.iter_mut().enumerate() {
+            for axis in 0..D {
+                if let Some(change) = self.held_change(node, axis, dt) {
+                    acceleration[axis] = change / dt;
+                }
+            }
+        }
         let particles = &mut self.scene.body.particles;
         let columns = particles
             .velocity

@@ -4,14 +4,15 @@
 //! c M x + f(x) = F_ext + b, with a factor c (1/s²) and what particles bring along, b (N).
 
 use super::elements::Elements;
-use super::newton::dot;
+use super::newton::{Failure, dot};
 use super::settings::TimeRule;
 use crate::particles::Particles;
 use nalgebra::SVector;
 
-/// What a mass is solved to, and in how many iterations at most.
+/// What a mass is solved to, in how many iterations at most, and what is enough after these: then rounding allows no more.
 const TO: f64 = 1e-15;
 const MOST: usize = 500;
+const ENOUGH: f64 = 1e-10;
 
 /// The mass M_β = (1 − β) M_c + β M_l on the functions of a step: M_c = Σ m w wᵀ, and M_l its sums of rows.
 pub(super) struct Mass {
@@ -80,12 +81,15 @@ impl Mass {
 
     /// The field that is `held` where something holds it, and elsewhere M times it is `right`, and how many iterations of
     /// conjugate gradients found it. Nodes without mass get zero.
+    ///
+    /// # Errors
+    /// The mass is singular.
     pub(super) fn solve<const D: usize>(
         &self,
         elements: &Elements<D>,
         right: &[SVector<f64, D>],
         held: impl Fn(usize, usize) -> Option<f64>,
-    ) -> (Vec<SVector<f64, D>>, u64) {
+    ) -> Result<(Vec<SVector<f64, D>>, u64), Failure> {
         let fixed = |node: usize, axis: usize| {
             let nothing = (self.node[node] <= 0.0).then_some(0.0);
             held(node, axis).or(nothing)
@@ -118,10 +122,10 @@ impl Mass {
         };
         let mut direction = over_mass(&rest);
         let mut product = inner(&rest, &direction);
-        let enough = TO * TO * product;
+        let first = product;
         for iteration in 0..MOST {
-            if product <= enough {
-                return (x, iteration as u64);
+            if product <= TO * TO * first {
+                return Ok((x, iteration as u64));
             }
             let image = free(self.times(elements, &direction));
             let length = product / inner(&direction, &image);
@@ -136,7 +140,10 @@ impl Mass {
             }
             product = ahead;
         }
-        (x, MOST as u64)
+        if product <= ENOUGH * ENOUGH * first {
+            return Ok((x, MOST as u64));
+        }
+        Err(Failure::Singular(0))
     }
 }
 

@@ -18,7 +18,8 @@ use crate::scheme::{BasisName, RemedyName, RuleName, Scheme};
 use crate::sketch::{Shape, Sketch};
 use crate::spec::{Level, RunSpec};
 use metrics::{
-    ANGULAR_MOMENTUM_ERROR, ENERGY_END, ENERGY_GAIN, ENERGY_LOSS, LUMPING_LOSS, MOMENTUM_ERROR,
+    ANGULAR_MOMENTUM_ERROR, ENERGY_END, ENERGY_ERROR_ACCUMULATED, ENERGY_GAIN, ENERGY_LOSS,
+    LUMPING_LOSS, MOMENTUM_ERROR,
 };
 use scene::{CENTRES, RADIUS};
 use watch::Collision;
@@ -51,6 +52,7 @@ pub(super) fn case() -> Case {
             headline(ENERGY_GAIN, "energy gain (%)", 100.0, 4),
             headline(ENERGY_LOSS, "loss (%)", 100.0, 4),
             headline(ENERGY_END, "end (%)", 100.0, 4),
+            headline(ENERGY_ERROR_ACCUMULATED, "accumulated (%)", 100.0, 4),
             headline(LUMPING_LOSS, "lumped mass took (%)", 100.0, 4),
             headline(MOMENTUM_ERROR, "momentum error (–)", 1.0, 14),
             headline(ANGULAR_MOMENTUM_ERROR, "angular momentum error (–)", 1.0, 6),

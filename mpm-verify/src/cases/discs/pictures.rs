@@ -8,7 +8,7 @@ use crate::draw::{Chart, Dash, FieldFigure, FieldPanel, Series, draw_charts, dra
 use crate::error::Error;
 use crate::gallery::Gallery;
 use crate::record::{Record, Status};
-use crate::scheme::BasisName;
+use crate::scheme::{BasisName, RemedyName};
 
 /// Mean stress is drawn between plus and minus this (Pa).
 const STRESS_RANGE: f64 = 100.0;
@@ -28,6 +28,7 @@ fn energies(gallery: &mut Gallery) -> Result<(), Error> {
         let own = |r: &&Record| {
             r.status == Status::Ok
                 && r.level == "h0.05"
+                && r.remedy() == RemedyName::None
                 && r.parameters.is(STEP_FACTOR, factor)
                 && r.changes_none_but(&[STEP_FACTOR.name])
         };
