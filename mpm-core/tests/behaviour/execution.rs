@@ -3,7 +3,7 @@
 use crate::scenes::{block, open_grid, remedies, scene, scene_with, swirl};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::FbarRate;
-use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
+use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Solver, Transfer};
 use mpm_core::stage::{BodyForce, LocalDamping};
 use mpm_core::{Axis, Basis, Grid, Simulation};
@@ -77,6 +77,8 @@ fn results_are_bitwise_the_same_for_any_number_of_threads() {
     assert_eq!(apic(1), apic(4));
     let xpic = |threads| bits_of::<2, 3, Gimp, _>(threads, Xpic::new(3).unwrap());
     assert_eq!(xpic(1), xpic(4));
+    let musl = |threads| bits_of::<2, 2, Linear, _>(threads, Musl::default());
+    assert_eq!(musl(1), musl(4));
 }
 
 #[test]
@@ -117,6 +119,7 @@ fn a_step_allocates_nothing_but_to_sort() {
         allocates_nothing::<2, 3, Gimp, _>(&Flip::default());
         allocates_nothing::<2, 3, Gimp, _>(&Apic);
         allocates_nothing::<2, 3, Gimp, _>(&Xpic::new(3).unwrap());
+        allocates_nothing::<2, 2, Linear, _>(&Musl::default());
         allocates_nothing::<3, 3, QuadraticBSpline, _>(&Flip::default());
     });
 }

@@ -3,7 +3,7 @@
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
-use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
+use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength};
 use mpm_core::memory::{Memory, MemoryError, Saved};
@@ -149,6 +149,7 @@ fn every_basis_remedy_and_transfer_goes_on_bit_for_bit() {
     of_transfer("blend", &Flip::new(0.9).unwrap());
     of_transfer("apic", &Apic);
     of_transfer("xpic", &Xpic::new(3).unwrap());
+    of_transfer("musl", &Musl::default());
 }
 
 #[test]

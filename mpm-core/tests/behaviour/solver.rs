@@ -6,7 +6,7 @@ use crate::scenes::{
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::Deformation;
 use mpm_core::explicit::remedy::Standard;
-use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
+use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::projection::Average;
@@ -22,6 +22,7 @@ fn free_body_conserves<const D: usize, const S: usize, B: Basis<S> + 'static>() 
     conserves::<D, S, B, _>(&Flip::default(), false);
     conserves::<D, S, B, _>(&Apic, true);
     conserves::<D, S, B, _>(&Xpic::new(3).unwrap(), false);
+    conserves::<D, S, B, _>(&Musl::default(), false);
 }
 
 fn conserves<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D> + Clone>(

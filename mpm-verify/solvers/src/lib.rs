@@ -3,7 +3,7 @@
 pub mod scheme;
 
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use mpm_core::explicit::transfer::{Apic, Xpic};
+use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Serendipity};
 use mpm_core::material::{Hencky, HenckyJ2, Hypoelastic, NeoHookean, NewtonianFluid};
@@ -34,9 +34,10 @@ pub fn solver<const D: usize, M: Solvable<D>>(
     M::solver(scheme, scene, settings)
 }
 
-/// Compiles solvers for a law: bases with FLIP, and bases with APIC and XPIC too.
+/// Compiles solvers for a law: bases with FLIP, bases with APIC and XPIC too, and bases with MUSL.
 macro_rules! solvable {
-    ($dimension:literal, $law:ty, flip: [$($flip:ident),*], others: [$($other:ident),*]) => {
+    ($dimension:literal, $law:ty, flip: [$($flip:ident),*], others: [$($other:ident),*],
+     musl: [$($musl:ident),*]) => {
         impl Solvable<$dimension> for $law {
             #[allow(unused_variables, reason = "a law without an instance has no use for a scene")]
             fn solver(
@@ -56,6 +57,9 @@ macro_rules! solvable {
                       (TransferName::Xpic2, BasisName::$other) => {
                           $other(scene, settings.transfer(Xpic::new(2)?))
                       })*
+                    $((TransferName::Musl, BasisName::$musl) => {
+                          $musl(scene, settings.transfer(Musl::default()))
+                      })*
                     (_, basis) => Err(not_compiled($dimension, basis, transfer)),
                 }
             }
@@ -63,15 +67,15 @@ macro_rules! solvable {
     };
 }
 
-solvable!(1, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: []);
-solvable!(2, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2]);
-solvable!(2, HenckyJ2, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2]);
-solvable!(2, NewtonianFluid, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2]);
+solvable!(1, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: [], musl: []);
+solvable!(2, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2], musl: [Linear, Gimp]);
+solvable!(2, HenckyJ2, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2], musl: []);
+solvable!(2, NewtonianFluid, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2], musl: []);
 // Fluids flow in the plane; code that is generic over the dimension asks all the same.
-solvable!(1, NewtonianFluid, flip: [], others: []);
-solvable!(3, NewtonianFluid, flip: [], others: []);
-solvable!(3, NeoHookean, flip: [Gimp, Bspline2], others: []);
-solvable!(3, HenckyJ2, flip: [Gimp, Bspline2], others: []);
+solvable!(1, NewtonianFluid, flip: [], others: [], musl: []);
+solvable!(3, NewtonianFluid, flip: [], others: [], musl: []);
+solvable!(3, NeoHookean, flip: [Gimp, Bspline2], others: [], musl: []);
+solvable!(3, HenckyJ2, flip: [Gimp, Bspline2], others: [], musl: []);
 
 /// One generic constructor per basis, by the basis' name.
 macro_rules! with_basis {

@@ -66,6 +66,8 @@ pub enum TransferName {
     Apic,
     /// XPIC of order 2.
     Xpic2,
+    /// FLIP with strains from velocities that were mapped again.
+    Musl,
     /// Of an implicit solver, which has no choice of it.
     None,
 }
@@ -140,7 +142,8 @@ plain_text!(RemedyName, "remedy", [
     Self::FbarTotal => "fbar-total", Self::FbarRate => "fbar-rate",
     Self::FbarConsistent => "fbar-consistent"]);
 plain_text!(TransferName, "transfer", [
-    Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2", Self::None => "none"]);
+    Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2",
+    Self::Musl => "musl", Self::None => "none"]);
 
 /// Kinds of implicit solvers, by the equations of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -288,7 +291,11 @@ impl Scheme {
         match (solver, RuleName::parse(solver)) {
             ("explicit", _) if none => {
                 let what = "transfer of an explicit scheme";
-                Err(unknown(what, transfer.text(), &["flip", "apic", "xpic2"]))
+                Err(unknown(
+                    what,
+                    transfer.text(),
+                    &["flip", "apic", "xpic2", "musl"],
+                ))
             }
             ("explicit", _) => Ok(Self::explicit(basis, remedy, transfer)),
             (_, Ok(rule)) if none => Ok(Self::implicit(rule, basis, remedy)),

@@ -14,7 +14,7 @@ use crate::exact::axis_aligned::ENTRY;
 use crate::exact::parameters::{AMPLITUDE, DIMENSION};
 use crate::metric::{Metric, Sweep};
 use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::spec::Level;
 use std::f64::consts::TAU;
 
@@ -97,6 +97,12 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         family(Pr, &levels[..3], &large, &["amplitude=0.005"]),
         family(Nightly, levels, &all, &[]),
         family(Nightly, levels, &other_transfers(), &[]),
+        family(
+            Nightly,
+            &levels[..4],
+            &[Scheme::explicit(Gimp, none, TransferName::Musl)],
+            &[],
+        ),
         family(Nightly, &levels[..4], &pair, &["step_scaling=h2"]),
         family(Nightly, &levels[..4], &sound(&BASES), &["amplitude=0.02"]),
         family(
@@ -178,7 +184,7 @@ pub(super) fn claim(r: &Record) -> Claim {
             )
         };
     }
-    if r.transfer() != TransferName::Flip {
+    if matches!(r.transfer(), TransferName::Apic | TransferName::Xpic2) {
         return Claim::Open(TRANSFER);
     }
     if r.parameters.number(DIMENSION) == 1.0 {

@@ -31,7 +31,7 @@ pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
     let dash = match scheme.transfer() {
         TransferName::Flip | TransferName::None => Dash::Solid,
         TransferName::Apic => Dash::Dashed,
-        TransferName::Xpic2 => Dash::Dotted,
+        TransferName::Xpic2 | TransferName::Musl => Dash::Dotted,
     };
     Series {
         name: scheme.title(),

@@ -162,6 +162,16 @@ impl<const D: usize> Received<D> {
     pub fn gradient(&self, a: usize, b: usize) -> Eight {
         Eight::new(self.gradient[a][b])
     }
+
+    /// Replaces the gradient of the `l`-th particle by that which it has in `other`.
+    #[inline(always)]
+    pub(super) fn take_gradient(&mut self, other: &Self, l: usize) {
+        for a in 0..D {
+            for b in 0..D {
+                self.gradient[a][b][l] = other.gradient[a][b][l];
+            }
+        }
+    }
 }
 
 /// Gathers the nodal velocities vⁿ⁺¹ and their changes vⁿ⁺¹ − vⁿ.

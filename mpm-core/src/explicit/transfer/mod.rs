@@ -3,16 +3,19 @@
 //! | transfer | particle velocity | null space | angular momentum | with no forces, energy |
 //! |---|---|---|---|---|
 //! | [`Flip`], η = 1 | V + S a Δt | kept | – | unchanged |
+//! | [`Musl`] | the same; strains from velocities mapped again | kept | – | unchanged |
 //! | [`Flip`], η = 0: PIC | S S⁺V + S a Δt | removed | lost | falls |
 //! | [`Apic`] | the same, and its moment | removed | conserved | falls little |
 //! | [`Xpic`] (m) | V + S a Δt − (1 − S S⁺)ᵐ V | removed | – | falls less the larger m |
 //!
 //! S maps nodes to particles, S⁺ maps back with lumped mass. All conserve momentum, and all form
-//! forces and velocity gradients with ∇w.
+//! forces and velocity gradients with ∇w; gradients are those of the velocities after the update but with [`Musl`].
 
 mod apic;
 mod flip;
 pub mod kernel;
+mod musl;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod xpic;
@@ -20,6 +23,7 @@ mod xpic;
 pub use apic::{Apic, second_moment};
 pub use flip::Flip;
 pub use kernel::{Given, Received};
+pub use musl::Musl;
 pub use xpic::Xpic;
 
 use crate::basis::{Basis, EightAxisWeights};

@@ -11,6 +11,8 @@ use crate::tensor::SymmetricTensor;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
+mod musl;
+
 /// Tolerance of sums of a few dozen products of order one.
 const ROUNDING: f64 = 1e-11;
 const H: f64 = 0.5;

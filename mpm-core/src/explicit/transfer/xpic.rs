@@ -19,15 +19,14 @@
 //! are held to (as mapped it would carry particles through a wall).
 
 use super::kernel::{Given, Received, gather};
+use super::sweep::Sweep;
 use super::{Flip, Transfer};
 use crate::basis::Basis;
-use crate::eights::{AHEAD, Eights, blocks, components, entries};
 use crate::error::{Error, require};
-use crate::lattice::{Lattice, Stencil, StencilRef, Stencils};
+use crate::lattice::{Lattice, StencilRef};
 use crate::memory::Memoryless;
 use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight};
-use crate::parallel::scatter;
 use crate::particles::Particles;
 use crate::stage::Prescribed;
 use nalgebra::SMatrix;
@@ -41,9 +40,7 @@ const MAX_ORDER: u32 = 5;
 pub struct Xpic {
     order: u32,
     /// Per node: v* + a Δt in `motion`, vⁿ in `change`.
-    nodes: Vec<NodalState>,
-    /// S⁺S u, before the division by mass.
-    mapped: Vec<Node>,
+    sweep: Sweep,
 }
 
 impl Xpic {
@@ -60,88 +57,8 @@ impl Xpic {
         )?;
         Ok(Self {
             order,
-            nodes: Vec::new(),
-            mapped: Vec::new(),
+            sweep: Sweep::default(),
         })
-    }
-
-    /// Σ_p w_ip m_p Σ_j w_jp u_j into `mapped`.
-    fn map_there_and_back<const D: usize, const S: usize, B: Basis<S>>(
-        &mut self,
-        lattice: &Lattice<D, S, B>,
-        particles: &Particles<D>,
-        slabs: &[Range<usize>],
-    ) {
-        let (x, mass) = (&particles.position, &particles.mass);
-        let nodes = &self.nodes;
-        self.mapped.fill(Node::ZERO);
-        scatter(
-            &mut self.mapped,
-            lattice.plane(),
-            slabs,
-            |slab, mapped, origin| {
-                let mass = &mass[slab.clone()];
-                let x = Eights::of(&x[slab]);
-                let mut stencils = Stencils::on(lattice);
-                for k in 0..blocks(mass.len()) {
-                    x.fetch(k + AHEAD);
-                    let functions = lattice.functions(&components(x.at(k)), &particles.half_size);
-                    lattice.stencils(&functions, &mut stencils);
-                    for l in 0..entries(mass.len(), k) {
-                        let sum = mapped_velocity(stencils.at(l), nodes) * mass[k * EIGHT + l];
-                        add_momentum(stencils.at(l), sum, mapped, origin);
-                    }
-                }
-            },
-        );
-        lattice.fold(&mut self.mapped);
-    }
-}
-
-/// Σ_i w_ip u_i.
-#[inline(always)]
-fn mapped_velocity<const D: usize, const S: usize>(
-    stencil: StencilRef<'_, D, S>,
-    nodes: &[NodalState],
-) -> Node {
-    let (last, stride) = (stencil.last(), stencil.stride());
-    let (lines, rows) = Stencil::<D, S>::OUTER;
-    let mut sum = Node::ZERO;
-    for slow in 0..lines {
-        let (begin, length) = stencil.line(slow, 0);
-        let line = &nodes[begin..begin + length];
-        for fast in 0..rows {
-            let mut row_sum = Node::ZERO;
-            for k in 0..S {
-                row_sum = line[fast * stride + k].motion.mul_add(last[k], row_sum);
-            }
-            let weight = Node::splat(stencil.row_weight(slow, fast));
-            sum = row_sum.mul_add(weight, sum);
-        }
-    }
-    sum
-}
-
-/// Adds w_ip `momentum` to `mapped`, which begins at node `origin`.
-#[inline(always)]
-fn add_momentum<const D: usize, const S: usize>(
-    stencil: StencilRef<'_, D, S>,
-    momentum: Node,
-    mapped: &mut [Node],
-    origin: usize,
-) {
-    let (last, stride) = (stencil.last(), stencil.stride());
-    let (lines, rows) = Stencil::<D, S>::OUTER;
-    for slow in 0..lines {
-        let (begin, length) = stencil.line(slow, origin);
-        let line = &mut mapped[begin..begin + length];
-        for fast in 0..rows {
-            let row = momentum * stencil.row_weight(slow, fast);
-            for k in 0..S {
-                let node = &mut line[fast * stride + k];
-                *node = row.mul_add(last[k], *node);
-            }
-        }
     }
 }
 
@@ -172,34 +89,33 @@ impl<const D: usize> Transfer<D> for Xpic {
         nodes: &[NodalState],
         held: &[Prescribed],
     ) -> u64 {
-        self.nodes.resize(nodes.len(), NodalState::default());
-        self.mapped.resize(nodes.len(), Node::ZERO);
-        for (own, node) in self.nodes.iter_mut().zip(nodes) {
+        self.sweep.begin(nodes, |node| {
             let mut before = node.motion - node.change;
             before.as_mut_array()[3] = 0.0;
-            *own = NodalState {
+            NodalState {
                 motion: before,
                 change: before,
-            };
-        }
+            }
+        });
         for _ in 1..self.order {
-            self.map_there_and_back(lattice, particles, slabs);
-            let fields = self.nodes.iter_mut().zip(&self.mapped).zip(nodes);
-            for ((own, mapped), node) in fields {
+            self.sweep.there_and_back(lattice, particles, slabs);
+            let Sweep { nodes: own, mapped } = &mut self.sweep;
+            for ((own, mapped), node) in own.iter_mut().zip(mapped).zip(nodes) {
                 if node.mass() > 0.0 {
                     own.motion += own.change - *mapped / Node::splat(node.mass());
                 }
             }
-            lattice.unfold(&mut self.nodes);
+            lattice.unfold(own);
         }
-        for (own, node) in self.nodes.iter_mut().zip(nodes) {
+        let own = &mut self.sweep.nodes;
+        for (own, node) in own.iter_mut().zip(nodes) {
             own.motion += node.change;
         }
         for c in held {
-            let velocity = &mut self.nodes[c.node].change.as_mut_array()[c.axis];
+            let velocity = &mut own[c.node].change.as_mut_array()[c.axis];
             *velocity = c.held(*velocity).unwrap_or(*velocity);
         }
-        lattice.unfold(&mut self.nodes);
+        lattice.unfold(own);
         u64::from(self.order - 1)
     }
 
@@ -213,7 +129,7 @@ impl<const D: usize> Transfer<D> for Xpic {
         receives: &mut Received<D>,
     ) {
         gather(stencil, nodes, received, |_, _, _, _, _| {});
-        gather(stencil, &self.nodes, receives, |_, _, _, _, _| {});
+        gather(stencil, &self.sweep.nodes, receives, |_, _, _, _, _| {});
     }
 
     #[inline(always)]

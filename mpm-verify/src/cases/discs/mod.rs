@@ -14,7 +14,7 @@ use super::family::family;
 use crate::case::{Case, Family, Tier};
 use crate::parameter::Parameters;
 use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, RuleName, Scheme};
+use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
 use crate::sketch::{Shape, Sketch};
 use crate::spec::{Level, RunSpec};
 use metrics::{
@@ -69,7 +69,7 @@ pub(super) fn case() -> Case {
         pictures: pictures::draw,
         tables: tables::all(),
         breaks_down: |r| match r.scheme() {
-            Scheme::Explicit(e) if e.basis == Linear => Some(
+            Scheme::Explicit(e) if e.basis == Linear && e.transfer == TransferName::Flip => Some(
                 "a particle that enters a cell meets nodes with hardly any mass, which its stress throws ahead",
             ),
             Scheme::Implicit(_) if r.parameters.number(parameters::LUMPED) == 0.0 => {
@@ -108,6 +108,11 @@ fn plan([h1, h2]: [Level; 2]) -> Vec<Family> {
         Scheme::flip(Gimp, RemedyName::FbarConsistent),
         Scheme::flip(Linear, RemedyName::None),
     ];
+    let musl = [Scheme::explicit(
+        Linear,
+        RemedyName::None,
+        TransferName::Musl,
+    )];
     let both = schemes(&[Midpoint, Newmark]);
     let midpoint = schemes(&[Midpoint]);
     vec![
@@ -116,6 +121,9 @@ fn plan([h1, h2]: [Level; 2]) -> Vec<Family> {
         family(Pr, &[h1], &both, LONG_STEP),
         family(Pr, &[h1], &midpoint[..1], OFFSET_LONG),
         family(Nightly, &[h1, h2], &others, &[]),
+        family(Pr, &[h1], &musl, &[]),
+        family(Nightly, &[h2], &musl, &[]),
+        family(Nightly, &[h1], &musl, &["offset=0.1"]),
         family(Nightly, &[h2], &explicit, &[]),
         family(Nightly, &[h1], &explicit, &["offset=0.1"]),
         family(Nightly, &[h1], &both, OFFSET_LONG),
