@@ -85,7 +85,7 @@ impl TimeRule {
                     alpha >= least,
                     "alpha of Newmark's rule",
                     alpha,
-                    "at least (delta + 1/2)²/4: less is not stable for every step",
+                    "at least (delta + 1/2)²/4: less is unstable in long steps, or overdamped",
                 )
             }
         }
@@ -149,6 +149,22 @@ impl Settings {
     #[must_use]
     pub fn remedy(self, remedy: Remedy) -> Self {
         Self { remedy, ..self }
+    }
+
+    /// With local damping by the fraction `alpha`, as [`LocalDamping`](crate::stage::LocalDamping) is of the explicit
+    /// solver: only that which does nothing.
+    ///
+    /// # Errors
+    /// A fraction other than zero, with the reason.
+    pub fn locally_damped(self, alpha: f64) -> Result<Self, Error> {
+        require(
+            alpha == 0.0,
+            "local damping of an implicit run",
+            alpha,
+            "0: -alpha |F| sign(v) is not differentiable, so that a step can have no solution, and by the step before it \
+             does not come to rest; static steps find the state of rest",
+        )?;
+        Ok(self)
     }
 
     pub(super) fn check(&self) -> Result<(), Error> {
