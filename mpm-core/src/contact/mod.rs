@@ -70,6 +70,26 @@ impl<const D: usize> RigidContact<D> {
         &self.face
     }
 
+    /// The barrier.
+    #[must_use]
+    pub fn barrier(&self) -> Barrier {
+        self.barrier
+    }
+
+    /// Whether it has no friction.
+    #[must_use]
+    pub fn is_smooth(&self) -> bool {
+        self.friction.is_none()
+    }
+
+    /// Notes the `force` (N) of the particles on the body in a step of `dt` (s).
+    pub(crate) fn react(&mut self, force: [f64; D], dt: f64) {
+        self.reaction.force[..D].copy_from_slice(&force);
+        for (impulse, force) in self.reaction.impulse.iter_mut().zip(force) {
+            *impulse += dt * force;
+        }
+    }
+
     /// What the particles do to the rigid body.
     #[must_use]
     pub fn reaction(&self) -> Reaction {

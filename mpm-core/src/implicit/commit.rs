@@ -1,7 +1,8 @@
 //! What a solution makes of the body: where its step ends, what is kept of forces and energies, and the new state.
 
+use super::contact;
 use super::elements::Elements;
-use super::equilibrium::Trial;
+use super::equilibrium::{Step, Trial};
 use super::newton::{Failure, Solution, dot};
 use super::{Interpolation, Setting, Solver};
 use crate::material::Law;
@@ -24,7 +25,11 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         }
         self.work.particle_node_pairs += 2 * setting.elements.pairs() as u64;
         let whole: Vec<f64> = solution.u.iter().map(|u| u / place).collect();
-        let step = setting.step(&self.scene.body, dt);
+        let obstacles = self.obstacles(self.time + dt);
+        let step = Step {
+            obstacles: &obstacles,
+            ..setting.step(&self.scene.body, dt)
+        };
         Ok(Some(step.trial(&whole, self.functions.len())?))
     }
 
@@ -86,9 +91,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             pairs.map(|(f, u)| dot(f.as_slice(), u)).sum()
         };
         let [first, last] = self.settings.rule.shares();
+        let increments: Vec<SVector<f64, D>> = end.u.iter().map(|u| SVector::from(*u)).collect();
+        let [pushed_before, pushed] = [&solution.before.pushes, &trial.pushes]
+            .map(|pushes| contact::work(pushes, &setting.elements, &increments));
+        let pushed = first * pushed_before + last * pushed;
         self.accumulated.stress_work +=
-            first * work_of(&solution.before) + last * work_of(&trial.internal);
-        self.accumulated.load_work += first * work_of(earlier) + last * work_of(external);
+            first * work_of(&solution.before.internal) + last * work_of(&trial.internal) + pushed;
+        self.accumulated.load_work += first * work_of(earlier) + last * work_of(external) + pushed;
         self.accumulated.damping += 0.5 * work_of(&step.penalty_forces(&end.u));
         let mut moved = 0.0;
         for node in &setting.unknowns.node {
@@ -99,12 +108,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
                     let reaction = &mut self.reactions[held.by];
                     reaction.force[a] += force;
                     reaction.impulse[a] += force * dt;
-                    let before = earlier[*node][a] - solution.before[*node][a];
+                    let before = earlier[*node][a] - solution.before.internal[*node][a];
                     moved += (first * before + last * force) * end.u[*node][a];
                 }
             }
         }
         self.accumulated.constraint_loss += moved;
+        self.react(&trial.pushes, dt);
     }
 
     /// Makes a trial the state of the body.

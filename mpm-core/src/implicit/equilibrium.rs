@@ -1,6 +1,7 @@
 //! Forces and stiffness of a step: what its equations are made of.
 
 use super::average::{Average, UNSEEN};
+use super::contact::{self, Obstacle, Push};
 use super::elements::Elements;
 use super::inertia::{Inertia, Mass};
 use super::newton::dot;
@@ -32,6 +33,8 @@ pub(super) struct Step<'a, const D: usize, M: Law> {
     pub(super) average: Option<&'a Average>,
     /// Inertia, in dynamics.
     pub(super) inertia: Option<&'a Inertia<D>>,
+    /// Rigid bodies where the equations hold.
+    pub(super) obstacles: &'a [Obstacle<D>],
 }
 
 /// A trial: nodal increments and what they make of the body.
@@ -44,7 +47,9 @@ pub(super) struct Trial<const D: usize> {
     pub(super) averaged: Vec<f64>,
     /// Aᵀ q of every particle (J); empty without F̄.
     share: Vec<f64>,
-    /// Forces of the body's stress on the nodes (N).
+    /// What rigid bodies do to particles.
+    pub(super) pushes: Vec<Push<D>>,
+    /// Forces of the body's stress on the nodes less those of rigid bodies (N).
     pub(super) internal: Vec<SVector<f64, D>>,
     /// Forces of the penalties, and c M x of inertia (N).
     pub(super) resistance: Vec<SVector<f64, D>>,
@@ -69,11 +74,13 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
     /// The trial with these increments of the unknowns, Eqs. (3) to (9) of `docs/implicit.md`.
     ///
     /// # Errors
-    /// The first particle whose ΔJ, or its average, is not positive and finite, or whose stress is not finite.
+    /// The first particle whose ΔJ, or its average, is not positive and finite, whose gap is closed, or whose stress is not
+    /// finite.
     pub(super) fn trial(&self, values: &[f64], nodes: usize) -> Result<Trial<D>, (usize, Fault)> {
         let elements = self.elements;
         let mut u = vec![[0.0; D]; nodes];
         self.unknowns.spread(values, &mut u);
+        let pushes = self.pushes(&u)?;
         let count = self.body.particles.len();
         let f: Vec<SMatrix<f64, D, D>> = (0..count)
             .into_par_iter()
@@ -116,23 +123,42 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             });
             add_forces(&stress, elements.gradients(p), sums);
         });
+        contact::relieve(&pushes, elements, &mut internal);
         let resistance = self.resistance(&u);
         Ok(Trial {
             u,
             f,
             averaged,
             share,
+            pushes,
             internal,
             resistance,
         })
+    }
+
+    /// What rigid bodies do to particles at nodal increments (m).
+    fn pushes(&self, u: &[[f64; D]]) -> Result<Vec<Push<D>>, (usize, Fault)> {
+        let particles = &self.body.particles;
+        contact::pushes(self.obstacles, self.elements, particles, &vectors(u))
+    }
+
+    /// How much of a correction of the unknowns (m) may be taken from nodal increments `u` (m), for gaps to stay open.
+    pub(super) fn open_share(&self, u: &[[f64; D]], correction: &[f64]) -> f64 {
+        if self.obstacles.is_empty() {
+            return 1.0;
+        }
+        let mut change = vec![[0.0; D]; u.len()];
+        self.unknowns.spread(correction, &mut change);
+        let (u, change) = (vectors(u), vectors(&change));
+        let particles = &self.body.particles;
+        contact::open_share(self.obstacles, self.elements, particles, &u, &change)
     }
 
     /// What is linear in the increments: penalties and inertia.
     fn resistance(&self, u: &[[f64; D]]) -> Vec<SVector<f64, D>> {
         let mut forces = self.penalty_forces(u);
         if let Some(inertia) = self.inertia {
-            let u: Vec<SVector<f64, D>> = u.iter().map(|u| SVector::from(*u)).collect();
-            let products = inertia.mass.times(self.elements, &u);
+            let products = inertia.mass.times(self.elements, &vectors(u));
             for (force, product) in forces.iter_mut().zip(products) {
                 *force += product * inertia.factor;
             }
@@ -159,14 +185,18 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
 
     /// The derivatives of every particle's answer at a trial.
     pub(super) fn tangents(&self, trial: &Trial<D>) -> Vec<Tangent<D>> {
-        (0..trial.f.len())
+        let mut tangents: Vec<Tangent<D>> = (0..trial.f.len())
             .into_par_iter()
             .map(|p| {
                 let averaged = trial.averaged.get(p).copied();
                 let share = trial.share.get(p).copied().unwrap_or(0.0);
                 self.particle(p).tangent::<D>(&trial.f[p], averaged, share)
             })
-            .collect()
+            .collect();
+        for push in &trial.pushes {
+            tangents[push.particle].held += push.stiffness;
+        }
+        tangents
     }
 
     /// The entries of the stiffness matrix, Eq. (5); with F̄ of what preconditions it, Eq. (13), where a node's pressure
@@ -280,8 +310,9 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
                     });
                     for (i, f) in dw.iter().enumerate() {
                         for a in 0..D {
-                            let m = if a == b { inertia * w[i] * w[j] } else { 0.0 };
-                            matrix[(i * width + a, j * width + b)] += dot(f, &column[a]) + m;
+                            let m = if a == b { inertia } else { 0.0 };
+                            let held = (m + t.held[(a, b)]) * w[i] * w[j];
+                            matrix[(i * width + a, j * width + b)] += dot(f, &column[a]) + held;
                         }
                     }
                 }
@@ -339,6 +370,16 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             });
             add_forces(&stress, elements.gradients(p), sums);
         });
+        let u = vectors(&u);
+        for (p, t) in tangents.iter().enumerate() {
+            if t.held.iter().any(|k| *k != 0.0) {
+                let resisting = t.held * elements.value(p, &u);
+                let (nodes, w, _) = elements.seen(p);
+                for (node, w) in nodes.iter().zip(w) {
+                    forces[*node] += resisting * *w;
+                }
+            }
+        }
         self.free(&forces)
     }
 
@@ -354,6 +395,10 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             .map(|(value, held)| if held.is_some() { 0.0 } else { value })
             .collect()
     }
+}
+
+fn vectors<const D: usize>(u: &[[f64; D]]) -> Vec<SVector<f64, D>> {
+    u.iter().map(|u| SVector::from(*u)).collect()
 }
 
 /// Adds P ∇w to the forces of an element's nodes.

@@ -27,12 +27,20 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
             save_all(&self.scene.loads)?,
             save_all(&self.scene.constraints)?,
         );
-        Saved::of(&(self.scene.body.save()?, sums, stages, &self.direct.pattern))
+        let contacts: Result<Vec<Saved>, _> =
+            self.scene.contacts.iter().map(Memory::save).collect();
+        Saved::of(&(
+            self.scene.body.save()?,
+            sums,
+            stages,
+            contacts?,
+            &self.direct.pattern,
+        ))
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        type All = (Saved, Sums, (Vec<Saved>, Vec<Saved>), Pattern);
-        let (body, sums, (loads, constraints), pattern): All =
+        type All = (Saved, Sums, (Vec<Saved>, Vec<Saved>), Vec<Saved>, Pattern);
+        let (body, sums, (loads, constraints), contacts, pattern): All =
             saved.read("a quasi-static solver")?;
         let (time, accumulated, residual, convergence, work, reactions) = sums;
         MemoryError::unless_equal("constraints", reactions.len(), self.reactions.len())?;
@@ -40,6 +48,10 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
         self.restore_body(&body)?;
         restore_all("loads", &mut self.scene.loads, &loads)?;
         restore_all("constraints", &mut self.scene.constraints, &constraints)?;
+        MemoryError::unless_equal("contacts", contacts.len(), self.scene.contacts.len())?;
+        for (contact, saved) in self.scene.contacts.iter_mut().zip(&contacts) {
+            contact.restore(saved)?;
+        }
         self.time = time;
         self.accumulated = accumulated;
         self.residual = residual;

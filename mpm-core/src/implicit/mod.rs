@@ -9,6 +9,7 @@
 
 mod average;
 mod commit;
+mod contact;
 mod dynamics;
 mod elements;
 mod equilibrium;
@@ -36,6 +37,7 @@ pub use q8::Serendipity;
 pub use settings::{Remedy, Settings, Stabilisation, TimeRule};
 
 use crate::body::Body;
+use crate::contact::RigidContact;
 use crate::error::Error;
 use crate::material::Law;
 use crate::memory::Saved;
@@ -46,6 +48,7 @@ use crate::simulation::{Field, Part, Simulation};
 use crate::tensor::SymmetricTensor;
 use crate::work::{Spent, Work};
 use average::Average;
+use contact::Obstacle;
 use elements::Elements;
 use equilibrium::Step;
 use inertia::Inertia;
@@ -94,6 +97,7 @@ struct Setting<const D: usize> {
     pattern: Pattern,
     average: Option<Average>,
     inertia: Option<Inertia<D>>,
+    obstacles: Vec<Obstacle<D>>,
 }
 
 impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I, M> {
@@ -165,7 +169,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
     fn on(&self, part: Part) -> Reaction {
         match part {
             Part::Constraint(place) => self.reactions.get(place).copied(),
-            Part::Contact(_) => None,
+            Part::Contact(place) => self.scene.contacts.get(place).map(RigidContact::reaction),
         }
         .unwrap_or(Reaction::NONE)
     }
@@ -219,6 +223,7 @@ impl<const D: usize> Setting<D> {
             penalties: &self.penalties,
             average: self.average.as_ref(),
             inertia: self.inertia.as_ref(),
+            obstacles: &self.obstacles,
         }
     }
 }
@@ -279,6 +284,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let pattern = Pattern::new(width, &unknowns, &elements, &penalties);
         let inertia = Inertia::of(self.settings.rule, dt, &elements, nodes, particles);
         Setting {
+            obstacles: self.obstacles(self.time + place * dt),
             inertia,
             elements,
             penalties,

@@ -45,8 +45,8 @@ pub(super) struct Solution<const D: usize> {
     pub(super) u: Vec<f64>,
     pub(super) trial: Trial<D>,
     pub(super) convergence: Convergence,
-    /// Internal forces at the step's start (N).
-    pub(super) before: Vec<SVector<f64, D>>,
+    /// The trial of no increments.
+    pub(super) before: Trial<D>,
 }
 
 /// A step with the loads at its end, and what solves it.
@@ -125,7 +125,7 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         let rest = vec![0.0; self.step.unknowns.len()];
         let at_rest = self.trial(&rest)?;
         let start = norm(&self.step.free(&at_rest.internal));
-        let before = at_rest.internal;
+        let before = at_rest;
         let held = self.step.unknowns.held.iter();
         let mut u: Vec<f64> = held.map(|held| held.unwrap_or(0.0)).collect();
         let mut trial = self.trial(&u)?;
@@ -153,7 +153,7 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
             }
             last = self.correction(&trial, &residual, share, iteration)?;
             let slope = dot(&last, &residual).abs();
-            let mut length = 1.0;
+            let mut length = self.step.open_share(&trial.u, &last);
             let mut cuts = 0;
             loop {
                 let moved: Vec<f64> = u.iter().zip(&last).map(|(u, d)| u + length * d).collect();

@@ -50,6 +50,8 @@ pub(super) struct Tangent<const D: usize> {
     pub(super) pull_by_a: f64,
     /// The cofactor of ΔF.
     pub(super) cofactor: Square<D>,
+    /// What resists the particle's displacement: of a contact (N/m).
+    pub(super) held: SMatrix<f64, D, D>,
 }
 
 /// `x^(1/D)`.
@@ -158,6 +160,7 @@ impl<M: Law> Particle<'_, M> {
             pull_by_f: [[0.0; D]; D],
             pull_by_a: 0.0,
             cofactor: [[0.0; D]; D],
+            held: SMatrix::zeros(),
         };
         for i in 0..D {
             for j in 0..D {

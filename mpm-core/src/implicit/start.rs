@@ -1,7 +1,7 @@
 //! A solver before its first step.
 
 use super::linear::Direct;
-use super::{Held, Interpolation, Moduli, Remedy, Settings, Solver, TimeRule};
+use super::{Held, Interpolation, Moduli, Remedy, Settings, Solver, TimeRule, contact};
 use crate::error::{Error, require};
 use crate::material::Law;
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
@@ -16,16 +16,10 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     ///
     /// # Errors
     /// A setting or particle that is not allowed; a stabilisation that the functions don't offer; F̄ with a law that is
-    /// not conservative; a contact, or a constraint on one side only; a particle off the grid.
+    /// not conservative; a contact with friction or across a periodic axis; a constraint on one side only; a particle off the grid.
     pub fn new(mut scene: Scene<D, M>, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
-        let contacts = scene.contacts.len();
-        require(
-            contacts == 0,
-            "contacts of a quasi-static run",
-            contacts as f64,
-            "none: rigid bodies are constraints there",
-        )?;
+        contact::check(&scene.contacts, &scene.grid)?;
         let one_sided = scene
             .constraints
             .iter()

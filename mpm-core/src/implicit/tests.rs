@@ -32,6 +32,7 @@ macro_rules! every_basis {
 }
 
 // After the macro, which it uses.
+mod contact;
 mod damping;
 mod dynamics;
 mod stiffness;

@@ -10,7 +10,7 @@ fn noise(k: usize) -> f64 {
 }
 
 /// A strained body with free faces, held at one end, on a trial of random increments.
-fn strained<const D: usize, I: Interpolation<D>, M: Law>(
+pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law>(
     law: M,
     remedy: Remedy,
 ) -> Solver<D, I, M> {
@@ -49,7 +49,14 @@ fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: La
     law: M,
     remedy: Remedy,
 ) {
-    let solver = strained::<D, I, M>(law, remedy);
+    slope_of_the_forces(&strained::<D, I, M>(law, remedy), remedy);
+}
+
+/// The same of a solver.
+pub(super) fn slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
+    solver: &Solver<D, I, M>,
+    remedy: Remedy,
+) {
     let setting = solver.setting(1.0);
     let step = setting.step(&solver.scene.body, 1.0);
     let nodes = solver.functions.len();

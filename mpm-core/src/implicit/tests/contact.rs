@@ -1,0 +1,220 @@
+//! Contact by the barrier: its tangent, what it keeps, and gaps that stay open.
+
+use super::stiffness::{slope_of_the_forces, strained};
+use super::*;
+use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
+use crate::simulation::Part;
+use crate::stage::Gravity;
+
+/// Where the barrier begins (m).
+const DISTANCE: f64 = 0.2 * H;
+const SPEED: f64 = 0.5;
+/// The force on a particle (N/m) that a wave of this speed c = 11.6 m/s brings: ρ c v per half a cell.
+const FORCE: f64 = 1000.0 * 11.6 * SPEED * 0.5 * H;
+
+fn rubber() -> NeoHookean {
+    NeoHookean::new(YOUNG, POISSON).unwrap()
+}
+
+/// A floor at the gap `gap` (m) below the particles, which carries `force` (N) a particle at half of its distance.
+fn floor(particles: &Particles<2>, gap: f64, force: f64) -> RigidContact<2> {
+    let face = RigidFace::half_space(1, End::Lo, 0.0).unwrap();
+    let barrier = Barrier::carrying(force, DISTANCE).unwrap();
+    RigidContact::new(face.touching(particles, gap), barrier)
+}
+
+/// K with B″ is the slope of the forces with B′, of all bases and with F̄.
+fn tangent_has_the_barrier<const D: usize, I: Interpolation<2>, M: Law>(law: M, remedy: Remedy) {
+    let mut solver = strained::<2, I, M>(law, remedy);
+    // Deep enough that some particles are beyond it and gaps of others are near a tenth of it.
+    let face = RigidFace::half_space(1, End::Lo, 0.0).unwrap();
+    let particles = &solver.scene.body.particles;
+    let barrier = Barrier::carrying(1e3, 0.5 * H).unwrap();
+    let contact = RigidContact::new(face.touching(particles, 0.2 * H), barrier);
+    solver.scene.contacts.push(contact);
+    let setting = solver.setting(1.0);
+    let step = setting.step(&solver.scene.body, 1.0);
+    let rest = vec![0.0; setting.unknowns.len()];
+    let touching = step.trial(&rest, solver.functions.len()).unwrap().pushes;
+    assert!(touching.len() > 4 && touching.len() < particles.len());
+    slope_of_the_forces(&solver, remedy);
+}
+
+#[test]
+fn the_tangent_of_contact_is_the_slope_of_its_forces() {
+    for remedy in [Remedy::None, Remedy::FbarConsistent] {
+        every_basis!(tangent_has_the_barrier, 2, rubber(), remedy);
+    }
+}
+
+/// A block that flies at a floor.
+fn thrown(rule: TimeRule, dt: f64) -> Solver<2, Quadratics<2>, NeoHookean> {
+    let axes = [Axis::open(0.0, CELLS + 4); 2];
+    let mut scene = filled(axes, CELLS, Places::Uniform, rubber());
+    for x in &mut scene.body.particles.position {
+        *x = x.map(|x| x + 2.0 * H);
+    }
+    scene.body.particles.velocity.fill([0.1, -SPEED]);
+    let contact = floor(&scene.body.particles, 1.5 * DISTANCE, FORCE);
+    let settings = Settings {
+        tolerance: 1e-12,
+        ..Settings::new(dt).rule(rule)
+    };
+    Solver::new(scene.contact(contact), settings).unwrap()
+}
+
+/// Energy of body and barrier, with what the lumped mass took (J), and the least gap (m).
+fn energy_and_gap(solver: &Solver<2, Quadratics<2>, NeoHookean>) -> [f64; 2] {
+    let totals = solver.totals();
+    let contact = &solver.scene.contacts[0];
+    let gaps = solver.particles().position.iter();
+    let gaps: Vec<f64> = gaps.filter_map(|x| contact.face().gap(x)).collect();
+    let stored: f64 = gaps.iter().map(|gap| contact.barrier().energy(*gap)).sum();
+    let energy = totals.kinetic_energy + totals.stored_energy + stored;
+    let least = gaps.into_iter().fold(f64::INFINITY, f64::min);
+    [energy + totals.accumulated.lumping_loss, least]
+}
+
+/// The greatest change of the energy over its start, of a bounce of 0.4 s in steps of `dt` (s).
+fn bounced(rule: TimeRule, dt: f64) -> f64 {
+    let mut solver = thrown(rule, dt);
+    let [start, _] = energy_and_gap(&solver);
+    let before = solver.totals();
+    let (mut change, mut nearest) = (0.0_f64, f64::INFINITY);
+    for _ in 0..(0.4 / dt).round() as usize {
+        solver.step().unwrap();
+        let [energy, gap] = energy_and_gap(&solver);
+        change = change.max((energy / start - 1.0).abs());
+        nearest = nearest.min(gap);
+        assert!(gap > 0.0);
+    }
+    let after = solver.totals();
+    assert!(nearest < 0.7 * DISTANCE, "{nearest}");
+    assert!(after.momentum[1] > 0.5 * before.momentum[1].abs());
+    let impulse = solver.on(Part::Contact(0)).impulse;
+    if let TimeRule::Midpoint { .. } = rule {
+        for a in 0..2 {
+            let gap = after.momentum[a] - before.momentum[a] + impulse[a];
+            assert!(gap.abs() < 1e-11 * before.mass * SPEED, "{gap}");
+        }
+        // (21): what particles gain is the work of the forces, to Newton's tolerance.
+        let sums = after.accumulated;
+        let gained = after.kinetic_energy - before.kinetic_energy + sums.lumping_loss;
+        let given = sums.load_work - sums.stress_work;
+        assert!((gained - given).abs() < 1e-8 * before.kinetic_energy);
+    }
+    change
+}
+
+/// Energy differs by the third derivative of the potentials along an increment: a sum of third order a step, second order
+/// in all.
+#[test]
+fn a_block_bounces_on_the_barrier_and_keeps_its_energy() {
+    let rule = TimeRule::Midpoint { lumped: 0.1 };
+    let [coarse, middle, fine] = [8e-3, 4e-3, 2e-3].map(|dt| bounced(rule, dt));
+    assert!(fine < 1e-3, "{coarse} {middle} {fine}");
+    assert!(
+        middle / fine > 3.0 && coarse / middle > 2.5,
+        "{coarse} {middle} {fine}"
+    );
+}
+
+#[test]
+fn a_block_bounces_with_newmark_too() {
+    let rule = TimeRule::Newmark {
+        alpha: 0.25,
+        delta: 0.5,
+    };
+    assert!(bounced(rule, 2e-3) < 0.1);
+}
+
+/// A step that would pass through the floor and out of sight stays before it.
+#[test]
+fn a_long_step_does_not_close_a_gap() {
+    let mut solver = thrown(TimeRule::Midpoint { lumped: 0.1 }, 0.2);
+    for _ in 0..3 {
+        solver.step().unwrap();
+        assert!(energy_and_gap(&solver)[1] > 0.0);
+    }
+    assert!(solver.totals().momentum[1] > 0.0);
+}
+
+/// Between rollers, on the barrier: the floor bears the weight to Newton's tolerance.
+fn rests<const D: usize, I: Interpolation<2>, M: Law>(law: M, remedy: Remedy) {
+    let axes = [Axis::walls(0.0, CELLS), Axis::open(0.0, CELLS + 4)];
+    let mut scene = filled(axes, CELLS, Places::Uniform, law);
+    for x in &mut scene.body.particles.position {
+        x[1] += 2.0 * H;
+    }
+    let weight = 1e3 * (H * CELLS as f64).powi(2);
+    let each = weight / (2 * CELLS) as f64;
+    let contact = floor(&scene.body.particles, 0.5 * DISTANCE, each);
+    let rollers = [End::Lo, End::Hi].map(|end| Wall {
+        axis: 0,
+        end,
+        kind: WallKind::Roller,
+    });
+    let scene = scene
+        .constrain_all(rollers)
+        .contact(contact)
+        .load(Gravity(Box::new(|_| [0.0, -1.0])));
+    let settings = Settings::new(1.0)
+        .remedy(remedy)
+        .stabilised(Stabilisation::Ghost(0.01));
+    let mut solver = Solver::<2, I, M>::new(scene, settings).unwrap();
+    solver.step().unwrap();
+    let force = solver.on(Part::Contact(0)).force;
+    assert!((force[1] + weight).abs() < 1e-8 * weight, "{force:?}");
+    assert_eq!(force[0], 0.0);
+    let sides: f64 = (0..2)
+        .map(|k| solver.on(Part::Constraint(k)).force[1])
+        .sum();
+    assert_eq!(sides, 0.0);
+    let contact = &solver.scene.contacts[0];
+    let gaps = solver.particles().position.iter();
+    let gap = |x| contact.face().gap(x).unwrap();
+    let mean = gaps.map(gap).filter(|gap| *gap < DISTANCE).sum::<f64>() / (2 * CELLS) as f64;
+    assert!((mean / DISTANCE - 0.5).abs() < 0.05, "{mean}");
+}
+
+#[test]
+fn a_floor_bears_the_weight_of_what_rests_on_it() {
+    for remedy in [Remedy::None, Remedy::FbarConsistent] {
+        every_basis!(rests, 2, rubber(), remedy);
+    }
+}
+
+fn refused(contact: impl Fn(&Particles<2>) -> RigidContact<2>, axes: [Axis; 2]) -> Error {
+    let scene = filled(axes, CELLS, Places::Uniform, rubber());
+    let contact = contact(&scene.body.particles);
+    let solver = Solver::<2, Quadratics<2>, _>::new(scene.contact(contact), Settings::new(1.0));
+    solver.err().unwrap()
+}
+
+#[test]
+fn friction_and_faces_across_a_periodic_axis_are_refused() {
+    let walls = [Axis::walls(0.0, CELLS); 2];
+    let rough = |p: &Particles<2>| floor(p, 0.1, 1.0).with_friction(Friction::rough(1.0).unwrap());
+    assert!(refused(rough, walls).to_string().contains("friction"));
+    let periodic = [Axis::walls(0.0, CELLS), Axis::periodic(0.0, CELLS)];
+    let smooth = |p: &Particles<2>| floor(p, 0.1, 1.0);
+    assert!(refused(smooth, periodic).to_string().contains("periodic"));
+}
+
+/// What no part of a step can keep open is an error that says so.
+#[test]
+fn a_face_that_jumps_on_the_body_is_a_typed_error() {
+    let mut solver = thrown(TimeRule::Midpoint { lumped: 0.1 }, 0.01);
+    let contact = &solver.scene.contacts[0];
+    let face = contact.face().moving([0.0, 1e4], 0.0).unwrap();
+    solver.scene.contacts[0] = RigidContact::new(face, contact.barrier());
+    let error = solver.step().unwrap_err();
+    let closed = matches!(
+        error,
+        Error::Breakdown {
+            fault: crate::Fault::GapClosed(gap),
+            ..
+        } if gap <= 0.0
+    );
+    assert!(closed, "{error}");
+}
