@@ -1,5 +1,7 @@
 //! Progress: bars on a terminal, plain lines otherwise.
 
+use anstream::adapter::strip_str;
+use anstream::{AutoStream, ColorChoice};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::error::Error;
 use mpm_verify::record::Record;
@@ -62,10 +64,12 @@ impl Runs {
         if !self.shown {
             return;
         }
-        if self.terminal {
-            let _ = self.bars.println(line);
+        if !self.terminal {
+            let _ = writeln!(anstream::stderr(), "{line}");
+        } else if AutoStream::choice(&io::stderr()) == ColorChoice::Never {
+            let _ = self.bars.println(strip_str(line).to_string());
         } else {
-            let _ = writeln!(io::stderr(), "{line}");
+            let _ = self.bars.println(line);
         }
     }
 }

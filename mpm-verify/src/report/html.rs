@@ -357,7 +357,7 @@ mod tests {
         for word in ["⚠ Broke down:", "something failed", "✗ FAILED"] {
             assert!(index.contains(word), "{word}");
         }
-        let sentence = "Of 3 runs 1 are right, 0 wrong as known, 0 not judged, 2 FAILED.";
+        let sentence = "Of 3 runs, 1 right, 0 wrong as known, 0 not judged, 2 FAILED.";
         assert!(case.contains(sentence), "{case}");
         assert!(case.contains("broke down at 1 s"));
     }

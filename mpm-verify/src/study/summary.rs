@@ -100,8 +100,9 @@ impl fmt::Display for Counts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{} runs: {} right, {} wrong as known, {} not judged, {} FAILED.",
+            "{} run{}: {} right, {} wrong as known, {} not judged, {} FAILED.",
             self.runs,
+            if self.runs == 1 { "" } else { "s" },
             self.right_runs,
             self.wrong_as_known_runs,
             self.not_judged_runs,

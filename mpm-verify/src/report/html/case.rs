@@ -95,9 +95,12 @@ fn sentence(study: &CaseStudy) -> String {
         true => String::new(),
         false => format!(" Known limits seen: {}.", limits.join(", ")),
     };
+    let all = match study.records.len() {
+        1 => "Of one run,".to_owned(),
+        several => format!("Of {several} runs,"),
+    };
     format!(
-        "Of {} runs {} are right, {} wrong as known, {} not judged, {} FAILED.{known}",
-        study.records.len(),
+        "{all} {} right, {} wrong as known, {} not judged, {} FAILED.{known}",
         count(Outcome::Right),
         count(Outcome::WrongAsKnown),
         count(Outcome::NotJudged),
