@@ -99,7 +99,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         family(Nightly, levels, &other_transfers(), &[]),
         family(
             Nightly,
-            &levels[..4],
+            levels,
             &[Scheme::explicit(Gimp, none, TransferName::Musl)],
             &[],
         ),
