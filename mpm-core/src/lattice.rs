@@ -92,6 +92,17 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         }
     }
 
+    /// The functions that see a point `x` (m), a particle without size.
+    #[must_use]
+    pub fn stencil_of_point(&self, x: &[f64; D]) -> Stencil<D, S> {
+        let axis: [AxisWeights<S>; D] = std::array::from_fn(|a| self.bases[a].at_point(x[a]));
+        Stencil {
+            first: self.node(&axis.each_ref().map(|axis| axis.first)),
+            axis,
+            strides: self.strides,
+        }
+    }
+
     /// The node of these indices along the axes.
     #[inline(always)]
     fn node(&self, index: &[usize; D]) -> usize {

@@ -82,6 +82,24 @@ impl Basis<3> for Gimp {
         }
     }
 
+    /// The hats themselves, to which the means tend.
+    fn at_point(&self, x: f64) -> AxisWeights<3> {
+        let place = (x - self.origin) * self.inverse_h;
+        let first = place.floor().clamp(0.0, self.axis.cells as f64);
+        let t = place - first;
+        // Past one the point lies between the second and the third node: on the last vertex, or beyond it.
+        let (w, dw) = if t <= 1.0 {
+            ([1.0 - t, t, 0.0], [-1.0, 1.0, 0.0])
+        } else {
+            ([0.0, 2.0 - t, t - 1.0], [0.0, -1.0, 1.0])
+        };
+        AxisWeights {
+            first: first as usize,
+            w,
+            dw: dw.map(|dw| dw * self.inverse_h),
+        }
+    }
+
     #[inline(always)]
     fn weights_of_eight(&self, x: Eight, half_size: f64) -> EightAxisWeights<3> {
         let (first, w, dw) = self.functions(x, half_size);

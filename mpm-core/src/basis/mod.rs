@@ -99,6 +99,11 @@ pub trait Basis<const S: usize>: Send + Sync + Sized {
     /// that reaches `half_size` (m, at most half a cell) to either side.
     fn weights(&self, x: f64, half_size: f64) -> AxisWeights<S>;
 
+    /// Values and derivatives at a point `x` (m): of a particle without size.
+    fn at_point(&self, x: f64) -> AxisWeights<S> {
+        self.weights(x, 0.0)
+    }
+
     /// The same for eight particles. A basis for which it pays computes them side by side.
     #[inline(always)]
     fn weights_of_eight(&self, x: Eight, half_size: f64) -> EightAxisWeights<S> {

@@ -146,6 +146,26 @@ fn interior_splines_are_the_textbook_ones() {
     }
 }
 
+/// Means tend to hats where domains shrink, and of a point they are the hats: also on the last vertex and beyond it.
+#[test]
+fn of_a_point_means_are_hats() {
+    let axis = Axis::open(-1.0, 8);
+    let basis = Gimp::new(&axis, 0.5, WallTreatment::OpenKnot);
+    let nodes = basis.nodes().position;
+    for x in [-1.2, -1.0, -0.9, 0.0, 0.3, 2.99, 3.0, 3.4] {
+        let at = basis.at_point(x);
+        for (k, (w, dw)) in at.w.iter().zip(at.dw).enumerate() {
+            let distance = (x - nodes[at.first + k]) / 0.5;
+            assert!(
+                (w - (1.0 - distance.abs()).max(0.0)).abs() < 1e-14,
+                "{x} {k}"
+            );
+            assert!(*w == 0.0 || *w == 1.0 || (dw + 2.0 * distance.signum()).abs() < 1e-14);
+        }
+        assert!(at.dw.iter().sum::<f64>().abs() < 1e-14);
+    }
+}
+
 #[test]
 fn gimp_is_the_average_of_the_hat_over_the_particle() {
     // Midpoint rule on 20,000 points of a piecewise linear function: error below 1e-8.

@@ -1,20 +1,23 @@
 //! The functions that see the particles, as they are at a step's start and stay in all of it.
 
+use super::domains::Domains;
 use super::extension::Shares;
 use super::interpolation::{Functions, Interpolation};
-use crate::particles::Particles;
+use super::newton::dot;
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 use std::mem::take;
 use std::ops::{AddAssign, Range};
 
+/// Units in the last place by which a stress is rounded.
+const LAST_BITS: f64 = 4.0;
 /// Elements that one thread sums at once.
 const BATCH: usize = 64;
 
 /// Particles in runs that the same nodes see, with values and gradients of the functions.
-pub(super) struct Elements<const D: usize> {
+pub(crate) struct Elements<const D: usize> {
     /// Particles of every element.
-    pub(super) particles: Vec<Range<usize>>,
+    pub(crate) particles: Vec<Range<usize>>,
     /// Nodes of the elements, one after the other; images are their originals.
     node: Vec<usize>,
     /// Where the nodes of every element begin, and those of the last one end.
@@ -30,30 +33,38 @@ pub(super) struct Elements<const D: usize> {
 }
 
 /// The order of particles by element, stable within one.
-pub(super) fn order<const D: usize, I: Interpolation<D>>(
+pub(crate) fn order<const D: usize, I: Interpolation<D>>(
     functions_of: &I,
-    particles: &Particles<D>,
+    domains: Domains<D>,
 ) -> Vec<u32> {
-    let mut functions = Functions::new();
-    let element = |x: &[f64; D]| {
-        functions_of.functions(x, &particles.half_size, &mut functions);
-        functions.element
-    };
-    let elements: Vec<usize> = particles.position.iter().map(element).collect();
+    let elements = of_domains(functions_of, domains);
     let mut order: Vec<u32> = (0..elements.len() as u32).collect();
     order.sort_by_key(|p| elements[*p as usize]);
     order
 }
 
+/// The element of every domain.
+pub(crate) fn of_domains<const D: usize, I: Interpolation<D>>(
+    functions_of: &I,
+    domains: Domains<D>,
+) -> Vec<usize> {
+    let mut functions = Functions::new();
+    let element = |(x, half_size): (&[f64; D], [f64; D])| {
+        functions_of.functions(x, &half_size, &mut functions);
+        functions.element
+    };
+    domains.iter().map(element).collect()
+}
+
 impl<const D: usize> Elements<D> {
     /// Of particles that stand in the [`order`] of elements.
-    pub(super) fn new<I: Interpolation<D>>(
+    pub(crate) fn new<I: Interpolation<D>>(
         functions_of: &I,
         originals: &[usize],
-        particles: &Particles<D>,
+        domains: Domains<D>,
     ) -> Self {
         let support = functions_of.support();
-        let count = particles.len();
+        let count = domains.centre.len();
         let mut elements = Self {
             particles: Vec::new(),
             node: Vec::new(),
@@ -65,8 +76,8 @@ impl<const D: usize> Elements<D> {
         };
         let mut functions = Functions::new();
         let mut last = None;
-        for (p, x) in particles.position.iter().enumerate() {
-            functions_of.functions(x, &particles.half_size, &mut functions);
+        for (p, (x, half_size)) in domains.iter().enumerate() {
+            functions_of.functions(x, &half_size, &mut functions);
             if last != Some(functions.element) {
                 last = Some(functions.element);
                 elements.particles.push(p..p);
@@ -87,7 +98,7 @@ impl<const D: usize> Elements<D> {
 
     /// The same where nodes follow others by their shares: functions of those that are followed take up those of the
     /// followers.
-    pub(super) fn extended(&self, shares: &Shares) -> Self {
+    pub(crate) fn extended(&self, shares: &Shares) -> Self {
         let mut extended = Self {
             particles: self.particles.clone(),
             node: Vec::new(),
@@ -137,7 +148,7 @@ impl<const D: usize> Elements<D> {
     }
 
     /// Σ w `of` of every one of `nodes` nodes, such as its volume or mass; NaN of one that no element has.
-    pub(super) fn sums(&self, nodes: usize, of: &[f64]) -> Vec<f64> {
+    pub(crate) fn sums(&self, nodes: usize, of: &[f64]) -> Vec<f64> {
         let mut sums = vec![f64::NAN; nodes];
         for node in &self.node {
             sums[*node] = 0.0;
@@ -150,42 +161,68 @@ impl<const D: usize> Elements<D> {
         sums
     }
 
+    /// Σ w f of every one of `nodes` nodes (N), for forces f on the particles, or none.
+    pub(crate) fn forces(&self, nodes: usize, of: &[[f64; D]]) -> Vec<SVector<f64, D>> {
+        let mut forces = vec![SVector::zeros(); nodes];
+        if !of.is_empty() {
+            self.scatter(SVector::zeros(), &mut forces, |p, sums| {
+                let force = SVector::from(of[p]);
+                for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
+                    *sum += force * *w;
+                }
+            });
+        }
+        forces
+    }
+
+    /// What rounding of a stress by some last bits of a `modulus` (Pa) makes of the forces on `nodes` nodes, in their
+    /// norm (N), of particles of these volumes (m³).
+    pub(crate) fn rounding(&self, nodes: usize, volume: &[f64], modulus: f64) -> f64 {
+        let mut reach = vec![0.0; nodes];
+        self.scatter(0.0, &mut reach, |p, sums| {
+            for (sum, dw) in sums.iter_mut().zip(self.gradients(p)) {
+                *sum += volume[p] * dot(dw, dw).sqrt();
+            }
+        });
+        LAST_BITS * f64::EPSILON * modulus * dot(&reach, &reach).sqrt()
+    }
+
     /// Σ w of a field on the nodes at a particle.
-    pub(super) fn value(&self, particle: usize, field: &[SVector<f64, D>]) -> SVector<f64, D> {
+    pub(crate) fn value(&self, particle: usize, field: &[SVector<f64, D>]) -> SVector<f64, D> {
         let (nodes, w, _) = self.seen(particle);
         let pairs = nodes.iter().zip(w);
         pairs.fold(SVector::zeros(), |sum, (node, w)| sum + field[*node] * *w)
     }
 
     /// Pairs of a particle and a function that sees it.
-    pub(super) fn pairs(&self) -> usize {
+    pub(crate) fn pairs(&self) -> usize {
         self.w.len()
     }
 
     /// The nodes of an element.
-    pub(super) fn nodes_of(&self, element: usize) -> &[usize] {
+    pub(crate) fn nodes_of(&self, element: usize) -> &[usize] {
         &self.node[self.first_node[element]..self.first_node[element + 1]]
     }
 
     /// The nodes that see a particle, with values and gradients of their functions.
-    pub(super) fn seen(&self, particle: usize) -> (&[usize], &[f64], &[[f64; D]]) {
+    pub(crate) fn seen(&self, particle: usize) -> (&[usize], &[f64], &[[f64; D]]) {
         let range = self.first[particle]..self.first[particle + 1];
         let nodes = self.nodes_of(self.element[particle]);
         (nodes, &self.w[range.clone()], &self.dw[range])
     }
 
     /// Values and gradients of the functions that see a particle.
-    pub(super) fn gradients(&self, particle: usize) -> &[[f64; D]] {
+    pub(crate) fn gradients(&self, particle: usize) -> &[[f64; D]] {
         &self.dw[self.first[particle]..self.first[particle + 1]]
     }
 
     /// ΔF = I + Σ u ⊗ ∇w of a particle, Eq. (3) of `docs/implicit.md`, for the nodal increments `u` (m).
-    pub(super) fn deformation(&self, particle: usize, u: &[[f64; D]]) -> SMatrix<f64, D, D> {
+    pub(crate) fn deformation(&self, particle: usize, u: &[[f64; D]]) -> SMatrix<f64, D, D> {
         self.gather(SMatrix::identity(), particle, u)
     }
 
     /// Σ u ⊗ ∇w at a particle, for nodal values `u`.
-    pub(super) fn gradient(&self, particle: usize, u: &[[f64; D]]) -> SMatrix<f64, D, D> {
+    pub(crate) fn gradient(&self, particle: usize, u: &[[f64; D]]) -> SMatrix<f64, D, D> {
         self.gather(SMatrix::zeros(), particle, u)
     }
 
@@ -208,7 +245,7 @@ impl<const D: usize> Elements<D> {
 
     /// Σ `of`(particle) over the particles of every element, in parallel, added to `nodes` in the order of elements:
     /// `of` adds to its element's nodal values, which begin at `zero`.
-    pub(super) fn scatter<T: Copy + Send + Sync + AddAssign>(
+    pub(crate) fn scatter<T: Copy + Send + Sync + AddAssign>(
         &self,
         zero: T,
         nodes: &mut [T],

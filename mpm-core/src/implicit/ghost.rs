@@ -5,10 +5,10 @@
 //! together: γ E h^(2k−1) ∫ \[∂ₙᵏu\] · \[∂ₙᵏv\] with the degree k. All lower derivatives of a spline are continuous, so the
 //! jump is all by which the two differ. It vanishes where u is one polynomial of degree k.
 
-use super::penalty::{Moduli, Penalty};
+use super::domains::Domains;
+use super::penalty::Penalty;
 use super::pieces::{AxisPieces, Pieces};
 use crate::lattice::Lattice;
-use crate::particles::Particles;
 use nalgebra::DMatrix;
 
 /// Intervals of all axes, and which of them hold material.
@@ -71,12 +71,12 @@ impl<const D: usize> Cells<D> {
     }
 }
 
-/// The penalties of the faces near the edge of the body.
+/// The penalties of the faces near the edge of the body on a field with so many `components`, with γ E the `strength`.
 pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
     lattice: &Lattice<D, S, B>,
-    factor: f64,
-    moduli: Moduli,
-    particles: &Particles<D>,
+    strength: f64,
+    components: usize,
+    domains: Domains<D>,
 ) -> Vec<Penalty> {
     let h = lattice.grid.h;
     let axes: [AxisPieces; D] = std::array::from_fn(|a| B::pieces(&lattice.grid.axes[a], h));
@@ -85,8 +85,8 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
         active: vec![false; axes.iter().map(|a| a.top.len()).product()],
         axes,
     };
-    for x in &particles.position {
-        let stencil = lattice.stencil(x, &particles.half_size);
+    for (x, half_size) in domains.iter() {
+        let stencil = lattice.stencil(x, &half_size);
         let touched = stencil.axis.each_ref().map(|axis| B::touched(axis));
         for k in 0..touched.iter().product() {
             let mut rest = k;
@@ -109,7 +109,7 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
         2 => lattice.row_length(),
         _ => lattice.plane(),
     });
-    let scale = factor * moduli.young() * h.powi(2 * degree as i32 - 1);
+    let scale = strength * h.powi(2 * degree as i32 - 1);
     let mut found = Vec::new();
     for place in 0..cells.active.len() {
         let cell = cells.cell(place);
@@ -140,7 +140,7 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
                 }
                 index
             };
-            let mut stiffness = DMatrix::zeros(functions * D, functions * D);
+            let mut stiffness = DMatrix::zeros(functions * components, functions * components);
             for j in 0..functions {
                 for i in 0..functions {
                     let (p, q) = (split(i), split(j));
@@ -148,8 +148,8 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
                     for a in (0..D).filter(|a| *a != normal) {
                         k *= cells.axes[a].mass[cell[a]][p[a]][q[a]];
                     }
-                    for c in 0..D {
-                        stiffness[(i * D + c, j * D + c)] = k;
+                    for c in 0..components {
+                        stiffness[(i * components + c, j * components + c)] = k;
                     }
                 }
             }

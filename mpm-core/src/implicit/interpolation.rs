@@ -1,15 +1,15 @@
 //! What the implicit solver asks of the functions on a grid.
 
+use super::domains::Domains;
 use super::extension::{Nodes, Shares};
 use super::penalty::{Moduli, Penalty};
 use super::pieces::Pieces;
 use super::settings::Stabilisation;
 use super::{extension, ghost, soft};
-use crate::basis::WallTreatment;
+use crate::basis::{Gimp, Linear, WallTreatment};
 use crate::error::Error;
 use crate::grid::Grid;
 use crate::lattice::{Lattice, Stencil};
-use crate::particles::Particles;
 
 /// The functions that see a place, and which they are.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +33,26 @@ impl<const D: usize> Functions<D> {
             node: Vec::new(),
             w: Vec::new(),
             dw: Vec::new(),
+        }
+    }
+
+    /// Those of a stencil.
+    fn set<const S: usize>(&mut self, stencil: &Stencil<D, S>) {
+        let last = stencil.last();
+        self.element = stencil.first();
+        self.node.clear();
+        self.w.clear();
+        self.dw.clear();
+        let (lines, rows) = Stencil::<D, S>::OUTER;
+        for r in 0..lines * rows {
+            let row = stencil.row(r / rows, r % rows);
+            for k in 0..S {
+                let mut dw = row.gradient.map(|g| g * last.w[k]);
+                dw[D - 1] = row.w * last.dw[k];
+                self.node.push(row.node + k);
+                self.w.push(row.w * last.w[k]);
+                self.dw.push(dw);
+            }
         }
     }
 }
@@ -84,18 +104,50 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error>;
 
     /// The penalties of a stabilisation that is [offered](Self::offers), on the increment of a step, for a material of
-    /// `moduli` where `particles` are.
+    /// `moduli` where `domains` are.
     fn penalties(
         &self,
         stabilisation: Stabilisation,
         moduli: Moduli,
-        particles: &Particles<D>,
+        domains: Domains<D>,
     ) -> Vec<Penalty>;
 
     /// The shares by which nodes that see hardly any material follow others, of functions that offer the
     /// [extension](Stabilisation::Extension).
     fn extension(&self, nodes: &Nodes) -> Shares;
 }
+
+/// Hats, or their means over the domains of particles.
+pub trait OfHats<const D: usize>: Interpolation<D> {
+    /// Whether they are means.
+    const MEANS: bool;
+
+    /// The hats of the same nodes at a point `x` (m).
+    fn hats(&self, x: &[f64; D], functions: &mut Functions<D>);
+
+    /// The ghost penalty of a field with so many `components` where `domains` are, γ E being the `strength` (Pa, or what
+    /// gives a field of another kind its unit).
+    fn ghost(&self, strength: f64, components: usize, domains: Domains<D>) -> Vec<Penalty>;
+}
+
+macro_rules! of_hats {
+    ($nodes:literal, $basis:ty, means: $means:literal) => {
+        impl<const D: usize> OfHats<D> for Lattice<D, $nodes, $basis> {
+            const MEANS: bool = $means;
+
+            fn hats(&self, x: &[f64; D], functions: &mut Functions<D>) {
+                functions.set(&self.stencil_of_point(x));
+            }
+
+            fn ghost(&self, strength: f64, components: usize, domains: Domains<D>) -> Vec<Penalty> {
+                ghost::penalties(self, strength, components, domains)
+            }
+        }
+    };
+}
+
+of_hats!(2, Linear, means: false);
+of_hats!(3, Gimp, means: true);
 
 impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<D, S, B> {
     fn on(grid: Grid<D>) -> Result<Self, Error> {
@@ -125,23 +177,7 @@ impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<
     }
 
     fn functions(&self, x: &[f64; D], half_size: &[f64; D], functions: &mut Functions<D>) {
-        let stencil = self.stencil(x, half_size);
-        let last = stencil.last();
-        functions.element = stencil.first();
-        functions.node.clear();
-        functions.w.clear();
-        functions.dw.clear();
-        let (lines, rows) = Stencil::<D, S>::OUTER;
-        for r in 0..lines * rows {
-            let row = stencil.row(r / rows, r % rows);
-            for k in 0..S {
-                let mut dw = row.gradient.map(|g| g * last.w[k]);
-                dw[D - 1] = row.w * last.dw[k];
-                functions.node.push(row.node + k);
-                functions.w.push(row.w * last.w[k]);
-                functions.dw.push(dw);
-            }
-        }
+        functions.set(&self.stencil(x, half_size));
     }
 
     fn beyond_wall(half_size: f64) -> f64 {
@@ -163,11 +199,13 @@ impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<
         &self,
         stabilisation: Stabilisation,
         moduli: Moduli,
-        particles: &Particles<D>,
+        domains: Domains<D>,
     ) -> Vec<Penalty> {
         match stabilisation {
             Stabilisation::None | Stabilisation::Extension => Vec::new(),
-            Stabilisation::Ghost(factor) => ghost::penalties(self, factor, moduli, particles),
+            Stabilisation::Ghost(factor) => {
+                ghost::penalties(self, factor * moduli.young(), D, domains)
+            }
             Stabilisation::Soft(factor) => soft::penalties(self, S, factor, moduli),
         }
     }

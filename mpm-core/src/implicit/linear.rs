@@ -15,7 +15,7 @@ const PAR: Par = Par::Seq;
 
 /// Why a system has no solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Singular;
+pub(crate) struct Singular;
 
 enum Factors {
     None,
@@ -24,10 +24,10 @@ enum Factors {
 }
 
 /// Solves systems of one pattern after the other; the order of elimination is kept as long as the pattern is.
-pub(super) struct Direct {
+pub(crate) struct Direct {
     symmetric: bool,
     /// The pattern of the matrices; it can be of a solver that was saved, whose factors are not kept.
-    pub(super) pattern: Pattern,
+    pub(crate) pattern: Pattern,
     factors: Factors,
     memory: MemBuffer,
 }
@@ -40,7 +40,7 @@ fn matrix<'a>(pattern: &'a Pattern, values: &'a [f64]) -> SparseColMatRef<'a, us
 
 impl Direct {
     /// For matrices that are symmetric, or not.
-    pub(super) fn new(symmetric: bool) -> Self {
+    pub(crate) fn new(symmetric: bool) -> Self {
         Self {
             symmetric,
             pattern: Pattern::default(),
@@ -50,7 +50,7 @@ impl Direct {
     }
 
     /// Readies for matrices of a pattern.
-    pub(super) fn analyse(&mut self, pattern: &Pattern) -> Result<(), Singular> {
+    pub(crate) fn analyse(&mut self, pattern: &Pattern) -> Result<(), Singular> {
         if self.pattern == *pattern && !matches!(self.factors, Factors::None) {
             return Ok(());
         }
@@ -82,7 +82,7 @@ impl Direct {
     }
 
     /// Factorises the matrix with these entries.
-    pub(super) fn factorise(&mut self, values: &[f64]) -> Result<(), Singular> {
+    pub(crate) fn factorise(&mut self, values: &[f64]) -> Result<(), Singular> {
         let given = matrix(&self.pattern, values);
         let stack = MemStack::new(&mut self.memory);
         match &mut self.factors {
@@ -107,7 +107,7 @@ impl Direct {
     }
 
     /// Replaces `x` by the solution with the right-hand side `x`.
-    pub(super) fn solve(&mut self, x: &mut [f64]) {
+    pub(crate) fn solve(&mut self, x: &mut [f64]) {
         let n = x.len();
         let right = MatMut::from_column_major_slice_mut(x, n, 1);
         let stack = MemStack::new(&mut self.memory);
@@ -133,7 +133,7 @@ impl Direct {
     }
 
     /// The same with the transposed matrix.
-    pub(super) fn solve_transposed(&mut self, x: &mut [f64]) {
+    pub(crate) fn solve_transposed(&mut self, x: &mut [f64]) {
         if self.symmetric {
             return self.solve(x);
         }
@@ -153,7 +153,7 @@ impl Direct {
 
 /// Scales a matrix to a diagonal of ones, and of the result an estimate of the condition in the 1-norm (Hager 1984,
 /// doi:10.1137/0905023), from below; infinite of a singular one.
-pub(super) fn condition(symmetric: bool, pattern: &Pattern, values: &[f64]) -> f64 {
+pub(crate) fn condition(symmetric: bool, pattern: &Pattern, values: &[f64]) -> f64 {
     let n = pattern.len();
     let root: Vec<f64> = (0..n)
         .map(|i| pattern.place(i, i).map_or(1.0, |k| values[k].abs().sqrt()))

@@ -10,27 +10,30 @@
 mod average;
 mod commit;
 mod contact;
+mod domains;
 mod dynamics;
-mod elements;
+pub(crate) mod elements;
 mod equilibrium;
 mod extension;
 mod ghost;
+pub(crate) mod held;
 mod inertia;
 mod interpolation;
-mod linear;
+pub(crate) mod linear;
 mod memory;
-mod newton;
+pub(crate) mod newton;
 mod penalty;
 mod pieces;
 mod q8;
 mod response;
 mod settings;
 mod soft;
-mod start;
-mod unknowns;
+pub(crate) mod start;
+pub(crate) mod unknowns;
 
+pub use domains::{Domains, HalfSizes};
 pub use extension::{Nodes, Shares};
-pub use interpolation::{Functions, Interpolation};
+pub use interpolation::{Functions, Interpolation, OfHats};
 pub use penalty::{Moduli, Penalty};
 pub use pieces::{AxisPieces, Pieces};
 pub use q8::Serendipity;
@@ -51,23 +54,12 @@ use average::Average;
 use contact::Obstacle;
 use elements::Elements;
 use equilibrium::Step;
+use held::Held;
 use inertia::Inertia;
 use linear::Direct;
 use nalgebra::SVector;
-use newton::{Failure, Newton, clocked, dot};
+use newton::{Failure, Newton, clocked, in_parts};
 use unknowns::{Pattern, Unknowns};
-
-/// Units in the last place by which a stress is rounded.
-const LAST_BITS: f64 = 4.0;
-
-/// A component of a node that a constraint holds.
-#[derive(Debug, Clone, Copy)]
-struct Held {
-    /// Velocity (m/s) at the amplitude one.
-    velocity: f64,
-    /// Place of the constraint in the scene's list.
-    by: usize,
-}
 
 /// The quasi-static solver for one body on the functions `I`.
 pub struct Solver<const D: usize, I, M: Law> {
@@ -101,24 +93,15 @@ struct Setting<const D: usize> {
 }
 
 impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I, M> {
-    /// A load step, in parts if the whole of it finds no equilibrium: a part that fails is halved, one after a success
-    /// twice as long.
+    /// A load step, in parts if the whole of it finds no equilibrium.
     fn step(&mut self) -> Result<(), Error> {
         let (start, dt) = (self.time, self.settings.dt);
-        let shortest = 0.5_f64.powi(self.settings.most_halvings as i32);
-        let (mut done, mut size, mut parts) = (0.0, 1.0, 0);
-        while done < 1.0 {
-            match self.part(size * dt) {
-                Ok(()) => {
-                    done += size;
-                    parts += 1;
-                    self.time = start + done * dt;
-                    size = (2.0 * size).min(1.0 - done);
-                }
-                Err(failure) if size <= shortest => return Err(self.error(failure)),
-                Err(_) => size *= 0.5,
-            }
-        }
+        let parts = in_parts(self.settings.most_halvings, |done, size| {
+            self.part(size * dt)?;
+            self.time = start + (done + size) * dt;
+            Ok(())
+        })
+        .map_err(|failure| self.error(failure))?;
         self.convergence.parts = parts;
         self.work.steps += 1;
         self.work.particle_steps += self.work.particles;
@@ -232,7 +215,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// The functions at the particles, and the average.
     fn averaging(&self) -> (Elements<D>, Average) {
         let particles = &self.scene.body.particles;
-        let mut elements = Elements::new(&self.functions, &self.originals, particles);
+        let mut elements = Elements::new(&self.functions, &self.originals, Domains::of(particles));
         if self.settings.stabilisation == Stabilisation::Extension {
             let volume = elements.sums(self.functions.len(), &particles.volume);
             let held: Vec<bool> = self
@@ -256,26 +239,17 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let particles = &self.scene.body.particles;
         let (elements, average) = self.averaging();
         let stabilisation = self.settings.stabilisation;
-        let mut penalties = self
-            .functions
-            .penalties(stabilisation, self.moduli, particles);
+        let mut penalties =
+            self.functions
+                .penalties(stabilisation, self.moduli, Domains::of(particles));
         for node in penalties.iter_mut().flat_map(|p| &mut p.node) {
             *node = self.originals[*node];
         }
         let place = self.settings.rule.place();
-        let increments: Vec<f64> = self
-            .scene
-            .constraints
-            .iter()
-            .map(|c| {
-                // Simpson's rule: exact where an amplitude is a cubic, as smooth rises are.
-                let at = |share: f64| c.amplitude(self.time + share * dt);
-                place * dt * (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
-            })
-            .collect();
+        let travel = held::travel(&self.scene.constraints, self.time, dt);
         let prescribed = |node: usize, axis: usize| {
             let held = self.held[node][axis]?;
-            Some(held.velocity * increments[held.by])
+            Some(held.velocity * (place * travel[held.by]))
         };
         let nodes = self.functions.len();
         let unknowns = Unknowns::new(nodes, &elements, &penalties, prescribed);
@@ -296,7 +270,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
 
     /// Puts the particles that the same nodes see side by side.
     fn sort(&mut self) {
-        let order = elements::order(&self.functions, &self.scene.body.particles);
+        let order = elements::order(&self.functions, Domains::of(&self.scene.body.particles));
         if !order.is_sorted() {
             self.scene.body.permute(&order);
             self.work.sorts += 1;
@@ -310,30 +284,15 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         for load in &self.scene.loads {
             load.add(time, particles);
         }
-        let mut forces = vec![SVector::zeros(); self.functions.len()];
-        if !particles.external_force.is_empty() {
-            elements.scatter(SVector::zeros(), &mut forces, |p, sums| {
-                let force = SVector::from(particles.external_force[p]);
-                for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
-                    *sum += force * *w;
-                }
-            });
-        }
-        forces
+        elements.forces(self.functions.len(), &particles.external_force)
     }
 
     /// What rounding of a stress by some last bits of the modulus of pressure waves makes of the forces, in their norm (N):
     /// a nearly incompressible body has no smaller residual.
     fn rounding(&self, elements: &Elements<D>) -> f64 {
         let volume = &self.scene.body.particles.volume;
-        let mut reach = vec![0.0; self.functions.len()];
-        elements.scatter(0.0, &mut reach, |p, sums| {
-            for (sum, dw) in sums.iter_mut().zip(elements.gradients(p)) {
-                *sum += volume[p] * dot(dw, dw).sqrt();
-            }
-        });
         let modulus = self.moduli.lambda + 2.0 * self.moduli.mu;
-        LAST_BITS * f64::EPSILON * modulus * dot(&reach, &reach).sqrt()
+        elements.rounding(self.functions.len(), volume, modulus)
     }
 
     /// A part of a load step, of `dt` (s).
@@ -380,33 +339,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     }
 
     fn error(&self, failure: Failure) -> Error {
-        let (time, step) = (self.time, self.work.steps);
-        match failure {
-            Failure::NoConvergence(iteration, residual) => Error::NoConvergence {
-                time,
-                step,
-                iteration,
-                residual,
-            },
-            Failure::Singular(iteration) => Error::Singular {
-                time,
-                step,
-                iteration,
-            },
-            Failure::Particle(index, fault) => Error::Breakdown {
-                time,
-                step,
-                particle: self
-                    .scene
-                    .body
-                    .particles
-                    .id
-                    .get(index)
-                    .copied()
-                    .unwrap_or(0),
-                fault,
-            },
-        }
+        let ids = &self.scene.body.particles.id;
+        failure.error(self.time, self.work.steps, ids)
     }
 }
 

@@ -5,7 +5,7 @@ use super::linear::Direct;
 use super::response::Tangent;
 use super::settings::Settings;
 use super::unknowns::Pattern;
-use crate::error::Fault;
+use crate::error::{Error, Fault};
 use crate::material::Law;
 use crate::monitor::Convergence;
 use crate::work::{Spent, Work};
@@ -24,13 +24,60 @@ const COARSE: f64 = 1e-2;
 
 /// Why a step has no solution.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Failure {
+pub(crate) enum Failure {
     /// After this many iterations the residual, over that of the loads, was this.
     NoConvergence(u32, f64),
     /// The matrix of this iteration could not be factorised.
     Singular(u32),
     /// A particle was deformed beyond what can be.
     Particle(usize, Fault),
+}
+
+impl Failure {
+    /// The error of a run at a `time` (s), after so many steps, of particles with these identities.
+    pub(crate) fn error(self, time: f64, step: u64, ids: &[u32]) -> Error {
+        match self {
+            Self::NoConvergence(iteration, residual) => Error::NoConvergence {
+                time,
+                step,
+                iteration,
+                residual,
+            },
+            Self::Singular(iteration) => Error::Singular {
+                time,
+                step,
+                iteration,
+            },
+            Self::Particle(index, fault) => Error::Breakdown {
+                time,
+                step,
+                particle: ids.get(index).copied().unwrap_or(0),
+                fault,
+            },
+        }
+    }
+}
+
+/// Goes through a step by `part`, which is told the share of it that is done and that which is to do: a part that
+/// fails is halved, up to `most_halvings` times, one after a success twice as long. Returns how many parts there were.
+pub(crate) fn in_parts(
+    most_halvings: u32,
+    mut part: impl FnMut(f64, f64) -> Result<(), Failure>,
+) -> Result<u32, Failure> {
+    let shortest = 0.5_f64.powi(most_halvings as i32);
+    let (mut done, mut size, mut parts) = (0.0, 1.0, 0);
+    while done < 1.0 {
+        match part(done, size) {
+            Ok(()) => {
+                done += size;
+                parts += 1;
+                size = (2.0 * size).min(1.0 - done);
+            }
+            Err(failure) if size <= shortest => return Err(failure),
+            Err(_) => size *= 0.5,
+        }
+    }
+    Ok(parts)
 }
 
 impl From<(usize, Fault)> for Failure {
@@ -66,18 +113,18 @@ pub(super) struct Newton<'a, const D: usize, M: Law> {
 }
 
 /// Adds the time (s) that `work` takes to `spent`.
-pub(super) fn clocked<T>(spent: &mut f64, work: impl FnOnce() -> T) -> T {
+pub(crate) fn clocked<T>(spent: &mut f64, work: impl FnOnce() -> T) -> T {
     let begun = Instant::now();
     let done = work();
     *spent += begun.elapsed().as_secs_f64();
     done
 }
 
-pub(super) fn norm(x: &[f64]) -> f64 {
+pub(crate) fn norm(x: &[f64]) -> f64 {
     dot(x, x).sqrt()
 }
 
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

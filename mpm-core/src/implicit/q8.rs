@@ -2,6 +2,7 @@
 //!
 //! Corners and mid-sides stand on a lattice of half the cell size, whose points in the middle of cells are no nodes.
 
+use super::domains::Domains;
 use super::extension::{Nodes, Shares};
 use super::interpolation::{Functions, Interpolation};
 use super::penalty::{Moduli, Penalty};
@@ -9,7 +10,6 @@ use super::settings::Stabilisation;
 use super::{extension, soft};
 use crate::error::{Error, require};
 use crate::grid::Grid;
-use crate::particles::Particles;
 
 /// Nodes of an element.
 const NODES: usize = 8;
@@ -145,7 +145,7 @@ impl Interpolation<2> for Serendipity {
         &self,
         stabilisation: Stabilisation,
         moduli: Moduli,
-        _particles: &Particles<2>,
+        _domains: Domains<2>,
     ) -> Vec<Penalty> {
         match stabilisation {
             Stabilisation::Soft(factor) => soft::penalties(self, POINTS, factor, moduli),

@@ -1,13 +1,13 @@
 //! A solver before its first step.
 
+use super::held;
 use super::linear::Direct;
-use super::{Held, Interpolation, Moduli, Remedy, Settings, Solver, TimeRule, contact};
+use super::{Interpolation, Moduli, Remedy, Settings, Solver, TimeRule, contact};
 use crate::error::{Error, require};
 use crate::material::Law;
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
 use crate::room::Room;
 use crate::scene::Scene;
-use crate::stage::Bound;
 use crate::work::{Spent, Work};
 use nalgebra::Matrix3;
 
@@ -20,17 +20,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     pub fn new(mut scene: Scene<D, M>, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
         contact::check(&scene.contacts, &scene.grid)?;
-        let one_sided = scene
-            .constraints
-            .iter()
-            .filter(|c| c.bound() != Bound::Equal)
-            .count();
-        require(
-            one_sided == 0,
-            "one-sided constraints of a quasi-static run",
-            one_sided as f64,
-            "none: walls are fixed or rollers there",
-        )?;
+        held::check(&scene.constraints)?;
         let averages = settings.remedy == Remedy::FbarConsistent;
         require(
             M::CONSERVATIVE || !averages,
@@ -86,18 +76,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             nodes: functions.len() as u64,
             ..Work::default()
         };
-        let mut held = vec![[None; D]; functions.len()];
-        functions.for_each_node(|node, position| {
-            for (axis, held) in held[node].iter_mut().enumerate() {
-                *held = scene.constraints.iter().enumerate().find_map(|(by, c)| {
-                    let velocity = c.prescribe(&scene.grid, &position, axis)?;
-                    Some(Held { velocity, by })
-                });
-            }
-        });
         let mut solver = Self {
             originals: functions.originals(),
-            held,
+            held: held::components(&functions, &scene),
             moduli,
             direct: Direct::new(M::CONSERVATIVE),
             time: 0.0,
@@ -120,7 +101,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
 }
 
 /// Lamé's parameters of undeformed material, from the law's tangent.
-fn moduli_of<M: Law>(law: &M, dt: f64) -> Moduli {
+pub(crate) fn moduli_of<M: Law>(law: &M, dt: f64) -> Moduli {
     let tangent = law.tangent(&Matrix3::identity(), dt, &law.initial_state());
     Moduli {
         lambda: tangent.xx.slope[4],

@@ -8,19 +8,19 @@ use serde::{Deserialize, Serialize};
 const NONE: usize = usize::MAX;
 
 /// The components of displacement of the nodes that a step moves.
-pub(super) struct Unknowns<const D: usize> {
+pub(crate) struct Unknowns<const D: usize> {
     /// Of every node its place among those that move, `NONE` of one that sees nothing.
     place: Vec<usize>,
     /// The nodes, in their order.
-    pub(super) node: Vec<usize>,
+    pub(crate) node: Vec<usize>,
     /// Of every unknown the increment (m) at which it is held.
-    pub(super) held: Vec<Option<f64>>,
+    pub(crate) held: Vec<Option<f64>>,
 }
 
 impl<const D: usize> Unknowns<D> {
     /// The components of nodes that see a particle or a penalty. A function with no value but a gradient at a particle
     /// bears force and counts.
-    pub(super) fn new(
+    pub(crate) fn new(
         nodes: usize,
         elements: &Elements<D>,
         penalties: &[Penalty],
@@ -49,22 +49,22 @@ impl<const D: usize> Unknowns<D> {
     }
 
     /// How many unknowns there are, held ones included.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.held.len()
     }
 
     /// The place of a node among those that move, if it does.
-    pub(super) fn of(&self, node: usize) -> Option<usize> {
+    pub(crate) fn of(&self, node: usize) -> Option<usize> {
         Some(self.place[node]).filter(|place| *place != NONE)
     }
 
     /// Whether a component of the node at a place is free: of a pressure, behind the displacements, always.
-    pub(super) fn is_free(&self, place: usize, component: usize) -> bool {
+    pub(crate) fn is_free(&self, place: usize, component: usize) -> bool {
         component >= D || self.held[place * D + component].is_none()
     }
 
     /// The nodal increments with the values `u` of the unknowns (m).
-    pub(super) fn spread(&self, u: &[f64], nodes: &mut [[f64; D]]) {
+    pub(crate) fn spread(&self, u: &[f64], nodes: &mut [[f64; D]]) {
         for (node, u) in self.node.iter().zip(u.as_chunks().0) {
             nodes[*node] = *u;
         }
@@ -73,18 +73,18 @@ impl<const D: usize> Unknowns<D> {
 
 /// Where the entries of a matrix are: column by column, rows in order. Held unknowns have their diagonal alone.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct Pattern {
+pub(crate) struct Pattern {
     /// Components of a node: its displacements, and with F̄ a pressure.
-    pub(super) width: usize,
+    pub(crate) width: usize,
     /// Where each column begins, and the last one ends.
-    pub(super) begin: Vec<usize>,
+    pub(crate) begin: Vec<usize>,
     /// Row of every entry.
-    pub(super) row: Vec<usize>,
+    pub(crate) row: Vec<usize>,
 }
 
 impl Pattern {
     /// Of matrices with `width` components a node.
-    pub(super) fn new<const D: usize>(
+    pub(crate) fn new<const D: usize>(
         width: usize,
         unknowns: &Unknowns<D>,
         elements: &Elements<D>,
@@ -128,17 +128,17 @@ impl Pattern {
     }
 
     /// Unknowns.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.begin.len() - 1
     }
 
     /// Entries.
-    pub(super) fn entries(&self) -> usize {
+    pub(crate) fn entries(&self) -> usize {
         self.row.len()
     }
 
     /// The place of an entry, if it is one.
-    pub(super) fn place(&self, row: usize, column: usize) -> Option<usize> {
+    pub(crate) fn place(&self, row: usize, column: usize) -> Option<usize> {
         let begin = self.begin[column];
         let rows = &self.row[begin..self.begin[column + 1]];
         rows.binary_search(&row).ok().map(|k| begin + k)

@@ -1,0 +1,61 @@
+//! Components of nodes that constraints hold.
+
+use super::interpolation::Interpolation;
+use crate::error::{Error, require};
+use crate::material::Law;
+use crate::scene::Scene;
+use crate::stage::{Bound, Constraint};
+
+/// A component of a node that a constraint holds.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Held {
+    /// Velocity (m/s) at the amplitude one.
+    pub(crate) velocity: f64,
+    /// Place of the constraint in the scene's list.
+    pub(crate) by: usize,
+}
+
+/// Refuses constraints on one side.
+pub(crate) fn check<const D: usize>(constraints: &[Box<dyn Constraint<D>>]) -> Result<(), Error> {
+    let one_sided = constraints.iter().filter(|c| c.bound() != Bound::Equal);
+    let count = one_sided.count();
+    require(
+        count == 0,
+        "one-sided constraints of a quasi-static run",
+        count as f64,
+        "none: walls are fixed or rollers there",
+    )
+}
+
+/// Of every component of every node what holds it: the first of the scene's constraints that does.
+pub(crate) fn components<const D: usize, I: Interpolation<D>, M: Law>(
+    functions: &I,
+    scene: &Scene<D, M>,
+) -> Vec<[Option<Held>; D]> {
+    let mut held = vec![[None; D]; functions.len()];
+    functions.for_each_node(|node, position| {
+        for (axis, held) in held[node].iter_mut().enumerate() {
+            *held = scene.constraints.iter().enumerate().find_map(|(by, c)| {
+                let velocity = c.prescribe(&scene.grid, &position, axis)?;
+                Some(Held { velocity, by })
+            });
+        }
+    });
+    held
+}
+
+/// The integrals of the constraints' amplitudes (s) over `dt` (s) from `time` (s).
+pub(crate) fn travel<const D: usize>(
+    constraints: &[Box<dyn Constraint<D>>],
+    time: f64,
+    dt: f64,
+) -> Vec<f64> {
+    constraints
+        .iter()
+        .map(|c| {
+            // Simpson's rule: exact where an amplitude is a cubic, as smooth rises are.
+            let at = |share: f64| c.amplitude(time + share * dt);
+            dt * (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
+        })
+        .collect()
+}
