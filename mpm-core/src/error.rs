@@ -40,6 +40,15 @@ pub enum Fault {
     /// The particle would enter a rigid body: its gap (m) is no longer positive.
     #[error("gap to a rigid body closes: {0} m")]
     GapClosed(f64),
+    /// The pores of a solid with incompressible grains would close.
+    #[error("porosity n = {0} is not positive")]
+    NonPositivePorosity(f64),
+    /// A face of the particle's domain lies in a cell without material: this share of a corner would be lost.
+    #[error("a share {0} of a loaded or drained face lies on a node that sees no particle")]
+    EmptyCell(f64),
+    /// The particle's domain has grown beyond a cell: half its size over the cell's.
+    #[error("half size of the domain is {0} cells, more than half a cell")]
+    WideDomain(f64),
 }
 
 impl Fault {
@@ -52,6 +61,9 @@ impl Fault {
             Self::OffGrid { .. } => "off-grid",
             Self::UnstableTimeStep { .. } => "unstable-time-step",
             Self::GapClosed(_) => "gap-closed",
+            Self::NonPositivePorosity(_) => "non-positive-porosity",
+            Self::EmptyCell(_) => "empty-cell",
+            Self::WideDomain(_) => "wide-domain",
         }
     }
 
@@ -62,6 +74,9 @@ impl Fault {
             Self::NotFinite { value, .. } | Self::OffGrid { value, .. } => value,
             Self::NonPositiveJacobian(j) => j,
             Self::GapClosed(gap) => gap,
+            Self::NonPositivePorosity(share) | Self::EmptyCell(share) | Self::WideDomain(share) => {
+                share
+            }
             Self::UnstableTimeStep { cfl, .. } => cfl,
         }
     }

@@ -2,8 +2,9 @@
 //!
 //! The method is that of Zhao, Jiang & Choo, "Circumventing volumetric locking in explicit
 //! material point methods" (2023); equation numbers in this crate are theirs. A [`Scene`] is a [`Grid`], a [`Body`] and
-//! what acts on it; a solver, behind [`Simulation`], moves it. There are two kinds: the
-//! [explicit](explicit::Solver) one, whose `step` is the algorithm, and the [quasi-static](implicit::Solver) one. What is
+//! what acts on it; a solver, behind [`Simulation`], moves it. There are three kinds: the
+//! [explicit](explicit::Solver) one, whose `step` is the algorithm, the [implicit](implicit::Solver) one, and that of
+//! [solid and water](poro::Solver). What is
 //! shared:
 //!
 //! * [`Grid`], [`Lattice`] and [`nodes`]: cells, axes, the nodes of a basis and what they hold in a step;
@@ -20,7 +21,8 @@
 //! ([`explicit::transfer`]: PIC/FLIP blend, APIC, XPIC) and remedies ([`explicit::remedy`]: how the averaged Jacobian J̄
 //! is formed).
 //!
-//! What only the implicit one needs, in [`implicit`]: functions as it asks for them, penalties, Newton's method.
+//! What only the implicit one needs, in [`implicit`]: functions as it asks for them, penalties, Newton's method. What a
+//! body with water has beside them, in [`poro`].
 //!
 //! All quantities are in SI units. The dimension is a const generic: 1 (uniaxial strain),
 //! 2 (plane strain) or 3.
@@ -42,6 +44,7 @@ pub mod number;
 pub mod order;
 pub mod parallel;
 pub mod particles;
+pub mod poro;
 pub mod projection;
 pub mod reach;
 mod room;

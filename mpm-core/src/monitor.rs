@@ -48,6 +48,15 @@ pub struct Convergence {
     pub parts: u32,
 }
 
+/// The water of a body since time zero.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct WaterBalance {
+    /// Volume that left (m³; m² in plane strain, m in 1D).
+    pub outflow: f64,
+    /// Change of the body's volume and outflow together (m³): what the scheme creates.
+    pub imbalance: f64,
+}
+
 /// What the body does to a part of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Reaction {

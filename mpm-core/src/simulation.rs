@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::memory::{Memory, Saved};
-use crate::monitor::{Convergence, Reaction, Residual, Totals};
+use crate::monitor::{Convergence, Reaction, Residual, Totals, WaterBalance};
 use crate::particles::Particles;
 use crate::tensor::SymmetricTensor;
 use crate::work::{Spent, Work};
@@ -25,6 +25,10 @@ pub enum Field {
     AveragedMeanStress,
     /// Equivalent plastic strain.
     PlasticStrain,
+    /// Pore pressure (Pa, compression positive); none of a body without water.
+    PorePressure,
+    /// Porosity; none of a body without water.
+    Porosity,
 }
 
 /// A run, whatever its solver, basis and law.
@@ -61,6 +65,14 @@ pub trait Simulation<const D: usize>: Memory + Send {
     }
     /// What the body does to a part of the scene; NaN of a part that there isn't.
     fn on(&self, part: Part) -> Reaction;
+    /// What left of the body's water, of a body that has any.
+    fn water(&self) -> Option<&WaterBalance> {
+        None
+    }
+    /// The nodes of the pore pressure that particles see, by place (m) and pressure (Pa); none of a body without water.
+    fn pressure_nodes(&self) -> Vec<([f64; D], f64)> {
+        Vec::new()
+    }
     /// The stress of every particle (Pa) that enters the next forces: the law's, with the remedy's share.
     fn force_stress(&mut self) -> Vec<SymmetricTensor>;
     /// A field, one value per particle.

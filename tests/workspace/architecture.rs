@@ -83,3 +83,27 @@ fn the_fingerprint_covers_what_makes_numbers_and_not_what_judges_or_draws() {
         assert!(!has(file), "{file}");
     }
 }
+
+/// A body without water carries nothing of it: no source but those of that solver knows a pore, and neither particles nor a
+/// scene have a column or part for it.
+#[test]
+fn a_dry_body_carries_no_water() {
+    let sources = files(&workspace().join("mpm-core").join("src"));
+    let mut own = 0;
+    for (source, text) in &sources {
+        let text = String::from_utf8_lossy(text);
+        if source.starts_with("poro") {
+            own += 1;
+        } else if source != Path::new("lib.rs") {
+            assert!(!text.contains("poro::"), "{}", source.display());
+        }
+    }
+    assert!(own > 0);
+    for dry in ["particles.rs", "scene.rs", "body.rs", "nodes.rs", "explicit/mod.rs"] {
+        let text = String::from_utf8_lossy(&sources[Path::new(dry)]).to_lowercase();
+        let code = text.lines().filter(|l| !l.trim_start().starts_with("//"));
+        for line in code.filter(|l| !l.contains("field::")) {
+            assert!(!line.contains("pore") && !line.contains("porosity"), "{dry}: {line}");
+        }
+    }
+}

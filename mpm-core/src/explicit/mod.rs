@@ -200,6 +200,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
 
     fn field(&mut self, field: Field) -> Vec<f64> {
         match field {
+            Field::PorePressure | Field::Porosity => Vec::new(),
             Field::PlasticStrain => self.scene.body.plastic_strain(),
             Field::MeanStress => self.force_stress().iter().map(|s| s.mean()).collect(),
             Field::AveragedMeanStress => {

@@ -187,6 +187,11 @@ impl<const D: usize> Elements<D> {
         LAST_BITS * f64::EPSILON * modulus * dot(&reach, &reach).sqrt()
     }
 
+    /// The element of a particle.
+    pub(crate) fn element_of(&self, particle: usize) -> usize {
+        self.element[particle]
+    }
+
     /// Σ w of a field on the nodes at a particle.
     pub(crate) fn value(&self, particle: usize, field: &[SVector<f64, D>]) -> SVector<f64, D> {
         let (nodes, w, _) = self.seen(particle);

@@ -176,6 +176,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
 
     fn field(&mut self, field: Field) -> Vec<f64> {
         match field {
+            Field::PorePressure | Field::Porosity => Vec::new(),
             Field::PlasticStrain => self.scene.body.plastic_strain(),
             Field::MeanStress => self.force_stress().iter().map(|s| s.mean()).collect(),
             Field::AveragedMeanStress => {

@@ -3,12 +3,14 @@
 mod hencky;
 mod hencky_j2;
 mod hypoelastic;
+mod improved_hencky;
 mod neo_hookean;
 mod newtonian_fluid;
 
 pub use hencky::Hencky;
 pub use hencky_j2::{ElastoplasticState, HenckyJ2, Strength};
 pub use hypoelastic::{Hypoelastic, JaumannUpdate};
+pub use improved_hencky::ImprovedHencky;
 pub use neo_hookean::NeoHookean;
 pub use newtonian_fluid::NewtonianFluid;
 

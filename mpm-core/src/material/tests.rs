@@ -209,6 +209,38 @@ every_law_must!(
 
 every_law_must!(hencky_solid, Hencky::new(70.0, 0.4).unwrap());
 
+every_law_must!(porous_solid, ImprovedHencky::new(70.0, 40.0, 0.9).unwrap());
+
+/// τ = K v/n − K v² (1 − n)/(2n²) in every direction, which keeps pores open: n = 1 − (1 − n₀)/J.
+#[test]
+fn pores_resist_all_the_more_the_less_is_left_of_them() {
+    let (k, n0) = (5.0, 0.4);
+    let law = ImprovedHencky::new(k, 2.0, n0).unwrap();
+    let mut last = 0.0;
+    for j in [1.3, 1.0, 0.8, 0.65, 0.61, 0.601_f64] {
+        let f = Matrix3::identity() * j.cbrt();
+        let mean = deform(&law, &f).0.mean();
+        let (v, n) = (j.ln(), 1.0 - (1.0 - n0) / j);
+        let exact = (k * v / n - 0.5 * k * v * v * (1.0 - n) / (n * n)) / j;
+        assert!(
+            (mean / exact - 1.0).abs() < 1e-9 || j == 1.0,
+            "{mean} {exact}"
+        );
+        assert!(mean < last || j >= 1.0);
+        last = mean;
+    }
+    assert!(last < -1e4 * k, "{last}");
+    for (k, g, n) in [
+        (0.0, 1.0, 0.5),
+        (1.0, -1.0, 0.5),
+        (1.0, 1.0, 0.0),
+        (1.0, 1.0, 1.0),
+        (1.0, 1.0, f64::NAN),
+    ] {
+        assert!(ImprovedHencky::new(k, g, n).is_err());
+    }
+}
+
 #[test]
 fn the_rate_of_a_stress_has_waves_too() {
     for update in [JaumannUpdate::Split, JaumannUpdate::Linear] {

@@ -111,6 +111,16 @@ every_law_has_a_tangent!(
     HenckyJ2::new(70.0, 0.4, Strength::perfect(1e9).unwrap()).unwrap()
 );
 every_law_has_a_tangent!(hencky_law, Hencky::new(70.0, 0.4).unwrap());
+
+proptest! {
+    /// As far as pores stay open.
+    #[test]
+    fn of_a_porous_solid(f in deformations(), g in deformations()) {
+        let law = ImprovedHencky::new(70.0, 40.0, 0.9).unwrap();
+        elastic(&law, &f, &g);
+    }
+}
+
 every_law_has_a_tangent!(inviscid_fluid, NewtonianFluid::new(5.0, 0.0).unwrap());
 
 #[test]

@@ -1,0 +1,177 @@
+//! What a solution makes of the body: new places, states, domains and pressures, and what is kept of forces and water.
+
+use super::pores::keep_before_walls;
+use super::step::{Setting, Trial};
+use super::unknowns::Place;
+use super::{OfHats, Solver};
+use crate::error::Fault;
+use crate::implicit::Functions;
+use crate::implicit::newton::{Failure, dot};
+use crate::material::Law;
+use crate::monitor::Residual;
+use crate::room::Room;
+use crate::space::determinant;
+use nalgebra::SVector;
+
+impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
+    /// Makes a trial the state of the body.
+    ///
+    /// # Errors
+    /// A particle that would leave the grid, or whose domain would be too wide for its functions; the body then stays
+    /// as it was.
+    pub(super) fn commit(
+        &mut self,
+        setting: &Setting<D>,
+        trial: Trial<D>,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        let places = self.places_after(setting, &trial)?;
+        let mut domains = self.domains_after(&trial)?;
+        for (x, half_size) in places.iter().zip(&mut domains) {
+            keep_before_walls(self.solid_space.functions.grid(), x, half_size);
+        }
+        self.observe(setting, &trial, dt);
+        let particles = &mut self.scene.body.particles;
+        particles.position = places;
+        for (p, f) in trial.f.iter().enumerate() {
+            particles.jacobian[p] *= determinant(f);
+            particles.delta_f[p] = *f;
+        }
+        self.pores.half_size = domains;
+        self.pores.pressure = trial.pressure;
+        self.pores.fluctuation = trial.fluctuation;
+        let places = trial.p.iter().zip(&setting.unknowns.pressure);
+        let seen = |(p, place): (&f64, &Place)| {
+            if *place == Place::Unseen {
+                f64::NAN
+            } else {
+                *p
+            }
+        };
+        self.nodal_pressure = places.map(seen).collect();
+        self.scene.body.update_stress(dt);
+        Ok(())
+    }
+
+    /// The places (m) to which a trial moves the particles.
+    fn places_after(
+        &self,
+        setting: &Setting<D>,
+        trial: &Trial<D>,
+    ) -> Result<Vec<[f64; D]>, Failure> {
+        let mut places = self.scene.body.particles.position.clone();
+        let grid = self.solid_space.functions.grid();
+        for (p, x) in places.iter_mut().enumerate() {
+            let (nodes, w, _) = setting.solid.seen(p);
+            for (node, w) in nodes.iter().zip(w) {
+                for (x, u) in x.iter_mut().zip(trial.u[*node]) {
+                    *x += w * u;
+                }
+            }
+            let room = Room::new(grid, self.pores.half_size[p].map(I::beyond_wall));
+            room.place(x).map_err(|fault| Failure::Particle(p, fault))?;
+        }
+        Ok(places)
+    }
+
+    /// Half the sizes (m) of the domains after a trial. Means of hats are taken over domains whose corners the hats
+    /// move (Coombs et al. 2020, doi:10.1016/j.cma.2019.112622): the mean extents of what becomes of the box. Other
+    /// functions know no domain, which then stretches as the particle does. Either is brought to the particle's volume.
+    fn domains_after(&self, trial: &Trial<D>) -> Result<Vec<[f64; D]>, Failure> {
+        let particles = &self.scene.body.particles;
+        let space = &self.solid_space;
+        let mut functions = Functions::new();
+        let mut domains = self.pores.half_size.clone();
+        for (p, half_size) in domains.iter_mut().enumerate() {
+            let f = &trial.f[p];
+            let before = *half_size;
+            if I::MEANS {
+                let x = particles.position[p];
+                for corner in 0..1_usize << D {
+                    let side = |a: usize| if corner >> a & 1 == 1 { 1.0 } else { -1.0 };
+                    let place = std::array::from_fn(|a| x[a] + side(a) * before[a]);
+                    space.functions.hats(&place, &mut functions);
+                    for (node, w) in functions.node.iter().zip(&functions.w) {
+                        let u = trial.u[space.originals[*node]];
+                        for a in 0..D {
+                            half_size[a] += side(a) * w * u[a] / f64::from(1 << D);
+                        }
+                    }
+                }
+            } else {
+                for (a, l) in half_size.iter_mut().enumerate() {
+                    *l *= f[(a, a)];
+                }
+            }
+            let stretches = share_of_volume(&before, half_size, determinant(f));
+            for (a, l) in half_size.iter_mut().enumerate() {
+                *l = before[a] * stretches[a];
+                let cells = *l / space.functions.grid().h;
+                // NaN of a box that is turned inside out.
+                let fits = cells > 0.0 && (cells <= 0.5 || !I::MEANS);
+                if !fits {
+                    return Err(Failure::Particle(p, Fault::WideDomain(cells)));
+                }
+            }
+        }
+        Ok(domains)
+    }
+
+    /// Keeps what a trial says of forces, work and water, before the particles move.
+    fn observe(&mut self, setting: &Setting<D>, trial: &Trial<D>, dt: f64) {
+        self.residual = Residual::default();
+        for reaction in &mut self.reactions {
+            reaction.force = [0.0; 3];
+        }
+        let work_of = |forces: &[SVector<f64, D>]| -> f64 {
+            let pairs = forces.iter().zip(&trial.u);
+            pairs.map(|(f, u)| dot(f.as_slice(), u)).sum()
+        };
+        self.accumulated.stress_work += work_of(&trial.internal);
+        self.accumulated.load_work += work_of(&trial.external);
+        for (node, places) in setting.unknowns.displacement.iter().enumerate() {
+            for (a, place) in places.iter().enumerate() {
+                let force = -trial.momentum[node][a];
+                match (place, self.held[node][a]) {
+                    (Place::Free(_), _) => self.residual.free_force += force.abs(),
+                    (Place::Held(_), Some(held)) => {
+                        self.residual.held_force[a] += force;
+                        let reaction = &mut self.reactions[held.by];
+                        reaction.force[a] += force;
+                        reaction.impulse[a] += force * dt;
+                    }
+                    _ => {}
+                }
+            }
+        }
+        // Water that a held pressure lets out is what its equation lacks.
+        let mut outflow = trial.drained;
+        for (place, lacking) in setting.unknowns.pressure.iter().zip(&trial.mass) {
+            if let Place::Held(_) = place {
+                outflow -= lacking;
+            }
+        }
+        let volume = &self.scene.body.particles.volume;
+        let changes = trial.f.iter().zip(volume);
+        let change: f64 = changes.map(|(f, v)| v * (determinant(f) - 1.0)).sum();
+        self.balance.outflow += outflow;
+        self.balance.imbalance += change + outflow;
+    }
+}
+
+/// By how much each axis of a box stretches whose half sizes (m) go from `before` to `after`, but whose volume grows by
+/// `change`: what the logarithms of the stretches lack of that of the change is shared in proportion to them, so that
+/// an axis along which nothing happens keeps its size.
+fn share_of_volume<const D: usize>(before: &[f64; D], after: &[f64; D], change: f64) -> [f64; D] {
+    let logarithms: [f64; D] = std::array::from_fn(|a| (after[a] / before[a]).ln());
+    let lacking = change.ln() - logarithms.iter().sum::<f64>();
+    let whole: f64 = logarithms.iter().map(|l| l.abs()).sum();
+    logarithms.map(|l| {
+        let share = if whole > 0.0 {
+            l.abs() / whole
+        } else {
+            1.0 / D as f64
+        };
+        (l + share * lacking).exp()
+    })
+}

@@ -1,0 +1,428 @@
+//! Solid and water, quasi-static, by Newton's method for displacements and pore pressures at once: the problem of
+//! G. Pretti, R. E. Bird, N. D. Gavin, W. M. Coombs & C. E. Augarde, "A stable poro-mechanical formulation for material
+//! point methods leveraging overlapping meshes and multi-field ghost penalisation" (doi:10.1002/nme.7630).
+//! `docs/poromechanics.md` derives the scheme, and equation numbers here are that page's.
+//!
+//! A body with water has two lattices: one for displacements and one for pressures, of cells twice as large, or of the
+//! same. Both are gathered at the step's start, as the quasi-static solver does, and share its Newton's parts. What
+//! particles have beside those of a dry body are columns of this solver.
+
+mod commit;
+mod face;
+mod memory;
+mod newton;
+mod pores;
+mod response;
+mod settings;
+mod start;
+mod step;
+mod unknowns;
+mod water;
+
+pub use face::{Face, Traction};
+pub use settings::{Predictor, PressureSpace, Settings, Tangent, VolumeRate};
+pub use water::{Conductivity, Gravity, OfPlace, Water};
+
+use crate::error::Error;
+use crate::implicit::elements::{Elements, of_domains};
+use crate::implicit::held::{self, Held};
+use crate::implicit::linear::{self, Direct};
+use crate::implicit::newton::{Failure, clocked, in_parts};
+use crate::implicit::{Functions, Moduli, OfHats};
+use crate::material::Law;
+use crate::memory::Saved;
+use crate::monitor::{Accumulated, Convergence, Reaction, Residual, Totals, WaterBalance};
+use crate::particles::Particles;
+use crate::scene::Scene;
+use crate::simulation::{Field, Part, Simulation};
+use crate::tensor::SymmetricTensor;
+use crate::work::{Spent, Work};
+use face::{Acts, Corner};
+use nalgebra::SVector;
+use newton::Newton;
+use pores::Pores;
+use step::{Drain, Setting, Step};
+use unknowns::{Place, Unknowns};
+
+/// Functions on a grid, and of every node the one that it is an image of.
+struct Space<I> {
+    functions: I,
+    originals: Vec<usize>,
+}
+
+/// The solver for one body of solid and water on functions `I` of displacement and pressure.
+pub struct Solver<const D: usize, I, M: Law> {
+    scene: Scene<D, M>,
+    water: Water<D>,
+    settings: Settings,
+    solid_space: Space<I>,
+    water_space: Space<I>,
+    pores: Pores<D>,
+    /// Of every component of every node of the displacement whether it is held.
+    held: Vec<[Option<Held>; D]>,
+    /// Of every node of the pressure whether it is held at zero.
+    drained: Vec<bool>,
+    moduli: Moduli,
+    direct: Direct,
+    time: f64,
+    accumulated: Accumulated,
+    residual: Residual,
+    convergence: Convergence,
+    reactions: Vec<Reaction>,
+    balance: WaterBalance,
+    /// Pressures of the nodes after the last step (Pa); NaN of nodes that no particle sees.
+    nodal_pressure: Vec<f64>,
+    work: Work,
+    spent: Spent,
+}
+
+impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
+    /// A step, in parts if the whole of it finds no solution.
+    fn step(&mut self) -> Result<(), Error> {
+        let (start, dt) = (self.time, self.duration());
+        let parts = in_parts(self.settings.most_halvings, |done, size| {
+            self.part(size * dt)?;
+            self.time = start + (done + size) * dt;
+            Ok(())
+        })
+        .map_err(|failure| self.error(failure))?;
+        self.convergence.parts = parts;
+        self.work.steps += 1;
+        self.work.particle_steps += self.work.particles;
+        Ok(())
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn particles(&self) -> &Particles<D> {
+        &self.scene.body.particles
+    }
+
+    fn totals(&self) -> Totals {
+        self.scene.body.totals(self.accumulated)
+    }
+
+    fn residual(&self) -> Residual {
+        self.residual
+    }
+
+    fn convergence(&self) -> Option<&Convergence> {
+        Some(&self.convergence)
+    }
+
+    fn condition(&self) -> f64 {
+        let dt = self.duration();
+        let of_rest = || {
+            let setting = self.setting(dt, Vec::new()).ok()?;
+            let step = self.equations(&setting, dt);
+            let trial = step
+                .trial(&setting.unknowns.begin(&self.predicted(&setting)))
+                .ok()?;
+            let symmetric = self.settings.tangent == Tangent::Symmetric;
+            let values = step.matrix(&trial);
+            Some(linear::condition(symmetric, &setting.pattern, &values))
+        };
+        of_rest().unwrap_or(f64::NAN)
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+
+    fn spent(&self) -> Spent {
+        self.spent
+    }
+
+    fn on(&self, part: Part) -> Reaction {
+        match part {
+            Part::Constraint(place) => self.reactions.get(place).copied(),
+            Part::Contact(_) => None,
+        }
+        .unwrap_or(Reaction::NONE)
+    }
+
+    fn water(&self) -> Option<&WaterBalance> {
+        Some(&self.balance)
+    }
+
+    fn pressure_nodes(&self) -> Vec<([f64; D], f64)> {
+        let mut nodes = Vec::new();
+        self.water_space.functions.for_each_node(|node, place| {
+            let pressure = self.nodal_pressure[node];
+            if !pressure.is_nan() && self.water_space.originals[node] == node {
+                nodes.push((place, pressure));
+            }
+        });
+        nodes
+    }
+
+    /// The effective stress.
+    fn force_stress(&mut self) -> Vec<SymmetricTensor> {
+        self.scene.body.particles.stress.clone()
+    }
+
+    fn field(&mut self, field: Field) -> Vec<f64> {
+        let particles = &self.scene.body.particles;
+        let solid = 1.0 - self.water.porosity;
+        match field {
+            Field::PlasticStrain => self.scene.body.plastic_strain(),
+            Field::MeanStress | Field::AveragedMeanStress => {
+                particles.stress.iter().map(SymmetricTensor::mean).collect()
+            }
+            Field::PorePressure => self.pores.pressure.clone(),
+            Field::Porosity => particles.jacobian.iter().map(|j| 1.0 - solid / j).collect(),
+        }
+    }
+
+    fn body(&self) -> Result<Saved, Error> {
+        Ok(self.save_body()?)
+    }
+
+    fn take_over(&mut self, body: &Saved) -> Result<(), Error> {
+        Ok(self.restore_body(body)?)
+    }
+}
+
+impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
+    /// Duration of the present step (s).
+    fn duration(&self) -> f64 {
+        self.settings.dt * self.settings.growth.powi(self.work.steps as i32)
+    }
+
+    fn equations<'a>(&'a self, setting: &'a Setting<D>, dt: f64) -> Step<'a, D, M> {
+        Step {
+            body: &self.scene.body,
+            pores: &self.pores,
+            water: &self.water,
+            settings: &self.settings,
+            dt,
+            setting,
+        }
+    }
+
+    /// Puts the particles that the same nodes see side by side.
+    fn sort(&mut self) {
+        let particles = &self.scene.body.particles;
+        let domains = self.pores.domains(particles);
+        let [of_solid, of_water] =
+            [&self.solid_space, &self.water_space].map(|s| of_domains(&s.functions, domains));
+        let mut order: Vec<u32> = (0..particles.len() as u32).collect();
+        order.sort_by_key(|p| (of_solid[*p as usize], of_water[*p as usize]));
+        if !order.is_sorted() {
+            self.scene.body.permute(&order);
+            self.pores.permute(&order);
+            self.work.sorts += 1;
+        }
+    }
+
+    /// Of every particle the functions of the pressure less their means over the cell that holds its centre.
+    fn fluctuations(&self, water: &Elements<D>) -> Vec<Vec<f64>> {
+        let space = &self.water_space;
+        let grid = space.functions.grid();
+        let mut middle = Functions::new();
+        let of = |(p, x): (usize, &[f64; D])| {
+            let place = std::array::from_fn(|a| {
+                grid.axes[a].lo + grid.h * (grid.cell(a, x[a]) as f64 + 0.5)
+            });
+            // In the middle of a cell a hat is its mean over the cell.
+            space.functions.hats(&place, &mut middle);
+            let (nodes, w, _) = water.seen(p);
+            let mut own = w.to_vec();
+            for (node, mean) in middle.node.iter().zip(&middle.w) {
+                let place = nodes.iter().position(|n| *n == space.originals[*node]);
+                if let Some(place) = place {
+                    own[place] -= mean;
+                }
+            }
+            own
+        };
+        let positions = &self.scene.body.particles.position;
+        positions.iter().enumerate().map(of).collect()
+    }
+
+    /// What a step of `dt` (s) of the body as it is works with, under forces of loads on the particles (N).
+    fn setting(&self, dt: f64, on_particles: Vec<[f64; D]>) -> Result<Setting<D>, Failure> {
+        let particles = &self.scene.body.particles;
+        let domains = self.pores.domains(particles);
+        let spaces = [&self.solid_space, &self.water_space];
+        let [solid, water] = spaces.map(|s| Elements::new(&s.functions, &s.originals, domains));
+        let travel = held::travel(&self.scene.constraints, self.time, dt);
+        let unknowns = Unknowns::new(
+            [&solid, &water],
+            spaces.map(|s| s.functions.len()),
+            spaces.map(|s| s.functions.grid().h),
+            |node, axis| self.held[node][axis].map(|held| held.velocity * travel[held.by]),
+            |node| self.drained[node].then_some(0.0),
+        );
+        let mut runs: Vec<std::ops::Range<usize>> = Vec::new();
+        for p in 0..particles.len() {
+            let same = |p: usize, q: usize| {
+                solid.element_of(p) == solid.element_of(q)
+                    && water.element_of(p) == water.element_of(q)
+            };
+            match runs.last_mut() {
+                Some(run) if same(run.start, p) => run.end = p + 1,
+                _ => runs.push(p..p + 1),
+            }
+        }
+        let strengths = [
+            self.settings.ghost_displacement * self.moduli.mu,
+            self.settings.ghost_pressure * self.water.initial_conductivity(),
+        ];
+        let ghosts = [(0, D), (1, 1)].map(|(k, components)| {
+            let space = spaces[k];
+            if strengths[k] == 0.0 {
+                return Vec::new();
+            }
+            let mut ghosts = space.functions.ghost(strengths[k], components, domains);
+            for node in ghosts.iter_mut().flat_map(|g| &mut g.node) {
+                *node = space.originals[*node];
+            }
+            ghosts
+        });
+        let mut groups: Vec<Vec<Option<usize>>> = (runs.iter())
+            .map(|run| unknowns.of(solid.seen(run.start).0, water.seen(run.start).0))
+            .collect();
+        groups.extend(ghosts[0].iter().map(|g| unknowns.of(&g.node, &[])));
+        groups.extend(ghosts[1].iter().map(|g| unknowns.of(&[], &g.node)));
+        let mut external = solid.forces(self.solid_space.functions.len(), &on_particles);
+        let mut drains = Vec::new();
+        for face in &self.water.faces {
+            match &face.acts {
+                Acts::Load(traction) => {
+                    let seen = |n: usize| unknowns.displacement[n][0] != Place::Unseen;
+                    let area = face.area(&particles.half_size) / face::Face::<D>::CORNERS as f64;
+                    let force = SVector::from(traction(self.time + dt)) * area;
+                    let space = &self.solid_space;
+                    let corners = face.corners(
+                        &space.functions,
+                        &space.originals,
+                        seen,
+                        particles,
+                        &self.pores,
+                    )?;
+                    for Corner { node, w, .. } in corners {
+                        for (node, w) in node.iter().zip(w) {
+                            external[*node] += force * w;
+                        }
+                    }
+                }
+                Acts::Drains { penalty } => {
+                    let seen = |n: usize| unknowns.pressure[n] != Place::Unseen;
+                    let space = &self.water_space;
+                    let corners = face.corners(
+                        &space.functions,
+                        &space.originals,
+                        seen,
+                        particles,
+                        &self.pores,
+                    )?;
+                    drains.extend(corners.into_iter().map(|corner| {
+                        let area = face.area(&self.pores.half_size[corner.particle]);
+                        Drain {
+                            unknown: unknowns.of(&[], &corner.node),
+                            node: corner.node,
+                            w: corner.w,
+                            rate: penalty * area / face::Face::<D>::CORNERS as f64,
+                        }
+                    }));
+                }
+            }
+        }
+        let mut all = groups.clone();
+        all.extend(drains.iter().map(|d| d.unknown.clone()));
+        let projects = matches!(
+            self.settings.pressure_space,
+            PressureSpace::Projected { .. }
+        );
+        Ok(Setting {
+            pattern: unknowns::pattern(unknowns.count, &all),
+            fluctuations: if projects {
+                self.fluctuations(&water)
+            } else {
+                Vec::new()
+            },
+            solid,
+            water,
+            unknowns,
+            runs,
+            ghosts,
+            groups,
+            drains,
+            external,
+        })
+    }
+
+    /// Pressures of the nodes (Pa) to begin with.
+    fn predicted(&self, setting: &Setting<D>) -> Vec<f64> {
+        let nodes = self.water_space.functions.len();
+        match self.settings.predictor {
+            Predictor::Zero => vec![0.0; nodes],
+            Predictor::Particles => {
+                let particles = &self.scene.body.particles;
+                unknowns::mapped(&setting.water, nodes, particles, &self.pores)
+            }
+        }
+    }
+
+    /// A part of a step, of `dt` (s).
+    fn part(&mut self, dt: f64) -> Result<(), Failure> {
+        self.sort();
+        let particles = &mut self.scene.body.particles;
+        particles.external_force.fill([0.0; D]);
+        for load in &self.scene.loads {
+            load.add(self.time + dt, particles);
+        }
+        let on_particles = particles.external_force.clone();
+        let setting = self.setting(dt, on_particles)?;
+        self.work.analyses += u64::from(self.direct.pattern != setting.pattern);
+        let direct = &mut self.direct;
+        clocked(&mut self.spent.factorisation, || {
+            direct.analyse(&setting.pattern)
+        })
+        .map_err(|_| Failure::Singular(0))?;
+        let begin = setting.unknowns.begin(&self.predicted(&setting));
+        let rounding = self.rounding(&setting);
+        let mut newton = Newton {
+            step: Step {
+                body: &self.scene.body,
+                pores: &self.pores,
+                water: &self.water,
+                settings: &self.settings,
+                dt,
+                setting: &setting,
+            },
+            rounding,
+            direct: &mut self.direct,
+            work: &mut self.work,
+            spent: &mut self.spent,
+        };
+        let (trial, convergence) = newton.solve(begin)?;
+        self.commit(&setting, trial, dt)?;
+        self.convergence = convergence;
+        Ok(())
+    }
+
+    /// Norms of the residuals (N, m³) that the last bits of stresses and of J̃ leave.
+    fn rounding(&self, setting: &Setting<D>) -> [f64; 2] {
+        let volume = &self.scene.body.particles.volume;
+        let modulus = self.moduli.lambda + 2.0 * self.moduli.mu;
+        let nodes = self.solid_space.functions.len();
+        let volumes = setting.water.sums(self.water_space.functions.len(), volume);
+        let squares = volumes.iter().filter(|v| !v.is_nan()).map(|v| v * v);
+        [
+            setting.solid.rounding(nodes, volume, modulus),
+            4.0 * f64::EPSILON * squares.sum::<f64>().sqrt(),
+        ]
+    }
+
+    fn error(&self, failure: Failure) -> Error {
+        let ids = &self.scene.body.particles.id;
+        failure.error(self.time, self.work.steps, ids)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,140 @@
+//! How a scene with water is solved.
+
+use crate::error::{Error, require};
+
+/// The functions of the pore pressure, beside those of the displacement on cells of size h.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PressureSpace {
+    /// The same functions on cells of size 2h.
+    TwoGrid,
+    /// The same functions on the same cells: pressures that no change of volume sees are not held.
+    Equal,
+    /// Likewise, and what a pressure's increment varies within a cell is penalised (Dohrmann & Bochev 2004,
+    /// doi:10.1002/fld.752), with a strength τ (1/Pa) of about 1/(2G).
+    Projected {
+        /// τ (1/Pa).
+        strength: f64,
+    },
+}
+
+/// The change of volume of a step over its volume at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VolumeRate {
+    /// J̃ − 1: what the volume changes by.
+    Exact,
+    /// J̃ ln J̃, Eq. (51) of Pretti et al. as we read it: ln J̃ at the end of the step.
+    Logarithmic,
+}
+
+/// The matrix of Newton's method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tangent {
+    /// The derivative of the equations: Newton's order is two, factors are LU.
+    Consistent,
+    /// Without what the conductivity and the mixture's weight change with the deformation: symmetric with the exact
+    /// rate and a law with a potential, so that factors are LDLᵀ.
+    Symmetric,
+}
+
+/// Where Newton's method begins to look for the pressure of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Predictor {
+    /// At zero.
+    Zero,
+    /// At the volume average of the particles' pressures.
+    Particles,
+}
+
+/// How the solver of solid and water solves a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Duration of the first step (s).
+    pub dt: f64,
+    /// Duration of a step over that of the step before.
+    pub growth: f64,
+    /// The functions of the pressure.
+    pub pressure_space: PressureSpace,
+    /// The change of volume.
+    pub volume_rate: VolumeRate,
+    /// The matrix.
+    pub tangent: Tangent,
+    /// Where to begin.
+    pub predictor: Predictor,
+    /// Ghost penalty of the displacement, over the shear modulus.
+    pub ghost_displacement: f64,
+    /// Ghost penalty of the pressure, over the conductivity of undeformed material.
+    pub ghost_pressure: f64,
+    /// A step has converged when the residuals of both equations are at most this share of what they balance.
+    pub tolerance: f64,
+    /// A step that takes more Newton iterations is halved.
+    pub most_iterations: u32,
+    /// A step that was halved more often than this has no solution to be found.
+    pub most_halvings: u32,
+}
+
+impl Settings {
+    /// Equal steps of `dt` (s) on two grids, with the exact rate and its symmetric matrix, without ghost penalties.
+    #[must_use]
+    pub fn new(dt: f64) -> Self {
+        Self {
+            dt,
+            growth: 1.0,
+            pressure_space: PressureSpace::TwoGrid,
+            volume_rate: VolumeRate::Exact,
+            tangent: Tangent::Symmetric,
+            predictor: Predictor::Particles,
+            ghost_displacement: 0.0,
+            ghost_pressure: 0.0,
+            tolerance: 1e-9,
+            most_iterations: 40,
+            most_halvings: 8,
+        }
+    }
+
+    /// With ghost penalties on displacement and pressure.
+    #[must_use]
+    pub fn ghosts(self, displacement: f64, pressure: f64) -> Self {
+        Self {
+            ghost_displacement: displacement,
+            ghost_pressure: pressure,
+            ..self
+        }
+    }
+
+    pub(super) fn check(&self, conservative: bool) -> Result<(), Error> {
+        require(self.dt > 0.0, "time step", self.dt, "positive (s)")?;
+        require(
+            self.growth > 0.0,
+            "growth of the time step",
+            self.growth,
+            "positive",
+        )?;
+        require(
+            self.tolerance >= 1e-13 && self.tolerance <= 1e-2,
+            "tolerance of Newton's method",
+            self.tolerance,
+            "from 1e-13 to 1e-2",
+        )?;
+        if let PressureSpace::Projected { strength } = self.pressure_space {
+            require(
+                strength > 0.0,
+                "strength of the pressure projection",
+                strength,
+                "positive (1/Pa)",
+            )?;
+        }
+        for (what, share) in [
+            ("ghost penalty of the displacement", self.ghost_displacement),
+            ("ghost penalty of the pressure", self.ghost_pressure),
+        ] {
+            require((0.0..=10.0).contains(&share), what, share, "from 0 to 10")?;
+        }
+        let exact = self.volume_rate == VolumeRate::Exact;
+        require(
+            self.tangent == Tangent::Consistent || (exact && conservative),
+            "symmetric tangent of a logarithmic rate or a law without a potential",
+            1.0,
+            "a consistent tangent",
+        )
+    }
+}

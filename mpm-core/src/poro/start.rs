@@ -1,0 +1,187 @@
+//! A solver before its first step.
+
+use super::face::Acts;
+use super::pores::{Pores, keep_before_walls};
+use super::{OfHats, PressureSpace, Settings, Solver, Space, Tangent, Water};
+use crate::error::{Error, require};
+use crate::grid::{Axis, Grid};
+use crate::implicit::elements::Elements;
+use crate::implicit::held;
+use crate::implicit::linear::Direct;
+use crate::implicit::start::moduli_of;
+use crate::material::Law;
+use crate::monitor::{Accumulated, Convergence, Reaction, Residual, WaterBalance};
+use crate::room::Room;
+use crate::scene::Scene;
+use crate::work::{Spent, Work};
+
+/// The grid of the pressure: of cells twice as large between the same ends, or the same.
+fn grid_of_pressure<const D: usize>(
+    grid: &Grid<D>,
+    space: PressureSpace,
+) -> Result<Grid<D>, Error> {
+    if space != PressureSpace::TwoGrid {
+        return Ok(*grid);
+    }
+    for axis in &grid.axes {
+        require(
+            axis.cells.is_multiple_of(2),
+            "cells of an axis on two grids",
+            axis.cells as f64,
+            "even: a cell of the pressure holds two along every axis",
+        )?;
+    }
+    let coarse = |axis: &Axis| Axis {
+        cells: axis.cells / 2,
+        ..*axis
+    };
+    Grid::new(2.0 * grid.h, grid.axes.each_ref().map(coarse))
+}
+
+impl<I> Space<I> {
+    fn on<const D: usize>(grid: Grid<D>) -> Result<Self, Error>
+    where
+        I: OfHats<D>,
+    {
+        let functions = I::on(grid)?;
+        Ok(Self {
+            originals: functions.originals(),
+            functions,
+        })
+    }
+}
+
+impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
+    /// A solver of `scene`, whose pores are full of `water`, with `settings` at time zero.
+    ///
+    /// # Errors
+    /// A setting, a property of the water or a particle that is not allowed; a contact, or a constraint on one side
+    /// only; a particle off the grid.
+    pub fn new(mut scene: Scene<D, M>, water: Water<D>, settings: Settings) -> Result<Self, Error> {
+        settings.check(M::CONSERVATIVE)?;
+        let contacts = scene.contacts.len();
+        require(
+            contacts == 0,
+            "contacts of a body with water",
+            contacts as f64,
+            "none: rigid bodies are constraints there",
+        )?;
+        held::check(&scene.constraints)?;
+        let moduli = moduli_of(&scene.body.law, settings.dt);
+        require(
+            moduli.mu > 0.0,
+            "shear modulus of a body with water",
+            moduli.mu,
+            "positive (Pa)",
+        )?;
+        let solid_space: Space<I> = Space::on(scene.grid)?;
+        let water_space: Space<I> =
+            Space::on(grid_of_pressure(&scene.grid, settings.pressure_space)?)?;
+        let mut drained = vec![false; water_space.functions.len()];
+        water_space
+            .functions
+            .for_each_node(|node, place| drained[node] = (water.drained)(&place));
+        let by_faces = |face: &super::Face<D>| matches!(face.acts, Acts::Drains { .. });
+        let drains = drained.contains(&true) || water.faces.iter().any(by_faces);
+        water.check(drains)?;
+        let particles = &mut scene.body.particles;
+        for l in particles.half_size {
+            require(
+                l <= 0.5 * scene.grid.h,
+                "particle half size",
+                l,
+                "at most half a cell (m)",
+            )?;
+        }
+        let room = Room::new(&scene.grid, particles.half_size.map(I::beyond_wall));
+        for (x, id) in particles.position.iter_mut().zip(&particles.id) {
+            room.place(x).map_err(|fault| Error::Breakdown {
+                time: 0.0,
+                step: 0,
+                particle: *id,
+                fault,
+            })?;
+        }
+        for (k, j) in particles.jacobian.iter().enumerate() {
+            if *j <= 1.0 - water.porosity {
+                return Err(Error::Breakdown {
+                    time: 0.0,
+                    step: 0,
+                    particle: particles.id[k],
+                    fault: crate::error::Fault::NonPositivePorosity(
+                        1.0 - (1.0 - water.porosity) / j,
+                    ),
+                });
+            }
+        }
+        particles.velocity = Vec::new();
+        particles.affine = Vec::new();
+        particles.increment = Vec::new();
+        if scene.loads.is_empty() {
+            particles.external_force = Vec::new();
+        }
+        let mut half_size = vec![particles.half_size; particles.len()];
+        for (x, half_size) in particles.position.iter().zip(&mut half_size) {
+            keep_before_walls(&scene.grid, x, half_size);
+        }
+        let pores = Pores {
+            pressure: particles
+                .position
+                .iter()
+                .map(|x| (water.start)(x))
+                .collect(),
+            fluctuation: Vec::new(),
+            half_size,
+        };
+        let work = Work {
+            particles: particles.len() as u64,
+            nodes: (solid_space.functions.len() + water_space.functions.len()) as u64,
+            ..Work::default()
+        };
+        let mut nodal_pressure = vec![f64::NAN; water_space.functions.len()];
+        water_space
+            .functions
+            .for_each_node(|node, place| nodal_pressure[node] = (water.start)(&place));
+        let mut solver = Self {
+            held: held::components(&solid_space.functions, &scene),
+            direct: Direct::new(settings.tangent == Tangent::Symmetric),
+            time: 0.0,
+            accumulated: Accumulated::default(),
+            residual: Residual::default(),
+            convergence: Convergence::default(),
+            reactions: vec![Reaction::default(); scene.constraints.len()],
+            balance: WaterBalance::default(),
+            spent: Spent::default(),
+            drained,
+            nodal_pressure,
+            solid_space,
+            water_space,
+            pores,
+            moduli,
+            scene,
+            water,
+            settings,
+            work,
+        };
+        if let PressureSpace::Projected { .. } = settings.pressure_space {
+            solver.begin_fluctuations();
+        }
+        Ok(solver)
+    }
+
+    /// What the pressure at the start varies within the cells.
+    fn begin_fluctuations(&mut self) {
+        let space = &self.water_space;
+        let domains = self.pores.domains(&self.scene.body.particles);
+        let elements = Elements::new(&space.functions, &space.originals, domains);
+        let own = self.fluctuations(&elements);
+        let of = |(p, own): (usize, &Vec<f64>)| {
+            let nodes = elements.seen(p).0.iter();
+            nodes
+                .zip(own)
+                .map(|(n, s)| self.nodal_pressure[*n] * s)
+                .sum()
+        };
+        self.pores.fluctuation = own.iter().enumerate().map(of).collect();
+    }
+}

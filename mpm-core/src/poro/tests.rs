@@ -1,0 +1,299 @@
+//! Against exact answers, difference quotients and closed forms.
+
+use super::*;
+use crate::basis::{Gimp, Linear};
+use crate::body::Body;
+use crate::error::Fault;
+use crate::grid::{Axis, Grid, Side};
+use crate::lattice::Lattice;
+use crate::material::{Hencky, ImprovedHencky};
+use crate::memory::{Memory, Memoryless};
+use crate::space::embed;
+use crate::stage::{Constraint, End, Wall, WallKind};
+use nalgebra::SMatrix;
+
+const H: f64 = 0.125;
+/// Cells of a column along its height, and across it.
+const HIGH: usize = 8;
+const WIDE: usize = 8;
+const POROSITY: f64 = 0.4;
+/// Oedometric modulus (Pa) and conductivity (m²/(Pa s)) of undeformed material.
+const MODULUS: f64 = 1e5 + 4.0 / 3.0 * 6e4;
+const KAPPA: f64 = 1e-8;
+
+type Hats<const D: usize> = Lattice<D, 2, Linear>;
+type Means<const D: usize> = Lattice<D, 3, Gimp>;
+
+const SPACES: [PressureSpace; 3] = [
+    PressureSpace::TwoGrid,
+    PressureSpace::Equal,
+    PressureSpace::Projected {
+        strength: 0.5 / 6e4,
+    },
+];
+
+mod column;
+mod tangent;
+
+fn porous() -> ImprovedHencky {
+    ImprovedHencky::new(1e5 * POROSITY, 6e4, POROSITY).unwrap()
+}
+
+fn kozeny_carman() -> Conductivity {
+    let solid: f64 = 1.0 - POROSITY;
+    Conductivity::KozenyCarman(KAPPA * solid * solid / POROSITY.powi(3))
+}
+
+/// A column of two particles a cell and axis on a floor, between rollers, with room above; the last axis is upright.
+fn standing<const D: usize, M: Law>(
+    law: M,
+    deformed: impl Fn(&[f64; D]) -> ([f64; D], SMatrix<f64, D, D>),
+) -> Scene<D, M> {
+    let mut axes = [Axis::walls(0.0, WIDE); D];
+    axes[D - 1] = Axis::bounded(0.0, HIGH + 2, (Side::Wall, Side::Open));
+    let grid = Grid::new(H, axes).unwrap();
+    let along = |a: usize| 2 * if a == D - 1 { HIGH } else { WIDE };
+    let count: usize = (0..D).map(along).product();
+    let positions = (0..count)
+        .map(|mut k| {
+            std::array::from_fn(|a| {
+                let i = k % along(a);
+                k /= along(a);
+                0.5 * H * (i as f64 + 0.5)
+            })
+        })
+        .collect();
+    let volume = (0.5 * H).powi(D as i32);
+    let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
+    let particles = particles.deformed(deformed);
+    let rollers = (0..D).flat_map(|axis| {
+        let wall = move |end| Wall {
+            axis,
+            end,
+            kind: WallKind::Roller,
+        };
+        let both = axis + 1 < D;
+        [Some(wall(End::Lo)), both.then(|| wall(End::Hi))]
+    });
+    Scene::new(grid, Body::new(law, particles).unwrap()).constrain_all(rollers.flatten())
+}
+
+fn straight<const D: usize>(x: &[f64; D]) -> ([f64; D], SMatrix<f64, D, D>) {
+    (*x, SMatrix::identity())
+}
+
+const TOP: f64 = H * HIGH as f64;
+
+/// Whether a reference place is in the row of particles at the top.
+fn topmost<const D: usize>(x: &[f64; D]) -> bool {
+    x[D - 1] > TOP - 0.5 * H
+}
+
+/// A column under a traction on its top, through which its water leaves by a penalty.
+fn loaded<const D: usize, I: OfHats<D>>(
+    traction: f64,
+    settings: Settings,
+) -> Solver<D, I, ImprovedHencky> {
+    let scene = standing::<D, _>(porous(), straight);
+    let particles = &scene.body.particles;
+    let top = (D - 1, End::Hi);
+    let mut force = [0.0; D];
+    force[D - 1] = -traction;
+    let water = Water::new(POROSITY, kozeny_carman())
+        .face(Face::loaded(particles, topmost, top, move |_| force))
+        .face(Face::drained(particles, topmost, top, 100.0 * KAPPA / H));
+    Solver::new(scene, water, settings).unwrap()
+}
+
+/// Moves the nodes at the faces of the grid, and beyond, as the field u = G x does.
+struct Affine<const D: usize>(SMatrix<f64, D, D>);
+
+impl<const D: usize> Memoryless for Affine<D> {}
+
+impl<const D: usize> Constraint<D> for Affine<D> {
+    fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {
+        let on_face = |(x, a): (&f64, &Axis)| *x < a.lo + 1e-9 || *x > a.hi(grid.h) - 1e-9;
+        let at_edge = position.iter().zip(&grid.axes).any(on_face);
+        at_edge.then(|| (0..D).map(|b| self.0[(axis, b)] * position[b]).sum())
+    }
+}
+
+/// A box between walls, all of whose faces move as an affine field does, is strained by it all through; where water may
+/// leave everywhere the effective stress is the law's and the pressure nothing, and where it may not an isochoric field
+/// needs no pressure either.
+fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
+    let mut gradient = SMatrix::<f64, D, D>::from_fn(|i, j| {
+        0.005 * (i as f64 - 0.7 * j as f64) - if i == j { 0.03 } else { 0.0 }
+    });
+    let mut f = SMatrix::<f64, D, D>::identity() + gradient;
+    if isochoric {
+        f /= crate::space::determinant(&f).powf(1.0 / D as f64);
+        gradient = f - SMatrix::identity();
+    }
+    let grid = Grid::new(H, [Axis::walls(0.0, HIGH); D]).unwrap();
+    let along = 2 * HIGH;
+    let positions = (0..along.pow(D as u32))
+        .map(|k| {
+            std::array::from_fn(|a| 0.5 * H * ((k / along.pow(a as u32) % along) as f64 + 0.5))
+        })
+        .collect();
+    let volume = (0.5 * H).powi(D as i32);
+    let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
+    let law = porous();
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(Affine(gradient));
+    let water = Water::new(POROSITY, kozeny_carman());
+    // One held node fixes a pressure that nothing else does.
+    let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
+    let settings = Settings {
+        tolerance: 1e-13,
+        ..Settings::new(1.0).ghosts(0.1, 0.01)
+    };
+    let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
+    solver.step().unwrap();
+    let exact = law
+        .update(&embed(&f), 1.0, &law.initial_state())
+        .0
+        .to_matrix();
+    let p = solver.particles();
+    for k in 0..p.len() {
+        let error = (p.stress[k].to_matrix() - exact).norm();
+        assert!(error < 1e-10 * MODULUS, "{D}: {error}");
+        let moved = SVector::from(p.position[k]) - f * SVector::from(p.reference[k]);
+        assert!(moved.norm() < 1e-12, "{moved}");
+        assert!(solver.pores.pressure[k].abs() < 1e-8 * MODULUS);
+    }
+}
+
+#[test]
+fn affine_fields_pass_the_patch_test() {
+    for isochoric in [false, true] {
+        if !isochoric {
+            reproduces_affine_fields::<1, Hats<1>>(isochoric);
+            reproduces_affine_fields::<1, Means<1>>(isochoric);
+        }
+        reproduces_affine_fields::<2, Hats<2>>(isochoric);
+        reproduces_affine_fields::<2, Means<2>>(isochoric);
+    }
+    reproduces_affine_fields::<3, Hats<3>>(true);
+}
+
+/// Grains as heavy as water in water at rest: the pressure that there was stays, linear in depth, and nothing moves.
+fn stays_at_rest<const D: usize, I: OfHats<D>>(space: PressureSpace) {
+    let mut acceleration = [0.0; D];
+    acceleration[D - 1] = -10.0;
+    let depth = |x: &[f64; D]| 1e4 * (TOP - x[D - 1]);
+    for tangent in [Tangent::Symmetric, Tangent::Consistent] {
+        let water = Water::new(POROSITY, kozeny_carman())
+            .gravity(Gravity {
+                water: 1000.0,
+                grains: 1000.0,
+                acceleration,
+            })
+            .start(depth)
+            .drained(|x| x[D - 1] > TOP - 1e-9);
+        let scene = standing::<D, _>(porous(), straight);
+        let settings = Settings {
+            pressure_space: space,
+            tangent,
+            ..Settings::new(1.0)
+        };
+        let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
+        for _ in 0..2 {
+            solver.step().unwrap();
+        }
+        let p = solver.particles();
+        for k in 0..p.len() {
+            let error = solver.pores.pressure[k] - depth(&p.position[k]);
+            assert!(error.abs() < 1e-5, "{error}");
+            assert!((p.position[k][D - 1] - p.reference[k][D - 1]).abs() < 1e-10);
+        }
+    }
+}
+
+#[test]
+fn hydrostatic_water_stays_at_rest() {
+    for space in SPACES {
+        stays_at_rest::<1, Hats<1>>(space);
+        stays_at_rest::<1, Means<1>>(space);
+        stays_at_rest::<2, Hats<2>>(space);
+        stays_at_rest::<2, Means<2>>(space);
+    }
+}
+
+#[test]
+fn what_is_not_allowed_is_refused_by_name() {
+    let column = || standing::<1, _>(porous(), straight);
+    let refused = |water: Water<1>, settings: Settings, what: &str| {
+        let error = Solver::<1, Means<1>, _>::new(column(), water, settings)
+            .err()
+            .unwrap();
+        assert!(error.to_string().contains(what), "{error}");
+    };
+    let some = Conductivity::Constant(KAPPA);
+    let settings = Settings::new(1.0);
+    for n in [0.0, 1.0, -0.1, f64::NAN] {
+        refused(Water::new(n, some), settings, "porosity");
+    }
+    let dry = Conductivity::Constant(0.0);
+    refused(
+        Water::new(POROSITY, dry).drained(|_| true),
+        settings,
+        "conductivity of a body that drains",
+    );
+    let face = Face::drained(&column().body.particles, topmost, (0, End::Hi), 1.0);
+    refused(
+        Water::new(POROSITY, dry).face(face),
+        settings,
+        "conductivity of a body that drains",
+    );
+    assert!(Solver::<1, Means<1>, _>::new(column(), Water::new(POROSITY, dry), settings).is_ok());
+    let negative = Conductivity::KozenyCarman(-1.0);
+    refused(Water::new(POROSITY, negative), settings, "conductivity");
+    let logarithmic = Settings {
+        volume_rate: VolumeRate::Logarithmic,
+        ..settings
+    };
+    refused(Water::new(POROSITY, some), logarithmic, "consistent");
+    refused(Water::new(POROSITY, some), Settings::new(0.0), "time step");
+    let ghost = settings.ghosts(-1.0, 0.0);
+    refused(Water::new(POROSITY, some), ghost, "ghost penalty");
+    let none = PressureSpace::Projected { strength: 0.0 };
+    let settings = Settings {
+        pressure_space: none,
+        ..settings
+    };
+    refused(Water::new(POROSITY, some), settings, "projection");
+}
+
+#[test]
+fn a_cell_of_the_pressure_holds_two_of_the_displacement() {
+    let mut scene = standing::<1, _>(porous(), straight);
+    scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
+    let water = || Water::new(POROSITY, Conductivity::Constant(KAPPA));
+    let equal = Settings {
+        pressure_space: PressureSpace::Equal,
+        ..Settings::new(1.0)
+    };
+    let refused = Solver::<1, Hats<1>, _>::new(scene, water(), Settings::new(1.0));
+    assert!(refused.err().unwrap().to_string().contains("even"));
+    let mut scene = standing::<1, _>(porous(), straight);
+    scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
+    assert!(Solver::<1, Hats<1>, _>::new(scene, water(), equal).is_ok());
+}
+
+/// A face of hats that reaches into a cell without particles has a node that bears nothing.
+#[test]
+fn a_load_on_an_empty_cell_is_refused() {
+    let mut scene = standing::<1, _>(porous(), straight);
+    scene.body.particles.half_size = [0.5 * H];
+    let load = Face::loaded(&scene.body.particles, topmost, (0, End::Hi), |_| [-1.0]);
+    let water = Water::new(POROSITY, Conductivity::Constant(KAPPA)).face(load);
+    let mut solver = Solver::<1, Hats<1>, _>::new(scene, water, Settings::new(1.0)).unwrap();
+    match solver.step() {
+        Err(Error::Breakdown {
+            fault: Fault::EmptyCell(share),
+            ..
+        }) => assert!((share - 0.25).abs() < 1e-9),
+        other => panic!("{other:?}"),
+    }
+}

@@ -1,0 +1,264 @@
+//! Columns that consolidate.
+
+use super::*;
+
+/// Two particles in one cell of hats, drained at the upper node, under a load q: with e the strain and p the pressure
+/// at the floor, M e − p/2 = −q and e′ = −2 κ p/h² at small strain, of which backward Euler makes e + q/M = (e₀ +
+/// q/M)/(1 + 4 κ M Δt/h²).
+#[test]
+fn one_element_consolidates_as_its_closed_form() {
+    let law = Hencky::new(1e5, 0.25).unwrap();
+    let modulus = 1.2e5;
+    let grid = Grid::new(H, [Axis::bounded(0.0, 4, (Side::Wall, Side::Open))]).unwrap();
+    let particles = Particles::new(vec![[0.25 * H], [0.75 * H]], 0.5 * H, 1.0, [0.25 * H]).unwrap();
+    let floor = Wall {
+        axis: 0,
+        end: End::Lo,
+        kind: WallKind::Roller,
+    };
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(floor);
+    let load = 1e-6 * modulus;
+    let upper = |x: &[f64; 1]| x[0] > 0.5 * H;
+    let face = Face::loaded(&scene.body.particles, upper, (0, End::Hi), move |_| [-load]);
+    let water = Water::new(POROSITY, Conductivity::Constant(KAPPA))
+        .drained(|x| x[0] > 0.5 * H)
+        .face(face);
+    let dt = 0.1 * H * H / (KAPPA * modulus);
+    let settings = Settings {
+        pressure_space: PressureSpace::Equal,
+        ..Settings::new(dt)
+    };
+    let mut solver = Solver::<1, Hats<1>, _>::new(scene, water, settings).unwrap();
+    let mut lacking = load / modulus;
+    for _ in 0..20 {
+        solver.step().unwrap();
+        lacking /= 1.0 + 4.0 * 0.1;
+        let p = solver.particles();
+        let strain = p.jacobian[0] - 1.0;
+        let pressure = 2.0 * modulus * lacking;
+        let at_particle = solver.pores.pressure[0] / 0.75;
+        // At strains of 1e-6 the equations are linear to a few times that.
+        let error = (strain + load / modulus - lacking).abs();
+        assert!(error < 1e-5 * load / modulus, "{error}");
+        assert!(
+            (at_particle - pressure).abs() < 1e-5 * load,
+            "{at_particle} {pressure}"
+        );
+    }
+}
+
+/// What the volume changes by is what flows out: with the exact rate to Newton's tolerance, with the logarithmic one
+/// not.
+fn imbalance<const D: usize, I: OfHats<D>>(settings: Settings) -> f64 {
+    let mut solver = loaded::<D, I>(0.5 * MODULUS, settings);
+    for _ in 0..10 {
+        solver.step().unwrap();
+    }
+    let balance = solver.water().copied().unwrap();
+    let p = solver.particles();
+    let volume = |of: &[f64]| of.iter().sum::<f64>();
+    let change = volume(&p.volume) - volume(&p.reference_volume);
+    assert!(balance.outflow > 0.05 * volume(&p.reference_volume));
+    let difference = change + balance.outflow - balance.imbalance;
+    assert!(difference.abs() < 1e-13 * volume(&p.reference_volume));
+    (balance.imbalance / balance.outflow).abs()
+}
+
+#[test]
+fn the_exact_rate_loses_no_water() {
+    let dt = 0.05 / (KAPPA * MODULUS);
+    for pressure_space in SPACES {
+        let settings = Settings {
+            pressure_space,
+            ..Settings::new(dt).ghosts(0.1, 0.01)
+        };
+        assert!(imbalance::<1, Means<1>>(settings) < 1e-8);
+        assert!(imbalance::<2, Means<2>>(settings) < 1e-8);
+        let logarithmic = Settings {
+            volume_rate: VolumeRate::Logarithmic,
+            tangent: Tangent::Consistent,
+            ..settings
+        };
+        let lost = imbalance::<1, Means<1>>(logarithmic);
+        assert!(lost > 1e-4, "{lost}");
+    }
+}
+
+/// Settlement and pressures of a column are those of a bar, in the plane and in space.
+#[test]
+fn a_column_is_a_bar_in_any_dimension() {
+    fn settled<const D: usize, I: OfHats<D>>(space: PressureSpace) -> Vec<f64> {
+        let settings = Settings {
+            pressure_space: space,
+            ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
+        };
+        let mut solver = loaded::<D, I>(0.2 * MODULUS, settings);
+        solver.step().unwrap();
+        solver.step().unwrap();
+        let p = solver.particles();
+        let mut rows: Vec<(f64, [f64; 3])> = (0..p.len())
+            .map(|k| {
+                let x = p.position[k];
+                let values = [x[D - 1], solver.pores.pressure[k], p.jacobian[k]];
+                (p.reference[k][D - 1], values)
+            })
+            .collect();
+        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let across = rows.len() / (2 * HIGH);
+        for row in rows.chunks(across) {
+            for (_, values) in row {
+                for (a, b) in values.iter().zip(row[0].1) {
+                    assert!((a - b).abs() < 1e-7 * b.abs(), "{a} {b}");
+                }
+            }
+        }
+        rows.chunks(across).flat_map(|row| row[0].1).collect()
+    }
+    let agree = |a: &[f64], b: &[f64]| {
+        for (a, b) in a.iter().zip(b) {
+            assert!((a - b).abs() < 1e-7 * b.abs(), "{a} {b}");
+        }
+    };
+    for space in SPACES {
+        let bar = settled::<1, Means<1>>(space);
+        agree(&settled::<2, Means<2>>(space), &bar);
+    }
+    let bar = settled::<1, Means<1>>(PressureSpace::TwoGrid);
+    agree(&settled::<3, Means<3>>(PressureSpace::TwoGrid), &bar);
+}
+
+/// With both matrices the same solution; with the derivative of the equations at Newton's order.
+#[test]
+fn newton_converges_quadratically() {
+    let of = |tangent: Tangent, predictor: Predictor| {
+        let settings = Settings {
+            tangent,
+            predictor,
+            tolerance: 1e-11,
+            ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
+        };
+        let mut solver = loaded::<2, Means<2>>(0.3 * MODULUS, settings);
+        solver.step().unwrap();
+        solver.step().unwrap();
+        let settlement = solver
+            .particles()
+            .position
+            .iter()
+            .map(|x| x[1])
+            .sum::<f64>();
+        (settlement, solver.convergence().unwrap().residuals.clone())
+    };
+    let (exact, residuals) = of(Tangent::Consistent, Predictor::Particles);
+    let inner: Vec<f64> = residuals.iter().copied().filter(|r| *r > 1e-10).collect();
+    let [.., a, b, c] = inner[..] else {
+        panic!("{residuals:?}")
+    };
+    let order = (c / b).ln() / (b / a).ln();
+    assert!(order > 1.7, "{order} {residuals:?}");
+    for (tangent, predictor) in [
+        (Tangent::Symmetric, Predictor::Particles),
+        (Tangent::Consistent, Predictor::Zero),
+    ] {
+        let (settlement, _) = of(tangent, predictor);
+        assert!((settlement / exact - 1.0).abs() < 1e-9);
+    }
+}
+
+/// Twenty times the modulus at once, drained: an undamped correction would close the pores.
+#[test]
+fn pores_stay_open_under_any_load() {
+    let settings = Settings {
+        tangent: Tangent::Consistent,
+        ..Settings::new(100.0 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
+    };
+    let mut solver = loaded::<1, Means<1>>(20.0 * MODULUS, settings);
+    solver.step().unwrap();
+    for n in solver.field(Field::Porosity) {
+        assert!(n > 0.0 && n < 0.5 * POROSITY, "{n}");
+    }
+    // So long a step ends near the drained state: the law's stress is the load.
+    let p = solver.particles();
+    for stress in &p.stress {
+        assert!(
+            (stress.xx / (-20.0 * MODULUS) - 1.0).abs() < 0.1,
+            "{}",
+            stress.xx
+        );
+    }
+}
+
+/// Heavy grains under water settle until the effective stress bears what they weigh more than water.
+#[test]
+fn grains_settle_under_their_weight_in_water() {
+    let heavier = 1600.0 * 10.0 * (1.0 - POROSITY);
+    let scene = standing::<1, _>(porous(), straight);
+    let top = Face::drained(
+        &scene.body.particles,
+        topmost,
+        (0, End::Hi),
+        1e4 * KAPPA / H,
+    );
+    let water = Water::new(POROSITY, kozeny_carman())
+        .gravity(Gravity {
+            water: 1000.0,
+            grains: 2600.0,
+            acceleration: [-10.0],
+        })
+        .start(|x| 1e4 * (TOP - x[0]))
+        .face(top);
+    let settings = Settings {
+        growth: 2.0,
+        tangent: Tangent::Consistent,
+        ..Settings::new(0.01 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
+    };
+    let mut solver = Solver::<1, Means<1>, _>::new(scene, water, settings).unwrap();
+    for _ in 0..14 {
+        solver.step().unwrap();
+    }
+    let p = solver.particles();
+    for k in 0..p.len() {
+        let borne = heavier * (TOP - p.reference[k][0]);
+        let error = (p.stress[k].xx + borne).abs();
+        // Stress is about constant in a cell: of a particle a quarter of it from its middle so much is missing.
+        assert!(error < 1.2 * heavier * H / 4.0, "{error} of {borne}");
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let of = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| {
+            let settings = Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01);
+            let mut solver = loaded::<2, Means<2>>(0.3 * MODULUS, settings);
+            for _ in 0..3 {
+                solver.step().unwrap();
+            }
+            solver.save().unwrap()
+        })
+    };
+    assert_eq!(of(1), of(2));
+}
+
+/// A run that is saved and restored goes on as if it had never stopped.
+#[test]
+fn nothing_is_forgotten() {
+    for pressure_space in SPACES {
+        let settings = Settings {
+            pressure_space,
+            growth: 1.1,
+            ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
+        };
+        let new = || loaded::<2, Means<2>>(0.3 * MODULUS, settings);
+        let mut whole = new();
+        whole.step().unwrap();
+        let saved = whole.save().unwrap();
+        whole.step().unwrap();
+        let mut resumed = new();
+        resumed.restore(&saved).unwrap();
+        resumed.step().unwrap();
+        assert_eq!(resumed.save().unwrap(), whole.save().unwrap());
+        assert_eq!(resumed.pressure_nodes(), whole.pressure_nodes());
+        assert!(new().restore(&Saved::of(&1_u8).unwrap()).is_err());
+    }
+}

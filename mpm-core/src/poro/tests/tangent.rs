@@ -1,0 +1,172 @@
+//! The matrix against difference quotients of the residual, and its symmetry.
+
+use super::*;
+use crate::implicit::newton::norm;
+
+/// Numbers in (−1, 1), the same every time.
+fn noise(k: usize) -> f64 {
+    let x = (k as f64 * 12.9898).sin() * 43_758.547;
+    2.0 * (x - x.floor()) - 1.0
+}
+
+/// A strained column with all that a scene can have.
+fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D, I, ImprovedHencky> {
+    let f = SMatrix::<f64, D, D>::from_fn(|i, j| {
+        f64::from(u8::from(i == j)) + 0.04 * noise(3 * i + j + 1)
+    });
+    let scene = standing::<D, _>(porous(), |x| (*x, f));
+    let particles = &scene.body.particles;
+    let top = (D - 1, End::Hi);
+    let mut acceleration = [0.3; D];
+    acceleration[D - 1] = -10.0;
+    let water = Water::new(POROSITY, kozeny_carman())
+        .gravity(Gravity {
+            water: 1000.0,
+            grains: 2600.0,
+            acceleration,
+        })
+        .face(Face::drained(particles, topmost, top, 100.0 * KAPPA / H));
+    let mut solver = Solver::new(scene, water, settings).unwrap();
+    solver.sort();
+    solver
+}
+
+/// Displacements and pressures of random size.
+fn random(setting: &Setting<2>, seed: usize) -> Vec<f64> {
+    sized(setting.unknowns.displacements, setting.unknowns.count, seed)
+}
+
+fn sized(displacements: usize, count: usize, seed: usize) -> Vec<f64> {
+    let of = |k: usize| {
+        if k < displacements {
+            0.02 * H
+        } else {
+            0.1 * MODULUS
+        }
+    };
+    (0..count).map(|k| of(k) * noise(seed + k)).collect()
+}
+
+fn product(
+    setting_pattern: &crate::implicit::unknowns::Pattern,
+    values: &[f64],
+    x: &[f64],
+) -> Vec<f64> {
+    let mut product = vec![0.0; x.len()];
+    for (column, x) in x.iter().enumerate() {
+        for k in setting_pattern.begin[column]..setting_pattern.begin[column + 1] {
+            product[setting_pattern.row[k]] += values[k] * x;
+        }
+    }
+    product
+}
+
+/// K x is what central differences of the residual along x extrapolate to, of both equations.
+fn matrix_is_the_slope<const D: usize, I: OfHats<D>>(settings: Settings) {
+    let solver = strained::<D, I>(settings);
+    // The pressures that flow drives are as large as those of compression.
+    let dt = H * H / (KAPPA * MODULUS);
+    let setting = solver.setting(dt, Vec::new()).unwrap();
+    let step = solver.equations(&setting, dt);
+    let (displacements, count) = (setting.unknowns.displacements, setting.unknowns.count);
+    let (at, x) = (
+        sized(displacements, count, 7),
+        sized(displacements, count, 1000),
+    );
+    let residual = |s: f64| {
+        let moved: Vec<f64> = at.iter().zip(&x).map(|(u, x)| u + s * x).collect();
+        step.residual(&step.trial(&moved).unwrap())
+    };
+    let quotient = |s: f64| -> Vec<f64> {
+        let ends = residual(-s).into_iter().zip(residual(s));
+        ends.map(|(a, b)| (a - b) / (2.0 * s)).collect()
+    };
+    let [coarse, middle, fine] = [4e-3, 2e-3, 1e-3].map(quotient);
+    let values = step.matrix(&step.trial(&at).unwrap());
+    let product = product(&setting.pattern, &values, &x);
+    for part in [0..displacements, displacements..count] {
+        let (mut error, mut known) = (0.0, 0.0);
+        for i in part.clone() {
+            let [first, second] = [
+                (4.0 * middle[i] - coarse[i]) / 3.0,
+                (4.0 * fine[i] - middle[i]) / 3.0,
+            ];
+            let exact = (16.0 * second - first) / 15.0;
+            error += (product[i] - exact).powi(2);
+            known += (exact - second).powi(2);
+        }
+        // Rounding of forces and volumes over the least step.
+        let rounding = 200.0 * f64::EPSILON * norm(&residual(0.0)[part.clone()]) / 1e-3;
+        let size = norm(&product[part]);
+        assert!(size > 0.0);
+        assert!(
+            error.sqrt() <= known.sqrt() + rounding + 1e-12 * size,
+            "off by {} of {size}, known to {}, rounding {rounding}",
+            error.sqrt(),
+            known.sqrt()
+        );
+    }
+}
+
+#[test]
+fn the_matrix_is_the_slope_of_the_residual() {
+    for pressure_space in SPACES {
+        for volume_rate in [VolumeRate::Exact, VolumeRate::Logarithmic] {
+            let settings = Settings {
+                pressure_space,
+                volume_rate,
+                tangent: Tangent::Consistent,
+                ..Settings::new(1.0).ghosts(0.1, 0.01)
+            };
+            matrix_is_the_slope::<1, Hats<1>>(settings);
+            matrix_is_the_slope::<1, Means<1>>(settings);
+            matrix_is_the_slope::<2, Hats<2>>(settings);
+            matrix_is_the_slope::<2, Means<2>>(settings);
+        }
+    }
+    let settings = Settings {
+        tangent: Tangent::Consistent,
+        ..Settings::new(1.0).ghosts(0.1, 0.01)
+    };
+    matrix_is_the_slope::<3, Means<3>>(settings);
+}
+
+/// The largest difference between entries and their mirrors, over the largest entry, of the matrix that is scaled to a
+/// diagonal of ones.
+fn asymmetry(settings: Settings) -> f64 {
+    let solver = strained::<2, Means<2>>(settings);
+    let dt = H * H / (KAPPA * MODULUS);
+    let setting = solver.setting(dt, Vec::new()).unwrap();
+    let step = solver.equations(&setting, dt);
+    let trial = step.trial(&random(&setting, 7)).unwrap();
+    let values = step.matrix(&trial);
+    let scales = step.scales(&values);
+    let pattern = &setting.pattern;
+    let mut most: f64 = 0.0;
+    for column in 0..pattern.len() {
+        for k in pattern.begin[column]..pattern.begin[column + 1] {
+            let row = pattern.row[k];
+            let mirror = pattern.place(column, row).unwrap();
+            most = most.max((values[k] - values[mirror]).abs() * scales[row] * scales[column]);
+        }
+    }
+    most
+}
+
+/// With the exact rate all is the derivative of one functional but what conductivity and weight change by; with the
+/// logarithmic one the coupling is not.
+#[test]
+fn the_exact_rate_makes_a_symmetric_matrix() {
+    let symmetric = Settings::new(1.0).ghosts(0.1, 0.01);
+    assert!(asymmetry(symmetric) < 1e-13);
+    let consistent = Settings {
+        tangent: Tangent::Consistent,
+        ..symmetric
+    };
+    assert!(asymmetry(consistent) > 1e-4);
+    let logarithmic = Settings {
+        volume_rate: VolumeRate::Logarithmic,
+        ..consistent
+    };
+    assert!(asymmetry(logarithmic) > 1e-2, "{}", asymmetry(logarithmic));
+}

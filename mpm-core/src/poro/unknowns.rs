@@ -1,0 +1,157 @@
+//! The unknowns of a step: components of nodal displacements, and behind them nodal pressures.
+
+use super::pores::Pores;
+use crate::implicit::elements::Elements;
+use crate::implicit::unknowns::Pattern;
+use crate::particles::Particles;
+
+/// What a function counts at least, of its value and its slope over a cell, at one particle: less is rounding, of a
+/// domain that ends on a grid line.
+const LEAST: f64 = 1e-12;
+
+/// Of a nodal value whether it is an unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
+    /// The unknown of this number.
+    Free(usize),
+    /// This value (m, Pa).
+    Held(f64),
+    /// No particle sees it.
+    Unseen,
+}
+
+/// The unknowns of a step, of all nodal values.
+pub(super) struct Unknowns<const D: usize> {
+    /// Of every node of the displacement.
+    pub(super) displacement: Vec<[Place; D]>,
+    /// Of every node of the pressure.
+    pub(super) pressure: Vec<Place>,
+    /// Free displacements.
+    pub(super) displacements: usize,
+    /// Free displacements and pressures.
+    pub(super) count: usize,
+}
+
+/// Of every one of `nodes` nodes whether a particle sees it, on cells of size `h` (m).
+fn seen<const D: usize>(elements: &Elements<D>, nodes: usize, h: f64) -> Vec<bool> {
+    let mut seen = vec![false; nodes];
+    for p in elements.particles.iter().flat_map(Clone::clone) {
+        let (nodes, w, dw) = elements.seen(p);
+        for ((node, w), dw) in nodes.iter().zip(w).zip(dw) {
+            let slope = dw.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+            seen[*node] |= w + h * slope > LEAST;
+        }
+    }
+    seen
+}
+
+impl<const D: usize> Unknowns<D> {
+    /// Of functions on `elements` of the displacement and the pressure, on so many nodes and cells of these sizes (m);
+    /// held as the two functions say.
+    pub(super) fn new(
+        elements: [&Elements<D>; 2],
+        nodes: [usize; 2],
+        h: [f64; 2],
+        held_displacement: impl Fn(usize, usize) -> Option<f64>,
+        held_pressure: impl Fn(usize) -> Option<f64>,
+    ) -> Self {
+        let mut count = 0;
+        let mut place = |seen: bool, held: Option<f64>| match (seen, held) {
+            (false, _) => Place::Unseen,
+            (true, Some(value)) => Place::Held(value),
+            (true, None) => {
+                count += 1;
+                Place::Free(count - 1)
+            }
+        };
+        let of = |k: usize| seen(elements[k], nodes[k], h[k]);
+        let displacement: Vec<[Place; D]> = (of(0).into_iter().enumerate())
+            .map(|(n, seen)| std::array::from_fn(|a| place(seen, held_displacement(n, a))))
+            .collect();
+        let pressure: Vec<Place> = (of(1).into_iter().enumerate())
+            .map(|(n, seen)| place(seen, held_pressure(n)))
+            .collect();
+        let free = |place: &&Place| matches!(place, Place::Free(_));
+        Self {
+            displacements: displacement.iter().flatten().filter(free).count(),
+            displacement,
+            pressure,
+            count,
+        }
+    }
+
+    /// The nodal values of displacement and pressure for the unknowns `x`.
+    pub(super) fn spread(&self, x: &[f64]) -> (Vec<[f64; D]>, Vec<f64>) {
+        let value = |place: Place| match place {
+            Place::Free(i) => x[i],
+            Place::Held(value) => value,
+            Place::Unseen => 0.0,
+        };
+        let displacement = self.displacement.iter().map(|node| node.map(value));
+        (
+            displacement.collect(),
+            self.pressure.iter().map(|p| value(*p)).collect(),
+        )
+    }
+
+    /// The numbers of the unknowns of some nodes of the displacement, component by component, and of some of the
+    /// pressure.
+    pub(super) fn of(&self, displacement: &[usize], pressure: &[usize]) -> Vec<Option<usize>> {
+        let number = |place: Place| match place {
+            Place::Free(i) => Some(i),
+            Place::Held(_) | Place::Unseen => None,
+        };
+        let components = displacement.iter().flat_map(|n| self.displacement[*n]);
+        let pressures = pressure.iter().map(|n| self.pressure[*n]);
+        components.chain(pressures).map(number).collect()
+    }
+
+    /// The unknowns' start: no displacement, and the pressures `of` nodes (Pa).
+    pub(super) fn begin(&self, of: &[f64]) -> Vec<f64> {
+        let mut x = vec![0.0; self.count];
+        for (place, p) in self.pressure.iter().zip(of) {
+            if let Place::Free(i) = place {
+                x[*i] = *p;
+            }
+        }
+        x
+    }
+}
+
+/// The volume averages of the particles' pressures at the nodes (Pa); zero where there are none.
+pub(super) fn mapped<const D: usize>(
+    elements: &Elements<D>,
+    nodes: usize,
+    particles: &Particles<D>,
+    pores: &Pores<D>,
+) -> Vec<f64> {
+    let weighted: Vec<f64> = (pores.pressure.iter().zip(&particles.volume))
+        .map(|(p, v)| p * v)
+        .collect();
+    let sums = elements.sums(nodes, &weighted);
+    let volumes = elements.sums(nodes, &particles.volume);
+    let mean = |(sum, volume): (&f64, &f64)| if *volume > 0.0 { sum / volume } else { 0.0 };
+    sums.iter().zip(&volumes).map(mean).collect()
+}
+
+/// The pattern of a symmetric matrix in which the unknowns of each of the `groups` see one another.
+pub(super) fn pattern(count: usize, groups: &[Vec<Option<usize>>]) -> Pattern {
+    let mut beside: Vec<Vec<usize>> = (0..count).map(|i| vec![i]).collect();
+    for group in groups {
+        for column in group.iter().flatten() {
+            beside[*column].extend(group.iter().flatten());
+        }
+    }
+    let mut pattern = Pattern {
+        width: 1,
+        begin: vec![0],
+        row: Vec::new(),
+    };
+    for rows in &mut beside {
+        rows.sort_unstable();
+        rows.dedup();
+        pattern.row.append(rows);
+        pattern.begin.push(pattern.row.len());
+    }
+    pattern
+}

@@ -1,0 +1,146 @@
+//! The water of a scene: how it fills and leaves the pores, what it weighs, and the faces of the body that it leaves
+//! by.
+
+use super::face::Face;
+use crate::error::{Error, require};
+use crate::number::Real;
+
+/// κ = k/(ρ g) (m²/(Pa s)) of a hydraulic conductivity k (m/s): the flux that a pressure gradient of one drives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Conductivity {
+    /// The same at any porosity.
+    Constant(f64),
+    /// c n³/(1 − n)² with the given c, after Kozeny and Carman.
+    KozenyCarman(f64),
+}
+
+impl Conductivity {
+    /// κ (m²/(Pa s)) at the porosity `n`.
+    #[must_use]
+    #[inline(always)]
+    pub fn at<T: Real>(&self, n: T) -> T {
+        match *self {
+            Self::Constant(k) => T::splat(k),
+            Self::KozenyCarman(c) => {
+                let solid = T::splat(1.0) - n;
+                T::splat(c) * n * n * n / (solid * solid)
+            }
+        }
+    }
+}
+
+/// What pulls water and grains down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gravity<const D: usize> {
+    /// Density of the water (kg/m³).
+    pub water: f64,
+    /// Density of the grains (kg/m³).
+    pub grains: f64,
+    /// Acceleration (m/s²).
+    pub acceleration: [f64; D],
+}
+
+/// A function of a place (m).
+pub type OfPlace<const D: usize, T> = Box<dyn Fn(&[f64; D]) -> T + Send + Sync>;
+
+/// The water in a body, and where it may leave.
+pub struct Water<const D: usize> {
+    /// Porosity n₀ of the undeformed solid; n = 1 − (1 − n₀)/J.
+    pub porosity: f64,
+    /// Conductivity.
+    pub conductivity: Conductivity,
+    /// Gravity, if there is any.
+    pub gravity: Option<Gravity<D>>,
+    /// Pressure (Pa) at the start, as hydrostatic water has it.
+    pub start: OfPlace<D, f64>,
+    /// Pressure nodes that are held at zero, by their places (m): for bodies whose drained faces lie on grid lines.
+    pub drained: OfPlace<D, bool>,
+    /// Loaded and drained faces.
+    pub faces: Vec<Face<D>>,
+}
+
+impl<const D: usize> Water<D> {
+    /// Weightless water without pressure that can't leave.
+    #[must_use]
+    pub fn new(porosity: f64, conductivity: Conductivity) -> Self {
+        Self {
+            porosity,
+            conductivity,
+            gravity: None,
+            start: Box::new(|_| 0.0),
+            drained: Box::new(|_| false),
+            faces: Vec::new(),
+        }
+    }
+
+    /// With gravity.
+    #[must_use]
+    pub fn gravity(self, gravity: Gravity<D>) -> Self {
+        Self {
+            gravity: Some(gravity),
+            ..self
+        }
+    }
+
+    /// With a pressure (Pa) at the start, a function of the place (m).
+    #[must_use]
+    pub fn start(self, pressure: impl Fn(&[f64; D]) -> f64 + Send + Sync + 'static) -> Self {
+        Self {
+            start: Box::new(pressure),
+            ..self
+        }
+    }
+
+    /// With pressure nodes held at zero where `at` says so of their places (m).
+    #[must_use]
+    pub fn drained(self, at: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static) -> Self {
+        Self {
+            drained: Box::new(at),
+            ..self
+        }
+    }
+
+    /// With another loaded or drained face.
+    #[must_use]
+    pub fn face(mut self, face: Face<D>) -> Self {
+        self.faces.push(face);
+        self
+    }
+
+    /// κ (m²/(Pa s)) of undeformed material.
+    #[must_use]
+    pub fn initial_conductivity(&self) -> f64 {
+        self.conductivity.at(self.porosity)
+    }
+
+    /// `drains`: whether water may leave.
+    pub(super) fn check(&self, drains: bool) -> Result<(), Error> {
+        require(
+            self.porosity > 0.0 && self.porosity < 1.0,
+            "porosity",
+            self.porosity,
+            "above 0 and below 1",
+        )?;
+        let k = self.initial_conductivity();
+        require(k >= 0.0, "conductivity", k, "at least 0 (m²/(Pa s))")?;
+        require(
+            k > 0.0 || !drains,
+            "conductivity of a body that drains",
+            k,
+            "positive (m²/(Pa s))",
+        )?;
+        let Some(gravity) = &self.gravity else {
+            return Ok(());
+        };
+        for (what, density) in [
+            ("density of water", gravity.water),
+            ("density of grains", gravity.grains),
+        ] {
+            require(density > 0.0, what, density, "positive (kg/m³)")?;
+        }
+        gravity
+            .acceleration
+            .iter()
+            .try_for_each(|g| require(true, "acceleration of gravity", *g, "finite (m/s²)"))
+    }
+}
