@@ -10,7 +10,7 @@ use std::mem::take;
 use std::ops::{AddAssign, Range};
 
 /// Units in the last place by which a stress is rounded.
-const LAST_BITS: f64 = 4.0;
+pub(crate) const LAST_BITS: f64 = 4.0;
 /// Elements that one thread sums at once.
 const BATCH: usize = 64;
 

@@ -16,8 +16,8 @@ const KEPT: f64 = 0.1;
 /// A step, and what solves it.
 pub(super) struct Newton<'a, const D: usize, M: Law> {
     pub(super) step: Step<'a, D, M>,
-    /// Norms of the residuals (N, m³) that rounding leaves.
-    pub(super) rounding: [f64; 2],
+    /// Norm of the out-of-balance forces (N) that rounding leaves.
+    pub(super) rounding: f64,
     pub(super) direct: &'a mut Direct,
     pub(super) work: &'a mut Work,
     pub(super) spent: &'a mut Spent,
@@ -36,9 +36,9 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         let parts = residual.split_at(self.step.setting.unknowns.displacements);
         let mut share: f64 = 0.0;
         for (k, part) in [parts.0, parts.1].into_iter().enumerate() {
-            let size = norm(part);
-            if size > self.rounding[k] {
-                share = share.max(size / trial.scale[k].max(self.rounding[k]));
+            let (size, rounding) = (norm(part), [self.rounding, trial.rounding][k]);
+            if size > rounding {
+                share = share.max(size / trial.scale[k].max(rounding));
             }
         }
         share

@@ -8,7 +8,7 @@ use super::water::Water;
 use crate::body::{Body, check_jacobian};
 use crate::error::Fault;
 use crate::implicit::Penalty;
-use crate::implicit::elements::Elements;
+use crate::implicit::elements::{Elements, LAST_BITS};
 use crate::implicit::newton::{dot, norm};
 use crate::implicit::unknowns::Pattern;
 use crate::material::Law;
@@ -52,10 +52,14 @@ pub(super) struct Drain {
 }
 
 impl Drain {
-    /// The pressure there (Pa).
-    fn pressure(&self, of_nodes: &[f64]) -> f64 {
-        let shares = self.node.iter().zip(&self.w);
-        shares.map(|(node, w)| of_nodes[*node] * w).sum()
+    /// The pressure there (Pa), and the sum of the sizes of what it is made of.
+    fn pressure(&self, of_nodes: &[f64]) -> [f64; 2] {
+        let (mut pressure, mut size) = (0.0, 0.0);
+        for (node, w) in self.node.iter().zip(&self.w) {
+            pressure += of_nodes[*node] * w;
+            size += (of_nodes[*node] * w).abs();
+        }
+        [pressure, size]
     }
 }
 
@@ -92,6 +96,8 @@ pub(super) struct Trial<const D: usize> {
     pub(super) mass: Vec<f64>,
     /// Norms of what the two equations balance (N, m³).
     pub(super) scale: [f64; 2],
+    /// Norm of the residual of (5) that the last bits of J̃ and of the pressures leave (m³).
+    pub(super) rounding: f64,
     /// Water that leaves by drained faces (m³).
     pub(super) drained: f64,
 }
@@ -197,18 +203,23 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
                 nodes.zip(own).map(|(node, s)| p[*node] * s).sum()
             })
             .collect();
-        // Residual, and the sum of the sizes of what it is made of.
-        let mut water = vec![SVector::<f64, 2>::zeros(); p.len()];
+        // Residual, the sum of the sizes of what it is made of, and of what those are made of.
+        let mut water = vec![SVector::<f64, 3>::zeros(); p.len()];
         let projection = self.projection();
         setting
             .water
             .scatter(SVector::zeros(), &mut water, |k, sums| {
-                let (_, w, dw) = setting.water.seen(k);
+                let (nodes, w, dw) = setting.water.seen(k);
                 let answer = &answers[k];
+                let slopes = nodes.iter().zip(dw).map(|(n, dw)| p[*n].abs() * norm(dw));
+                let steep = slopes.sum::<f64>();
+                let mobility: f64 = (0..D).map(|a| answer.mobility[D * a + a]).sum();
                 for (place, sum) in sums.iter_mut().enumerate() {
                     let stored = w[place] * answer.rate;
                     let moved = self.dt * dot(&answer.flow[..D], &dw[place]);
-                    *sum += SVector::from([stored + moved, stored.abs() + moved.abs()]);
+                    let bits = w[place] * particles.volume[k]
+                        + self.dt * mobility * steep * norm(&dw[place]);
+                    *sum += SVector::from([stored + moved, stored.abs() + moved.abs(), bits]);
                     if let Some(own) = setting.fluctuations.get(k) {
                         let change = fluctuation[k] - self.pores.fluctuation[k];
                         sum[0] += projection * particles.volume[k] * own[place] * change;
@@ -217,10 +228,13 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             });
         let mut drained = 0.0;
         for drain in &setting.drains {
-            let out = self.dt * drain.rate * drain.pressure(&p);
-            drained += out;
+            let factor = self.dt * drain.rate;
+            let [pressure, size] = drain.pressure(&p);
+            drained += factor * pressure;
             for (node, w) in drain.node.iter().zip(&drain.w) {
-                water[*node] += SVector::from([out * w, (out * w).abs()]);
+                let share = factor * w;
+                let out = share * pressure;
+                water[*node] += SVector::from([out, out.abs(), share * size]);
             }
         }
         add_penalties(&setting.ghosts[1], &p, 1, |i, volume| {
@@ -229,9 +243,10 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let size = |forces: &[SVector<f64, D>]| -> f64 {
             forces.iter().map(SVector::norm_squared).sum::<f64>().sqrt()
         };
-        let sizes: Vec<f64> = water.iter().map(|of| of[1]).collect();
+        let of_all = |k: usize| norm(&water.iter().map(|of| of[k]).collect::<Vec<_>>());
         Ok(Trial {
-            scale: [size(&internal).max(size(&external)), norm(&sizes)],
+            scale: [size(&internal).max(size(&external)), of_all(1)],
+            rounding: LAST_BITS * f64::EPSILON * of_all(2),
             mass: water.iter().map(|of| of[0]).collect(),
             u,
             p,
