@@ -232,14 +232,14 @@ pub(crate) const FAULTS: [Fault; 38] = [
     },
     Fault {
         name: "the strength is taken for that of the norm √(3/2)‖s‖",
-        file: "material/hencky_j2.rs",
+        file: "material/strength.rs",
         sound: "std::f64::consts::SQRT_2 * shear_strength",
         broken: "3.0_f64.sqrt() * shear_strength",
         seen_by: &[(FOOTING, "prandtl")],
     },
     Fault {
         name: "the strength in tension is taken for Tresca's",
-        file: "material/hencky_j2.rs",
+        file: "material/strength.rs",
         sound: "std::f64::consts::SQRT_2 * shear_strength",
         broken: "(8.0_f64 / 3.0).sqrt() * shear_strength",
         seen_by: &[(FOOTING, "prandtl")],
@@ -254,15 +254,15 @@ pub(crate) const FAULTS: [Fault; 38] = [
     Fault {
         name: "the law holds √(3/2) ‖s‖ against the strength of ‖s‖",
         file: "material/hencky_j2.rs",
-        sound: "self.flow(shear * norm, plastic_strain)",
-        broken: "self.flow(shear * norm * T::splat(1.5_f64.sqrt()), plastic_strain)",
+        sound: ".flow(shear * norm, 2.0",
+        broken: ".flow(shear * norm * T::splat(1.5_f64.sqrt()), 2.0",
         seen_by: &[(FOOTING, "prandtl")],
     },
     Fault {
         name: "softening is forgotten",
-        file: "material/hencky_j2.rs",
-        sound: "(T::splat(-self.softening) * plastic_strain).exp()",
-        broken: "(T::splat(0.0 * self.softening) * plastic_strain).exp()",
+        file: "material/strength.rs",
+        sound: "(T::splat(-eta) * plastic_strain).exp()",
+        broken: "(T::splat(0.0 * eta) * plastic_strain).exp()",
         seen_by: &[(SLIDE, "energy-closure")],
     },
     Fault {

@@ -45,6 +45,11 @@ impl Hypoelastic {
         Ok(Self { lambda, mu, update })
     }
 
+    /// μ (Pa).
+    pub(super) fn shear_modulus(&self) -> f64 {
+        self.mu
+    }
+
     /// C : `strain`.
     fn hooke<T: Real>(&self, strain: &SymmetricTensor<T>) -> SymmetricTensor<T> {
         let pressure = T::splat(self.lambda) * strain.trace();

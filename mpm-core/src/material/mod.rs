@@ -3,16 +3,20 @@
 mod hencky;
 mod hencky_j2;
 mod hypoelastic;
+mod hypoelastic_j2;
 mod improved_hencky;
 mod neo_hookean;
 mod newtonian_fluid;
+mod strength;
 
 pub use hencky::Hencky;
-pub use hencky_j2::{ElastoplasticState, HenckyJ2, Strength};
+pub use hencky_j2::HenckyJ2;
 pub use hypoelastic::{Hypoelastic, JaumannUpdate};
+pub use hypoelastic_j2::HypoelasticJ2;
 pub use improved_hencky::ImprovedHencky;
 pub use neo_hookean::NeoHookean;
 pub use newtonian_fluid::NewtonianFluid;
+pub use strength::{ElastoplasticState, Strength};
 
 use crate::number::{Dual, EIGHT, Eight, Lanes, Real};
 use crate::tensor::SymmetricTensor;

@@ -13,6 +13,9 @@
 //!      ======================================= base, y = −(D − 1) H
 //! ```
 //!
+//! The toe may be cut away by a vertical face of height d, [`Slope::cut`], where the base is at its foot, D = 1: the ground
+//! is then (d cot β, 0), (d cot β, d), (H cot β, H), crest.
+//!
 //! **Mechanism.** The mass between the ground and an arc turns rigidly about the centre of the arc. The jump in
 //! velocity is tangential, as φ = 0 demands, so the mechanism is kinematically admissible, and the load
 //! at which the work of gravity equals the dissipation bounds the collapse load from above (Chen 1975,
@@ -63,6 +66,7 @@ pub struct Slope {
     height: f64,
     angle: f64,
     depth_factor: f64,
+    cut: f64,
 }
 
 /// An arc of slip, from its exit (the lower end) counterclockwise to its entry on the crest.
@@ -152,6 +156,24 @@ impl Slope {
             height,
             angle,
             depth_factor,
+            cut: 0.0,
+        })
+    }
+
+    /// The slope whose toe a vertical face of height d (m) cuts away.
+    ///
+    /// # Errors
+    /// A height beyond 0 to H; a base below the toe.
+    pub fn cut(self, height: f64) -> Result<Self, Error> {
+        within(["cut", "m"], height, [0.0, self.height])?;
+        within(
+            ["depth_factor of a cut slope", "-"],
+            self.depth_factor,
+            [1.0; 2],
+        )?;
+        Ok(Self {
+            cut: height,
+            ..self
         })
     }
 
@@ -197,20 +219,33 @@ impl Slope {
     }
 
     /// Edges of the polygon on the chord, counterclockwise: the chord, then back along the ground.
-    fn polygon(&self, circle: &Circle) -> [[Vector2<f64>; 2]; 4] {
-        let edge = Vector2::new(self.run(), self.height);
-        let toe = Vector2::zeros();
-        let last = if circle.exit.x < 0.0 {
-            toe
+    fn polygon(&self, circle: &Circle) -> [[Vector2<f64>; 2]; 5] {
+        let exit = circle.exit;
+        let [toe, top_of_cut, edge] = [self.on_ground(0.0), self.on_ground(self.cut), self.edge()];
+        let on_floor = exit.x < toe.x;
+        let last = if on_floor { toe } else { exit };
+        let next = if on_floor || exit.y < self.cut {
+            top_of_cut
         } else {
-            circle.exit
+            exit
         };
         [
-            [circle.exit, circle.entry],
+            [exit, circle.entry],
             [circle.entry, edge],
-            [edge, last],
-            [last, circle.exit],
+            [edge, next],
+            [next, last],
+            [last, exit],
         ]
+    }
+
+    /// The point of the face at a height (m).
+    fn on_ground(&self, height: f64) -> Vector2<f64> {
+        Vector2::new(height.max(self.cut) * self.run() / self.height, height)
+    }
+
+    /// Where the crest begins (m).
+    fn edge(&self) -> Vector2<f64> {
+        Vector2::new(self.run(), self.height)
     }
 
     /// Horizontal length of the face H cot β (m).
@@ -241,7 +276,13 @@ impl Slope {
     /// The best circle that leaves on the face or at the toe.
     fn on_face(&self, search: Search) -> Candidate {
         search.least([0.0, self.height], |height| {
-            search.least([0.0, self.angle], |inclination| {
+            let rise = self.edge() - self.on_ground(height);
+            let steepest = if height < self.cut {
+                rise.y.atan2(rise.x)
+            } else {
+                self.angle
+            };
+            search.least([0.0, steepest], |inclination| {
                 self.on_chord(search, height, inclination)
             })
         })
@@ -252,7 +293,7 @@ impl Slope {
         let (sin, cos) = inclination.sin_cos();
         let chord = (self.height - height) / sin;
         let direction = Vector2::new(cos, sin);
-        let exit = Vector2::new(height * self.run() / self.height, height);
+        let exit = self.on_ground(height);
         let most = inclination + greatest_dive(2.0 * (height + self.depth()) / chord, inclination);
         search.least([0.0, most.min(FRAC_PI_2)], |half| {
             let radius = chord / (2.0 * half.sin());

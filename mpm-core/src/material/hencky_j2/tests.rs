@@ -1,6 +1,7 @@
 //! Plastic flow against closed forms.
 
 use super::*;
+use crate::material::strength::ACCURACY;
 use crate::number::{Dual, EIGHT};
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
@@ -16,6 +17,11 @@ fn perfect() -> HenckyJ2 {
 
 fn softening() -> HenckyJ2 {
     let strength = Strength::softening(KAPPA, 0.06 * KAPPA, 5.0).unwrap();
+    HenckyJ2::new(YOUNG, RATIO, strength).unwrap()
+}
+
+fn softening_linearly() -> HenckyJ2 {
+    let strength = Strength::softening_linearly(KAPPA, 0.06 * KAPPA, 2.0).unwrap();
     HenckyJ2::new(YOUNG, RATIO, strength).unwrap()
 }
 
@@ -49,7 +55,7 @@ fn rotations() -> impl Strategy<Value = Matrix3<f64>> {
 proptest! {
     #[test]
     fn flow_keeps_the_volume_dissipates_and_ends_on_the_surface(path in increments()) {
-        for law in [perfect(), softening()] {
+        for law in [perfect(), softening(), softening_linearly()] {
             let mut state = law.initial_state();
             let mut determinant = 1.0;
             for increment in &path {
@@ -89,7 +95,7 @@ proptest! {
         size in prop::array::uniform8(-6.0..-0.7_f64),
         planar in prop::bool::ANY,
     ) {
-        for law in [perfect(), softening()] {
+        for law in [perfect(), softening(), softening_linearly()] {
             let mut states = [law.initial_state(); EIGHT];
             for step in &path {
                 let increment: [_; EIGHT] = std::array::from_fn(|k| {
@@ -118,7 +124,7 @@ proptest! {
     /// A turned path gives turned stresses, wherever on the path the turning happens.
     #[test]
     fn rotations_turn_the_stress_and_nothing_else(path in increments(), q in rotations()) {
-        for law in [perfect(), softening()] {
+        for law in [perfect(), softening(), softening_linearly()] {
             let (stress, state) = drive(&law, &path);
             let mut turned = path.clone();
             turned[0] *= q;
@@ -214,8 +220,10 @@ fn simple_shear_flows_at_its_closed_form_and_converges_with_first_order() {
 /// of flow stays, so the return is exact for any step.
 #[test]
 fn softening_is_integrated_exactly_where_the_direction_stays() {
-    let law = softening();
-    for end in [0.01_f64, 0.1, 1.0] {
+    for (law, end) in [softening(), softening_linearly()]
+        .into_iter()
+        .flat_map(|law| [0.01_f64, 0.1, 1.0].map(|end| (law, end)))
+    {
         let left = |plastic: f64| {
             2.0 * law.shear_modulus * (2.0_f64.sqrt() * end - 1.5_f64.sqrt() * plastic)
                 - law.strength.at(plastic).0
@@ -255,8 +263,15 @@ fn the_slope_of_the_flow_does_not_lag() {
     // Excess from 25 times the strength down to what counts as none.
     for k in 0..350 {
         let trial = KAPPA * (1.0 + 25.0 * 0.9_f64.powi(k));
-        let flow = law.flow(Dual::<1>::variable(trial, 0), Dual::splat(0.0));
-        assert_eq!(flow.value, law.flow(trial, 0.0));
+        let flow = law.strength.flow(
+            Dual::<1>::variable(trial, 0),
+            2.0 * law.shear_modulus,
+            Dual::splat(0.0),
+        );
+        assert_eq!(
+            flow.value,
+            law.strength.flow(trial, 2.0 * law.shear_modulus, 0.0)
+        );
         let off = flow.slope[0] * left(PER_FLOW * flow.value) - 1.0;
         assert!(off.abs() < tolerance, "{trial}: {off}");
     }
@@ -283,10 +298,11 @@ fn softening_under_turning_flow_is_of_first_order() {
 
 #[test]
 fn flow_dissipates_its_strength() {
-    for law in [perfect(), softening()] {
+    for law in [perfect(), softening(), softening_linearly()] {
         let strength = law.strength;
         assert_eq!(strength.plastic_work(0.0), 0.0);
         for strain in [0.01, 0.3, 2.0] {
+            // No kink between the ends: softening in a line ends at 0.188.
             let step = 1e-5;
             let ends = [strain + step, strain - step].map(|e| strength.plastic_work(e));
             let slope = (ends[0] - ends[1]) / (2.0 * step);
@@ -303,6 +319,10 @@ fn strengths_out_of_range_are_refused() {
     assert!(Strength::softening(1.0, 2.0, 1.0).is_err());
     assert!(Strength::softening(1.0, 0.0, 1.0).is_err());
     assert!(Strength::softening(1.0, 0.5, -1.0).is_err());
+    assert!(Strength::softening_linearly(1.0, 0.5, 0.0).is_err());
+    assert!(Strength::softening_linearly(1.0, 2.0, 1.0).is_err());
+    let brittle = Strength::softening_linearly(1.0, 0.5, 1e4).unwrap();
+    assert!(HenckyJ2::new(YOUNG, RATIO, brittle).is_err());
     let brittle = Strength::softening(1.0, 0.5, 1e4).unwrap();
     assert!(HenckyJ2::new(YOUNG, RATIO, brittle).is_err());
     assert!(HenckyJ2::new(YOUNG, 0.5, Strength::perfect(1.0).unwrap()).is_err());

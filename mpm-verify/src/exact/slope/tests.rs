@@ -142,6 +142,45 @@ fn flat_arcs_are_culmanns_planes_and_circles_are_worse() {
     }
 }
 
+/// A cut as high as the slope is a vertical face; none is the slope; and a deeper cut is never safer.
+#[test]
+fn a_cut_is_between_the_slope_and_a_vertical_face() {
+    let slope = slope(45.0, 1.0);
+    let cut_by = |cut: f64| slope.cut(cut).unwrap().stability_number();
+    assert_eq!(cut_by(0.0), slope.stability_number());
+    near(cut_by(1.0), number(90.0, 1.0), 1e-9);
+    let depths = [0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
+    assert!(depths.windows(2).all(|d| cut_by(d[1]) < cut_by(d[0])));
+    for cut in [-0.1, 1.1, f64::NAN] {
+        assert!(slope.cut(cut).is_err());
+    }
+    assert!(Slope::new(1.0, 0.5, 1.2).unwrap().cut(0.2).is_err());
+}
+
+/// Area and first moment of the mass above an arc through the foot of a cut, by horizontal strips.
+#[test]
+fn the_mass_over_a_cut_is_that_of_strips() {
+    let slope = slope(45.0, 1.0).cut(0.2).unwrap();
+    let m = slope.critical();
+    assert!(m.circle.lowest().y > -1e-9 && m.circle.exit.x >= 0.2);
+    let count = 200_000;
+    let (mut area, mut moment) = (0.0, 0.0);
+    for k in 0..count {
+        let y = (f64::from(k) + 0.5) / f64::from(count);
+        if y < m.circle.exit.y {
+            continue;
+        }
+        let left = y.max(0.2);
+        let right =
+            m.circle.centre.x + (m.circle.radius.powi(2) - (y - m.circle.centre.y).powi(2)).sqrt();
+        area += right - left;
+        moment += 0.5 * (right * right - left * left);
+    }
+    let dy = 1.0 / f64::from(count);
+    near(m.area, area * dy, 1e-5);
+    near(m.area * m.centroid.x, moment * dy, 1e-5);
+}
+
 #[test]
 fn deep_circles_tend_to_their_limit_from_above() {
     let alpha = (0..100).fold(1.2_f64, |alpha, _| (2.0 * alpha).atan());
