@@ -318,7 +318,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         .map_err(|_| Failure::Singular(0))?;
         let rounding = self.rounding(&setting.elements);
         let mut newton = Newton {
-            step: setting.step(&self.scene.body, dt),
+            step: setting.step(&self.scene.body, place * dt),
             settings: &self.settings,
             rounding,
             external: &driving,

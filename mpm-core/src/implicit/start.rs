@@ -2,7 +2,7 @@
 
 use super::held;
 use super::linear::Direct;
-use super::{Interpolation, Moduli, Remedy, Settings, Solver, TimeRule, contact};
+use super::{Interpolation, Moduli, Remedy, Settings, Solver, Stabilisation, TimeRule, contact};
 use crate::error::{Error, require};
 use crate::material::Law;
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
@@ -31,9 +31,11 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let functions = I::on(scene.grid)?;
         functions.offers(settings.stabilisation)?;
         let moduli = moduli_of(&scene.body.law, settings.dt);
+        let inertia_alone =
+            settings.rule != TimeRule::Static && settings.stabilisation == Stabilisation::None;
         require(
-            moduli.mu > 0.0,
-            "shear modulus of a quasi-static run",
+            moduli.mu > 0.0 || inertia_alone,
+            "shear modulus of a quasi-static or stabilised run",
             moduli.mu,
             "positive (Pa): a fluid has no equilibrium to be found so",
         )?;

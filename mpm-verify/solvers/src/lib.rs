@@ -122,6 +122,7 @@ pub fn implicit<const D: usize, M: Solved<D>>(
 macro_rules! implicit_solvers {
     ($dimension:literal, $law:ty, [$($basis:ident: $functions:ty),*]) => {
         impl Solved<$dimension> for $law {
+            #[allow(unused_variables, reason = "a law without an instance has no use for a scene")]
             fn implicit(
                 scheme: Scheme,
                 scene: Scene<$dimension, Self>,
@@ -158,6 +159,14 @@ implicit_solvers!(2, NeoHookean, [
     Bspline2: Lattice<2, 3, QuadraticBSpline>,
     Bspline3: Lattice<2, 4, CubicBSpline>
 ]);
+implicit_solvers!(1, NeoHookean, [
+    Linear: Lattice<1, 2, Linear>,
+    Gimp: Lattice<1, 3, Gimp>,
+    Bspline2: Lattice<1, 3, QuadraticBSpline>
+]);
+implicit_solvers!(2, NewtonianFluid, [Gimp: Lattice<2, 3, Gimp>, Bspline2: Lattice<2, 3, QuadraticBSpline>]);
+implicit_solvers!(1, NewtonianFluid, []);
+implicit_solvers!(3, NewtonianFluid, []);
 implicit_solvers!(3, NeoHookean, [Gimp: Lattice<3, 3, Gimp>, Bspline2: Lattice<3, 3, QuadraticBSpline>]);
 implicit_solvers!(2, Hypoelastic, [Bspline2: Lattice<2, 3, QuadraticBSpline>, Q8: Serendipity]);
 

@@ -245,6 +245,15 @@ impl Scheme {
         }
     }
 
+    /// Its rule of time, if it is implicit.
+    #[must_use]
+    pub const fn rule(self) -> Option<RuleName> {
+        match self {
+            Self::Explicit(_) => None,
+            Self::Implicit(i) => Some(i.rule),
+        }
+    }
+
     /// Its basis functions.
     #[must_use]
     pub const fn basis(self) -> BasisName {

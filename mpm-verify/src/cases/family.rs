@@ -3,7 +3,7 @@
 use crate::case::{Family, Tier};
 use crate::record::Record;
 use crate::results::{Column, Label, ResultTable, is_flip};
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
 use crate::spec::Level;
 
 /// Every basis.
@@ -48,6 +48,23 @@ pub(super) fn family(
 pub(super) fn pairs(bases: &[BasisName], remedies: &[RemedyName]) -> Vec<Scheme> {
     let of_basis = |&basis| remedies.iter().map(move |&r| Scheme::flip(basis, r));
     bases.iter().flat_map(of_basis).collect()
+}
+
+/// Every combination of a rule of time, a basis and a remedy.
+pub(super) fn implicit(
+    rules: &[RuleName],
+    bases: &[BasisName],
+    remedies: &[RemedyName],
+) -> Vec<Scheme> {
+    let of_rule = |&rule| {
+        let of_basis = move |&basis| {
+            remedies
+                .iter()
+                .map(move |&r| Scheme::implicit(rule, basis, r))
+        };
+        bases.iter().flat_map(of_basis)
+    };
+    rules.iter().flat_map(of_rule).collect()
 }
 
 /// The schemes that are also run with another transfer or number of particles per cell than the case's own.

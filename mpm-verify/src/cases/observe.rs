@@ -1,14 +1,16 @@
 //! What several problems set and observe in the same way.
 
-use super::parameters::{PPC_PER_DIRECTION, WALL, WALL_LINE};
+use super::parameters::{ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE};
 use crate::error::Error;
 use crate::job::Column;
 use crate::parameter::{Parameter, Parameters};
 use crate::record::Discretisation;
+use crate::scheme::{RuleName, Scheme};
 use crate::spec::RunSpec;
 use crate::statistics::rms;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::Settings;
+use mpm_core::implicit::{self, TimeRule};
 use mpm_core::stage::LocalDamping;
 use mpm_core::{Field, Particles, Simulation};
 
@@ -76,6 +78,59 @@ pub(super) fn forbid(
         }
     }
     Ok(())
+}
+
+/// What only other kinds of solver have than the one of a run of bodies that move.
+///
+/// # Errors
+/// A parameter that has no meaning with it is changed; equilibrium, which moves nothing.
+pub(super) fn check_rule(
+    spec: &RunSpec,
+    parameters: &Parameters,
+    all: &[Parameter],
+) -> Result<(), Error> {
+    let foreign: &[&str] = match spec.scheme {
+        Scheme::Explicit(_) => &["step_factor", "lumped", "alpha", "delta", "tolerance"],
+        Scheme::Implicit(parts) => match parts.rule {
+            RuleName::Midpoint => &["alpha", "delta", "wall", "flip", "relaxation"],
+            RuleName::Newmark => &["lumped", "wall", "flip", "relaxation"],
+            RuleName::QuasiStatic => {
+                let solvers = ["explicit", "midpoint", "newmark"];
+                return Err(Error::unknown(
+                    "solver of bodies that move",
+                    "quasi-static",
+                    solvers,
+                ));
+            }
+        },
+    };
+    forbid(spec, parameters, all, foreign)
+}
+
+/// How an implicit run takes steps of `dt` (s); none of an explicit one.
+pub(super) fn implicit_settings(
+    spec: &RunSpec,
+    parameters: &Parameters,
+    dt: f64,
+) -> Option<implicit::Settings> {
+    let Scheme::Implicit(parts) = spec.scheme else {
+        return None;
+    };
+    let number = |p| parameters.number(p);
+    let rule = match parts.rule {
+        RuleName::QuasiStatic => TimeRule::Static,
+        RuleName::Midpoint => TimeRule::Midpoint {
+            lumped: number(LUMPED),
+        },
+        RuleName::Newmark => TimeRule::Newmark {
+            alpha: number(ALPHA),
+            delta: number(DELTA),
+        },
+    };
+    Some(implicit::Settings {
+        tolerance: number(TOLERANCE),
+        ..implicit::Settings::new(dt).rule(rule)
+    })
 }
 
 /// Where particles are.

@@ -1,6 +1,6 @@
 //! Parameters that several problems have: each is asked for by itself, so that a slip does not compile.
 
-use crate::parameter::{Domain, number, parameters};
+use crate::parameter::{Domain, Parameter, number, parameters};
 use crate::record::Record;
 
 pub(super) use crate::exact::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
@@ -20,6 +20,20 @@ parameters! { pub(super) const:
     STEP_SCALING = "step_scaling", "-", "h", Domain::Choice(&["h", "h2"]),
         "h: the time step shrinks with h; h2: with h², from the one at eight cells per side";
 }
+
+parameters! { pub(super) const:
+    LUMPED = "lumped", "-", "0.1", number(0.0, 1.0, false),
+        "midpoint: share β of the lumped mass, the rest is consistent";
+    ALPHA = "alpha", "-", "0.25", number(0.0, 2.0, false),
+        "newmark: α, at least (δ + ½)²/4";
+    DELTA = "delta", "-", "0.5", number(0.0, 2.0, false),
+        "newmark: δ, at least ½";
+    TOLERANCE = "tolerance", "-", "1e-10", number(1e-13, 1e-2, false),
+        "implicit: residual of a converged step over the loads";
+}
+
+/// Those that the implicit solvers of bodies that move have.
+pub(super) const DYNAMIC: [Parameter; 4] = [LUMPED, ALPHA, DELTA, TOLERANCE];
 
 /// Whether a run was of its case's own problem, however divided in space and time.
 pub(crate) fn is_of_own_problem(record: &Record) -> bool {

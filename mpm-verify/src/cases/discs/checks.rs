@@ -4,7 +4,7 @@ use super::metrics::{ASYMMETRY, ENERGY_GAIN, MASS, MOMENTUM_ERROR, NEWTON_ITERAT
 use super::parameters::{LUMPED, OFFSET, STEP_FACTOR, TOLERANCE};
 use crate::check::{Check, Finding, judge, run};
 use crate::record::Record;
-use crate::scheme::{BasisName, RuleName, Scheme};
+use crate::scheme::{BasisName, RuleName};
 
 /// Roundings of a step's sum of forces, in shares of the discs' momentum.
 const ROUNDINGS: f64 = 16.0;
@@ -14,13 +14,6 @@ const NO_GAIN: f64 = 1e-4;
 const GAINED: f64 = 1e-3;
 /// What rounding may become in the collision.
 const MIRRORED: f64 = 1e-6;
-
-fn rule(r: &Record) -> Option<RuleName> {
-    match r.scheme() {
-        Scheme::Explicit(_) => None,
-        Scheme::Implicit(parts) => Some(parts.rule),
-    }
-}
 
 /// Whether linear functions go through fine cells: each face that a particle crosses is a jump.
 fn jumps(r: &Record) -> bool {
@@ -44,7 +37,7 @@ pub(super) fn checks() -> Vec<Check> {
             "momentum",
             "all: linear momentum changes by no more than rounding in every step, and with newmark by what Newton's method leaves",
             run(|r| {
-                let left = match rule(r) {
+                let left = match r.scheme().rule() {
                     Some(RuleName::Newmark) => r.parameters.number(TOLERANCE),
                     _ => 0.0,
                 };
@@ -62,7 +55,7 @@ pub(super) fn checks() -> Vec<Check> {
                 let found = judge(r, ENERGY_GAIN).at_most(NO_GAIN, why);
                 let head_on = r.parameters.number(OFFSET) == 0.0;
                 let blended = head_on && r.parameters.number(LUMPED) > 0.0;
-                let judged = rule(r) == Some(RuleName::Midpoint) && blended;
+                let judged = r.scheme().rule() == Some(RuleName::Midpoint) && blended;
                 (judged && !jumps(r)).then_some(found)
             }),
         ),
@@ -72,7 +65,7 @@ pub(super) fn checks() -> Vec<Check> {
             run(|r| {
                 let why = "gradients that jump at faces, where a step ends by chance";
                 let found = judge(r, ENERGY_GAIN).above(NO_GAIN, why);
-                let midpoint = rule(r) == Some(RuleName::Midpoint);
+                let midpoint = r.scheme().rule() == Some(RuleName::Midpoint);
                 let head_on = r.parameters.number(OFFSET) == 0.0;
                 let long = r.parameters.is(STEP_FACTOR, "100");
                 (midpoint && long && head_on && jumps(r)).then_some(found)
@@ -88,7 +81,7 @@ pub(super) fn checks() -> Vec<Check> {
                 let long = r.parameters.is(STEP_FACTOR, "100")
                     || r.parameters.is(STEP_FACTOR, "10") && !smooth;
                 let head_on = r.parameters.number(OFFSET) == 0.0;
-                let newmark = rule(r) == Some(RuleName::Newmark) && !jumps(r);
+                let newmark = r.scheme().rule() == Some(RuleName::Newmark) && !jumps(r);
                 (newmark && long && head_on).then_some(found)
             }),
         ),
@@ -110,7 +103,7 @@ pub(super) fn checks() -> Vec<Check> {
                 let why = "quadratic convergence with the exact tangent";
                 let found =
                     Finding::at_most(NEWTON_ITERATIONS, r.metric(NEWTON_ITERATIONS), bound, why);
-                rule(r).map(|_| found)
+                r.scheme().rule().map(|_| found)
             }),
         ),
     ]

@@ -10,7 +10,7 @@ mod scene;
 mod tables;
 mod watch;
 
-use super::family::family;
+use super::family::{family, implicit};
 use crate::case::{Case, Family, Tier};
 use crate::parameter::Parameters;
 use crate::results::headline;
@@ -96,9 +96,7 @@ const OFFSET_LONG: &[&str] = &["offset=0.1", "step_factor=100"];
 const OFFSET_STEPS: &[&str] = &["offset=0.1", "step_factor=10"];
 
 fn schemes(rules: &[RuleName]) -> Vec<Scheme> {
-    let bases = [Gimp, Linear, Bspline2];
-    let of = |rule: &RuleName| bases.map(|b| Scheme::implicit(*rule, b, RemedyName::None));
-    rules.iter().flat_map(of).collect()
+    implicit(rules, &[Gimp, Linear, Bspline2], &[RemedyName::None])
 }
 
 fn plan([h1, h2]: [Level; 2]) -> Vec<Family> {

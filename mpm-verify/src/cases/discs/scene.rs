@@ -1,15 +1,11 @@
 //! Where the discs begin: grid, particles and velocities.
 
 use super::parameters::{
-    ALL, ALPHA, DELTA, LUMPED, OFFSET, POISSON_RATIO, PPC_PER_DIRECTION, SPEED, STEP_FACTOR,
-    TOLERANCE, YOUNG_MODULUS,
+    OFFSET, POISSON_RATIO, PPC_PER_DIRECTION, SPEED, STEP_FACTOR, YOUNG_MODULUS,
 };
-use crate::cases::observe::{forbid, settings};
-use crate::error::Error;
+use crate::cases::observe::{implicit_settings, settings};
 use crate::parameter::Parameters;
-use crate::scheme::{RuleName, Scheme};
 use crate::spec::RunSpec;
-use mpm_core::implicit::{self, TimeRule};
 use mpm_core::material::NeoHookean;
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Simulation};
 
@@ -39,29 +35,6 @@ pub(super) fn timing(h: f64, parameters: &Parameters) -> (f64, u64) {
 /// Time step over the paper's.
 pub(super) fn step_factor(parameters: &Parameters) -> f64 {
     parameters.text(STEP_FACTOR).parse().unwrap_or(1.0)
-}
-
-/// That the parameters are those of the run's solver.
-///
-/// # Errors
-/// One that has no meaning with it is changed.
-pub(super) fn check(spec: &RunSpec, parameters: &Parameters) -> Result<(), Error> {
-    let foreign: &[&str] = match spec.scheme {
-        Scheme::Explicit(_) => &["step_factor", "lumped", "alpha", "delta", "tolerance"],
-        Scheme::Implicit(parts) => match parts.rule {
-            RuleName::Midpoint => &["alpha", "delta", "wall"],
-            RuleName::Newmark => &["lumped", "wall"],
-            RuleName::QuasiStatic => {
-                let solvers = ["explicit", "midpoint", "newmark"];
-                return Err(Error::unknown(
-                    "solver of bodies that move",
-                    "quasi-static",
-                    solvers,
-                ));
-            }
-        },
-    };
-    forbid(spec, parameters, &ALL, foreign)
 }
 
 /// The particles' places (m) of one disc after the other; those of the second are those of the first, mirrored about the
@@ -105,25 +78,9 @@ pub(super) fn begin(
     let law = NeoHookean::new(number(YOUNG_MODULUS), number(POISSON_RATIO))?;
     let scene = Scene::new(grid, Body::new(law, particles)?);
     let (dt, _) = timing(h, parameters);
-    let rule = match spec.scheme {
-        Scheme::Explicit(_) => {
-            let settings = settings(spec, parameters, dt, 0.0)?;
-            return mpm_solvers::solver(spec.scheme, scene, settings);
-        }
-        Scheme::Implicit(parts) => match parts.rule {
-            RuleName::QuasiStatic => TimeRule::Static,
-            RuleName::Midpoint => TimeRule::Midpoint {
-                lumped: number(LUMPED),
-            },
-            RuleName::Newmark => TimeRule::Newmark {
-                alpha: number(ALPHA),
-                delta: number(DELTA),
-            },
-        },
-    };
-    let settings = implicit::Settings {
-        tolerance: number(TOLERANCE),
-        ..implicit::Settings::new(dt).rule(rule)
-    };
-    mpm_solvers::implicit(spec.scheme, scene, settings)
+    if let Some(settings) = implicit_settings(spec, parameters, dt) {
+        return mpm_solvers::implicit(spec.scheme, scene, settings);
+    }
+    let settings = settings(spec, parameters, dt, 0.0)?;
+    mpm_solvers::solver(spec.scheme, scene, settings)
 }

@@ -1,9 +1,9 @@
 //! What is seen of the discs, four times a second at the paper's speed.
 
 use super::metrics as m;
-use super::parameters::OFFSET;
-use super::scene::{CELL, MIDDLE, RADIUS, begin, check, seed, step_factor, timing};
-use crate::cases::observe::{column, discretisation, position_columns};
+use super::parameters::{ALL, OFFSET};
+use super::scene::{CELL, MIDDLE, RADIUS, begin, seed, step_factor, timing};
+use crate::cases::observe::{check_rule, column, discretisation, position_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::{Column, Snapshot};
@@ -64,7 +64,7 @@ impl Collision {
     /// # Errors
     /// The parameters don't make a scene.
     pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
-        check(spec, parameters)?;
+        check_rule(spec, parameters, &ALL)?;
         let (dt, steps) = timing(spec.level.h, parameters);
         let collision = Self {
             spec: spec.clone(),

@@ -7,7 +7,7 @@ metrics! { pub(in crate::cases) METRICS:
     DISPLACEMENT_L2 = "displacement_l2", "m", "rms over the particles of |u − exact u| at the end";
     DISPLACEMENT_LINF = "displacement_linf", "m", "largest |u − exact u| at the end";
     VELOCITY_L2 = "velocity_l2", "m/s",
-        "rms of |v − exact v| half a step before the end, where velocities live";
+        "rms of |v − exact v| at the end; explicit: half a step before it, where velocities live";
     VELOCITY_LINF = "velocity_linf", "m/s", "largest such error";
     STRESS_L2 = "stress_l2", "Pa",
         "rms of the Frobenius norm of the error of the Cauchy stress, as it enters the forces";
@@ -24,6 +24,8 @@ metrics! { pub(in crate::cases) METRICS:
         "largest rise of kinetic + stored energy − work of the loads over its start, relative to the largest kinetic energy";
     ENERGY_LOSS = "energy_loss", "-", "largest fall, likewise";
     ENERGY_END = "energy_end", "-", "rise at the end, likewise";
+    LUMPING_LOSS = "lumping_loss", "-",
+        "midpoint: energy that the lumped share of the mass took, relative to the largest kinetic energy";
     KINETIC_ENERGY_PEAK = "kinetic_energy_peak", "J", "largest kinetic energy";
     LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
     MASS = "mass", "kg",

@@ -68,7 +68,7 @@ impl Manufactured {
         [name, title, description]: [&'static str; 3],
         parameters: Vec<Parameter>,
     ) -> Case {
-        let known = parameters.clone();
+        let (known, of_begin) = (parameters.clone(), parameters.clone());
         Case {
             name,
             title,
@@ -88,7 +88,7 @@ impl Manufactured {
             cost: Box::new(move |spec| scene::cost(&self, &known, spec)),
             ladder: &[],
             own_runs: crate::record::of_defaults,
-            begin: Box::new(move |spec, p| self.begin(spec, p)),
+            begin: Box::new(move |spec, p| self.begin(spec, p, &of_begin)),
             pictures: |_| Ok(()),
             tables: tables::of(name),
             breaks_down: |_| None,
@@ -114,11 +114,16 @@ impl Manufactured {
         }
     }
 
-    fn begin(self, spec: &RunSpec, p: &Parameters) -> Result<Box<dyn Job>, Error> {
+    fn begin(
+        self,
+        spec: &RunSpec,
+        p: &Parameters,
+        known: &[Parameter],
+    ) -> Result<Box<dyn Job>, Error> {
         Ok(match (self.solution)(p)?.dimension() {
-            1 => Box::new(Motion::<1>::drive(self, spec, p)?),
-            2 => Box::new(Motion::<2>::drive(self, spec, p)?),
-            _ => Box::new(Motion::<3>::drive(self, spec, p)?),
+            1 => Box::new(Motion::<1>::drive(self, spec, p, known)?),
+            2 => Box::new(Motion::<2>::drive(self, spec, p, known)?),
+            _ => Box::new(Motion::<3>::drive(self, spec, p, known)?),
         })
     }
 }
@@ -147,9 +152,9 @@ parameters! { pub(super) const:
         "the time step is that of a body with this Poisson's ratio, if the body's own is lower: runs at several ratios then differ in nothing else";
 }
 pub(super) const CFL: Parameter = Parameter {
-    domain: number(1e-4, 1.0, true),
+    domain: number(1e-4, 100.0, false),
     ..parameters::CFL.with_default("0.3").meaning(
-        "CFL number c Δt / h of pressure waves, rounded down so that steps fill the duration",
+        "CFL number c Δt / h of pressure waves, rounded down so that steps fill the duration; explicit: below 1",
     )
 };
 pub(super) const PPC_PER_DIRECTION: Parameter = Parameter {

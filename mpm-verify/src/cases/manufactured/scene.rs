@@ -1,13 +1,13 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
 use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO};
-use crate::cases::observe::settings;
+use crate::cases::observe::{implicit_settings, settings};
 use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS};
 use crate::error::Error;
 use crate::exact::{Exact, Material};
 use crate::parameter::{Parameter, Parameters};
-use crate::scheme::RemedyName;
-use crate::spec::{Level, RunSpec};
+use crate::scheme::{RemedyName, Scheme};
+use crate::spec::RunSpec;
 use mpm_core::explicit::remedy::FbarConsistent;
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::explicit::{Remedy, courant_time_step};
@@ -21,6 +21,8 @@ use std::sync::Arc;
 
 /// Cells per side at which Δt ∝ h and Δt ∝ h² coincide.
 const COARSEST: f64 = 8.0;
+/// The explicit solver's steps are shorter.
+const EXPLICIT_CFL: f64 = 1.0;
 /// Cells above a free surface.
 const HEADROOM: usize = 4;
 
@@ -37,11 +39,17 @@ impl Timing {
     /// larger, so that runs at several ratios can take the same steps.
     pub(super) fn new(
         case: Manufactured,
-        level: Level,
+        spec: &RunSpec,
         parameters: &Parameters,
         solution: &dyn Exact,
     ) -> Result<Self, Error> {
         let number = |p| parameters.number(p);
+        if spec.scheme.solver() == "explicit" && number(CFL) >= EXPLICIT_CFL {
+            return Err(Error::Input(format!(
+                "cfl = {} is out of range for the solver explicit; allowed: below {EXPLICIT_CFL}",
+                number(CFL)
+            )));
+        }
         let density = solution.material().density;
         let mut speed = Medium::new(case, solution).wave_speed(density);
         let ratio = number(STEP_POISSON_RATIO);
@@ -51,11 +59,11 @@ impl Timing {
         }
         let side = solution.extent()[0][1] - solution.extent()[0][0];
         let finer = if parameters.is(STEP_SCALING, "h2") {
-            COARSEST * level.h / side
+            COARSEST * spec.level.h / side
         } else {
             1.0
         };
-        let longest = courant_time_step(number(CFL) * finer, level.h, speed);
+        let longest = courant_time_step(number(CFL) * finer, spec.level.h, speed);
         let steps = (number(DURATION) / longest).ceil();
         Ok(Self {
             steps,
@@ -67,12 +75,15 @@ impl Timing {
 /// Particle steps per unit of cost, without a remedy.
 const STEPS_PER_COST: f64 = 5e7;
 
+/// What Newton's method costs over an explicit step.
+const NEWTON: f64 = 500.0;
+
 /// Cost of a run, by its particle steps.
 pub(super) fn cost(case: &Manufactured, known: &[Parameter], spec: &RunSpec) -> f64 {
     let steps = || {
         let p = Parameters::new(known, &spec.set).ok()?;
         let solution = (case.solution)(&p).ok()?;
-        let timing = Timing::new(*case, spec.level, &p, solution.as_ref()).ok()?;
+        let timing = Timing::new(*case, spec, &p, solution.as_ref()).ok()?;
         let per_cell = p.number(PPC_PER_DIRECTION);
         let extent = solution.extent();
         let along = |a: usize| (extent[a][1] - extent[a][0]) / spec.level.h * per_cell;
@@ -83,6 +94,10 @@ pub(super) fn cost(case: &Manufactured, known: &[Parameter], spec: &RunSpec) -> 
         RemedyName::None => 1.0,
         RemedyName::FbarConsistent => 3.0,
         _ => 1.5,
+    };
+    let remedy = match spec.scheme {
+        Scheme::Explicit(_) => remedy,
+        Scheme::Implicit(_) => remedy * NEWTON,
     };
     steps().unwrap_or(0.0) * remedy / STEPS_PER_COST
 }
@@ -99,12 +114,38 @@ pub(super) fn begin<const D: usize>(
     dt: f64,
 ) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
 where
-    NeoHookean: Solvable<D>,
-    NewtonianFluid: Solvable<D>,
+    NeoHookean: Solvable<D> + Solved<D>,
+    NewtonianFluid: Solvable<D> + Solved<D>,
 {
     let number = |p| parameters.number(p);
     let (grid, walls) = surroundings(case.boundary, solution.as_ref(), spec.level.h)?;
     let forcing = forcing(solution);
+    let particles = seed(spec, number(PPC_PER_DIRECTION), solution.as_ref(), dt)?;
+    Ok(match Medium::new(case, solution.as_ref()) {
+        Medium::Solid(law) => {
+            let scene = Scene::new(grid, Body::new(law, particles)?);
+            let scene = scene.load(forcing).constrain_all(walls);
+            solved(spec, parameters, scene, dt)?
+        }
+        Medium::Fluid(law) => {
+            let scene = Scene::new(grid, Body::new(law, particles)?);
+            let scene = scene.load(forcing).constrain_all(walls);
+            solved(spec, parameters, scene, dt)?
+        }
+    })
+}
+
+/// The solver of a scene, of steps `dt` (s).
+fn solved<const D: usize, M: Solvable<D> + Solved<D>>(
+    spec: &RunSpec,
+    parameters: &Parameters,
+    scene: Scene<D, M>,
+    dt: f64,
+) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    if let Some(settings) = implicit_settings(spec, parameters, dt) {
+        return mpm_solvers::implicit(spec.scheme, scene, settings);
+    }
+    let number = |p| parameters.number(p);
     let remedy: Box<dyn Remedy<D>> = match spec.scheme.remedy() {
         RemedyName::FbarConsistent => Box::new(FbarConsistent::new(number(RELAXATION))),
         other => other.build(),
@@ -112,19 +153,15 @@ where
     let settings = settings(spec, parameters, dt, 0.0)?
         .transfer(Flip::new(number(FLIP))?)
         .remedy(remedy);
-    let particles = seed(spec, number(PPC_PER_DIRECTION), solution.as_ref(), dt)?;
-    Ok(match Medium::new(case, solution.as_ref()) {
-        Medium::Solid(law) => {
-            let scene = Scene::new(grid, Body::new(law, particles)?);
-            let scene = scene.load(forcing).constrain_all(walls);
-            solver(spec.scheme, scene, settings)?
-        }
-        Medium::Fluid(law) => {
-            let scene = Scene::new(grid, Body::new(law, particles)?);
-            let scene = scene.load(forcing).constrain_all(walls);
-            solver(spec.scheme, scene, settings)?
-        }
-    })
+    solver(spec.scheme, scene, settings)
+}
+
+/// How long (s) velocities live before positions.
+pub(super) fn lag(spec: &RunSpec, dt: f64) -> f64 {
+    match spec.scheme {
+        Scheme::Explicit(_) => 0.5 * dt,
+        Scheme::Implicit(_) => 0.0,
+    }
 }
 
 /// The quasi-static solver of a solid at time zero, of steps `dt` (s).
@@ -207,8 +244,7 @@ fn surroundings<const D: usize>(
     Ok((Grid::new(h, axes)?, walls))
 }
 
-/// Particles on a lattice over the whole body, in the state of time zero; velocities, which live half a
-/// step from positions, are those of −Δt/2.
+/// Particles on a lattice over the whole body, in the state of time zero; velocities are those of when they live.
 fn seed<const D: usize>(
     spec: &RunSpec,
     per_direction: f64,
@@ -243,7 +279,7 @@ fn seed<const D: usize>(
         )
     });
     for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
-        *v = components(&solution.velocity(&vector(x), -0.5 * dt));
+        *v = components(&solution.velocity(&vector(x), -lag(spec, dt)));
     }
     Ok(particles)
 }

@@ -1,12 +1,13 @@
 //! Tables of errors and orders of the motions with an exact solution.
 
+use super::CFL;
 use super::metrics::{DISPLACEMENT_L2, DISPLACEMENT_LINF, MEAN_STRESS_L2, STRESS_L2, VELOCITY_L2};
 use crate::metric::Metric;
 use crate::record::{Record, Status};
 use crate::results::{
-    Column, Format, ResultTable, SCHEME, SHORT, fixed, is_flip, order, scientific,
+    Column, Format, Label, ResultTable, SCHEME, SHORT, fixed, is_flip, order, scientific,
 };
-use crate::scheme::RemedyName;
+use crate::scheme::{BasisName, RemedyName};
 
 /// Changed parameters, as records name them.
 type Set = &'static [&'static str];
@@ -42,6 +43,10 @@ pub(super) fn of(case: &'static str) -> Vec<ResultTable> {
             locking("mms-vortex-box-locking", SIX),
             price("mms-vortex-box-price", &LEVELS[..3], &["poisson_ratio=0.3"]),
             pressure("mms-vortex-box-pressure", LEVELS),
+            cost("mms-vortex-box-cost", ["n8", "n16", "n32"], |r| {
+                let remedies = [RemedyName::None, RemedyName::FbarConsistent];
+                remedies.contains(&r.remedy()) && is_smooth(r) && r.changes_none_but(&[CFL.name])
+            }),
         ],
         "mms-vortex-pressure" => {
             const RATIOS: [(&str, At); 6] = [
@@ -96,6 +101,10 @@ fn of_axis() -> Vec<ResultTable> {
         ("4", ("n32", &["ppc_per_direction=4"])),
     ];
     vec![
+        orders("mms-axis", "rules", is_of_rule),
+        cost("mms-axis-cost", ["n16", "n32", "n64"], |r| {
+            r.remedy() == RemedyName::None && is_smooth(r) && r.changes_none_but(&[CFL.name])
+        }),
         orders("mms-axis", "transfers", |r| r.is_default() && !is_flip(r)),
         price("mms-axis-price", &LEVELS, &[]),
         errors(
@@ -117,6 +126,7 @@ fn of_wall_pressure() -> Vec<ResultTable> {
     const LARGE: Set = &["amplitude=0.05", "ppc_per_direction=4"];
     let levels = ["n8", "n16", "n32", "n64"].map(|n| (n, (n, LARGE)));
     vec![
+        orders("mms-wall-pressure", "rules", is_of_rule),
         orders("mms-wall-pressure", "wall-line", |r| {
             r.set == ["wall=wall-line"] && is_flip(r)
         }),
@@ -127,6 +137,32 @@ fn of_wall_pressure() -> Vec<ResultTable> {
             levels,
         ),
     ]
+}
+
+/// Whether a run is one of an implicit ladder.
+fn is_of_rule(r: &Record) -> bool {
+    r.scheme().rule().is_some() && r.set == ["cfl=2"]
+}
+
+/// Whether functions are smooth, and a run's transfer has no choice or is FLIP.
+fn is_smooth(r: &Record) -> bool {
+    let judged = is_flip(r) || r.scheme().rule().is_some();
+    judged && matches!(r.basis(), BasisName::Gimp | BasisName::Bspline2)
+}
+
+/// What errors cost, over solvers and their steps.
+fn cost(name: &str, levels: [&'static str; 3], shows: fn(&Record) -> bool) -> ResultTable {
+    let of_level = |level: &'static str| {
+        let at = move |r: &Record| r.level == level;
+        [
+            Column::value(format!("{level}: steps"), |r| r.work.steps as f64, fixed(0)).of(at),
+            Column::metric("error of u (m)", DISPLACEMENT_L2, scientific(1)).of(at),
+            Column::value("CPU (s)", |r| r.time.cpu_s, fixed(2)).of(at),
+        ]
+    };
+    let cfl: Label = ("CFL", |r| r.parameters.text(CFL));
+    let columns = levels.into_iter().flat_map(of_level);
+    ResultTable::new(name, shows, &[SCHEME, cfl], columns)
 }
 
 /// The error of the mean stress (Pa) with the case's own parameters.

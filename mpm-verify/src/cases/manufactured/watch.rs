@@ -1,21 +1,24 @@
 //! The simulation of a motion that is known in closed form, in any dimension and of any law.
 
 use super::metrics as m;
-use super::scene::{Timing, begin, vector};
+use super::scene::{Timing, begin, lag, vector};
 use super::{Manufactured, errors};
-use crate::cases::observe::{column, discretisation, position_columns, reference_columns};
+use crate::cases::observe::{
+    check_rule, column, discretisation, position_columns, reference_columns,
+};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::exact::Exact;
 use crate::job::Column;
 use crate::metric::Metric;
-use crate::parameter::Parameters;
+use crate::parameter::{Parameter, Parameters};
 use crate::record::Discretisation;
+use crate::scheme::RuleName;
 use crate::spec::RunSpec;
 use crate::statistics::{fit_line, rms};
 use mpm_core::Simulation;
 use mpm_core::material::{NeoHookean, NewtonianFluid};
-use mpm_solvers::Solvable;
+use mpm_solvers::{Solvable, Solved};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -60,8 +63,8 @@ struct Row {
 
 impl<const D: usize> Motion<D>
 where
-    NeoHookean: Solvable<D>,
-    NewtonianFluid: Solvable<D>,
+    NeoHookean: Solvable<D> + Solved<D>,
+    NewtonianFluid: Solvable<D> + Solved<D>,
 {
     /// A run at its start.
     ///
@@ -71,9 +74,11 @@ where
         case: Manufactured,
         spec: &RunSpec,
         parameters: &Parameters,
+        known: &[Parameter],
     ) -> Result<Drive<D, Self>, Error> {
         let solution: Arc<dyn Exact> = (case.solution)(parameters)?.into();
-        let Timing { steps, dt } = Timing::new(case, spec.level, parameters, solution.as_ref())?;
+        check_rule(spec, parameters, known)?;
+        let Timing { steps, dt } = Timing::new(case, spec, parameters, solution.as_ref())?;
         let frequency = case.frequency.map(|f| f(parameters));
         let row = match frequency {
             Some(omega) => std::f64::consts::TAU / omega / ROWS_PER_PERIOD / dt,
@@ -178,7 +183,7 @@ impl<const D: usize> Motion<D> {
     /// Errors of displacement, velocity, stress and mean stress of every particle, and the projections
     /// of displacement and velocity on the exact ones.
     fn errors(&self, run: &mut dyn Simulation<D>) -> ([Vec<f64>; 4], [f64; 2]) {
-        let (t, dt) = (run.time(), self.discretisation.dt);
+        let (t, lag) = (run.time(), lag(&self.spec, self.discretisation.dt));
         let stresses = errors::of_stress(self.solution.as_ref(), run);
         let p = run.particles();
         let mut found = [const { Vec::new() }; 4];
@@ -187,7 +192,7 @@ impl<const D: usize> Motion<D> {
             let x = vector(&p.reference[k]);
             let exact = [
                 self.solution.displacement(&x, t),
-                self.solution.velocity(&x, t - 0.5 * dt),
+                self.solution.velocity(&x, t - lag),
             ];
             let off = [
                 errors::of_displacement(self.solution.as_ref(), p, k, t),
@@ -266,8 +271,8 @@ impl<const D: usize> Motion<D> {
 
 impl<const D: usize> Watch<D> for Motion<D>
 where
-    NeoHookean: Solvable<D>,
-    NewtonianFluid: Solvable<D>,
+    NeoHookean: Solvable<D> + Solved<D>,
+    NewtonianFluid: Solvable<D> + Solved<D>,
 {
     type Seen = Seen;
 
@@ -361,6 +366,10 @@ where
             (m::MASS, totals.mass),
             (m::BODY_MASS, errors::mass::<D>(self.solution.as_ref())),
         ];
+        if self.spec.scheme.rule() == Some(RuleName::Midpoint) {
+            let taken = totals.accumulated.lumping_loss;
+            values.push((m::LUMPING_LOSS, taken / peak));
+        }
         let names = [
             [m::DISPLACEMENT_L2, m::DISPLACEMENT_LINF],
             [m::VELOCITY_L2, m::VELOCITY_LINF],

@@ -1,7 +1,9 @@
+use super::super::metrics::DISPLACEMENT_RATIO;
 use super::*;
 use crate::parameter::Parameters;
 use crate::record::Measured;
 use crate::record::fixture::record;
+use crate::scheme::RuleName;
 use crate::verdict::{Outcome, Verdict};
 
 use Outcome::{Failed, NotJudged, Right, WrongAsKnown};
@@ -103,7 +105,7 @@ fn the_order_in_time_comes_from_successive_differences() {
     };
     let judged = |order| {
         let runs = [0.4, 0.2, 0.1].map(|cfl| at(cfl, order));
-        verdicts(&[order_in_time()], &runs).remove(0)
+        verdicts(&order_in_time(), &runs).remove(0)
     };
     for order in [1, 2] {
         let verdict = judged(order);
@@ -111,6 +113,35 @@ fn the_order_in_time_comes_from_successive_differences() {
         assert!((verdict.value.unwrap() - f64::from(order)).abs() < 1e-9);
     }
     assert!(judged(0).failed());
+}
+
+#[test]
+fn an_implicit_order_in_time_hangs_on_the_mass() {
+    use crate::cases::parameters::{CFL, LUMPED};
+    let judged = |rule, set: &[&str], order: f64| {
+        let at = |cfl: f64| {
+            let value = 1.0 + 0.1 * cfl.powf(order);
+            let mut r = run(16.0, DISPLACEMENT_RATIO, value);
+            r.scheme = Scheme::implicit(rule, BasisName::Bspline2, RemedyName::None);
+            r.discretisation.dt = cfl;
+            let own = set.iter().map(|s| (*s).to_owned());
+            r.set = own.chain([format!("cfl={cfl}")]).collect();
+            r.parameters = Parameters::new(&[CFL, LUMPED], &r.set).unwrap();
+            r
+        };
+        outcomes(&order_in_time(), &[0.4, 0.2, 0.1].map(at))
+    };
+    let truth = |outcome| vec![("order-time".to_owned(), outcome)];
+    let limit = |outcome| vec![("order-time-lost".to_owned(), outcome)];
+    let (midpoint, newmark) = (RuleName::Midpoint, RuleName::Newmark);
+    let [consistent, lumped]: [&[&str]; 2] = [&["lumped=0"], &["lumped=1"]];
+    assert_eq!(judged(midpoint, consistent, 2.0), truth(Right));
+    assert_eq!(judged(midpoint, consistent, 1.9), truth(Failed));
+    assert_eq!(judged(midpoint, consistent, 2.1), truth(Failed));
+    assert_eq!(judged(midpoint, &[], 1.9), truth(NotJudged));
+    assert_eq!(judged(midpoint, lumped, 1.5), limit(WrongAsKnown));
+    assert_eq!(judged(midpoint, lumped, 2.0), limit(Failed));
+    assert_eq!(judged(newmark, &[], 1.5), limit(WrongAsKnown));
 }
 
 /// Outcomes of the checks of a motion on a run whose error is so many times the motion.
