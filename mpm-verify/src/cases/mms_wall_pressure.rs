@@ -133,5 +133,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
             &["dimension=3"],
         ),
     ];
-    in_time.into_iter().flatten().chain(in_space).collect()
+    let in_time = in_time.into_iter().flatten();
+    in_space.into_iter().chain(in_time).collect()
 }
