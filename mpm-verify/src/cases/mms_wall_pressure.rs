@@ -103,7 +103,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         ),
         family(Nightly, levels, &pairs(&BASES, &REMEDIES), &[]),
         family(Nightly, levels, &other_transfers(), &[]),
-        family(Pr, &levels[..3], &moved[1..2], &["cfl=2"]),
         family(Nightly, &levels[..4], &moved, &["cfl=2"]),
         family(Long, &levels[4..], &moved, &["cfl=2"]),
         three,
