@@ -1,6 +1,7 @@
 //! Coulomb's law with an elastic stick.
 
 use crate::error::{Error, require};
+use nalgebra::{SMatrix, SVector};
 
 /// Friction between a particle and a rigid body: a spring of tangential stiffness k_t holds the particle to the
 /// body, up to μ times the normal force, beyond which its foot slides (Coulomb's law with the return of plasticity,
@@ -48,16 +49,47 @@ impl Friction {
         self.stiffness
     }
 
+    /// The coefficient μ, unless the stick never slips.
+    #[must_use]
+    pub fn coefficient(&self) -> Option<f64> {
+        self.mu.is_finite().then_some(self.mu)
+    }
+
+    /// The share of a stretch (m) that the stick can't hold which it keeps under the normal force `normal` (N), and the
+    /// length of the stretch (m); none if it holds all of it.
+    fn kept<const D: usize>(&self, stretch: &[f64; D], normal: f64) -> Option<[f64; 2]> {
+        let length = stretch.iter().map(|u| u * u).sum::<f64>().sqrt();
+        let longest = self.mu * normal / self.stiffness;
+        (length > longest).then_some([longest / length, length])
+    }
+
     /// Force (N) on a particle whose stick is stretched by `stretch` (m), under the normal force `normal` (N,
     /// positive). What the stick can't hold, it gives up.
     #[must_use]
     pub fn force<const D: usize>(&self, stretch: &mut [f64; D], normal: f64) -> [f64; D] {
-        let length = stretch.iter().map(|u| u * u).sum::<f64>().sqrt();
-        let longest = self.mu * normal / self.stiffness;
-        if length > longest {
-            *stretch = stretch.map(|u| u * (longest / length));
+        if let Some([share, _]) = self.kept(stretch, normal) {
+            *stretch = stretch.map(|u| u * share);
         }
         stretch.map(|u| -self.stiffness * u)
+    }
+
+    /// −∂t/∂u (N/m) and ∂t/∂N of the [`force`](Self::force) t at the `stretch` u (m) before it gives up anything: k_t I
+    /// and zero while it holds, (μN/|u|) (I − e ⊗ e) and −μ e, e = u/|u|, while it slips.
+    pub(crate) fn tangent<const D: usize>(
+        &self,
+        stretch: &[f64; D],
+        normal: f64,
+    ) -> (SMatrix<f64, D, D>, SVector<f64, D>) {
+        match self.kept(stretch, normal) {
+            None => (SMatrix::identity() * self.stiffness, SVector::zeros()),
+            Some([share, length]) => {
+                let along = SVector::from(*stretch) / length;
+                (
+                    (SMatrix::identity() - along * along.transpose()) * (share * self.stiffness),
+                    along * -self.mu,
+                )
+            }
+        }
     }
 }
 

@@ -76,10 +76,25 @@ impl<const D: usize> RigidContact<D> {
         self.barrier
     }
 
-    /// Whether it has no friction.
+    /// The friction, if there is any.
     #[must_use]
-    pub fn is_smooth(&self) -> bool {
-        self.friction.is_none()
+    pub fn friction(&self) -> Option<Friction> {
+        self.friction
+    }
+
+    /// Stretch of the stick of every particle (m) as the last step left it, by id; empty without friction.
+    pub(crate) fn sticks(&self) -> &[[f64; D]] {
+        &self.stretch
+    }
+
+    /// Takes these stretches (m), with ids, for those of the sticks; all others are forgotten.
+    pub(crate) fn stick(&mut self, stretches: impl Iterator<Item = (u32, [f64; D])>) {
+        self.stretch.fill([0.0; D]);
+        for (id, stretch) in stretches {
+            if let Some(stick) = self.stretch.get_mut(id as usize) {
+                *stick = stretch;
+            }
+        }
     }
 
     /// Notes the `force` (N) of the particles on the body in a step of `dt` (s).

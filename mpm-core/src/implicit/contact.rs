@@ -1,25 +1,32 @@
-//! Contact with rigid bodies in a step: the barrier at a trial, its stiffness, and gaps that stay open.
+//! Contact with rigid bodies in a step: barrier and friction at a trial, their stiffness, and gaps that stay open.
 //!
-//! A barrier acts at a particle's place, x + Σ w u, so that its force on a node is Σ w f and its stiffness Σ w w ∂f/∂x. Both
-//! are of any form in the place; smooth faces have B′ and B″ along the normal.
+//! Both act at a particle's place, x + Σ w u, so that their force on a node is Σ w f and their stiffness Σ w w ∂f/∂x,
+//! of any form in the place; smooth faces have B′ and B″ along the normal. A stick starts from where the last step left
+//! it, however often a step is tried.
 
 use super::elements::Elements;
-use super::{Interpolation, Solver};
-use crate::contact::{Barrier, RigidContact, RigidFace};
+use super::{Interpolation, Remedy, Solver};
+use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
 use crate::error::{Error, Fault, require};
 use crate::material::Law;
 use crate::particles::Particles;
+use crate::scene::Scene;
 use nalgebra::{SMatrix, SVector};
 
 /// The share of the way to the first closed gap that a correction goes at most.
 const OPEN: f64 = 0.9;
 
-/// A rigid face with its barrier, where it stands at one time.
+/// A rigid face with its barrier and friction, where it stands at one time.
 pub(super) struct Obstacle<const D: usize> {
     face: RigidFace<D>,
     barrier: Barrier,
     /// Displacement of the face (m).
-    moved: [f64; D],
+    moved: SVector<f64, D>,
+    friction: Option<Friction>,
+    /// Displacement of the face (m) since the step's start.
+    carried: SVector<f64, D>,
+    /// Stretch of the sticks at the step's start (m), by id; empty without friction.
+    sticks: Vec<[f64; D]>,
 }
 
 /// What an obstacle does to a particle.
@@ -32,35 +39,64 @@ pub(super) struct Push<const D: usize> {
     pub(super) force: SVector<f64, D>,
     /// −∂force/∂x (N/m).
     pub(super) stiffness: SMatrix<f64, D, D>,
+    /// Stretch of the stick (m).
+    pub(super) stretch: [f64; D],
 }
 
 impl<const D: usize> Obstacle<D> {
-    /// A contact as it is at `time` (s).
-    pub(super) fn new(contact: &RigidContact<D>, time: f64) -> Self {
+    /// A contact as it is at `time` (s) of a step from `start` (s) on.
+    fn new(contact: &RigidContact<D>, start: f64, time: f64) -> Self {
+        let [before, moved] =
+            [start, time].map(|time| SVector::from(contact.face().displacement(time)));
         Self {
             face: *contact.face(),
             barrier: contact.barrier(),
-            moved: contact.face().displacement(time),
+            moved,
+            friction: contact.friction(),
+            carried: moved - before,
+            sticks: contact.sticks().to_vec(),
         }
     }
 
     /// Gap (m) to what lies at `x` (m), if it lies before the face.
     fn gap(&self, x: &SVector<f64, D>) -> Option<f64> {
-        let moved = SVector::from(self.moved);
-        self.face.gap(&(x - moved).into())
+        self.face.gap(&(x - self.moved).into())
     }
 
-    /// Force and stiffness at a place.
+    /// −B′ (N) and B″ (N/m) at a place.
     ///
     /// # Errors
     /// The gap is closed.
-    fn push(&self, x: &SVector<f64, D>) -> Result<Option<[f64; 2]>, Fault> {
+    fn normal(&self, x: &SVector<f64, D>) -> Result<Option<[f64; 2]>, Fault> {
         match self.gap(x) {
             Some(gap) if gap <= 0.0 => Err(Fault::GapClosed(gap)),
             Some(gap) if gap < self.barrier.distance() => {
                 Ok(Some([self.barrier.force(gap), self.barrier.stiffness(gap)]))
             }
             _ => Ok(None),
+        }
+    }
+
+    /// Adds to a push with the normal force `normal` (N) and stiffness `slope` (N/m) what the stick of the particle
+    /// `id` does that has moved by `moved` (m) in the step.
+    fn rub(&self, push: &mut Push<D>, id: u32, moved: &SVector<f64, D>, [normal, slope]: [f64; 2]) {
+        let Some((friction, stick)) = self.friction.zip(self.sticks.get(id as usize)) else {
+            return;
+        };
+        let axis = self.face.axis();
+        let mut slid = moved - self.carried;
+        slid[axis] = 0.0;
+        push.stretch = (SVector::from(*stick) + slid).into();
+        let (resisting, by_normal) = friction.tangent(&push.stretch, normal);
+        push.force += SVector::from(friction.force(&mut push.stretch, normal));
+        for column in (0..D).filter(|column| *column != axis) {
+            for row in (0..D).filter(|row| *row != axis) {
+                push.stiffness[(row, column)] += resisting[(row, column)];
+            }
+        }
+        // ∂N/∂x = −B″ n.
+        for row in (0..D).filter(|row| *row != axis) {
+            push.stiffness[(row, axis)] += by_normal[row] * slope * self.face.sign();
         }
     }
 }
@@ -79,20 +115,22 @@ pub(super) fn pushes<const D: usize>(
     for (by, obstacle) in obstacles.iter().enumerate() {
         let (axis, sign) = (obstacle.face.axis(), obstacle.face.sign());
         for (particle, x) in particles.position.iter().enumerate() {
-            let place = SVector::from(*x) + elements.value(particle, u);
-            let push = obstacle.push(&place).map_err(|fault| (particle, fault))?;
-            let Some([size, slope]) = push else {
+            let moved = elements.value(particle, u);
+            let normal = obstacle.normal(&(SVector::from(*x) + moved));
+            let Some([size, slope]) = normal.map_err(|fault| (particle, fault))? else {
                 continue;
             };
-            let (mut force, mut stiffness) = (SVector::zeros(), SMatrix::zeros());
-            force[axis] = sign * size;
-            stiffness[(axis, axis)] = slope;
-            found.push(Push {
+            let mut push = Push {
                 particle,
                 by,
-                force,
-                stiffness,
-            });
+                force: SVector::zeros(),
+                stiffness: SMatrix::zeros(),
+                stretch: [0.0; D],
+            };
+            push.force[axis] = sign * size;
+            push.stiffness[(axis, axis)] = slope;
+            obstacle.rub(&mut push, particles.id[particle], &moved, [size, slope]);
+            found.push(push);
         }
     }
     Ok(found)
@@ -121,13 +159,20 @@ pub(super) fn open_share<const D: usize>(
     share
 }
 
-/// That a solver can have these contacts on `grid`.
+/// Whether the stiffness of a scene is symmetric: friction that can slip has no potential.
+pub(super) fn is_symmetric<const D: usize, M: Law>(scene: &Scene<D, M>) -> bool {
+    let mut frictions = scene.contacts.iter().filter_map(RigidContact::friction);
+    M::CONSERVATIVE && frictions.all(|friction| friction.coefficient().is_none())
+}
+
+/// That a solver with `remedy` can have these contacts on `grid`.
 ///
 /// # Errors
-/// A face across a periodic axis; friction.
+/// A face across a periodic axis; friction that can slip, with F̄.
 pub(super) fn check<const D: usize>(
     contacts: &[RigidContact<D>],
     grid: &crate::Grid<D>,
+    remedy: Remedy,
 ) -> Result<(), Error> {
     for contact in contacts {
         let axis = contact.face().axis();
@@ -138,11 +183,12 @@ pub(super) fn check<const D: usize>(
             axis as f64,
             "not periodic",
         )?;
+        let slipping = contact.friction().and_then(|f| f.coefficient());
         require(
-            contact.is_smooth(),
-            "friction of an implicit run's contact",
-            1.0,
-            "none: Coulomb's law needs a regularised slip, whose stiffness is not symmetric",
+            slipping.is_none() || remedy != Remedy::FbarConsistent,
+            "friction coefficient of an implicit run with F-bar",
+            slipping.unwrap_or(0.0),
+            "none, or infinite (rough): conjugate gradients solve with F-bar, and what slips has no symmetric stiffness",
         )?;
     }
     Ok(())
@@ -152,7 +198,17 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// The contacts as they are at `time` (s).
     pub(super) fn obstacles(&self, time: f64) -> Vec<Obstacle<D>> {
         let contacts = self.scene.contacts.iter();
-        contacts.map(|c| Obstacle::new(c, time)).collect()
+        let start = self.time;
+        contacts.map(|c| Obstacle::new(c, start, time)).collect()
+    }
+
+    /// Keeps the sticks of pushes at a step's end.
+    pub(super) fn stick(&mut self, pushes: &[Push<D>]) {
+        let ids = &self.scene.body.particles.id;
+        for (place, contact) in self.scene.contacts.iter_mut().enumerate() {
+            let own = pushes.iter().filter(|push| push.by == place);
+            contact.stick(own.map(|push| (ids[push.particle], push.stretch)));
+        }
     }
 
     /// Gives the rigid bodies what the particles did to them in a step of `dt` (s).

@@ -3,7 +3,7 @@
 
 use super::linear::Direct;
 use super::unknowns::Pattern;
-use super::{Interpolation, Solver};
+use super::{Interpolation, Solver, contact};
 use crate::material::Law;
 use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
@@ -58,7 +58,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
         self.convergence = convergence;
         self.work = work;
         self.reactions = reactions;
-        self.direct = Direct::new(M::CONSERVATIVE);
+        self.direct = Direct::new(contact::is_symmetric(&self.scene));
         self.direct.pattern = pattern;
         Ok(())
     }

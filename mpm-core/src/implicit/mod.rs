@@ -136,7 +136,11 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
             Err(_) => f64::NAN,
             Ok(trial) => {
                 let values = step.stiffness(&step.tangents(&trial), &setting.pattern);
-                linear::condition(M::CONSERVATIVE, &setting.pattern, &values)
+                linear::condition(
+                    contact::is_symmetric(&self.scene),
+                    &setting.pattern,
+                    &values,
+                )
             }
         }
     }
@@ -335,6 +339,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         self.accelerate(&setting, &solution, &external, dt)?;
         self.observe(&setting, &solution, end, [&earlier, &external], dt);
         self.commit(end, &places, dt);
+        self.stick(&end.pushes);
         self.convergence = solution.convergence;
         Ok(())
     }

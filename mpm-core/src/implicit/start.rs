@@ -16,10 +16,11 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     ///
     /// # Errors
     /// A setting or particle that is not allowed; a stabilisation that the functions don't offer; F̄ with a law that is
-    /// not conservative; a contact with friction or across a periodic axis; a constraint on one side only; a particle off the grid.
+    /// not conservative or friction that can slip; a contact across a periodic axis; a constraint on one side only; a
+    /// particle off the grid.
     pub fn new(mut scene: Scene<D, M>, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
-        contact::check(&scene.contacts, &scene.grid)?;
+        contact::check(&scene.contacts, &scene.grid, settings.remedy)?;
         held::check(&scene.constraints)?;
         let averages = settings.remedy == Remedy::FbarConsistent;
         require(
@@ -73,6 +74,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         if averages {
             particles.j_bar = particles.jacobian.clone();
         }
+        for contact in &mut scene.contacts {
+            contact.attach(particles.len());
+        }
         let work = Work {
             particles: particles.len() as u64,
             nodes: functions.len() as u64,
@@ -82,7 +86,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             originals: functions.originals(),
             held: held::components(&functions, &scene),
             moduli,
-            direct: Direct::new(M::CONSERVATIVE),
+            direct: Direct::new(contact::is_symmetric(&scene)),
             time: 0.0,
             accumulated: Accumulated::default(),
             residual: Residual::default(),

@@ -35,6 +35,7 @@ macro_rules! every_basis {
 mod contact;
 mod damping;
 mod dynamics;
+mod friction;
 mod stiffness;
 
 /// Two places in a cell, in shares of it.

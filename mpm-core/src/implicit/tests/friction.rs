@@ -1,0 +1,331 @@
+//! Coulomb friction: its tangent, rest without creep, and a block on a slope that slides at its angle.
+
+use super::contact::{DISTANCE, floor, rubber};
+use super::stiffness::{slope_of_the_forces, strained};
+use super::*;
+use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
+use crate::simulation::Part;
+use crate::stage::Gravity;
+
+const MU: f64 = 0.3;
+/// Mass of a block (kg/m), whose weight is that of a gravity of 1 m/s² across the slope.
+const MASS: f64 = 1e3 * (H * CELLS as f64) * (H * CELLS as f64);
+/// Of the particles that touch the slope, each bears this at half of the barrier's distance (N/m).
+const EACH: f64 = MASS / (2 * CELLS) as f64;
+const TOLERANCE: f64 = 1e-12;
+const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.1 };
+const NEWMARK: TimeRule = TimeRule::Newmark {
+    alpha: 0.25,
+    delta: 0.5,
+};
+
+type Block = Solver<2, Quadratics<2>, NeoHookean>;
+
+/// K is the slope of the forces of sticks that were stretched before, so far that no trial changes what they do: all
+/// particles that touch do the same.
+fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law>(
+    law: M,
+    remedy: Remedy,
+    friction: Friction,
+) {
+    let mut solver = strained::<D, I, M>(law, remedy);
+    let face = RigidFace::half_space(D - 1, End::Lo, 0.0).unwrap();
+    let particles = &solver.scene.body.particles;
+    let barrier = Barrier::carrying(1e3, 0.5 * H).unwrap();
+    let mut contact =
+        RigidContact::new(face.touching(particles, 0.2 * H), barrier).with_friction(friction);
+    contact.attach(particles.len());
+    let along = [0.2 * H, -0.1 * H];
+    let before = std::array::from_fn(|a| if a == D - 1 { 0.0 } else { along[a] });
+    contact.stick(particles.id.iter().map(|id| (*id, before)));
+    solver.scene.contacts.push(contact);
+    let setting = solver.setting(1.0);
+    let step = setting.step(&solver.scene.body, 1.0);
+    let rest = vec![0.0; setting.unknowns.len()];
+    let touching = step.trial(&rest, solver.functions.len()).unwrap().pushes;
+    assert!(touching.len() > 4 && touching.len() < particles_of(&solver));
+    for push in touching {
+        assert_eq!(push.stretch == before, friction.coefficient().is_none());
+        assert!(push.force[0] < 0.0);
+    }
+    slope_of_the_forces(&solver, remedy);
+}
+
+fn particles_of<const D: usize, I: Interpolation<D>, M: Law>(solver: &Solver<D, I, M>) -> usize {
+    solver.scene.body.particles.len()
+}
+
+#[test]
+fn the_tangent_of_a_stick_is_the_slope_of_its_forces() {
+    let rough = Friction::rough(3e3).unwrap();
+    for remedy in [Remedy::None, Remedy::FbarConsistent] {
+        every_basis!(tangent_has_friction, 2, rubber(), remedy, rough);
+    }
+    tangent_has_friction::<3, Means<3>, _>(rubber(), Remedy::None, rough);
+}
+
+#[test]
+fn the_tangent_of_a_slip_is_the_slope_of_its_forces() {
+    // μN/k_t is at most a few tenths of the stretch.
+    let slippery = Friction::new(MU, 1e6).unwrap();
+    every_basis!(tangent_has_friction, 2, rubber(), Remedy::None, slippery);
+    tangent_has_friction::<3, Means<3>, _>(rubber(), Remedy::None, slippery);
+}
+
+/// The stiffness of a stick (N/m), as that of the barrier where it works.
+fn stick(barrier: Barrier) -> f64 {
+    barrier.stiffness(0.5 * DISTANCE)
+}
+
+/// A block on a slope whose tangent is `slope` from the time one (s) on and zero before, with 1 m/s² across it.
+fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Settings) -> Block {
+    let axes = [Axis::open(0.0, 8 * CELLS), Axis::open(0.0, CELLS + 4)];
+    let mut scene = filled(axes, CELLS, Places::Uniform, rubber());
+    for x in &mut scene.body.particles.position {
+        *x = x.map(|x| x + 2.0 * H);
+    }
+    let contact = floor(&scene.body.particles, 0.5 * DISTANCE, EACH);
+    let friction = friction(stick(contact.barrier()));
+    let gravity = move |t: f64| [if t > 1.0 { slope } else { 0.0 }, -1.0];
+    let settings = Settings {
+        tolerance: TOLERANCE,
+        ..settings.stabilised(Stabilisation::Extension)
+    };
+    let scene = scene
+        .contact(contact.with_friction(friction))
+        .load(Gravity(Box::new(gravity)));
+    Solver::new(scene, settings).unwrap()
+}
+
+fn coulomb(stiffness: f64) -> Friction {
+    Friction::new(MU, stiffness).unwrap()
+}
+
+/// A block that rests under its weight at the time one (s).
+fn resting(slope: f64) -> Block {
+    let mut solver = block(slope, coulomb, Settings::new(1.0));
+    solver.step().unwrap();
+    solver
+}
+
+/// Static steps until one finds equilibrium as it is: particles that have moved see other values of the functions.
+fn settle(solver: &mut Block) {
+    for _ in 0..20 {
+        solver.step().unwrap();
+        if solver.convergence().unwrap().residuals.len() == 1 {
+            return;
+        }
+    }
+    panic!("it doesn't come to rest");
+}
+
+/// Goes on by another rule, from rest.
+fn go_on(solver: &mut Block, rule: TimeRule, dt: f64) {
+    solver.settings = Settings {
+        dt,
+        ..solver.settings.rule(rule)
+    };
+    let particles = &mut solver.scene.body.particles;
+    particles.velocity = vec![[0.0; 2]; particles.len()];
+    particles.acceleration = particles.velocity.clone();
+}
+
+/// By id.
+fn places(solver: &Block) -> Vec<[f64; 2]> {
+    let particles = solver.particles();
+    let mut places = vec![[0.0; 2]; particles.len()];
+    for (id, x) in particles.id.iter().zip(&particles.position) {
+        places[*id as usize] = *x;
+    }
+    places
+}
+
+/// What a step leaves is a force of Newton's tolerance, against which the sticks of all that touch hold the block: no
+/// step moves it by more than that force stretches them.
+#[test]
+fn below_the_angle_of_friction_a_block_rests_and_does_not_creep() {
+    for share in [0.5, 0.9] {
+        for rule in [TimeRule::Static, MIDPOINT, NEWMARK] {
+            let slope = share * MU;
+            let mut solver = resting(slope);
+            settle(&mut solver);
+            let force = solver.on(Part::Contact(0)).force;
+            assert!((force[0] - slope * MASS).abs() < 1e-9 * MASS, "{force:?}");
+            assert!((force[1] + MASS).abs() < 1e-9 * MASS, "{force:?}");
+            go_on(&mut solver, rule, 0.02);
+            let before = places(&solver);
+            let steps = 50;
+            for _ in 0..steps {
+                solver.step().unwrap();
+            }
+            let stiffness = (2 * CELLS) as f64 * stick(solver.scene.contacts[0].barrier());
+            let bound = f64::from(steps) * TOLERANCE * MASS / stiffness;
+            for (x, before) in places(&solver).iter().zip(&before) {
+                let moved = (x[0] - before[0]).abs();
+                assert!(moved <= bound, "{share} {rule:?}: {moved} {bound}");
+            }
+        }
+    }
+}
+
+/// Σ friction is μ Σ N where all particles slip. So the mean acceleration along the slope is g_x − μ (g_y + Δv_y/T), and a
+/// block that stays on the face swings by no more than a fall of 1/ω from rest gives, ω² = ΣB″/m: |Δv_y| ≤ 2 g_y/ω.
+#[test]
+fn beyond_the_angle_of_friction_a_block_slides_at_its_acceleration() {
+    let slope = 2.0 * MU;
+    for (rule, stabilisation, dt, steps) in [
+        (MIDPOINT, Stabilisation::Extension, 0.02, 300),
+        (NEWMARK, Stabilisation::Ghost(0.01), 0.01, 80),
+    ] {
+        let mut solver = resting(slope);
+        go_on(&mut solver, rule, dt);
+        solver.settings = solver.settings.stabilised(stabilisation);
+        for _ in 0..20 {
+            solver.step().unwrap();
+        }
+        let (early, start) = (solver.totals().momentum, solver.time());
+        let impulse = solver.on(Part::Contact(0)).impulse;
+        for _ in 0..steps {
+            solver.step().unwrap();
+            let convergence = solver.convergence().unwrap();
+            assert_eq!(convergence.parts, 1);
+            let order = |r: &[f64]| (r[2] / r[1]).ln() / (r[1] / r[0]).ln();
+            let orders = convergence.residuals.windows(3).map(order);
+            assert!(orders.fold(0.0, f64::max) > 1.7);
+        }
+        let (late, time) = (solver.totals().momentum, solver.time() - start);
+        let after = solver.on(Part::Contact(0)).impulse;
+        let given = [0, 1].map(|a| after[a] - impulse[a]);
+        assert!((given[0] + MU * given[1]).abs() < 1e-12 * MASS * time);
+        let acceleration = (late[0] - early[0]) / (MASS * time);
+        let stiffness = (2 * CELLS) as f64 * stick(solver.scene.contacts[0].barrier());
+        let swing = 2.0 * MU * (MASS / stiffness).sqrt() / time;
+        let exact = slope - MU;
+        assert!((acceleration - exact).abs() < swing, "{acceleration}");
+    }
+}
+
+/// No equilibrium exists, the state stays as it was, and goes on dynamically.
+#[test]
+fn beyond_the_angle_of_friction_a_static_step_is_a_typed_error() {
+    let mut solver = resting(1.1 * MU);
+    let (before, contact) = (places(&solver), solver.scene.contacts[0].clone());
+    let error = solver.step().unwrap_err();
+    assert!(
+        matches!(error, Error::NoConvergence { .. } | Error::Singular { .. }),
+        "{error}"
+    );
+    assert_eq!(before, places(&solver));
+    assert_eq!(contact, solver.scene.contacts[0]);
+    go_on(&mut solver, MIDPOINT, 0.01);
+    for _ in 0..20 {
+        solver.step().unwrap();
+    }
+    assert!(solver.totals().momentum[0] > 0.0);
+}
+
+#[test]
+fn a_sliding_block_that_was_stopped_goes_on_as_if_it_had_not() {
+    let fresh = || block(2.0 * MU, coulomb, Settings::new(0.25).rule(MIDPOINT));
+    let mut straight = fresh();
+    let run = |solver: &mut Block| {
+        for _ in 0..5 {
+            solver.step().unwrap();
+        }
+    };
+    run(&mut straight);
+    let saved = straight.save().unwrap();
+    run(&mut straight);
+    let mut resumed = fresh();
+    resumed.restore(&saved).unwrap();
+    run(&mut resumed);
+    assert_eq!(bits(&straight), bits(&resumed));
+    assert_eq!(straight.scene.contacts, resumed.scene.contacts);
+}
+
+/// Sticks take a block along that nothing holds else, without a force.
+#[test]
+fn a_rough_face_that_moves_along_itself_takes_a_block_with_it() {
+    let speed = 0.1 * H;
+    let mut solver = block(0.0, |k| Friction::rough(k).unwrap(), Settings::new(1.0));
+    settle(&mut solver);
+    let contact = &solver.scene.contacts[0];
+    let face = contact.face().moving([speed, 0.0], 0.0).unwrap();
+    let moving = RigidContact::new(face, contact.barrier());
+    let mut moving = moving.with_friction(contact.friction().unwrap());
+    moving.attach(solver.particles().len());
+    let ids = &solver.scene.body.particles.id;
+    moving.stick(ids.iter().map(|id| (*id, contact.sticks()[*id as usize])));
+    solver.scene.contacts[0] = moving;
+    let before = places(&solver);
+    solver.step().unwrap();
+    for (x, before) in places(&solver).iter().zip(&before) {
+        assert!((x[0] - before[0] - speed).abs() < 1e-9 * speed);
+        assert!((x[1] - before[1]).abs() < 1e-9 * speed);
+    }
+    assert!(solver.on(Part::Contact(0)).force[0].abs() < 1e-9 * MASS);
+}
+
+/// One that never slips is stretched by what its particle moves in the whole of a step, wherever the equations hold.
+#[test]
+fn a_stick_remembers_the_whole_of_a_step() {
+    for rule in [TimeRule::Static, MIDPOINT, NEWMARK] {
+        let mut solver = block(MU, |k| Friction::rough(k).unwrap(), Settings::new(1.0));
+        solver.step().unwrap();
+        go_on(&mut solver, rule, 0.02);
+        let (before, sticks) = (places(&solver), solver.scene.contacts[0].sticks().to_vec());
+        solver.step().unwrap();
+        let contact = &solver.scene.contacts[0];
+        let mut touching = 0;
+        for ((x, before), (stick, first)) in
+            (places(&solver).iter().zip(before)).zip(contact.sticks().iter().zip(sticks))
+        {
+            if contact.face().gap(x).unwrap() < DISTANCE {
+                let (moved, stretched) = (x[0] - before[0], stick[0] - first[0]);
+                assert!(moved.abs() > 1e-6 && (moved - stretched).abs() < 1e-14);
+                touching += 1;
+            }
+        }
+        assert_eq!(touching, 2 * CELLS);
+    }
+}
+
+#[test]
+fn a_stick_that_touches_nothing_is_forgotten() {
+    let mut contact = block(0.0, coulomb, Settings::new(1.0))
+        .scene
+        .contacts
+        .remove(0);
+    contact.stick([(1, [0.1, 0.0]), (3, [0.2, 0.0])].into_iter());
+    contact.stick([(3, [0.3, 0.0])].into_iter());
+    let held: Vec<f64> = contact.sticks()[..4].iter().map(|u| u[0]).collect();
+    assert_eq!(held, [0.0, 0.0, 0.0, 0.3]);
+}
+
+/// What slips has no potential for F̄; what never does is solved with it.
+#[test]
+fn friction_with_f_bar_has_to_be_rough() {
+    let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
+    let mut rough = block(2.0 * MU, |k| Friction::rough(k).unwrap(), settings);
+    rough.step().unwrap();
+    rough.step().unwrap();
+    let force = rough.on(Part::Contact(0)).force;
+    assert!(
+        (force[0] - 2.0 * MU * MASS).abs() < 1e-9 * MASS,
+        "{force:?}"
+    );
+    let scene = Scene {
+        contacts: vec![rough.scene.contacts[0].clone().with_friction(coulomb(1.0))],
+        ..filled(
+            [Axis::walls(0.0, CELLS); 2],
+            CELLS,
+            Places::Uniform,
+            rubber(),
+        )
+    };
+    let error = Block::new(scene, settings).err().unwrap().to_string();
+    assert!(
+        error.contains("friction coefficient") && error.contains("0.3"),
+        "{error}"
+    );
+}
