@@ -125,7 +125,12 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         ),
         family(Pr, &levels[..3], &smooth[1..], &["cfl=2"]),
         family(Nightly, &levels[..4], &moved, &["cfl=2"]),
-        family(Nightly, &levels[..3], &moved, &["amplitude=0.02", "cfl=2"]),
+        family(
+            Nightly,
+            &levels[..3],
+            &moved[..3],
+            &["amplitude=0.02", "cfl=2"],
+        ),
         family(Nightly, &levels[1..3], &smooth, &["cfl=0.5"]),
         family(Nightly, &levels[1..4], &smooth, &["cfl=5"]),
         family(Nightly, &levels[3..4], &smooth, &["cfl=50"]),
