@@ -20,7 +20,7 @@ use mpm_verify::record::Version;
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::{describe, discard_report, keep::keep, shown, tables::Page, write_report};
 use mpm_verify::run::checkpoint::Saving;
-use mpm_verify::scheme::{Scheme, TransferName};
+use mpm_verify::scheme::{RemedyName, Scheme, TransferName};
 use mpm_verify::spec::RunSpec;
 use mpm_verify::study::complete::Completeness;
 use mpm_verify::study::gather::Gathered;
@@ -114,7 +114,10 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                     Scheme::of_parts(
                         solver,
                         basis.unwrap_or(own.basis()),
-                        remedy.unwrap_or(own.remedy()),
+                        remedy.unwrap_or(match solver {
+                            "poro" => RemedyName::None,
+                            _ => own.remedy(),
+                        }),
                         transfer.unwrap_or(usual),
                     )?
                 }

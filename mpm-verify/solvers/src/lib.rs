@@ -7,6 +7,7 @@ use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Serendipity};
 use mpm_core::material::{Hencky, HenckyJ2, Hypoelastic, NeoHookean, NewtonianFluid};
+use mpm_core::poro::{self, Water};
 use mpm_core::{Error, Lattice, Law, Scene, Simulation};
 use scheme::{BasisName, Explicit, RemedyName, Scheme, TransferName};
 
@@ -169,6 +170,67 @@ implicit_solvers!(1, NewtonianFluid, []);
 implicit_solvers!(3, NewtonianFluid, []);
 implicit_solvers!(3, NeoHookean, [Gimp: Lattice<3, 3, Gimp>, Bspline2: Lattice<3, 3, QuadraticBSpline>]);
 implicit_solvers!(2, Hypoelastic, [Bspline2: Lattice<2, 3, QuadraticBSpline>, Q8: Serendipity]);
+
+/// A law with the solvers of solid and water that are compiled for it.
+pub trait Soaked<const D: usize>: Law + Sized {
+    /// A solver of `scene`, whose pores are full of `water`, on the functions of `scheme`; the space of the pressure is
+    /// that of the settings.
+    ///
+    /// # Errors
+    /// The solver refuses the scene; the scheme is of another kind, or not compiled for this law in this dimension.
+    fn poro(
+        scheme: Scheme,
+        scene: Scene<D, Self>,
+        water: Water<D>,
+        settings: poro::Settings,
+    ) -> Built<D>;
+}
+
+/// A solver of solid and water.
+///
+/// # Errors
+/// As [`Soaked::poro`].
+pub fn poro<const D: usize, M: Soaked<D>>(
+    scheme: Scheme,
+    scene: Scene<D, M>,
+    water: Water<D>,
+    settings: poro::Settings,
+) -> Built<D> {
+    M::poro(scheme, scene, water, settings)
+}
+
+/// Compiles solvers of solid and water for a law, on linear functions and GIMP.
+macro_rules! soaked {
+    ($dimension:literal, $law:ty) => {
+        impl Soaked<$dimension> for $law {
+            fn poro(
+                scheme: Scheme,
+                scene: Scene<$dimension, Self>,
+                water: Water<$dimension>,
+                settings: poro::Settings,
+            ) -> Built<$dimension> {
+                let Scheme::Poro(parts) = scheme else {
+                    return Err(other_solver("poro"));
+                };
+                match parts.basis {
+                    BasisName::Linear => Ok(Box::new(poro::Solver::<
+                        $dimension,
+                        Lattice<$dimension, 2, Linear>,
+                        Self,
+                    >::new(scene, water, settings)?)),
+                    BasisName::Gimp => Ok(Box::new(poro::Solver::<
+                        $dimension,
+                        Lattice<$dimension, 3, Gimp>,
+                        Self,
+                    >::new(scene, water, settings)?)),
+                    basis => Err(not_compiled($dimension, basis, TransferName::Flip)),
+                }
+            }
+        }
+    };
+}
+
+soaked!(1, Hencky);
 
 fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {
     match remedy {

@@ -20,7 +20,9 @@ pub enum NameError {
         allowed: &'static [&'static str],
     },
     /// A scheme that lacks a part.
-    #[error("scheme \"{0}\" is not of the form basis-remedy-transfer or solver-basis-remedy")]
+    #[error(
+        "scheme \"{0}\" is not of the form basis-remedy-transfer, solver-basis-remedy or poro-basis-space"
+    )]
     Form(String),
 }
 
@@ -159,6 +161,20 @@ pub enum RuleName {
 plain_text!(RuleName, "solver", [
     Self::QuasiStatic => "quasi-static", Self::Midpoint => "midpoint", Self::Newmark => "newmark"]);
 
+/// Spaces of the pore pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SpaceName {
+    /// The displacement's functions on cells twice as large.
+    TwoGrid,
+    /// Those on the same cells.
+    Equal,
+    /// Likewise, with a polynomial pressure projection.
+    Ppp,
+}
+
+plain_text!(SpaceName, "pressure space", [
+    Self::TwoGrid => "two-grid", Self::Equal => "equal", Self::Ppp => "ppp"]);
+
 /// A scheme, by the kind of its solver. Files and the command line hold its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
@@ -167,6 +183,8 @@ pub enum Scheme {
     Explicit(Explicit),
     /// Implicit: rule-basis-remedy, such as quasi-static-gimp-none.
     Implicit(Implicit),
+    /// Solid and water: poro-basis-space, such as poro-gimp-two-grid.
+    Poro(Poro),
 }
 
 /// A scheme of the explicit solver.
@@ -191,7 +209,22 @@ pub struct Implicit {
     pub remedy: RemedyName,
 }
 
+/// A scheme of the solver of solid and water.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Poro {
+    /// Basis functions of the displacement and the pressure.
+    pub basis: BasisName,
+    /// Space of the pressure.
+    pub space: SpaceName,
+}
+
 impl Scheme {
+    /// A scheme of solid and water.
+    #[must_use]
+    pub const fn poro(basis: BasisName, space: SpaceName) -> Self {
+        Self::Poro(Poro { basis, space })
+    }
+
     /// An explicit scheme.
     #[must_use]
     pub const fn explicit(basis: BasisName, remedy: RemedyName, transfer: TransferName) -> Self {
@@ -230,11 +263,12 @@ impl Scheme {
         match self {
             Self::Explicit(e) => Self::explicit(basis, remedy, e.transfer),
             Self::Implicit(i) => Self::implicit(i.rule, basis, remedy),
+            Self::Poro(p) => Self::poro(basis, p.space),
         }
     }
 
     /// The kinds of solvers.
-    pub const SOLVERS: &[&str] = &["explicit", "quasi-static", "midpoint", "newmark"];
+    pub const SOLVERS: &[&str] = &["explicit", "quasi-static", "midpoint", "newmark", "poro"];
 
     /// Name of the solver's kind, as `--solver` takes it.
     #[must_use]
@@ -242,6 +276,7 @@ impl Scheme {
         match self {
             Self::Explicit(_) => "explicit",
             Self::Implicit(i) => i.rule.text(),
+            Self::Poro(_) => "poro",
         }
     }
 
@@ -249,7 +284,7 @@ impl Scheme {
     #[must_use]
     pub const fn rule(self) -> Option<RuleName> {
         match self {
-            Self::Explicit(_) => None,
+            Self::Explicit(_) | Self::Poro(_) => None,
             Self::Implicit(i) => Some(i.rule),
         }
     }
@@ -260,6 +295,7 @@ impl Scheme {
         match self {
             Self::Explicit(e) => e.basis,
             Self::Implicit(i) => i.basis,
+            Self::Poro(p) => p.basis,
         }
     }
 
@@ -269,6 +305,7 @@ impl Scheme {
         match self {
             Self::Explicit(e) => e.remedy,
             Self::Implicit(i) => i.remedy,
+            Self::Poro(_) => RemedyName::None,
         }
     }
 
@@ -277,7 +314,7 @@ impl Scheme {
     pub const fn transfer(self) -> TransferName {
         match self {
             Self::Explicit(e) => e.transfer,
-            Self::Implicit(_) => TransferName::None,
+            Self::Implicit(_) | Self::Poro(_) => TransferName::None,
         }
     }
 
@@ -312,6 +349,14 @@ impl Scheme {
                 let what = "transfer of an implicit scheme";
                 Err(unknown(what, transfer.text(), &["none"]))
             }
+            ("poro", _) if none && remedy == RemedyName::None => {
+                Ok(Self::poro(basis, SpaceName::TwoGrid))
+            }
+            ("poro", _) => {
+                let what = "remedy or transfer of a scheme of solid and water";
+                let given = if none { remedy.text() } else { transfer.text() };
+                Err(unknown(what, given, &["none"]))
+            }
             _ => Err(unknown("solver", solver, Self::SOLVERS)),
         }
     }
@@ -327,6 +372,7 @@ impl Scheme {
                 format!("{basis} {remedy} static")
             }
             Self::Implicit(i) => format!("{basis} {remedy} {}", i.rule),
+            Self::Poro(p) => format!("{basis} {}", p.space),
         }
     }
 
@@ -342,6 +388,14 @@ impl Scheme {
                 let (basis, remedy) = (BasisName::parse(basis)?, RemedyName::parse(remedy)?);
                 return Ok(Self::implicit(rule, basis, remedy));
             }
+        }
+        if let Some(rest) = name.strip_prefix("poro-") {
+            let parts = rest.split_once('-');
+            let (basis, space) = parts.ok_or_else(|| NameError::Form(name.to_owned()))?;
+            return Ok(Self::poro(
+                BasisName::parse(basis)?,
+                SpaceName::parse(space)?,
+            ));
         }
         let parts = name.split_once('-').and_then(|(basis, rest)| {
             let (remedy, transfer) = rest.rsplit_once('-')?;
@@ -372,6 +426,7 @@ impl fmt::Display for Scheme {
         match self {
             Self::Explicit(e) => write!(f, "{}-{}-{}", e.basis, e.remedy, e.transfer),
             Self::Implicit(i) => write!(f, "{}-{}-{}", i.rule, i.basis, i.remedy),
+            Self::Poro(p) => write!(f, "poro-{}-{}", p.basis, p.space),
         }
     }
 }
@@ -388,7 +443,14 @@ mod tests {
             let scheme = Scheme::implicit(rule, BasisName::Gimp, RemedyName::FbarConsistent);
             assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
         }
+        for space in [SpaceName::TwoGrid, SpaceName::Equal, SpaceName::Ppp] {
+            let scheme = Scheme::poro(BasisName::Linear, space);
+            assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
+        }
         for bad in [
+            "poro",
+            "poro-gimp",
+            "poro-gimp-none",
             "",
             "gimp",
             "gimp-flip",

@@ -26,6 +26,7 @@ pub(crate) mod parameters;
 mod pictures;
 mod slope_stability;
 mod standing_wave;
+mod terzaghi;
 mod vibrating_bar;
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
@@ -49,6 +50,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         standing_wave::case(),
         cantilever::case(),
         discs::case(),
+        terzaghi::case(),
     ]
 });
 

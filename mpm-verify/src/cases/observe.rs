@@ -89,19 +89,18 @@ pub(super) fn check_rule(
     parameters: &Parameters,
     all: &[Parameter],
 ) -> Result<(), Error> {
+    let refused = |solver: &str| {
+        let solvers = ["explicit", "midpoint", "newmark"];
+        let kind = "solver of bodies that move";
+        Err(Error::unknown(kind, solver, solvers))
+    };
     let foreign: &[&str] = match spec.scheme {
+        Scheme::Poro(_) => return refused(spec.scheme.solver()),
         Scheme::Explicit(_) => &["step_factor", "lumped", "alpha", "delta", "tolerance"],
         Scheme::Implicit(parts) => match parts.rule {
             RuleName::Midpoint => &["alpha", "delta", "wall", "flip", "relaxation"],
             RuleName::Newmark => &["lumped", "wall", "flip", "relaxation"],
-            RuleName::QuasiStatic => {
-                let solvers = ["explicit", "midpoint", "newmark"];
-                return Err(Error::unknown(
-                    "solver of bodies that move",
-                    "quasi-static",
-                    solvers,
-                ));
-            }
+            RuleName::QuasiStatic => return refused(spec.scheme.solver()),
         },
     };
     forbid(spec, parameters, all, foreign)

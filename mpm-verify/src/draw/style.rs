@@ -1,7 +1,7 @@
 //! How the curve of a scheme looks, and which schemes share their axes, the same in every picture.
 
 use super::{Chart, Dash, Marker, PlotError, Series, draw_charts, share_ranges};
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use crate::scheme::{BasisName, RemedyName, Scheme, SpaceName, TransferName};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -10,17 +10,22 @@ const MOST_CURVES: usize = 8;
 /// Panels of a picture, at most.
 const MOST_PANELS: usize = 6;
 
-/// The curve of a scheme: its colour tells the remedy and the kind of solver, its marker the basis, its line the
-/// transfer (solid FLIP, dashed APIC, dotted XPIC; markers of the latter two are hollow).
+/// The curve of a scheme: its colour tells the remedy, or the space of the pressure, and the kind of solver, its marker the
+/// basis, its line the transfer (solid FLIP, dashed APIC, dotted XPIC; markers of the latter two are hollow).
 pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
-    let colour = match scheme.remedy() {
-        RemedyName::None if scheme.transfer() == TransferName::None => 4,
-        RemedyName::FbarConsistent if scheme.transfer() == TransferName::None => 5,
-        RemedyName::None => 6,
-        RemedyName::FbarRecursive => 1,
-        RemedyName::FbarTotal => 2,
-        RemedyName::FbarRate => 0,
-        RemedyName::FbarConsistent => 3,
+    let colour = match (scheme, scheme.remedy()) {
+        (Scheme::Poro(poro), _) => match poro.space {
+            SpaceName::TwoGrid => 4,
+            SpaceName::Equal => 1,
+            SpaceName::Ppp => 3,
+        },
+        (Scheme::Implicit(_), RemedyName::None) => 4,
+        (Scheme::Implicit(_), RemedyName::FbarConsistent) => 5,
+        (_, RemedyName::None) => 6,
+        (_, RemedyName::FbarRecursive) => 1,
+        (_, RemedyName::FbarTotal) => 2,
+        (_, RemedyName::FbarRate) => 0,
+        (_, RemedyName::FbarConsistent) => 3,
     };
     let marker = match scheme.basis() {
         BasisName::Gimp => Marker::Circle,

@@ -18,6 +18,7 @@ mod rigid;
 pub mod slope;
 pub(crate) mod standing_wave;
 pub(crate) mod swirl;
+pub mod terzaghi;
 pub(crate) mod twist;
 pub(crate) mod vibrating_bar;
 pub(crate) mod vortex_box;

@@ -75,7 +75,9 @@ pub(super) fn case() -> Case {
         own_runs: checks::own_runs,
         begin: Box::new(|spec, parameters| {
             Ok(match spec.scheme {
-                Scheme::Implicit(_) => Box::new(Pressed::drive(spec, parameters)?),
+                Scheme::Implicit(_) | Scheme::Poro(_) => {
+                    Box::new(Pressed::drive(spec, parameters)?)
+                }
                 Scheme::Explicit(_) => {
                     forbid_static(spec, parameters)?;
                     Box::new(Loaded::drive(spec, parameters)?)

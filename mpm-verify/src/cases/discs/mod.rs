@@ -85,7 +85,7 @@ fn cost(spec: &RunSpec) -> f64 {
         .map_or(0, |p| scene::timing(spec.level.h, &p).1);
     let a_step = match spec.scheme {
         Scheme::Explicit(_) => 1e-5,
-        Scheme::Implicit(_) => 1e-3,
+        Scheme::Implicit(_) | Scheme::Poro(_) => 1e-3,
     };
     a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
 }

@@ -97,7 +97,7 @@ pub(super) fn cost(case: &Manufactured, known: &[Parameter], spec: &RunSpec) -> 
     };
     let remedy = match spec.scheme {
         Scheme::Explicit(_) => remedy,
-        Scheme::Implicit(_) => remedy * NEWTON,
+        Scheme::Implicit(_) | Scheme::Poro(_) => remedy * NEWTON,
     };
     steps().unwrap_or(0.0) * remedy / STEPS_PER_COST
 }
@@ -160,7 +160,7 @@ fn solved<const D: usize, M: Solvable<D> + Solved<D>>(
 pub(super) fn lag(spec: &RunSpec, dt: f64) -> f64 {
     match spec.scheme {
         Scheme::Explicit(_) => 0.5 * dt,
-        Scheme::Implicit(_) => 0.0,
+        Scheme::Implicit(_) | Scheme::Poro(_) => 0.0,
     }
 }
 
