@@ -11,7 +11,7 @@ use crate::scheme::Scheme;
 use crate::verdict::{Outcome, Verdict};
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// How the status of a run that broke down begins; the time follows.
@@ -169,23 +169,80 @@ fn six_digits(value: f64) -> String {
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
+/// Names of the metrics of every case in the order in which its rows first have them. In a file only that row names a
+/// metric, and those after it have its value at its place: names would be more than half of the file.
+#[derive(Default)]
+struct Names(BTreeMap<String, Vec<String>>);
+
+impl Names {
+    /// The metrics of a row of `case` as the file has them: `1;2;c=3` of `a=1;b=2;c=3`, if `a` and `b` have names already.
+    fn leave_out(&mut self, case: &str, metrics: &str) -> String {
+        let names = self.0.entry(case.to_owned()).or_default();
+        let mut cells = vec![String::new(); names.len()];
+        for metric in metrics.split(';').filter(|metric| !metric.is_empty()) {
+            let (name, value) = metric.split_once('=').unwrap_or((metric, ""));
+            if let Some(place) = names.iter().position(|known| known == name) {
+                value.clone_into(&mut cells[place]);
+            } else {
+                names.push(name.to_owned());
+                cells.push(metric.to_owned());
+            }
+        }
+        cells.join(";").trim_end_matches(';').to_owned()
+    }
+
+    /// The metrics of a row, each with its name; `None` if a value has none.
+    fn put_back(&mut self, case: &str, cells: &str) -> Option<String> {
+        let names = self.0.entry(case.to_owned()).or_default();
+        let mut metrics = Vec::new();
+        for (place, cell) in cells.split(';').enumerate() {
+            if let Some((name, _)) = cell.split_once('=') {
+                if !names.iter().any(|known| known == name) {
+                    names.push(name.to_owned());
+                }
+                metrics.push(cell.to_owned());
+            } else if !cell.is_empty() {
+                metrics.push(format!("{}={cell}", names.get(place)?));
+            }
+        }
+        Some(metrics.join(";"))
+    }
+}
+
 /// Reads rows; none if there is no file.
 pub(super) fn read(path: &Path) -> Result<Vec<Row>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }
     let mut reader = csv::Reader::from_path(path).map_err(|e| Error::file(path, e))?;
+    let mut names = Names::default();
     let rows = reader.deserialize::<Row>();
-    rows.map(|row| row.map_err(|e| Error::file(path, e)))
-        .collect()
+    rows.map(|row| {
+        let row = row.map_err(|e| Error::file(path, e))?;
+        let nameless = || {
+            let [case, scheme, level, set] = row.run();
+            let run = format!("{case} {scheme} {level} {set}");
+            Error::file(path, format!("{run}: a metric without a name"))
+        };
+        let metrics = names.put_back(&row.case, &row.metrics);
+        let metrics = metrics.ok_or_else(nameless)?;
+        Ok(Row { metrics, ..row })
+    })
+    .collect()
 }
 
 /// Rows as CSV.
 pub(super) fn text(rows: &[Row]) -> Result<Vec<u8>, Error> {
     let failed = |e: &dyn std::fmt::Display| Error::Input(format!("rows: {e}"));
     let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut names = Names::default();
     for row in rows {
-        writer.serialize(row).map_err(|e| failed(&e))?;
+        let metrics = names.leave_out(&row.case, &row.metrics);
+        let short = Row {
+            metrics,
+            ..row.clone()
+        };
+        writer.serialize(short).map_err(|e| failed(&e))?;
     }
     writer.into_inner().map_err(|e| failed(&e))
 }
@@ -199,6 +256,30 @@ mod tests {
     fn numbers_have_six_digits() {
         let told = [1.0, -0.148_699_4, 2.340_791e-5, 1_234_567.0].map(six_digits);
         assert_eq!(told, ["1", "-0.148699", "2.34079e-5", "1234570"]);
+    }
+
+    #[test]
+    fn a_file_names_a_metric_once_a_case() {
+        let rows = [
+            ("bar", "a=1;c=3"),
+            ("bar", "a=4;b=5;c=6"),
+            ("bar", ""),
+            ("disc", "b=7"),
+            ("bar", "b=8"),
+        ];
+        let mut names = Names::default();
+        let cells = rows.map(|(case, metrics)| names.leave_out(case, metrics));
+        assert_eq!(cells, ["a=1;c=3", "4;6;b=5", "", "b=7", ";;8"]);
+        let mut names = Names::default();
+        let again: Vec<_> = rows
+            .iter()
+            .zip(&cells)
+            .map(|((case, _), cells)| names.put_back(case, cells).unwrap())
+            .collect();
+        assert_eq!(again, ["a=1;c=3", "a=4;c=6;b=5", "", "b=7", "b=8"]);
+        assert_eq!(names.put_back("disc", "1;2"), None);
+        // Files of former programs name all.
+        assert_eq!(names.put_back("disc", "c=1;b=2").unwrap(), "c=1;b=2");
     }
 
     #[test]
