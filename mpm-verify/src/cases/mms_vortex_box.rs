@@ -168,7 +168,7 @@ pub(super) fn claim(r: &Record) -> Claim {
             Claim::Open(NULL_SPACE)
         };
     }
-    if r.scheme().rule().is_some() && r.discretisation.h < FED {
+    if r.scheme().rule().is_some() && is_sound(r.remedy()) && r.discretisation.h < FED {
         return Claim::Open(
             "without relaxation ln(J/J̄) no longer falls, and the error has a floor of a hundredth of the motion",
         );

@@ -155,7 +155,7 @@ pub(in crate::cases) fn mass() -> Check {
 fn error_bound(claims: Claims, wave: Wave) -> Check {
     Check::truth(
         "error-bound",
-        "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of the largest rms of the exact u, k the wave number of the motion and c the speed of its waves: the largest dispersion among bases and remedies, and what a forced vibration makes of it; never more than the motion; left out where known limits are judged instead",
+        "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of the largest rms of the exact u, k the wave number of the motion and c the speed of its waves: the largest dispersion among bases and remedies, and what a forced vibration makes of it; of implicit steps 2θ² (⅛ + ⅙ r²/|1 − r²|) more, θ = ωΔt and r that of ω and the free vibration; never more than the motion; left out where known limits are judged instead",
         run(move |r| vec![bound(r, &claims(r), &wave)]),
     )
 }

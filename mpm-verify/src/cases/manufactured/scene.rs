@@ -44,7 +44,7 @@ impl Timing {
         solution: &dyn Exact,
     ) -> Result<Self, Error> {
         let number = |p| parameters.number(p);
-        if spec.scheme.solver() == "explicit" && number(CFL) >= EXPLICIT_CFL {
+        if matches!(spec.scheme, Scheme::Explicit(_)) && number(CFL) >= EXPLICIT_CFL {
             return Err(Error::Input(format!(
                 "cfl = {} is out of range for the solver explicit; allowed: below {EXPLICIT_CFL}",
                 number(CFL)

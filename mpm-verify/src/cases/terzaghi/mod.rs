@@ -18,7 +18,9 @@ use crate::results::headline;
 use crate::scheme::{BasisName, Scheme, SpaceName};
 use crate::sketch::{Shape, Sketch};
 use crate::spec::Level;
-use metrics::{MASS_ERROR, OVERSHOOT_FIRST_STEP, PRESSURE_L2, PRESSURE_L2_STEPS, SETTLEMENT_ERROR};
+use metrics::{
+    ENTRIES, MASS_ERROR, OVERSHOOT_FIRST_STEP, PRESSURE_L2, PRESSURE_L2_STEPS, SETTLEMENT_ERROR,
+};
 use scene::HEIGHT;
 use watch::Consolidation;
 
@@ -77,6 +79,7 @@ pub(super) fn case() -> Case {
             headline(OVERSHOOT_FIRST_STEP, "overshoot (%)", 100.0, 3),
             headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 4),
             headline(MASS_ERROR, "water made (–)", 1.0, 10),
+            headline(ENTRIES, "entries of a matrix", 1.0, 0),
         ],
         quantities: vec![
             error(PRESSURE_L2_STEPS, "rms error of p/q in space"),
