@@ -70,6 +70,10 @@ const SLIDE: Runs =
 /// Discs that collide.
 const DISCS: Runs = &["discs --scheme midpoint-gimp-none --set step_factor=100"];
 
+/// The first step of a column of solid and water.
+const COLUMN: Runs =
+    &["terzaghi --scheme poro-linear-two-grid --level n20 --set first_step=0.05 --set steps=1"];
+
 /// A beam in equilibrium, and one whose stress turns.
 const BEAM: Runs = &["cantilever --level h0.1"];
 const TURNED_BEAM: Runs = &["cantilever --level h0.1 --set law=jaumann"];
@@ -126,7 +130,7 @@ pub(crate) const FAULTS: [Fault; 38] = [
     },
     Fault {
         name: "the ghost penalty vanishes",
-        file: "implicit/ghost.rs",
+        file: "implicit/interpolation.rs",
         sound: "factor * moduli.young()",
         broken: "0.0 * moduli.young()",
         seen_by: &[(BEAM, "completes")],
@@ -362,6 +366,20 @@ pub(crate) const FAULTS: [Fault; 38] = [
         sound: "4.0 / (dt * dt)",
         broken: "3.9 / (dt * dt)",
         seen_by: &[(DISCS, "no-energy-gain")],
+    },
+    Fault {
+        name: "water pulls the solid together",
+        file: "poro/response.rs",
+        sound: "-p * cofactor[i][j]",
+        broken: "p * cofactor[i][j]",
+        seen_by: &[(COLUMN, "completes")],
+    },
+    Fault {
+        name: "the top of the column lets no water out",
+        file: "poro/mod.rs",
+        sound: "self.drained[node].then_some(0.0)",
+        broken: "None",
+        seen_by: &[(COLUMN, "overshoot")],
     },
 ];
 

@@ -58,7 +58,8 @@ impl ImprovedHencky {
         let number = T::splat;
         let solid = number(1.0 - self.porosity) * (-v).exp();
         let n = number(1.0) - solid;
-        let k = number(self.bulk_parameter) / n;
+        // Pores that have closed have no energy, and no stress that could be mistaken for one.
+        let k = n.if_positive(number(self.bulk_parameter) / n, number(f64::NAN));
         // v (1 − n)/n.
         let ratio = v * solid / n;
         let half = number(0.5);

@@ -229,6 +229,8 @@ fn pores_resist_all_the_more_the_less_is_left_of_them() {
         assert!(mean < last || j >= 1.0);
         last = mean;
     }
+    let closed = Matrix3::identity() * 0.59_f64.cbrt();
+    assert!(deform(&law, &closed).0.mean().is_nan());
     assert!(last < -1e4 * k, "{last}");
     for (k, g, n) in [
         (0.0, 1.0, 0.5),

@@ -123,7 +123,7 @@ impl<const D: usize> Face<D> {
                 functions_of.hats(&place, &mut functions);
                 let node: Vec<usize> = functions.node.iter().map(|n| originals[*n]).collect();
                 let mut shares = node.iter().zip(&functions.w);
-                if let Some((_, share)) = shares.find(|(n, w)| **w > NOTHING && !seen(**n)) {
+                if let Some((_, share)) = shares.find(|(n, w)| w.abs() > NOTHING && !seen(**n)) {
                     return Err((p, Fault::EmptyCell(*share)));
                 }
                 corners.push(Corner {

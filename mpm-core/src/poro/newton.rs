@@ -31,12 +31,16 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         clocked(&mut self.spent.forces, || self.step.trial(x))
     }
 
-    /// The greater of the residuals over what the two equations balance; zero where rounding decides.
+    /// The greater of the residuals over what the two equations balance; zero where rounding decides, and infinite of
+    /// what is no number.
     fn share(&self, residual: &[f64], trial: &Trial<D>) -> f64 {
         let parts = residual.split_at(self.step.setting.unknowns.displacements);
         let mut share: f64 = 0.0;
         for (k, part) in [parts.0, parts.1].into_iter().enumerate() {
             let (size, rounding) = (norm(part), [self.rounding, trial.rounding][k]);
+            if !(size.is_finite() && rounding.is_finite()) {
+                return f64::INFINITY;
+            }
             if size > rounding {
                 share = share.max(size / trial.scale[k].max(rounding));
             }

@@ -33,7 +33,7 @@ pub(super) struct Answer<T> {
     pub(super) stress: [T; MOST],
     /// V v, the change of volume (m³), Eq. (7).
     pub(super) rate: T,
-    /// V times the flux that drives the water out (m⁴/s), Eq. (6), which enters the equations as ∇M · flow.
+    /// −V times the flux of the water (m⁴/s), Eq. (6), which enters the equations as ∇M · flow.
     pub(super) flow: [T; 3],
     /// V κ Cᵀ C/J̃ (m⁵/(Pa s)): the derivative of the flow by ∇p.
     pub(super) mobility: [T; MOST],

@@ -33,6 +33,7 @@ const SPACES: [PressureSpace; 3] = [
 ];
 
 mod column;
+mod response;
 mod tangent;
 
 fn porous() -> ImprovedHencky {

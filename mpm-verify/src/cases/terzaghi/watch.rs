@@ -175,7 +175,8 @@ impl Watch<1> for Consolidation {
                 m::SETTLEMENT_ERROR,
                 (self.settlement(run) - terzaghi::settlement(t)).abs(),
             ),
-            (m::MASS_ERROR, lost.max(ROUNDING)),
+            // What is no number stays none.
+            (m::MASS_ERROR, if lost < ROUNDING { ROUNDING } else { lost }),
             (m::NEWTON_ITERATIONS, work.newton_iterations as f64),
             (m::ENTRIES, entries),
         ]
