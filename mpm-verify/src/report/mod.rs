@@ -17,6 +17,7 @@ mod remedies;
 mod rows;
 pub mod shown;
 pub mod single;
+mod solvers;
 mod speed;
 mod summary;
 mod sweep;

@@ -1,7 +1,7 @@
 //! The pictures that README and docs show, each with what it is drawn from.
 
 use super::speed::Speed;
-use super::{convergence, draw_own, rows, sweep};
+use super::{convergence, draw_own, rows, solvers, sweep};
 use crate::bench;
 use crate::case::Tier;
 use crate::cases;
@@ -53,7 +53,6 @@ const SHOWN: [(&str, &str, Source); 25] = [
     ("cook", "convergence.svg", Rows),
     ("cook", "cpu-precision.svg", Rows),
     ("cook", "mean-stress-gimp.png", Runs(Pr)),
-    ("dam-break", "cpu-precision.svg", Rows),
     ("dam-break", "snapshots-gimp.png", Runs(Nightly)),
     ("discs", "energy.svg", Runs(Nightly)),
     ("footing", "load-settlement.svg", Runs(Nightly)),
@@ -67,6 +66,7 @@ const SHOWN: [(&str, &str, Source); 25] = [
     ("mms-vortex-box", "sweep-poisson_ratio.svg", Rows),
     ("mms-vortex-ring", "convergence.svg", Rows),
     ("mms-wall-pressure", "convergence.svg", Rows),
+    ("results", "solvers.svg", Rows),
     ("results", "speed-against-error.svg", Rows),
     ("slope-stability", "work-precision.svg", Rows),
     ("standing-wave", "energy.svg", Runs(Nightly)),
@@ -143,6 +143,7 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
         }
         studies.push(study);
     }
+    solvers::draw(&records, &out.join("results"))?;
     Speed::of(&studies).draw(&out.join("results"))?;
     Ok(())
 }
