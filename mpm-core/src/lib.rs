@@ -18,8 +18,8 @@
 //! * [`memory`]: how a run is stopped and goes on as if it had not been.
 //!
 //! What only the explicit step needs, in [`explicit`]: its [`Settings`](explicit::Settings), particle–grid transfers
-//! ([`explicit::transfer`]: PIC/FLIP blend, APIC, XPIC) and remedies ([`explicit::remedy`]: how the averaged Jacobian J̄
-//! is formed).
+//! ([`explicit::transfer`]: PIC/FLIP blend, APIC, XPIC, MUSL) and remedies ([`explicit::remedy`]: how the averaged
+//! Jacobian J̄ is formed).
 //!
 //! What only the implicit one needs, in [`implicit`]: functions as it asks for them, penalties, Newton's method. What a
 //! body with water has beside them, in [`poro`].

@@ -81,6 +81,8 @@ impl Friction {
         normal: f64,
     ) -> (SMatrix<f64, D, D>, SVector<f64, D>) {
         match self.kept(stretch, normal) {
+            // A smooth face holds nothing, unstretched or not.
+            None if self.mu == 0.0 => (SMatrix::zeros(), SVector::zeros()),
             None => (SMatrix::identity() * self.stiffness, SVector::zeros()),
             Some([share, length]) => {
                 let along = SVector::from(*stretch) / length;
@@ -128,6 +130,7 @@ mod tests {
         );
         let smooth = Friction::new(0.0, 10.0).unwrap();
         assert_eq!(smooth.force(&mut stretch, 1e9), [0.0; 2]);
+        assert_eq!(smooth.tangent(&[0.0; 2], 1e9), Default::default());
         assert_eq!(stretch, [0.0; 2]);
         assert_eq!(smooth.force(&mut stretch, 1e9), [0.0; 2]);
     }

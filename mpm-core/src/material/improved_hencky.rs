@@ -1,6 +1,6 @@
-//! Hencky elasticity of a porous solid whose pores never close (Pretti, Coombs, Augarde, Puigvert & Gutiérrez 2024,
-//! doi:10.1016/j.mechmat.2024.104958): W = G ‖dev h‖² + K v²/(2n) of the strain h = ½ ln b, with the volumetric strain
-//! v = tr h = ln J and the porosity n = 1 − (1 − n₀)/J of a solid with incompressible grains.
+//! Hencky elasticity of a porous solid whose energy has no bound as pores close (Pretti, Coombs, Augarde, Puigvert &
+//! Gutiérrez 2024, doi:10.1016/j.mechmat.2024.104958): W = G ‖dev h‖² + K v²/(2n) of the strain h = ½ ln b, with the
+//! volumetric strain v = tr h = ln J and the porosity n = 1 − (1 − n₀)/J of a solid with incompressible grains.
 //!
 //! dn/dv = 1 − n, hence τ = 2G dev h + \[K v/n − K v² (1 − n)/(2n²)\] I, which grows without bound as n → 0. W is ours
 //! from what is told of theirs: a bulk parameter, a shear modulus and a positive porosity.
