@@ -113,6 +113,14 @@ fn every_link_of_the_documents_leads_somewhere() {
 }
 
 /// Tables can't be broken. Not yet wrapped: the pages named here.
+/// A line as it is read: what fills a number is not.
+fn without_comments(line: &str) -> String {
+    let mut parts = line.split("<!--");
+    let before = parts.next().unwrap_or("").to_owned();
+    let after = parts.map(|part| part.split_once("-->").map_or(part, |(_, after)| after));
+    before + &after.collect::<String>()
+}
+
 #[test]
 fn lines_of_the_documents_are_short() {
     let later = ["ARCHITECTURE", "docs/performance"];
@@ -120,7 +128,8 @@ fn lines_of_the_documents_are_short() {
     for file in documents().into_iter().filter(|file| !later.contains(file)) {
         let text = read(&file);
         let lines = text.lines().filter(|line| !line.starts_with('|'));
-        let long: Vec<&str> = lines.filter(|line| line.chars().count() > 120).collect();
+        let lines = lines.map(without_comments);
+        let long: Vec<String> = lines.filter(|line| line.chars().count() > 120).collect();
         assert!(long.is_empty(), "{file}: {long:?}");
     }
 }

@@ -22,6 +22,7 @@ mod speed;
 mod summary;
 mod sweep;
 pub mod tables;
+mod values;
 mod words;
 
 use crate::cases;

@@ -1,9 +1,10 @@
-//! The tables of results in README and docs, filled from the rows that are kept.
+//! The tables of results in README and docs, and the numbers in their sentences, filled from the rows that are kept.
 //!
 //! A table stands between `<!-- table NAME -->` and `<!-- end -->`, each on a line of its own; that of speed against error
 //! may begin with its name alone.
 
 use super::speed::{self, Speed};
+use super::values::Values;
 use super::{remedies, rows};
 use crate::cases;
 use crate::error::Error;
@@ -23,12 +24,12 @@ const END: &str = "<!-- end -->";
 const LINE: usize = 110;
 const RESULTS: &str = "reports/nightly/results.csv";
 
-/// A page with its tables as they should be.
+/// A page with its tables and numbers as they should be.
 #[derive(Debug)]
 pub struct Page {
     /// File.
     pub file: PathBuf,
-    /// Names of the tables that are not as they should be.
+    /// Names of the tables and numbers that are not as they should be.
     pub stale: Vec<String>,
     text: String,
 }
@@ -37,14 +38,15 @@ impl Page {
     /// The pages of the repository in `root`: its README, and what lies in docs.
     ///
     /// # Errors
-    /// Rows or pages are missing or damaged; a page has a block that nothing fills or that does not end; no page has a
-    /// table.
+    /// Rows or pages are missing or damaged; a page has a block or a number that nothing fills or that does not end; no
+    /// page has a table.
     pub fn all(root: &Path) -> Result<Vec<Self>, Error> {
         let results = root.join(RESULTS);
         if !results.exists() {
             return Err(Error::file(&results, "there is no such file"));
         }
-        let tables = tables(&rows::read(&results)?);
+        let rows = rows::read(&results)?;
+        let (tables, values) = (tables(&rows), Values::new(&rows));
         let mut files = vec![root.join("README.md")];
         let docs = root.join("docs");
         for entry in fs::read_dir(&docs).map_err(|e| Error::file(&docs, e))? {
@@ -54,7 +56,7 @@ impl Page {
         files.sort();
         let mut shown = BTreeSet::new();
         let pages = files.into_iter();
-        let pages = pages.map(|file| Self::read(file, &tables, &mut shown));
+        let pages = pages.map(|file| Self::read(file, &tables, &values, &mut shown));
         let pages = pages.collect::<Result<Vec<Self>, Error>>()?;
         match tables.keys().find(|name| !shown.contains(*name)) {
             Some(name) => Err(Error::Input(format!("no page shows the table {name}"))),
@@ -66,14 +68,17 @@ impl Page {
     fn read(
         file: PathBuf,
         tables: &BTreeMap<String, String>,
+        values: &Values,
         shown: &mut BTreeSet<String>,
     ) -> Result<Self, Error> {
         let old = fs::read_to_string(&file).map_err(|e| Error::file(&file, e))?;
         let (mut text, mut stale) = (String::new(), Vec::new());
         let mut lines = old.split_inclusive('\n').enumerate();
         while let Some((k, line)) = lines.next() {
-            text.push_str(line);
             let refuse = |cause: String| Error::file(&file, format!("line {}: {cause}", k + 1));
+            let (line, changed) = values.fill(line).map_err(|e| refuse(e.to_string()))?;
+            text.push_str(&line);
+            stale.extend(changed);
             let Some(comment) = line.trim_end().strip_prefix("<!-- ") else {
                 continue;
             };

@@ -1,0 +1,136 @@
+//! Numbers in the sentences of README and docs, filled from the rows that are kept.
+//!
+//! `<!--= CASE SCHEME LEVEL [PARAMETER=VALUE…] METRIC FORMAT-->5.14<!--/-->`, on one line. The metric is one that the row keeps,
+//! `cpu_s` or `steps`. The format is a number of decimals, `e` with one for a power of ten, and a `%` after it for a share
+//! in per cent, with its sign if a `+` is before it.
+
+use super::rows::Row;
+use crate::error::Error;
+use crate::record::Record;
+use crate::results::{Format, fixed, percent, scientific, share};
+
+const BEGIN: &str = "<!--=";
+const CLOSE: &str = "-->";
+const END: &str = "<!--/-->";
+
+/// What fills numbers: the rows that are kept, as records.
+pub(super) struct Values(Vec<(String, Record)>);
+
+impl Values {
+    pub(super) fn new(rows: &[Row]) -> Self {
+        let named = rows
+            .iter()
+            .filter_map(|row| Some((row.run().join(" "), row.record()?)));
+        Self(
+            named
+                .map(|(name, record)| (name.trim_end().to_owned(), record))
+                .collect(),
+        )
+    }
+
+    /// A line with its numbers as they should be, and what those that are not are of.
+    ///
+    /// # Errors
+    /// A number does not end; its run, metric or format is unknown.
+    pub(super) fn fill(&self, line: &str) -> Result<(String, Vec<String>), Error> {
+        let (mut text, mut stale, mut rest) = (String::new(), Vec::new(), line);
+        while let Some((before, after)) = rest.split_once(BEGIN) {
+            let parts = after.split_once(CLOSE);
+            let parts = parts.and_then(|(of, after)| Some((of, after.split_once(END)?)));
+            let Some((of, (former, after))) = parts else {
+                return Err(Error::Input(format!("the number{after} does not end")));
+            };
+            let number = self.number(of.trim())?;
+            if number != former {
+                stale.push(of.trim().to_owned());
+            }
+            text += &format!("{before}{BEGIN}{of}{CLOSE}{number}{END}");
+            rest = after;
+        }
+        Ok((text + rest, stale))
+    }
+
+    fn number(&self, of: &str) -> Result<String, Error> {
+        let refuse = |cause: &str| Error::Input(format!("the number \"{of}\": {cause}"));
+        let words: Vec<&str> = of.split_whitespace().collect();
+        let [run @ .., metric, format] = &*words else {
+            return Err(refuse("a run, a metric and a format are wanted"));
+        };
+        let format = read(format).ok_or_else(|| refuse("a format is 2, e1, 1% or +1%"))?;
+        let name = run.join(" ");
+        let Some((_, record)) = self.0.iter().find(|(known, _)| *known == name) else {
+            return Err(refuse("no such run is kept"));
+        };
+        let value = match *metric {
+            "cpu_s" => record.time.cpu_s,
+            "steps" => record.work.steps as f64,
+            metric => record.value(metric),
+        };
+        match value.is_finite() {
+            true => Ok(format.text(value)),
+            false => Err(refuse("its row keeps no such metric")),
+        }
+    }
+}
+
+fn read(format: &str) -> Option<Format> {
+    let of: fn(usize) -> Format = match (format.strip_prefix('+'), format.strip_suffix('%')) {
+        (Some(_), Some(_)) => percent,
+        (None, Some(_)) => share,
+        (None, None) if format.starts_with('e') => scientific,
+        (None, None) => fixed,
+        (Some(_), None) => return None,
+    };
+    let decimals = format.trim_matches(|c| matches!(c, '+' | '%' | 'e'));
+    Some(of(decimals.parse().ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases;
+    use crate::record::fixture::run;
+    use crate::scheme::{BasisName, RemedyName};
+
+    fn values() -> Values {
+        let cook = cases::find("cook").unwrap();
+        let scheme = (BasisName::Gimp, RemedyName::None);
+        let metrics = [("mid_edge_uy", -0.012_34)];
+        let run = run(&cook.parameters, scheme, ("h1", 1.0), &["load=2"], &metrics);
+        Values(vec![("cook gimp-none-flip h1 load=2".to_owned(), run)])
+    }
+
+    #[test]
+    fn a_number_in_a_sentence_is_filled_and_a_changed_one_is_stale() {
+        let line = |first: &str, second: &str| {
+            let run = "cook gimp-none-flip h1 load=2 mid_edge_uy";
+            format!(
+                "Off by <!--= {run} +1%-->{first}<!--/--> or <!--= {run} 4-->{second}<!--/-->.\n"
+            )
+        };
+        let (filled, stale) = values().fill(&line("+9 %", "−0.0123")).unwrap();
+        assert_eq!(filled, line("−1.2 %", "−0.0123"));
+        assert_eq!(stale, ["cook gimp-none-flip h1 load=2 mid_edge_uy +1%"]);
+        assert!(values().fill(&filled).unwrap().1.is_empty());
+    }
+
+    #[test]
+    fn what_nothing_fills_is_refused() {
+        for (of, cause) in [
+            ("cook gimp-none-flip h1 mid_edge_uy 2", "no such run"),
+            ("cook gimp-none-flip h1 load=2 tip 2", "no such metric"),
+            (
+                "cook gimp-none-flip h1 load=2 mid_edge_uy +2",
+                "a format is",
+            ),
+            ("2", "are wanted"),
+        ] {
+            let error = values()
+                .fill(&format!("<!--= {of}-->1<!--/-->"))
+                .unwrap_err();
+            assert!(error.to_string().contains(cause), "{error}");
+        }
+        let endless = values().fill("<!--= cook 2-->1").unwrap_err().to_string();
+        assert!(endless.contains("does not end"), "{endless}");
+    }
+}
