@@ -112,7 +112,6 @@ fn every_link_of_the_documents_leads_somewhere() {
     }
 }
 
-/// Tables can't be broken. Not yet wrapped: the pages named here.
 /// A line as it is read: what fills a number is not.
 fn without_comments(line: &str) -> String {
     let mut parts = line.split("<!--");
@@ -121,10 +120,10 @@ fn without_comments(line: &str) -> String {
     before + &after.collect::<String>()
 }
 
+/// Tables can't be broken. Not yet wrapped: the page named here.
 #[test]
 fn lines_of_the_documents_are_short() {
-    let later = ["ARCHITECTURE", "docs/performance"];
-    let later = later.map(|name| format!("{name}.md"));
+    let later = ["ARCHITECTURE.md".to_owned()];
     for file in documents().into_iter().filter(|file| !later.contains(file)) {
         let text = read(&file);
         let lines = text.lines().filter(|line| !line.starts_with('|'));
