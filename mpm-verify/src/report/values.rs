@@ -1,7 +1,8 @@
 //! Numbers in the sentences of README and docs, filled from the rows that are kept.
 //!
 //! `<!--= CASE SCHEME LEVEL [PARAMETER=VALUE…] METRIC FORMAT-->5.14<!--/-->`, on one line. The metric is one that the row keeps,
-//! `cpu_s` or `steps`. The format is a number of decimals, `e` with one for a power of ten, and a `%` after it for a share
+//! `cpu_s`, `steps` or `breakdown`, the time of it (s). Over a number that a second run has, which stands after a `/`, it
+//! is a ratio. The format is a number of decimals, `e` with one for a power of ten, and a `%` after it for a share
 //! in per cent, with its sign if a `+` is before it.
 
 use super::rows::Row;
@@ -52,24 +53,32 @@ impl Values {
 
     fn number(&self, of: &str) -> Result<String, Error> {
         let refuse = |cause: &str| Error::Input(format!("the number \"{of}\": {cause}"));
-        let words: Vec<&str> = of.split_whitespace().collect();
-        let [run @ .., metric, format] = &*words else {
-            return Err(refuse("a run, a metric and a format are wanted"));
-        };
+        let parts = of.rsplit_once(' ');
+        let (of_what, format) =
+            parts.ok_or_else(|| refuse("a run, a metric and a format are wanted"))?;
         let format = read(format).ok_or_else(|| refuse("a format is 2, e1, 1% or +1%"))?;
-        let name = run.join(" ");
-        let Some((_, record)) = self.0.iter().find(|(known, _)| *known == name) else {
-            return Err(refuse("no such run is kept"));
+        let value = |of: &str| self.value(of).map_err(refuse);
+        let value = match of_what.split_once(" / ") {
+            Some((over, under)) => value(over)? / value(under)?,
+            None => value(of_what)?,
         };
-        let value = match *metric {
+        Ok(format.text(value))
+    }
+
+    /// A number of a run, or why there is none.
+    fn value(&self, of: &str) -> Result<f64, &'static str> {
+        let (run, metric) = of.rsplit_once(' ').ok_or("a run and a metric are wanted")?;
+        let run = self.0.iter().find(|(known, _)| known == run);
+        let (_, record) = run.ok_or("no such run is kept")?;
+        let value = match metric {
             "cpu_s" => record.time.cpu_s,
             "steps" => record.work.steps as f64,
+            "breakdown" => record.error.as_ref().map_or(f64::NAN, |e| e.time),
             metric => record.value(metric),
         };
-        match value.is_finite() {
-            true => Ok(format.text(value)),
-            false => Err(refuse("its row keeps no such metric")),
-        }
+        Some(value)
+            .filter(|v| v.is_finite())
+            .ok_or("its row keeps no such metric")
     }
 }
 
@@ -112,6 +121,13 @@ mod tests {
         assert_eq!(filled, line("−1.2 %", "−0.0123"));
         assert_eq!(stale, ["cook gimp-none-flip h1 load=2 mid_edge_uy +1%"]);
         assert!(values().fill(&filled).unwrap().1.is_empty());
+    }
+
+    #[test]
+    fn a_ratio_is_of_two_runs() {
+        let run = "cook gimp-none-flip h1 load=2";
+        let line = format!("<!--= {run} steps / {run} cpu_s 1-->3.0<!--/-->");
+        assert_eq!(values().fill(&line).unwrap(), (line, Vec::new()));
     }
 
     #[test]
