@@ -1,14 +1,15 @@
 //! Accepting drift.
 
 use crate::error::Error;
-use crate::golden::{Goldens, Run};
+use crate::golden::{BLUNT, Goldens, Run};
+use crate::metric::possible;
 use crate::record::{Record, Status, Version};
 use crate::report::describe::{drift_line, verdict_line};
 use crate::run::checkpoint::Saving;
 use crate::study::gather::Gathered;
 use crate::study::judge::outcome_of_run;
 use crate::study::plan::PlannedRun;
-use crate::study::schedule::{Listener, Task, run_all};
+use crate::study::schedule::{Listener, TWIN, Task, run_all};
 use crate::study::summary::CaseStudy;
 use crate::verdict::{Outcome, Verdict};
 use std::fmt::Write;
@@ -89,7 +90,8 @@ impl<'a> Candidates<'a> {
     }
 
     /// Blesses every candidate, running a perturbed twin of each beside the run itself (one that is there already is
-    /// kept). Nothing is written before everything is measured. Returns how many were blessed, or which twin broke down.
+    /// kept). Nothing is written before everything is measured, and nothing is if a quantity is doubtful that is not
+    /// among the `allowed`.
     ///
     /// # Errors
     /// A file can't be read or written.
@@ -97,10 +99,10 @@ impl<'a> Candidates<'a> {
         &self,
         gathered: &Gathered,
         goldens: &Goldens,
-        reason: &str,
+        (reason, allowed): (&str, &[String]),
         workers: usize,
         listener: &dyn Listener,
-    ) -> Result<Result<usize, String>, Error> {
+    ) -> Result<Blessing, Error> {
         let mut tasks = Vec::new();
         for record in &self.drifted {
             let run = PlannedRun {
@@ -115,26 +117,126 @@ impl<'a> Candidates<'a> {
             tasks.push(Task {
                 case,
                 spec,
-                folder: gathered.folder(record)?.join("twin"),
+                folder: gathered.folder(record)?.join(TWIN),
             });
         }
         let twins = run_all(&tasks, Saving::resuming(), workers, listener)?;
-        let mut runs = Vec::new();
+        let (mut runs, mut doubts) = (Vec::new(), Vec::new());
         for ((record, twin), task) in self.drifted.iter().zip(&twins).zip(&tasks) {
             if let (Status::Failed, Some(error)) = (twin.status, &twin.error) {
                 let run = record.folder();
-                return Ok(Err(format!(
+                return Ok(Blessing::Broken(format!(
                     "the perturbed twin of {run} broke down: {}\n",
                     error.message
                 )));
             }
             let folder = gathered.folder(record)?;
             let run = Run::of((record, folder), (twin, &task.folder))?;
+            doubts.extend(doubts_of(record, goldens.kept(record), &run));
             runs.push((run, *record, folder));
         }
+        let told = refusal_of(&doubts, allowed);
+        if !told.is_empty() {
+            return Ok(Blessing::Doubtful(told));
+        }
         goldens.bless(runs, reason)?;
-        Ok(Ok(self.drifted.len()))
+        Ok(Blessing::Done(self.drifted.len()))
     }
+}
+
+/// What came of blessing.
+pub enum Blessing {
+    /// So many runs are blessed.
+    Done(usize),
+    /// A twin broke down, which the text says.
+    Broken(String),
+    /// Nothing is blessed: the text names what is doubtful, or what was allowed for nothing.
+    Doubtful(String),
+}
+
+/// A quantity that is not to be blessed in silence: its name, its run, and why.
+type Doubt = (String, String, String);
+
+/// Factor by which the response of a quantity may have grown since its last blessing.
+const JUMP: f64 = 100.0;
+
+/// What is doubtful of a run: counts that contradict each other, a value that no metric of its name can have, a quantity
+/// that was kept and has no number now or answers rounding too strongly, a response that has jumped.
+fn doubts_of(record: &Record, kept: Option<&Run>, now: &Run) -> Vec<Doubt> {
+    let mut doubts = Vec::new();
+    let mut doubt = |name: &str, why: String| {
+        doubts.push((name.to_owned(), record.folder(), why));
+    };
+    let work = record.work;
+    if work.particles.checked_mul(work.steps) != Some(work.particle_steps) {
+        let [n, steps, all] = [work.particles, work.steps, work.particle_steps];
+        doubt(
+            "particle_steps",
+            format!("{all} are not {n} particles times {steps} steps"),
+        );
+    }
+    for (name, value) in record
+        .metrics
+        .iter()
+        .filter_map(|(n, m)| Some((n, m.value?)))
+    {
+        let possible = possible(name);
+        if !possible.contains(&value) {
+            let (least, most) = (possible.start(), possible.end());
+            doubt(
+                name,
+                format!("{value:e} is not within {least:e} to {most:e}"),
+            );
+        }
+    }
+    for old in kept.iter().flat_map(|run| &run.columns) {
+        let name = old
+            .quantity
+            .split_once('/')
+            .map_or(&*old.quantity, |(_, name)| name);
+        let name = name.split(" (").next().unwrap_or(name);
+        let Some(new) = now.columns.iter().find(|c| c.quantity == old.quantity) else {
+            doubt(
+                name,
+                "was kept, and has no number now or answers rounding too strongly".to_owned(),
+            );
+            continue;
+        };
+        let least = if old.is_count() {
+            1.0
+        } else {
+            BLUNT / JUMP * old.scale()
+        };
+        if new.response() > JUMP * old.response().max(least) {
+            let responses = [old.response(), new.response()];
+            doubt(
+                name,
+                format!(
+                    "responds by {:e} to rounding, and by {:e} before",
+                    responses[1], responses[0]
+                ),
+            );
+        }
+    }
+    doubts
+}
+
+/// What is doubtful and not allowed, and what is allowed and not doubtful; empty if nothing.
+fn refusal_of(doubts: &[Doubt], allowed: &[String]) -> String {
+    let mut t = String::new();
+    for (name, run, why) in doubts.iter().filter(|(name, ..)| !allowed.contains(name)) {
+        let _ = writeln!(t, "doubtful: {name} of {run}: {why}");
+    }
+    for name in allowed
+        .iter()
+        .filter(|a| doubts.iter().all(|(name, ..)| name != *a))
+    {
+        let _ = writeln!(t, "--allow {name}: nothing of that name is doubtful");
+    }
+    if !t.is_empty() {
+        t.push_str("refused: --allow with its name blesses what is doubtful\n");
+    }
+    t
 }
 
 #[cfg(test)]

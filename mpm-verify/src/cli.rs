@@ -1,5 +1,6 @@
 //! The syntax of the command line, and what it says.
 
+#[path = "cli/run.rs"]
 pub(crate) mod run;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
@@ -213,6 +214,9 @@ pub(crate) enum Command {
         /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
         #[arg(long)]
         golden: Option<PathBuf>,
+        /// Bless this quantity although it is doubtful
+        #[arg(long, value_name = "METRIC")]
+        allow: Vec<String>,
         /// Runs side by side (as many as there are cores if not given)
         #[arg(long, value_parser = threads())]
         threads: Option<usize>,
@@ -293,9 +297,10 @@ fn case() -> impl TypedValueParser<Value = &'static Case> {
     PossibleValuesParser::new(names).try_map(|name| cases::find(&name))
 }
 
-/// More threads than this are surely a slip.
+/// More than four times as many threads as cores are surely a slip.
 fn threads() -> RangedU64ValueParser<usize> {
-    RangedU64ValueParser::new().range(1..=1024)
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    RangedU64ValueParser::new().range(1..=4 * cores as u64)
 }
 
 /// Schemes by their names, of which shells complete those of all cases.
@@ -323,7 +328,7 @@ impl TypedValueParser for Schemes {
 }
 
 /// An error of the command line's syntax, on one line.
-pub(crate) fn one_line(error: &clap::Error) -> String {
+pub(crate) fn of_syntax(error: &clap::Error) -> String {
     let text = error.to_string();
     let lines: Vec<&str> = text
         .lines()

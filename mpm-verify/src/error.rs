@@ -3,6 +3,35 @@
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
+/// Most characters of a message.
+const LONGEST: usize = 3000;
+
+/// Whether a character has no place in a line of text: it moves the cursor, turns the direction of reading or is not seen.
+#[must_use]
+pub fn is_unfit(c: char) -> bool {
+    let unseen =
+        matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}');
+    c.is_control() || unseen || matches!(c, '\u{feff}' | '\u{fffe}' | '\u{ffff}')
+}
+
+/// A message as one line: what has no place in it escaped, and its middle left out if it is very long.
+#[must_use]
+pub fn one_line(message: &str) -> String {
+    let mut line = String::new();
+    for c in message.chars() {
+        match is_unfit(c) {
+            true => line.extend(c.escape_default()),
+            false => line.push(c),
+        }
+    }
+    let ends: Vec<usize> = line.char_indices().map(|(place, _)| place).collect();
+    if ends.len() > LONGEST {
+        let middle = ends[LONGEST / 2]..ends[ends.len() - LONGEST / 2];
+        line.replace_range(middle, " … ");
+    }
+    line
+}
+
 /// How the program ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]

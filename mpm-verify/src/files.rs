@@ -1,19 +1,109 @@
-//! Files that are written whole or not at all.
+//! Files: read within bounds, written whole or not at all, by one at a time.
 
-use crate::error::Error;
-use serde::Deserialize;
+mod layer;
+pub mod lock;
+
+pub(crate) use layer::Output;
+#[cfg(test)]
+pub(crate) use layer::fault;
+
+use crate::error::{Error, is_unfit};
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// Folder of a run's snapshots, below its own.
 pub(crate) const SNAPSHOTS: &str = "snapshots";
+/// Most bytes of a document that is read: a record, plan, summary or picture.
+pub(crate) const DOCUMENT: u64 = 1 << 27;
+/// Most bytes of a table that is read.
+pub(crate) const TABLE: u64 = 1 << 30;
+
+/// What is said of a file that says the same as one of this program in other bytes.
+pub(crate) const OTHER_LAYOUT: &str = "not laid out as this program writes it";
+
+/// Size of a file and checksum of its bytes, by which one that was changed is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Mark {
+    /// Bytes.
+    pub bytes: u64,
+    /// Their CRC-32.
+    pub checksum: u32,
+}
+
+impl Mark {
+    /// Of these bytes.
+    #[must_use]
+    pub fn of(content: &[u8]) -> Self {
+        Self {
+            bytes: content.len() as u64,
+            checksum: crc32fast::hash(content),
+        }
+    }
+}
 
 /// File of the snapshot at `time` (s) of the run in `folder`.
 #[must_use]
 pub fn snapshot_file(folder: &Path, time: f64) -> PathBuf {
     folder.join(SNAPSHOTS).join(format!("{time:07.3}.csv"))
+}
+
+/// Reads a file of at most so many bytes.
+///
+/// # Errors
+/// It is missing, a link, no plain file (a pipe would be waited for), or larger.
+pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
+    let about = fs::symlink_metadata(path).map_err(|e| Error::file(path, e))?;
+    if about.is_symlink() {
+        return Err(Error::file(path, "a link, which is not followed"));
+    }
+    if !about.is_file() {
+        return Err(Error::file(path, "not a plain file"));
+    }
+    if about.len() > most {
+        let cause = format!("{} bytes where {most} are allowed", about.len());
+        return Err(Error::file(path, cause));
+    }
+    fs::read(path).map_err(|e| Error::file(path, e))
+}
+
+/// Reads a text in UTF-8 of a bounded size.
+///
+/// # Errors
+/// Those of [`read`], or it is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, Error> {
+    let not_text = |_| Error::file(path, "not UTF-8");
+    String::from_utf8(read(path, DOCUMENT)?).map_err(not_text)
+}
+
+/// Reads a picture.
+///
+/// # Errors
+/// Those of [`read`], or it is no picture.
+pub fn read_picture(path: &Path) -> Result<image::RgbImage, Error> {
+    let picture = image::load_from_memory(&read(path, DOCUMENT)?);
+    Ok(picture.map_err(|e| Error::file(path, e))?.to_rgb8())
+}
+
+/// Checks that a place below `root` is reached by names alone.
+///
+/// # Errors
+/// A part of it is `..` or leads elsewhere by a link.
+pub fn require_inside(root: &Path, place: &Path) -> Result<(), Error> {
+    let mut path = root.to_path_buf();
+    for part in place.components() {
+        let Component::Normal(name) = part else {
+            return Err(Error::file(place, "not a place below a folder"));
+        };
+        path.push(name);
+        if path.is_symlink() {
+            return Err(Error::file(&path, "a link, which is not followed"));
+        }
+    }
+    Ok(())
 }
 
 /// Makes a folder and its parents.
@@ -24,40 +114,21 @@ pub fn make_folder(path: &Path) -> Result<(), Error> {
     fs::create_dir_all(path).map_err(|e| Error::file(path, e))
 }
 
-/// Checks that files can be written in a folder, making it if need be.
+/// Removes the file of an earlier run and what was being written in its place, as far as they are there.
 ///
 /// # Errors
-/// They can't.
-pub fn require_writable(folder: &Path) -> Result<(), Error> {
-    make_folder(folder)?;
-    tempfile::NamedTempFile::new_in(folder)
-        .map(drop)
-        .map_err(|e| Error::file(folder, format!("not writable: {e}")))
-}
-
-/// Removes the file of an earlier run, if there is one.
-///
-/// # Errors
-/// It is there and can't be removed.
+/// One is there and can't be removed.
 pub fn discard(path: &Path) -> Result<(), Error> {
-    match fs::remove_file(path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::file(path, e)),
-        _ => Ok(()),
+    for path in [path, &layer::draft(path)] {
+        match layer::remove(path) {
+            Err(e) if e.kind() != std::io::ErrorKind::NotFound => return Err(Error::file(path, e)),
+            _ => {}
+        }
     }
+    Ok(())
 }
 
-/// Removes a folder of an earlier run, if there is one.
-///
-/// # Errors
-/// It is there and can't be removed.
-pub fn discard_folder(path: &Path) -> Result<(), Error> {
-    match fs::remove_dir_all(path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(Error::file(path, e)),
-        _ => Ok(()),
-    }
-}
-
-/// The files with one of some extensions that lie in a folder, if it is there.
+/// The files with one of some extensions that lie in a folder, if it is there, by name.
 ///
 /// # Errors
 /// The folder can't be read.
@@ -65,18 +136,18 @@ pub fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, Erro
     let mut entries = entries(folder)?;
     entries.retain(|path| {
         let extension = path.extension().and_then(|e| e.to_str());
-        path.is_file() && extension.is_some_and(|e| extensions.contains(&e))
+        !path.is_dir() && extension.is_some_and(|e| extensions.contains(&e))
     });
     Ok(entries)
 }
 
-/// The folders in a folder, if it is there.
+/// The folders in a folder, if it is there, by name; links are none.
 ///
 /// # Errors
 /// The folder can't be read.
 pub fn folders_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut entries = entries(folder)?;
-    entries.retain(|path| path.is_dir());
+    entries.retain(|path| path.is_dir() && !path.is_symlink());
     Ok(entries)
 }
 
@@ -87,49 +158,32 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let entries = fs::read_dir(folder).map_err(|e| Error::file(folder, e))?;
     let path = |entry: std::io::Result<fs::DirEntry>| entry.map(|e| e.path());
     let paths: Result<Vec<PathBuf>, _> = entries.map(path).collect();
-    paths.map_err(|e| Error::file(folder, e))
+    let mut paths = paths.map_err(|e| Error::file(folder, e))?;
+    paths.sort();
+    Ok(paths)
 }
 
-/// Writes a file by way of a temporary one beside it.
+/// Writes a file so that it is there whole or not at all even if the machine fails: beside it, safely on the disk, then
+/// renamed. What one that was killed leaves beside it, the next overwrites.
 ///
 /// # Errors
 /// The file can't be written.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    make_folder(folder)?;
-    let mut draft = readable_draft(folder).map_err(|e| Error::file(path, e))?;
-    draft.write_all(content).map_err(|e| Error::file(path, e))?;
-    draft.persist(path).map_err(|e| Error::file(path, e))?;
-    Ok(())
+    write_parts(path, &[content])
 }
 
-/// Writes a file so that it is there whole or not at all even if the machine fails: by way of `draft`, in the
-/// same folder, which one that was killed leaves behind for the next to overwrite.
+/// [`write_whole`] of several parts.
 ///
 /// # Errors
 /// The file can't be written.
-pub fn write_durable(path: &Path, draft: &Path, parts: &[&[u8]]) -> Result<(), Error> {
+pub fn write_parts(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {
+    make_folder(path.parent().unwrap_or(Path::new(".")))?;
     let write = || {
-        let mut file = fs::File::create(draft)?;
-        for part in parts {
-            file.write_all(part)?;
-        }
-        file.sync_all()?;
-        fs::rename(draft, path)?;
-        // The new name is in the folder; elsewhere than on Unix a folder can't be opened.
-        #[cfg(unix)]
-        fs::File::open(path.parent().unwrap_or(Path::new(".")))?.sync_all()?;
-        Ok(())
+        let mut draft = Output::create(&layer::draft(path))?;
+        parts.iter().try_for_each(|part| draft.write_all(part))?;
+        draft.persist(path)
     };
     write().map_err(|e: std::io::Error| Error::file(path, e))
-}
-
-/// A temporary file with the permissions of an ordinary one.
-fn readable_draft(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
 }
 
 /// Writes JSON, indented, with a final newline.
@@ -155,20 +209,53 @@ pub fn write_dense_json(path: &Path, value: &impl serde::Serialize) -> Result<()
 /// Reads a JSON document that names its schema.
 ///
 /// # Errors
-/// The file is missing, damaged or of another schema.
+/// Those of [`read`], or it is damaged, of another schema, or has text that is not of one line.
 pub fn read_versioned<T: DeserializeOwned>(path: &Path, schema: u32) -> Result<T, Error> {
-    #[derive(Deserialize)]
-    struct Versioned {
-        schema: u32,
-    }
     let damaged = |e: serde_json::Error| Error::file(path, format!("damaged: {e}"));
-    let bytes = fs::read(path).map_err(|e| Error::file(path, e))?;
-    let found: Versioned = serde_json::from_slice(&bytes).map_err(damaged)?;
-    if found.schema != schema {
-        let cause = format!("schema {} where {schema} is expected", found.schema);
+    let bytes = read(path, DOCUMENT)?;
+    let found: Value = serde_json::from_slice(&bytes).map_err(damaged)?;
+    match found.get("schema").and_then(Value::as_u64) {
+        Some(of) if of == u64::from(schema) => {}
+        Some(of) => {
+            let cause = format!("schema {of} where {schema} is expected");
+            return Err(Error::file(path, cause));
+        }
+        None => return Err(Error::file(path, "damaged: no schema")),
+    }
+    if let Some(text) = unfit(&found) {
+        let cause = format!("damaged: control characters in \"{text}\"");
         return Err(Error::file(path, cause));
     }
     serde_json::from_slice(&bytes).map_err(damaged)
+}
+
+/// A text of a document that is not of one line.
+fn unfit(value: &Value) -> Option<&str> {
+    let unfit_text = |text: &str| text.chars().any(is_unfit);
+    match value {
+        Value::String(text) => Some(&**text).filter(|t| unfit_text(t)),
+        Value::Array(values) => values.iter().find_map(unfit),
+        Value::Object(fields) => fields
+            .iter()
+            .find_map(|(name, value)| match unfit_text(name) {
+                true => Some(&**name),
+                false => unfit(value),
+            }),
+        _ => None,
+    }
+}
+
+/// A table as CSV.
+pub(crate) fn csv_text(
+    header: &[String],
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> csv::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(header)?;
+    for row in rows {
+        writer.write_record(&row)?;
+    }
+    writer.into_inner().map_err(|e| e.into_error().into())
 }
 
 /// Writes a table as CSV.
@@ -180,15 +267,6 @@ pub fn write_csv(
     header: &[String],
     rows: impl IntoIterator<Item = Vec<String>>,
 ) -> Result<(), Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer
-        .write_record(header)
-        .map_err(|e| Error::file(path, e))?;
-    for row in rows {
-        writer
-            .write_record(&row)
-            .map_err(|e| Error::file(path, e))?;
-    }
-    let bytes = writer.into_inner().map_err(|e| Error::file(path, e))?;
+    let bytes = csv_text(header, rows).map_err(|e| Error::file(path, e))?;
     write_whole(path, &bytes)
 }

@@ -11,6 +11,8 @@ pub mod bless;
 pub mod case;
 pub mod cases;
 pub mod check;
+#[cfg(test)]
+mod crash;
 pub mod draw;
 pub mod drive;
 pub mod error;

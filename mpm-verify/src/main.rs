@@ -6,14 +6,15 @@ mod progress;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use cli::run::run_one;
-use cli::{Cli, Command, Told, one_line, say, say_json};
+use cli::{Cli, Command, Told, of_syntax, say, say_json};
 use mpm_core::number::FUSED;
 use mpm_verify::bench::{self, Peers};
-use mpm_verify::bless::Candidates;
+use mpm_verify::bless::{Blessing, Candidates};
 use mpm_verify::case::{Case, find_level};
 use mpm_verify::cases;
-use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::error::{Error, ExitCode, is_unfit, one_line};
 use mpm_verify::exact;
+use mpm_verify::files::lock::hold;
 use mpm_verify::golden::{self, Goldens};
 use mpm_verify::night::Night;
 use mpm_verify::record::Version;
@@ -41,21 +42,22 @@ fn main() -> std::process::ExitCode {
         let _ = writeln!(io::stderr(), "{SLOW}");
     }
     let outcome = match Cli::try_parse() {
-        Ok(cli) => dispatch(cli.command),
+        Ok(cli) => bound_threads(&cli.command).and_then(|()| dispatch(cli.command)),
         Err(help) if help.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             // Nothing more can be done if stderr is closed.
             let _ = help.print();
             Ok(ExitCode::Input)
         }
-        Err(error) if error.use_stderr() => Err(Error::Input(one_line(&error))),
-        Err(help) => help
-            .print()
-            .map(|()| ExitCode::Good)
-            .map_err(|e| Error::Input(e.to_string())),
+        Err(error) if error.use_stderr() => Err(Error::Input(of_syntax(&error))),
+        // A reader that is gone has read enough.
+        Err(help) => match help.print() {
+            Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(Error::Input(e.to_string())),
+            _ => Ok(ExitCode::Good),
+        },
     };
     let code = outcome.unwrap_or_else(|error| {
         // Nothing more can be done if stderr is closed.
-        let _ = writeln!(io::stderr(), "error: {error}");
+        let _ = writeln!(io::stderr(), "error: {}", one_line(&error.to_string()));
         ExitCode::Input
     });
     std::process::ExitCode::from(code as u8)
@@ -64,6 +66,19 @@ fn main() -> std::process::ExitCode {
 /// All cores, unless it is said how many threads.
 fn or_all_cores(threads: Option<usize>) -> usize {
     threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
+}
+
+/// Bounds what starts besides the threads of a run, whatever the environment says.
+fn bound_threads(command: &Command) -> Result<(), Error> {
+    let asked = match command {
+        Command::Run { threads, .. } | Command::Verify { threads, .. } => *threads,
+        Command::Bless { threads, .. } => *threads,
+        _ => None,
+    };
+    let threads = or_all_cores(asked).min(or_all_cores(None));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    pool.build_global()
+        .map_err(|e| Error::Input(format!("{threads} threads can't be started: {e}")))
 }
 
 fn dispatch(command: Command) -> Result<ExitCode, Error> {
@@ -176,9 +191,11 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 None => None,
             };
             let goldens = Goldens::open(&golden::place(golden))?;
-            report_on(&folders, &out, &goldens, night.as_ref(), told)
+            let _held = hold(&out)?;
+            report_in(&folders, &out, &goldens, night.as_ref(), told)
         }
         Command::Keep { report, into } => {
+            let _held = hold(&into)?;
             let rows = keep(&report, &into)?;
             say(format!("{rows} runs are kept in {}\n", into.display()))?;
             Ok(ExitCode::Good)
@@ -199,10 +216,11 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             reason,
             from,
             golden,
+            allow,
             threads,
         } => bless(
             case,
-            &reason,
+            (&reason, &allow),
             &from,
             &golden::place(golden),
             or_all_cores(threads),
@@ -215,6 +233,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
         } => {
             let difference = Difference::between(&old, &new)?;
             if let Some(out) = out {
+                let _held = hold(&out)?;
                 difference.write(&out)?;
             }
             match told {
@@ -247,6 +266,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
                 only,
                 peers: peers.map(|_| Peers::taichi(python)),
             };
+            let _held = hold(&out)?;
             let bar = progress::single("bench", true);
             let text = bench::measure(&options, &out, &|share| {
                 bar.set_position((share * progress::SCALE) as u64);
@@ -312,11 +332,12 @@ fn verify(
     let listener = progress::Runs::new(names.collect(), told.progress());
     // A folder of goldens that is not there is told before hours of runs.
     let goldens = Goldens::open(golden)?;
+    let _held = hold(out)?;
     discard_report(out)?;
     let records = make_runs(plan, out, saving, workers, &listener)?;
     listener.finish();
     if plan.shard == Shard::WHOLE {
-        return report_on(&[out.to_path_buf()], out, &goldens, None, told);
+        return report_in(&[out.to_path_buf()], out, &goldens, None, told);
     }
     let code = records.iter().map(exit_code).max();
     if told.json {
@@ -336,7 +357,8 @@ fn verify(
     Ok(code.unwrap_or(ExitCode::Good))
 }
 
-fn report_on(
+/// Judges the runs of `folders` and reports them in `out`, which is held.
+fn report_in(
     folders: &[PathBuf],
     out: &Path,
     goldens: &Goldens,
@@ -355,23 +377,30 @@ fn report_on(
             say(describe::verification(&summary))?;
         }
     }
-    Ok(summary.exit_code())
+    match gathered.gap() {
+        Some(gap) => Err(Error::Input(gap.to_owned())),
+        None => Ok(summary.exit_code()),
+    }
 }
 
 fn bless(
     case: &'static Case,
-    reason: &str,
+    (reason, allowed): (&str, &[String]),
     from: &[PathBuf],
     root: &Path,
     workers: usize,
 ) -> Result<ExitCode, Error> {
-    if reason.trim().is_empty() {
+    let words = reason.split_whitespace().collect::<String>();
+    if !words.contains(char::is_alphanumeric) || words.contains(is_unfit) || reason.len() > 500 {
         return Err(Error::Input(
-            "--reason is empty; say why the results have changed".to_owned(),
+            "--reason is empty, longer than 500 bytes or has control characters; say why the results have changed"
+                .to_owned(),
         ));
     }
     let goldens = Goldens::open(root)?;
+    let _held = hold(root)?;
     let gathered = Gathered::read(from)?;
+    gathered.require_tier()?;
     let summary = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
     let Some(study) = summary.cases.into_iter().find(|s| s.case == case.name) else {
         let name = case.name;
@@ -384,15 +413,16 @@ fn bless(
         return Ok(ExitCode::TruthFailed);
     }
     let listener = progress::Runs::new(candidates.twin_names(), true);
-    let blessed = candidates.bless(&gathered, &goldens, reason, workers, &listener)?;
+    let blessed = candidates.bless(&gathered, &goldens, (reason, allowed), workers, &listener)?;
     listener.finish();
-    let blessed = match blessed {
-        Ok(count) => count,
-        Err(broken) => {
-            say(&broken)?;
-            return Ok(ExitCode::RunFailed);
-        }
+    let (told, code) = match blessed {
+        Blessing::Done(count) => (
+            format!("{count} goldens blessed: {reason}\n"),
+            ExitCode::Good,
+        ),
+        Blessing::Broken(told) => (told, ExitCode::RunFailed),
+        Blessing::Doubtful(told) => (told, ExitCode::Input),
     };
-    say(format!("{blessed} goldens blessed: {reason}\n"))?;
-    Ok(ExitCode::Good)
+    say(told)?;
+    Ok(code)
 }

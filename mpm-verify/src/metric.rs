@@ -1,6 +1,7 @@
 //! Metrics, and what is shown of them.
 
 use crate::parameter::Parameter;
+use std::ops::RangeInclusive;
 
 /// A metric: what a run measures, by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +41,34 @@ macro_rules! metrics {
     };
 }
 pub(crate) use metrics;
+
+/// The values that a metric of this name can have, whatever the case and the run: names mean the same everywhere.
+#[must_use]
+pub fn possible(name: &str) -> RangeInclusive<f64> {
+    const NEVER_NEGATIVE: [&str; 12] = [
+        "_l2",
+        "_linf",
+        "_rms",
+        "_rms_error",
+        "_dissipation",
+        "_strain_max",
+        "_iterations",
+        "energy_gain",
+        "energy_loss",
+        "mass",
+        "_volume",
+        "momentum_error",
+    ];
+    if name.starts_with("jacobian_m") {
+        f64::MIN_POSITIVE..=f64::MAX
+    } else if name == "at_rest" || name.contains("_share") {
+        0.0..=1.0
+    } else if NEVER_NEGATIVE.iter().any(|end| name.ends_with(end)) {
+        0.0..=f64::MAX
+    } else {
+        f64::MIN..=f64::MAX
+    }
+}
 
 impl From<Metric> for String {
     fn from(metric: Metric) -> Self {

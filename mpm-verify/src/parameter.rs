@@ -161,8 +161,10 @@ impl Parameter {
             Domain::Number { least, most, below } => match text.parse::<f64>() {
                 Err(_) => refuse("is not a number"),
                 Ok(x) if !x.is_finite() => refuse("is not finite"),
+                Ok(0.0) if says_more_than_zero(text) => refuse("is too small to be told from 0"),
                 Ok(x) if x < least || x > most || (below && x == most) => refuse("is out of range"),
-                Ok(x) => Ok(Value::Number(x)),
+                // Of two zeros one: the sign of the other would be seen in quotients.
+                Ok(x) => Ok(Value::Number(x + 0.0)),
             },
             Domain::Integer { least, most } => match text.parse::<i32>() {
                 Err(_) => refuse("is not a whole number"),
@@ -171,6 +173,12 @@ impl Parameter {
             },
         }
     }
+}
+
+/// Whether a number that was read as zero was meant to be another.
+fn says_more_than_zero(text: &str) -> bool {
+    let digits = text.split(['e', 'E']).next().unwrap_or_default();
+    digits.contains(|c: char| ('1'..='9').contains(&c))
 }
 
 /// The values of all parameters of a case.
@@ -278,6 +286,14 @@ mod tests {
             assert!(text.contains("0 to below 0.5"), "{text}");
         }
         assert_eq!(RATIO.parse("0.499").unwrap(), Value::Number(0.499));
+        let tiny = RATIO.parse("1e-400").unwrap_err().to_string();
+        assert!(tiny.contains("too small to be told from 0"), "{tiny}");
+        for zero in ["0", "-0", "0e5", "-0.0e-400"] {
+            let Ok(Value::Number(x)) = RATIO.parse(zero) else {
+                panic!("{zero}");
+            };
+            assert!(x == 0.0 && x.is_sign_positive(), "{zero}");
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use anstream::adapter::strip_str;
 use anstream::{AutoStream, ColorChoice};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mpm_verify::error::Error;
+use mpm_verify::error::{Error, one_line};
 use mpm_verify::record::Record;
 use mpm_verify::report::describe;
 use mpm_verify::study::schedule::Listener;
@@ -84,7 +84,11 @@ impl Listener for Runs {
     }
 
     fn begins_again(&self, run: usize, why: &Error) {
-        self.say(&format!("{}  begins again: {why}", self.names[run]));
+        self.say(&format!(
+            "{}  begins again: {}",
+            self.names[run],
+            one_line(&why.to_string())
+        ));
     }
 
     fn ended(&self, run: usize, record: &Record) {

@@ -3,6 +3,7 @@
 #[cfg(test)]
 pub(crate) mod fixture;
 
+use crate::files::Mark;
 use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
@@ -250,6 +251,9 @@ pub struct Record {
     pub machine: Machine,
     /// Version.
     pub version: Version,
+    /// The tables that the run has written, by their names below its folder; of earlier programs none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub files: BTreeMap<String, Mark>,
 }
 
 impl Record {

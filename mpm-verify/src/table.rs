@@ -1,7 +1,7 @@
 //! Tables: of numbers, as files hold them, and of text, as they are shown.
 
 use crate::error::Error;
-use crate::files::write_csv;
+use crate::files::{OTHER_LAYOUT, TABLE, csv_text, read, write_csv};
 use std::path::Path;
 
 /// A table as it is shown: text in cells. Terminal and pages in Markdown have it as it is here, HTML by a template.
@@ -74,7 +74,8 @@ impl Table {
     /// # Errors
     /// The file is missing, not UTF-8, has rows of different lengths or a cell that is no number.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let mut reader = csv::Reader::from_path(path).map_err(|e| Error::file(path, e))?;
+        let bytes = read(path, TABLE)?;
+        let mut reader = csv::Reader::from_reader(&bytes[..]);
         let header: Vec<String> = reader
             .headers()
             .map_err(|e| Error::file(path, e))?
@@ -114,8 +115,25 @@ impl Table {
     /// # Errors
     /// The file can't be written.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
+        write_csv(path, &self.header, self.lines())
+    }
+
+    fn lines(&self) -> impl Iterator<Item = Vec<String>> {
         let row = |k: usize| self.columns.iter().map(|c| c[k].to_string()).collect();
-        write_csv(path, &self.header, (0..self.rows()).map(row))
+        (0..self.rows()).map(row)
+    }
+
+    /// Reads a table that [`Table::write`] has written: byte for byte, and nothing beside it.
+    ///
+    /// # Errors
+    /// Those of [`Table::read_finite`], or it is laid out otherwise.
+    pub fn read_own(path: &Path) -> Result<Self, Error> {
+        let table = Self::read_finite(path)?;
+        let own = csv_text(&table.header, table.lines()).map_err(|e| Error::file(path, e))?;
+        match read(path, TABLE)? == own {
+            true => Ok(table),
+            false => Err(Error::file(path, OTHER_LAYOUT)),
+        }
     }
 
     /// Number of rows.

@@ -198,8 +198,8 @@ fn bad_values_are_refused_with_the_allowed_range() {
         let name = assignment.split('=').next().unwrap();
         refused(&["run", "cook", "--set", assignment], &[name, needle]);
     }
-    refused(&["run", "cook", "--threads", "0"], &["threads", "1..=1024"]);
-    refused(&["verify", "--threads", "100000"], &["threads", "1..=1024"]);
+    refused(&["run", "cook", "--threads", "0"], &["threads", "1..="]);
+    refused(&["verify", "--threads", "100000"], &["threads", "1..="]);
     refused(&["run", "cook", "--threads", "many"], &["threads"]);
     refused(&["bench", "--rounds", "0"], &["rounds", "1..=1000"]);
     refused(

@@ -1,111 +1,9 @@
 //! The gate: drift, blessing, damaged goldens.
 
-use super::{code, copy_tree, files, golden, json, mpm_verify, quick, stderr, stdout, text};
-use mpm_verify::files::read_versioned;
-use mpm_verify::golden::Goldens;
-use mpm_verify::record::{Record, SCHEMA};
-use mpm_verify::report::describe::drift_line;
-use mpm_verify::verdict::Verdict;
+use super::scene::{RUN, SHOWN, Scene};
+use super::{code, files, json, stderr, stdout};
 use serde_json::json;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
-
-const RUN: &str = "gimp-fbar-rate-flip/h2";
-/// The run of the case's picture.
-const SHOWN: &str = "gimp-none-flip/h2";
-
-/// The report of two runs of the quick tier, made once. A report is drawn anew for every defect: few pictures are enough.
-pub(super) fn two_runs() -> &'static Path {
-    static REPORT: OnceLock<tempfile::TempDir> = OnceLock::new();
-    let folder = REPORT.get_or_init(|| {
-        let folder = tempfile::tempdir().unwrap();
-        let mut plan = json(&quick().0.join("plan.json"));
-        let runs = plan["runs"].as_array_mut().unwrap();
-        runs.retain(|run| {
-            let name = format!(
-                "{}/{}",
-                run["scheme"].as_str().unwrap(),
-                run["level"].as_str().unwrap()
-            );
-            run["case"] == "cook" && [RUN, SHOWN].contains(&&*name)
-        });
-        assert_eq!(runs.len(), 2);
-        fs::write(folder.path().join("plan.json"), plan.to_string()).unwrap();
-        for run in [RUN, SHOWN] {
-            let place = format!("cook/{run}");
-            copy_tree(&quick().0.join(&place), &folder.path().join(&place));
-        }
-        let made = mpm_verify(&["report", text(folder.path()), "--golden", text(&golden())]);
-        assert_eq!(code(&made), 0, "{}{}", stdout(&made), stderr(&made));
-        folder
-    });
-    folder.path()
-}
-
-/// Copies of the report and of its goldens.
-pub(super) struct Scene {
-    _folder: tempfile::TempDir,
-    pub(super) report: PathBuf,
-    pub(super) golden: PathBuf,
-}
-
-impl Scene {
-    pub(super) fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let scene = Self {
-            report: folder.path().join("report"),
-            golden: folder.path().join("golden"),
-            _folder: folder,
-        };
-        copy_tree(two_runs(), &scene.report);
-        copy_tree(&golden(), &scene.golden);
-        scene
-    }
-
-    pub(super) fn report(&self) -> std::process::Output {
-        mpm_verify(&["report", text(&self.report), "--golden", text(&self.golden)])
-    }
-
-    fn bless(&self, reason: &str) -> std::process::Output {
-        mpm_verify(&[
-            "bless",
-            "cook",
-            "--reason",
-            reason,
-            "--from",
-            text(&self.report),
-            "--golden",
-            text(&self.golden),
-        ])
-    }
-
-    fn record(&self) -> PathBuf {
-        self.report.join("cook").join(RUN).join("record.json")
-    }
-
-    /// Multiplies a metric in a record, as if the solver had computed it.
-    pub(super) fn falsify(&self, metric: &str, factor: f64) {
-        let mut record = json(&self.record());
-        let value = record["metrics"][metric]["value"].as_f64().unwrap();
-        record["metrics"][metric]["value"] = json!(value * factor);
-        fs::write(self.record(), record.to_string()).unwrap();
-    }
-
-    /// What has drifted of both runs, a line each.
-    fn drift(&self) -> Vec<String> {
-        let goldens = Goldens::open(&self.golden).unwrap();
-        let of_run = |run| {
-            let folder = self.report.join("cook").join(run);
-            let record: Record = read_versioned(&folder.join("record.json"), SCHEMA).unwrap();
-            goldens.compare(&record, &folder).unwrap()
-        };
-        let all = [RUN, SHOWN].into_iter().flat_map(of_run);
-        all.filter(Verdict::drifts)
-            .map(|v| format!("{} {}", drift_line(&v), v.source))
-            .collect()
-    }
-}
 
 /// The cells of the row of a quantity of [`RUN`] changed; of a series, of its first row.
 fn row(quantity: &str, change: impl Fn(&mut [String])) -> impl Fn(&str) -> String {
@@ -124,8 +22,14 @@ fn row(quantity: &str, change: impl Fn(&mut [String])) -> impl Fn(&str) -> Strin
     }
 }
 
+/// A number as goldens have it.
+fn written(number: f64) -> String {
+    let text = format!("{number:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
+}
+
 fn scaled(cell: &mut String, factor: f64) {
-    *cell = (cell.parse::<f64>().unwrap() * factor).to_string();
+    *cell = written(cell.parse::<f64>().unwrap() * factor);
 }
 
 /// With the number of rows that there are.
@@ -156,7 +60,37 @@ fn every_defect_of_a_golden_is_a_clear_line_of_drift() {
     let first = |t: &str| t.lines().find(|l| l.starts_with(RUN)).unwrap().to_owned() + "\n";
     let value = |text: &'static str| row("metric/tip_uy", move |c| c[3] = text.to_owned());
     let response = |text: &'static str| row("metric/tip_uy", move |c| c[4] = text.to_owned());
-    let damages: [Damage; 23] = [
+    let damages: [Damage; 29] = [
+        (
+            "byte order mark",
+            Box::new(|t| format!("\u{feff}{t}")),
+            "control characters",
+        ),
+        (
+            "carriage returns",
+            Box::new(|t| t.replace('\n', "\r\n")),
+            "control characters",
+        ),
+        (
+            "empty line at the end",
+            Box::new(|t| t.to_owned() + "\n"),
+            "not laid out",
+        ),
+        (
+            "number written otherwise",
+            Box::new(row("metric/tip_uy", |c| c[3].push('0'))),
+            "not laid out",
+        ),
+        (
+            "quotes",
+            Box::new(row("metric/tip_uy", |c| c[3] = format!("\"{}\"", c[3]))),
+            "not laid out",
+        ),
+        (
+            "a count that says nothing",
+            Box::new(row("work/steps", |c| c[4] = "1e9".to_owned())),
+            "a count responds by",
+        ),
         ("empty", Box::new(|_| String::new()), "no line \"# format"),
         (
             "other format",
@@ -243,7 +177,7 @@ fn every_defect_of_a_golden_is_a_clear_line_of_drift() {
             "a millionth in a row",
             Box::new(row("series/log_jacobian", |c| {
                 let scale = 1e-3;
-                c[3] = (c[3].parse::<f64>().unwrap() + scale).to_string();
+                c[3] = written(c[3].parse::<f64>().unwrap() + scale);
             })),
             "series log_jacobian",
         ),
@@ -311,6 +245,8 @@ fn a_picture_drifts_with_its_drawing_or_its_numbers_but_not_with_rounding() {
         fs::write(&file, damage).unwrap();
         assert!(scene.drift()[0].contains("cook.png"));
     }
+    fs::write(&file, [&sound[..], b"more"].concat()).unwrap();
+    assert!(scene.drift()[0].contains("cook.png: not laid out"));
     let mut other = image::load_from_memory(&sound).unwrap().to_rgb8();
     other.put_pixel(5, 5, image::Rgb([9; 3]));
     other.save(&file).unwrap();

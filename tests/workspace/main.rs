@@ -14,12 +14,23 @@ mod checkpoint;
 mod cli;
 mod completeness;
 mod exact;
+mod folders;
+mod fuzz;
 mod gate;
 mod readme;
 mod reports;
+mod scene;
 mod shards;
 mod tables;
 mod verify;
+mod words;
+
+#[path = "../../mpm-verify/src/cli.rs"]
+#[allow(dead_code, reason = "of the program its syntax alone is tried here")]
+mod cli_syntax;
+#[path = "../../mpm-verify/src/progress.rs"]
+#[allow(dead_code, reason = "as above")]
+mod progress;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -125,14 +136,14 @@ fn copy_tree(from: &Path, to: &Path) {
     }
 }
 
-/// Every file below a folder, relative to it, with its content.
+/// Every file below a folder, relative to it, with its content; but not that which says who writes there.
 fn files(root: &Path) -> std::collections::BTreeMap<PathBuf, Vec<u8>> {
     fn walk(root: &Path, folder: &Path, found: &mut std::collections::BTreeMap<PathBuf, Vec<u8>>) {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 walk(root, &path, found);
-            } else {
+            } else if !path.ends_with(".mpm-verify.lock") {
                 let name = path.strip_prefix(root).unwrap().to_path_buf();
                 found.insert(name, fs::read(&path).unwrap());
             }

@@ -1,6 +1,6 @@
 //! Two reports side by side, and nights in a row.
 
-use super::gate::{Scene, two_runs};
+use super::scene::{Scene, one_case};
 use super::{code, json, mpm_verify, stderr, stdout, text};
 use serde_json::json;
 use std::fs;
@@ -8,7 +8,7 @@ use std::path::Path;
 
 #[test]
 fn the_difference_of_two_reports_is_numbers_and_pictures() {
-    let (report, scene) = (two_runs(), Scene::new());
+    let (report, scene) = (one_case(), Scene::new());
     let out = scene.report.parent().unwrap().join("diff");
     let count = |folder: &Path| {
         let mut summary = json(&folder.join("summary.json"));

@@ -3,15 +3,17 @@
 use super::{Told, say, say_json};
 use crate::progress;
 use mpm_verify::case::Case;
-use mpm_verify::error::{Error, ExitCode};
-use mpm_verify::files::read_versioned;
+use mpm_verify::error::{Error, ExitCode, one_line};
+use mpm_verify::files::lock::hold;
 use mpm_verify::parameter::Parameters;
-use mpm_verify::record::{self, Record};
-use mpm_verify::report::{describe, single};
+use mpm_verify::record::Record;
+use mpm_verify::report::{describe, discard_report, single};
 use mpm_verify::run::checkpoint::{self, Identity, Saving};
+use mpm_verify::run::{RECORD, require_tables};
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
-use mpm_verify::study::judge::{exit_code, judged_run};
+use mpm_verify::study::found::own_record;
+use mpm_verify::study::judge::{exit_code, judge, judged_run};
 use std::path::Path;
 
 /// Runs `spec` of `case`, draws it into its folder, if it has one, and says what it found.
@@ -34,8 +36,9 @@ pub(crate) fn run_one(
             names.iter().map(String::as_str),
         ));
     }
+    let held = place.map(|(folder, _)| hold(folder)).transpose()?;
     if let Some((folder, Saving { resume: true, .. })) = place {
-        if let Some(record) = ended(case, spec, folder)? {
+        if let Some(record) = ended(case, spec, folder, told)? {
             checkpoint::discard(folder)?;
             if told.progress() {
                 say("This run has ended before; there is nothing to resume.\n\n")?;
@@ -48,6 +51,9 @@ pub(crate) fn run_one(
                 folder.display()
             ))?;
         }
+    }
+    if let Some((folder, _)) = place {
+        discard_report(folder)?;
     }
     let bar = progress::single(&format!("{} {}", case.name, spec.folder()), told.progress());
     let record = judged_run(case, spec, place, threads, &|share| {
@@ -67,6 +73,7 @@ pub(crate) fn run_one(
     } else if told.progress() {
         say("Nothing is kept or drawn: --out DIR does.\n")?;
     }
+    drop(held);
     tell(case, &record, told)
 }
 
@@ -79,16 +86,26 @@ fn tell(case: &Case, record: &Record, told: Told) -> Result<ExitCode, Error> {
     Ok(exit_code(record))
 }
 
-/// The record of this very run in a folder, or `None` if it has not ended there.
-fn ended(case: &Case, spec: &RunSpec, folder: &Path) -> Result<Option<Record>, Error> {
-    let path = folder.join("record.json");
-    if !path.exists() {
+/// The record of this very run in a folder, judged again, or `None` if it has not ended there. One whose tables are not
+/// what the run wrote is told, and the run made again.
+fn ended(case: &Case, spec: &RunSpec, folder: &Path, told: Told) -> Result<Option<Record>, Error> {
+    let Some(mut record) = own_record(folder, case, spec)? else {
         return Ok(None);
-    }
-    let record: Record = read_versioned(&path, record::SCHEMA)?;
+    };
+    let path = folder.join(RECORD);
     let asked = Identity::of(case, spec, &Parameters::new(&case.parameters, &spec.set)?);
     asked
         .require(&Identity::of_record(&record))
         .map_err(|refusal| refusal.of(&path))?;
+    if let Err(damage) = require_tables(&record, folder) {
+        if told.progress() {
+            say(format!(
+                "{}; the run is made again.\n",
+                one_line(&damage.to_string())
+            ))?;
+        }
+        return Ok(None);
+    }
+    record.verdicts = judge(case, &record);
     Ok(Some(record))
 }

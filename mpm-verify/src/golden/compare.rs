@@ -79,6 +79,12 @@ impl Goldens {
         golden.write(&file(&self.root, case.name))
     }
 
+    /// What is kept of a run, if anything is.
+    #[must_use]
+    pub fn kept(&self, record: &Record) -> Option<&Run> {
+        self.find(record).ok().map(|(run, _)| run)
+    }
+
     /// What is kept of a run, and the last line of its file's blessings; or why nothing is.
     fn find(&self, record: &Record) -> Result<(&Run, &str), &str> {
         let golden = self.cases.get(&*record.case).ok_or("no such case")?;

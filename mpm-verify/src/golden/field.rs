@@ -41,7 +41,7 @@ fn particles(view: &FieldView, folder: &Path) -> Result<Vec<[f64; 4]>, Error> {
 }
 
 fn read(path: &Path) -> Result<Vec<[f64; 4]>, Error> {
-    let table = Table::read_finite(path)?;
+    let table = Table::read_own(path)?;
     let columns = COLUMNS.map(|name| table.get(name).unwrap_or_default());
     if table.rows() == 0 || columns.iter().any(|c| c.len() != table.rows()) {
         return Err(Error::file(path, format!("not columns {COLUMNS:?}")));

@@ -1,8 +1,8 @@
 //! The file of a case's goldens.
 
 use super::{BLUNT, FLOOR, MARGIN};
-use crate::error::Error;
-use crate::files::write_whole;
+use crate::error::{Error, is_unfit};
+use crate::files::{OTHER_LAYOUT, read_text, write_whole};
 use crate::record::Record;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -12,6 +12,9 @@ const FORMAT: u32 = 1;
 const HEADER: [&str; 5] = ["run", "quantity", "time", "value", "response"];
 /// Blessings that a file tells of, the last ones.
 const BLESSINGS: usize = 5;
+/// Largest response of a count, and the same over the count: more than a few rows, sorts or iterations say nothing.
+const LOOSE: f64 = 10.0;
+const LOOSE_SHARE: f64 = 0.1;
 /// What stands before the name of a column of the series, and of a count of work.
 pub(super) const SERIES: &str = "series/";
 pub(super) const WORK: &str = "work/";
@@ -63,8 +66,13 @@ impl Column {
     /// Whether a number answers rounding so strongly that another order of sums would pass for drift.
     #[must_use]
     pub fn is_blunt(&self) -> bool {
-        let most = BLUNT * self.scale();
-        !self.is_count() && self.points.iter().any(|p| p.response > most)
+        !self.is_count() && self.response() > BLUNT * self.scale()
+    }
+
+    /// The largest response of its numbers.
+    #[must_use]
+    pub fn response(&self) -> f64 {
+        self.points.iter().map(|p| p.response).fold(0.0, f64::max)
     }
 }
 
@@ -101,11 +109,18 @@ impl Golden {
     /// It is missing, not UTF-8, of another format, cut, without a blessing; or a cell is not a finite number, a
     /// quantity is there twice, or a response is larger than that of a golden.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(|e| Error::file(path, e))?;
-        Self::parse(&text).map_err(|cause| Error::file(path, cause))
+        let text = read_text(path)?;
+        let golden = Self::parse(&text).map_err(|cause| Error::file(path, cause))?;
+        match golden.text() {
+            Ok(own) if own == text.as_bytes() => Ok(golden),
+            _ => Err(Error::file(path, OTHER_LAYOUT)),
+        }
     }
 
     fn parse(text: &str) -> Result<Self, String> {
+        if text.chars().any(|c| c != '\n' && is_unfit(c)) {
+            return Err("control characters".to_owned());
+        }
         let mut remarks = text.lines().map_while(|line| line.strip_prefix("# "));
         let first = remarks.next().unwrap_or_default();
         let head = first.strip_prefix("format ").and_then(|rest| {
@@ -188,6 +203,10 @@ impl Golden {
             if !seen.insert(name.clone()) || !column.points.windows(2).all(rises) {
                 return Err(format!("{name} is there twice or not in order"));
             }
+            let most = f64::max(LOOSE, LOOSE_SHARE * column.scale());
+            if column.is_count() && column.response() > most {
+                return Err(format!("{name}: a count responds by 0 to {most}"));
+            }
             if column.is_blunt() || column.points.iter().any(|p| p.response < 0.0) {
                 let scale = column.scale();
                 return Err(format!(
@@ -231,30 +250,32 @@ impl Golden {
         self.blessings.drain(..surplus);
     }
 
-    /// Writes the file, whole.
-    ///
-    /// # Errors
-    /// It can't be written.
-    pub fn write(&self, path: &Path) -> Result<(), Error> {
+    /// The file.
+    fn text(&self) -> csv::Result<Vec<u8>> {
         let rows = self.columns().map(|(_, c)| c.points.len()).sum::<usize>();
         let mut text = format!("# format {FORMAT}, {rows} rows\n");
         for blessing in &self.blessings {
             text.push_str(&format!("# {blessing}\n"));
         }
         let mut writer = csv::Writer::from_writer(text.into_bytes());
-        let failed = |e: csv::Error| Error::file(path, e);
-        writer.write_record(HEADER).map_err(failed)?;
+        writer.write_record(HEADER)?;
         for (run, column) in self.columns() {
             for point in &column.points {
                 let time = point.time.map(written).unwrap_or_default();
                 let [value, response] = [point.value, point.response].map(written);
-                writer
-                    .write_record([run, &column.quantity, &time, &value, &response])
-                    .map_err(failed)?;
+                writer.write_record([run, &column.quantity, &time, &value, &response])?;
             }
         }
-        let bytes = writer.into_inner().map_err(|e| Error::file(path, e))?;
-        write_whole(path, &bytes)
+        writer.into_inner().map_err(|e| e.into_error().into())
+    }
+
+    /// Writes the file, whole.
+    ///
+    /// # Errors
+    /// It can't be written.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        let text = self.text().map_err(|e| Error::file(path, e))?;
+        write_whole(path, &text)
     }
 }
 

@@ -4,7 +4,7 @@ use super::format::{Column, Run, SERIES};
 use crate::draw::triptych::different_pixels;
 use crate::draw::{Chart, Marker, PlotError, Series, draw_charts};
 use crate::error::Error;
-use crate::files::write_whole;
+use crate::files::{DOCUMENT, OTHER_LAYOUT, read, read_picture, write_whole};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{RgbImage, imageops};
 use std::path::Path;
@@ -13,6 +13,9 @@ use std::path::Path;
 const WIDTH: u32 = 480;
 /// Step of a colour channel: with sixteen shades a field takes half of the bytes.
 const SHADE: u16 = 17;
+
+/// The last chunk of a PNG file.
+const END_OF_PNG: &[u8] = b"IEND\xaeB`\x82";
 
 /// Draws the watched columns of a run, a chart each.
 ///
@@ -28,9 +31,9 @@ pub(super) fn small(draw: impl Fn(&Path) -> Result<(), PlotError>) -> Result<Rgb
     let folder = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
     let path = folder.path().join("picture.png");
     draw(&path)?;
-    let picture = image::open(&path).map_err(|e| Error::file(&path, e))?;
+    let picture = read_picture(&path)?;
     let height = picture.height() * WIDTH / picture.width();
-    let mut picture = imageops::thumbnail(&picture.to_rgb8(), WIDTH, height);
+    let mut picture = imageops::thumbnail(&picture, WIDTH, height);
     for channel in picture.iter_mut() {
         *channel = ((u16::from(*channel) + SHADE / 2) / SHADE * SHADE) as u8;
     }
@@ -42,8 +45,10 @@ pub(super) fn small(draw: impl Fn(&Path) -> Result<(), PlotError>) -> Result<Rgb
 /// # Errors
 /// The kept one is missing or damaged.
 pub(super) fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
-    let picture = image::open(kept).map_err(|e| Error::file(kept, e))?;
-    Ok(different_pixels(&picture.to_rgb8(), drawn))
+    if !read(kept, DOCUMENT)?.ends_with(END_OF_PNG) {
+        return Err(Error::file(kept, OTHER_LAYOUT));
+    }
+    Ok(different_pixels(&read_picture(kept)?, drawn))
 }
 
 fn chart(column: &Column) -> Option<Chart> {

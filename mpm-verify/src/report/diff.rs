@@ -5,7 +5,7 @@ use super::words::{number, outcome};
 use crate::draw::triptych::{different_pixels, triptych};
 use crate::draw::write_small_png;
 use crate::error::{Error, ExitCode};
-use crate::files::{make_folder, read_versioned, write_whole};
+use crate::files::{self, make_folder, read_versioned, write_whole};
 use crate::study::summary::{SCHEMA, Summary};
 use crate::table::Sheet;
 use crate::verdict::Verdict;
@@ -13,7 +13,6 @@ use image::RgbImage;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A picture of two reports.
@@ -213,23 +212,20 @@ fn shows_time(path: &Path) -> bool {
     name == CPU_PICTURE
 }
 
-/// Collects the PNG files below `folder`, as paths relative to `root`.
+/// Collects the PNG files below `folder`, as paths relative to `root`; links to folders are not followed.
 fn list_pictures(root: &Path, folder: &Path, found: &mut BTreeSet<PathBuf>) -> Result<(), Error> {
-    for entry in fs::read_dir(folder).map_err(|e| Error::file(folder, e))? {
-        let path = entry.map_err(|e| Error::file(folder, e))?.path();
-        if path.is_dir() {
-            list_pictures(root, &path, found)?;
-        } else if path.extension().is_some_and(|e| e == "png") && !shows_time(&path) {
-            found.extend(path.strip_prefix(root).map(Path::to_path_buf));
-        }
-    }
-    Ok(())
+    let pictures = files::files_in(folder, &["png"])?;
+    let shown = pictures.iter().filter(|path| !shows_time(path));
+    found.extend(shown.filter_map(|path| path.strip_prefix(root).map(Path::to_path_buf).ok()));
+    let folders = files::folders_in(folder)?;
+    folders
+        .iter()
+        .try_for_each(|inner| list_pictures(root, inner, found))
 }
 
 fn read_picture(path: &Path) -> Result<Option<RgbImage>, Error> {
     if !path.exists() {
         return Ok(None);
     }
-    let picture = image::open(path).map_err(|e| Error::file(path, e))?;
-    Ok(Some(picture.to_rgb8()))
+    files::read_picture(path).map(Some)
 }

@@ -2,7 +2,7 @@
 
 use crate::cases;
 use crate::error::Error;
-use crate::files::write_whole;
+use crate::files::{DOCUMENT, read as read_file, write_whole};
 use crate::night::Night;
 use crate::scheme::Scheme;
 use crate::study::convergence::Convergence;
@@ -71,10 +71,16 @@ fn read(path: &Path) -> Result<Vec<Row>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }
-    let mut reader = csv::Reader::from_path(path).map_err(|e| Error::file(path, e))?;
+    let bytes = read_file(path, DOCUMENT)?;
+    let mut reader = csv::Reader::from_reader(&bytes[..]);
     let rows = reader.deserialize::<Row>();
-    rows.map(|row| row.map_err(|e| Error::file(path, e)))
-        .collect()
+    let sound = |row: csv::Result<Row>| {
+        let row = row.map_err(|e| Error::file(path, e))?;
+        // What stands here is shown and written again.
+        Night::new(&row.night.to_string(), &row.commit).map_err(|e| Error::file(path, e))?;
+        Ok(row)
+    };
+    rows.map(sound).collect()
 }
 
 fn rows_of(study: &CaseStudy, ladder: &[&str], night: &Night) -> Vec<Row> {

@@ -27,7 +27,9 @@ mod words;
 
 use crate::cases;
 use crate::error::Error;
-use crate::files::{discard, files_in, folders_in, write_dense_json, write_whole};
+use crate::files::{
+    discard, files_in, folders_in, read_text, require_inside, write_dense_json, write_whole,
+};
 use crate::gallery::{Gallery, Picture};
 use crate::golden::Goldens;
 use crate::night::Night;
@@ -35,6 +37,7 @@ use crate::record::Record;
 use crate::study::gather::Gathered;
 use crate::study::summary::{CaseStudy, Summary};
 use speed::Speed;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 const SUMMARY: &str = "summary.json";
@@ -52,20 +55,20 @@ pub fn write_report(
     night: Option<&Night>,
     out: &Path,
 ) -> Result<Summary, Error> {
-    discard_report(out)?;
-    write_whole(&out.join(OWN), OWN_TEXT.as_bytes())?;
-    for study in &mut judged.cases {
-        study.night = night.cloned();
-        study.pictures = draw(study, gathered, goldens, out)?;
-        summary::write_verdicts(study, out)?;
-    }
-    let speed = Speed::of(&judged.cases);
-    let picture = speed.draw(out)?;
-    summary::write(&judged, &speed, out)?;
-    junit::write(&judged, out)?;
-    html::write(&judged, &speed, picture, out)?;
-    // The sign that the report is whole.
-    write_dense_json(&out.join(SUMMARY), &judged)?;
+    owning(out, || {
+        for study in &mut judged.cases {
+            study.night = night.cloned();
+            study.pictures = draw(study, gathered, goldens, out)?;
+            summary::write_verdicts(study, out)?;
+        }
+        let speed = Speed::of(&judged.cases);
+        let picture = speed.draw(out)?;
+        summary::write(&judged, &speed, out)?;
+        junit::write(&judged, out)?;
+        html::write(&judged, &speed, picture, out)?;
+        // The sign that the report is whole.
+        write_dense_json(&out.join(SUMMARY), &judged)
+    })?;
     Ok(judged)
 }
 
@@ -97,43 +100,71 @@ fn draw_own(study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Pi
     Ok(gallery.pictures())
 }
 
-/// What tells that a folder is this program's own, beside what earlier versions have written there.
+/// The file that names what this program has written in a folder: by it a file of the user is told from one of an
+/// earlier report, and stays. Its first line alone claims all, which holds while a report is being written, and of one that
+/// was killed.
 const OWN: &str = ".mpm-verify";
-const SIGNS: [&str; 4] = [OWN, "plan.json", SUMMARY, "record.json"];
-
-/// Removes an earlier report from `out` and takes the folder for the next; runs, plan and history stay.
-///
-/// # Errors
-/// A page or a picture is there and nothing tells that this program has written it, or it can't be removed.
-pub fn discard_report(out: &Path) -> Result<(), Error> {
-    let earlier = earlier(out)?;
-    if let Some(first) = earlier.first() {
-        if !SIGNS.iter().any(|sign| out.join(sign).exists()) {
-            let cause = "in the way, and not of a report of this program: name another folder";
-            return Err(Error::file(first, cause));
-        }
-        write_whole(&out.join(OWN), OWN_TEXT.as_bytes())?;
-    }
-    earlier.iter().try_for_each(|file| discard(file))
-}
-
-const OWN_TEXT: &str =
+const CLAIM: &str =
     "mpm-verify writes and removes the pages, pictures and tables of this folder.\n";
 
-/// The files of an earlier report in `out`, of whatever cases.
-fn earlier(out: &Path) -> Result<Vec<PathBuf>, Error> {
-    let pages = [SUMMARY, "summary.md", "junit.xml", "index.html"].map(|file| out.join(file));
-    let mut files = pages.to_vec();
-    files.extend(["png", "svg"].map(|e| out.join(format!("{}.{e}", speed::NAME))));
-    for case in cases::all() {
-        let (name, folder) = (case.name, out.join(case.name));
-        files.push(out.join(format!("{name}.html")));
-        files.push(folder.join("study.json"));
-        files.extend(files_in(&folder, &["png", "svg", "csv"])?);
-        for scheme in folders_in(&folder.join("drift"))? {
-            files.extend(files_in(&scheme, &["png"])?);
-        }
+/// Draws and writes into `out`, in place of what this program wrote there before, and keeps account of it.
+///
+/// # Errors
+/// Those of [`discard_report`] and of `write`.
+fn owning<T>(out: &Path, write: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    discard_report(out)?;
+    write_whole(&out.join(OWN), CLAIM.as_bytes())?;
+    let written = write()?;
+    let mut account = CLAIM.to_owned();
+    for file in places(out)? {
+        account.push_str(&format!("{}\n", file.display()));
     }
-    files.retain(|file| file.exists());
+    write_whole(&out.join(OWN), account.as_bytes())?;
+    Ok(written)
+}
+
+/// Removes an earlier report from `out`; runs, plan and history stay.
+///
+/// # Errors
+/// A page or a picture is there that this program has not written, one can't be removed, or a link leads out of the folder.
+pub fn discard_report(out: &Path) -> Result<(), Error> {
+    let places = places(out)?;
+    let path = out.join(OWN);
+    let account = match path.exists() {
+        true => read_text(&path)?,
+        false => String::new(),
+    };
+    let claimed = account == CLAIM;
+    let own: BTreeSet<&str> = account.lines().skip(1).collect();
+    let foreign = |file: &&PathBuf| !claimed && !own.contains(&*file.display().to_string());
+    if let Some(first) = places.iter().find(foreign) {
+        let cause = "in the way, and not of a report of this program: name another folder";
+        return Err(Error::file(&out.join(first), cause));
+    }
+    places.iter().try_for_each(|file| discard(&out.join(file)))
+}
+
+/// The files in `out` that have the place and the kind of a report's, of whatever cases: their paths from there.
+fn places(out: &Path) -> Result<Vec<PathBuf>, Error> {
+    let pages = [SUMMARY, "summary.md", "junit.xml", "index.html"].map(PathBuf::from);
+    let mut files = pages.to_vec();
+    files.extend(["png", "svg"].map(|e| PathBuf::from(format!("{}.{e}", speed::NAME))));
+    for case in cases::all() {
+        let folder = Path::new(case.name);
+        let drift = folder.join("drift");
+        require_inside(out, &drift)?;
+        files.push(PathBuf::from(format!("{}.html", case.name)));
+        files.push(folder.join("study.json"));
+        let mut found = files_in(&out.join(folder), &["png", "svg", "csv", "part"])?;
+        for scheme in folders_in(&out.join(&drift))? {
+            found.extend(files_in(&scheme, &["png", "part"])?);
+        }
+        let below = |file: &PathBuf| file.strip_prefix(out).map(Path::to_path_buf).ok();
+        files.extend(found.iter().filter_map(below));
+    }
+    let is_there = |file: &PathBuf| out.join(file).symlink_metadata().is_ok();
+    files.retain(is_there);
+    files.sort();
+    files.dedup();
     Ok(files)
 }

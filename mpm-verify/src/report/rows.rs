@@ -2,6 +2,7 @@
 
 use crate::cases;
 use crate::error::Error;
+use crate::files::{DOCUMENT, read as read_file};
 use crate::night::Night;
 use crate::parameter::Parameters;
 use crate::record::{
@@ -147,6 +148,7 @@ impl Row {
                 mpm_verify: String::new(),
                 source: self.program.clone(),
             },
+            files: BTreeMap::new(),
         })
     }
 
@@ -214,7 +216,8 @@ pub(super) fn read(path: &Path) -> Result<Vec<Row>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }
-    let mut reader = csv::Reader::from_path(path).map_err(|e| Error::file(path, e))?;
+    let bytes = read_file(path, DOCUMENT)?;
+    let mut reader = csv::Reader::from_reader(&bytes[..]);
     let mut names = Names::default();
     let rows = reader.deserialize::<Row>();
     rows.map(|row| {

@@ -7,7 +7,7 @@ use crate::case::Tier;
 use crate::cases;
 use crate::draw::write_small_png;
 use crate::error::Error;
-use crate::files::{discard, make_folder, write_whole};
+use crate::files::{DOCUMENT, discard, make_folder, read, write_whole};
 use crate::gallery::Picture;
 use crate::record::Record;
 use crate::study::convergence::convergence;
@@ -167,7 +167,7 @@ fn draw_runs(folders: &[PathBuf], out: &Path) -> Result<Tier, Error> {
 
 /// Puts a picture into its place; pixels are made fewer until they fit. One of the same name in the other format goes.
 fn place(from: &Path, to: &Path) -> Result<(), Error> {
-    let bytes = fs::read(from).map_err(|e| Error::file(from, e))?;
+    let bytes = read(from, DOCUMENT)?;
     let is_png = to.extension().is_some_and(|e| e == "png");
     if bytes.len() as u64 <= MOST {
         write_whole(to, &bytes)?;

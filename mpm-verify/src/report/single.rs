@@ -1,6 +1,6 @@
 //! The pictures of one run by itself.
 
-use super::draw_own;
+use super::{draw_own, owning};
 use crate::cases;
 use crate::draw::{Chart, FieldFigure, FieldPanel, Series, draw_charts, draw_fields};
 use crate::error::Error;
@@ -20,9 +20,11 @@ use std::path::Path;
 pub fn draw(record: &Record, folder: &Path) -> Result<Vec<Picture>, Error> {
     let study = CaseStudy::new(&record.case, vec![record.clone()]);
     let gathered = Gathered::single(record.clone(), folder);
-    let mut pictures = draw_own(&study, &gathered, folder)?;
-    pictures.extend(own(record, folder, folder)?);
-    Ok(pictures)
+    owning(folder, || {
+        let mut pictures = draw_own(&study, &gathered, folder)?;
+        pictures.extend(own(record, folder, folder)?);
+        Ok(pictures)
+    })
 }
 
 /// Draws the run in `folder`: its particles, and what it went through.

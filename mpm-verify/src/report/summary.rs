@@ -84,7 +84,7 @@ fn failures(summary: &Summary, t: &mut String) {
                 record.case,
                 record.scheme(),
                 record.level,
-                error.message
+                plain(&error.message)
             );
         }
     }
@@ -97,6 +97,11 @@ fn failures(summary: &Summary, t: &mut String) {
     }
 }
 
+/// Words of a file that Markdown shall show as they are.
+fn plain(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;")
+}
+
 /// What differs from the goldens, run by run.
 fn drift(summary: &Summary, t: &mut String) {
     let records = summary.cases.iter().flat_map(|s| &s.records);
@@ -107,7 +112,7 @@ fn drift(summary: &Summary, t: &mut String) {
             let exact = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| x.to_string());
             let what = match difference {
                 Some(_) => v.metric.clone(),
-                None => format!("{}: {}", v.metric, v.source),
+                None => plain(&format!("{}: {}", v.metric, v.source)),
             };
             vec![
                 format!("{} {}", record.case, record.folder()),

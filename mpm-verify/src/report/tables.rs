@@ -8,7 +8,7 @@ use super::values::Values;
 use super::{remedies, rows};
 use crate::cases;
 use crate::error::Error;
-use crate::files::write_whole;
+use crate::files::{read_text, write_whole};
 use crate::record::Record;
 use crate::results::ResultTable;
 use crate::study::summary::CaseStudy;
@@ -71,7 +71,7 @@ impl Page {
         values: &Values,
         shown: &mut BTreeSet<String>,
     ) -> Result<Self, Error> {
-        let old = fs::read_to_string(&file).map_err(|e| Error::file(&file, e))?;
+        let old = read_text(&file)?;
         let (mut text, mut stale) = (String::new(), Vec::new());
         let mut lines = old.split_inclusive('\n').enumerate();
         while let Some((k, line)) = lines.next() {

@@ -10,10 +10,9 @@
 //!
 //! Numbers are little-endian; what follows the checksum is written by serde in the format of `postcard`.
 
-use super::series::Mark;
 use crate::case::Case;
 use crate::error::Error;
-use crate::files;
+use crate::files::{self, Mark, TABLE};
 use crate::parameter::Parameters;
 use crate::record::{Record, Timing, Version};
 use crate::spec::RunSpec;
@@ -22,13 +21,10 @@ use mpm_core::{MemoryError, Saved};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use std::{fs, io};
 use thiserror::Error;
 
 /// Name of its file.
 pub const FILE: &str = "checkpoint.bin";
-/// Name while it is being written.
-const DRAFT: &str = "checkpoint.part";
 /// Seconds between checkpoints, if nothing else is asked for.
 pub const EVERY_S: u64 = 60;
 /// How the file begins.
@@ -116,6 +112,16 @@ pub enum Refusal {
         crate::run::series::FILE
     )]
     Series,
+    /// What stands beside a record is not what the run wrote.
+    #[error("{name} is {found}, not the {recorded} that the run has written")]
+    File {
+        /// The file.
+        name: String,
+        /// What is there.
+        found: String,
+        /// What was written.
+        recorded: String,
+    },
     /// The job is not one of this memory.
     #[error(transparent)]
     Memory(#[from] MemoryError),
@@ -215,10 +221,10 @@ impl Checkpoint {
     /// It is truncated, damaged, of another format, run or program, of other parameters, or can't be read.
     pub fn read(folder: &Path, identity: &Identity) -> Result<Option<Self>, Error> {
         let path = folder.join(FILE);
-        let bytes = match fs::read(&path) {
-            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
-            other => other.map_err(|e| Error::file(&path, e))?,
-        };
+        if !path.exists() {
+            return Ok(None);
+        }
+        let bytes = files::read(&path, TABLE)?;
         match Self::decode(&bytes, identity) {
             Ok(checkpoint) => Ok(Some(checkpoint)),
             Err(refusal) => Err(refusal.of(&path)),
@@ -263,7 +269,7 @@ impl Checkpoint {
             &about,
             memory,
         ];
-        files::write_durable(&path, &folder.join(DRAFT), &parts)
+        files::write_parts(&path, &parts)
     }
 }
 
@@ -303,8 +309,7 @@ fn sound_content(bytes: &[u8]) -> Result<&[u8], Refusal> {
 /// # Errors
 /// It is there and can't be removed.
 pub fn discard(folder: &Path) -> Result<(), Error> {
-    files::discard(&folder.join(FILE))?;
-    files::discard(&folder.join(DRAFT))
+    files::discard(&folder.join(FILE))
 }
 
 /// Keeps the checkpoint of a run up to date.

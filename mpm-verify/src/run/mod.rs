@@ -7,7 +7,8 @@ pub mod vtu;
 use crate::case::Case;
 use crate::error::Error;
 use crate::files::{
-    SNAPSHOTS, discard, discard_folder, require_writable, snapshot_file, write_csv, write_json,
+    Mark, SNAPSHOTS, TABLE, discard, files_in, make_folder, read, require_inside, snapshot_file,
+    write_csv, write_json,
 };
 use crate::job::{Column, Job, Snapshot};
 use crate::parameter::Parameters;
@@ -17,9 +18,15 @@ use crate::verdict::Verdict;
 use checkpoint::{Checkpoint, Identity, Keeper, Refusal, Saving};
 use cpu_time::ProcessTime;
 use series::Series;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use vtu::{write_pvd, write_vtu};
+
+/// File of a run's record.
+pub const RECORD: &str = "record.json";
+/// File of its particles at the end.
+const PARTICLES: &str = "particles.csv";
 
 /// Runs `spec` of `case` on `threads` threads. With a folder, the series is written there row by row,
 /// checkpoints now and then and, at the end, particles and record; a run that breaks down keeps what it
@@ -37,11 +44,12 @@ pub fn execute(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Record, Error> {
     let parameters = Parameters::new(&case.parameters, &spec.set)?;
-    let mut job = (case.begin)(spec, &parameters)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .map_err(|e| Error::Input(format!("{threads} threads can't be started: {e}")))?;
+    // The scene as well is built by no more threads.
+    let mut job = pool.install(|| (case.begin)(spec, &parameters))?;
     let mut journal = None;
     let mut before = Timing::default();
     if let Some((folder, saving)) = place {
@@ -75,6 +83,7 @@ pub fn execute(
             time,
             machine: Machine::here(threads),
             version: Version::current(),
+            files: BTreeMap::new(),
         };
         if record.status == Status::Ok {
             record.metrics = job.metrics();
@@ -82,7 +91,8 @@ pub fn execute(
         record.verdicts = judge(&record);
         if let Some(journal) = journal {
             write_particles(&journal.folder, &job.particles())?;
-            write_json(&journal.folder.join("record.json"), &record)?;
+            record.files = journal.written()?;
+            write_json(&journal.folder.join(RECORD), &record)?;
             journal.keeper.end()?;
         }
         Ok(record)
@@ -152,7 +162,8 @@ impl Journal {
         identity: Identity,
         job: &mut dyn Job,
     ) -> Result<(Self, Timing), Error> {
-        require_writable(folder)?;
+        make_folder(folder)?;
+        require_inside(folder, Path::new(SNAPSHOTS))?;
         let found = match saving.resume {
             true => Checkpoint::read(folder, &identity)?,
             false => None,
@@ -168,15 +179,13 @@ impl Journal {
                 Some((series, checkpoint.time))
             }
         };
-        for file in ["record.json", "particles.csv", "particles.vtu"] {
+        for file in [RECORD, PARTICLES, "particles.vtu"] {
             discard(&folder.join(file))?;
         }
         let (series, before) = match resumed {
             Some(resumed) => resumed,
             None => {
-                checkpoint::discard(folder)?;
-                discard_folder(&folder.join(SNAPSHOTS))?;
-                discard(&folder.join(COLLECTION))?;
+                discard_run(folder)?;
                 let series = Series::begin(folder, &job.series_columns())?;
                 (series, Timing::default())
             }
@@ -187,6 +196,18 @@ impl Journal {
             keeper: Keeper::new(folder, identity, saving.every),
         };
         Ok((journal, before))
+    }
+
+    /// The tables that the run has written. What a run before this one has left of the same is among them.
+    fn written(&self) -> Result<BTreeMap<String, Mark>, Error> {
+        let mut written = BTreeMap::from([(series::FILE.to_owned(), self.series.secure()?)]);
+        for name in tables(&self.folder)? {
+            if name != series::FILE {
+                let mark = Mark::of(&read(&self.folder.join(&name), TABLE)?);
+                written.insert(name, mark);
+            }
+        }
+        Ok(written)
     }
 
     /// Writes a checkpoint if it is time.
@@ -203,6 +224,72 @@ impl Journal {
             memory,
         })
     }
+}
+
+/// The tables of a run that are in its folder.
+fn tables(folder: &Path) -> Result<Vec<String>, Error> {
+    let single = [series::FILE, PARTICLES].map(str::to_owned).into_iter();
+    let mut names: Vec<String> = single.filter(|name| folder.join(name).exists()).collect();
+    for file in files_in(&folder.join(SNAPSHOTS), &["csv"])? {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        names.push(format!("{SNAPSHOTS}/{name}"));
+    }
+    Ok(names)
+}
+
+/// Checks that the tables beside a record of this program are those that the run wrote.
+///
+/// # Errors
+/// One is missing, changed or was not written by the run, which the error names.
+pub fn require_tables(record: &Record, folder: &Path) -> Result<(), Error> {
+    require_inside(folder, Path::new(SNAPSHOTS))?;
+    let there = tables(folder)?;
+    let needed = [series::FILE, PARTICLES].map(str::to_owned);
+    let names: BTreeSet<&String> = record.files.keys().chain(&there).chain(&needed).collect();
+    for name in names {
+        let found = match there.contains(name) {
+            true => Some(Mark::of(&read(&folder.join(name), TABLE)?)),
+            false => None,
+        };
+        let recorded = record.files.get(name).copied();
+        if found != recorded || found.is_none() {
+            let told = |mark: Option<Mark>| {
+                let of = |m: Mark| format!("{} bytes of checksum {:08x}", m.bytes, m.checksum);
+                mark.map_or("nothing".to_owned(), of)
+            };
+            let (found, recorded) = (told(found), told(recorded));
+            let name = name.clone();
+            return Err(Refusal::File {
+                name,
+                found,
+                recorded,
+            }
+            .of(&folder.join(RECORD)));
+        }
+    }
+    Ok(())
+}
+
+/// Removes what a run has left in its folder, and nothing else.
+///
+/// # Errors
+/// A file can't be removed.
+pub fn discard_run(folder: &Path) -> Result<(), Error> {
+    require_inside(folder, Path::new(SNAPSHOTS))?;
+    checkpoint::discard(folder)?;
+    for name in [RECORD, PARTICLES, "particles.vtu", series::FILE, COLLECTION] {
+        discard(&folder.join(name))?;
+    }
+    let place = folder.join(SNAPSHOTS);
+    for file in files_in(&place, &["csv", "vtu", "part"])? {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        if name.starts_with(|c: char| c == '.' || c.is_ascii_digit()) {
+            discard(&file)?;
+        }
+    }
+    // Stays if anything else is there.
+    let _ = std::fs::remove_dir(&place);
+    Ok(())
 }
 
 fn drive(
@@ -276,7 +363,7 @@ fn failure(error: &mpm_core::Error) -> Failure {
 }
 
 fn write_particles(folder: &Path, columns: &[Column]) -> Result<(), Error> {
-    write_columns(&folder.join("particles.csv"), columns)?;
+    write_columns(&folder.join(PARTICLES), columns)?;
     write_vtu(&folder.join("particles.vtu"), columns)
 }
 

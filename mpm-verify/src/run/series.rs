@@ -1,23 +1,14 @@
 //! The time series of a run: a table that grows by a row at a time.
 
 use crate::error::Error;
+use crate::files::{Mark, Output, discard};
 use crc32fast::Hasher;
-use serde::{Deserialize, Serialize};
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Name of its file.
 pub const FILE: &str = "series.csv";
-
-/// How far a series has come: its size, and the checksum of what stands there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Mark {
-    /// Bytes.
-    pub bytes: u64,
-    /// Their CRC-32.
-    pub checksum: u32,
-}
 
 /// A series that is being written.
 pub struct Series {
@@ -27,7 +18,7 @@ pub struct Series {
 
 /// A file, and the tally of what went into it.
 struct Tallied {
-    file: File,
+    file: Output,
     bytes: u64,
     checksum: Hasher,
 }
@@ -52,7 +43,8 @@ impl Series {
     /// The file can't be written.
     pub fn begin(folder: &Path, columns: &[&str]) -> Result<Self, Error> {
         let path = folder.join(FILE);
-        let file = File::create(&path).map_err(|e| Error::file(&path, e))?;
+        discard(&path)?;
+        let file = Output::create(&path).map_err(|e| Error::file(&path, e))?;
         let mut series = Self::on(path, file, 0, Hasher::new());
         series.write(|writer| writer.write_record(columns))?;
         Ok(series)
@@ -65,7 +57,10 @@ impl Series {
     /// The file can't be read or written.
     pub fn resume(folder: &Path, mark: Mark) -> Result<Option<Self>, Error> {
         let path = folder.join(FILE);
-        let reopen = || -> io::Result<Option<(File, Hasher)>> {
+        let reopen = || -> io::Result<Option<(Output, Hasher)>> {
+            if path.is_symlink() {
+                return Ok(None);
+            }
             let options = File::options().read(true).write(true).open(&path);
             let mut file = match options {
                 Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
@@ -78,15 +73,13 @@ impl Series {
             if known.len() as u64 != mark.bytes || checksum.clone().finalize() != mark.checksum {
                 return Ok(None);
             }
-            file.set_len(mark.bytes)?;
-            file.seek(SeekFrom::End(0))?;
-            Ok(Some((file, checksum)))
+            Ok(Some((Output::after(&path, file, mark.bytes)?, checksum)))
         };
         let reopened = reopen().map_err(|e| Error::file(&path, e))?;
         Ok(reopened.map(|(file, checksum)| Self::on(path, file, mark.bytes, checksum)))
     }
 
-    fn on(path: PathBuf, file: File, bytes: u64, checksum: Hasher) -> Self {
+    fn on(path: PathBuf, file: Output, bytes: u64, checksum: Hasher) -> Self {
         let tallied = Tallied {
             file,
             bytes,
@@ -121,7 +114,7 @@ impl Series {
         let tallied = self.writer.get_ref();
         tallied
             .file
-            .sync_data()
+            .sync()
             .map_err(|e| Error::file(&self.path, e))?;
         Ok(Mark {
             bytes: tallied.bytes,

@@ -2,6 +2,7 @@
 
 use super::plan::Plan;
 use crate::error::Error;
+use crate::files::{DOCUMENT, read};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -45,10 +46,10 @@ impl Completeness {
     /// # Errors
     /// The file is missing or damaged.
     pub fn of(plan: &Plan, results: &Path, program: &str) -> Result<Self, Error> {
-        let read = || -> csv::Result<Vec<Row>> {
-            csv::Reader::from_path(results)?.deserialize().collect()
-        };
-        let rows = read().map_err(|e| Error::file(results, e))?;
+        let bytes = read(results, DOCUMENT)?;
+        let mut reader = csv::Reader::from_reader(&bytes[..]);
+        let rows: csv::Result<Vec<Row>> = reader.deserialize().collect();
+        let rows = rows.map_err(|e| Error::file(results, e))?;
         Ok(Self::compare(plan, &rows, program))
     }
 

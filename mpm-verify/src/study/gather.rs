@@ -1,21 +1,21 @@
 //! Records read from the folders of all shards of a plan.
 
 use super::convergence::convergence;
+use super::found::record_in;
 use super::judge::judge;
 use super::plan::{Plan, PlannedRun};
 use super::summary::{CaseStudy, Summary};
+use crate::case::{Tier, find_level};
 use crate::cases;
 use crate::error::Error;
-use crate::files::read_versioned;
+use crate::files::{read_versioned, require_inside};
 use crate::record::{self, Record};
-use crate::spec::run_folder;
+use crate::run::RECORD;
+use crate::spec::RunSpec;
 use crate::verdict::Verdict;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// File of a run's record.
-const RECORD: &str = "record.json";
 
 /// The runs of a whole plan, gathered from the folders of its shards.
 #[derive(Debug)]
@@ -23,6 +23,8 @@ pub struct Gathered {
     tier: String,
     studies: Vec<CaseStudy>,
     folders: BTreeMap<String, PathBuf>,
+    /// What keeps the runs from being those of a tier.
+    gap: Option<String>,
 }
 
 impl Gathered {
@@ -34,7 +36,44 @@ impl Gathered {
             tier: "of a single run".to_owned(),
             folders: BTreeMap::from([(place, folder.to_path_buf())]),
             studies: vec![CaseStudy::new(&record.case.clone(), vec![record])],
+            gap: None,
         }
+    }
+
+    /// What keeps the runs from being those of their tier, if anything does: such runs are shown, and pass nothing.
+    #[must_use]
+    pub fn gap(&self) -> Option<&str> {
+        self.gap.as_deref()
+    }
+
+    /// Checks that the runs are those of a tier.
+    ///
+    /// # Errors
+    /// Some are missing, or it is one run by itself.
+    pub fn require_tier(&self) -> Result<(), Error> {
+        match &self.gap {
+            Some(gap) => Err(Error::Input(gap.clone())),
+            None => Tier::parse(&self.tier).map(drop),
+        }
+    }
+
+    /// Reads one run by itself; its record says what it is of.
+    fn read_single(folder: &Path) -> Result<Self, Error> {
+        let path = folder.join(RECORD);
+        let record: Record = read_versioned(&path, record::SCHEMA)?;
+        let known = || -> Result<_, Error> {
+            let case = cases::find(&record.case)?;
+            let spec = RunSpec {
+                scheme: record.scheme(),
+                level: find_level(case, &record.level)?,
+                set: record.set.clone(),
+                perturbed: record.perturbed,
+            };
+            Ok((case, spec))
+        };
+        let (case, spec) = known().map_err(|e| Error::file(&path, e))?;
+        let found = record_in(folder, case, &spec)?;
+        Ok(Self::single(found.unwrap_or(record), folder))
     }
 
     /// Reads every record of a plan; `folders` are those of all its shards, in any order, or that of a single run.
@@ -47,8 +86,7 @@ impl Gathered {
             && !Plan::is_in(folder)
             && folder.join(RECORD).exists()
         {
-            let record = read_versioned(&folder.join(RECORD), record::SCHEMA)?;
-            return Ok(Self::single(record, folder));
+            return Self::read_single(folder);
         }
         let plans = read_plans(folders)?;
         let (_, whole) = &plans[0];
@@ -56,11 +94,13 @@ impl Gathered {
             tier: whole.tier.clone(),
             studies: Vec::new(),
             folders: BTreeMap::new(),
+            gap: whole.gap()?,
         };
         let mut missing = Vec::new();
         for run in &whole.runs {
-            let folder = plans[run.shard - 1].0.join(run.folder());
-            let Some(record) = read_record(&folder, run)? else {
+            let root = plans[run.shard - 1].0;
+            let folder = root.join(run.folder());
+            let Some(record) = read_record(root, run)? else {
                 missing.push(run);
                 continue;
             };
@@ -191,19 +231,15 @@ fn read_plans(folders: &[PathBuf]) -> Result<Vec<(&Path, Plan)>, Error> {
     }
 }
 
-/// The record of a planned run, or `None` if the run has not ended.
-fn read_record(folder: &Path, run: &PlannedRun) -> Result<Option<Record>, Error> {
-    let path = folder.join(RECORD);
-    if !path.exists() {
-        return Ok(None);
+/// The record of a planned run below `root`, or `None` if the run has not ended.
+fn read_record(root: &Path, run: &PlannedRun) -> Result<Option<Record>, Error> {
+    require_inside(root, &run.folder())?;
+    let (folder, (case, spec)) = (root.join(run.folder()), run.resolve()?);
+    match record_in(&folder, case, &spec)? {
+        Some(record) if record.set != run.set => {
+            let cause = format!("of another run: {} {}", record.case, record.folder());
+            Err(Error::file(&folder.join(RECORD), cause))
+        }
+        found => Ok(found),
     }
-    let record: Record = read_versioned(&path, record::SCHEMA)?;
-    if record.perturbed
-        || record.case != run.case
-        || record.folder() != run_folder(run.scheme, &run.level, &run.set)
-    {
-        let cause = format!("of another run: {} {}", record.case, record.folder());
-        return Err(Error::file(&path, cause));
-    }
-    Ok(Some(record))
 }

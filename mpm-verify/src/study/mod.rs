@@ -2,6 +2,7 @@
 
 pub mod complete;
 pub mod convergence;
+pub mod found;
 pub mod gather;
 pub mod judge;
 pub mod plan;

@@ -2,8 +2,10 @@
 
 use crate::case::{Case, Tier, find_level};
 use crate::cases;
+use crate::distinct;
 use crate::error::Error;
 use crate::files::write_json;
+use crate::parameter::Parameters;
 use crate::scheme::Scheme;
 use crate::spec::{RunSpec, run_folder};
 use serde::{Deserialize, Serialize};
@@ -36,7 +38,9 @@ impl Shard {
     /// # Errors
     /// The text is not of that form, or i is not between 1 and n.
     pub fn parse(text: &str) -> Result<Self, Error> {
+        let plain = text.bytes().all(|b| b.is_ascii_digit() || b == b'/');
         text.split_once('/')
+            .filter(|_| plain)
             .and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)))
             .map(|(index, count)| Self { index, count })
             .filter(|s| (1..=s.count).contains(&s.index) && s.count <= MAX_SHARDS)
@@ -160,6 +164,30 @@ impl Plan {
         self.tier == other.tier && self.shard.count == other.shard.count && self.runs == other.runs
     }
 
+    /// What tells it from the plan of this program for its tier and its cases, if anything does: such a plan is not that of
+    /// the tier that it names.
+    ///
+    /// # Errors
+    /// A tier or case that is not known.
+    pub fn gap(&self) -> Result<Option<String>, Error> {
+        let tier = Tier::parse(&self.tier)?;
+        for name in distinct(self.runs.iter().map(|run| &run.case)) {
+            let case = cases::find(name)?;
+            let planned: BTreeSet<String> = case.runs(tier).iter().map(RunSpec::folder).collect();
+            let own = self.runs.iter().filter(|run| run.case == *name);
+            let own: BTreeSet<String> = own
+                .map(|run| run_folder(run.scheme, &run.level, &run.set))
+                .collect();
+            if own != planned {
+                let (found, all) = (own.intersection(&planned).count(), planned.len());
+                return Ok(Some(format!(
+                    "incomplete: of the {all} runs that tier {tier} has of {name} the plan has {found}"
+                )));
+            }
+        }
+        Ok(None)
+    }
+
     /// Writes the plan into its folder.
     ///
     /// # Errors
@@ -202,9 +230,14 @@ impl Plan {
         if self.runs.is_empty() {
             return Err("no runs".to_owned());
         }
+        Tier::parse(&self.tier).map_err(|e| e.to_string())?;
         let mut seen = BTreeSet::new();
         for run in &self.runs {
             let folder = run.folder();
+            let names = run
+                .resolve()
+                .and_then(|(case, spec)| Parameters::new(&case.parameters, &spec.set).map(drop));
+            names.map_err(|e| e.to_string())?;
             if !(1..=count).contains(&run.shard) {
                 return Err(format!(
                     "{}: shard {}; allowed: 1 to {count}",
@@ -227,7 +260,9 @@ mod tests {
     #[test]
     fn shards_are_read_and_bad_ones_refused() {
         assert_eq!(Shard::parse("2/4").unwrap(), Shard { index: 2, count: 4 });
-        for bad in ["0/4", "5/4", "1", "a/b", "1/0", "-1/4", "1/4/2", "1/100000"] {
+        for bad in [
+            "0/4", "5/4", "1", "a/b", "1/0", "-1/4", "1/4/2", "1/100000", "+1/4", "1/+4",
+        ] {
             let error = Shard::parse(bad).unwrap_err().to_string();
             assert!(
                 error.contains(bad) && error.contains("1 ≤ i ≤ n"),

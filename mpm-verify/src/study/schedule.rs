@@ -1,13 +1,15 @@
 //! Runs made side by side, the longest first.
 
+use super::found::record_in;
 use super::judge::judged_run;
 use super::plan::Plan;
 use crate::case::Case;
 use crate::error::Error;
-use crate::files::{discard, discard_folder, read_versioned, require_writable};
-use crate::parameter::Parameters;
-use crate::record::{self, Record, Version};
-use crate::run::checkpoint::{self, Saving};
+use crate::files::lock::hold;
+use crate::files::require_inside;
+use crate::record::{Record, Version};
+use crate::run::checkpoint::Saving;
+use crate::run::discard_run;
 use crate::spec::RunSpec;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -22,6 +24,9 @@ pub trait Listener: Sync {
     fn ended(&self, run: usize, record: &Record);
 }
 
+/// Folder of a run's perturbed twin, below its own.
+pub const TWIN: &str = "twin";
+
 /// Makes the runs of a plan's own shard below `out`, as many side by side as there are `workers`, one
 /// thread each, the longest first. To resume is to keep a run that has a record of this very program and to go
 /// on with one that has a checkpoint of it.
@@ -35,7 +40,6 @@ pub fn make_runs(
     workers: usize,
     listener: &dyn Listener,
 ) -> Result<Vec<Record>, Error> {
-    require_writable(out)?;
     if saving.resume && out.join("plan.json").exists() {
         let begun = Plan::read(out)?;
         if begun != *plan {
@@ -51,10 +55,10 @@ pub fn make_runs(
     for run in plan.own() {
         let (case, spec) = run.resolve()?;
         let folder = out.join(run.folder());
+        require_inside(out, &run.folder().join(TWIN))?;
         if !saving.resume {
-            discard(&folder.join("record.json"))?;
-            checkpoint::discard(&folder)?;
-            discard_folder(&folder.join("twin"))?;
+            discard_run(&folder)?;
+            discard_run(&folder.join(TWIN))?;
         }
         tasks.push(Task { case, spec, folder });
     }
@@ -73,18 +77,35 @@ pub struct Task {
 }
 
 impl Task {
-    /// The record that a run of this very program has left.
-    fn made(&self) -> Option<Record> {
-        let path = self.folder.join("record.json");
-        let record: Record = read_versioned(&path, record::SCHEMA).ok()?;
-        let same = record.perturbed == self.spec.perturbed
-            && record.case == self.case.name
-            && record.scheme() == self.spec.scheme
-            && record.level == self.spec.level.name
-            && record.set == self.spec.set
-            && Parameters::new(&self.case.parameters, &record.set).ok()? == record.parameters
-            && record.version == Version::current();
-        same.then_some(record)
+    /// The record that a run of this very program has left, if its tables are those that it wrote.
+    fn made(&self) -> Result<Option<Record>, Error> {
+        let found = record_in(&self.folder, self.case, &self.spec)?;
+        Ok(found.filter(|r| r.set == self.spec.set && r.version == Version::current()))
+    }
+
+    /// Makes the run, or keeps it if it is there already and that is asked for.
+    fn make(&self, k: usize, saving: Saving, listener: &dyn Listener) -> Result<Record, Error> {
+        let _held = hold(&self.folder)?;
+        match self.made() {
+            _ if !saving.resume => {}
+            Ok(None) => {}
+            Ok(Some(record)) => return Ok(record),
+            Err(why) => listener.begins_again(k, &why),
+        }
+        let run = |saving| {
+            let place = Some((self.folder.as_path(), saving));
+            judged_run(self.case, &self.spec, place, 1, &|share| {
+                listener.progress(k, share);
+            })
+        };
+        match run(saving) {
+            Err(why @ Error::Checkpoint { .. }) => {
+                listener.begins_again(k, &why);
+                let resume = false;
+                run(Saving { resume, ..saving })
+            }
+            other => other,
+        }
     }
 }
 
@@ -102,24 +123,7 @@ pub fn run_all(
     let cost = |k: usize| (tasks[k].case.cost)(&tasks[k].spec);
     order.sort_by(|&a, &b| cost(b).total_cmp(&cost(a)));
     let results = side_by_side(order, workers, |k| {
-        let task = &tasks[k];
-        let made = |saving| {
-            let place = Some((task.folder.as_path(), saving));
-            judged_run(task.case, &task.spec, place, 1, &|share| {
-                listener.progress(k, share);
-            })
-        };
-        let result = match task.made().filter(|_| saving.resume) {
-            Some(record) => Ok(record),
-            None => match made(saving) {
-                Err(why @ Error::Checkpoint { .. }) => {
-                    listener.begins_again(k, &why);
-                    let resume = false;
-                    made(Saving { resume, ..saving })
-                }
-                other => other,
-            },
-        };
+        let result = tasks[k].make(k, saving, listener);
         if let Ok(record) = &result {
             listener.ended(k, record);
         }
@@ -140,15 +144,18 @@ fn side_by_side<T: Send>(
     let results = Mutex::new(Vec::new());
     // The lock must be gone before the work begins, or there is one at a time.
     let next = || unpoisoned(queue.lock()).next();
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(|| {
-                while let Some(k) = next() {
-                    let result = work(k);
-                    unpoisoned(results.lock()).push((k, result));
-                }
-            });
+    let worker = || {
+        while let Some(k) = next() {
+            let result = work(k);
+            unpoisoned(results.lock()).push((k, result));
         }
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..workers {
+            // Where no more threads are to be had, fewer do it.
+            let _ = std::thread::Builder::new().spawn_scoped(scope, worker);
+        }
+        worker();
     });
     let mut results = unpoisoned(results.into_inner());
     results.sort_by_key(|(k, _)| *k);

@@ -1,0 +1,227 @@
+//! Runs, verifications and reports on machines that fail at every step by which they change a file.
+
+use crate::case::Case;
+use crate::cases;
+use crate::error::Error;
+use crate::files::fault::{Fault, Step, on_machine};
+use crate::files::{read, read_versioned, write_whole};
+use crate::golden::Goldens;
+use crate::record::Record;
+use crate::report::write_report;
+use crate::run::checkpoint::Saving;
+use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::spec::RunSpec;
+use crate::study::gather::Gathered;
+use crate::study::judge::judged_run;
+use crate::study::plan::{Plan, PlannedRun, Shard};
+use crate::study::schedule::{Listener, make_runs};
+use crate::study::summary::{SCHEMA, Summary};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// The page says that at least so many steps of a run are failed at.
+const LEAST: usize = 40;
+
+/// A run of a few rows.
+fn spec() -> (&'static Case, RunSpec) {
+    let case = cases::find("cook").unwrap();
+    let set = ["max_periods=0.01", "rest_window=0.005", "load_ramp=0.005"];
+    let spec = RunSpec {
+        scheme: Scheme::flip(BasisName::Gimp, RemedyName::FbarTotal),
+        level: case.levels[0],
+        set: set.map(str::to_owned).into(),
+        perturbed: false,
+    };
+    (case, spec)
+}
+
+fn saving() -> Saving {
+    let (every, resume) = (Duration::ZERO, true);
+    Saving { every, resume }
+}
+
+fn make(folder: &Path) -> Result<Record, Error> {
+    let (case, spec) = spec();
+    judged_run(case, &spec, Some((folder, saving())), 1, &|_| {})
+}
+
+/// Every file below a folder with its content; of records without the time and the machine.
+fn content(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    fn walk(root: &Path, folder: &Path, found: &mut BTreeMap<PathBuf, Vec<u8>>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                walk(root, &path, found);
+                continue;
+            }
+            let mut bytes = fs::read(&path).unwrap();
+            if path.ends_with("record.json") {
+                let mut record: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+                for varying in ["time", "machine"] {
+                    record.as_object_mut().unwrap().remove(varying).unwrap();
+                }
+                bytes = record.to_string().into_bytes();
+            }
+            found.insert(path.strip_prefix(root).unwrap().to_path_buf(), bytes);
+        }
+    }
+    let mut found = BTreeMap::new();
+    walk(folder, folder, &mut found);
+    found
+}
+
+/// What differs in two folders.
+fn difference(a: &Path, b: &Path) -> Vec<PathBuf> {
+    let (a, b) = (content(a), content(b));
+    let names = a.keys().chain(b.keys());
+    names
+        .filter(|name| a.get(*name) != b.get(*name))
+        .cloned()
+        .collect()
+}
+
+/// A run that is killed, or whose disk is full, at any step goes on to the same bits.
+#[test]
+fn a_run_survives_a_failure_at_every_step() {
+    let straight = tempfile::tempdir().unwrap();
+    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, || {
+        make(straight.path())
+    });
+    made.unwrap();
+    assert!(log.len() >= LEAST, "{} steps", log.len());
+    for fault in [Fault::Kill, Fault::Full] {
+        for at in 0..log.len() {
+            let folder = tempfile::tempdir().unwrap();
+            let (failed, steps) = on_machine(folder.path(), fault, at, || make(folder.path()));
+            let adds = |(step, _): &(Step, PathBuf)| matches!(step, Step::Create | Step::Write);
+            let fails = fault == Fault::Kill || log[at..].iter().any(adds);
+            assert_eq!(failed.is_err(), fails, "{fault:?} at {at}: {steps:?}");
+            make(folder.path()).unwrap();
+            let different = difference(folder.path(), straight.path());
+            assert_eq!(different, [""; 0].map(PathBuf::from), "{fault:?} at {at}");
+        }
+    }
+}
+
+/// What has its name is on the disk before: written, made safe, renamed, and then the folder made safe.
+#[test]
+fn a_file_is_safe_before_it_has_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, log) = on_machine(folder.path(), Fault::Kill, usize::MAX, || {
+        make(folder.path())
+    });
+    let mut renamed = 0;
+    for (k, (step, path)) in log.iter().enumerate() {
+        if *step != Step::Rename {
+            continue;
+        }
+        renamed += 1;
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let draft = path.with_file_name(format!(".{name}.part"));
+        assert_eq!(log[k - 1], (Step::Sync, draft.clone()));
+        let begun = log[..k]
+            .iter()
+            .rposition(|s| *s == (Step::Create, draft.clone()))
+            .unwrap();
+        assert!(
+            log[begun + 1..k - 1]
+                .iter()
+                .all(|s| *s == (Step::Write, draft.clone()))
+        );
+        assert_eq!(log[k + 1], (Step::SyncFolder, path.clone()));
+    }
+    assert!(renamed > 3);
+}
+
+/// Whatever is written whole is old or new: records, pages, goldens, rows of nights.
+#[test]
+fn a_file_is_the_old_or_the_new_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.csv");
+    for fault in [Fault::Kill, Fault::Full] {
+        for at in 0..5 {
+            fs::write(&path, "old").unwrap();
+            let write = || write_whole(&path, b"the new one");
+            let (written, log) = on_machine(folder.path(), fault, at, write);
+            let now = read(&path, 100).unwrap();
+            assert!(now == b"old" || now == b"the new one", "{fault:?} at {at}");
+            assert!(written.is_err() || now == b"the new one");
+            assert!(log.len() <= 5);
+            write_whole(&path, b"the new one").unwrap();
+            assert_eq!(
+                fs::read_dir(folder.path()).unwrap().count(),
+                1,
+                "no draft is left"
+            );
+        }
+    }
+}
+
+struct Deaf;
+
+impl Listener for Deaf {
+    fn progress(&self, _: usize, _: f64) {}
+    fn begins_again(&self, _: usize, _: &Error) {}
+    fn ended(&self, _: usize, _: &Record) {}
+}
+
+/// Makes a plan of one run and reports it.
+fn verify(out: &Path, golden: &Path) -> Result<(), Error> {
+    let (case, spec) = spec();
+    let run = PlannedRun {
+        case: case.name.to_owned(),
+        scheme: spec.scheme,
+        level: spec.level.name.to_owned(),
+        set: spec.set,
+        shard: 1,
+    };
+    let (schema, tier) = (1, "quick".to_owned());
+    let plan = Plan {
+        schema,
+        tier,
+        shard: Shard::WHOLE,
+        runs: vec![run],
+    };
+    make_runs(&plan, out, saving(), 1, &Deaf)?;
+    let gathered = Gathered::read(&[out.to_path_buf()])?;
+    let goldens = Goldens::open(golden)?;
+    let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
+    write_report(&gathered, judged, &goldens, None, out).map(drop)
+}
+
+#[test]
+fn a_verification_and_its_report_survive_failures() {
+    let [straight, golden] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let work = || verify(straight.path(), golden.path());
+    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, work);
+    made.unwrap();
+    // Times differ: pages show them, so that the report's files are compared by name.
+    let names = |folder: &Path| content(folder).into_keys().collect::<Vec<_>>();
+    for (k, fault) in [Fault::Kill, Fault::Full]
+        .into_iter()
+        .cycle()
+        .enumerate()
+        .take(8)
+    {
+        let at = (2 * k + 1) * log.len() / 16;
+        let folder = tempfile::tempdir().unwrap();
+        let work = || verify(folder.path(), golden.path());
+        let (failed, _) = on_machine(folder.path(), fault, at, work);
+        assert!(failed.is_err(), "{fault:?} at {at}");
+        // The sign of a whole report is there at its end or not at all.
+        let sign = folder.path().join("summary.json");
+        assert!(!sign.exists() || read_versioned::<Summary>(&sign, SCHEMA).is_ok());
+        verify(folder.path(), golden.path()).unwrap();
+        assert_eq!(names(folder.path()), names(straight.path()));
+        let cook = folder.path().join("cook");
+        let run = fs::read_dir(&cook)
+            .unwrap()
+            .map(|e| e.unwrap().path())
+            .find(|p| p.is_dir());
+        let name = run.unwrap();
+        let twin = straight.path().join("cook").join(name.file_name().unwrap());
+        assert_eq!(difference(&name, &twin), [""; 0].map(PathBuf::from));
+    }
+}
