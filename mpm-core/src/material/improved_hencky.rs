@@ -15,8 +15,8 @@ use nalgebra::Matrix3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImprovedHencky {
     bulk_parameter: f64,
-    shear_modulus: f64,
-    porosity: f64,
+    pub(super) shear_modulus: f64,
+    pub(super) porosity: f64,
 }
 
 impl ImprovedHencky {
@@ -54,7 +54,7 @@ impl ImprovedHencky {
 
     /// K v²/(2n), and its first and second derivatives by v (Pa).
     #[inline(always)]
-    fn volumetric<T: Real>(&self, v: T) -> [T; 3] {
+    pub(super) fn volumetric<T: Real>(&self, v: T) -> [T; 3] {
         let number = T::splat;
         let solid = number(1.0 - self.porosity) * (-v).exp();
         let n = number(1.0) - solid;

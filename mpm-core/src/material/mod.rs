@@ -1,5 +1,6 @@
 //! Constitutive laws: pure functions (ΔF̄, Δt, state) → (σ, state′) in three dimensions.
 
+mod cam_clay;
 mod hencky;
 mod hencky_j2;
 mod hypoelastic;
@@ -9,6 +10,7 @@ mod neo_hookean;
 mod newtonian_fluid;
 mod strength;
 
+pub use cam_clay::{CamClay, CamClayState};
 pub use hencky::Hencky;
 pub use hencky_j2::HenckyJ2;
 pub use hypoelastic::{Hypoelastic, JaumannUpdate};

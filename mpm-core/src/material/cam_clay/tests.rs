@@ -1,0 +1,308 @@
+//! Clay on paths that have closed forms, and what thermodynamics asks of any.
+
+use super::*;
+use crate::number::Dual;
+use nalgebra::Vector3;
+use proptest::prelude::*;
+
+mod paths;
+
+/// K, G (Pa) and porosity, of clay whose shear and bulk moduli are alike.
+fn elasticity() -> ImprovedHencky {
+    ImprovedHencky::new(2e6, 1.5e6, 0.5).unwrap()
+}
+
+const RATIO: f64 = 0.9;
+/// λ − κ.
+const PSI: f64 = 0.06;
+const PRECONSOLIDATION: f64 = 100e3;
+
+fn clay(initial_pressure: f64) -> CamClay {
+    CamClay::new(elasticity(), RATIO, PSI, PRECONSOLIDATION, initial_pressure).unwrap()
+}
+
+/// Ellipse, drops, and surfaces whose critical state lies low.
+fn shapes() -> [(f64, f64); 4] {
+    [(1.0, 1.0), (0.5, 1.0), (1.0, 0.6), (0.3, 0.8)]
+}
+
+/// p, q, p_c of a state.
+fn stresses(law: &CamClay, state: &CamClayState) -> [f64; 3] {
+    let logarithm = state.elastic.ln();
+    let [_, mean, _] = law.elasticity.volumetric(0.5 * logarithm.trace());
+    let q = 1.5_f64.sqrt() * law.elasticity.shear_modulus * logarithm.deviator().norm();
+    [-mean, q, law.preconsolidation_at(state.plastic_volume)]
+}
+
+/// ((p − ρ)/A)² + (q/B)² − 1, with ρ, A and B.
+fn surface(law: &CamClay, [p, q, pc]: [f64; 3]) -> (f64, [f64; 3]) {
+    let (alpha, gamma) = (law.alpha, law.gamma);
+    let rho = 0.5 * gamma * pc;
+    let a = (1.0 - gamma) * p + 0.5 * gamma * pc;
+    let b = law.critical_ratio * ((1.0 - alpha) * p + 0.5 * alpha * gamma * pc);
+    let value = ((p - rho) / a).powi(2) + (q / b).powi(2) - 1.0;
+    (value, [rho, a, b])
+}
+
+fn stretches(axes: [f64; 3]) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::from(axes).map(f64::exp))
+}
+
+/// Paths of many steps, and some of a step or two by a tenth.
+fn increments() -> impl Strategy<Value = Vec<Matrix3<f64>>> {
+    let path = |size: f64, steps: usize| {
+        let increment = prop::array::uniform9(-size..size)
+            .prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a));
+        prop::collection::vec(increment, 1..steps)
+    };
+    prop_oneof![path(3e-3, 30), path(0.02, 6), path(0.1, 3)]
+}
+
+/// The plastic strain of a step, tension positive: what the elastic trial strain is more than the elastic strain.
+fn plastic_step(
+    before: &CamClayState,
+    increment: &Matrix3<f64>,
+    after: &CamClayState,
+) -> Matrix3<f64> {
+    let trial = before.elastic.push_forward(increment).ln().to_matrix();
+    (trial - after.elastic.ln().to_matrix()) * 0.5
+}
+
+proptest! {
+    #[test]
+    fn clay_stays_within_its_surface_flows_by_its_rule_and_dissipates(
+        path in increments(),
+        overconsolidation in 1.0..8.0_f64,
+    ) {
+        for (alpha, gamma) in shapes() {
+            let law = clay(PRECONSOLIDATION / overconsolidation).shaped(alpha, gamma).unwrap();
+            let mut state = law.initial_state();
+            let mut determinant = 1.0;
+            for increment in &path {
+                let before = state;
+                let (stress, after) = law.update(increment, 1.0, &before);
+                state = after;
+                determinant *= increment.determinant();
+                let volume = 0.5 * state.elastic.determinant().ln() + state.plastic_volume;
+                prop_assert!((volume - determinant.ln()).abs() < 1e-12);
+                // Elastic strains of a part in a hundred carry rounding of the identity; so do those of clay that
+                // has softened, of its small stresses more.
+                let [p, q, pc] = stresses(&law, &state);
+                let rounding = 1e-13 * law.elasticity.shear_modulus / pc + 1e-11;
+                let (outside, [rho, a, b]) = surface(&law, [p, q, pc]);
+                prop_assert!(outside < 10.0 * rounding, "{outside} {rounding}");
+                prop_assert!((stress.mean() * determinant + p).abs() < rounding * pc);
+                let flow = plastic_step(&before, increment, &state);
+                let compression = -flow.trace();
+                let deviator = flow - Matrix3::identity() * (flow.trace() / 3.0);
+                let shear = (2.0_f64 / 3.0).sqrt() * deviator.norm();
+                let grows = state.plastic_strain - before.plastic_strain;
+                let norm = (2.0_f64 / 3.0).sqrt() * flow.norm();
+                prop_assert!((grows - norm).abs() < 1e-13, "{grows} {norm}");
+                if grows < 1e-9 {
+                    continue;
+                }
+                prop_assert!(outside.abs() < 10.0 * rounding);
+                // The rule: ε_v : ε_s = (p − ρ)/A² : q/B², along the deviator.
+                let cross = compression * q / (b * b) - shear * (p - rho) / (a * a);
+                let size = compression.abs() * q / (b * b) + shear * (p - rho).abs() / (a * a);
+                prop_assert!(cross.abs() < (1e-12 / grows + rounding) * (size + grows / pc));
+                let of_stress = stress.deviator().to_matrix();
+                let off = of_stress * deviator.norm() - deviator * of_stress.norm();
+                prop_assert!(off.norm() < (1e-12 / grows + 10.0 * rounding) * deviator.norm() * pc);
+                // What it dissipates: the work less what is stored, and √(A² ε_v² + B² ε_s²).
+                let dissipated = (p - rho) * compression + q * shear;
+                let by_rate = ((a * compression).powi(2) + (b * shear).powi(2)).sqrt();
+                prop_assert!((dissipated - by_rate).abs() < (1e-12 / grows + rounding) * by_rate);
+                let elastic = CamClayState {
+                    elastic: before.elastic.push_forward(increment),
+                    ..before
+                };
+                let released = law.energy(&elastic) - law.energy(&state);
+                prop_assert!(released >= dissipated * (1.0 - 1e-9) - 1e-13 * law.energy(&elastic));
+                prop_assert!(dissipated > 0.0);
+            }
+        }
+    }
+}
+
+/// The gradient of ((p − ρ)/A)² + (q/B)² at fixed p_c, by p and q.
+fn gradient(law: &CamClay, [p, q, pc]: [f64; 3]) -> [f64; 2] {
+    let step = 1e-4 * pc;
+    let by = |dp: f64, dq: f64| {
+        let ends = [1.0, -1.0].map(|s| surface(law, [p + s * dp, q + s * dq, pc]).0);
+        (ends[0] - ends[1]) / (2.0 * step)
+    };
+    [by(step, 0.0), by(0.0, step)]
+}
+
+/// The ellipse's flow is along its normal; that of the other shapes is along the ellipse's on which the stress lies,
+/// not along the normal of their surface.
+#[test]
+fn flow_is_associated_for_the_ellipse_alone() {
+    for (alpha, gamma) in shapes() {
+        for start in [0.3, 0.9] {
+            let law = clay(start * PRECONSOLIDATION).shaped(alpha, gamma).unwrap();
+            let increment = stretches([-0.05, 0.02, 0.02]);
+            let state = law.update(&increment, 1.0, &law.initial_state()).1;
+            let flow = plastic_step(&law.initial_state(), &increment, &state);
+            let compression = -flow.trace();
+            let shear = (flow[(1, 1)] - flow[(0, 0)]) * 2.0 / 3.0;
+            assert!(shear > 0.01);
+            let normal = gradient(&law, stresses(&law, &state));
+            let angle = (compression * normal[1] - shear * normal[0])
+                / (compression.hypot(shear) * normal[0].hypot(normal[1]));
+            let associated = (alpha, gamma) == (1.0, 1.0);
+            // Differences of a quadratic function are exact, of the others nearly so.
+            assert_eq!(angle.abs() < 1e-8, associated, "{alpha} {gamma}: {angle}");
+        }
+    }
+}
+
+/// Steps that no solver should take, and what is left to rounding: all end on the surface.
+#[test]
+fn the_return_finds_its_end_from_anywhere() {
+    for (alpha, gamma) in shapes() {
+        for psi in [1e-3, 0.06, 0.5] {
+            let law = CamClay::new(elasticity(), RATIO, psi, PRECONSOLIDATION, 30e3)
+                .unwrap()
+                .shaped(alpha, gamma)
+                .unwrap();
+            for volume in [-0.6, -0.1, -1e-3, 0.0, 1e-3, 0.03] {
+                for shear in [0.0, 1e-6, 1e-3, 0.1, 2.0] {
+                    let trial = Trial {
+                        volume: law.initial_volume + volume,
+                        shear: 3.0 * law.elasticity.shear_modulus * shear,
+                        preconsolidation: PRECONSOLIDATION,
+                    };
+                    let Some(end) = law.flow(&trial) else {
+                        continue;
+                    };
+                    let pc = PRECONSOLIDATION * ((end.volume - trial.volume) / psi).exp();
+                    let [_, mean, _] = law.elasticity.volumetric(end.volume);
+                    let q = trial.shear * end.shear_remains;
+                    let (off, _) = surface(&law, [-mean, q, pc]);
+                    // p_c has the rounding of both strains over ψ.
+                    let strains = end.volume.abs() + trial.volume.abs();
+                    let allowed = 1e-12 + 4e-14 * strains / psi;
+                    assert!(
+                        off.abs() < allowed,
+                        "{alpha} {gamma} {psi} {volume} {shear}: {off}"
+                    );
+                    assert!(end.shear_remains > 0.0 && end.shear_remains <= 1.0);
+                }
+            }
+        }
+    }
+}
+
+/// The derivatives by the trial state solve the equations of the return, however few steps it took: they would lag most
+/// close to the surface, where one is enough.
+#[test]
+fn the_slopes_of_the_return_do_not_lag() {
+    for (alpha, gamma) in shapes() {
+        let law = clay(40e3).shaped(alpha, gamma).unwrap();
+        // q of the surface at its pressure: it grows through the surface.
+        let [_, mean, _] = law.elasticity.volumetric(law.initial_volume);
+        let at_zero = surface(&law, [-mean, 0.0, PRECONSOLIDATION]);
+        let yields = at_zero.1[2] * (-at_zero.0).sqrt();
+        let mut flown = 0;
+        for k in 0..300 {
+            let one = Trial {
+                volume: law.initial_volume,
+                shear: yields * (1.0 + 3.0 * 0.9_f64.powi(k)),
+                preconsolidation: PRECONSOLIDATION,
+            };
+            let variables = Trial {
+                volume: Dual::<2>::variable(one.volume, 0),
+                shear: Dual::variable(one.shear, 1),
+                preconsolidation: Dual::splat(one.preconsolidation),
+            };
+            let Some(end) = law.flow(&variables) else {
+                continue;
+            };
+            flown += 1;
+            assert_eq!(end.volume.value, law.flow(&one).unwrap().volume);
+            // The equations in numbers with derivatives: N² = 1, and the flow's direction.
+            let number = Dual::<2>::splat;
+            let [_, mean, _] = law.elasticity.volumetric(end.volume);
+            let (p, q) = (-mean, variables.shear * end.shear_remains);
+            let flow = end.volume - variables.volume;
+            let rho = number(0.5 * gamma * PRECONSOLIDATION) * (flow * number(1.0 / PSI)).exp();
+            let a = number(1.0 - gamma) * p + rho;
+            let b = number(RATIO) * (number(1.0 - alpha) * p + number(alpha) * rho);
+            let (x, y) = ((p - rho) / a, q / b);
+            let sum = x * x + y * y;
+            let shear = (variables.shear - q) / number(3.0 * law.elasticity.shear_modulus);
+            let cross = flow * q / (b * b) - shear * (p - rho) / (a * a);
+            // Over what they are made of: of strains some 10, of the flow's direction ε_s/A a strain.
+            let scale = [PRECONSOLIDATION, 1.0 / PRECONSOLIDATION];
+            for k in 0..2 {
+                let unit = [1.0, 1.0 / PRECONSOLIDATION][k];
+                let off = sum.slope[k] / unit / (law.elasticity.shear_modulus / scale[0]);
+                assert!(off.abs() < 1e-9, "{alpha} {gamma}: {off}");
+                let off = cross.slope[k] / unit / scale[1];
+                assert!(off.abs() < 1e-9, "{alpha} {gamma}: {off}");
+            }
+        }
+        assert!(flown > 250, "{flown}");
+    }
+}
+
+/// Eight side by side, some of which flow, are as one after the other.
+#[test]
+fn eight_are_as_one_where_some_flow() {
+    for (alpha, gamma) in shapes() {
+        let law = clay(60e3).shaped(alpha, gamma).unwrap();
+        let increment = |k: usize| {
+            let size = 10.0_f64.powi(-(k as i32) / 2 - 1);
+            let mut f = stretches([-size, if k % 3 == 0 { size } else { 0.0 }, 0.1 * size]);
+            f[(0, 1)] = if k % 2 == 0 { size } else { 0.0 };
+            f
+        };
+        let mut states = [law.initial_state(); 8];
+        let mut together = [SymmetricTensor::default(); 8];
+        for _ in 0..3 {
+            let before = states;
+            law.update_all(increment, 1.0, &mut states, &mut together);
+            for k in 0..8 {
+                let (stress, state) = law.update(&increment(k), 1.0, &before[k]);
+                let apart = (together[k].to_matrix() - stress.to_matrix()).norm();
+                assert!(apart < 1e-10 * PRECONSOLIDATION, "{k}: {apart}");
+                assert!((states[k].plastic_volume - state.plastic_volume).abs() < 1e-13);
+                assert!((states[k].plastic_strain - state.plastic_strain).abs() < 1e-13);
+            }
+        }
+        let flown = states.iter().filter(|s| s.plastic_strain > 0.0).count();
+        assert!((2..8).contains(&flown), "{flown}");
+    }
+}
+
+#[test]
+fn clay_that_cannot_be_is_refused_by_name() {
+    let refused = |m: f64, psi: f64, pc: f64, p: f64, name: &str| {
+        let error = CamClay::new(elasticity(), m, psi, pc, p)
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(name), "{error}");
+    };
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        refused(bad, 0.1, 2.0, 1.0, "critical state ratio M = ");
+        refused(1.0, bad, 2.0, 1.0, "plastic compressibility λ − κ = ");
+        refused(1.0, 0.1, bad, 1.0, "preconsolidation = ");
+        refused(1.0, 0.1, 2.0, bad, "initial effective pressure = ");
+    }
+    refused(
+        1.0,
+        0.1,
+        2.0,
+        2.1,
+        "initial effective pressure = 2.1 is not allowed",
+    );
+    for bad in [0.0, -0.5, 1.5, f64::NAN] {
+        for (alpha, gamma, name) in [(bad, 1.0, "α = "), (1.0, bad, "γ = ")] {
+            let error = clay(1e3).shaped(alpha, gamma).unwrap_err().to_string();
+            assert!(error.contains(name), "{error}");
+        }
+    }
+}
