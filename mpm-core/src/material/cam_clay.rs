@@ -1,14 +1,17 @@
-//! Modified Cam clay at finite strain, with the two shape parameters of Collins & Hilder (2002, doi:10.1002/nag.247)
-//! and the improved Hencky elasticity of [`ImprovedHencky`].
+//! Modified Cam clay at finite strain, with the two shape parameters of Collins & Hilder (2002, Int. J. Numer. Anal.
+//! Methods Geomech. 26, 1313–1347) and the improved Hencky elasticity of [`ImprovedHencky`].
 //!
 //! With Kirchhoff's effective stress τ, compression positive, p = −tr τ/3 and q = √(3/2) ‖dev τ‖, it yields at
 //!
 //! ((p − ρ)/A)² + (q/B)² = 1, ρ = ½ γ p_c, A = (1 − γ) p + ½ γ p_c, B = M \[(1 − α) p + ½ α γ p_c\],
 //!
-//! of which α = γ = 1 is the ellipse q² = M² p (p_c − p) of Roscoe & Burland (1968). What flow dissipates is √(A² ε̇_v²
-//! + B² ε̇_s²), so that ε̇_v : ε̇_s = (p − ρ)/A² : q/B²: along the ellipse's normal where α = γ = 1, elsewhere not
-//! along that of the surface. The work of ρ is not dissipated but stored. Flow hardens: p_c grows by e^(ε_v/ψ), ψ = λ −
-//! κ. The critical state is at p = ρ, q = M p.
+//! of which α = γ = 1 is the ellipse q² = M² p (p_c − p) of Roscoe & Burland (1968). What flow dissipates is
+//!
+//! Φ = √(A² ε̇_v² + B² ε̇_s²),
+//!
+//! hence ε̇_v : ε̇_s = (p − ρ)/A² : q/B²: along the ellipse's normal where α = γ = 1, elsewhere not along that of the
+//! surface. The work of ρ is not dissipated but stored. Flow hardens: p_c grows by e^(ε_v/ψ) with ψ = λ − κ. The critical
+//! state is at p = ρ, q = M p. `docs/cam-clay.md` derives it.
 
 mod flow;
 mod state;

@@ -256,8 +256,12 @@ fn eight_are_as_one_where_some_flow() {
         let law = clay(60e3).shaped(alpha, gamma).unwrap();
         let increment = |k: usize| {
             let size = 10.0_f64.powi(-(k as i32) / 2 - 1);
-            let mut f = stretches([-size, if k % 3 == 0 { size } else { 0.0 }, 0.1 * size]);
-            f[(0, 1)] = if k % 2 == 0 { size } else { 0.0 };
+            let mut f = stretches([
+                -size,
+                if k.is_multiple_of(3) { size } else { 0.0 },
+                0.1 * size,
+            ]);
+            f[(0, 1)] = if k.is_multiple_of(2) { size } else { 0.0 };
             f
         };
         let mut states = [law.initial_state(); 8];
