@@ -28,14 +28,14 @@ use std::time::{Duration, Instant};
 
 /// What is damaged, and which share of the inputs it gets.
 const FAMILIES: [(&str, usize); 12] = [
-    ("record", 8),
+    ("record", 12),
     ("series and particles", 8),
     ("plan", 10),
     ("golden", 12),
     ("field of a golden", 8),
     ("picture", 4),
     ("checkpoint", 12),
-    ("summary", 6),
+    ("summary", 2),
     ("history", 6),
     ("kept rows", 6),
     ("parameters", 10),
