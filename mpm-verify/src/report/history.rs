@@ -1,7 +1,7 @@
 //! Numbers of nights: errors, orders and cost, kept in a table beside the report.
 
 use crate::cases;
-use crate::error::Error;
+use crate::error::{Error, is_unfit};
 use crate::files::{DOCUMENT, read as read_file, write_whole};
 use crate::night::Night;
 use crate::scheme::Scheme;
@@ -78,6 +78,14 @@ fn read(path: &Path) -> Result<Vec<Row>, Error> {
         let row = row.map_err(|e| Error::file(path, e))?;
         // What stands here is shown and written again.
         Night::new(&row.night.to_string(), &row.commit).map_err(|e| Error::file(path, e))?;
+        let acts =
+            |cell: &String| cell.starts_with(['=', '+', '-', '@']) || cell.contains(is_unfit);
+        if [&row.case, &row.run, &row.quantity].into_iter().any(acts) {
+            return Err(Error::file(
+                path,
+                "damaged: a cell that a spreadsheet or a terminal acts on",
+            ));
+        }
         Ok(row)
     };
     rows.map(sound).collect()
@@ -122,6 +130,27 @@ fn rows_of(study: &CaseStudy, ladder: &[&str], night: &Night) -> Vec<Row> {
 mod tests {
     use super::*;
     use crate::record::fixture::record;
+
+    /// Found by damaging files.
+    #[test]
+    fn a_cell_that_a_spreadsheet_computes_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(FILE);
+        for (run, sound) in [
+            ("gimp-none-flip", true),
+            ("=1+1", false),
+            ("@a", false),
+            ("a\u{1b}", false),
+        ] {
+            let row = format!("2026-01-01,c,cook,{run},cpu_s,1.5\n");
+            write_whole(
+                &path,
+                format!("night,commit,case,run,quantity,value\n{row}").as_bytes(),
+            )
+            .unwrap();
+            assert_eq!(read(&path).is_ok(), sound, "{run}");
+        }
+    }
 
     #[test]
     fn a_night_of_one_case_leaves_the_rows_of_the_others() {
