@@ -6,11 +6,13 @@ use std::sync::LazyLock;
 
 mod cantilever;
 mod column;
+mod conditioning;
 mod cook;
 mod dam_break;
 mod discs;
 mod family;
 mod footing;
+mod forms;
 mod landslide;
 mod manufactured;
 mod mms_axis;
@@ -26,7 +28,9 @@ pub(crate) mod parameters;
 mod pictures;
 mod slope_stability;
 mod standing_wave;
+mod still;
 mod terzaghi;
+mod undrained;
 mod vibrating_bar;
 
 static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
@@ -51,6 +55,8 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         cantilever::case(),
         discs::case(),
         terzaghi::case(),
+        conditioning::case(),
+        undrained::case(),
     ]
 });
 

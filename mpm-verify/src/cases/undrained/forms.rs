@@ -1,0 +1,337 @@
+//! What the spaces of displacement and pressure are worth where no water flows.
+
+use super::parameters::{DOMAIN, LAYOUT, PARTICLES, PRESSURE_FUNCTIONS};
+use crate::cases::forms::{Cloud, Field, coarse, eigenvalues};
+use crate::error::Error;
+use crate::parameter::Parameters;
+use crate::scheme::{BasisName, Scheme, SpaceName};
+use crate::spec::RunSpec;
+use crate::statistics::rms;
+use mpm_core::basis::{Gimp, Linear, QuadraticBSpline};
+use mpm_core::implicit::{Interpolation, OfHats};
+use mpm_core::{Axis, Grid, Lattice};
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+type Hats = Lattice<2, 2, Linear>;
+type Means = Lattice<2, 3, Gimp>;
+type Splines = Lattice<2, 3, QuadraticBSpline>;
+
+/// An eigenvalue of less is zero but for rounding.
+const ZERO: f64 = 1e-9;
+/// Water that a pressure of one stores, over 1/G: what keeps pressures that no motion sees from being anything at all.
+const STORED: f64 = 1e-9;
+/// Ghost penalty of the unfitted body.
+const GHOST: f64 = 0.1;
+/// Half axes and middle of the half ellipse's straight side (m): no grid line of a level is near its ends.
+const HALF_AXES: [f64; 2] = [0.437, 0.611];
+const MIDDLE: f64 = 0.513;
+/// Points along an edge, of a cell of the displacement, at which what is held there is zero.
+const POINTS: usize = 4;
+
+/// What was found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Found {
+    /// The least β that is not zero, and how many are.
+    pub(super) inf_sup: f64,
+    pub(super) zero_modes: f64,
+    /// Unknowns of displacement (both components) and pressure.
+    pub(super) unknowns: [f64; 2],
+    /// Of the solution with k = 0: relative errors of displacement and pressure at the particles, and the
+    /// checkerboard's share; none of the ellipse, where no exact one is known.
+    pub(super) errors: [f64; 3],
+}
+
+pub(super) fn is_fitted(parameters: &Parameters) -> bool {
+    parameters.is(DOMAIN, "square")
+}
+
+fn in_ellipse(x: &[f64; 2]) -> bool {
+    ((x[0] - MIDDLE) / HALF_AXES[0]).powi(2) + (x[1] / HALF_AXES[1]).powi(2) < 1.0
+}
+
+/// The exact motion and pressure: u = curl of sin² πx sin² πy, p = cos πx cos πy, over G.
+fn exact([x, y]: &[f64; 2]) -> [f64; 3] {
+    let (sx, sy) = ((PI * x).sin(), (PI * y).sin());
+    [
+        PI * sx * sx * (2.0 * PI * y).sin(),
+        -PI * (2.0 * PI * x).sin() * sy * sy,
+        (PI * x).cos() * (PI * y).cos(),
+    ]
+}
+
+/// The force per volume that balances it, −Δu + ∇p.
+fn force([x, y]: &[f64; 2]) -> [f64; 2] {
+    let of_shear = |x: f64, y: f64| {
+        -2.0 * PI.powi(3) * (2.0 * PI * y).sin() * (2.0 * (2.0 * PI * x).cos() - 1.0)
+    };
+    [
+        of_shear(*x, *y) - PI * (PI * x).sin() * (PI * y).cos(),
+        -of_shear(*y, *x) - PI * (PI * x).cos() * (PI * y).sin(),
+    ]
+}
+
+/// Functions of a displacement and a pressure.
+#[derive(Debug, Clone, Copy)]
+enum Pair {
+    Linear,
+    Gimp,
+    Splines,
+    SplinesAndLinear,
+}
+
+/// Functions, grids, particles and what is held.
+pub(super) struct Setting {
+    pair: Pair,
+    grid: Grid<2>,
+    pressure_grid: Grid<2>,
+    cloud: Cloud,
+    held: Vec<[f64; 2]>,
+    fitted: bool,
+}
+
+impl Setting {
+    /// That of a run.
+    ///
+    /// # Errors
+    /// A scheme that has no functions here; parameters that make no scene.
+    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
+        let refused = || {
+            Error::Input(format!(
+                "scheme = {}, domain = {}, pressure_functions = {}; allowed: two-grid or equal, in a square linear and \
+                 gimp with the same pressure_functions and bspline2 with any, in an ellipse linear and gimp",
+                spec.scheme,
+                parameters.text(DOMAIN),
+                parameters.text(PRESSURE_FUNCTIONS),
+            ))
+        };
+        let fitted = is_fitted(parameters);
+        let Scheme::Poro(parts) = spec.scheme else {
+            return Err(refused());
+        };
+        let linear = parameters.is(PRESSURE_FUNCTIONS, "linear");
+        let pair = match (parts.basis, linear) {
+            (BasisName::Linear, false) => Pair::Linear,
+            (BasisName::Gimp, false) => Pair::Gimp,
+            (BasisName::Bspline2, false) if fitted => Pair::Splines,
+            (BasisName::Bspline2, true) if fitted => Pair::SplinesAndLinear,
+            _ => return Err(refused()),
+        };
+        let h = spec.level.h;
+        let n = (1.0 / h).round() as usize;
+        let grid = Grid::new(h, [Axis::walls(0.0, n); 2])?;
+        let pressure_grid = match parts.space {
+            SpaceName::TwoGrid => coarse(&grid)?,
+            SpaceName::Equal => grid,
+            SpaceName::Ppp => return Err(refused()),
+        };
+        // One more than fit the cells, and domains lie across grid lines in every way there is.
+        let more = usize::from(parameters.is(LAYOUT, "across"));
+        let count = n * parameters.number(PARTICLES) as usize + more;
+        let inside = |x: &[f64; 2]| fitted || in_ellipse(x);
+        let mut cloud = Cloud::new([0.0; 2], [count; 2], 1.0 / count as f64, inside);
+        cloud.places = spec.start_at(cloud.places);
+        let edge = (0..=n * POINTS).map(|k| k as f64 / (n * POINTS) as f64);
+        let held = edge.flat_map(|s| match fitted {
+            true => vec![[s, 0.0], [s, 1.0], [0.0, s], [1.0, s]],
+            false => vec![[s, 0.0]],
+        });
+        Ok(Self {
+            pair,
+            grid,
+            pressure_grid,
+            cloud,
+            held: held.collect(),
+            fitted,
+        })
+    }
+
+    /// The particles' places (m).
+    pub(super) fn places(&self) -> &[[f64; 2]] {
+        &self.cloud.places
+    }
+
+    /// Particles, and pairs with functions.
+    pub(super) fn work(&self) -> [u64; 2] {
+        let functions = match self.pair {
+            Pair::Linear => 4 + 4,
+            Pair::Gimp | Pair::Splines => 9 + 9,
+            Pair::SplinesAndLinear => 9 + 4,
+        };
+        let particles = self.cloud.places.len() as u64;
+        [particles, particles * functions]
+    }
+
+    /// What the spaces are worth.
+    ///
+    /// # Errors
+    /// A matrix is not positive definite.
+    pub(super) fn find(&self) -> Result<Found, mpm_core::Error> {
+        match self.pair {
+            Pair::Linear => self.ghosted::<Hats>(),
+            Pair::Gimp => self.ghosted::<Means>(),
+            Pair::Splines => self.plain::<Splines, Splines>(),
+            Pair::SplinesAndLinear => self.plain::<Splines, Hats>(),
+        }
+    }
+
+    fn fields<I: Interpolation<2>, J: Interpolation<2>>(
+        &self,
+        u: &I,
+    ) -> Result<[Field; 2], mpm_core::Error> {
+        let p = J::on(self.pressure_grid)?;
+        Ok([
+            Field::new(u, &self.cloud, &self.held),
+            Field::new(&p, &self.cloud, &[]),
+        ])
+    }
+
+    /// With the ghost penalty of the displacement, of a body that fits no grid.
+    fn ghosted<I: OfHats<2>>(&self) -> Result<Found, mpm_core::Error> {
+        if self.fitted {
+            return self.plain::<I, I>();
+        }
+        let functions = I::on(self.grid)?;
+        let fields = self.fields::<I, I>(&functions)?;
+        let ghost = functions.ghost(GHOST, 1, self.cloud.domains());
+        let norm = fields[0].laplacian(&self.cloud) + fields[0].penalty(&ghost, 1);
+        self.found(&fields, norm)
+    }
+
+    fn plain<I: Interpolation<2>, J: Interpolation<2>>(&self) -> Result<Found, mpm_core::Error> {
+        let fields = self.fields::<I, J>(&I::on(self.grid)?)?;
+        let norm = fields[0].laplacian(&self.cloud);
+        self.found(&fields, norm)
+    }
+
+    fn found(&self, [u, p]: &[Field; 2], norm: DMatrix<f64>) -> Result<Found, mpm_core::Error> {
+        let singular = || mpm_core::Error::Singular {
+            time: 0.0,
+            step: 0,
+            iteration: 0,
+        };
+        let cloud = &self.cloud;
+        let norm = norm.cholesky().ok_or_else(singular)?;
+        let coupling = u.coupling(p, cloud);
+        // Bᵀ A⁻¹ B of both components, whose norms are apart.
+        let mut schur = DMatrix::zeros(p.count, p.count);
+        for of_axis in &coupling {
+            let mut half = of_axis.clone();
+            norm.l_dirty().solve_lower_triangular_mut(&mut half);
+            schur += half.tr_mul(&half);
+        }
+        let mass = p.mass(cloud);
+        let root = mass.clone().cholesky().ok_or_else(singular)?;
+        let mut own = schur.clone();
+        root.l_dirty().solve_lower_triangular_mut(&mut own);
+        own.transpose_mut();
+        root.l_dirty().solve_lower_triangular_mut(&mut own);
+        let squares = eigenvalues(&own);
+        let zero_modes = squares.iter().filter(|b| **b < ZERO).count();
+        let inf_sup = squares.get(zero_modes).map_or(f64::NAN, |b| b.sqrt());
+        let errors = if self.fitted {
+            let solved = solution(cloud, [u, p], &norm, &coupling, &(schur + mass * STORED));
+            let (motion, pressure) = solved.ok_or_else(singular)?;
+            self.errors([u, p], &motion, &pressure)
+        } else {
+            [f64::NAN; 3]
+        };
+        Ok(Found {
+            inf_sup,
+            zero_modes: zero_modes as f64,
+            unknowns: [2.0 * u.count as f64, p.count as f64],
+            errors,
+        })
+    }
+
+    fn errors(
+        &self,
+        [u, p]: [&Field; 2],
+        motion: &[DVector<f64>; 2],
+        pressure: &DVector<f64>,
+    ) -> [f64; 3] {
+        let places = &self.cloud.places;
+        let exact: Vec<[f64; 3]> = places.iter().map(exact).collect();
+        let of_motion = |a: usize| {
+            let values = u.values(&motion[a]);
+            let exact = &exact;
+            (0..places.len()).map(move |k| (values[k] - exact[k][a], exact[k][a]))
+        };
+        let both: Vec<(f64, f64)> = of_motion(0).chain(of_motion(1)).collect();
+        // A constant pressure moves nothing where all of the edge is held.
+        let values = p.values(pressure);
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let of_pressure = values
+            .iter()
+            .zip(&exact)
+            .map(|(v, e)| (v - mean - e[2], e[2]));
+        let of_pressure: Vec<(f64, f64)> = of_pressure.collect();
+        let relative =
+            |pairs: &[(f64, f64)]| rms(pairs.iter().map(|p| p.0)) / rms(pairs.iter().map(|p| p.1));
+        let scale = rms(exact.iter().map(|e| e[2]));
+        let checkerboard = self.checkerboard(p, pressure) / scale;
+        [relative(&both), relative(&of_pressure), checkerboard]
+    }
+
+    /// Rms over the cells of the pressure of (p₀₀ − p₁₀ − p₀₁ + p₁₁)/4: a checkerboard's amplitude.
+    fn checkerboard(&self, p: &Field, pressure: &DVector<f64>) -> f64 {
+        let h = self.pressure_grid.h;
+        let n = (1.0 / h).round() as usize;
+        let mut grid = DMatrix::from_element(n + 1, n + 1, f64::NAN);
+        for (x, i) in p.places() {
+            let [a, b] = x.map(|x| (x / h).round() as usize);
+            grid[(a, b)] = pressure[i];
+        }
+        let cell = |k: usize| {
+            let (a, b) = (k / n, k % n);
+            let (same, other) = (
+                grid[(a, b)] + grid[(a + 1, b + 1)],
+                grid[(a + 1, b)] + grid[(a, b + 1)],
+            );
+            0.25 * (same - other)
+        };
+        rms((0..n * n).map(cell))
+    }
+}
+
+/// Motion and pressure where no water flows and as good as none is stored.
+fn solution(
+    cloud: &Cloud,
+    [u, _]: [&Field; 2],
+    norm: &nalgebra::Cholesky<f64, nalgebra::Dyn>,
+    coupling: &[DMatrix<f64>; 2],
+    schur: &DMatrix<f64>,
+) -> Option<([DVector<f64>; 2], DVector<f64>)> {
+    let loads = [0, 1].map(|a| u.load(cloud, |x| force(x)[a]));
+    let free = [0, 1].map(|a| norm.solve(&loads[a]));
+    // A u − B p = f and Bᵀ u = 0.
+    let right = -(coupling[0].tr_mul(&free[0]) + coupling[1].tr_mul(&free[1]));
+    let pressure = schur.clone().cholesky()?.solve(&right);
+    let motion = [0, 1].map(|a| norm.solve(&(&loads[a] + &coupling[a] * &pressure)));
+    Some((motion, pressure))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// −Δu + ∇p by differences.
+    #[test]
+    fn the_force_balances_the_exact_motion() {
+        let d = 1e-4;
+        for x in [[0.2, 0.3], [0.71, 0.44], [0.5, 0.9]] {
+            let at = |dx: f64, dy: f64, k: usize| exact(&[x[0] + dx, x[1] + dy])[k];
+            let divergence =
+                (at(d, 0.0, 0) - at(-d, 0.0, 0) + at(0.0, d, 1) - at(0.0, -d, 1)) / (2.0 * d);
+            assert!(divergence.abs() < 1e-5);
+            for a in 0..2 {
+                let sum = at(d, 0.0, a) + at(-d, 0.0, a) + at(0.0, d, a) + at(0.0, -d, a);
+                let laplacian = (sum - 4.0 * at(0.0, 0.0, a)) / (d * d);
+                let [dx, dy] = [[d, 0.0], [0.0, d]][a];
+                let slope = (at(dx, dy, 2) - at(-dx, -dy, 2)) / (2.0 * d);
+                assert!((slope - laplacian - force(&x)[a]).abs() < 1e-4);
+            }
+        }
+    }
+}
