@@ -27,7 +27,8 @@ use SpaceName::{Equal, TwoGrid};
 use Tier::{Nightly, Pr, Quick};
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
-const ELLIPSE: &[&str] = &["domain=ellipse", "layout=across"];
+const ELLIPSE: &[&str] = &["domain=ellipse"];
+const ELLIPSE_ACROSS: &[&str] = &["domain=ellipse", "layout=across"];
 const ACROSS: &[&str] = &["layout=across"];
 const LINEAR_PRESSURE: &[&str] = &["pressure_functions=linear"];
 
@@ -96,8 +97,10 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         family(Pr, &levels[..2], &equal, &[]),
         family(Pr, levels, gimp, ACROSS),
         family(Pr, &levels[..2], equal_gimp, ACROSS),
-        family(Pr, levels, &stable[..2], ELLIPSE),
-        family(Pr, levels, &equal, ELLIPSE),
+        family(Pr, levels, gimp, ELLIPSE_ACROSS),
+        family(Pr, levels, equal_gimp, ELLIPSE_ACROSS),
+        family(Pr, levels, &stable[1..2], ELLIPSE),
+        family(Pr, levels, &equal[1..], ELLIPSE),
         family(Pr, levels, &splines, LINEAR_PRESSURE),
         family(Nightly, levels, &equal, &[]),
         family(Nightly, levels, equal_gimp, ACROSS),
