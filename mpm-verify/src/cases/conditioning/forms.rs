@@ -169,7 +169,7 @@ impl Setting {
         solid += u.penalty(&of_u.ghost(self.alpha, 2, domains()), 2);
         let flow = water.clone();
         water += &of_water * self.alpha;
-        let whole = (k % OF_WHOLE == 0).then(|| {
+        let whole = k.is_multiple_of(OF_WHOLE).then(|| {
             let cell = of_pressure.h * of_pressure.h;
             let mobility = self.mobility * cell;
             let over = mobility + if self.storage { cell } else { 0.0 };

@@ -96,6 +96,9 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
+/// A scheme, and what is changed of its body.
+type Body<'a> = (Scheme, &'a [String]);
+
 fn is_of(scheme: Scheme, space: SpaceName) -> bool {
     matches!(scheme, Scheme::Poro(parts) if parts.space == space)
 }
@@ -107,13 +110,13 @@ fn orders(
     space: SpaceName,
     found: impl Fn(String, f64) -> Finding,
 ) -> Vec<Finding> {
-    let mut ladders: BTreeMap<(Scheme, &[String]), Vec<(f64, f64)>> = BTreeMap::new();
+    let mut ladders: BTreeMap<Body, Vec<(f64, f64)>> = BTreeMap::new();
     let judged = records.iter().filter(|r| is_of(r.scheme(), space));
     for r in judged.filter(|r| metric == INF_SUP || is_fitted(&r.parameters)) {
         let points = ladders.entry((r.scheme(), &r.set)).or_default();
         points.push((r.discretisation.h, r.metric(metric)));
     }
-    let of = |((scheme, set), mut points): ((Scheme, &[String]), Vec<(f64, f64)>)| {
+    let of = |((scheme, set), mut points): (Body, Vec<(f64, f64)>)| {
         points.sort_by(|a, b| b.0.total_cmp(&a.0));
         let finest = points.get(points.len().checked_sub(DECIDING)?..)?;
         let order = fit_order(finest).map_or(f64::NAN, |o| o.order);
