@@ -53,7 +53,9 @@ pub struct Convergence {
 pub struct WaterBalance {
     /// Volume that left (m³; m² in plane strain, m in 1D).
     pub outflow: f64,
-    /// Change of the body's volume and outflow together (m³): what the scheme creates.
+    /// Volume that sources within the body gave, likewise.
+    pub inflow: f64,
+    /// Change of the body's volume and outflow together, less inflow (m³): what the scheme creates.
     pub imbalance: f64,
 }
 

@@ -102,6 +102,10 @@ impl Law for ImprovedHencky {
         (stress, b)
     }
 
+    fn porosity(&self) -> Option<f64> {
+        Some(self.porosity)
+    }
+
     fn energy(&self, b: &SymmetricTensor) -> f64 {
         let logarithm = b.ln();
         let deviator = 0.5 * logarithm.deviator().norm();

@@ -156,6 +156,11 @@ pub trait Law: Send + Sync {
         0.0
     }
 
+    /// Porosity n₀ of undeformed material, of a law that depends on it.
+    fn porosity(&self) -> Option<f64> {
+        None
+    }
+
     /// Stored energy per reference volume (J/m³).
     fn energy(&self, state: &Self::State) -> f64;
 

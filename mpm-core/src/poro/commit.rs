@@ -32,14 +32,17 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         }
         self.observe(setting, &trial, dt);
         let particles = &mut self.scene.body.particles;
-        particles.position = places;
+        let before = std::mem::replace(&mut particles.position, places);
+        if !self.pores.slope.is_empty() {
+            self.pores.slope = trial.slope;
+            self.pores.place = before;
+        }
         for (p, f) in trial.f.iter().enumerate() {
             particles.jacobian[p] *= determinant(f);
             particles.delta_f[p] = *f;
         }
         self.pores.half_size = domains;
         self.pores.pressure = trial.pressure;
-        self.pores.fluctuation = trial.fluctuation;
         let places = trial.p.iter().zip(&setting.unknowns.pressure);
         let seen = |(p, place): (&f64, &Place)| {
             if *place == Place::Unseen {
@@ -154,8 +157,10 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let volume = &self.scene.body.particles.volume;
         let changes = trial.f.iter().zip(volume);
         let change: f64 = changes.map(|(f, v)| v * (determinant(f) - 1.0)).sum();
+        let inflow: f64 = setting.inflow.iter().sum();
+        self.balance.inflow += inflow;
         self.balance.outflow += outflow;
-        self.balance.imbalance += change + outflow;
+        self.balance.imbalance += change + outflow - inflow;
     }
 }
 

@@ -106,6 +106,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             Ok(())
         })?;
         self.pores = pores;
+        // The nodes' pressures are those of another run; what particles carry stands for them.
+        self.nodal_pressure.fill(f64::NAN);
         Ok(())
     }
 }

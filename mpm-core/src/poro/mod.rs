@@ -21,7 +21,7 @@ mod water;
 
 pub use face::{Face, Traction};
 pub use settings::{Predictor, PressureSpace, Settings, Tangent, VolumeRate};
-pub use water::{Conductivity, Gravity, OfPlace, Water};
+pub use water::{Conductivity, Gravity, OfPlace, Source, Water};
 
 use crate::error::Error;
 use crate::implicit::elements::{Elements, of_domains};
@@ -194,7 +194,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     fn equations<'a>(&'a self, setting: &'a Setting<D>, dt: f64) -> Step<'a, D, M> {
         Step {
             body: &self.scene.body,
-            pores: &self.pores,
             water: &self.water,
             settings: &self.settings,
             dt,
@@ -267,9 +266,14 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 _ => runs.push(p..p + 1),
             }
         }
+        // What ghost penalties of pressures act with (m²/Pa), on all of them and on their increments.
+        let flow = self.water.initial_conductivity() * dt;
+        let cell = self.water_space.functions.grid().h;
+        let on_all = self.settings.ghost_pressure * flow;
+        let on_increments = self.settings.ghost_increment * (flow + cell * cell / self.moduli.mu);
         let strengths = [
             self.settings.ghost_displacement * self.moduli.mu,
-            self.settings.ghost_pressure * self.water.initial_conductivity(),
+            on_all + on_increments,
         ];
         let ghosts = [(0, D), (1, 1)].map(|(k, components)| {
             let space = spaces[k];
@@ -339,6 +343,13 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         );
         Ok(Setting {
             pattern: unknowns::pattern(unknowns.count, &all),
+            inflow: self.inflow(&water, dt),
+            before: self.before(&water, &unknowns),
+            of_increments: if on_increments > 0.0 {
+                on_increments / strengths[1]
+            } else {
+                0.0
+            },
             fluctuations: if projects {
                 self.fluctuations(&water)
             } else {
@@ -353,6 +364,43 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             drains,
             external,
         })
+    }
+
+    /// Pressures of the nodes (Pa) at a step's start, from which increments are measured: those of the step before; of a
+    /// node that no particle saw then what particles say of it. None where nothing acts on increments.
+    fn before(&self, water: &Elements<D>, unknowns: &Unknowns<D>) -> Vec<f64> {
+        let mut before = vec![0.0; self.water_space.functions.len()];
+        if self.pores.slope.is_empty() {
+            return before;
+        }
+        let functions = &self.water_space.functions;
+        let told =
+            unknowns::extrapolated(water, functions, &self.scene.body.particles, &self.pores);
+        for (node, place) in unknowns.pressure.iter().enumerate() {
+            if *place != Place::Unseen {
+                let known = self.nodal_pressure[node];
+                before[node] = if known.is_nan() { told[node] } else { known };
+            }
+        }
+        before
+    }
+
+    /// Volumes of water (m³) that sources give to the nodes in a step of `dt` (s); none without sources.
+    fn inflow(&self, water: &Elements<D>, dt: f64) -> Vec<f64> {
+        let particles = &self.scene.body.particles;
+        let span = [self.time, self.time + dt];
+        let mut nodes = Vec::new();
+        for source in &self.water.sources {
+            nodes.resize(self.water_space.functions.len(), 0.0);
+            water.scatter(0.0, &mut nodes, |p, sums| {
+                let share = source(&particles.reference[p], span);
+                let volume = share * particles.reference_volume[p];
+                for (sum, w) in sums.iter_mut().zip(water.seen(p).1) {
+                    *sum += w * volume;
+                }
+            });
+        }
+        nodes
     }
 
     /// Pressures of the nodes (Pa) to begin with.
@@ -388,7 +436,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let mut newton = Newton {
             step: Step {
                 body: &self.scene.body,
-                pores: &self.pores,
                 water: &self.water,
                 settings: &self.settings,
                 dt,

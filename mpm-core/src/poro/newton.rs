@@ -61,7 +61,8 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         let mut residual = self.step.residual(&trial);
         let mut convergence = Convergence::default();
         let mut last_work = 0.0;
-        for iteration in 0..=most {
+        let mut iteration = 0;
+        loop {
             let share = self.share(&residual, &trial);
             convergence.residuals.push(share);
             if share <= tolerance {
@@ -110,8 +111,8 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
                 cuts += 1;
             }
             self.work.newton_iterations += 1;
+            iteration += 1;
         }
-        Err(Failure::NoConvergence(most, f64::NAN))
     }
 
     /// K⁻¹ `residual`, and what scales the matrix.

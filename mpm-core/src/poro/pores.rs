@@ -12,8 +12,12 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Pores<const D: usize> {
     /// Pore pressure (Pa).
     pub(super) pressure: Vec<f64>,
-    /// What the pressure differs by from its mean over the cell (Pa); empty unless the space is projected.
-    pub(super) fluctuation: Vec<f64>,
+    /// Its gradient (Pa/m), and the place (m) where both were found, at the start of the last step; empty unless something
+    /// acts on what pressures change by.
+    #[serde(with = "rows")]
+    pub(super) slope: Vec<[f64; D]>,
+    #[serde(with = "rows")]
+    pub(super) place: Vec<[f64; D]>,
     /// Half the size of the domain along each axis (m).
     #[serde(with = "rows")]
     pub(super) half_size: Vec<[f64; D]>,
@@ -23,7 +27,8 @@ impl<const D: usize> Pores<D> {
     /// Puts the particles in the order `order`.
     pub(super) fn permute(&mut self, order: &[u32]) {
         permute(&mut self.pressure, order);
-        permute(&mut self.fluctuation, order);
+        permute(&mut self.slope, order);
+        permute(&mut self.place, order);
         permute(&mut self.half_size, order);
     }
 
@@ -39,11 +44,8 @@ impl<const D: usize> Pores<D> {
     pub(super) fn check_against(&self, present: &Self) -> Result<(), MemoryError> {
         for (what, saved, expected) in [
             ("pressures", self.pressure.len(), present.pressure.len()),
-            (
-                "fluctuations",
-                self.fluctuation.len(),
-                present.fluctuation.len(),
-            ),
+            ("slopes of pressures", self.slope.len(), present.slope.len()),
+            ("places of pressures", self.place.len(), present.place.len()),
             ("half sizes", self.half_size.len(), present.half_size.len()),
         ] {
             MemoryError::unless_equal(what, saved, expected)?;
@@ -52,13 +54,12 @@ impl<const D: usize> Pores<D> {
     }
 }
 
-/// How far (in cells) rounding may take a domain past a wall, and the share of its distance from there that it then
-/// keeps.
-const ROUNDING: f64 = 1e-9;
+/// The share of its distance from a wall that a domain keeps which ends there.
 const KEPT: f64 = 1.0 - 1e-12;
 
-/// Draws a domain around `x` (m) back that rounding has taken past a wall. Functions behind the wall would see hardly
-/// any of it, and nothing else, but their shares of the forces are to balance all the same.
+/// Ends a domain around `x` (m) at the walls that it would reach past, by rounding or because its volume is that of a
+/// sheared particle. Functions behind the wall would see hardly any of it, and nothing else, but their shares of the
+/// forces are to balance all the same.
 pub(super) fn keep_before_walls<const D: usize>(
     grid: &Grid<D>,
     x: &[f64; D],
@@ -69,10 +70,7 @@ pub(super) fn keep_before_walls<const D: usize>(
         let (lower, upper) = axis.wall_ends();
         let ends = [(lower, x[a] - axis.lo), (upper, axis.hi(grid.h) - x[a])];
         for (_, distance) in ends.into_iter().filter(|(wall, _)| *wall) {
-            let past = *l - KEPT * distance;
-            if past > 0.0 && past < ROUNDING * grid.h {
-                *l = KEPT * distance;
-            }
+            *l = l.min(KEPT * distance);
         }
     }
 }

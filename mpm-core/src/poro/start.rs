@@ -5,7 +5,6 @@ use super::pores::{Pores, keep_before_walls};
 use super::{OfHats, PressureSpace, Settings, Solver, Space, Tangent, Water};
 use crate::error::{Error, require};
 use crate::grid::{Axis, Grid};
-use crate::implicit::elements::Elements;
 use crate::implicit::held;
 use crate::implicit::linear::Direct;
 use crate::implicit::start::moduli_of;
@@ -83,7 +82,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             .for_each_node(|node, place| drained[node] = (water.drained)(&place));
         let by_faces = |face: &super::Face<D>| matches!(face.acts, Acts::Drains { .. });
         let drains = drained.contains(&true) || water.faces.iter().any(by_faces);
-        water.check(drains)?;
+        water.check(drains, scene.body.law.porosity())?;
         let particles = &mut scene.body.particles;
         for l in particles.half_size {
             require(
@@ -124,13 +123,19 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         for (x, half_size) in particles.position.iter().zip(&mut half_size) {
             keep_before_walls(&scene.grid, x, half_size);
         }
+        let watched = if settings.watches_increments() {
+            &particles.position[..]
+        } else {
+            &[]
+        };
         let pores = Pores {
             pressure: particles
                 .position
                 .iter()
                 .map(|x| (water.start)(x))
                 .collect(),
-            fluctuation: Vec::new(),
+            slope: vec![[0.0; D]; watched.len()],
+            place: watched.to_vec(),
             half_size,
         };
         let work = Work {
@@ -142,7 +147,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         water_space
             .functions
             .for_each_node(|node, place| nodal_pressure[node] = (water.start)(&place));
-        let mut solver = Self {
+        Ok(Self {
             held: held::components(&solid_space.functions, &scene),
             direct: Direct::new(settings.tangent == Tangent::Symmetric),
             time: 0.0,
@@ -162,26 +167,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             water,
             settings,
             work,
-        };
-        if let PressureSpace::Projected { .. } = settings.pressure_space {
-            solver.begin_fluctuations();
-        }
-        Ok(solver)
-    }
-
-    /// What the pressure at the start varies within the cells.
-    fn begin_fluctuations(&mut self) {
-        let space = &self.water_space;
-        let domains = self.pores.domains(&self.scene.body.particles);
-        let elements = Elements::new(&space.functions, &space.originals, domains);
-        let own = self.fluctuations(&elements);
-        let of = |(p, own): (usize, &Vec<f64>)| {
-            let nodes = elements.seen(p).0.iter();
-            nodes
-                .zip(own)
-                .map(|(n, s)| self.nodal_pressure[*n] * s)
-                .sum()
-        };
-        self.pores.fluctuation = own.iter().enumerate().map(of).collect();
+        })
     }
 }

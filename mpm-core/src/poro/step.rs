@@ -1,6 +1,5 @@
 //! The equations of a step and their derivatives: Eqs. (2) to (8) of `docs/poromechanics.md`.
 
-use super::pores::Pores;
 use super::response::{Particle, Slopes, Square};
 use super::settings::{PressureSpace, Settings, Tangent};
 use super::unknowns::Unknowns;
@@ -37,6 +36,12 @@ pub(super) struct Setting<const D: usize> {
     /// Of every particle the functions of the pressure less their means over its cell; none unless projected.
     pub(super) fluctuations: Vec<Vec<f64>>,
     pub(super) drains: Vec<Drain>,
+    /// Volumes of water (m³) that sources give to the nodes of the pressure; none without sources.
+    pub(super) inflow: Vec<f64>,
+    /// Pressures of the nodes at the start (Pa), from which increments are measured; zero where none is.
+    pub(super) before: Vec<f64>,
+    /// The share of the ghost penalties of pressures that acts on increments.
+    pub(super) of_increments: f64,
     /// Forces of loads on the nodes (N), at the end of the step.
     pub(super) external: Vec<SVector<f64, D>>,
 }
@@ -66,7 +71,6 @@ impl Drain {
 /// A step of a body.
 pub(super) struct Step<'a, const D: usize, M: Law> {
     pub(super) body: &'a Body<D, M>,
-    pub(super) pores: &'a Pores<D>,
     pub(super) water: &'a Water<D>,
     pub(super) settings: &'a Settings,
     pub(super) dt: f64,
@@ -82,9 +86,7 @@ pub(super) struct Trial<const D: usize> {
     pub(super) f: Vec<SMatrix<f64, D, D>>,
     /// Pressure at every particle (Pa), and its gradient (Pa/m).
     pub(super) pressure: Vec<f64>,
-    slope: Vec<[f64; D]>,
-    /// What the pressure of every particle varies within its cell (Pa); none unless projected.
-    pub(super) fluctuation: Vec<f64>,
+    pub(super) slope: Vec<[f64; D]>,
     /// n J of every particle, the volume of pores over that of the undeformed body.
     pub(super) pores: Vec<f64>,
     /// Forces of the stress on the nodes, and those that act from outside, of gravity too (N).
@@ -197,12 +199,6 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         add_penalties(&setting.ghosts[0], u.as_flattened(), D, |i, force| {
             momentum[i / D][i % D] += force;
         });
-        let fluctuation: Vec<f64> = (setting.fluctuations.iter().enumerate())
-            .map(|(k, own)| {
-                let nodes = setting.water.seen(k).0.iter();
-                nodes.zip(own).map(|(node, s)| p[*node] * s).sum()
-            })
-            .collect();
         // Residual, the sum of the sizes of what it is made of, and of what those are made of.
         let mut water = vec![SVector::<f64, 3>::zeros(); p.len()];
         let projection = self.projection();
@@ -221,11 +217,15 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
                         + self.dt * mobility * steep * norm(&dw[place]);
                     *sum += SVector::from([stored + moved, stored.abs() + moved.abs(), bits]);
                     if let Some(own) = setting.fluctuations.get(k) {
-                        let change = fluctuation[k] - self.pores.fluctuation[k];
+                        let change = |(n, s): (&usize, &f64)| (p[*n] - setting.before[*n]) * s;
+                        let change: f64 = nodes.iter().zip(own).map(change).sum();
                         sum[0] += projection * particles.volume[k] * own[place] * change;
                     }
                 }
             });
+        for (sums, volume) in water.iter_mut().zip(&setting.inflow) {
+            *sums += SVector::from([-volume, volume.abs(), 0.0]);
+        }
         let mut drained = 0.0;
         for drain in &setting.drains {
             let factor = self.dt * drain.rate;
@@ -237,8 +237,10 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
                 water[*node] += SVector::from([out, out.abs(), share * size]);
             }
         }
-        add_penalties(&setting.ghosts[1], &p, 1, |i, volume| {
-            water[i][0] += self.dt * volume;
+        let since = |(p, before): (&f64, &f64)| p - setting.of_increments * before;
+        let since: Vec<f64> = p.iter().zip(&setting.before).map(since).collect();
+        add_penalties(&setting.ghosts[1], &since, 1, |i, volume| {
+            water[i][0] += volume;
         });
         let size = |forces: &[SVector<f64, D>]| -> f64 {
             forces.iter().map(SVector::norm_squared).sum::<f64>().sqrt()
@@ -253,7 +255,6 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             pressure: gathered.iter().map(|g| g.1).collect(),
             slope: gathered.iter().map(|g| g.2).collect(),
             f: gathered.into_iter().map(|g| g.0).collect(),
-            fluctuation,
             pores,
             internal,
             external,
@@ -306,8 +307,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             }
         }
         let [of_solid, of_water] = &setting.ghosts;
-        let factors =
-            (of_solid.iter().map(|g| (g, 1.0))).chain(of_water.iter().map(|g| (g, -self.dt)));
+        let factors = (of_solid.iter().map(|g| (g, 1.0))).chain(of_water.iter().map(|g| (g, -1.0)));
         for (group, (ghost, factor)) in of_ghosts.iter().zip(factors) {
             add(group, &|i, j| factor * ghost.stiffness[(i, j)]);
         }

@@ -32,7 +32,9 @@ const SPACES: [PressureSpace; 3] = [
     },
 ];
 
+mod carried;
 mod column;
+mod ghosts;
 mod response;
 mod tangent;
 
@@ -248,6 +250,8 @@ fn what_is_not_allowed_is_refused_by_name() {
         "conductivity of a body that drains",
     );
     assert!(Solver::<1, Means<1>, _>::new(column(), Water::new(POROSITY, dry), settings).is_ok());
+    let other = "porosity of the water = 0.3 is not allowed: that of the solid's law";
+    refused(Water::new(0.3, some), settings, other);
     let negative = Conductivity::KozenyCarman(-1.0);
     refused(Water::new(POROSITY, negative), settings, "conductivity");
     let logarithmic = Settings {
@@ -258,6 +262,8 @@ fn what_is_not_allowed_is_refused_by_name() {
     refused(Water::new(POROSITY, some), Settings::new(0.0), "time step");
     let ghost = settings.ghosts(-1.0, 0.0);
     refused(Water::new(POROSITY, some), ghost, "ghost penalty");
+    let ghost = settings.ghost_on_increments(-1.0);
+    refused(Water::new(POROSITY, some), ghost, "of increments");
     let none = PressureSpace::Projected { strength: 0.0 };
     let settings = Settings {
         pressure_space: none,

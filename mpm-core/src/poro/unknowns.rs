@@ -1,9 +1,11 @@
 //! The unknowns of a step: components of nodal displacements, and behind them nodal pressures.
 
 use super::pores::Pores;
+use crate::implicit::OfHats;
 use crate::implicit::elements::Elements;
 use crate::implicit::unknowns::Pattern;
 use crate::particles::Particles;
+use nalgebra::SVector;
 
 /// What a function counts at least, of its value and its slope over a cell, at one particle: less is rounding, of a
 /// domain that ends on a grid line.
@@ -132,6 +134,38 @@ pub(super) fn mapped<const D: usize>(
     let volumes = elements.sums(nodes, &particles.volume);
     let mean = |(sum, volume): (&f64, &f64)| if *volume > 0.0 { sum / volume } else { 0.0 };
     sums.iter().zip(&volumes).map(mean).collect()
+}
+
+/// The volume averages at the nodes of what particles extrapolate to there by the pressures and slopes of the last step
+/// (Pa), as they were at its start: exact of affine pressures. No number where there are none.
+pub(super) fn extrapolated<const D: usize, I: OfHats<D>>(
+    elements: &Elements<D>,
+    functions: &I,
+    particles: &Particles<D>,
+    pores: &Pores<D>,
+) -> Vec<f64> {
+    let grid = functions.grid();
+    let mut places = vec![[0.0; D]; functions.len()];
+    functions.for_each_node(|node, place| places[node] = place);
+    let mut sums = vec![SVector::<f64, 2>::zeros(); functions.len()];
+    elements.scatter(SVector::zeros(), &mut sums, |p, sums| {
+        let (nodes, w, _) = elements.seen(p);
+        let x = &pores.place[p];
+        for ((node, w), sum) in nodes.iter().zip(w).zip(sums) {
+            let mut pressure = pores.pressure[p];
+            for (a, axis) in grid.axes.iter().enumerate() {
+                let mut apart = places[*node][a] - x[a];
+                if axis.is_periodic() {
+                    let period = axis.cells as f64 * grid.h;
+                    apart -= period * (apart / period).round();
+                }
+                pressure += pores.slope[p][a] * apart;
+            }
+            let volume = w * particles.volume[p];
+            *sum += SVector::from([volume * pressure, volume]);
+        }
+    });
+    sums.iter().map(|sum| sum[0] / sum[1]).collect()
 }
 
 /// The pattern of a symmetric matrix in which the unknowns of each of the `groups` see one another.

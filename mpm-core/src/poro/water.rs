@@ -43,6 +43,10 @@ pub struct Gravity<const D: usize> {
 /// A function of a place (m).
 pub type OfPlace<const D: usize, T> = Box<dyn Fn(&[f64; D]) -> T + Send + Sync>;
 
+/// Water that comes into a place of the body between two times (s), as a share of the undeformed volume there: a
+/// function of the reference position (m). Over short times it is the rate (1/s) times their difference.
+pub type Source<const D: usize> = Box<dyn Fn(&[f64; D], [f64; 2]) -> f64 + Send + Sync>;
+
 /// The water in a body, and where it may leave.
 pub struct Water<const D: usize> {
     /// Porosity n₀ of the undeformed solid; n = 1 − (1 − n₀)/J.
@@ -57,6 +61,8 @@ pub struct Water<const D: usize> {
     pub drained: OfPlace<D, bool>,
     /// Loaded and drained faces.
     pub faces: Vec<Face<D>>,
+    /// Where water comes in or is taken out within the body.
+    pub sources: Vec<Source<D>>,
 }
 
 impl<const D: usize> Water<D> {
@@ -70,6 +76,7 @@ impl<const D: usize> Water<D> {
             start: Box::new(|_| 0.0),
             drained: Box::new(|_| false),
             faces: Vec::new(),
+            sources: Vec::new(),
         }
     }
 
@@ -107,19 +114,35 @@ impl<const D: usize> Water<D> {
         self
     }
 
+    /// With another source.
+    #[must_use]
+    pub fn source(
+        mut self,
+        of: impl Fn(&[f64; D], [f64; 2]) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        self.sources.push(Box::new(of));
+        self
+    }
+
     /// κ (m²/(Pa s)) of undeformed material.
     #[must_use]
     pub fn initial_conductivity(&self) -> f64 {
         self.conductivity.at(self.porosity)
     }
 
-    /// `drains`: whether water may leave.
-    pub(super) fn check(&self, drains: bool) -> Result<(), Error> {
+    /// `drains`: whether water may leave; `of_law`: the porosity of a law that depends on it.
+    pub(super) fn check(&self, drains: bool, of_law: Option<f64>) -> Result<(), Error> {
         require(
             self.porosity > 0.0 && self.porosity < 1.0,
             "porosity",
             self.porosity,
             "above 0 and below 1",
+        )?;
+        require(
+            of_law.is_none_or(|n| n == self.porosity),
+            "porosity of the water",
+            self.porosity,
+            "that of the solid's law, which depends on it",
         )?;
         let k = self.initial_conductivity();
         require(k >= 0.0, "conductivity", k, "at least 0 (m²/(Pa s))")?;

@@ -116,7 +116,9 @@ fn the_matrix_is_the_slope_of_the_residual() {
                 pressure_space,
                 volume_rate,
                 tangent: Tangent::Consistent,
-                ..Settings::new(1.0).ghosts(0.1, 0.01)
+                ..Settings::new(1.0)
+                    .ghosts(0.1, 0.01)
+                    .ghost_on_increments(0.01)
             };
             matrix_is_the_slope::<1, Hats<1>>(settings);
             matrix_is_the_slope::<1, Means<1>>(settings);
@@ -126,7 +128,9 @@ fn the_matrix_is_the_slope_of_the_residual() {
     }
     let settings = Settings {
         tangent: Tangent::Consistent,
-        ..Settings::new(1.0).ghosts(0.1, 0.01)
+        ..Settings::new(1.0)
+            .ghosts(0.1, 0.01)
+            .ghost_on_increments(0.01)
     };
     matrix_is_the_slope::<3, Means<3>>(settings);
 }
@@ -157,7 +161,9 @@ fn asymmetry(settings: Settings) -> f64 {
 /// logarithmic one the coupling is not.
 #[test]
 fn the_exact_rate_makes_a_symmetric_matrix() {
-    let symmetric = Settings::new(1.0).ghosts(0.1, 0.01);
+    let symmetric = Settings::new(1.0)
+        .ghosts(0.1, 0.01)
+        .ghost_on_increments(0.01);
     assert!(asymmetry(symmetric) < 1e-13);
     let consistent = Settings {
         tangent: Tangent::Consistent,

@@ -1,0 +1,158 @@
+//! What pressures change by, of bodies that move across cells; water that comes from within.
+
+use super::*;
+
+/// Moves all nodes upwards at one velocity (m/s).
+struct Carried(f64);
+
+impl Memoryless for Carried {}
+
+impl<const D: usize> Constraint<D> for Carried {
+    fn prescribe(&self, _: &Grid<D>, _: &[f64; D], axis: usize) -> Option<f64> {
+        Some(if axis + 1 == D { self.0 } else { 0.0 })
+    }
+}
+
+/// Cells of a body along an axis, empty ones before it and on the whole.
+const BODY: usize = 4;
+const BEFORE: usize = 3;
+const ALL: usize = 12;
+
+/// Water at rest in a body that is carried up through the cells keeps its pressure, linear below the top: no increment
+/// varies within a cell, or bends from cell to cell.
+fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
+    let along = 2 * BODY;
+    let positions = (0..along.pow(D as u32))
+        .map(|k| {
+            std::array::from_fn(|a| {
+                let place = (k / along.pow(a as u32) % along) as f64;
+                BEFORE as f64 * H + 0.5 * H * (place + 0.5)
+            })
+        })
+        .collect();
+    let volume = (0.5 * H).powi(D as i32);
+    let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
+    let top = (BEFORE + BODY) as f64 * H;
+    let uppermost = move |x: &[f64; D]| x[D - 1] > top - 0.5 * H;
+    let face = Face::drained(&particles, uppermost, (D - 1, End::Hi), 100.0 * KAPPA / H);
+    let mut acceleration = [0.0; D];
+    acceleration[D - 1] = -10.0;
+    let water = Water::new(POROSITY, kozeny_carman())
+        .gravity(Gravity {
+            water: 1000.0,
+            grains: 2600.0,
+            acceleration,
+        })
+        .start(move |x| 1e4 * (top - x[D - 1]))
+        .face(face);
+    let grid = Grid::new(H, [Axis::open(0.0, ALL); D]).unwrap();
+    let speed = 0.23 * H / settings.dt;
+    let body = Body::new(porous(), particles).unwrap();
+    let scene = Scene::new(grid, body).constrain(Carried(speed));
+    let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
+    for step in 1..=12 {
+        solver.step().unwrap();
+        let top = top + 0.23 * H * f64::from(step);
+        let p = solver.particles();
+        for (x, pressure) in p.position.iter().zip(&solver.pores.pressure) {
+            // Pressures are those of the step, at places of its start.
+            let error = pressure - 1e4 * (top - x[D - 1]);
+            assert!(error.abs() < 1e-6 * 1e4 * H, "step {step}: {error}");
+        }
+    }
+}
+
+#[test]
+fn water_at_rest_is_carried_through_the_cells() {
+    let dt = H * H / (KAPPA * MODULUS);
+    for pressure_space in SPACES {
+        let settings = Settings {
+            pressure_space,
+            ..Settings::new(dt).ghosts(0.1, 0.01)
+        };
+        for settings in [settings, settings.ghost_on_increments(0.1)] {
+            is_carried_along::<1, Means<1>>(settings);
+            is_carried_along::<2, Means<2>>(settings);
+        }
+    }
+}
+
+/// A wave around a periodic axis is extrapolated to all nodes, those at its seam too.
+#[test]
+fn pressures_are_extrapolated_to_the_nearest_image() {
+    let grid = Grid::new(H, [Axis::periodic(0.0, HIGH)]).unwrap();
+    let positions = (0..2 * HIGH)
+        .map(|k| [0.5 * H * (k as f64 + 0.5)])
+        .collect();
+    let particles = Particles::new(positions, 0.5 * H, 1000.0, [0.25 * H]).unwrap();
+    let scene = Scene::new(grid, Body::new(porous(), particles).unwrap());
+    let water = Water::new(POROSITY, kozeny_carman());
+    let settings = Settings::new(1.0).ghost_on_increments(0.1);
+    let mut solver = Solver::<1, Means<1>, _>::new(scene, water, settings).unwrap();
+    let k = std::f64::consts::TAU / TOP;
+    let places = solver.particles().position.clone();
+    solver.pores.pressure = places.iter().map(|x| (k * x[0]).sin()).collect();
+    solver.pores.slope = places.iter().map(|x| [k * (k * x[0]).cos()]).collect();
+    let setting = solver.setting(1.0, Vec::new()).unwrap();
+    let functions = &solver.water_space.functions;
+    let particles = solver.particles();
+    let told = unknowns::extrapolated(&setting.water, functions, particles, &solver.pores);
+    let mut seen = 0;
+    crate::implicit::Interpolation::for_each_node(functions, |node, place| {
+        if solver.water_space.originals[node] == node {
+            seen += 1;
+            // From at most 1.25 cells of 2h away, half the second derivative times that squared.
+            let bound = 0.5 * (k * 2.5 * H).powi(2);
+            let error = told[node] - (k * place[0]).sin();
+            assert!(error.abs() < bound, "{place:?}: {error} {bound}");
+        }
+    });
+    assert_eq!(seen, HIGH / 2);
+}
+
+/// What sources give is what the volume grows by, with no way out.
+#[test]
+fn water_from_within_swells_a_body() {
+    for space in SPACES {
+        let scene = standing::<2, _>(porous(), straight);
+        let volume: f64 = scene.body.particles.reference_volume.iter().sum();
+        let rates = [3e-3, 2e-3];
+        let mut water = Water::new(POROSITY, kozeny_carman());
+        for rate in rates {
+            water = water.source(move |x, [begin, end]| rate * x[1] * (end - begin));
+        }
+        let settings = Settings {
+            pressure_space: space,
+            ..Settings::new(2.0)
+        };
+        let mut solver = Solver::<2, Means<2>, _>::new(scene, water, settings).unwrap();
+        solver.step().unwrap();
+        solver.step().unwrap();
+        let balance = solver.water().copied().unwrap();
+        // The mean of the height over the body is half of it.
+        let given = 4.0 * 5e-3 * 0.5 * TOP * volume;
+        let grown: f64 = solver.particles().volume.iter().sum::<f64>() - volume;
+        assert!((balance.inflow / given - 1.0).abs() < 1e-12);
+        assert!((grown / given - 1.0).abs() < 1e-8, "{grown} {given}");
+        assert!(balance.imbalance.abs() < 1e-8 * given && balance.outflow == 0.0);
+    }
+}
+
+/// Of a dry body a solver has one lattice, one pass and no column: the same scene with water has two of the first two.
+#[test]
+fn a_dry_body_carries_no_water() {
+    let scene = || standing::<2, _>(porous(), straight);
+    let settings = crate::implicit::Settings::new(1.0);
+    let mut dry = crate::implicit::Solver::<2, Hats<2>, _>::new(scene(), settings).unwrap();
+    dry.step().unwrap();
+    assert!(dry.water().is_none() && dry.pressure_nodes().is_empty());
+    assert!(dry.field(Field::PorePressure).is_empty() && dry.field(Field::Porosity).is_empty());
+    let water = Water::new(POROSITY, kozeny_carman());
+    let wet = Solver::<2, Hats<2>, _>::new(scene(), water, Settings::new(1.0)).unwrap();
+    let (solid, both) = (wet.solid_space.functions.len() as u64, wet.work().nodes);
+    assert_eq!(dry.work().nodes, solid);
+    assert_eq!(both, solid + wet.water_space.functions.len() as u64);
+    // Deformations are gathered and forces scattered: four functions see a particle.
+    let pairs = 2 * 4 * dry.work().particles;
+    assert_eq!(dry.work().particle_node_pairs % pairs, 0);
+}
