@@ -74,6 +74,13 @@ const DISCS: Runs = &["discs --scheme midpoint-gimp-none --set step_factor=100"]
 const COLUMN: Runs =
     &["terzaghi --scheme poro-linear-two-grid --level n20 --set first_step=0.05 --set steps=1"];
 
+/// A known motion of solid and water that crosses cells.
+const SOAKED: Runs = &[
+    "mms-poro --scheme poro-gimp-two-grid --set amplitude=0.04 --level n8",
+    "mms-poro --scheme poro-gimp-two-grid --set amplitude=0.04 --level n16",
+    "mms-poro --scheme poro-gimp-two-grid --set amplitude=0.04 --level n32",
+];
+
 /// A beam in equilibrium, and one whose stress turns.
 const BEAM: Runs = &["cantilever --level h0.1"];
 const TURNED_BEAM: Runs = &["cantilever --level h0.1 --set law=jaumann"];
@@ -373,6 +380,34 @@ pub(crate) const FAULTS: [Fault; 40] = [
         sound: "-p * cofactor[i][j]",
         broken: "p * cofactor[i][j]",
         seen_by: &[(COLUMN, "completes")],
+    },
+    Fault {
+        name: "water presses on areas of the step's start",
+        file: "poro/response.rs",
+        sound: "-p * cofactor[i][j]",
+        broken: "-p * T::splat(f64::from(u8::from(i == j)))",
+        seen_by: &[(SOAKED, "order-space")],
+    },
+    Fault {
+        name: "water flows through volumes of the step's start",
+        file: "poro/response.rs",
+        sound: "conductivity * square / change",
+        broken: "conductivity * square",
+        seen_by: &[(SOAKED, "order-space")],
+    },
+    Fault {
+        name: "pores don't change the conductivity",
+        file: "poro/response.rs",
+        sound: "self.water.conductivity.at(number(1.0) - solid)",
+        broken: "self.water.conductivity.at(number(self.water.porosity))",
+        seen_by: &[(SOAKED, "order-space")],
+    },
+    Fault {
+        name: "domains reach past walls",
+        file: "poro/pores.rs",
+        sound: "l.min(KEPT * distance)",
+        broken: "*l",
+        seen_by: &[(SOAKED, "completes")],
     },
     Fault {
         name: "the top of the column lets no water out",

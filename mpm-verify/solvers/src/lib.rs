@@ -6,7 +6,9 @@ use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Serendipity};
-use mpm_core::material::{Hencky, HenckyJ2, Hypoelastic, NeoHookean, NewtonianFluid};
+use mpm_core::material::{
+    Hencky, HenckyJ2, Hypoelastic, ImprovedHencky, NeoHookean, NewtonianFluid,
+};
 use mpm_core::poro::{self, Water};
 use mpm_core::{Error, Lattice, Law, Scene, Simulation};
 use scheme::{BasisName, Explicit, RemedyName, Scheme, TransferName};
@@ -231,6 +233,8 @@ macro_rules! soaked {
 }
 
 soaked!(1, Hencky);
+soaked!(1, ImprovedHencky);
+soaked!(2, ImprovedHencky);
 
 fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {
     match remedy {

@@ -17,6 +17,7 @@ mod landslide;
 mod manufactured;
 mod mms_axis;
 mod mms_double_shear;
+mod mms_poro;
 mod mms_static;
 mod mms_swirl;
 mod mms_vortex_box;
@@ -57,6 +58,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         terzaghi::case(),
         conditioning::case(),
         undrained::case(),
+        mms_poro::case(),
     ]
 });
 

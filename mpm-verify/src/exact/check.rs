@@ -12,7 +12,7 @@ pub(super) fn solution(entry: &Entry, set: &[&str]) -> Box<dyn Exact> {
 }
 
 /// First derivative by central differences of eighth order.
-fn slope<T>(step: f64, value: impl Fn(f64) -> T) -> T
+pub(super) fn slope<T>(step: f64, value: impl Fn(f64) -> T) -> T
 where
     T: Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
 {

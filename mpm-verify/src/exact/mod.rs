@@ -14,6 +14,7 @@ pub(crate) mod hydrostatic;
 mod material;
 pub(crate) mod parameters;
 mod patch;
+pub mod poro;
 mod rigid;
 pub mod slope;
 pub(crate) mod standing_wave;

@@ -1,0 +1,359 @@
+//! A motion of solid and water that a body force and a source of water make: quasi-static, at finite strain, in one, two
+//! or three dimensions, with gravity along the last axis.
+//!
+//! On the unit cube, with S = sin, C = cos of πX and cross sections that bulge,
+//!
+//! u_a = A sin(ωt) S(X_a) Π_{b≠a} C(X_b),
+//! p = ρ_w g (1 − x_d) + P (1 − cos ωt) cos(πX_d/2) Π_{b≠d} (1 + ½ C(X_b)),  x = X + u.
+//!
+//! On every side u has no normal component and F is diagonal: rollers are exact. There p varies along the normal as
+//! ρ_w g·x does, so that no water passes, but for the top, X_d = 1, where p = 0. At t = 0 nothing is strained and the water
+//! is at rest. Per undeformed volume equilibrium and the balance of water are
+//!
+//! Div P + m g + ρ b = 0,  P = (σ′ − p I) cof F,  m = ρ_s (1 − n₀) + ρ_w (J − 1 + n₀),
+//! ∂J/∂t + Div Q = s,  Q = −κ(n) cof Fᵀ (F⁻ᵀ ∇p − ρ_w g),  n = 1 − (1 − n₀)/J.
+//!
+//! F and ∇p are written out; the divergences and ∂J/∂t, which b and s are made of, are derivatives on dual numbers, with
+//! the law of the solver. Tests compare them with differences of a P and a Q that know neither.
+
+use mpm_core::Law;
+use mpm_core::material::ImprovedHencky;
+use mpm_core::number::{Dual, Real};
+use mpm_core::poro::Conductivity;
+use mpm_core::tensor::{SymmetricTensor, determinant};
+use nalgebra::Matrix3;
+use std::f64::consts::PI;
+
+/// Three coordinates and the time.
+type Number = Dual<4>;
+
+/// The motion.
+#[derive(Debug, Clone, Copy)]
+pub struct SolidAndWater {
+    /// Dimension d, 1 to 3.
+    pub dimension: usize,
+    /// The solid's law.
+    pub law: ImprovedHencky,
+    /// Porosity n₀ of undeformed material, that of the law.
+    pub porosity: f64,
+    /// Conductivity.
+    pub conductivity: Conductivity,
+    /// Densities of water and grains (kg/m³).
+    pub densities: [f64; 2],
+    /// Acceleration of gravity g (m/s²), against the last axis.
+    pub gravity: f64,
+    /// Amplitude A of the displacement (m).
+    pub amplitude: f64,
+    /// Amplitude P of the pressure beside that of the water's weight (Pa).
+    pub pressure: f64,
+    /// Angular frequency ω (rad/s).
+    pub angular_frequency: f64,
+}
+
+/// What it says of a reference point and time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// Displacement (m).
+    pub displacement: [f64; 3],
+    /// F, by rows.
+    pub deformation_gradient: Matrix3<f64>,
+    /// J.
+    pub jacobian: f64,
+    /// Pore pressure p (Pa), compression positive.
+    pub pressure: f64,
+    /// Effective Cauchy stress σ′ (Pa).
+    pub stress: Matrix3<f64>,
+    /// P (Pa).
+    pub first_piola: Matrix3<f64>,
+    /// Q (m/s).
+    pub flux: [f64; 3],
+    /// b, per unit of the mass of dry grains, ρ = ρ_s (1 − n₀) (m/s²).
+    pub body_force: [f64; 3],
+    /// ∂J/∂t (1/s).
+    pub rate: f64,
+    /// Div Q (1/s).
+    pub outflow: f64,
+}
+
+fn sine(x: Number) -> Number {
+    let (sin, cos) = x.value.sin_cos();
+    Dual {
+        value: sin,
+        slope: x.slope.map(|slope| cos * slope),
+    }
+}
+
+fn cosine(x: Number) -> Number {
+    sine(x + Dual::splat(0.5 * PI))
+}
+
+impl SolidAndWater {
+    /// Mass of dry grains in undeformed volume, ρ (kg/m³).
+    #[must_use]
+    pub fn dry_density(&self) -> f64 {
+        self.densities[1] * (1.0 - self.porosity)
+    }
+
+    /// What it is at the reference point `x` (m), of which the first components count, and the time `t` (s).
+    #[must_use]
+    pub fn at(&self, x: [f64; 3], t: f64) -> Moment {
+        let (d, number) = (self.dimension, Number::splat);
+        let zero = Number::default();
+        let time = number(self.angular_frequency) * Dual::variable(t, 3);
+        let phase = |a: usize| number(PI) * Dual::variable(x[a], a);
+        let along = |a: usize, of: fn(Number) -> Number, beyond: f64| {
+            if a < d { of(phase(a)) } else { number(beyond) }
+        };
+        let s: [Number; 3] = [0, 1, 2].map(|a| along(a, sine, 0.0));
+        let c: [Number; 3] = [0, 1, 2].map(|a| along(a, cosine, 1.0));
+        let without = |of: &dyn Fn(usize) -> Number, out: [usize; 2]| {
+            let rest = (0..3).filter(|b| !out.contains(b));
+            rest.fold(number(1.0), |product, b| product * of(b))
+        };
+        let grown = number(self.amplitude) * sine(time);
+        let displacement = |a: usize| grown * s[a] * without(&|b| c[b], [a, a]);
+        let f = Matrix3::from_fn(|a, b| {
+            let slope = match (a < d && b < d, a == b) {
+                (false, _) => zero,
+                (true, true) => grown * c[a] * without(&|b| c[b], [a, a]),
+                (true, false) => -(grown * s[a] * s[b]) * without(&|b| c[b], [a, b]),
+            };
+            number(PI) * slope + number(f64::from(u8::from(a == b)))
+        });
+
+        let top = d - 1;
+        let weight = self.densities[0] * self.gravity;
+        let depth = number(1.0) - Dual::variable(x[top], top) - displacement(top);
+        let half = number(0.5);
+        let bulge = |b: usize| {
+            if b < d {
+                number(1.0) + half * c[b]
+            } else {
+                number(1.0)
+            }
+        };
+        let excess = number(self.pressure) * (number(1.0) - cosine(time));
+        let (upright, across) = (half * phase(top), without(&bulge, [top, top]));
+        let p = number(weight) * depth + excess * cosine(upright) * across;
+        let slope: [Number; 3] = [0, 1, 2].map(|i| {
+            let shape = match (i < d, i == top) {
+                (false, _) => zero,
+                (true, true) => -(half * sine(upright) * across),
+                (true, false) => -(half * s[i] * cosine(upright)) * without(&bulge, [top, i]),
+            };
+            number(PI) * excess * shape - number(weight) * f[(top, i)]
+        });
+
+        let j = determinant(&f);
+        let minor = |i: usize, k: usize| {
+            let (a, b, c, e) = ((i + 1) % 3, (i + 2) % 3, (k + 1) % 3, (k + 2) % 3);
+            f[(a, c)] * f[(b, e)] - f[(a, e)] * f[(b, c)]
+        };
+        let cofactor = Matrix3::from_fn(minor);
+        // The law's stress depends on no rate: any duration will do.
+        let effective = self.law.response(&f, 1.0, &SymmetricTensor::identity()).0;
+        let product = |of: &dyn Fn(usize) -> Number| of(0) + of(1) + of(2);
+        let piola = Matrix3::from_fn(|i, k| {
+            let total = |m: usize| effective.get(i, m) - if i == m { p } else { zero };
+            product(&|m| total(m) * cofactor[(m, k)])
+        });
+        let solid = number(1.0 - self.porosity) / j;
+        let conductivity = self.conductivity.at(number(1.0) - solid);
+        let head: [Number; 3] = [0, 1, 2].map(|i| {
+            let pushed = product(&|k| cofactor[(i, k)] * slope[k]) / j;
+            pushed + number(if i == top { weight } else { 0.0 })
+        });
+        let flux: [Number; 3] =
+            [0, 1, 2].map(|k| -(conductivity * product(&|i| cofactor[(i, k)] * head[i])));
+
+        let mass = self.dry_density() + self.densities[0] * (j.value - 1.0 + self.porosity);
+        let body_force = [0, 1, 2].map(|i| {
+            let divergence: f64 = (0..d).map(|k| piola[(i, k)].slope[k]).sum();
+            let pull = if i == top { -self.gravity * mass } else { 0.0 };
+            -(divergence + pull) / self.dry_density()
+        });
+        Moment {
+            displacement: [0, 1, 2].map(|a| displacement(a).value),
+            deformation_gradient: f.map(|f| f.value),
+            jacobian: j.value,
+            pressure: p.value,
+            stress: Matrix3::from_fn(|i, k| effective.get(i, k).value),
+            first_piola: piola.map(|p| p.value),
+            flux: flux.map(|q| q.value),
+            body_force,
+            rate: j.slope[3],
+            outflow: (0..d).map(|k| flux[k].slope[k]).sum(),
+        }
+    }
+
+    /// Water that comes in at the reference point `x` (m) between two times (s), over the undeformed volume: what one
+    /// step of backward Euler needs for the rates at its end, s Δt, or with `whole` for what J changes by and the flux
+    /// at its end, whose solution is the exact one at the ends of all steps.
+    #[must_use]
+    pub fn inflow(&self, x: [f64; 3], [begin, end]: [f64; 2], whole: bool) -> f64 {
+        let last = self.at(x, end);
+        let dt = end - begin;
+        let stored = if whole {
+            last.jacobian - self.at(x, begin).jacobian
+        } else {
+            dt * last.rate
+        };
+        stored + dt * last.outflow
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::check::slope;
+    use super::*;
+    use nalgebra::Vector3;
+
+    const POROSITY: f64 = 0.4;
+    const BULK: f64 = 2.5e4;
+    const SHEAR: f64 = 4e4;
+
+    fn motion(dimension: usize) -> SolidAndWater {
+        SolidAndWater {
+            dimension,
+            law: ImprovedHencky::new(BULK, SHEAR, POROSITY).unwrap(),
+            porosity: POROSITY,
+            conductivity: Conductivity::KozenyCarman(5e-8),
+            densities: [1000.0, 2600.0],
+            gravity: 10.0,
+            amplitude: 0.04,
+            pressure: 2e4,
+            angular_frequency: 0.02,
+        }
+    }
+
+    /// Points of the body and times without pattern.
+    fn samples() -> impl Iterator<Item = ([f64; 3], f64)> {
+        let part = |n: usize, stride: f64| (0.37 + n as f64 * stride).fract();
+        (0..20).map(move |n| {
+            let x = [0.856_674_9, 0.733_891_9, 0.628_707_9].map(|s| part(n, s));
+            (x, 80.0 * part(n, 0.538_598_5))
+        })
+    }
+
+    /// Kirchhoff stress of the law by principal stretches, total P by F⁻¹, and Q by the flux in space.
+    fn of_space(s: &SolidAndWater, x: [f64; 3], t: f64) -> (Matrix3<f64>, Vector3<f64>) {
+        let step = 1e-3;
+        let moved = |y: [f64; 3]| Vector3::from(y) + Vector3::from(s.at(y, t).displacement);
+        let shifted =
+            |k: usize, e: f64| std::array::from_fn(|a| x[a] + if a == k { e } else { 0.0 });
+        let axis = |k: usize| {
+            if k < s.dimension {
+                slope(step, |e| moved(shifted(k, e)))
+            } else {
+                Vector3::ith(k, 1.0)
+            }
+        };
+        let f = Matrix3::from_columns(&[axis(0), axis(1), axis(2)]);
+        let inverse = f.try_inverse().unwrap();
+        let j = f.determinant();
+        let stretches = (f * f.transpose()).symmetric_eigen();
+        let h = stretches.eigenvalues.map(|l| 0.5 * l.ln());
+        let v = j.ln();
+        let n = 1.0 - (1.0 - POROSITY) / j;
+        let mean = BULK * v / n - BULK * v * v * (1.0 - n) / (2.0 * n * n);
+        let principal = h.map(|h| 2.0 * SHEAR * (h - v / 3.0) + mean);
+        let directions = stretches.eigenvectors;
+        let kirchhoff = directions * Matrix3::from_diagonal(&principal) * directions.transpose();
+        let p = s.at(x, t).pressure;
+        let total = kirchhoff - Matrix3::identity() * (j * p);
+        let gradient = Vector3::from_fn(|k, _| {
+            if k < s.dimension {
+                slope(step, |e| s.at(shifted(k, e), t).pressure)
+            } else {
+                0.0
+            }
+        });
+        let mut weight = Vector3::zeros();
+        weight[s.dimension - 1] = -s.densities[0] * s.gravity;
+        let kappa = 5e-8 * n.powi(3) / (1.0 - n).powi(2);
+        let flux = -(inverse.transpose() * gradient - weight) * kappa;
+        (total * inverse.transpose(), inverse * flux * j)
+    }
+
+    #[test]
+    fn stress_and_flux_are_those_of_space() {
+        for d in 1..=3 {
+            let s = motion(d);
+            for (x, t) in samples() {
+                let (piola, flux) = of_space(&s, x, t);
+                let own = s.at(x, t);
+                let error = (own.first_piola - piola).norm();
+                assert!(error < 1e-7 * piola.norm(), "{d}: {error}");
+                // Differences of pressures of 10⁴ Pa over 10⁻³ m have twelve digits.
+                let error = (Vector3::from(own.flux) - flux).norm();
+                assert!(error < 1e-8 * flux.norm() + 1e-14, "{d}: {error} {flux}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_balances_hold() {
+        for d in 1..=3 {
+            let s = motion(d);
+            let g = Vector3::ith(d - 1, -s.gravity);
+            for (x, t) in samples() {
+                let shifted =
+                    |k: usize, e: f64| std::array::from_fn(|a| x[a] + if a == k { e } else { 0.0 });
+                let own = s.at(x, t);
+                let forces: Vector3<f64> = (0..d)
+                    .map(|k| {
+                        slope(1e-3, |e| {
+                            s.at(shifted(k, e), t).first_piola.column(k).into_owned()
+                        })
+                    })
+                    .sum();
+                let outflow: f64 = (0..d)
+                    .map(|k| slope(1e-3, |e| s.at(shifted(k, e), t).flux[k]))
+                    .sum();
+                let rate = slope(0.1, |e| s.at(x, t + e).jacobian);
+                let mass = 2600.0 * 0.6 + 1000.0 * (own.jacobian - 0.6);
+                let lacking = forces + g * mass + Vector3::from(own.body_force) * 1560.0;
+                assert!(
+                    lacking.norm() < 1e-7 * own.first_piola.norm(),
+                    "{d}: {lacking}"
+                );
+                assert!((rate - own.rate).abs() < 1e-12, "{rate} {}", own.rate);
+                assert!((outflow - own.outflow).abs() < 1e-12 + 1e-8 * outflow.abs());
+                let span = [t - 1e-3, t];
+                let balance = rate + outflow;
+                assert!(
+                    (s.inflow(x, span, false) / 1e-3 - balance).abs() < 1e-9 + 1e-7 * balance.abs()
+                );
+                let change = own.jacobian - s.at(x, span[0]).jacobian;
+                let whole = s.inflow(x, span, true) - change;
+                assert!((whole / 1e-3 - outflow).abs() < 1e-9 + 1e-7 * outflow.abs());
+            }
+        }
+    }
+
+    #[test]
+    fn sides_are_rollers_that_no_water_passes_but_the_top() {
+        for d in 1..=3 {
+            let s = motion(d);
+            for (x, t) in samples() {
+                for (axis, side) in (0..d).flat_map(|a| [(a, 0.0), (a, 1.0)]) {
+                    let mut x = x;
+                    x[axis] = side;
+                    let own = s.at(x, t);
+                    assert!(own.displacement[axis].abs() < 1e-15);
+                    for i in (0..3).filter(|i| *i != axis) {
+                        assert!(own.first_piola[(i, axis)].abs() < 1e-10);
+                    }
+                    if (axis, side) == (d - 1, 1.0) {
+                        assert!(own.pressure.abs() < 1e-10, "{}", own.pressure);
+                    } else {
+                        assert!(own.flux[axis].abs() < 1e-18, "{:?}", own.flux);
+                    }
+                }
+                let start = s.at(x, 0.0);
+                assert_eq!(start.displacement, [0.0; 3]);
+                assert!((start.pressure - 1e4 * (1.0 - x[d - 1])).abs() < 1e-10);
+            }
+        }
+    }
+}
