@@ -1,10 +1,9 @@
 //! What a solution makes of the body: new places, states, domains and pressures, and what is kept of forces and water.
 
-use super::pores::keep_before_walls;
+use super::pores::{check_width, grown, keep_before_walls};
 use super::step::{Setting, Trial};
 use super::unknowns::Place;
 use super::{OfHats, Solver};
-use crate::error::Fault;
 use crate::implicit::Functions;
 use crate::implicit::newton::{Failure, dot};
 use crate::material::Law;
@@ -106,16 +105,9 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                     *l *= f[(a, a)];
                 }
             }
-            let stretches = share_of_volume(&before, half_size, determinant(f));
-            for (a, l) in half_size.iter_mut().enumerate() {
-                *l = before[a] * stretches[a];
-                let cells = *l / space.functions.grid().h;
-                // NaN of a box that is turned inside out.
-                let fits = cells > 0.0 && (cells <= 0.5 || !I::MEANS);
-                if !fits {
-                    return Err(Failure::Particle(p, Fault::WideDomain(cells)));
-                }
-            }
+            *half_size = grown(&before, half_size, determinant(f));
+            let h = space.functions.grid().h;
+            check_width::<D, I>(half_size, h).map_err(|fault| Failure::Particle(p, fault))?;
         }
         Ok(domains)
     }
@@ -162,21 +154,4 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         self.balance.outflow += outflow;
         self.balance.imbalance += change + outflow - inflow;
     }
-}
-
-/// By how much each axis of a box stretches whose half sizes (m) go from `before` to `after`, but whose volume grows by
-/// `change`: what the logarithms of the stretches lack of that of the change is shared in proportion to them, so that
-/// an axis along which nothing happens keeps its size.
-fn share_of_volume<const D: usize>(before: &[f64; D], after: &[f64; D], change: f64) -> [f64; D] {
-    let logarithms: [f64; D] = std::array::from_fn(|a| (after[a] / before[a]).ln());
-    let lacking = change.ln() - logarithms.iter().sum::<f64>();
-    let whole: f64 = logarithms.iter().map(|l| l.abs()).sum();
-    logarithms.map(|l| {
-        let share = if whole > 0.0 {
-            l.abs() / whole
-        } else {
-            1.0 / D as f64
-        };
-        (l + share * lacking).exp()
-    })
 }

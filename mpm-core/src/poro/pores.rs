@@ -1,7 +1,8 @@
 //! What particles of a body with water have beside those of a dry one.
 
+use crate::error::Fault;
 use crate::grid::Grid;
-use crate::implicit::{Domains, HalfSizes};
+use crate::implicit::{Domains, HalfSizes, OfHats};
 use crate::memory::{MemoryError, rows};
 use crate::particles::{Particles, permute};
 use serde::{Deserialize, Serialize};
@@ -73,4 +74,40 @@ pub(super) fn keep_before_walls<const D: usize>(
             *l = l.min(KEPT * distance);
         }
     }
+}
+
+/// The half sizes (m) of a box that goes from `before` to the shape of `after`, but whose volume grows by `change`: what
+/// the logarithms of the stretches lack of that of the change is shared in proportion to them, so that an axis along
+/// which nothing happens keeps its size.
+pub(super) fn grown<const D: usize>(before: &[f64; D], after: &[f64; D], change: f64) -> [f64; D] {
+    let logarithms: [f64; D] = std::array::from_fn(|a| (after[a] / before[a]).ln());
+    let lacking = change.ln() - logarithms.iter().sum::<f64>();
+    let whole: f64 = logarithms.iter().map(|l| l.abs()).sum();
+    std::array::from_fn(|a| {
+        let share = if whole > 0.0 {
+            logarithms[a].abs() / whole
+        } else {
+            1.0 / D as f64
+        };
+        before[a] * (logarithms[a] + share * lacking).exp()
+    })
+}
+
+/// Checks that functions `I` on cells of size `h` (m) have means over a domain of half sizes `half_size` (m), if means
+/// they are: it takes at most a cell.
+///
+/// # Errors
+/// Half a size in cells that is not positive, or too large; NaN of a box that is turned inside out.
+pub(super) fn check_width<const D: usize, I: OfHats<D>>(
+    half_size: &[f64; D],
+    h: f64,
+) -> Result<(), Fault> {
+    for l in half_size {
+        let cells = l / h;
+        let fits = cells > 0.0 && (cells <= 0.5 || !I::MEANS);
+        if !fits {
+            return Err(Fault::WideDomain(cells));
+        }
+    }
+    Ok(())
 }

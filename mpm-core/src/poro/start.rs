@@ -1,15 +1,16 @@
 //! A solver before its first step.
 
 use super::face::Acts;
-use super::pores::{Pores, keep_before_walls};
+use super::pores::{Pores, check_width, grown, keep_before_walls};
 use super::{OfHats, PressureSpace, Settings, Solver, Space, Tangent, Water};
-use crate::error::{Error, require};
+use crate::error::{Error, Fault, require};
 use crate::grid::{Axis, Grid};
 use crate::implicit::held;
 use crate::implicit::linear::Direct;
 use crate::implicit::start::moduli_of;
 use crate::material::Law;
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual, WaterBalance};
+use crate::particles::Particles;
 use crate::room::Room;
 use crate::scene::Scene;
 use crate::work::{Spent, Work};
@@ -35,6 +36,26 @@ fn grid_of_pressure<const D: usize>(
         ..*axis
     };
     Grid::new(2.0 * grid.h, grid.axes.each_ref().map(coarse))
+}
+
+/// Places the particle `k` on the grid; half the sizes (m) of its domain, which has the deformation of the start: the
+/// mean extents of what it makes of the box, brought to the particle's volume.
+///
+/// # Errors
+/// A particle off the grid, or whose domain is too wide for its functions.
+pub(super) fn begin<const D: usize, I: OfHats<D>>(
+    grid: &Grid<D>,
+    particles: &mut Particles<D>,
+    k: usize,
+) -> Result<[f64; D], Fault> {
+    let (before, f) = (particles.half_size, &particles.delta_f[k]);
+    let after = std::array::from_fn(|a| before[a] * f[(a, a)]);
+    let mut half_size = grown(&before, &after, particles.jacobian[k]);
+    check_width::<D, I>(&half_size, grid.h)?;
+    let x = &mut particles.position[k];
+    Room::new(grid, half_size.map(I::beyond_wall)).place(x)?;
+    keep_before_walls(grid, x, &mut half_size);
+    Ok(half_size)
 }
 
 impl<I> Space<I> {
@@ -92,14 +113,15 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 "at most half a cell (m)",
             )?;
         }
-        let room = Room::new(&scene.grid, particles.half_size.map(I::beyond_wall));
-        for (x, id) in particles.position.iter_mut().zip(&particles.id) {
-            room.place(x).map_err(|fault| Error::Breakdown {
+        let mut half_size = Vec::with_capacity(particles.len());
+        for k in 0..particles.len() {
+            let begun = begin::<D, I>(&scene.grid, particles, k);
+            half_size.push(begun.map_err(|fault| Error::Breakdown {
                 time: 0.0,
                 step: 0,
-                particle: *id,
+                particle: particles.id[k],
                 fault,
-            })?;
+            })?);
         }
         for (k, j) in particles.jacobian.iter().enumerate() {
             if *j <= 1.0 - water.porosity {
@@ -118,10 +140,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         particles.increment = Vec::new();
         if scene.loads.is_empty() {
             particles.external_force = Vec::new();
-        }
-        let mut half_size = vec![particles.half_size; particles.len()];
-        for (x, half_size) in particles.position.iter().zip(&mut half_size) {
-            keep_before_walls(&scene.grid, x, half_size);
         }
         let watched = if settings.watches_increments() {
             &particles.position[..]

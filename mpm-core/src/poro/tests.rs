@@ -165,6 +165,20 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
         assert!(moved.norm() < 1e-12, "{moved}");
         assert!(solver.pores.pressure[k].abs() < 1e-8 * MODULUS);
     }
+    // And has the domains of a body that starts so.
+    let begun = p.reference.iter().map(|x| {
+        let particles = Particles::new(vec![*x], volume, 1000.0, [0.25 * H; D]).unwrap();
+        let mut body = Body::new(
+            law,
+            particles.deformed(|x| ((f * SVector::from(*x)).into(), f)),
+        )
+        .unwrap();
+        start::begin::<D, I>(&grid, &mut body.particles, 0).unwrap()
+    });
+    for (begun, stepped) in begun.zip(&solver.pores.half_size) {
+        let apart = SVector::from(begun) - SVector::from(*stepped);
+        assert!(apart.norm() < 1e-12 * H, "{D}: {apart}");
+    }
 }
 
 #[test]

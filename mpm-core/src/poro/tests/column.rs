@@ -284,3 +284,52 @@ fn where_newton_begins_does_not_matter() {
         }
     }
 }
+
+/// A body that starts deformed has the domains, and so the equations, of one that a step has deformed so.
+#[test]
+fn a_start_that_is_deformed_has_deformed_domains() {
+    let f = |x: &[f64; 2]| ([x[0], 0.8 * x[1]], SMatrix::from([[1.0, 0.0], [0.0, 0.8]]));
+    let scene = standing::<2, _>(porous(), f);
+    let water = || Water::new(POROSITY, kozeny_carman());
+    let solver = Solver::<2, Means<2>, _>::new(scene, water(), Settings::new(1.0)).unwrap();
+    for (l, volume) in solver
+        .pores
+        .half_size
+        .iter()
+        .zip(&solver.particles().volume)
+    {
+        assert!((l[0] - 0.25 * H).abs() < 1e-12 && (l[1] - 0.2 * H).abs() < 1e-12);
+        assert!((4.0 * l[0] * l[1] - volume).abs() < 1e-11 * volume);
+    }
+    // Sheared: extents along the axes are those of the affine image, brought to its volume.
+    let sheared = |x: &[f64; 2]| (*x, SMatrix::from([[1.0, 0.3], [0.0, 1.1]]));
+    let scene = standing::<2, _>(porous(), sheared);
+    let solver = Solver::<2, Means<2>, _>::new(scene, water(), Settings::new(1.0)).unwrap();
+    // Those on the floor end there.
+    for (l, x) in solver
+        .pores
+        .half_size
+        .iter()
+        .zip(&solver.particles().position)
+    {
+        let high = (0.275 * H).min(x[1]);
+        assert!((l[0] - 0.25 * H).abs() < 1e-12 && (l[1] - high).abs() < 1e-12);
+    }
+    // Too long for means over a cell at most, and by so much; hats know no domain.
+    let stretched = |x: &[f64; 2]| ([x[0], 0.5 * x[1]], SMatrix::from([[1.0, 0.0], [0.0, 2.2]]));
+    let begun = Solver::<2, Means<2>, _>::new(
+        standing::<2, _>(porous(), stretched),
+        water(),
+        Settings::new(1.0),
+    );
+    match begun.err() {
+        Some(Error::Breakdown {
+            step: 0,
+            fault: Fault::WideDomain(cells),
+            ..
+        }) => assert!((cells - 0.55).abs() < 1e-12),
+        other => panic!("{other:?}"),
+    }
+    let scene = standing::<2, _>(porous(), stretched);
+    assert!(Solver::<2, Hats<2>, _>::new(scene, water(), Settings::new(1.0)).is_ok());
+}
