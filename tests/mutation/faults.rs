@@ -81,6 +81,13 @@ const SOAKED: Runs = &[
     "mms-poro --scheme poro-gimp-two-grid --set amplitude=0.04 --level n32",
 ];
 
+/// A column that settles by a fifth of its height.
+const SETTLING: Runs = &[
+    "consolidation --scheme poro-gimp-equal --level n8",
+    "consolidation --scheme poro-gimp-equal --level n16",
+    "consolidation --scheme poro-gimp-equal --level n32",
+];
+
 /// A beam in equilibrium, and one whose stress turns.
 const BEAM: Runs = &["cantilever --level h0.1"];
 const TURNED_BEAM: Runs = &["cantilever --level h0.1 --set law=jaumann"];
@@ -102,7 +109,7 @@ const SLOW_RATIOS: Runs = &[
     "mms-static --level n8 --set poisson_ratio=0.3",
 ];
 
-pub(crate) const FAULTS: [Fault; 40] = [
+pub(crate) const FAULTS: [Fault; 47] = [
     Fault {
         name: "a particle in equilibrium has a fiftieth more volume",
         file: "implicit/equilibrium.rs",
@@ -400,7 +407,7 @@ pub(crate) const FAULTS: [Fault; 40] = [
         file: "poro/response.rs",
         sound: "self.water.conductivity.at(number(1.0) - solid)",
         broken: "self.water.conductivity.at(number(self.water.porosity))",
-        seen_by: &[(SOAKED, "order-space")],
+        seen_by: &[(SETTLING, "order-space"), (SOAKED, "order-space")],
     },
     Fault {
         name: "domains reach past walls",
@@ -415,6 +422,27 @@ pub(crate) const FAULTS: [Fault; 40] = [
         sound: "self.drained[node].then_some(0.0)",
         broken: "None",
         seen_by: &[(COLUMN, "overshoot")],
+    },
+    Fault {
+        name: "the water's pressure is one of the undeformed configuration",
+        file: "poro/step.rs",
+        sound: "self.particle(k).respond(&embed(f), *pressure, slope)",
+        broken: "self.particle(k).respond(&embed(f), *pressure / self.body.particles.jacobian[k], slope)",
+        seen_by: &[(SETTLING, "order-space")],
+    },
+    Fault {
+        name: "domains keep the size that they began with",
+        file: "poro/commit.rs",
+        sound: "grown(&before, half_size, determinant(f))",
+        broken: "before",
+        seen_by: &[(SETTLING, "order-space")],
+    },
+    Fault {
+        name: "the exact change of volume is another one",
+        file: "poro/response.rs",
+        sound: "change - number(1.0)",
+        broken: "change * change.ln()",
+        seen_by: &[(SETTLING, "water")],
     },
 ];
 

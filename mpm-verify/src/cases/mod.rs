@@ -7,12 +7,14 @@ use std::sync::LazyLock;
 mod cantilever;
 mod column;
 mod conditioning;
+mod consolidation;
 mod cook;
 mod dam_break;
 mod discs;
 mod family;
 mod footing;
 mod forms;
+mod growth;
 mod landslide;
 mod manufactured;
 mod mms_axis;
@@ -59,6 +61,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         conditioning::case(),
         undrained::case(),
         mms_poro::case(),
+        consolidation::case(),
     ]
 });
 

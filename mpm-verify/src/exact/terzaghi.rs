@@ -131,9 +131,105 @@ impl FirstStep {
     }
 }
 
+/// The settlement over q H/M after steps of these shares c_v Δt/h², by the equations of every step: `of` a share gives
+/// their entries in a cell of the pressure, of which the column has so many. What the pressure lacks of the load is d: zero
+/// at first, the load at the top from then on; M (d − d of the step before) + K d = 0, and a column settles by the mean of d.
+#[must_use]
+pub fn settlement_of_equations(of: impl Fn(f64) -> FirstStep, cells: usize, shares: &[f64]) -> f64 {
+    let stored = of(0.0);
+    // A node has two cells, but for the one at the base.
+    let own = |entries: FirstStep, j: usize| entries.diagonal * if j < cells { 2.0 } else { 1.0 };
+    let mut d = vec![0.0; cells + 1];
+    for share in shares {
+        let now = of(*share);
+        let mut right: Vec<f64> = (0..=cells)
+            .map(|j| {
+                let above = j.checked_sub(1).map_or(0.0, |above| d[above]);
+                let below = d.get(j + 1).copied().unwrap_or(0.0);
+                own(stored, j) * d[j] + stored.beside * (above + below)
+            })
+            .collect();
+        // The top is known; the others are eliminated downwards.
+        (d[0], right[0]) = (1.0, 1.0);
+        let mut pivot = vec![1.0; cells + 1];
+        for j in 1..=cells {
+            let factor = now.beside / pivot[j - 1];
+            let upper = if j == 1 { 0.0 } else { now.beside };
+            pivot[j] = own(now, j) - factor * upper;
+            right[j] -= factor * right[j - 1];
+        }
+        for j in (1..=cells).rev() {
+            let below = d.get(j + 1).copied().unwrap_or(0.0);
+            let known = if j == cells { 0.0 } else { now.beside * below };
+            d[j] = (right[j] - known) / pivot[j];
+        }
+    }
+    let ends = 0.5 * (d[0] + d[cells]);
+    (d.iter().sum::<f64>() - ends) / cells as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// One step of a long column: d falls by the factor ρ of the closed form from node to node, and what has left of a
+    /// cell's h q/M is (a + b) (1 + ρ)/(1 − ρ) = √(b² − a²): of equal cells √ΔT H, as without cells.
+    #[test]
+    fn the_first_step_settles_as_its_closed_form() {
+        let spaces: [fn(f64) -> FirstStep; 3] = [
+            FirstStep::two_grid,
+            |r| FirstStep::same_cells(r, 0.0),
+            |r| FirstStep::same_cells(r, 1.5),
+        ];
+        for of in spaces {
+            for share in [0.01, 0.25, 2.0_f64] {
+                let FirstStep {
+                    beside: a,
+                    diagonal: b,
+                } = of(share);
+                let cells = 400;
+                let settled = settlement_of_equations(of, cells, &[share]);
+                let settled = settled * cells as f64 * 2.0 * (a + b);
+                let exact = (b * b - a * a).sqrt();
+                assert!(
+                    (settled - exact).abs() < 1e-12,
+                    "{share}: {settled} {exact}"
+                );
+            }
+        }
+        let equal = |r| FirstStep::same_cells(r, 0.0);
+        let settled = settlement_of_equations(equal, 400, &[0.25]);
+        assert!((400.0 * settled - 0.5).abs() < 1e-12);
+    }
+
+    /// Against the exact solution in space of the same steps, on cells of h and h/2: a quarter of the error; on cells of
+    /// the pressure twice as large it is h²/8/√(πT) to leading order.
+    #[test]
+    fn the_equations_settle_to_the_second_order_as_the_column_does() {
+        let (t, count) = (0.1, 2000);
+        let durations = vec![t / f64::from(count); count as usize];
+        let damped = |m: f64| {
+            durations
+                .iter()
+                .fold(1.0, |left, dt| left / (1.0 + m * m * dt))
+        };
+        let modes = (0..400).map(|k| (f64::from(k) + 0.5) * PI);
+        let exact = 1.0 - modes.map(|m| 2.0 / (m * m) * damped(m)).sum::<f64>();
+        // Of the modes that are left out nothing is left.
+        let error = |of: fn(f64) -> FirstStep, n: f64, cells: usize| {
+            let shares: Vec<f64> = durations.iter().map(|dt| dt * n * n).collect();
+            settlement_of_equations(of, cells, &shares) - exact
+        };
+        let coarse = error(FirstStep::two_grid, 20.0, 10);
+        let fine = error(FirstStep::two_grid, 40.0, 20);
+        assert!((coarse / fine - 4.0).abs() < 0.1, "{coarse} {fine}");
+        let leading = 1.0 / (8.0 * 400.0 * (PI * t).sqrt());
+        assert!((coarse / leading - 1.0).abs() < 0.05, "{coarse} {leading}");
+        let equal = error(|r| FirstStep::same_cells(r, 0.0), 20.0, 20);
+        assert!(equal.abs() < 0.02 * coarse, "{equal}");
+        let whole = settlement(t);
+        assert!((exact - whole).abs() < 1e-3, "{exact} {whole}");
+    }
 
     /// Values of the series with fifty digits.
     const KNOWN: [(f64, f64, f64); 14] = [

@@ -18,6 +18,7 @@ mod rows;
 pub mod shown;
 pub mod single;
 mod solvers;
+mod spaces;
 mod speed;
 mod summary;
 mod sweep;

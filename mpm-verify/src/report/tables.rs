@@ -5,7 +5,7 @@
 
 use super::speed::{self, Speed};
 use super::values::Values;
-use super::{remedies, rows};
+use super::{remedies, rows, spaces};
 use crate::cases;
 use crate::error::Error;
 use crate::files::{read_text, write_whole};
@@ -160,8 +160,8 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
     };
     let of_cases = cases::all().iter();
     let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
-    let over_cases = remedies::all();
-    let over_cases = over_cases.iter().map(|t| table(t, None));
+    let over_cases = remedies::all().into_iter().chain([spaces::table()]);
+    let over_cases = over_cases.map(|t| table(&t, None));
     let speed = [(speed::NAME.to_owned(), told)];
     of_cases.chain(over_cases).chain(speed).collect()
 }

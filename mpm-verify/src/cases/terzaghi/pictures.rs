@@ -17,8 +17,7 @@ const POINTS: u32 = 100;
 
 /// Draws everything there are runs for.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
-    profiles(gallery)?;
-    persistence(gallery)?;
+    figures(gallery)?;
     overshoots(gallery)
 }
 
@@ -42,8 +41,21 @@ fn hang(gallery: &mut Gallery, name: &str, charts: &[Chart], caption: &str) -> R
     Ok(())
 }
 
+/// p after a first step of T = 4·10⁻⁵, and how long its overshoot lasts.
+fn figures(gallery: &mut Gallery) -> Result<(), Error> {
+    let mut charts = profiles(gallery)?;
+    charts.extend(persistence(gallery)?);
+    hang(
+        gallery,
+        "figures",
+        &charts,
+        "Pressure at the particles after one step of T = 4·10⁻⁵, c_v Δt/h² = 0.016 and 1.02, and how its overshoot fades in \
+         growing steps; the paper's Figures 5 and 6.",
+    )
+}
+
 /// p over the depth after a first step of T = 4·10⁻⁵, on coarse and on fine cells: Figure 5.
-fn profiles(gallery: &mut Gallery) -> Result<(), Error> {
+fn profiles(gallery: &Gallery) -> Result<Vec<Chart>, Error> {
     let mut charts = Vec::new();
     for (level, title) in [("n20", "20 cells"), ("n160", "160 cells")] {
         let own = |r: &&Record| {
@@ -80,16 +92,11 @@ fn profiles(gallery: &mut Gallery) -> Result<(), Error> {
             ..Chart::new("", ["depth (m)", "p/q"], curves)
         });
     }
-    hang(
-        gallery,
-        "first-step",
-        &charts,
-        "Pressure at the particles after one step of T = 4·10⁻⁵, c_v Δt/h² = 0.016 and 1.02; the paper's Figure 5.",
-    )
+    Ok(charts)
 }
 
 /// How long the overshoot of that step lasts: the magnification of Figure 6.
-fn persistence(gallery: &mut Gallery) -> Result<(), Error> {
+fn persistence(gallery: &Gallery) -> Result<Option<Chart>, Error> {
     let own =
         |r: &&Record| is_linear(r) && r.level == "n20" && r.parameters.number(TIME_END) == 1.0;
     let mut curves = Vec::new();
@@ -100,15 +107,12 @@ fn persistence(gallery: &mut Gallery) -> Result<(), Error> {
         curves.push(history(record.scheme(), points));
     }
     if curves.is_empty() {
-        return Ok(());
+        return Ok(None);
     }
-    let charts = [Chart::new("", ["log₁₀ T", "largest p/q − 1 (%)"], curves)];
-    hang(
-        gallery,
-        "persistence",
-        &charts,
-        "How the overshoot of a first step of T = 4·10⁻⁵ on 20 cells fades in growing steps; the paper's Figure 6.",
-    )
+    Ok(Some(Chart {
+        title: "20 cells, growing steps".to_owned(),
+        ..Chart::new("", ["log₁₀ T", "largest p/q − 1 (%)"], curves)
+    }))
 }
 
 /// The overshoot over the first step: runs on the closed forms.

@@ -4,6 +4,7 @@ use super::parameters::{
     CONDUCTIVITY, FIRST_STEP, LOAD, POISSON_RATIO, POROSITY, PROJECTION, STEPS, TIME_END,
     TOLERANCE, YOUNG_MODULUS,
 };
+use crate::cases::growth;
 use crate::parameter::Parameters;
 use crate::scheme::{Scheme, SpaceName};
 use crate::spec::RunSpec;
@@ -63,21 +64,7 @@ pub(super) fn steps(h: f64, parameters: &Parameters) -> (f64, f64) {
     if count == 1 {
         return (first, 1.0);
     }
-    // The sum of a geometric series rises with its ratio: halved until nothing changes.
-    let sum = |ratio: f64| (0..count).fold(0.0, |sum, _| 1.0 + ratio * sum) * first;
-    let (mut lo, mut hi) = (0.0, 2.0);
-    while sum(hi) < whole {
-        hi *= 2.0;
-    }
-    for _ in 0..200 {
-        let middle = 0.5 * (lo + hi);
-        if sum(middle) < whole {
-            lo = middle;
-        } else {
-            hi = middle;
-        }
-    }
-    (first, 0.5 * (lo + hi))
+    (first, growth::factor(first, count, whole))
 }
 
 /// The durations of all steps over H²/c_v.
