@@ -131,6 +131,20 @@ pub enum Error {
         /// Iterations done.
         iteration: u32,
     },
+    /// The body bears only a part of what acts on it from outside, or lets water out by only a part of what drains.
+    #[error("step {step} (t = {time} s): of the {what}, {whole}, the body has {value}")]
+    Lost {
+        /// Time at the start of the failed part of the step (s).
+        time: f64,
+        /// Number of steps completed before.
+        step: u64,
+        /// What it is: a load, an area.
+        what: &'static str,
+        /// The sum over the body (N, m²).
+        value: f64,
+        /// What it should be.
+        whole: f64,
+    },
     /// A body that was handed over is not one of the scene.
     #[error(transparent)]
     Memory(#[from] MemoryError),

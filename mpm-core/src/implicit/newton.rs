@@ -31,6 +31,8 @@ pub(crate) enum Failure {
     Singular(u32),
     /// A particle was deformed beyond what can be.
     Particle(usize, Fault),
+    /// Of what acts on the body from outside, by name, it bears only so much of the whole.
+    Lost(&'static str, f64, f64),
 }
 
 impl Failure {
@@ -53,6 +55,13 @@ impl Failure {
                 step,
                 particle: ids.get(index).copied().unwrap_or(0),
                 fault,
+            },
+            Self::Lost(what, value, whole) => Error::Lost {
+                time,
+                step,
+                what,
+                value,
+                whole,
             },
         }
     }

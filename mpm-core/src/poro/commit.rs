@@ -124,11 +124,12 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         };
         self.accumulated.stress_work += work_of(&trial.internal);
         self.accumulated.load_work += work_of(&trial.external);
+        let mut lacking = vec![0.0; setting.unknowns.displacements];
         for (node, places) in setting.unknowns.displacement.iter().enumerate() {
             for (a, place) in places.iter().enumerate() {
                 let force = -trial.momentum[node][a];
                 match (place, self.held[node][a]) {
-                    (Place::Free(_), _) => self.residual.free_force += force.abs(),
+                    (Place::Free(unknown), _) => lacking[*unknown] += force,
                     (Place::Held(_), Some(held)) => {
                         self.residual.held_force[a] += force;
                         let reaction = &mut self.reactions[held.by];
@@ -139,6 +140,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 }
             }
         }
+        self.residual.free_force = lacking.iter().map(|f: &f64| f.abs()).sum();
         // Water that a held pressure lets out is what its equation lacks.
         let mut outflow = trial.drained;
         for (place, lacking) in setting.unknowns.pressure.iter().zip(&trial.mass) {

@@ -1,18 +1,19 @@
 //! Faces of a body: sides of particle domains, on whose corners loads and drainage act.
 
+use super::Space;
 use super::pores::Pores;
-use crate::error::Fault;
+use crate::error::{Error, Fault, require};
 use crate::implicit::{Functions, OfHats};
 use crate::particles::Particles;
 use crate::stage::End;
 
-/// A force per area (Pa) as a function of time (s).
-pub type Traction<const D: usize> = Box<dyn Fn(f64) -> [f64; D] + Send + Sync>;
+/// A force, or one per area, as a function of time (s).
+pub(super) type Force<T> = Box<dyn Fn(f64) -> T + Send + Sync>;
 
 /// What happens on a face.
 pub(super) enum Acts<const D: usize> {
     /// A force per area of the undeformed face: dead, whatever becomes of it.
-    Load(Traction<D>),
+    Load(Force<[f64; D]>),
     /// Water leaves at β p (m/s), so that p tends to zero there.
     Drains {
         /// β (m/(Pa s)).
@@ -24,6 +25,8 @@ pub(super) enum Acts<const D: usize> {
 pub struct Face<const D: usize> {
     /// By identity of a particle, whether its side is part of the face.
     chosen: Vec<bool>,
+    /// How many they are.
+    pub(super) sides: usize,
     axis: usize,
     end: End,
     pub(super) acts: Acts<D>,
@@ -50,6 +53,7 @@ impl<const D: usize> Face<D> {
             chosen[*id as usize] = select(reference);
         }
         Self {
+            sides: chosen.iter().filter(|taken| **taken).count(),
             chosen,
             axis,
             end,
@@ -78,6 +82,32 @@ impl<const D: usize> Face<D> {
         Self::new(particles, select, at, Acts::Drains { penalty })
     }
 
+    /// Refuses a face that is not one of so many `particles`.
+    pub(super) fn check(&self, particles: usize) -> Result<(), Error> {
+        let (of, axis) = (self.chosen.len(), self.axis);
+        let what = "particles of the body that a face was chosen from";
+        require(of == particles, what, of as f64, "those of the scene")?;
+        require(axis < D, "axis of a face", axis as f64, "one of the grid's")?;
+        let what = "particles of a loaded or drained face";
+        require(self.sides > 0, what, self.sides as f64, "at least 1")?;
+        match &self.acts {
+            Acts::Load(traction) => {
+                let mut components = traction(0.0).into_iter();
+                let what = "traction on a face";
+                components.try_for_each(|t| require(true, what, t, "finite (Pa)"))
+            }
+            Acts::Drains { penalty } => {
+                let what = "penalty of a drained face";
+                require(*penalty > 0.0, what, *penalty, "positive (m/(Pa s))")
+            }
+        }
+    }
+
+    /// Whether the side of a particle of this identity is part of it.
+    pub(super) fn takes(&self, id: u32) -> bool {
+        self.chosen[id as usize]
+    }
+
     /// Corners of a side.
     pub(super) const CORNERS: usize = 1 << (D - 1);
 
@@ -87,14 +117,13 @@ impl<const D: usize> Face<D> {
         across.map(|a| 2.0 * half_size[a]).product()
     }
 
-    /// The corners of the face, with the hats of the nodes of `functions` there; images are their `originals`.
+    /// The corners of the face, with the hats of the nodes of a `space` there.
     ///
     /// # Errors
     /// A particle one of whose corners has a share on a node that is not `seen` by any particle, and so bears nothing.
     pub(super) fn corners<I: OfHats<D>>(
         &self,
-        functions_of: &I,
-        originals: &[usize],
+        space: &Space<I>,
         seen: impl Fn(usize) -> bool,
         particles: &Particles<D>,
         pores: &Pores<D>,
@@ -106,7 +135,7 @@ impl<const D: usize> Face<D> {
             End::Hi => 1.0,
         };
         for (p, x) in particles.position.iter().enumerate() {
-            if !self.chosen[particles.id[p] as usize] {
+            if !self.takes(particles.id[p]) {
                 continue;
             }
             for corner in 0..Self::CORNERS {
@@ -120,8 +149,10 @@ impl<const D: usize> Face<D> {
                     };
                     x[a] + sign * pores.half_size[p][a]
                 });
-                functions_of.hats(&place, &mut functions);
-                let node: Vec<usize> = functions.node.iter().map(|n| originals[*n]).collect();
+                space.functions.hats(&place, &mut functions);
+                let node: Vec<usize> = (functions.node.iter())
+                    .map(|n| space.originals[*n])
+                    .collect();
                 let mut shares = node.iter().zip(&functions.w);
                 if let Some((_, share)) = shares.find(|(n, w)| w.abs() > NOTHING && !seen(**n)) {
                     return Err((p, Fault::EmptyCell(*share)));

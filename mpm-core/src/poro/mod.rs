@@ -11,6 +11,8 @@ mod commit;
 mod face;
 mod memory;
 mod newton;
+mod outside;
+mod plate;
 mod pores;
 mod response;
 mod settings;
@@ -19,7 +21,8 @@ mod step;
 mod unknowns;
 mod water;
 
-pub use face::{Face, Traction};
+pub use face::Face;
+pub use plate::Plate;
 pub use settings::{Predictor, PressureSpace, Settings, Tangent, VolumeRate};
 pub use water::{Conductivity, Gravity, OfPlace, Source, Water};
 
@@ -37,11 +40,9 @@ use crate::scene::Scene;
 use crate::simulation::{Field, Part, Simulation};
 use crate::tensor::SymmetricTensor;
 use crate::work::{Spent, Work};
-use face::{Acts, Corner};
-use nalgebra::SVector;
 use newton::Newton;
 use pores::Pores;
-use step::{Drain, Setting, Step};
+use step::{Setting, Step};
 use unknowns::{Place, Unknowns};
 
 /// Functions on a grid, and of every node the one that it is an image of.
@@ -60,6 +61,8 @@ pub struct Solver<const D: usize, I, M: Law> {
     pores: Pores<D>,
     /// Of every component of every node of the displacement whether it is held.
     held: Vec<[Option<Held>; D]>,
+    /// Likewise the plate that it belongs to.
+    tied: Vec<[Option<usize>; D]>,
     /// Of every node of the pressure whether it is held at zero.
     drained: Vec<bool>,
     moduli: Moduli,
@@ -241,20 +244,34 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         positions.iter().enumerate().map(of).collect()
     }
 
+    /// The functions of displacement and pressure at the particles.
+    fn elements(&self) -> [Elements<D>; 2] {
+        let domains = self.pores.domains(&self.scene.body.particles);
+        [&self.solid_space, &self.water_space]
+            .map(|space| Elements::new(&space.functions, &space.originals, domains))
+    }
+
+    /// The unknowns of a step of `dt` (s) on the functions of displacement and pressure.
+    fn unknowns(&self, elements: [&Elements<D>; 2], dt: f64) -> Unknowns<D> {
+        let spaces = [&self.solid_space, &self.water_space];
+        let travel = held::travel(&self.scene.constraints, self.time, dt);
+        Unknowns::new(
+            elements,
+            spaces.map(|s| s.functions.len()),
+            spaces.map(|s| s.functions.grid().h),
+            |node, axis| self.held[node][axis].map(|held| held.velocity * travel[held.by]),
+            |node, axis| self.tied[node][axis],
+            |node| self.drained[node].then_some(0.0),
+        )
+    }
+
     /// What a step of `dt` (s) of the body as it is works with, under forces of loads on the particles (N).
     fn setting(&self, dt: f64, on_particles: Vec<[f64; D]>) -> Result<Setting<D>, Failure> {
         let particles = &self.scene.body.particles;
         let domains = self.pores.domains(particles);
         let spaces = [&self.solid_space, &self.water_space];
-        let [solid, water] = spaces.map(|s| Elements::new(&s.functions, &s.originals, domains));
-        let travel = held::travel(&self.scene.constraints, self.time, dt);
-        let unknowns = Unknowns::new(
-            [&solid, &water],
-            spaces.map(|s| s.functions.len()),
-            spaces.map(|s| s.functions.grid().h),
-            |node, axis| self.held[node][axis].map(|held| held.velocity * travel[held.by]),
-            |node| self.drained[node].then_some(0.0),
-        );
+        let [solid, water] = self.elements();
+        let unknowns = self.unknowns([&solid, &water], dt);
         let mut runs: Vec<std::ops::Range<usize>> = Vec::new();
         for p in 0..particles.len() {
             let same = |p: usize, q: usize| {
@@ -292,49 +309,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         groups.extend(ghosts[0].iter().map(|g| unknowns.of(&g.node, &[])));
         groups.extend(ghosts[1].iter().map(|g| unknowns.of(&[], &g.node)));
         let mut external = solid.forces(self.solid_space.functions.len(), &on_particles);
-        let mut drains = Vec::new();
-        for face in &self.water.faces {
-            match &face.acts {
-                Acts::Load(traction) => {
-                    let seen = |n: usize| unknowns.displacement[n][0] != Place::Unseen;
-                    let area = face.area(&particles.half_size) / face::Face::<D>::CORNERS as f64;
-                    let force = SVector::from(traction(self.time + dt)) * area;
-                    let space = &self.solid_space;
-                    let corners = face.corners(
-                        &space.functions,
-                        &space.originals,
-                        seen,
-                        particles,
-                        &self.pores,
-                    )?;
-                    for Corner { node, w, .. } in corners {
-                        for (node, w) in node.iter().zip(w) {
-                            external[*node] += force * w;
-                        }
-                    }
-                }
-                Acts::Drains { penalty } => {
-                    let seen = |n: usize| unknowns.pressure[n] != Place::Unseen;
-                    let space = &self.water_space;
-                    let corners = face.corners(
-                        &space.functions,
-                        &space.originals,
-                        seen,
-                        particles,
-                        &self.pores,
-                    )?;
-                    drains.extend(corners.into_iter().map(|corner| {
-                        let area = face.area(&self.pores.half_size[corner.particle]);
-                        Drain {
-                            unknown: unknowns.of(&[], &corner.node),
-                            node: corner.node,
-                            w: corner.w,
-                            rate: penalty * area / face::Face::<D>::CORNERS as f64,
-                        }
-                    }));
-                }
-            }
-        }
+        let drains = self.outside(dt, &unknowns, &mut external)?;
         let mut all = groups.clone();
         all.extend(drains.iter().map(|d| d.unknown.clone()));
         let projects = matches!(

@@ -1,12 +1,14 @@
 //! A solver before its first step.
 
 use super::face::Acts;
+use super::plate::ties;
 use super::pores::{Pores, check_width, grown, keep_before_walls};
 use super::{OfHats, PressureSpace, Settings, Solver, Space, Tangent, Water};
 use crate::error::{Error, Fault, require};
 use crate::grid::{Axis, Grid};
 use crate::implicit::held;
 use crate::implicit::linear::Direct;
+use crate::implicit::newton::Failure;
 use crate::implicit::start::moduli_of;
 use crate::material::Law;
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual, WaterBalance};
@@ -14,6 +16,7 @@ use crate::particles::Particles;
 use crate::room::Room;
 use crate::scene::Scene;
 use crate::work::{Spent, Work};
+use nalgebra::SVector;
 
 /// The grid of the pressure: of cells twice as large between the same ends, or the same.
 fn grid_of_pressure<const D: usize>(
@@ -76,7 +79,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     ///
     /// # Errors
     /// A setting, a property of the water or a particle that is not allowed; a contact, or a constraint on one side
-    /// only; a particle off the grid.
+    /// only; a particle off the grid; a face without particles or in an empty cell, a plate without nodes or on nodes
+    /// that something else holds.
     pub fn new(mut scene: Scene<D, M>, water: Water<D>, settings: Settings) -> Result<Self, Error> {
         settings.check(M::CONSERVATIVE)?;
         let contacts = scene.contacts.len();
@@ -104,6 +108,11 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let by_faces = |face: &super::Face<D>| matches!(face.acts, Acts::Drains { .. });
         let drains = drained.contains(&true) || water.faces.iter().any(by_faces);
         water.check(drains, scene.body.law.porosity())?;
+        for face in &water.faces {
+            face.check(scene.body.particles.len())?;
+        }
+        let held = held::components(&solid_space.functions, &scene);
+        let tied = ties(&water.plates, &solid_space.functions, &held)?;
         let particles = &mut scene.body.particles;
         for l in particles.half_size {
             require(
@@ -129,9 +138,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                     time: 0.0,
                     step: 0,
                     particle: particles.id[k],
-                    fault: crate::error::Fault::NonPositivePorosity(
-                        1.0 - (1.0 - water.porosity) / j,
-                    ),
+                    fault: Fault::NonPositivePorosity(1.0 - (1.0 - water.porosity) / j),
                 });
             }
         }
@@ -165,8 +172,9 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         water_space
             .functions
             .for_each_node(|node, place| nodal_pressure[node] = (water.start)(&place));
-        Ok(Self {
-            held: held::components(&solid_space.functions, &scene),
+        let solver = Self {
+            held,
+            tied,
             direct: Direct::new(settings.tangent == Tangent::Symmetric),
             time: 0.0,
             accumulated: Accumulated::default(),
@@ -185,6 +193,30 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             water,
             settings,
             work,
-        })
+        };
+        solver.check_outside()?;
+        Ok(solver)
+    }
+
+    /// Refuses faces of which the body bears less than all.
+    fn check_outside(&self) -> Result<(), Error> {
+        let [solid, water] = self.elements();
+        let dt = self.duration();
+        let unknowns = self.unknowns([&solid, &water], dt);
+        let mut forces = vec![SVector::zeros(); self.solid_space.functions.len()];
+        match self.outside(dt, &unknowns, &mut forces) {
+            Ok(_) => Ok(()),
+            Err(Failure::Particle(_, Fault::EmptyCell(share))) => require(
+                false,
+                "share of a corner of a loaded or drained face in an empty cell",
+                share,
+                "none: nodes that see no particle bear no load and let no water out",
+            ),
+            Err(Failure::Lost(what, sum, _)) => {
+                let allowed = "the whole: nodes that see no particle bear nothing";
+                require(false, what, sum, allowed)
+            }
+            Err(failure) => Err(self.error(failure)),
+        }
     }
 }

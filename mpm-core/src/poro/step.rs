@@ -270,7 +270,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         for (node, force) in trial.momentum.iter().enumerate() {
             for (a, i) in unknowns.of(&[node], &[]).into_iter().enumerate() {
                 if let Some(i) = i {
-                    residual[i] = -force[a];
+                    residual[i] -= force[a];
                 }
             }
         }
@@ -290,6 +290,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             for (j, column) in group.iter().enumerate() {
                 let Some(column) = column else { continue };
                 for (i, row) in group.iter().enumerate() {
+                    // Several components of one unknown add up.
                     if let Some(place) = row.and_then(|row| setting.pattern.place(row, *column)) {
                         values[place] += of(i, j);
                     }

@@ -10,7 +10,7 @@ use crate::material::{Hencky, ImprovedHencky};
 use crate::memory::{Memory, Memoryless};
 use crate::space::embed;
 use crate::stage::{Constraint, End, Wall, WallKind};
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 const H: f64 = 0.125;
 /// Cells of a column along its height, and across it.
@@ -35,6 +35,7 @@ const SPACES: [PressureSpace; 3] = [
 mod carried;
 mod column;
 mod ghosts;
+mod outside;
 mod response;
 mod tangent;
 
@@ -90,6 +91,11 @@ const TOP: f64 = H * HIGH as f64;
 /// Whether a reference place is in the row of particles at the top.
 fn topmost<const D: usize>(x: &[f64; D]) -> bool {
     x[D - 1] > TOP - 0.5 * H
+}
+
+/// Whether a node is at the top or above.
+fn uppermost<const D: usize>(x: &[f64; D]) -> bool {
+    x[D - 1] > TOP - 1e-9
 }
 
 /// A column under a traction on its top, through which its water leaves by a penalty.
@@ -300,21 +306,4 @@ fn a_cell_of_the_pressure_holds_two_of_the_displacement() {
     let mut scene = standing::<1, _>(porous(), straight);
     scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
     assert!(Solver::<1, Hats<1>, _>::new(scene, water(), equal).is_ok());
-}
-
-/// A face of hats that reaches into a cell without particles has a node that bears nothing.
-#[test]
-fn a_load_on_an_empty_cell_is_refused() {
-    let mut scene = standing::<1, _>(porous(), straight);
-    scene.body.particles.half_size = [0.5 * H];
-    let load = Face::loaded(&scene.body.particles, topmost, (0, End::Hi), |_| [-1.0]);
-    let water = Water::new(POROSITY, Conductivity::Constant(KAPPA)).face(load);
-    let mut solver = Solver::<1, Hats<1>, _>::new(scene, water, Settings::new(1.0)).unwrap();
-    match solver.step() {
-        Err(Error::Breakdown {
-            fault: Fault::EmptyCell(share),
-            ..
-        }) => assert!((share - 0.25).abs() < 1e-9),
-        other => panic!("{other:?}"),
-    }
 }

@@ -6,6 +6,7 @@ use crate::implicit::elements::Elements;
 use crate::implicit::unknowns::Pattern;
 use crate::particles::Particles;
 use nalgebra::SVector;
+use std::collections::BTreeMap;
 
 /// What a function counts at least, of its value and its slope over a cell, at one particle: less is rounding, of a
 /// domain that ends on a grid line.
@@ -14,7 +15,7 @@ const LEAST: f64 = 1e-12;
 /// Of a nodal value whether it is an unknown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Place {
-    /// The unknown of this number.
+    /// The unknown of this number: of several components if a plate ties them.
     Free(usize),
     /// This value (m, Pa).
     Held(f64),
@@ -28,9 +29,9 @@ pub(super) struct Unknowns<const D: usize> {
     pub(super) displacement: Vec<[Place; D]>,
     /// Of every node of the pressure.
     pub(super) pressure: Vec<Place>,
-    /// Free displacements.
+    /// Unknown displacements.
     pub(super) displacements: usize,
-    /// Free displacements and pressures.
+    /// Unknown displacements and pressures.
     pub(super) count: usize,
 }
 
@@ -47,35 +48,50 @@ fn seen<const D: usize>(elements: &Elements<D>, nodes: usize, h: f64) -> Vec<boo
     seen
 }
 
+/// The number of the next unknown.
+fn next(count: &mut usize) -> usize {
+    *count += 1;
+    *count - 1
+}
+
 impl<const D: usize> Unknowns<D> {
     /// Of functions on `elements` of the displacement and the pressure, on so many nodes and cells of these sizes (m);
-    /// held as the two functions say.
+    /// held as two functions say, while those components are one that a plate ties.
     pub(super) fn new(
         elements: [&Elements<D>; 2],
         nodes: [usize; 2],
         h: [f64; 2],
         held_displacement: impl Fn(usize, usize) -> Option<f64>,
+        tied: impl Fn(usize, usize) -> Option<usize>,
         held_pressure: impl Fn(usize) -> Option<f64>,
     ) -> Self {
         let mut count = 0;
-        let mut place = |seen: bool, held: Option<f64>| match (seen, held) {
-            (false, _) => Place::Unseen,
-            (true, Some(value)) => Place::Held(value),
-            (true, None) => {
-                count += 1;
-                Place::Free(count - 1)
-            }
-        };
         let of = |k: usize| seen(elements[k], nodes[k], h[k]);
+        // Of every plate its unknown, which the first of its nodes brings.
+        let mut plates: BTreeMap<usize, usize> = BTreeMap::new();
         let displacement: Vec<[Place; D]> = (of(0).into_iter().enumerate())
-            .map(|(n, seen)| std::array::from_fn(|a| place(seen, held_displacement(n, a))))
+            .map(|(n, seen)| {
+                std::array::from_fn(|a| match (seen, held_displacement(n, a), tied(n, a)) {
+                    (false, ..) => Place::Unseen,
+                    (true, Some(value), _) => Place::Held(value),
+                    (true, None, None) => Place::Free(next(&mut count)),
+                    (true, None, Some(plate)) => {
+                        let of_plate = plates.entry(plate);
+                        Place::Free(*of_plate.or_insert_with(|| next(&mut count)))
+                    }
+                })
+            })
             .collect();
+        let displacements = count;
         let pressure: Vec<Place> = (of(1).into_iter().enumerate())
-            .map(|(n, seen)| place(seen, held_pressure(n)))
+            .map(|(n, seen)| match (seen, held_pressure(n)) {
+                (false, _) => Place::Unseen,
+                (true, Some(value)) => Place::Held(value),
+                (true, None) => Place::Free(next(&mut count)),
+            })
             .collect();
-        let free = |place: &&Place| matches!(place, Place::Free(_));
         Self {
-            displacements: displacement.iter().flatten().filter(free).count(),
+            displacements,
             displacement,
             pressure,
             count,

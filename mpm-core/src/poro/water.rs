@@ -2,6 +2,7 @@
 //! by.
 
 use super::face::Face;
+use super::plate::Plate;
 use crate::error::{Error, require};
 use crate::number::Real;
 
@@ -63,6 +64,8 @@ pub struct Water<const D: usize> {
     pub faces: Vec<Face<D>>,
     /// Where water comes in or is taken out within the body.
     pub sources: Vec<Source<D>>,
+    /// Rigid plates.
+    pub plates: Vec<Plate<D>>,
 }
 
 impl<const D: usize> Water<D> {
@@ -77,6 +80,7 @@ impl<const D: usize> Water<D> {
             drained: Box::new(|_| false),
             faces: Vec::new(),
             sources: Vec::new(),
+            plates: Vec::new(),
         }
     }
 
@@ -121,6 +125,13 @@ impl<const D: usize> Water<D> {
         of: impl Fn(&[f64; D], [f64; 2]) -> f64 + Send + Sync + 'static,
     ) -> Self {
         self.sources.push(Box::new(of));
+        self
+    }
+
+    /// With another rigid plate.
+    #[must_use]
+    pub fn plate(mut self, plate: Plate<D>) -> Self {
+        self.plates.push(plate);
         self
     }
 

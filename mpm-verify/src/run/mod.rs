@@ -357,6 +357,13 @@ fn failure(error: &mpm_core::Error) -> Failure {
             step,
             ..before_any_step("singular", None)
         },
+        mpm_core::Error::Lost {
+            time, step, value, ..
+        } => Failure {
+            time,
+            step,
+            ..before_any_step("lost-share", finite(value))
+        },
         mpm_core::Error::Input { value, .. } => before_any_step("input", finite(value)),
         mpm_core::Error::Memory(_) => before_any_step("memory", None),
     }

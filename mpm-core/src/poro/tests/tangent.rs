@@ -26,7 +26,8 @@ fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D, I, Im
             grains: 2600.0,
             acceleration,
         })
-        .face(Face::drained(particles, topmost, top, 100.0 * KAPPA / H));
+        .face(Face::drained(particles, topmost, top, 100.0 * KAPPA / H))
+        .plate(Plate::new(D - 1, uppermost, |_| -1e3));
     let mut solver = Solver::new(scene, water, settings).unwrap();
     solver.sort();
     solver
