@@ -233,6 +233,7 @@ macro_rules! soaked {
 }
 
 soaked!(1, Hencky);
+soaked!(2, Hencky);
 soaked!(1, ImprovedHencky);
 soaked!(2, ImprovedHencky);
 

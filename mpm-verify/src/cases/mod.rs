@@ -16,6 +16,7 @@ mod footing;
 mod forms;
 mod growth;
 mod landslide;
+mod mandel;
 mod manufactured;
 mod mms_axis;
 mod mms_double_shear;
@@ -58,6 +59,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         cantilever::case(),
         discs::case(),
         terzaghi::case(),
+        mandel::case(),
         conditioning::case(),
         undrained::case(),
         mms_poro::case(),

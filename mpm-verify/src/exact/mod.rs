@@ -11,6 +11,7 @@ mod check;
 pub(crate) mod double_shear;
 mod free_fall;
 pub(crate) mod hydrostatic;
+pub mod mandel;
 mod material;
 pub(crate) mod parameters;
 mod patch;
