@@ -74,6 +74,10 @@ const DISCS: Runs = &["discs --scheme midpoint-gimp-none --set step_factor=100"]
 const COLUMN: Runs =
     &["terzaghi --scheme poro-linear-two-grid --level n20 --set first_step=0.05 --set steps=1"];
 
+/// A slab of solid and water under a plate, and a column under a load and drained by faces.
+const SLAB: Runs = &["mandel --scheme poro-linear-two-grid --level n8 --set steps=60"];
+const FACE: Runs = &["consolidation --scheme poro-gimp-equal --level n8"];
+
 /// A known motion of solid and water that crosses cells.
 const SOAKED: Runs = &[
     "mms-poro --scheme poro-gimp-two-grid --set amplitude=0.04 --level n8",
@@ -109,7 +113,7 @@ const SLOW_RATIOS: Runs = &[
     "mms-static --level n8 --set poisson_ratio=0.3",
 ];
 
-pub(crate) const FAULTS: [Fault; 47] = [
+pub(crate) const FAULTS: [Fault; 51] = [
     Fault {
         name: "a particle in equilibrium has a fiftieth more volume",
         file: "implicit/equilibrium.rs",
@@ -443,6 +447,34 @@ pub(crate) const FAULTS: [Fault; 47] = [
         sound: "change - number(1.0)",
         broken: "change * change.ln()",
         seen_by: &[(SETTLING, "water")],
+    },
+    Fault {
+        name: "a tenth of a plate's force is lost",
+        file: "poro/outside.rs",
+        sound: "force / nodes.len() as f64",
+        broken: "0.9 * force / nodes.len() as f64",
+        seen_by: &[(SLAB, "support"), (SLAB, "difference-equations")],
+    },
+    Fault {
+        name: "the nodes of a plate move each for itself",
+        file: "poro/mod.rs",
+        sound: "self.tied[node][axis]",
+        broken: "self.tied[node][axis].filter(|_| false)",
+        seen_by: &[(SLAB, "difference-equations")],
+    },
+    Fault {
+        name: "half of the drained area is lost after the first step",
+        file: "poro/outside.rs",
+        sound: "penalty * area",
+        broken: "if self.time > 0.0 { 0.5 * penalty * area } else { penalty * area }",
+        seen_by: &[(FACE, "completes")],
+    },
+    Fault {
+        name: "a tenth of a face's load is lost after the first step",
+        file: "poro/outside.rs",
+        sound: "of_corner * *w",
+        broken: "of_corner * (if self.time > 0.0 { 0.9 * *w } else { *w })",
+        seen_by: &[(FACE, "completes")],
     },
 ];
 
