@@ -301,6 +301,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             for node in ghosts.iter_mut().flat_map(|g| &mut g.node) {
                 *node = space.originals[*node];
             }
+            // A cell that rounding alone touches has nodes that are no unknowns: it would hold those beside it.
+            ghosts.retain(|g| g.node.iter().all(|node| unknowns.sees(k, *node)));
             ghosts
         });
         let mut groups: Vec<Vec<Option<usize>>> = (runs.iter())

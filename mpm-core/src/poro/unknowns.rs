@@ -98,6 +98,14 @@ impl<const D: usize> Unknowns<D> {
         }
     }
 
+    /// Whether a particle sees a node: of the displacement, the first space, or of the pressure.
+    pub(super) fn sees(&self, space: usize, node: usize) -> bool {
+        match space {
+            0 => self.displacement[node][0] != Place::Unseen,
+            _ => self.pressure[node] != Place::Unseen,
+        }
+    }
+
     /// The nodal values of displacement and pressure for the unknowns `x`.
     pub(super) fn spread(&self, x: &[f64]) -> (Vec<[f64; D]>, Vec<f64>) {
         let value = |place: Place| match place {

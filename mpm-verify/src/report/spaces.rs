@@ -10,6 +10,7 @@ type Runs = (&'static str, &'static str, &'static [&'static str]);
 const FIXED: Runs = ("terzaghi", "n40", &[]);
 const FIRST_STEP: Runs = ("terzaghi", "n20", &["first_step=0.25", "steps=1"]);
 const FINE: Runs = ("terzaghi", "n160", &[]);
+const PLATES: Runs = ("mandel", "n16", &[]);
 const MOVING: Runs = ("consolidation", "n16", &[]);
 const LOADED: Runs = ("consolidation", "n32", &["load=1"]);
 const SETTLED: Runs = ("consolidation", "n64", &[]);
@@ -49,6 +50,18 @@ pub(super) fn table() -> ResultTable {
             FIRST_STEP,
             "overshoot_first_step",
             percent(1),
+        ),
+        metric(
+            "mandel, ν = 0.25, n16: error of the pressure at the centre, over p₀",
+            PLATES,
+            "centre_pressure_error",
+            scientific(2),
+        ),
+        orders(
+            "… order in h, without that of steps",
+            PLATES.0,
+            "centre_pressure_error_space",
+            &[],
         ),
         metric(
             "consolidation, 0.3 M₀, n16: error of the settlement",
