@@ -88,11 +88,11 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
     for (x, half_size) in domains.iter() {
         let stencil = lattice.stencil(x, &half_size);
         let touched = stencil.axis.each_ref().map(|axis| B::touched(axis));
-        for k in 0..touched.iter().map(ExactSizeIterator::len).product() {
+        for k in 0..touched.iter().product() {
             let mut rest = k;
             let cell = std::array::from_fn(|a| {
-                let i = stencil.axis[a].first + touched[a].start + rest % touched[a].len();
-                rest /= touched[a].len();
+                let i = stencil.axis[a].first + rest % touched[a];
+                rest /= touched[a];
                 i
             });
             let place = cells.place(&cell);

@@ -2,12 +2,9 @@
 
 use crate::basis::{AxisWeights, BSpline, Basis, Gimp, WallTreatment};
 use crate::grid::Axis;
-use std::ops::Range;
 
 /// Most functions on an interval.
 const MOST: usize = 4;
-/// The share of a domain that rounding takes over a grid line.
-const ROUNDING: f64 = 1e-12;
 
 /// One axis' functions, interval by interval.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,9 +95,8 @@ pub trait Pieces<const S: usize>: Basis<S> {
     /// Its pieces on an axis with cells of size `h` (m).
     fn pieces(axis: &Axis, h: f64) -> AxisPieces;
 
-    /// Which intervals, counted from that of the index of the first function, a particle with these weights touches by
-    /// more than rounding.
-    fn touched(weights: &AxisWeights<S>) -> Range<usize>;
+    /// How many intervals, from that of the index of the first function, a particle with these weights touches.
+    fn touched(weights: &AxisWeights<S>) -> usize;
 }
 
 impl<const S: usize> Pieces<S> for BSpline<S> {
@@ -110,8 +106,8 @@ impl<const S: usize> Pieces<S> for BSpline<S> {
         AxisPieces::new::<S>(axis, h, 0, axis.wall_ends())
     }
 
-    fn touched(_weights: &AxisWeights<S>) -> Range<usize> {
-        0..1
+    fn touched(_weights: &AxisWeights<S>) -> usize {
+        1
     }
 }
 
@@ -124,11 +120,8 @@ impl Pieces<3> for Gimp {
         AxisPieces::new::<2>(&wide, h, 1, axis.wall_ends())
     }
 
-    /// The first and the last function slope by how far the domain reaches into their intervals.
-    fn touched(weights: &AxisWeights<3>) -> Range<usize> {
-        let [first, middle, last] = weights.dw.map(f64::abs);
-        let least = ROUNDING * first.max(middle).max(last);
-        usize::from(first <= least)..(if last <= least { 1 } else { 2 })
+    fn touched(weights: &AxisWeights<3>) -> usize {
+        if weights.dw[2] == 0.0 { 1 } else { 2 }
     }
 }
 

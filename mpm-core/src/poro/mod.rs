@@ -31,7 +31,7 @@ use crate::implicit::elements::{Elements, of_domains};
 use crate::implicit::held::{self, Held};
 use crate::implicit::linear::{self, Direct};
 use crate::implicit::newton::{Failure, clocked, in_parts};
-use crate::implicit::{Functions, Moduli, OfHats};
+use crate::implicit::{Domains, Functions, HalfSizes, Moduli, OfHats};
 use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual, Totals, WaterBalance};
@@ -44,6 +44,9 @@ use newton::Newton;
 use pores::Pores;
 use step::{Setting, Step};
 use unknowns::{Place, Unknowns};
+
+/// The share of a domain that is its own, and no rounding.
+const WITHIN: f64 = 1.0 - 1e-12;
 
 /// Functions on a grid, and of every node the one that it is an image of.
 struct Space<I> {
@@ -292,16 +295,24 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             self.settings.ghost_displacement * self.moduli.mu,
             on_all + on_increments,
         ];
+        // What a domain touches by rounding alone is not of the body: its nodes are no unknowns.
+        let within: Vec<[f64; D]> = (self.pores.half_size.iter())
+            .map(|size| size.map(|half| half * WITHIN))
+            .collect();
+        let within = Domains {
+            centre: &particles.position,
+            half_size: HalfSizes::OfEach(&within),
+        };
         let ghosts = [(0, D), (1, 1)].map(|(k, components)| {
             let space = spaces[k];
             if strengths[k] == 0.0 {
                 return Vec::new();
             }
-            let mut ghosts = space.functions.ghost(strengths[k], components, domains);
+            let mut ghosts = space.functions.ghost(strengths[k], components, within);
             for node in ghosts.iter_mut().flat_map(|g| &mut g.node) {
                 *node = space.originals[*node];
             }
-            // A cell that rounding alone touches has nodes that are no unknowns: it would hold those beside it.
+            // Such a node would hold those beside it.
             ghosts.retain(|g| g.node.iter().all(|node| unknowns.sees(k, *node)));
             ghosts
         });
