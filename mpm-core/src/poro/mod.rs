@@ -271,7 +271,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     /// What a step of `dt` (s) of the body as it is works with, under forces of loads on the particles (N).
     fn setting(&self, dt: f64, on_particles: Vec<[f64; D]>) -> Result<Setting<D>, Failure> {
         let particles = &self.scene.body.particles;
-        let domains = self.pores.domains(particles);
         let spaces = [&self.solid_space, &self.water_space];
         let [solid, water] = self.elements();
         let unknowns = self.unknowns([&solid, &water], dt);
