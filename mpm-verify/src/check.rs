@@ -142,11 +142,14 @@ pub struct Finding {
     reference: Option<f64>,
     tolerance: Option<f64>,
     holds: Option<bool>,
+    /// What the value is of the order of, if that isn't the reference.
+    scale: Option<f64>,
     source: String,
 }
 
 impl Finding {
-    /// |value − reference| ≤ tolerance.
+    /// |value − reference| ≤ tolerance. It can't be told to hold by a tolerance that lets nothing at all pass for the
+    /// reference: by one that isn't below |reference|, or below [a stated scale](Self::of_scale).
     pub(crate) fn within(
         metric: impl Into<String>,
         value: f64,
@@ -160,6 +163,7 @@ impl Finding {
             reference: Some(reference),
             tolerance: Some(tolerance),
             holds: Some((value - reference).abs() <= tolerance),
+            scale: None,
             source: source.into(),
         }
     }
@@ -177,6 +181,7 @@ impl Finding {
             reference: None,
             tolerance: Some(bound),
             holds: Some(value <= bound),
+            scale: None,
             source: source.into(),
         }
     }
@@ -202,12 +207,38 @@ impl Finding {
             reference: None,
             tolerance: None,
             holds: None,
+            scale: None,
             source: why.into(),
         }
     }
 
+    /// With what a wrong value is of the order of, where the reference is zero or what is left of two.
+    pub(crate) fn of_scale(self, scale: f64) -> Self {
+        Self {
+            scale: Some(scale),
+            ..self
+        }
+    }
+
+    /// Why it can't be told that the value is right: the tolerance is as large as what is judged.
+    fn too_wide(&self) -> Option<String> {
+        let (reference, tolerance) = self.reference.zip(self.tolerance)?;
+        let scale = self.scale.unwrap_or(reference.abs());
+        (tolerance > 0.0 && tolerance >= scale).then(|| {
+            format!("a tolerance of {tolerance:.2e} can't tell a value of the order of {scale:.2e} from none")
+        })
+    }
+
     /// As a verdict of a check of some kind.
     pub(crate) fn verdict(self, check: &str, kind: Kind) -> Verdict {
+        let outcome = match (self.holds, kind) {
+            (None, _) => Outcome::NotJudged,
+            (Some(false), _) => Outcome::Failed,
+            (Some(true), Kind::KnownLimit) => Outcome::WrongAsKnown,
+            (Some(true), _) => Outcome::Right,
+        };
+        let too_wide = self.too_wide();
+        let untold = too_wide.filter(|_| outcome != Outcome::Failed && kind != Kind::Drift);
         Verdict {
             check: check.to_owned(),
             kind,
@@ -215,13 +246,11 @@ impl Finding {
             value: self.value,
             reference: self.reference,
             tolerance: self.tolerance,
-            outcome: match (self.holds, kind) {
-                (None, _) => Outcome::NotJudged,
-                (Some(false), _) => Outcome::Failed,
-                (Some(true), Kind::KnownLimit) => Outcome::WrongAsKnown,
-                (Some(true), _) => Outcome::Right,
+            outcome: match untold {
+                Some(_) => Outcome::NotJudged,
+                None => outcome,
             },
-            source: self.source,
+            source: untold.unwrap_or(self.source),
         }
     }
 }
@@ -241,6 +270,25 @@ mod tests {
             assert!(found.clone().verdict("c", Kind::Truth).failed());
             assert!(found.verdict("c", Kind::KnownLimit).failed());
         }
+    }
+
+    #[test]
+    fn a_tolerance_as_large_as_what_is_judged_lets_nothing_pass() {
+        let judged = |found: &Finding| found.clone().verdict("c", Kind::Truth).outcome;
+        let wide = Finding::within("m", 1.9, 1.0, 1.0, "");
+        assert_eq!(judged(&wide), Outcome::NotJudged);
+        let failed = Finding::within("m", 2.1, 1.0, 1.0, "");
+        assert_eq!(judged(&failed), Outcome::Failed);
+        let sharp = Finding::within("m", 1.9, 1.0, 0.99, "");
+        assert_eq!(judged(&sharp), Outcome::Right);
+        let zero = Finding::within("m", 0.05, 0.0, 0.1, "");
+        assert_eq!(judged(&zero), Outcome::NotJudged);
+        assert_eq!(judged(&zero.clone().of_scale(1.0)), Outcome::Right);
+        assert_eq!(judged(&zero.clone().of_scale(0.1)), Outcome::NotJudged);
+        let drift = zero.verdict("c", Kind::Drift).outcome;
+        assert_eq!(drift, Outcome::Right);
+        let nothing = Finding::within("m", 0.0, 0.0, 0.0, "");
+        assert_eq!(judged(&nothing), Outcome::Right);
     }
 
     #[test]

@@ -374,8 +374,8 @@ mod tests {
                     let found = crate::check::Finding::within(
                         "displacement_l2",
                         1.234_5e-5,
-                        1.0,
-                        2.0,
+                        1.1e-5,
+                        2e-6,
                         c.statement,
                     );
                     found.verdict(c.name, c.kind)

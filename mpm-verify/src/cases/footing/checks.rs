@@ -270,7 +270,10 @@ fn flatness(record: &Record) -> Vec<Finding> {
     let (fall, growth) = FLAT;
     let (middle, half) = (0.5 * (growth - fall), 0.5 * (growth + fall));
     let why = "a perfectly plastic body has a limit load";
-    vec![judge(record, m::PLATEAU_RISE).within(middle, half, why)]
+    // That of a load which is in proportion to the penetration.
+    let elastic = 1e-3 / record.parameters.number(PENETRATION);
+    let found = judge(record, m::PLATEAU_RISE).within(middle, half, why);
+    vec![found.of_scale(elastic)]
 }
 
 /// How much of the pressure alternates from particle to particle.

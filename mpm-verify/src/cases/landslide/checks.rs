@@ -240,7 +240,7 @@ fn of_energy() -> Vec<Check> {
                     let share = r.metric(metric) / r.metric(m::FALLEN_ENERGY);
                     let band = r.discretisation.h / r.parameters.number(HEIGHT);
                     let why = "a band of cells smears what it shears over its width";
-                    return vec![Finding::within(metric, share, 0.0, band, why)];
+                    return vec![Finding::within(metric, share, 0.0, band, why).of_scale(1.0)];
                 };
                 vec![Finding::not_applicable(metric, why)]
             });
@@ -346,7 +346,7 @@ fn of_width() -> Vec<Check> {
 fn plane_strain(r: &Record) -> Vec<Finding> {
     let like = |metric: Metric, tolerance| {
         let why = "the same section in plane strain";
-        judge(r, metric).within(0.0, tolerance, why)
+        judge(r, metric).within(0.0, tolerance, why).of_scale(1.0)
     };
     let metric = m::OFF_PLANE_STRAIN_AT_REST;
     let mut found = vec![match r.remedy() {
