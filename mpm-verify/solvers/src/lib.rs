@@ -7,7 +7,7 @@ use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Serendipity};
 use mpm_core::material::{
-    Hencky, HenckyJ2, Hypoelastic, ImprovedHencky, NeoHookean, NewtonianFluid,
+    CamClay, Hencky, HenckyJ2, Hypoelastic, ImprovedHencky, NeoHookean, NewtonianFluid,
 };
 use mpm_core::poro::{self, Water};
 use mpm_core::{Error, Lattice, Law, Scene, Simulation};
@@ -236,6 +236,7 @@ soaked!(1, Hencky);
 soaked!(2, Hencky);
 soaked!(1, ImprovedHencky);
 soaked!(2, ImprovedHencky);
+soaked!(2, CamClay);
 
 fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {
     match remedy {

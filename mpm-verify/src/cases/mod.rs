@@ -33,6 +33,7 @@ mod pictures;
 mod slope_stability;
 mod standing_wave;
 mod still;
+mod strip;
 mod terzaghi;
 mod undrained;
 mod vibrating_bar;
@@ -64,6 +65,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         undrained::case(),
         mms_poro::case(),
         consolidation::case(),
+        strip::case(),
     ]
 });
 
