@@ -153,6 +153,7 @@ fn plan([h1, h2, h3, h4]: [Level; 4]) -> Vec<Family> {
         &["load_steps=80"],
     ];
     all.extend(gimp.map(|set| family(Nightly, &[h2], &schemes(&[Gimp]), set)));
+    all.extend(STRENGTHS.map(|set| family(Nightly, &[h1, h2, h3], &schemes(&[Gimp]), set)));
     // The paper's elements, points, law and stabilisation: Figures 2 to 4.
     let papers: [&'static [&'static str]; 7] = [
         &PAPER,
@@ -192,6 +193,14 @@ fn plan([h1, h2, h3, h4]: [Level; 4]) -> Vec<Family> {
     all
 }
 
+/// Ghost penalties of GIMP, beside its own.
+const STRENGTHS: [&[&str]; 5] = [
+    &["stabilisation_factor=0.0005"],
+    &["stabilisation_factor=0.005"],
+    &["stabilisation_factor=0.05"],
+    &["stabilisation_factor=0.5"],
+    &["stabilisation_factor=1"],
+];
 const EXTENDED: &[&str] = &["stabilisation=extension"];
 /// The paper's choices.
 const PAPER: [&str; 3] = ["law=jaumann-linear", "points=gauss", "stabilisation=soft"];

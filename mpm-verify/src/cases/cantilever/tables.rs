@@ -1,10 +1,10 @@
 //! Tables of its results.
 
 use super::metrics as m;
-use super::parameters::{LAW, LOAD_STEPS, STABILISATION};
+use super::parameters::{LAW, LOAD_STEPS, STABILISATION, STABILISATION_FACTOR};
 use super::reference::solution;
 use crate::record::{Record, Status};
-use crate::results::{BASIS, Column, ResultTable, fixed, percent};
+use crate::results::{BASIS, Column, Label, ResultTable, fixed, percent};
 use crate::scheme::BasisName;
 
 /// Levels and what they are called.
@@ -33,7 +33,7 @@ fn changed(r: &Record) -> String {
 }
 
 pub(super) fn all() -> Vec<ResultTable> {
-    vec![cells(), steps(), choices(), papers()]
+    vec![cells(), steps(), choices(), strengths(), papers()]
 }
 
 /// Over the cells, by basis and stabilisation.
@@ -81,6 +81,27 @@ fn choices() -> ResultTable {
         },
         &[("changed", changed)],
         columns(),
+    )
+}
+
+/// GIMP over the strength of its ghost penalty, as a share of G = E/2.
+fn strengths() -> ResultTable {
+    const ALPHA: Label = ("α_u", |r| {
+        format!("{}", 2.0 * r.parameters.number(STABILISATION_FACTOR))
+    });
+    let errors = LEVELS[..3].iter().map(|(level, title)| {
+        Column::text(format!("error of u_y, {title}"), error).of(move |r| r.level == *level)
+    });
+    let condition = Column::metric("log₁₀ condition, 0.05", m::LOG10_CONDITION, fixed(1))
+        .of(|r: &Record| r.level == "h0.05");
+    ResultTable::new(
+        "cantilever-ghosts",
+        |r| {
+            let gimp = r.basis() == BasisName::Gimp;
+            gimp && r.changes_none_but(&[STABILISATION_FACTOR.name])
+        },
+        &[ALPHA],
+        errors.chain([condition]),
     )
 }
 

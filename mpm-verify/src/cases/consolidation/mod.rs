@@ -44,6 +44,18 @@ const LOGARITHM: [&[&str]; 3] = [
     &["load=1", "volume_rate=logarithmic"],
     &["refine=1", "volume_rate=logarithmic"],
 ];
+/// Ghost penalties, on displacements, on pressures, and on both as other cases have them.
+const GHOSTS: [&[&str]; 9] = [
+    &["ghost_displacement=0.01"],
+    &["ghost_displacement=0.1"],
+    &["ghost_displacement=1"],
+    &["ghost_displacement=10"],
+    &["ghost_pressure=0.001"],
+    &["ghost_pressure=0.01"],
+    &["ghost_pressure=0.1"],
+    &["ghost_pressure=1"],
+    &["ghost_displacement=0.1", "ghost_pressure=0.01"],
+];
 const DRAINS: [&[&str]; 2] = [&["drain=100"], &["drain=1e3"]];
 
 pub(super) fn case() -> Case {
@@ -120,6 +132,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     ];
     all.extend(STEPS.map(|set| family(Pr, n16, two_grid, set)));
     all.extend(LOGARITHM.map(|set| family(Nightly, n16, two_grid, set)));
+    all.extend(GHOSTS.map(|set| family(Nightly, coarse, two_grid, set)));
     all.extend(DRAINS.map(|set| family(Nightly, coarse, &gimp, set)));
     all
 }

@@ -14,10 +14,23 @@ parameters! { pub(super) const:
         "what a step's volume changes by over its start: J̃ − 1, or J̃ ln J̃";
     DRAIN = "drain", "-", "1e4", number(1.0, 1e6, false),
         "what the drained top lets through for its pressure, over κ₀/h";
+    GHOST_DISPLACEMENT = "ghost_displacement", "-", "0", number(0.0, 10.0, false),
+        "ghost penalty of the displacement over G";
+    GHOST_PRESSURE = "ghost_pressure", "-", "0", number(0.0, 10.0, false),
+        "ghost penalty of the pressure over κ₀ Δt";
     PROJECTION = "projection", "-", "1", number(0.01, 100.0, false), "ppp: its strength times 2G";
     TOLERANCE = "tolerance", "-", "1e-10", number(1e-13, 1e-2, false),
         "residual of a converged step over what it balances";
 }
 
 /// All of them.
-pub(super) const ALL: [Parameter; 6] = [LOAD, REFINE, VOLUME_RATE, DRAIN, PROJECTION, TOLERANCE];
+pub(super) const ALL: [Parameter; 8] = [
+    LOAD,
+    REFINE,
+    VOLUME_RATE,
+    DRAIN,
+    GHOST_DISPLACEMENT,
+    GHOST_PRESSURE,
+    PROJECTION,
+    TOLERANCE,
+];

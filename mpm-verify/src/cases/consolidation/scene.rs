@@ -1,6 +1,9 @@
 //! Where the column begins.
 
-use super::parameters::{DRAIN, LOAD, LOGARITHMIC, PROJECTION, REFINE, TOLERANCE, VOLUME_RATE};
+use super::parameters::{
+    DRAIN, GHOST_DISPLACEMENT, GHOST_PRESSURE, LOAD, LOGARITHMIC, PROJECTION, REFINE, TOLERANCE,
+    VOLUME_RATE,
+};
 use crate::cases::growth;
 use crate::parameter::Parameters;
 use crate::scheme::{Scheme, SpaceName};
@@ -113,7 +116,10 @@ pub(super) fn begin(
         volume_rate,
         tangent: Tangent::Consistent,
         tolerance: parameters.number(TOLERANCE),
-        ..Settings::new(first * TIME_SCALE)
+        ..Settings::new(first * TIME_SCALE).ghosts(
+            parameters.number(GHOST_DISPLACEMENT),
+            parameters.number(GHOST_PRESSURE),
+        )
     };
     mpm_solvers::poro(spec.scheme, scene, water, settings)
 }

@@ -2,7 +2,7 @@
 
 use super::LEVELS;
 use super::metrics as m;
-use super::parameters::{DRAIN, LOAD, REFINE, VOLUME_RATE};
+use super::parameters::{DRAIN, GHOST_DISPLACEMENT, GHOST_PRESSURE, LOAD, REFINE, VOLUME_RATE};
 use crate::record::Record;
 use crate::results::{Column, Label, ResultTable, SCHEME, order, scientific, share};
 use crate::scheme::BasisName;
@@ -10,7 +10,7 @@ use crate::scheme::BasisName;
 const OF_LOAD: Label = ("load", |r| format!("{} M₀", r.parameters.text(LOAD)));
 
 pub(super) fn all() -> Vec<ResultTable> {
-    vec![cells(), linear(), drains(), water()]
+    vec![cells(), linear(), drains(), ghosts(), water()]
 }
 
 fn is_gimp(r: &Record) -> bool {
@@ -58,6 +58,21 @@ fn drains() -> ResultTable {
     });
     let shows = |r: &Record| is_gimp(r) && (r.is_default() || r.changes_only(DRAIN.name));
     ResultTable::new("consolidation-drain", shows, &[SCHEME], columns).across()
+}
+
+/// What ghost penalties cost: the settlement's error of space, and its end.
+fn ghosts() -> ResultTable {
+    const U: Label = ("α_u", |r| r.parameters.text(GHOST_DISPLACEMENT));
+    const P: Label = ("α_p", |r| r.parameters.text(GHOST_PRESSURE));
+    let errors = LEVELS[..3].iter().map(|(level, n)| {
+        let title = format!("error of settlement, n = {n}");
+        Column::metric(title, m::SETTLEMENT_ERROR_STEPS, share(3)).of(move |r| r.level == *level)
+    });
+    let shows = |r: &Record| {
+        let known = [GHOST_DISPLACEMENT.name, GHOST_PRESSURE.name];
+        r.scheme().to_string() == "poro-gimp-two-grid" && r.changes_none_but(&known)
+    };
+    ResultTable::new("consolidation-ghosts", shows, &[U, P], errors)
 }
 
 /// What both rates lose.
