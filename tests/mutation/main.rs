@@ -12,13 +12,15 @@
 )]
 
 mod faults;
+mod runs;
 
-use faults::{DRIFT, FAULTS, Fault, Runs};
+use faults::{DRIFT, FAULTS, Fault};
 use mpm_verify::cases;
 use mpm_verify::files::read_versioned;
 use mpm_verify::record::{self, Record};
 use mpm_verify::verdict::Verdict;
 use rayon::prelude::*;
+use runs::Runs;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
