@@ -149,7 +149,36 @@ impl<const D: usize, M: Law> Body<D, M> {
         saved: &Saved,
         check: impl FnOnce(&Particles<D>) -> Result<(), MemoryError>,
     ) -> Result<(), MemoryError> {
-        let (particles, states): (Particles<D>, Vec<M::State>) = saved.read("a body")?;
+        self.replace(saved.read("a body")?, check)
+    }
+
+    /// Goes on with the body of another run, of which it has the particles that were seeded first; `check` is asked before
+    /// that. See [`Simulation::take_over`](crate::Simulation::take_over).
+    ///
+    /// # Errors
+    /// As [`restore`](Self::restore).
+    pub(crate) fn go_on_with(
+        &mut self,
+        saved: &Saved,
+        check: impl FnOnce(&Particles<D>) -> Result<(), MemoryError>,
+    ) -> Result<(), MemoryError> {
+        let (mut particles, mut states): (Particles<D>, Vec<M::State>) = saved.read("a body")?;
+        MemoryError::unless_equal("states", states.len(), particles.len())?;
+        if particles.len() > self.particles.len() {
+            particles.check_whole()?;
+            let order = particles.first(self.particles.len());
+            particles.permute(&order);
+            permute(&mut states, &order);
+        }
+        particles.go_on_as(&self.particles);
+        self.replace((particles, states), check)
+    }
+
+    fn replace(
+        &mut self,
+        (particles, states): (Particles<D>, Vec<M::State>),
+        check: impl FnOnce(&Particles<D>) -> Result<(), MemoryError>,
+    ) -> Result<(), MemoryError> {
         particles.check_against(&self.particles)?;
         MemoryError::unless_equal("states", states.len(), self.states.len())?;
         check(&particles)?;

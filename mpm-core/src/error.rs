@@ -107,9 +107,10 @@ pub enum Error {
         /// What broke.
         fault: Fault,
     },
-    /// Newton's method found no equilibrium, however short the step.
+    /// Newton's method found no equilibrium, however short the step. The run stays where the last one was found, from which
+    /// another rule can go on by [`take_over`](crate::Simulation::take_over).
     #[error(
-        "step {step} (t = {time} s): no convergence, residual {residual:e} of the loads after {iteration} iterations"
+        "step {step}: no equilibrium found beyond t = {time} s, residual {residual:e} of the loads after {iteration} iterations"
     )]
     NoConvergence {
         /// Time at the start of the failed part of the step (s).
@@ -121,8 +122,11 @@ pub enum Error {
         /// The residual over that of the loads.
         residual: f64,
     },
-    /// A stiffness matrix could not be factorised, or gave no finite solution, however short the step.
-    #[error("step {step} (t = {time} s), iteration {iteration}: the stiffness matrix is singular")]
+    /// A stiffness matrix could not be factorised, or gave no finite solution, however short the step. The run stays as with
+    /// [`NoConvergence`](Self::NoConvergence).
+    #[error(
+        "step {step}: no equilibrium found beyond t = {time} s, the stiffness matrix is singular in iteration {iteration}"
+    )]
     Singular {
         /// Time at the start of the failed part of the step (s).
         time: f64,

@@ -170,6 +170,14 @@ impl<const D: usize> Particles<D> {
         for ((what, saved), (_, expected)) in self.lengths().into_iter().zip(scene.lengths()) {
             MemoryError::unless_equal(what, saved, expected)?;
         }
+        self.check_whole()
+    }
+
+    /// Checks that these could be the particles of any run: whole columns or none, every identity once.
+    pub(crate) fn check_whole(&self) -> Result<(), MemoryError> {
+        for (what, saved) in self.lengths().into_iter().filter(|(_, l)| *l > 0) {
+            MemoryError::unless_equal(what, saved, self.len())?;
+        }
         let mut seen = vec![false; self.len()];
         for id in &self.id {
             match seen.get_mut(*id as usize) {
@@ -186,7 +194,32 @@ impl<const D: usize> Particles<D> {
         Ok(())
     }
 
-    /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`.
+    /// Those that were seeded before `count`, in their order: what was seeded later is taken away.
+    pub(crate) fn first(&self, count: usize) -> Vec<u32> {
+        let places = 0..self.len() as u32;
+        places
+            .filter(|k| (self.id[*k as usize] as usize) < count)
+            .collect()
+    }
+
+    /// Makes these, of a run that ended, the particles of one that begins as `scene`: motion that only one of the two has a
+    /// column for begins at rest, or is forgotten.
+    pub(crate) fn go_on_as(&mut self, scene: &Self) {
+        let columns = [
+            (&mut self.velocity, &scene.velocity),
+            (&mut self.acceleration, &scene.acceleration),
+            (&mut self.external_force, &scene.external_force),
+            (&mut self.increment, &scene.increment),
+        ];
+        for (column, like) in columns {
+            if column.is_empty() != like.is_empty() {
+                *column = vec![[0.0; D]; like.len()];
+            }
+        }
+    }
+
+    /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`. An order of some leaves the
+    /// others out.
     pub fn permute(&mut self, order: &[u32]) {
         permute(&mut self.id, order);
         permute(&mut self.reference, order);
@@ -206,11 +239,12 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Puts a column in the order `order`; an empty column stays empty.
-pub(crate) fn permute<T: Copy + Send + Sync>(column: &mut [T], order: &[u32]) {
+/// Puts a column in the order `order`, in which entries may be left out; an empty column stays empty.
+pub(crate) fn permute<T: Copy + Send + Sync>(column: &mut Vec<T>, order: &[u32]) {
     if !column.is_empty() {
-        let before = column.to_vec();
-        let columns = (column, order);
+        let before = column.clone();
+        column.truncate(order.len());
+        let columns = (&mut column[..], order);
         for_each_piece(columns, order.len(), CHUNK, &|_, (column, order)| {
             for (entry, p) in column.iter_mut().zip(order) {
                 *entry = before[*p as usize];

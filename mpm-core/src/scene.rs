@@ -4,6 +4,7 @@ use crate::body::Body;
 use crate::contact::RigidContact;
 use crate::grid::Grid;
 use crate::material::Law;
+use crate::memory::{MemoryError, Saved};
 use crate::stage::{Constraint, Load};
 
 /// A grid, a body on it, and the loads, constraints and contacts that the scene has. How it is solved is the solver's.
@@ -56,6 +57,28 @@ impl<const D: usize, M: Law> Scene<D, M> {
             self.constraints.push(Box::new(constraint));
         }
         self
+    }
+
+    /// What the next run is handed: the body, and the sticks of the contacts, as bytes.
+    ///
+    /// # Errors
+    /// A value that has no bytes.
+    pub(crate) fn hand_over(&self, body: Saved) -> Result<Saved, MemoryError> {
+        let sticks: Vec<&[f64]> = self
+            .contacts
+            .iter()
+            .map(|c| c.sticks().as_flattened())
+            .collect();
+        Saved::of(&(body, sticks))
+    }
+
+    /// Takes the sticks of a run that ended, contact by contact as far as both have one with friction there; others begin
+    /// unstretched.
+    pub(crate) fn take_sticks(&mut self, sticks: &[Vec<f64>]) {
+        for (contact, sticks) in self.contacts.iter_mut().zip(sticks) {
+            let (rows, _) = sticks.as_chunks();
+            contact.stick((0..).zip(rows.iter().copied()));
+        }
     }
 
     /// With another contact.

@@ -77,13 +77,18 @@ pub trait Simulation<const D: usize>: Memory + Send {
     fn force_stress(&mut self) -> Vec<SymmetricTensor>;
     /// A field, one value per particle.
     fn field(&mut self, field: Field) -> Vec<f64>;
-    /// The body, particles with their states, as bytes.
+    /// The body, particles with their states, and the sticks of the contacts, as bytes.
     ///
     /// # Errors
     /// [`Error::Memory`], as [`Memory::save`].
     fn body(&self) -> Result<Saved, Error>;
-    /// Goes on with the [`body`](Self::body) of another run of the same particles, basis, remedy, transfer and kind of
-    /// law: under the stages and with the constants of this one, whose time and sums stay as they are.
+    /// Goes on with the [`body`](Self::body) of another run of the same basis, remedy, transfer and kind of law: under the
+    /// stages and with the constants of this one, whose time and sums stay as they are. Sticks go along, contact by contact
+    /// in the scenes' order.
+    ///
+    /// Explicit runs have the same particles. An implicit run may have fewer, those that were seeded first: the others are
+    /// taken away, as an excavation does. It may go on by another time rule: what a static run has not, begins at rest, and
+    /// Newmark's accelerations are those of the forces now.
     ///
     /// # Errors
     /// [`Error::Memory`], as [`Memory::restore`]; the run then stays as it was.

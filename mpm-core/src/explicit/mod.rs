@@ -212,11 +212,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
     }
 
     fn body(&self) -> Result<Saved, Error> {
-        Ok(self.save_body()?)
+        Ok(self.scene.hand_over(self.save_body()?)?)
     }
 
     fn take_over(&mut self, body: &Saved) -> Result<(), Error> {
-        Ok(self.restore_body(body)?)
+        let (body, sticks): (Saved, Vec<Vec<f64>>) = body.read("a body with its sticks")?;
+        self.restore_body(&body)?;
+        self.scene.take_sticks(&sticks);
+        Ok(())
     }
 }
 

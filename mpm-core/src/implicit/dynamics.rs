@@ -50,8 +50,11 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             .sum()
     }
 
-    /// Gives the particles the accelerations of the start, M_l a = F_ext − F_int.
+    /// Gives the particles the accelerations of the start, M_l a = F_ext − F_int, by a rule that keeps them.
     pub(super) fn start_accelerations(&mut self) -> Result<(), Failure> {
+        if !matches!(self.settings.rule, TimeRule::Newmark { .. }) {
+            return Ok(());
+        }
         self.sort();
         let dt = self.settings.dt;
         let setting = self.setting(dt);

@@ -4,9 +4,11 @@
 use super::linear::Direct;
 use super::unknowns::Pattern;
 use super::{Interpolation, Solver, contact};
+use crate::grid::Grid;
 use crate::material::Law;
 use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
+use crate::particles::Particles;
 use crate::room::Room;
 use crate::work::Work;
 
@@ -66,29 +68,47 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
 
 impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// Replaces the body by one that was saved, all of whose particles must be on the grid.
-    pub(super) fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+    fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
         let grid = *self.functions.grid();
-        self.scene.body.restore(saved, |particles| {
-            let room = Room::new(&grid, particles.half_size.map(I::beyond_wall));
-            for l in particles.half_size {
-                if !(l > 0.0 && l <= 0.5 * grid.h) {
-                    return Err(MemoryError::Value {
-                        what: "half_size",
-                        value: l,
-                        allowed: "positive, at most half a cell (m)",
-                    });
-                }
-            }
-            for x in &particles.position {
-                if room.place(&mut x.clone()).is_err() {
-                    return Err(MemoryError::Value {
-                        what: "position",
-                        value: x[0],
-                        allowed: "on the grid (m)",
-                    });
-                }
-            }
-            Ok(())
-        })
+        let body = &mut self.scene.body;
+        body.restore(saved, |particles| check::<D, I>(&grid, particles))
     }
+
+    /// Goes on with the body and the sticks of another run.
+    pub(super) fn go_on_with(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        let (body, sticks): (Saved, Vec<Vec<f64>>) = saved.read("a body with its sticks")?;
+        let (grid, scene) = (*self.functions.grid(), &mut self.scene);
+        scene
+            .body
+            .go_on_with(&body, |particles| check::<D, I>(&grid, particles))?;
+        scene.take_sticks(&sticks);
+        Ok(())
+    }
+}
+
+/// That all particles are on the grid and no larger than a cell.
+fn check<const D: usize, I: Interpolation<D>>(
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+) -> Result<(), MemoryError> {
+    let room = Room::new(grid, particles.half_size.map(I::beyond_wall));
+    for l in particles.half_size {
+        if !(l > 0.0 && l <= 0.5 * grid.h) {
+            return Err(MemoryError::Value {
+                what: "half_size",
+                value: l,
+                allowed: "positive, at most half a cell (m)",
+            });
+        }
+    }
+    for x in &particles.position {
+        if room.place(&mut x.clone()).is_err() {
+            return Err(MemoryError::Value {
+                what: "position",
+                value: x[0],
+                allowed: "on the grid (m)",
+            });
+        }
+    }
+    Ok(())
 }

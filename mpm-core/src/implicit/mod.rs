@@ -192,11 +192,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
     }
 
     fn body(&self) -> Result<Saved, Error> {
-        Ok(self.scene.body.save()?)
+        Ok(self.scene.hand_over(self.scene.body.save()?)?)
     }
 
     fn take_over(&mut self, body: &Saved) -> Result<(), Error> {
-        Ok(self.restore_body(body)?)
+        self.go_on_with(body)?;
+        let started = self.start_accelerations();
+        started.map_err(|failure| self.error(failure))
     }
 }
 

@@ -98,10 +98,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             scene,
             settings,
         };
-        if let TimeRule::Newmark { .. } = settings.rule {
-            let started = solver.start_accelerations();
-            started.map_err(|failure| solver.error(failure))?;
-        }
+        let started = solver.start_accelerations();
+        started.map_err(|failure| solver.error(failure))?;
         Ok(solver)
     }
 }

@@ -37,6 +37,7 @@ mod damping;
 mod dynamics;
 mod friction;
 mod stiffness;
+mod take_over;
 
 /// Two places in a cell, in shares of it.
 #[derive(Clone, Copy)]

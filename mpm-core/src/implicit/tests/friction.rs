@@ -7,14 +7,14 @@ use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
 use crate::simulation::Part;
 use crate::stage::Gravity;
 
-const MU: f64 = 0.3;
+pub(super) const MU: f64 = 0.3;
 /// Mass of a block (kg/m), whose weight is that of a gravity of 1 m/s² across the slope.
-const MASS: f64 = 1e3 * (H * CELLS as f64) * (H * CELLS as f64);
+pub(super) const MASS: f64 = 1e3 * (H * CELLS as f64) * (H * CELLS as f64);
 /// Of the particles that touch the slope, each bears this at half of the barrier's distance (N/m).
 const EACH: f64 = MASS / (2 * CELLS) as f64;
-const TOLERANCE: f64 = 1e-12;
-const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.1 };
-const NEWMARK: TimeRule = TimeRule::Newmark {
+pub(super) const TOLERANCE: f64 = 1e-12;
+pub(super) const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.1 };
+pub(super) const NEWMARK: TimeRule = TimeRule::Newmark {
     alpha: 0.25,
     delta: 0.5,
 };
@@ -73,12 +73,12 @@ fn the_tangent_of_a_slip_is_the_slope_of_its_forces() {
 }
 
 /// The stiffness of a stick (N/m), as that of the barrier where it works.
-fn stick(barrier: Barrier) -> f64 {
+pub(super) fn stick(barrier: Barrier) -> f64 {
     barrier.stiffness(0.5 * DISTANCE)
 }
 
 /// A block on a slope whose tangent is `slope` from the time one (s) on and zero before, with 1 m/s² across it.
-fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Settings) -> Block {
+pub(super) fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Settings) -> Block {
     let axes = [Axis::open(0.0, 8 * CELLS), Axis::open(0.0, CELLS + 4)];
     let mut scene = filled(axes, CELLS, Places::Uniform, rubber());
     for x in &mut scene.body.particles.position {
@@ -97,7 +97,7 @@ fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Settings) -> 
     Solver::new(scene, settings).unwrap()
 }
 
-fn coulomb(stiffness: f64) -> Friction {
+pub(super) fn coulomb(stiffness: f64) -> Friction {
     Friction::new(MU, stiffness).unwrap()
 }
 
@@ -109,7 +109,7 @@ fn resting(slope: f64) -> Block {
 }
 
 /// Static steps until one finds equilibrium as it is: particles that have moved see other values of the functions.
-fn settle(solver: &mut Block) {
+pub(super) fn settle(solver: &mut Block) {
     for _ in 0..20 {
         solver.step().unwrap();
         if solver.convergence().unwrap().residuals.len() == 1 {
@@ -131,7 +131,7 @@ fn go_on(solver: &mut Block, rule: TimeRule, dt: f64) {
 }
 
 /// By id.
-fn places(solver: &Block) -> Vec<[f64; 2]> {
+pub(super) fn places(solver: &Block) -> Vec<[f64; 2]> {
     let particles = solver.particles();
     let mut places = vec![[0.0; 2]; particles.len()];
     for (id, x) in particles.id.iter().zip(&particles.position) {
@@ -168,6 +168,19 @@ fn below_the_angle_of_friction_a_block_rests_and_does_not_creep() {
     }
 }
 
+/// No stick holds more than μ times what its particle presses.
+fn slips_within_coulombs_law(solver: &Block) {
+    let contact = &solver.scene.contacts[0];
+    let friction = contact.friction().unwrap();
+    let particles = solver.particles();
+    for (x, id) in particles.position.iter().zip(&particles.id) {
+        let gap = contact.face().gap(x).unwrap();
+        let held = friction.stiffness() * contact.sticks()[*id as usize][0].abs();
+        let normal = contact.barrier().force(gap);
+        assert!(held <= MU * normal * (1.0 + 1e-9), "{held} {normal}");
+    }
+}
+
 /// Σ friction is μ Σ N where all particles slip. So the mean acceleration along the slope is g_x − μ (g_y + Δv_y/T), and a
 /// block that stays on the face swings by no more than a fall of 1/ω from rest gives, ω² = ΣB″/m: |Δv_y| ≤ 2 g_y/ω.
 #[test]
@@ -187,6 +200,7 @@ fn beyond_the_angle_of_friction_a_block_slides_at_its_acceleration() {
         let impulse = solver.on(Part::Contact(0)).impulse;
         for _ in 0..steps {
             solver.step().unwrap();
+            slips_within_coulombs_law(&solver);
             let convergence = solver.convergence().unwrap();
             assert_eq!(convergence.parts, 1);
             let order = |r: &[f64]| (r[2] / r[1]).ln() / (r[1] / r[0]).ln();
