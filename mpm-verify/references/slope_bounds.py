@@ -2,8 +2,8 @@
 
 Plane strain, shear strength c = 1 (Tresca), height H = 1, the face at the given
 angle from the toe (0, 0), a level crest, a firm and rough base at the level of
-the toe.  The soil ends at a rough wall, two faces behind the edge of the crest, out of reach of
-the mechanism.  The unit weight at collapse, gamma H / c, is bounded by second-order
+the toe.  A vertical face may cut the toe away up to the height `cut`.  The soil ends at a
+rough wall, two faces behind the edge of the crest, out of reach of the mechanism.  The unit weight at collapse, gamma H / c, is bounded by second-order
 cone programs on triangles, four per cell of a grid of which the face is a diagonal:
 
   lower  stresses linear in each triangle, in equilibrium, their tractions
@@ -17,6 +17,7 @@ Both are rigorous up to the residuals of the solver, which are given.  The mesh
 has `cells` of them over the height.
 
     python slope_bounds.py --angle 45 --cells 16     both bounds, JSON on stdout
+    python slope_bounds.py --cut 0.2 --cells 20      of a slope whose toe is cut away
     python slope_bounds.py --regenerate              rewrite slope_bounds.json
 """
 
@@ -34,10 +35,13 @@ DATA = Path(__file__).with_name("slope_bounds.json")
 class Mesh:
     """Triangles, their areas and gradients, and the sides between them."""
 
-    def __init__(self, angle, cells):
+    def __init__(self, angle, cells, cut):
+        self.cut = round(cut * cells)
+        if abs(self.cut - cut * cells) > 1e-9:
+            raise SystemExit(f"a cut of {cut} does not end on a line of {cells} cells")
         corners = []
         for j in range(cells):
-            for i in range(j, 3 * cells):
+            for i in range(max(j, self.cut), 3 * cells):
                 a, b, c, d = (i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)
                 m = (i + 0.5, j + 0.5)
                 corners += [(a, b, m), (b, c, m)]
@@ -64,7 +68,8 @@ class Mesh:
             e, k, m = uses[0]
             d = self.x[e, m] - self.x[e, k]
             (i0, j0), (i1, j1) = self.grid[e, k], self.grid[e, m]
-            free = (i0 == j0 and i1 == j1 or j0 == j1 == self.cells) and len(uses) == 1
+            face = i0 == j0 and i1 == j1 or i0 == i1 == self.cut and max(j0, j1) <= self.cut
+            free = (face or j0 == j1 == self.cells) and len(uses) == 1
             other = [(uses[1][0], uses[1][n]) for n in (2, 1)] if len(uses) == 2 else [None] * 2
             length = np.hypot(*d)
             yield d / length, length, free, list(zip([(e, k), (e, m)], other))
@@ -158,10 +163,10 @@ def upper(mesh):
     return solve(cost, equal, below, cone)
 
 
-def bounds(angle, cells):
-    mesh = Mesh(angle, cells)
+def bounds(angle, cells, cut):
+    mesh = Mesh(angle, cells, cut)
     names = ("lower", "upper")
-    found = {"angle": angle, "cells": cells}
+    found = {"angle": angle, "cells": cells, "cut": cut}
     for name, bound in zip(names, (lower, upper)):
         found[name], found[f"{name}_residual"] = bound(mesh)
     return found
@@ -171,13 +176,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--angle", type=float, default=45.0, help="angle of the face (degrees)")
     parser.add_argument("--cells", type=int, default=16, help="cells over the height")
+    parser.add_argument("--cut", type=float, default=0.0, help="height of the vertical cut over that of the slope")
     parser.add_argument("--regenerate", action="store_true", help="rewrite slope_bounds.json")
     arguments = parser.parse_args()
     if arguments.regenerate:
-        meshes = [bounds(45.0, cells) for cells in (8, 16, 24)]
+        meshes = [bounds(45.0, cells, 0.0) for cells in (8, 16, 24)]
+        meshes += [bounds(45.0, cells, 0.2) for cells in (10, 15, 20)]
         DATA.write_text(json.dumps(meshes, indent=2) + "\n")
     else:
-        print(json.dumps(bounds(arguments.angle, arguments.cells)))
+        print(json.dumps(bounds(arguments.angle, arguments.cells, arguments.cut)))
 
 
 if __name__ == "__main__":

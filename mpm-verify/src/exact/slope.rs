@@ -52,6 +52,10 @@
 //! Taylor (1937), "Stability of earth slopes", J. Boston Soc. Civ. Eng. 24(3), 197–246; Taylor (1948),
 //! *Fundamentals of Soil Mechanics*.
 
+mod sliding;
+
+pub use sliding::Sliding;
+
 use crate::error::Error;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -369,6 +373,18 @@ struct Candidate {
     circle: Circle,
 }
 
+/// A mechanism of a family.
+trait Ranked: Copy {
+    /// What the best one has least of.
+    fn number(&self) -> f64;
+}
+
+impl Ranked for Candidate {
+    fn number(&self) -> f64 {
+        self.number
+    }
+}
+
 /// How finely each parameter is searched.
 #[derive(Debug, Clone, Copy)]
 struct Search {
@@ -388,13 +404,13 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl Search {
     /// The best of a one-parameter family, the ends of its range among them.
-    fn least(self, [from, to]: [f64; 2], family: impl Fn(f64) -> Candidate) -> Candidate {
+    fn least<C: Ranked>(self, [from, to]: [f64; 2], family: impl Fn(f64) -> C) -> C {
         let step = (to - from) / f64::from(self.samples);
         let at = |i: u32| from + f64::from(i) * step;
         let (mut best, mut place) = (family(to), self.samples);
         for i in 0..self.samples {
             let candidate = family(at(i));
-            if candidate.number < best.number {
+            if candidate.number() < best.number() {
                 (best, place) = (candidate, i);
             }
         }
@@ -406,12 +422,12 @@ impl Search {
     }
 
     /// Golden sections of a bracket.
-    fn sections(self, [mut a, mut b]: [f64; 2], family: impl Fn(f64) -> Candidate) -> Candidate {
+    fn sections<C: Ranked>(self, [mut a, mut b]: [f64; 2], family: impl Fn(f64) -> C) -> C {
         let low = |a: f64, b: f64| b - GOLDEN * (b - a);
         let high = |a: f64, b: f64| a + GOLDEN * (b - a);
         let (mut left, mut right) = (family(low(a, b)), family(high(a, b)));
         for _ in 0..self.sections {
-            if left.number < right.number {
+            if left.number() < right.number() {
                 b = high(a, b);
                 (left, right) = (family(low(a, b)), left);
             } else {
@@ -423,8 +439,8 @@ impl Search {
     }
 }
 
-fn better(a: Candidate, b: Candidate) -> Candidate {
-    if b.number < a.number { b } else { a }
+fn better<C: Ranked>(a: C, b: C) -> C {
+    if b.number() < a.number() { b } else { a }
 }
 
 /// Refuses what is not positive and finite.

@@ -102,6 +102,7 @@ fn the_critical_circle_of_45_degrees_is_that_of_an_independent_search() {
 #[derive(serde::Deserialize)]
 struct Bounds {
     angle: f64,
+    cut: f64,
     lower: f64,
     upper: f64,
 }
@@ -111,9 +112,10 @@ struct Bounds {
 fn the_number_is_between_the_bounds_of_finite_elements() {
     let text = include_str!("../../../references/slope_bounds.json");
     let bounds: Vec<Bounds> = serde_json::from_str(text).unwrap();
-    assert_eq!(bounds.len(), 3);
+    assert_eq!(bounds.iter().filter(|b| b.cut > 0.0).count(), 3);
+    assert_eq!(bounds.len(), 6);
     for b in bounds {
-        let n = number(b.angle, 1.0);
+        let n = slope(b.angle, 1.0).cut(b.cut).unwrap().stability_number();
         assert!(b.lower < n && n < b.upper, "{} {n} {}", b.lower, b.upper);
         near(n, b.lower, 0.02 * n);
     }
