@@ -12,7 +12,7 @@ pub(crate) struct Fault {
     pub(crate) seen_by: &'static [(Runs, &'static str)],
 }
 
-pub(crate) const FAULTS: [Fault; 54] = [
+pub(crate) const FAULTS: [Fault; 58] = [
     Fault {
         name: "a particle in equilibrium has a fiftieth more volume",
         file: "implicit/equilibrium.rs",
@@ -395,6 +395,34 @@ pub(crate) const FAULTS: [Fault; 54] = [
         sound: "volume - trial.volume - multiplier * here.excess",
         broken: "volume - trial.volume - number(0.5) * multiplier * here.excess",
         seen_by: &[(UNIFORM_CLAY, "uniform-clay")],
+    },
+    Fault {
+        name: "strength in a straight line never falls",
+        file: "material/strength.rs",
+        sound: "difference - T::splat(slope) * plastic_strain",
+        broken: "difference - T::splat(slope) * T::default()",
+        seen_by: &[(CUT_TWICE, "peak-does-not-fail")],
+    },
+    Fault {
+        name: "flow is said to dissipate what strength no longer holds",
+        file: "material/strength.rs",
+        sound: "until * (difference - 0.5 * slope * until)",
+        broken: "until * difference",
+        seen_by: &[(CUT, "no-energy-gain")],
+    },
+    Fault {
+        name: "a stage begins with ground that was never loaded",
+        file: "body.rs",
+        sound: "self.replace((particles, states), check)",
+        broken: "self.replace((particles, self.states.clone()), check)",
+        seen_by: &[(CUT, "flow")],
+    },
+    Fault {
+        name: "a base holds twice what Coulomb's law allows",
+        file: "contact/friction.rs",
+        sound: "self.mu * normal / self.stiffness",
+        broken: "2.0 * self.mu * normal / self.stiffness",
+        seen_by: &[(SLIPPERY, "coulomb")],
     },
 ];
 

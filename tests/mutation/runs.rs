@@ -82,6 +82,16 @@ pub(crate) const UNIFORM_CLAY: Runs = &[
     "strip --set duration=1e10 --set half_width=5 --set law=cam-clay --set load=1e5 --set steps=40 --level b2",
 ];
 
+/// A slope whose toe is cut away: with softening and without, and on a base as slippery as ice.
+pub(crate) const CUT: Runs = &["excavation --scheme midpoint-gimp-none --level h0.1"];
+pub(crate) const CUT_TWICE: Runs = &[
+    "excavation --scheme midpoint-gimp-none --level h0.1",
+    "excavation --scheme midpoint-gimp-none --level h0.1 --set residual=5e3",
+];
+pub(crate) const SLIPPERY: Runs = &[
+    "excavation --scheme quasi-static-gimp-none --level h0.1 --set base=friction --set friction=0.05 --set residual=5e3",
+];
+
 /// A known motion of solid and water that crosses cells.
 pub(crate) const SOAKED: Runs = &[
     "mms-poro --scheme poro-gimp-two-grid --set amplitude=0.04 --level n8",

@@ -223,7 +223,7 @@ fn values_that_cannot_go_together_are_refused() {
     }
     refused(
         &["verify", "--tier", "quick", "--shard", "1/90"],
-        &["tier quick has 24 runs for 90 shards"],
+        &["tier quick has", "runs for 90 shards"],
     );
     refused(
         &["verify", "--tier", "quick", "--shard", "3/2"],

@@ -7,7 +7,8 @@ use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Serendipity};
 use mpm_core::material::{
-    CamClay, Hencky, HenckyJ2, Hypoelastic, ImprovedHencky, NeoHookean, NewtonianFluid,
+    CamClay, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, NeoHookean,
+    NewtonianFluid,
 };
 use mpm_core::poro::{self, Water};
 use mpm_core::{Error, Lattice, Law, Scene, Simulation};
@@ -171,6 +172,8 @@ implicit_solvers!(2, NewtonianFluid, [Gimp: Lattice<2, 3, Gimp>, Bspline2: Latti
 implicit_solvers!(1, NewtonianFluid, []);
 implicit_solvers!(3, NewtonianFluid, []);
 implicit_solvers!(3, NeoHookean, [Gimp: Lattice<3, 3, Gimp>, Bspline2: Lattice<3, 3, QuadraticBSpline>]);
+implicit_solvers!(2, HenckyJ2, [Gimp: Lattice<2, 3, Gimp>, Bspline2: Lattice<2, 3, QuadraticBSpline>]);
+implicit_solvers!(2, HypoelasticJ2, [Gimp: Lattice<2, 3, Gimp>]);
 implicit_solvers!(2, Hypoelastic, [Bspline2: Lattice<2, 3, QuadraticBSpline>, Q8: Serendipity]);
 
 /// A law with the solvers of solid and water that are compiled for it.

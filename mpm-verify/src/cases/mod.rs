@@ -11,6 +11,7 @@ mod consolidation;
 mod cook;
 mod dam_break;
 mod discs;
+mod excavation;
 mod family;
 mod footing;
 mod forms;
@@ -59,6 +60,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         standing_wave::case(),
         cantilever::case(),
         discs::case(),
+        excavation::case(),
         terzaghi::case(),
         mandel::case(),
         conditioning::case(),
