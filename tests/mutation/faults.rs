@@ -12,7 +12,7 @@ pub(crate) struct Fault {
     pub(crate) seen_by: &'static [(Runs, &'static str)],
 }
 
-pub(crate) const FAULTS: [Fault; 58] = [
+pub(crate) const FAULTS: [Fault; 59] = [
     Fault {
         name: "a particle in equilibrium has a fiftieth more volume",
         file: "implicit/equilibrium.rs",
@@ -30,6 +30,13 @@ pub(crate) const FAULTS: [Fault; 58] = [
         sound: "self.external(self.time + place * dt, &setting.elements)",
         broken: "self.external(self.time + 0.9 * place * dt, &setting.elements)",
         seen_by: &[(MEMBRANE, "static-reaction")],
+    },
+    Fault {
+        name: "held nodes go a sixth further in a step than what holds them",
+        file: "implicit/held.rs",
+        sound: "(at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0",
+        broken: "(at(0.0) + 5.0 * at(0.5) + at(1.0)) / 6.0",
+        seen_by: &[(PRESSED, "elastic-slope")],
     },
     Fault {
         name: "F-bar in variational form averages nothing",

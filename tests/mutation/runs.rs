@@ -42,6 +42,9 @@ pub(crate) const BAR_CONSISTENT: Runs = &[
 pub(crate) const FOOTING: Runs = &[
     "footing --remedy fbar-rate --level b10 --set domain_width=3 --set domain_depth=3 --set penetration=0.0025",
 ];
+/// Elastic, in equilibrium: what a held node's increment is shows in the slope.
+pub(crate) const PRESSED: Runs =
+    &["footing --solver quasi-static --level b10 --set undrained_strength=1e6 --set load_steps=4"];
 pub(crate) const BARRIER: Runs = &[
     "footing --remedy fbar-rate --level b10 --set domain_width=3 --set domain_depth=3 --set penetration=0.0025 --set contact=barrier",
 ];

@@ -58,6 +58,11 @@ impl<const D: usize> Obstacle<D> {
         }
     }
 
+    /// Whether it moves in the step.
+    pub(super) fn moves(&self) -> bool {
+        self.carried.iter().any(|moved| *moved != 0.0)
+    }
+
     /// Gap (m) to what lies at `x` (m), if it lies before the face.
     fn gap(&self, x: &SVector<f64, D>) -> Option<f64> {
         self.face.gap(&(x - self.moved).into())

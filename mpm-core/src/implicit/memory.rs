@@ -37,16 +37,26 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
             stages,
             contacts?,
             &self.direct.pattern,
+            &self.advance.concat(),
         ))
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        type All = (Saved, Sums, (Vec<Saved>, Vec<Saved>), Vec<Saved>, Pattern);
-        let (body, sums, (loads, constraints), contacts, pattern): All =
+        type All = (
+            Saved,
+            Sums,
+            (Vec<Saved>, Vec<Saved>),
+            Vec<Saved>,
+            Pattern,
+            Vec<f64>,
+        );
+        let (body, sums, (loads, constraints), contacts, pattern, advance): All =
             saved.read("a quasi-static solver")?;
         let (time, accumulated, residual, convergence, work, reactions) = sums;
         MemoryError::unless_equal("constraints", reactions.len(), self.reactions.len())?;
         MemoryError::unless_equal("nodes", work.nodes as usize, self.functions.len())?;
+        let steps = usize::from(!advance.is_empty()) * self.functions.len() * D;
+        MemoryError::unless_equal("increments of nodes", advance.len(), steps)?;
         self.restore_body(&body)?;
         restore_all("loads", &mut self.scene.loads, &loads)?;
         restore_all("constraints", &mut self.scene.constraints, &constraints)?;
@@ -62,6 +72,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
         self.reactions = reactions;
         self.direct = Direct::new(contact::is_symmetric(&self.scene));
         self.direct.pattern = pattern;
+        self.advance = advance.as_chunks().0.to_vec();
         Ok(())
     }
 }

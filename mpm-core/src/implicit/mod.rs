@@ -72,6 +72,8 @@ pub struct Solver<const D: usize, I, M: Law> {
     held: Vec<[Option<Held>; D]>,
     moduli: Moduli,
     direct: Direct,
+    /// Increments of the nodes in the last part of a step, over its duration (m/s); empty before it.
+    advance: Vec<[f64; D]>,
     time: f64,
     accumulated: Accumulated,
     residual: Residual,
@@ -294,6 +296,17 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         elements.forces(self.functions.len(), &particles.external_force)
     }
 
+    /// The increments (m) that a static step of `dt` (s) is looked for from: where something rigid moves, those of the
+    /// step before, as a body that flows goes on to; else none.
+    fn guess(&self, setting: &Setting<D>, dt: f64) -> Option<Vec<f64>> {
+        let unknowns = &setting.unknowns;
+        let pushed = setting.obstacles.iter().any(Obstacle::moves);
+        let moves = pushed || unknowns.held.iter().flatten().any(|u| *u != 0.0);
+        let goes_on = moves && self.settings.rule == TimeRule::Static && !self.advance.is_empty();
+        let rates = unknowns.node.iter().flat_map(|node| self.advance[*node]);
+        goes_on.then(|| rates.map(|rate| rate * dt).collect())
+    }
+
     /// What rounding of a stress by some last bits of the modulus of pressure waves makes of the forces, in their norm (N):
     /// a nearly incompressible body has no smaller residual.
     fn rounding(&self, elements: &Elements<D>) -> f64 {
@@ -327,6 +340,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             step: setting.step(&self.scene.body, place * dt),
             settings: &self.settings,
             rounding,
+            guess: self.guess(&setting, dt),
             external: &driving,
             pattern: &setting.pattern,
             direct: &mut self.direct,
@@ -340,6 +354,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let places = self.places_after(&setting.elements, end)?;
         self.accelerate(&setting, &solution, &external, dt)?;
         self.observe(&setting, &solution, end, [&earlier, &external], dt);
+        self.advance = end.u.iter().map(|u| u.map(|u| u / dt)).collect();
         self.commit(end, &places, dt);
         self.stick(&end.pushes);
         self.convergence = solution.convergence;

@@ -111,6 +111,8 @@ pub(super) struct Newton<'a, const D: usize, M: Law> {
     pub(super) settings: &'a Settings,
     /// Norm of the residual (N) that rounding of the stresses leaves.
     pub(super) rounding: f64,
+    /// Increments of the unknowns (m) to begin from, if they are nearer to equilibrium than none; held ones keep theirs.
+    pub(super) guess: Option<Vec<f64>>,
     /// External forces on the nodes (N), and in dynamics what the particles bring along.
     pub(super) external: &'a [SVector<f64, D>],
     pub(super) pattern: &'a Pattern,
@@ -173,6 +175,30 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         (residual, loads.max(held.sqrt()))
     }
 
+    /// The increments to begin from, of those `rest` and the guess, and their trial: what is nearer to equilibrium.
+    /// Functions that hardly see material can have moved far, and are no guide.
+    fn beginning(
+        &mut self,
+        rest: Vec<f64>,
+        start: f64,
+    ) -> Result<(Vec<f64>, Trial<D>), (usize, Fault)> {
+        let guess = self.guess.take();
+        let mut begin = |u: Vec<f64>| {
+            let held = self.step.unknowns.held.iter().zip(u);
+            let u: Vec<f64> = held.map(|(held, u)| held.unwrap_or(u)).collect();
+            let trial = self.trial(&u)?;
+            let size = norm(&self.residual(&trial, start).0);
+            Ok((size, u, trial))
+        };
+        let plain = begin(rest);
+        let found = match guess.map(begin) {
+            Some(Ok(guess)) if plain.as_ref().is_ok_and(|plain| plain.0 <= guess.0) => plain,
+            Some(Ok(guess)) => Ok(guess),
+            _ => plain,
+        };
+        found.map(|(_, u, trial)| (u, trial))
+    }
+
     /// Solves the step.
     ///
     /// # Errors
@@ -182,9 +208,7 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         let at_rest = self.trial(&rest)?;
         let start = norm(&self.step.free(&at_rest.internal));
         let before = at_rest;
-        let held = self.step.unknowns.held.iter();
-        let mut u: Vec<f64> = held.map(|held| held.unwrap_or(0.0)).collect();
-        let mut trial = self.trial(&u)?;
+        let (mut u, mut trial) = self.beginning(rest, start)?;
         let (mut residual, mut loads) = self.residual(&trial, start);
         let mut convergence = Convergence::default();
         let mut last = vec![0.0; u.len()];

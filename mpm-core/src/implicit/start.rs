@@ -87,6 +87,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             held: held::components(&functions, &scene),
             moduli,
             direct: Direct::new(contact::is_symmetric(&scene)),
+            advance: Vec::new(),
             time: 0.0,
             accumulated: Accumulated::default(),
             residual: Residual::default(),

@@ -36,6 +36,7 @@ mod contact;
 mod damping;
 mod dynamics;
 mod friction;
+mod guess;
 mod stiffness;
 mod take_over;
 
@@ -288,8 +289,8 @@ fn bits<const D: usize, I: Interpolation<D>, M: Law>(solver: &Solver<D, I, M>) -
     places.chain(stress).map(f64::to_bits).collect()
 }
 
-/// Ground between walls that yields under its weight.
-fn loaded(remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
+/// Ground between walls that yields.
+fn ground() -> Scene<2, HenckyJ2> {
     let strength = Strength::softening(2e3, 1e3, 1.0).unwrap();
     let law = HenckyJ2::new(YOUNG, POISSON, strength).unwrap();
     let axes = [
@@ -301,13 +302,24 @@ fn loaded(remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
         end,
         kind: WallKind::Roller,
     };
-    let scene = filled(axes, 8, Places::Uniform, law)
-        .constrain_all([roller(0, End::Lo), roller(0, End::Hi), roller(1, End::Lo)])
-        .load(BodyForce(Box::new(|_, t| [0.0, -4.0 * t])));
+    filled(axes, 8, Places::Uniform, law).constrain_all([
+        roller(0, End::Lo),
+        roller(0, End::Hi),
+        roller(1, End::Lo),
+    ])
+}
+
+fn in_two_steps(scene: Scene<2, HenckyJ2>, remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
     let settings = Settings::new(0.5)
         .remedy(remedy)
         .stabilised(Stabilisation::Ghost(0.01));
     Solver::new(scene, settings).unwrap()
+}
+
+/// The ground under its weight.
+fn loaded(remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
+    let weight = BodyForce(Box::new(|_, t| [0.0, -4.0 * t]));
+    in_two_steps(ground().load(weight), remedy)
 }
 
 #[test]

@@ -132,6 +132,21 @@ pub(super) fn implicit_settings(
     })
 }
 
+/// Whether a static step has found equilibrium. One that has not leaves the body as it was.
+///
+/// # Errors
+/// It failed for another reason.
+pub(super) fn finds_equilibrium(
+    step: Result<(), mpm_core::Error>,
+) -> Result<bool, mpm_core::Error> {
+    use mpm_core::Error::{Breakdown, NoConvergence, Singular};
+    match step {
+        Ok(()) => Ok(true),
+        Err(NoConvergence { .. } | Singular { .. } | Breakdown { .. }) => Ok(false),
+        Err(other) => Err(other),
+    }
+}
+
 /// Where particles are.
 pub(super) fn position_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
     let axes = ["x", "y", "z"].into_iter().take(D).enumerate();

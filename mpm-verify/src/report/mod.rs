@@ -14,6 +14,7 @@ mod junit;
 pub mod keep;
 mod price;
 mod remedies;
+mod rivals;
 mod rows;
 pub mod shown;
 pub mod single;

@@ -1,4 +1,4 @@
-//! What the errors of two motions cost, by explicit steps and by implicit ones of several lengths.
+//! What the errors of some problems cost, by explicit steps and by implicit ones of several lengths.
 
 use crate::draw::{Chart, Dash, Marker, Scale, Series, draw_charts};
 use crate::error::Error;
@@ -9,8 +9,6 @@ use std::path::Path;
 
 /// File of the picture, without its ending.
 pub(super) const NAME: &str = "solvers";
-/// What is compared.
-const ERROR: &str = "displacement_l2";
 /// One curve each.
 const MARKERS: [Marker; 4] = [
     Marker::Circle,
@@ -19,30 +17,50 @@ const MARKERS: [Marker; 4] = [
     Marker::Diamond,
 ];
 
-/// A motion, with the functions and the remedy to take for it.
-struct Motion {
+/// A problem, with the functions and the remedy to take for it.
+struct Problem {
     case: &'static str,
     basis: BasisName,
     remedy: RemedyName,
     title: &'static str,
+    /// What is compared, and what it is called.
+    error: (&'static str, &'static str),
 }
 
-const MOTIONS: [Motion; 2] = [
-    Motion {
+const MOTION: (&str, &str) = ("displacement_l2", "rms error of u (m)");
+
+const PROBLEMS: [Problem; 4] = [
+    Problem {
         case: "mms-axis",
         basis: BasisName::Bspline2,
         remedy: RemedyName::None,
         title: "A wave that steps follow (ν = 0.3)",
+        error: MOTION,
     },
-    Motion {
+    Problem {
         case: "mms-vortex-box",
         basis: BasisName::Gimp,
         remedy: RemedyName::FbarConsistent,
         title: "A vortex, slow beside its waves (ν = 0.4999)",
+        error: MOTION,
+    },
+    Problem {
+        case: "footing",
+        basis: BasisName::Gimp,
+        remedy: RemedyName::FbarConsistent,
+        title: "Clay under a footing, to its limit load (ν = 0.49)",
+        error: ("prandtl_error", "error of N_c by B"),
+    },
+    Problem {
+        case: "slope-stability",
+        basis: BasisName::Gimp,
+        remedy: RemedyName::FbarConsistent,
+        title: "A slope, its strength reduced until it fails",
+        error: ("factor_error", "error of the factor"),
     },
 ];
 
-impl Motion {
+impl Problem {
     /// Which curve a run is on, if it is on any: explicit with the case's own step, or implicit with one of its own.
     fn curve(&self, r: &Record) -> Option<String> {
         let own = r.case == self.case && r.basis() == self.basis && r.remedy() == self.remedy;
@@ -51,7 +69,8 @@ impl Motion {
             None if changed.is_empty() && r.transfer().to_string() == "flip" => "explicit",
             Some(RuleName::Midpoint) => "midpoint",
             Some(RuleName::Newmark) => "newmark",
-            _ => return None,
+            Some(RuleName::QuasiStatic) => "quasi-static",
+            None => return None,
         };
         let steps = changed.is_empty() || (changed.starts_with("cfl=") && r.set.len() == 1);
         (own && steps).then(|| format!("{name} {changed}").trim_end().to_owned())
@@ -61,7 +80,7 @@ impl Motion {
         let mut curves: BTreeMap<String, Vec<(f64, f64)>> = BTreeMap::new();
         for r in records.iter().filter(|r| r.time.cpu_s > 0.0) {
             if let Some(name) = self.curve(r) {
-                let point = (r.time.cpu_s, r.value(ERROR));
+                let point = (r.time.cpu_s, r.value(self.error.0).abs());
                 curves.entry(name).or_default().push(point);
             }
         }
@@ -86,7 +105,7 @@ impl Motion {
         Chart {
             title: self.title.to_owned(),
             x_label: "CPU time (s)".to_owned(),
-            y_label: "rms error of u (m)".to_owned(),
+            y_label: self.error.1.to_owned(),
             x_scale: Scale::Log10,
             y_scale: Scale::Log10,
             series: series.collect(),
@@ -103,7 +122,7 @@ impl Motion {
 /// # Errors
 /// The picture can't be written.
 pub(super) fn draw(records: &[Record], out: &Path) -> Result<(), Error> {
-    let charts = MOTIONS.map(|motion| motion.chart(records));
+    let charts = PROBLEMS.map(|problem| problem.chart(records));
     if charts.iter().all(Chart::shows_something) {
         draw_charts(&out.join(format!("{NAME}.png")), &charts, 2)?;
     }

@@ -5,7 +5,7 @@
 
 use super::speed::{self, Speed};
 use super::values::Values;
-use super::{remedies, rows, spaces};
+use super::{remedies, rivals, rows, spaces};
 use crate::cases;
 use crate::error::Error;
 use crate::files::{read_text, write_whole};
@@ -129,11 +129,7 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
         .iter()
         .filter_map(|row| Some((row.record()?, row.night)));
     let kept: Vec<(Record, Date)> = kept.collect();
-    let table = |table: &ResultTable, case: Option<&str>| {
-        let of_case = kept
-            .iter()
-            .filter(|(r, _)| case.is_none_or(|case| r.case == case));
-        let (sheet, told) = table.fill(of_case.map(|(r, _)| r));
+    let oldest = |told: &[&Record]| {
         let told = kept
             .iter()
             .filter(|(r, _)| told.iter().any(|t| std::ptr::eq(*t, r)));
@@ -141,28 +137,49 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
             let program = &r.version.source;
             format!("\n*Oldest run: night of {night}, program {program}.*\n")
         });
-        let text = sheet.markdown() + &oldest.unwrap_or_default();
-        (table.name.clone(), text)
+        oldest.unwrap_or_default()
+    };
+    let table = |table: &ResultTable, case: Option<&str>| {
+        let of_case = kept
+            .iter()
+            .filter(|(r, _)| case.is_none_or(|case| r.case == case));
+        let (sheet, told) = table.fill(of_case.map(|(r, _)| r));
+        (table.name.clone(), sheet.markdown() + &oldest(&told))
     };
     let studies = cases::all().iter().map(|case| {
         let own = kept.iter().filter(|(r, _)| r.case == case.name);
         CaseStudy::new(case.name, own.map(|(r, _)| r.clone()).collect())
     });
     let speed = Speed::of(&studies.collect::<Vec<_>>());
+    let wrapped = |text: &str| {
+        let options = textwrap::Options::new(LINE);
+        let options = options.word_splitter(textwrap::WordSplitter::NoHyphenation);
+        textwrap::fill(text, options)
+    };
     let told = match speed.is_empty() {
         true => String::new(),
         false => {
-            let options = textwrap::Options::new(LINE);
-            let options = options.word_splitter(textwrap::WordSplitter::NoHyphenation);
-            let advice = textwrap::fill(&speed.advice(), options);
+            let advice = wrapped(&speed.advice());
             format!("{}\n{advice}\n", speed.table().markdown())
         }
+    };
+    let records: Vec<&Record> = kept.iter().map(|(r, _)| r).collect();
+    let (sheet, of, advice) = rivals::table(&records);
+    let rivals = match of.is_empty() {
+        true => String::new(),
+        false => format!(
+            "{}\n{}\n{}",
+            sheet.markdown(),
+            wrapped(&advice),
+            oldest(&of)
+        ),
     };
     let of_cases = cases::all().iter();
     let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
     let over_cases = remedies::all().into_iter().chain([spaces::table()]);
     let over_cases = over_cases.map(|t| table(&t, None));
-    let speed = [(speed::NAME.to_owned(), told)];
+    let speed = [(speed::NAME, told), (rivals::NAME, rivals)];
+    let speed = speed.map(|(name, text)| (name.to_owned(), text));
     of_cases.chain(over_cases).chain(speed).collect()
 }
 
@@ -210,9 +227,9 @@ slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-
         assert_eq!(stale(), ["slope-stability"]);
         let filled = fs::read_to_string(&readme).unwrap();
         let table = "<!-- table slope-stability -->
-| scheme | h = 0.4 m | 0.2 m | 0.1 m |
-|---|---|---|---|
-| gimp none |  | 2.600 (2.500 … 2.750) | breaks down at 1.50 s |
+| scheme | h = 0.4 m | 0.2 m | 0.1 m | CPU (s), h = 0.4 m | CPU (s), 0.2 m | CPU (s), 0.1 m |
+|---|---|---|---|---|---|---|
+| gimp none |  | 2.600 (2.500 … 2.750) | breaks down at 1.50 s |  | 1.50 |  |
 
 *Oldest run: night of 2026-01-01, program def.*
 <!-- end -->

@@ -29,6 +29,8 @@ metrics! { pub(super) OWN:
     PLASTIC_STRAIN_MAX = "plastic_strain_max", "-", "largest equivalent plastic strain of a particle";
     LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
     MASS = "mass", "kg/m", "mass of the particles";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "quasi-static: Newton's iterations";
+    LINEAR_ITERATIONS = "linear_iterations", "-", "quasi-static: those of linear solutions";
 }
 
 metrics! {
@@ -72,5 +74,6 @@ pub(super) fn headlines() -> Vec<Column> {
         headline(MECHANISM_WIDTH, "mechanism (B)", 1.0, 2),
         headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2),
         headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (10⁻⁶)", 1e6, 2),
+        headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
     ]
 }

@@ -14,10 +14,10 @@ mod sketch;
 mod tables;
 mod watch;
 
-use super::family::{family, other_transfers, pairs};
+use super::family::{family, implicit, other_transfers, pairs};
 use crate::case::{Case, Family, FieldView, Tier};
 use crate::metric::{Sweep, error};
-use crate::scheme::{BasisName, RemedyName};
+use crate::scheme::{BasisName, RemedyName, RuleName};
 use crate::spec::{Level, RunSpec};
 use metrics::{PRANDTL_ERROR, headlines};
 use own::{SMALL, own_runs};
@@ -26,6 +26,7 @@ use watch::Pressing;
 
 use BasisName::{Bspline2, Bspline3, Gimp};
 use RemedyName::{FbarConsistent, FbarRate, FbarRecursive};
+use RuleName::QuasiStatic;
 use Tier::{Long, Nightly, Pr};
 
 pub(super) fn case() -> Case {
@@ -83,6 +84,8 @@ pub(super) fn case() -> Case {
 
 /// A strength beyond reach: the ground stays elastic.
 const ELASTIC: &[&str] = &["undrained_strength=1e6"];
+/// Steps of equilibrium at which the finite elements are tabulated, too.
+const FINER: &[&str] = &["load_steps=40"];
 
 fn plan([b10, b20, b40, b80]: [Level; 4]) -> Vec<Family> {
     let none = RemedyName::None;
@@ -94,6 +97,8 @@ fn plan([b10, b20, b40, b80]: [Level; 4]) -> Vec<Family> {
     let ours = both(&[FbarConsistent]);
     let cubic = pairs(&[Bspline3], &[FbarConsistent]);
     let smooth = pairs(&[Gimp], &[FbarRate, FbarConsistent]);
+    let averaged = implicit(&[QuasiStatic], &[Gimp, Bspline2], &[FbarConsistent]);
+    let statics = implicit(&[QuasiStatic], &[Gimp, Bspline2], &[none, FbarConsistent]);
     let dense: &[&str] = &["ppc_per_direction=4"];
     vec![
         family(Pr, &[b10], &three, SMALL),
@@ -126,6 +131,12 @@ fn plan([b10, b20, b40, b80]: [Level; 4]) -> Vec<Family> {
         family(Long, &[b10, b40, b80], &cubic, &[]),
         family(Long, &[b10, b20, b40, b80], &other_transfers(), &[]),
         family(Long, &[b10], &two, dense),
+        family(Pr, &[b10], &averaged[1..], SMALL),
+        family(Nightly, &[b10, b20], &statics, &[]),
+        family(Nightly, &[b10], &averaged, FINER),
+        family(Nightly, &[b20], &averaged, &["contact=barrier"]),
+        family(Nightly, &[b10], &averaged, ELASTIC),
+        family(Long, &[b40, b80], &statics, &[]),
     ]
 }
 
@@ -136,5 +147,10 @@ fn cost(spec: &RunSpec) -> f64 {
         RemedyName::FbarConsistent => 2.5,
     };
     let dense = spec.set.iter().any(|s| s == "ppc_per_direction=4");
-    sweep * if dense { 4.0 } else { 1.0 } / spec.level.h.powi(3)
+    let solver = if spec.scheme.rule().is_some() {
+        0.15
+    } else {
+        1.0
+    };
+    solver * sweep * if dense { 4.0 } else { 1.0 } / spec.level.h.powi(3)
 }

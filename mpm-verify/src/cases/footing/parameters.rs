@@ -25,6 +25,22 @@ parameters! { pub(super) const:
     ROUGH = "rough", "-", "true", Domain::Boolean,
         "whether the ground sticks to the footing; if not, it slides freely";
 }
+/// What only an explicit run has.
+pub(super) const OF_EXPLICIT: [&str; 7] = [
+    DENSITY.name,
+    PENETRATION_RATE.name,
+    RAMP.name,
+    DAMPING.name,
+    CFL.name,
+    FLIP.name,
+    WALL.name,
+];
+/// What only a quasi-static run has.
+pub(super) const OF_QUASI_STATIC: [&str; 2] = [LOAD_STEPS.name, TOLERANCE.name];
+pub(super) const LOAD_STEPS: Parameter = common::LOAD_STEPS.with_default("16").meaning(
+    "quasi-static: equal steps of the penetration; one that finds no equilibrium is halved",
+);
+pub(super) const TOLERANCE: Parameter = common::TOLERANCE.with_default("1e-8");
 pub(super) const DAMPING: Parameter = common::DAMPING.with_default("0.002");
 pub(super) const WALL: Parameter =
     common::WALL.meaning("how B-splines meet the sides and the base");
@@ -32,7 +48,7 @@ pub(super) const WALL: Parameter =
 pub(super) const BARRIER: &str = "barrier";
 
 /// All of them.
-pub(super) const ALL: [Parameter; 16] = [
+pub(super) const ALL: [Parameter; 18] = [
     YOUNG_MODULUS,
     POISSON_RATIO,
     DENSITY,
@@ -49,4 +65,6 @@ pub(super) const ALL: [Parameter; 16] = [
     CONTACT,
     ROUGH,
     PPC_PER_DIRECTION,
+    LOAD_STEPS,
+    TOLERANCE,
 ];

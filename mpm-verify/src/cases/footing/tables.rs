@@ -25,6 +25,7 @@ fn changed(r: &Record) -> String {
             "domain_width=3" => "3B × 3B",
             "domain_depth=3" => "",
             "penetration=0.0025" => "to 0.0025",
+            "load_steps=40" => "40 steps",
             other => other,
         }
         .to_owned()
@@ -151,7 +152,7 @@ fn slopes() -> ResultTable {
     ResultTable::new(
         "footing-slopes",
         |r| r.set == ELASTIC,
-        &[PAIR, CELLS],
+        &[SCHEME, CELLS],
         [
             Column::value("slope d(q/s_u)/d(s/B)", found, fixed(0)),
             Column::value("finite elements that act as wide", expected, fixed(0)),

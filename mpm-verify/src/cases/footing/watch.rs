@@ -2,9 +2,9 @@
 
 use super::geometry::{WIDTH, effective_width, mechanism_extent};
 use super::metrics::{self as m, CURVE, MEAN_STRESSES};
-use super::parameters::{PENETRATION, PENETRATION_RATE, RAMP, ROUGH, UNDRAINED_STRENGTH};
+use super::parameters::{PENETRATION, ROUGH, UNDRAINED_STRENGTH};
 use super::reference::EXACT;
-use super::scene::{BASE, FOOTING, Press, begin, time_step};
+use super::scene::{BASE, FOOTING, Pace, Press, begin};
 use crate::cases::observe::{
     checkerboard, column, discretisation, mean_stress, position_columns, reference_columns,
 };
@@ -17,14 +17,11 @@ use crate::probe::PointProbe;
 use crate::record::Discretisation;
 use crate::spec::RunSpec;
 use crate::statistics::{fit_line, rms};
-use mpm_core::stage::smooth_stroke;
 use mpm_core::{Field, Part, Simulation};
 use serde::{Deserialize, Serialize};
 
 /// The part of the surface (m from the axis) that is well inside of what Prandtl's mechanism pushes up.
 const BESIDE: (f64, f64) = (0.75 * WIDTH, 1.25 * WIDTH);
-/// Penetration over B between two rows of the series.
-const ROW: f64 = 1e-5;
 /// The last share of the penetration, over which the plateau and the mechanism are observed.
 const PLATEAU: f64 = 0.25;
 /// Half of the window of penetration over B in which the curve is averaged.
@@ -54,8 +51,8 @@ pub(super) struct Pressing {
     spec: RunSpec,
     parameters: Parameters,
     press: Press,
+    pace: Pace,
     discretisation: Discretisation,
-    steps_per_row: u64,
     /// Penetration over B at the end.
     end: f64,
 }
@@ -66,24 +63,16 @@ impl Pressing {
     /// # Errors
     /// The parameters don't make a scene.
     pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
-        let number = |p| parameters.number(p);
-        let h = spec.level.h;
-        let dt = time_step(h, parameters)?;
+        let pace = Pace::new(spec, parameters)?;
         let pressing = Self {
             spec: spec.clone(),
             parameters: parameters.clone(),
-            press: Press::new(h, parameters)?,
-            discretisation: discretisation(2, spec, parameters, dt),
-            steps_per_row: ((ROW * WIDTH / number(PENETRATION_RATE) / dt).round() as u64).max(1),
-            end: number(PENETRATION),
+            press: Press::new(spec.level.h, parameters)?,
+            discretisation: discretisation(2, spec, parameters, pace.dt),
+            pace,
+            end: parameters.number(PENETRATION),
         };
         Ok(Drive::new(pressing, Seen::default())?)
-    }
-
-    /// Penetration of the footing over B at `time` (s): the integral of its velocity.
-    fn stroke(&self, time: f64) -> f64 {
-        let number = |p| self.parameters.number(p);
-        number(PENETRATION_RATE) * smooth_stroke(time, number(RAMP)) / WIDTH
     }
 
     /// By how much of B the footing is ahead of the ground under a force (N/m).
@@ -116,7 +105,8 @@ impl Pressing {
 
     /// Penetration over B from which on the plateau is observed.
     fn plateau(&self) -> f64 {
-        (1.0 - PLATEAU) * self.end
+        // A row at its beginning is on it, however that is rounded.
+        (1.0 - PLATEAU - 1e-9) * self.end
     }
 
     /// Relative growth of the load per 10⁻³ of penetration over B on the plateau.
@@ -130,7 +120,7 @@ impl Pressing {
 
     /// d(q/s_u)/d(s/B), fitted after the start over all rows.
     fn slope(&self, rows: &[Row]) -> f64 {
-        let begun = 2.0 * self.stroke(self.parameters.number(RAMP));
+        let begun = 2.0 * self.pace.begun();
         let points: Vec<(f64, f64)> = rows
             .iter()
             .filter(|r| r.penetration > begun)
@@ -209,7 +199,7 @@ impl Watch<2> for Pressing {
     }
 
     fn scene(&self, _: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
-        begin(&self.spec, &self.parameters, &self.press)
+        begin(&self.spec, &self.parameters, &self.press, &self.pace)
     }
 
     fn columns(&self) -> Vec<&'static str> {
@@ -230,21 +220,23 @@ impl Watch<2> for Pressing {
 
     fn row(&self, seen: &mut Seen, stage: &mut Stage<2>) -> Result<Vec<f64>, mpm_core::Error> {
         let (mut force, mut base, mut time) = (0.0, 0.0, 0.0);
-        for _ in 0..self.steps_per_row {
-            time += stage.run.time();
+        let implicit = self.spec.scheme.rule().is_some();
+        for _ in 0..self.pace.steps_per_row {
+            let start = stage.run.time();
             stage.steps(1)?;
+            // Forces are those at the start of an explicit step, at the end of an implicit one.
+            time += if implicit { stage.run.time() } else { start };
             force += self.force_on_footing(stage.run.as_ref());
             base -= stage.run.on(Part::Constraint(BASE)).force[1];
         }
-        let steps = self.steps_per_row as f64;
-        // Forces are those at the start of a step.
+        let steps = self.pace.steps_per_row as f64;
         let row = Row {
-            penetration: self.stroke(time / steps) - self.lost(force / steps),
+            penetration: self.pace.stroke(time / steps) - self.lost(force / steps),
             force: force / steps,
             base: base / steps,
         };
         seen.rows.push(row);
-        if seen.before_plateau.is_empty() && self.stroke(stage.run.time()) >= self.plateau() {
+        if seen.before_plateau.is_empty() && self.pace.stroke(stage.run.time()) >= self.plateau() {
             let p = stage.run.particles();
             seen.before_plateau = p.seeded(|k| p.position[k]);
         }
@@ -265,7 +257,7 @@ impl Watch<2> for Pressing {
     }
 
     fn progress(&self, _: &Seen, stage: &Stage<2>) -> f64 {
-        (self.stroke(stage.run.time()) / self.end).min(1.0)
+        (self.pace.stroke(stage.run.time()) / self.end * (1.0 + 1e-9)).min(1.0)
     }
 
     fn particles(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<Column> {
@@ -319,6 +311,15 @@ impl Watch<2> for Pressing {
             (m::LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
             (m::MASS, totals.mass),
         ];
+        // Steps of equilibrium are few, and one stands for itself.
+        let implicit = self.spec.scheme.rule().is_some();
+        if implicit {
+            let work = run.work();
+            values.extend([
+                (m::NEWTON_ITERATIONS, work.newton_iterations as f64),
+                (m::LINEAR_ITERATIONS, work.linear_iterations as f64),
+            ]);
+        }
         let p = run.particles();
         let references = p.seeded(|k| p.reference[k]);
         for &(metric, point) in MEAN_STRESSES {
@@ -326,9 +327,10 @@ impl Watch<2> for Pressing {
             let value = probe.map_or(f64::NAN, |p| p.value(&mean_stress));
             values.push((metric, value / self.strength()));
         }
+        let window = if implicit { 1e-9 } else { WINDOW };
         for &(metric, penetration) in CURVE {
-            let near = |r: &Row| (r.penetration - penetration).abs() <= WINDOW;
-            let reached = penetration + WINDOW <= self.end;
+            let near = |r: &Row| (r.penetration - penetration).abs() <= window;
+            let reached = penetration + window <= self.end * (1.0 + 1e-9);
             let force = if reached {
                 mean(rows, near, |r| r.force)
             } else {

@@ -152,6 +152,18 @@ impl<const D: usize> Ground<D> {
         strength: Strength,
         (rise, damping): (f64, f64),
     ) -> Result<(Scene<D, HenckyJ2>, Settings<D>), mpm_core::Error> {
+        let scene = self.under_gravity(spec, parameters, strength, rise)?;
+        Ok((scene, settings(spec, parameters, self.dt, damping)?))
+    }
+
+    /// That scene alone.
+    pub(crate) fn under_gravity(
+        &self,
+        spec: &RunSpec,
+        parameters: &Parameters,
+        strength: Strength,
+        rise: f64,
+    ) -> Result<Scene<D, HenckyJ2>, mpm_core::Error> {
         let volume = self.spacing.powi(D as i32);
         let half_size = [0.5 * self.spacing; D];
         let places = spec.start_at(self.seed());
@@ -163,10 +175,9 @@ impl<const D: usize> Ground<D> {
         }));
         let law = Self::law(parameters, strength)?;
         let grid = self.grid(parameters.number(FLOOR))?;
-        let scene = Scene::new(grid, Body::new(law, particles)?)
+        Ok(Scene::new(grid, Body::new(law, particles)?)
             .load(weight)
-            .constrain_all(walls::<D>());
-        Ok((scene, settings(spec, parameters, self.dt, damping)?))
+            .constrain_all(walls::<D>()))
     }
 }
 

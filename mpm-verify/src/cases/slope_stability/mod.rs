@@ -7,17 +7,18 @@ mod checks;
 mod tables;
 mod watch;
 
-use super::family::{family, pairs};
+use super::family::{family, implicit, pairs};
 use super::landslide::STABILITY;
 use super::landslide::parameters::{
     CFL, CREST, DENSITY, FACE_ANGLE, FLOOR, HEIGHT, POISSON_RATIO, PPC_PER_DIRECTION, WALL,
     YOUNG_MODULUS,
 };
+use super::parameters as common;
 use crate::case::{Case, Tier};
 use crate::metric::{error, metrics};
 use crate::parameter::{Domain, Parameter, number, parameters};
 use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName};
+use crate::scheme::{BasisName, RemedyName, RuleName};
 use crate::spec::Level;
 use watch::Trials;
 
@@ -33,7 +34,15 @@ parameters! { const:
         "trials: the largest factor, then bisection";
 }
 
-const PARAMETERS: [Parameter; 13] = [
+const LOAD_STEPS: Parameter =
+    common::LOAD_STEPS.meaning("quasi-static: equal steps in which the weight is raised");
+const TOLERANCE: Parameter = common::TOLERANCE.with_default("1e-8");
+/// What only an explicit run has.
+const OF_EXPLICIT: [&str; 2] = [CFL.name, WALL.name];
+/// What only a quasi-static run has.
+const OF_QUASI_STATIC: [&str; 2] = [LOAD_STEPS.name, TOLERANCE.name];
+
+const PARAMETERS: [Parameter; 15] = [
     YOUNG_MODULUS,
     POISSON_RATIO,
     STRENGTH,
@@ -47,6 +56,8 @@ const PARAMETERS: [Parameter; 13] = [
     CFL,
     WALL,
     PPC_PER_DIRECTION,
+    LOAD_STEPS,
+    TOLERANCE,
 ];
 
 metrics! { METRICS:
@@ -59,6 +70,7 @@ metrics! { METRICS:
     MOVED_STANDING = "moved_standing", "m",
         "largest displacement since the reduction at the largest factor at which it stands";
     MASS = "mass", "kg/m", "mass of the ground";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "quasi-static: Newton's iterations of all trials";
 }
 
 fn levels() -> [Level; 3] {
@@ -68,10 +80,19 @@ fn levels() -> [Level; 3] {
 /// Of the pull request: three trials of softer ground, whose steps are longer. The limit load doesn't ask for stiffness.
 const SHORT: &[&str] = &["young_modulus=6.25e6", "most=2", "trials=3"];
 
+/// Likewise of equilibrium, for which stiffness costs nothing.
+const QUICK: &[&str] = &["most=2", "trials=3"];
+
 pub(super) fn case() -> Case {
     let levels = levels();
     let none = RemedyName::None;
     let remedies = [none, FbarRecursive, FbarConsistent];
+    let remedied = implicit(&[RuleName::QuasiStatic], &[Gimp], &[FbarConsistent]);
+    let statics = implicit(
+        &[RuleName::QuasiStatic],
+        &[Gimp, Bspline2],
+        &[none, FbarConsistent],
+    );
     let (gimp, all) = (
         pairs(&[Gimp], &remedies),
         pairs(&[Gimp, Bspline2], &remedies),
@@ -91,6 +112,9 @@ pub(super) fn case() -> Case {
             family(Pr, &levels[..1], &gimp, SHORT),
             family(Nightly, &levels[..2], &all, &[]),
             family(Long, &levels[2..], &all, &[]),
+            family(Pr, &levels[..1], &remedied, QUICK),
+            family(Nightly, &levels[..2], &statics, &[]),
+            family(Long, &levels[2..], &statics, &[]),
         ],
         levels: levels.to_vec(),
         metrics: METRICS.to_vec(),
@@ -100,6 +124,7 @@ pub(super) fn case() -> Case {
             headline(STANDS_AT, "stands at", 1.0, 3),
             headline(FAILS_AT, "fails at", 1.0, 3),
             headline(MOVED_STANDING, "moved, standing (mm)", 1e3, 1),
+            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
         ],
         quantities: vec![error(FACTOR_ERROR, "relative error of the factor").known_to(
             (STABILITY.2 - STABILITY.1) / (2.0 * STABILITY.0),
@@ -108,7 +133,10 @@ pub(super) fn case() -> Case {
         watched: &["factor", "moved"],
         field: None,
         sketch: super::landslide::sketch("5 m"),
-        cost: Box::new(|spec| spec.level.h.powi(-3)),
+        cost: Box::new(|spec| {
+            let solver = if spec.scheme.rule().is_some() { 0.05 } else { 1.0 };
+            solver * spec.level.h.powi(-3)
+        }),
         ladder: &[],
         own_runs: crate::record::of_defaults,
         begin: Box::new(|spec, parameters| Ok(Box::new(Trials::drive(spec, parameters)?))),

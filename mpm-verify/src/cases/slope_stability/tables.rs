@@ -2,7 +2,7 @@
 
 use super::{FAILS_AT, STANDS_AT, STRENGTH_REDUCTION_FACTOR};
 use crate::record::Record;
-use crate::results::{Column, ResultTable, SCHEME, fixed};
+use crate::results::{Column, ResultTable, SCHEME, SHORT, fixed, is_flip};
 use crate::scheme::RemedyName;
 
 pub(super) fn all() -> Vec<ResultTable> {
@@ -22,13 +22,22 @@ pub(super) fn all() -> Vec<ResultTable> {
     let levels = [("h0.4", "h = 0.4 m"), ("h0.2", "0.2 m"), ("h0.1", "0.1 m")];
     let of_level =
         levels.map(|(level, title)| Column::text(title, bounds).of(move |r| r.level == level));
+    let cpu = levels.map(|(level, title)| {
+        let text = |r: &Record| SHORT.text(r.time.cpu_s);
+        Column::text(format!("CPU (s), {title}"), text).of(move |r| r.level == level)
+    });
     vec![
         ResultTable::by_remedy(
             "slope",
             &remedies,
-            |r| r.is_default() && r.level == "h0.2",
+            |r| r.is_default() && is_flip(r) && r.level == "h0.2",
             |r| fixed(2).text(r.metric(STRENGTH_REDUCTION_FACTOR)),
         ),
-        ResultTable::new("slope-stability", Record::is_default, &[SCHEME], of_level),
+        ResultTable::new(
+            "slope-stability",
+            Record::is_default,
+            &[SCHEME],
+            of_level.into_iter().chain(cpu),
+        ),
     ]
 }

@@ -1,12 +1,14 @@
 //! Trials of a slope with reduced strength.
 
 use super::{
-    FACTOR_ERROR, FAILS_AT, MASS, MOST, MOVED_STANDING, STANDS_AT, STRENGTH,
-    STRENGTH_REDUCTION_FACTOR, TRIALS,
+    FACTOR_ERROR, FAILS_AT, LOAD_STEPS, MASS, MOST, MOVED_STANDING, NEWTON_ITERATIONS, OF_EXPLICIT,
+    OF_QUASI_STATIC, PARAMETERS, STANDS_AT, STRENGTH, STRENGTH_REDUCTION_FACTOR, TRIALS,
 };
 use crate::cases::landslide::parameters::FACE_ANGLE;
 use crate::cases::landslide::{Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety};
-use crate::cases::observe::{column, discretisation, position_columns};
+use crate::cases::observe::{
+    column, discretisation, finds_equilibrium, forbid, implicit_settings, position_columns,
+};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -14,21 +16,28 @@ use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::record::Discretisation;
 use crate::spec::RunSpec;
+use mpm_core::implicit::Stabilisation;
 use mpm_core::material::Strength;
 use mpm_core::memory::Saved;
 use mpm_core::{Field, Simulation};
-use mpm_solvers::solver;
+use mpm_solvers::{implicit, solver};
 use serde::{Deserialize, Serialize};
 
 /// A slope that moves by this share of its height in a trial fails.
 const FAILS: f64 = 0.02;
 /// One that moves by less than this share of its height between two looks has come to rest.
 const RESTS: f64 = 1e-5;
-/// Longest duration (s) of a trial, and time (s) between two looks.
-const LONGEST: f64 = 4.0;
+/// Time (s) between two looks, and how many a trial takes at most.
 const LOOK: f64 = 0.5;
+const LOOKS: usize = 8;
+/// How many steps of equilibrium a trial takes at most: each moves the particles among the functions, so that they are
+/// not at rest at once.
+const STATIC_LOOKS: usize = 40;
 /// Local damping of a trial.
 const TRIAL_DAMPING: f64 = 0.5;
+/// Ghost penalty of a quasi-static run, on the increments, which vanish at rest: functions of the rim hardly see
+/// material. With a tenth of it the factors are the same; with a hundredth Newton's method stalls on splines below the limit.
+const RIM: f64 = 1e-3;
 
 /// A trial.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -46,8 +55,11 @@ struct Trial {
 /// What the trials have shown.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
-    /// The ground at rest with its full strength, when it is.
-    at_rest: Option<Saved>,
+    /// What trials begin from, when gravity acts: the ground at rest with its full strength, or in equilibrium with the
+    /// least strength with which it stood.
+    ground: Option<Saved>,
+    /// Places (m) in it at rest with its full strength, in seeding order.
+    rest: Vec<[f64; 2]>,
     trials: Vec<Trial>,
     /// The factor of the last trial, from where it began on; none under rising gravity.
     factor: Option<f64>,
@@ -67,7 +79,7 @@ impl Seen {
     }
 }
 
-/// Trials, all from the same ground at rest with its full strength.
+/// Trials.
 pub(super) struct Trials {
     ground: Ground<2>,
     spec: RunSpec,
@@ -80,6 +92,11 @@ impl Trials {
     /// # Errors
     /// The parameters don't make a scene.
     pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
+        let foreign: &[&str] = match spec.scheme.rule() {
+            Some(_) => &OF_EXPLICIT,
+            None => &OF_QUASI_STATIC,
+        };
+        forbid(spec, parameters, &PARAMETERS, foreign)?;
         let trials = Self {
             ground: Ground::new(spec, parameters)?,
             spec: spec.clone(),
@@ -119,17 +136,56 @@ impl Trials {
         (time / self.ground.dt).round() as u64
     }
 
-    fn try_factor(&self, factor: f64, stage: &mut Stage<2>) -> Result<Trial, mpm_core::Error> {
+    /// Whether a run is of equilibrium, without inertia.
+    fn is_static(&self) -> bool {
+        self.spec.scheme.rule().is_some()
+    }
+
+    /// Raises gravity.
+    fn load(&self, stage: &mut Stage<2>) -> Result<(), mpm_core::Error> {
+        stage.steps(match self.is_static() {
+            true => self.parameters.number(LOAD_STEPS) as u64,
+            false => self.steps(STAGE),
+        })
+    }
+
+    /// Time (s) between two looks: of equilibrium a step.
+    fn look(&self) -> f64 {
+        match self.is_static() {
+            true => 1.0 / self.parameters.number(LOAD_STEPS),
+            false => LOOK,
+        }
+    }
+
+    /// Goes on to the next look; false if there is no equilibrium to go to.
+    fn goes_on(&self, stage: &mut Stage<2>) -> Result<bool, mpm_core::Error> {
+        match self.is_static() {
+            true => finds_equilibrium(stage.steps(1)),
+            false => stage.steps(self.steps(LOOK)).map(|()| true),
+        }
+    }
+
+    /// Lets ground that was at `rest` (m) go on with the strength that the stage has.
+    fn try_factor(
+        &self,
+        factor: f64,
+        rest: &[[f64; 2]],
+        stage: &mut Stage<2>,
+    ) -> Result<Trial, mpm_core::Error> {
         let height = self.ground.section.height;
-        let start = positions(stage.run.as_ref());
         let (mut moved, mut time) = (0.0, 0.0);
         let mut fails = false;
-        while time < LONGEST - 0.5 * LOOK {
-            stage.steps(self.steps(LOOK))?;
-            time += LOOK;
+        let looks = if self.is_static() {
+            STATIC_LOOKS
+        } else {
+            LOOKS
+        };
+        for _ in 0..looks {
+            let found = self.goes_on(stage)?;
+            time += self.look();
             let before = moved;
-            moved = farthest(&start, &positions(stage.run.as_ref()));
-            fails = moved > FAILS * height;
+            moved = farthest(rest, &positions(stage.run.as_ref()));
+            fails = !found || moved > FAILS * height;
             if fails || (moved - before).abs() < RESTS * height {
                 break;
             }
@@ -176,20 +232,31 @@ impl Watch<2> for Trials {
     type Seen = Seen;
 
     fn discretisation(&self) -> Discretisation {
-        discretisation(2, &self.spec, &self.parameters, self.ground.dt)
+        let dt = match self.is_static() {
+            true => self.look(),
+            false => self.ground.dt,
+        };
+        discretisation(2, &self.spec, &self.parameters, dt)
     }
 
     fn scene(&self, seen: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        let strength = self.parameters.number(STRENGTH) / seen.factor.unwrap_or(1.0);
+        let strength = Strength::perfect(strength)?;
+        let (spec, parameters) = (&self.spec, &self.parameters);
+        if let Some(settings) = implicit_settings(spec, parameters, self.look()) {
+            let rise = if seen.factor.is_none() { 1.0 } else { 0.0 };
+            let scene = self
+                .ground
+                .under_gravity(spec, parameters, strength, rise)?;
+            let settings = settings.stabilised(Stabilisation::Ghost(RIM));
+            return implicit(spec.scheme, scene, settings);
+        }
         let stages = match seen.factor {
             None => (RISE, STAGE_DAMPING),
             Some(_) => (0.0, TRIAL_DAMPING),
         };
-        let strength = self.parameters.number(STRENGTH) / seen.factor.unwrap_or(1.0);
-        let strength = Strength::perfect(strength)?;
-        let (scene, settings) =
-            self.ground
-                .scene(&self.spec, &self.parameters, strength, stages)?;
-        solver(self.spec.scheme, scene, settings)
+        let (scene, settings) = self.ground.scene(spec, parameters, strength, stages)?;
+        solver(spec.scheme, scene, settings)
     }
 
     fn columns(&self) -> Vec<&'static str> {
@@ -203,18 +270,20 @@ impl Watch<2> for Trials {
     }
 
     fn row(&self, seen: &mut Seen, stage: &mut Stage<2>) -> Result<Vec<f64>, mpm_core::Error> {
-        let at_rest = match seen.at_rest.take() {
+        let ground = match seen.ground.take() {
             Some(body) => body,
             None => {
-                stage.steps(self.steps(STAGE))?;
+                self.load(stage)?;
+                seen.rest = positions(stage.run.as_ref());
                 stage.run.body()?
             }
         };
         let factor = self.next_factor(seen);
         seen.factor = Some(factor);
-        stage.enter(self.scene(seen)?, Some(&at_rest))?;
-        seen.at_rest = Some(at_rest);
-        let trial = self.try_factor(factor, stage)?;
+        stage.enter(self.scene(seen)?, Some(&ground))?;
+        let trial = self.try_factor(factor, &seen.rest, stage)?;
+        let goes_on = self.is_static() && !trial.fails;
+        seen.ground = Some(if goes_on { stage.run.body()? } else { ground });
         seen.trials.push(trial);
         let fails = f64::from(u8::from(trial.fails));
         let count = seen.trials.len() as f64;
@@ -237,7 +306,12 @@ impl Watch<2> for Trials {
     }
 
     fn metrics(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<(Metric, f64)> {
-        self.measure(seen, stage.run.totals().mass)
+        let mut values = self.measure(seen, stage.run.totals().mass);
+        if self.is_static() {
+            let iterations = stage.work().newton_iterations;
+            values.push((NEWTON_ITERATIONS, iterations as f64));
+        }
+        values
     }
 }
 

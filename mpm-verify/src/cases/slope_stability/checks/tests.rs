@@ -3,7 +3,7 @@
 use super::super::PARAMETERS;
 use super::*;
 use crate::record::fixture::{self, outcomes};
-use crate::scheme::BasisName;
+use crate::scheme::{BasisName, RuleName, Scheme};
 use crate::verdict::Verdict;
 
 const METRIC: &str = "strength_reduction_factor";
@@ -108,4 +108,21 @@ fn a_factor_comes_nearer_with_every_level() {
     assert_eq!(converges(1.70, 1.75), [Some(false)]);
     // Within what limit analysis and bisection leave open, nothing needs to improve.
     assert_eq!(converges(1.655, 1.66), [Some(true)]);
+}
+
+#[test]
+fn equilibrium_and_motion_come_to_the_same_factor() {
+    let agrees = |still: f64| {
+        let mut of_equilibrium = run(OURS, ("h0.4", 0.4), &[], still);
+        of_equilibrium.scheme = Scheme::implicit(RuleName::QuasiStatic, OURS.0, OURS.1);
+        let records = [
+            of_equilibrium,
+            run(OURS, ("h0.4", 0.4), &[], 1.70),
+            // Of another level, and so not compared.
+            run(OURS, ("h0.2", 0.2), &[], 1.60),
+        ];
+        outcomes(&judge_study(&records), "solvers-agree")
+    };
+    assert_eq!(agrees(1.72), [Some(true)]);
+    assert_eq!(agrees(1.73), [Some(false)]);
 }

@@ -1,0 +1,281 @@
+//! Explicit and implicit runs of what both can solve, at equal error: cost, steps and iterations.
+
+use crate::cases;
+use crate::record::{Record, Status};
+use crate::results::{SHORT, fixed};
+use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::table::Sheet;
+use std::f64::consts::PI;
+
+/// Name of the table on pages.
+pub(super) const NAME: &str = "explicit-implicit";
+/// Parameters that divide time or load, and change nothing else.
+const STEPS: [&str; 4] = ["cfl=", "step_factor=", "load_steps=", "step_scaling="];
+/// An error this much larger is still the same.
+const EQUAL: f64 = 1.1;
+
+type OfRun = fn(&Record) -> f64;
+
+/// A problem, with the functions and the remedy to take for it.
+struct Problem {
+    case: &'static str,
+    /// Parameters changed from the case's own.
+    set: &'static [&'static str],
+    basis: BasisName,
+    remedy: RemedyName,
+    /// What the errors are equal in.
+    motion: (&'static str, OfRun),
+    pressure: OfRun,
+}
+
+const DISPLACEMENT: (&str, OfRun) = ("u (m)", |r| r.value("displacement_l2"));
+const STRESS: OfRun = |r| r.value("mean_stress_l2");
+const NO_PRESSURE: OfRun = |_| f64::NAN;
+
+const PROBLEMS: [Problem; 9] = [
+    Problem {
+        case: "mms-axis",
+        set: &[],
+        basis: BasisName::Bspline2,
+        remedy: RemedyName::None,
+        motion: DISPLACEMENT,
+        pressure: STRESS,
+    },
+    Problem {
+        case: "mms-wall-pressure",
+        set: &[],
+        basis: BasisName::Bspline2,
+        remedy: RemedyName::None,
+        motion: DISPLACEMENT,
+        pressure: STRESS,
+    },
+    Problem {
+        case: "mms-vortex-box",
+        set: &[],
+        basis: BasisName::Gimp,
+        remedy: RemedyName::FbarConsistent,
+        motion: DISPLACEMENT,
+        pressure: STRESS,
+    },
+    Problem {
+        case: "vibrating-bar",
+        set: &[],
+        basis: BasisName::Bspline2,
+        remedy: RemedyName::None,
+        motion: ("frequency", |r| r.value("frequency_error")),
+        pressure: STRESS,
+    },
+    Problem {
+        case: "standing-wave",
+        set: &["duration=24"],
+        basis: BasisName::Bspline2,
+        remedy: RemedyName::None,
+        motion: ("frequency", |r| r.value("frequency_error")),
+        pressure: STRESS,
+    },
+    Problem {
+        case: "discs",
+        set: &[],
+        basis: BasisName::Gimp,
+        remedy: RemedyName::None,
+        motion: ("energy", |r| r.value("energy_error_accumulated")),
+        pressure: NO_PRESSURE,
+    },
+    Problem {
+        case: "cook",
+        set: &[],
+        basis: BasisName::Gimp,
+        remedy: RemedyName::FbarConsistent,
+        motion: ("deflection", |r| r.value("fem_tip_error")),
+        pressure: |r| r.value("mean_stress_rms_error"),
+    },
+    Problem {
+        case: "footing",
+        set: &[],
+        basis: BasisName::Gimp,
+        remedy: RemedyName::FbarConsistent,
+        motion: ("N_c by B", |r| r.value("prandtl_error")),
+        // Prandtl's mean stress under the footing is −(1 + π) s_u.
+        pressure: |r| r.value("mean_stress_0.25_0.25") / (1.0 + PI) + 1.0,
+    },
+    Problem {
+        case: "slope-stability",
+        set: &[],
+        basis: BasisName::Gimp,
+        remedy: RemedyName::FbarConsistent,
+        motion: ("factor", |r| r.value("factor_error")),
+        pressure: NO_PRESSURE,
+    },
+];
+
+impl Problem {
+    /// The size of the error of motion of a run.
+    fn error(&self, r: &Record) -> f64 {
+        (self.motion.1)(r).abs()
+    }
+
+    /// Whether a run is of it, however divided in time.
+    fn is_of(&self, r: &Record) -> bool {
+        let own = r.case == self.case && r.basis() == self.basis && r.remedy() == self.remedy;
+        let is_set = |s: &String| self.set.contains(&&**s);
+        let only = |s: &String| is_set(s) || STEPS.iter().any(|p| s.starts_with(p));
+        let set = r.set.iter().filter(|s| is_set(s)).count() == self.set.len();
+        let told = r.status == Status::Ok && r.time.cpu_s > 0.0 && self.error(r).is_finite();
+        own && set && r.set.iter().all(only) && told
+    }
+
+    fn title(&self) -> String {
+        let title = cases::find(self.case).map_or(self.case, |case| case.title);
+        format!("{title} ({} {})", self.basis, self.remedy)
+    }
+
+    /// The cheapest run of each kind of solver among those whose error is that which both reach.
+    fn rivals<'a>(&self, records: &[&'a Record]) -> Option<[&'a Record; 2]> {
+        let of_kind = |implicit: bool| -> Vec<&'a Record> {
+            let fits = |r: &&Record| match r.scheme().rule() {
+                Some(_) => implicit,
+                None => !implicit && r.transfer() == TransferName::Flip,
+            };
+            let own = records.iter().copied().filter(|r| self.is_of(r));
+            own.filter(fits).collect()
+        };
+        let kinds = [false, true].map(of_kind);
+        let least = |runs: &Vec<&Record>| {
+            let errors = runs.iter().map(|r| self.error(r));
+            errors.fold(f64::INFINITY, f64::min)
+        };
+        let target = EQUAL * kinds.iter().map(least).fold(0.0, f64::max);
+        let [explicit, implicit] = kinds.map(|runs| {
+            let good = runs.into_iter().filter(|r| self.error(r) <= target);
+            good.min_by(|a, b| a.time.cpu_s.total_cmp(&b.time.cpu_s))
+        });
+        Some([explicit?, implicit?])
+    }
+
+    /// A row of a run, with how many times the cost of `other` it has.
+    fn row(&self, r: &Record, other: Option<&Record>) -> Vec<String> {
+        let number = |name| r.value(name);
+        let name = match r.scheme().rule() {
+            Some(_) => r.solver.as_str(),
+            None => "explicit",
+        };
+        let own = r.set.iter().filter(|s| !self.set.contains(&&***s));
+        let run = [r.level.clone()].into_iter().chain(own.cloned());
+        let iterations = match number("newton_iterations") {
+            n if n > 0.0 => fixed(0).text(n),
+            _ => "–".to_owned(),
+        };
+        vec![
+            self.title(),
+            name.to_owned(),
+            run.collect::<Vec<_>>().join(" "),
+            format!("{}: {}", self.motion.0, SHORT.text(self.error(r))),
+            SHORT.text((self.pressure)(r).abs()),
+            r.work.steps.to_string(),
+            iterations,
+            SHORT.text(r.time.cpu_s),
+            other.map_or_else(String::new, |other| SHORT.text(ratio(r, other))),
+        ]
+    }
+}
+
+fn ratio(r: &Record, other: &Record) -> f64 {
+    r.time.cpu_s / other.time.cpu_s
+}
+
+/// The table of some runs, those that it tells of, and what it says in a sentence.
+pub(super) fn table<'a>(records: &[&'a Record]) -> (Sheet, Vec<&'a Record>, String) {
+    let head = [
+        "problem",
+        "solver",
+        "run",
+        "error",
+        "error of pressure",
+        "steps",
+        "Newton's iterations",
+        "CPU (s)",
+        "over explicit",
+    ];
+    let (mut rows, mut told) = (Vec::new(), Vec::new());
+    let (mut cheaper, mut dearer) = (Vec::new(), Vec::new());
+    for problem in &PROBLEMS {
+        let Some([explicit, implicit]) = problem.rivals(records) else {
+            continue;
+        };
+        rows.push(problem.row(explicit, None));
+        rows.push(problem.row(implicit, Some(explicit)));
+        told.extend([explicit, implicit]);
+        let ratio = ratio(implicit, explicit);
+        let side = if ratio < 1.0 {
+            &mut cheaper
+        } else {
+            &mut dearer
+        };
+        side.push(format!("{} {}", problem.case, SHORT.text(ratio)));
+    }
+    let list = |names: Vec<String>| match names.is_empty() {
+        true => "none".to_owned(),
+        false => names.join(", "),
+    };
+    let advice = format!(
+        "At equal error implicit steps cost this share of explicit ones where they are cheaper: {}; and this many times as much \
+         where they are dearer: {}.",
+        list(cheaper),
+        list(dearer)
+    );
+    (Sheet::new(head).with(rows), told, advice)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Measured;
+    use crate::record::fixture::record;
+    use crate::scheme::{RuleName, Scheme};
+
+    fn run(rule: Option<RuleName>, level: &str, set: &[&str], error: f64, cpu: f64) -> Record {
+        let mut r = record(level, Vec::new());
+        r.set = set.iter().map(|s| (*s).to_owned()).collect();
+        let (basis, remedy) = (BasisName::Gimp, RemedyName::FbarConsistent);
+        r.scheme = match rule {
+            Some(rule) => Scheme::implicit(rule, basis, remedy),
+            None => Scheme::flip(basis, remedy),
+        };
+        r.solver = r.scheme.solver().to_owned();
+        let value = Measured {
+            value: Some(error),
+            unit: "-".to_owned(),
+        };
+        r.metrics.insert("fem_tip_error".to_owned(), value);
+        r.time.cpu_s = cpu;
+        r
+    }
+
+    /// The finest implicit run has no explicit rival; the error of both is that of the coarser level.
+    #[test]
+    fn the_cheapest_runs_of_the_error_that_both_reach_are_compared() {
+        let still = Some(RuleName::QuasiStatic);
+        let runs = [
+            run(None, "h2", &[], -0.10, 1.0),
+            run(None, "h1", &[], -0.05, 10.0),
+            run(still, "h2", &[], -0.10, 0.1),
+            run(still, "h1", &[], 0.05, 2.0),
+            run(still, "h1", &["load_steps=1"], -0.054, 0.5),
+            run(still, "h0.5", &[], 0.02, 8.0),
+            // Of another problem.
+            run(still, "h1", &["load=10"], 0.01, 0.01),
+        ];
+        let (sheet, told, advice) = table(&runs.each_ref());
+        assert_eq!(told.len(), 2);
+        assert!(std::ptr::eq(told[0], &runs[1]) && std::ptr::eq(told[1], &runs[4]));
+        assert_eq!(sheet.rows[1][8], "0.05");
+        assert!(advice.contains("cheaper: cook 0.05;"), "{advice}");
+        assert!(advice.ends_with("dearer: none."), "{advice}");
+    }
+
+    #[test]
+    fn what_only_one_can_solve_is_left_out() {
+        let runs = [run(None, "h2", &[], 0.1, 1.0)];
+        assert!(table(&runs.each_ref()).0.rows.is_empty());
+    }
+}
