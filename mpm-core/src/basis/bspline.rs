@@ -45,6 +45,9 @@ pub type QuadraticBSpline = BSpline<3>;
 /// Cubic B-splines.
 pub type CubicBSpline = BSpline<4>;
 
+/// Steepness of cubic splines: 3.13682 at ξ = 0.276, rounded up.
+const CUBIC: f64 = 3.137;
+
 impl<const S: usize> Basis<S> for BSpline<S> {
     fn new(axis: &Axis, h: f64, wall: WallTreatment) -> Self {
         let degree = S - 1;
@@ -101,6 +104,16 @@ impl<const S: usize> Basis<S> for BSpline<S> {
             polynomials,
             knots,
             period: axis.is_periodic().then_some(axis.cells),
+        }
+    }
+
+    /// At a knot two quadratic splines are ½ with the slope 1, and w′²/w of the third, which begins there, is 2. Of hats one
+    /// vanishes with a slope: they have no bound. Degrees above three are not needed.
+    fn steepness(_half_size: f64) -> Option<f64> {
+        match S {
+            3 => Some(6.0),
+            4 => Some(CUBIC),
+            _ => None,
         }
     }
 

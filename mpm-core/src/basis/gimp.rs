@@ -52,6 +52,11 @@ impl Basis<3> for Gimp {
         }
     }
 
+    /// The domain reaches from a node's vertex to either side at the same length: 2/l of the neighbours, 1/(1 − l) of the node.
+    fn steepness(half_size: f64) -> Option<f64> {
+        Some(2.0 / half_size + 1.0 / (1.0 - half_size))
+    }
+
     fn nodes(&self) -> AxisNodes {
         let cells = self.axis.cells;
         let count = cells + 1 + 2 * GHOSTS;

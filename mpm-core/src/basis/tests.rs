@@ -185,3 +185,33 @@ fn gimp_is_the_average_of_the_hat_over_the_particle() {
         }
     }
 }
+
+/// The greatest h² Σ w′²/w over a cell, at so many places, and what the basis says.
+fn steepest<const S: usize, B: Basis<S>>(half_size: f64) -> (f64, Option<f64>) {
+    const PLACES: u32 = 20_000;
+    let basis = B::new(&Axis::periodic(0.0, 8), 1.0, WallTreatment::OpenKnot);
+    let at = |k: u32| {
+        let at = basis.weights(3.0 + f64::from(k) / f64::from(PLACES), half_size);
+        let seen = at.w.iter().zip(&at.dw).filter(|(w, _)| **w > 0.0);
+        seen.map(|(w, dw)| dw * dw / w).sum::<f64>()
+    };
+    (
+        (1..PLACES).map(at).fold(0.0, f64::max),
+        B::steepness(half_size),
+    )
+}
+
+#[test]
+fn the_steepness_is_the_greatest_over_a_cell() {
+    let near = |(found, said): (f64, Option<f64>)| {
+        let said = said.unwrap();
+        assert!(found <= said && found > 0.99 * said, "{found} {said}");
+    };
+    near(steepest::<3, QuadraticBSpline>(0.25));
+    near(steepest::<4, CubicBSpline>(0.25));
+    for half_size in [0.5, 0.25, 0.125] {
+        near(steepest::<3, Gimp>(half_size));
+    }
+    let (found, said) = steepest::<2, Linear>(0.25);
+    assert!(said.is_none() && found > 1e4, "{found}");
+}

@@ -12,7 +12,7 @@ pub mod transfer;
 
 pub use contact::contact_cfl;
 pub use remedy::Remedy;
-pub use settings::{Settings, courant_time_step};
+pub use settings::{Settings, courant_time_step, stable_cfl};
 pub use transfer::Transfer;
 
 use crate::basis::Basis;

@@ -2,7 +2,7 @@
 
 pub mod scheme;
 
-use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Serendipity};
@@ -99,6 +99,19 @@ with_basis! {
     Gimp: 3, Gimp;
     Bspline2: 3, QuadraticBSpline;
     Bspline3: 4, CubicBSpline;
+}
+
+/// The CFL number that [`mpm_core::explicit::stable_cfl`] gives for a basis, in `dimension` dimensions, with particles whose
+/// half size is `half_size` cells; none of linear functions, on which no step is stable wherever particles lie.
+#[must_use]
+pub fn stable_cfl(basis: BasisName, dimension: usize, half_size: f64) -> Option<f64> {
+    let steepness = match basis {
+        BasisName::Linear | BasisName::Q8 => None,
+        BasisName::Gimp => Gimp::steepness(half_size),
+        BasisName::Bspline2 => QuadraticBSpline::steepness(half_size),
+        BasisName::Bspline3 => CubicBSpline::steepness(half_size),
+    };
+    steepness.map(|s| mpm_core::explicit::stable_cfl(dimension, s))
 }
 
 /// A law with the implicit solvers that are compiled for it.

@@ -84,6 +84,8 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let sound = |bases: &[BasisName]| pairs(bases, &[none, FbarRate, FbarConsistent]);
     let all = pairs(&BASES, &REMEDIES);
     let pair = pairs(&[Gimp, Bspline2], &REMEDIES);
+    // The step that the program offers: stable, and right.
+    let offered = pairs(&BASES[1..], &[none, FbarConsistent]);
     let large = pairs(&[Gimp, Bspline2], &[none]);
     let rules = [RuleName::Midpoint, RuleName::Newmark];
     let moved = implicit(&rules, &BASES[..3], &[none]);
@@ -101,6 +103,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         // Only so large a motion tells where a body force is evaluated; no particle crosses yet.
         family(Pr, &levels[..3], &large, &["amplitude=0.005"]),
         family(Nightly, levels, &all, &[]),
+        family(Pr, &levels[..1], &offered, &["time_step=auto"]),
         family(Nightly, levels, &other_transfers(), &[]),
         family(
             Nightly,

@@ -9,6 +9,8 @@ mod column;
 mod conditioning;
 mod consolidation;
 mod cook;
+mod course;
+mod critical_step;
 mod dam_break;
 mod discs;
 mod excavation;
@@ -31,11 +33,14 @@ mod mms_wall_pressure;
 mod observe;
 pub(crate) mod parameters;
 mod pictures;
+mod shock;
 mod slope_stability;
+mod spin;
 mod standing_wave;
 mod still;
 mod strip;
 mod terzaghi;
+mod translate;
 mod undrained;
 mod vibrating_bar;
 
@@ -68,6 +73,10 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         mms_poro::case(),
         consolidation::case(),
         strip::case(),
+        critical_step::case(),
+        spin::case(),
+        translate::case(),
+        shock::case(),
     ]
 });
 

@@ -1,6 +1,6 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
-use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO};
+use super::{AUTO, Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO, TIME_STEP};
 use crate::cases::observe::{implicit_settings, settings};
 use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS};
 use crate::error::Error;
@@ -63,13 +63,29 @@ impl Timing {
         } else {
             1.0
         };
-        let longest = courant_time_step(number(CFL) * finer, spec.level.h, speed);
+        let cfl = if parameters.is(TIME_STEP, AUTO) {
+            offered(spec, solution.dimension(), number(PPC_PER_DIRECTION))?
+        } else {
+            number(CFL)
+        };
+        let longest = courant_time_step(cfl * finer, spec.level.h, speed);
         let steps = (number(DURATION) / longest).ceil();
         Ok(Self {
             steps,
             dt: number(DURATION) / steps,
         })
     }
+}
+
+/// The CFL number of the step that is stable however particles lie.
+fn offered(spec: &RunSpec, dimension: usize, per_direction: f64) -> Result<f64, Error> {
+    let found = mpm_solvers::stable_cfl(spec.scheme.basis(), dimension, 0.5 / per_direction);
+    found.ok_or_else(|| {
+        Error::Input(format!(
+            "time_step = {AUTO} has no step for the basis {}, whose functions vanish with a slope; allowed: cfl",
+            spec.scheme.basis()
+        ))
+    })
 }
 
 /// Particle steps per unit of cost, without a remedy.

@@ -1,0 +1,95 @@
+//! The exact front: Rankine and Hugoniot's conditions for a bar in uniaxial strain that runs into a wall.
+
+use mpm_core::Law;
+use mpm_core::material::NeoHookean;
+use nalgebra::Matrix3;
+
+/// Halvings of the interval in which the stretch is.
+const HALVINGS: u32 = 200;
+/// Relative step of derivatives.
+const STEP: f64 = 1e-4;
+
+/// The state behind the front.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Jump {
+    /// Stretch, its stress (Pa, tension positive), and the front's speed through the undeformed material (m/s).
+    pub(super) stretch: f64,
+    pub(super) stress: f64,
+    pub(super) speed: f64,
+    /// Energy that is lost per undeformed volume (J/m³).
+    pub(super) lost: f64,
+    /// See `jump_bound`.
+    pub(super) bound: f64,
+}
+
+fn stretched(stretch: f64) -> Matrix3<f64> {
+    let mut f = Matrix3::identity();
+    f[(0, 0)] = stretch;
+    f
+}
+
+/// P = σ in uniaxial strain (Pa).
+fn stress(law: &NeoHookean, stretch: f64) -> f64 {
+    law.at_rest(&stretched(stretch)).0.get(0, 0)
+}
+
+impl Jump {
+    /// Of a bar of this density (kg/m³) that runs into a wall at `speed` (m/s). Mass: V = S (1 − F). Momentum: −P = ρ₀ S V.
+    /// So −P (1 − F) = ρ₀ V², whose left side falls as F rises.
+    pub(super) fn new(law: &NeoHookean, density: f64, speed: f64) -> Self {
+        let (mut lo, mut hi) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (lo + hi);
+            let left = -stress(law, middle) * (1.0 - middle);
+            if left > density * speed * speed {
+                lo = middle;
+            } else {
+                hi = middle;
+            }
+        }
+        let stretch = 0.5 * (lo + hi);
+        let own = stress(law, stretch);
+        let (_, state) = law.at_rest(&stretched(stretch));
+        let lost = 0.5 * density * speed * speed - law.energy(&state);
+        let d = STEP * stretch;
+        let [less, more] = [-d, d].map(|d| stress(law, stretch + d));
+        let (slope, curvature) = (
+            (more - less) / (2.0 * d),
+            (more - 2.0 * own + less) / (d * d),
+        );
+        Self {
+            stretch,
+            stress: own,
+            speed: speed / (1.0 - stretch),
+            lost,
+            bound: (0.5 * curvature * lost / slope / own).abs(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mass_momentum_and_energy_balance_and_a_weak_front_is_sound() {
+        let law = NeoHookean::new(1e6, 0.3).unwrap();
+        let c = law.wave_speed(1000.0);
+        for mach in [1e-3, 0.1, 1.0, 2.0] {
+            let v = mach * c;
+            let jump = Jump::new(&law, 1000.0, v);
+            assert!((jump.speed * (1.0 - jump.stretch) / v - 1.0).abs() < 1e-9);
+            assert!(
+                (-jump.stress / (1000.0 * jump.speed * v) - 1.0).abs() < 1e-6,
+                "{jump:?}"
+            );
+            // A front heats: nothing is gained.
+            assert!(jump.lost > 0.0 && jump.lost < 500.0 * v * v, "{jump:?}");
+        }
+        let weak = Jump::new(&law, 1000.0, 1e-3 * c);
+        assert!(
+            (weak.speed / c - 1.0).abs() < 2e-3 && weak.bound < 1e-6,
+            "{weak:?}"
+        );
+    }
+}

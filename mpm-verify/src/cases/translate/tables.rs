@@ -1,0 +1,27 @@
+//! The table of its results.
+
+use super::metrics as m;
+use super::parameters::STRETCH;
+use crate::record::Record;
+use crate::results::{Column, Label, ResultTable, SCHEME, SHORT, share};
+
+const UNDER: Label = ("stretch", |r| r.parameters.text(STRETCH));
+
+pub(super) fn all() -> Vec<ResultTable> {
+    let columns = [
+        Column::metric("noise of the stress, most", m::STRESS_NOISE, share(3)),
+        Column::metric("mean", m::STRESS_NOISE_MEAN, share(3)),
+        Column::metric("predicted", m::PREDICTED_NOISE, share(3)),
+        Column::metric("mean stress kept", m::STRESS_KEPT, share(1)),
+        Column::metric("noise of the velocity", m::VELOCITY_NOISE, share(3)),
+        Column::metric("energy gain", m::ENERGY_GAIN, SHORT),
+        Column::metric("loss", m::ENERGY_LOSS, SHORT),
+    ];
+    let shows = |r: &Record| r.changes_none_but(&[STRETCH.name]);
+    vec![ResultTable::new(
+        "translate",
+        shows,
+        &[SCHEME, UNDER],
+        columns,
+    )]
+}
