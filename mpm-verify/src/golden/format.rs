@@ -69,6 +69,12 @@ impl Column {
         !self.is_count() && self.response() > BLUNT * self.scale()
     }
 
+    /// The largest response that a count may have, if it answers rounding more strongly: then it says nothing.
+    pub(super) fn is_loose(&self) -> Option<f64> {
+        let most = f64::max(LOOSE, LOOSE_SHARE * self.scale());
+        (self.is_count() && self.response() > most).then_some(most)
+    }
+
     /// The largest response of its numbers.
     #[must_use]
     pub fn response(&self) -> f64 {
@@ -203,8 +209,7 @@ impl Golden {
             if !seen.insert(name.clone()) || !column.points.windows(2).all(rises) {
                 return Err(format!("{name} is there twice or not in order"));
             }
-            let most = f64::max(LOOSE, LOOSE_SHARE * column.scale());
-            if column.is_count() && column.response() > most {
+            if let Some(most) = column.is_loose() {
                 return Err(format!("{name}: a count responds by 0 to {most}"));
             }
             if column.is_blunt() || column.points.iter().any(|p| p.response < 0.0) {

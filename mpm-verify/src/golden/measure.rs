@@ -67,10 +67,10 @@ fn metrics(record: &Record, twin: &Record) -> Vec<Column> {
     both.filter(|column| !column.is_blunt()).collect()
 }
 
-/// Counts of work: a run that ends by a criterion may take a row more than its twin.
+/// Counts of work: a run that ends by a criterion may take a row more than its twin. Those that differ by more are left out.
 fn counts(record: &Record, twin: &Record) -> Vec<Column> {
     let both = record.work.counts().into_iter().zip(twin.work.counts());
-    both.map(|((name, count), (_, of_twin))| {
+    let counts = both.map(|((name, count), (_, of_twin))| {
         let response = count.abs_diff(of_twin) as f64;
         Column {
             quantity: format!("{WORK}{name}"),
@@ -80,8 +80,8 @@ fn counts(record: &Record, twin: &Record) -> Vec<Column> {
                 response,
             }],
         }
-    })
-    .collect()
+    });
+    counts.filter(|c| c.is_loose().is_none()).collect()
 }
 
 /// Evenly spaced rows of a column and the last, as far as none of them responds too strongly. What a row responds by is
@@ -120,4 +120,25 @@ fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column>
 pub(super) fn rounded(number: f64, digits: usize) -> f64 {
     let text = format!("{number:.*e}", digits - 1);
     text.parse().unwrap_or(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::fixture::record;
+
+    #[test]
+    fn a_count_that_answers_rounding_strongly_is_no_golden() {
+        let [mut run, mut twin] = [(); 2].map(|()| record("n8", Vec::new()));
+        let known = |run: &Record, twin: &Record| -> Vec<String> {
+            counts(run, twin).into_iter().map(|c| c.quantity).collect()
+        };
+        (run.work.sorts, twin.work.sorts) = (195, 813);
+        (run.work.steps, twin.work.steps) = (6667, 6668);
+        let names = known(&run, &twin);
+        assert!(!names.contains(&"work/sorts".to_owned()), "{names:?}");
+        assert!(names.contains(&"work/steps".to_owned()), "{names:?}");
+        twin.work.sorts = 200;
+        assert!(known(&run, &twin).contains(&"work/sorts".to_owned()));
+    }
 }

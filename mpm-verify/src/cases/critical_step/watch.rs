@@ -246,7 +246,7 @@ where
     }
 
     fn columns(&self) -> Vec<&'static str> {
-        vec!["cfl (-)", "growth (-)", "steps (-)"]
+        vec!["trial (-)", "cfl (-)", "growth (-)", "steps (-)"]
     }
 
     fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, Fault> {
@@ -276,6 +276,7 @@ where
         let grew = growth >= GROWN;
         seen.0.push(grew);
         Ok(vec![
+            seen.0.len() as f64,
             cfl,
             growth.min(GROWN),
             (stage.work().steps - begun) as f64,
