@@ -6,7 +6,6 @@ use crate::record::Record;
 use crate::results::{Column, Label, ResultTable, SCHEME, percent, share};
 
 const SPEED: Label = ("Mach", |r| r.parameters.text(MACH));
-const CELLS: Label = ("level", |r| r.level.clone());
 
 pub(super) fn all() -> Vec<ResultTable> {
     let columns = [
@@ -21,11 +20,7 @@ pub(super) fn all() -> Vec<ResultTable> {
             percent(0),
         ),
     ];
-    let shows = |r: &Record| r.changes_none_but(&[MACH.name]);
-    vec![ResultTable::new(
-        "shock",
-        shows,
-        &[SCHEME, SPEED, CELLS],
-        columns,
-    )]
+    // One grid: the page is to be read.
+    let shows = |r: &Record| r.changes_none_but(&[MACH.name]) && r.level == "n128";
+    vec![ResultTable::new("shock", shows, &[SCHEME, SPEED], columns)]
 }

@@ -18,7 +18,9 @@ pub(super) fn all() -> Vec<ResultTable> {
         Column::metric("largest", m::STRETCH_ERROR, percent(1)),
         Column::metric("angle", m::PHASE_ERROR, percent(2)),
     ];
-    let shows = |r: &Record| r.changes_none_but(&[FLIP.name, TURNS.name]);
+    let shows = |r: &Record| {
+        r.changes_none_but(&[FLIP.name, TURNS.name]) && r.parameters.number(TURNS) >= 10.0
+    };
     vec![ResultTable::new(
         "spin",
         shows,

@@ -1,11 +1,8 @@
 //! The table of its results.
 
 use super::metrics as m;
-use super::parameters::STRETCH;
 use crate::record::Record;
-use crate::results::{Column, Label, ResultTable, SCHEME, SHORT, share};
-
-const UNDER: Label = ("stretch", |r| r.parameters.text(STRETCH));
+use crate::results::{Column, ResultTable, SCHEME, SHORT, share};
 
 pub(super) fn all() -> Vec<ResultTable> {
     let columns = [
@@ -15,13 +12,7 @@ pub(super) fn all() -> Vec<ResultTable> {
         Column::metric("mean stress kept", m::STRESS_KEPT, share(1)),
         Column::metric("noise of the velocity", m::VELOCITY_NOISE, share(3)),
         Column::metric("energy gain", m::ENERGY_GAIN, SHORT),
-        Column::metric("loss", m::ENERGY_LOSS, SHORT),
     ];
-    let shows = |r: &Record| r.changes_none_but(&[STRETCH.name]);
-    vec![ResultTable::new(
-        "translate",
-        shows,
-        &[SCHEME, UNDER],
-        columns,
-    )]
+    let shows = Record::is_default;
+    vec![ResultTable::new("translate", shows, &[SCHEME], columns)]
 }
