@@ -6,7 +6,7 @@ build:
 
 # All tests.
 test:
-    cargo test --release --workspace
+    cargo test --release
 
 # Run and judge a tier: quick, pr, nightly or long.
 verify tier="pr":
@@ -22,7 +22,7 @@ report folder="reports/latest":
 
 # Time per particle of the kernels.
 bench:
-    cargo bench -p mpm-core --bench kernels
+    cargo bench -p mpm-benches --bench kernels
 
 # Builds for the instruction sets of this machine give the same bits, or the same sums within a bound.
 paths:

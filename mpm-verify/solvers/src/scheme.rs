@@ -430,39 +430,3 @@ impl fmt::Display for Scheme {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_scheme_reads_back_from_its_name() {
-        let scheme = Scheme::flip(BasisName::Bspline2, RemedyName::FbarRate);
-        assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
-        for rule in [RuleName::QuasiStatic, RuleName::Midpoint, RuleName::Newmark] {
-            let scheme = Scheme::implicit(rule, BasisName::Gimp, RemedyName::FbarConsistent);
-            assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
-        }
-        for space in [SpaceName::TwoGrid, SpaceName::Equal, SpaceName::Ppp] {
-            let scheme = Scheme::poro(BasisName::Linear, space);
-            assert_eq!(Scheme::parse(&scheme.to_string()).unwrap(), scheme);
-        }
-        for bad in [
-            "poro",
-            "poro-gimp",
-            "poro-gimp-none",
-            "",
-            "gimp",
-            "gimp-flip",
-            "gimp-none-",
-            "gimp-fbar-flip",
-            "gimp-none-none",
-            "quasi-static",
-            "quasi-static-gimp",
-            "quasi-static-gimp-none-flip",
-            "midpointgimp-none",
-        ] {
-            assert!(Scheme::parse(bad).is_err(), "{bad}");
-        }
-    }
-}

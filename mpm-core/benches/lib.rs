@@ -1,0 +1,1 @@
+//! Benches of `mpm-core`: `cargo bench -p mpm-benches --bench kernels`.
