@@ -2,6 +2,7 @@
 
 mod case;
 
+use super::map::{self, Cell, Line, Panel};
 use super::speed::Speed;
 use super::summary::programs;
 use super::words::{self, kind, number};
@@ -135,11 +136,14 @@ fn index(
         })
     };
     let failures = failures(Verdict::misses_the_truth).chain(failures(Verdict::drifts));
+    let panels = map::panels(summary.cases.iter().flat_map(|s| &s.records), speed);
     let cases: Result<Vec<Value>, Error> = summary.cases.iter().map(|s| overview(s, out)).collect();
     Ok(context! {
         tier => &summary.tier,
         failed => summary.exit_code() as u8 != 0,
         counts => summary.counts.to_string().lines().map(str::to_owned).collect::<Vec<_>>(),
+        map => panels.iter().map(panel).collect::<Vec<_>>(),
+        legend => map::legend().map(|entry| entry.to_vec()).to_vec(),
         advice => (!speed.is_empty()).then(|| speed.advice()),
         speed => (!speed.is_empty()).then(|| sheet(speed.table())),
         picture,
@@ -149,6 +153,19 @@ fn index(
         failures => failures.collect::<Vec<_>>(),
         cases => cases?,
     })
+}
+
+/// A panel of the map.
+fn panel(panel: &Panel) -> Value {
+    let cell = |c: &Cell| context! { case => c.case, mark => &c.mark, words => &c.words, class => &c.class };
+    let line = |line: &Line| {
+        let cells = line.cells.iter().map(|c| c.as_ref().map(cell));
+        context! { scheme => &line.scheme, numbers => &line.numbers, cells => cells.collect::<Vec<_>>() }
+    };
+    let lines: Vec<Value> = panel.lines.iter().map(line).collect();
+    let errors: Vec<String> = panel.errors.iter().map(|kind| (*kind).to_owned()).collect();
+    let (name, cases, numbers) = (panel.name, panel.cases.clone(), panel.numbers.clone());
+    context! { name, cases, numbers, errors, lines }
 }
 
 /// A case on the index: how its runs came out, its best error, what it cost.
@@ -233,12 +250,7 @@ fn best(case: &Case, study: &CaseStudy) -> Option<Value> {
 
 /// An outcome in words, with a symbol, and a class that gives its colour.
 fn badge(outcome: Outcome) -> Value {
-    let (class, symbol) = match outcome {
-        Outcome::Right => ("pass", "✓"),
-        Outcome::WrongAsKnown => ("known", "≈"),
-        Outcome::NotJudged => ("none", "–"),
-        Outcome::Failed => ("fail", "✗"),
-    };
+    let (class, symbol) = (words::class(outcome), words::symbol(outcome));
     context! { class, symbol, text => words::outcome(outcome) }
 }
 

@@ -6,12 +6,14 @@ mod convergence;
 pub mod describe;
 pub mod diff;
 mod drift;
+mod fate;
 #[cfg(test)]
 mod fixture;
 pub mod history;
 mod html;
 mod junit;
 pub mod keep;
+mod map;
 mod price;
 mod remedies;
 mod rivals;

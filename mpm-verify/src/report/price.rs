@@ -150,6 +150,17 @@ impl Prices {
         self.rows.iter().any(|row| row.scheme.remedy() == remedy)
     }
 
+    /// What a scheme costs, if it was run.
+    pub(super) fn of_scheme(&self, scheme: Scheme) -> Option<&Price> {
+        self.rows.iter().find(|row| row.scheme == scheme)
+    }
+
+    /// How many times as many pairs as the cheapest, if both reach the target.
+    pub(super) fn over_cheapest(&self, row: &Price) -> Option<f64> {
+        let best = self.rows.first()?.cost?;
+        Some(row.cost?.pairs / best.pairs)
+    }
+
     /// How many times as many pairs as the cheapest, as shown.
     pub(super) fn relative(&self, row: &Price) -> String {
         let cheapest = self.rows.first();

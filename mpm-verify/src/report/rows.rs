@@ -6,10 +6,11 @@ use crate::files::{DOCUMENT, read as read_file};
 use crate::night::Night;
 use crate::parameter::Parameters;
 use crate::record::{
-    Discretisation, Failure, Machine, Measured, Record, SCHEMA, Status, Timing, Version, WorkDone,
+    BREAKS_DOWN, Discretisation, Failure, Machine, Measured, Record, SCHEMA, Status, Timing,
+    Version, WorkDone,
 };
 use crate::scheme::Scheme;
-use crate::verdict::{Outcome, Verdict};
+use crate::verdict::{Kind, Outcome, Verdict};
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,6 +18,8 @@ use std::path::Path;
 
 /// How the status of a run that broke down begins; the time follows.
 const BROKE: &str = "failed at ";
+/// What stands after the time, before the kind of its error.
+const AFTER: &str = " s: ";
 
 /// A run of a night.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,7 +31,7 @@ pub(super) struct Row {
     pub(super) set: String,
     /// Cell size (m).
     h: f64,
-    /// `ok`, or when it broke down.
+    /// `ok`, or when it broke down and of what.
     status: String,
     pub(super) right: usize,
     wrong_as_known: usize,
@@ -63,7 +66,9 @@ impl Row {
             .collect();
         let status = match (record.status, &record.error) {
             (Status::Ok, _) => "ok".to_owned(),
-            (Status::Failed, Some(e)) => format!("{BROKE}{} s", six_digits(e.time)),
+            (Status::Failed, Some(e)) => {
+                format!("{BROKE}{}{AFTER}{}", six_digits(e.time), e.kind)
+            }
             (Status::Failed, None) => "failed".to_owned(),
         };
         Self {
@@ -87,8 +92,8 @@ impl Row {
         }
     }
 
-    /// Its record, as far as it is kept: without verdicts, and with counts and metrics that are shown; `None` if the case
-    /// no longer has such a run.
+    /// Its record, as far as it is kept: with counts and metrics that are shown, and a verdict of each outcome that it counts;
+    /// `None` if the case no longer has such a run.
     pub(super) fn record(&self) -> Option<Record> {
         let case = cases::find(&self.case).ok()?;
         let scheme = Scheme::parse(&self.scheme).ok()?;
@@ -102,8 +107,10 @@ impl Row {
             Some((name.to_owned(), Measured { value, unit }))
         });
         let broke = self.status.strip_prefix(BROKE);
-        let error = broke.map(|time| Failure {
-            kind: String::new(),
+        // Rows of former programs have no kind.
+        let broke = broke.map(|of| of.split_once(AFTER).unwrap_or((of, "")));
+        let error = broke.map(|(time, kind)| Failure {
+            kind: kind.to_owned(),
             time: time.trim_end_matches(" s").parse().unwrap_or(f64::NAN),
             step: self.steps,
             particle: 0,
@@ -132,7 +139,7 @@ impl Row {
             },
             parameters,
             metrics: metrics.collect(),
-            verdicts: Vec::new(),
+            verdicts: self.verdicts(),
             work: WorkDone {
                 particles: self.particles,
                 steps: self.steps,
@@ -150,6 +157,34 @@ impl Row {
             },
             files: BTreeMap::new(),
         })
+    }
+
+    /// A verdict of each outcome that it counts. A known limit of a run that broke down is that it does: it has no
+    /// other verdict.
+    fn verdicts(&self) -> Vec<Verdict> {
+        let known = if self.status == "ok" { "" } else { BREAKS_DOWN };
+        let counts = [
+            (self.right, Kind::Truth, "", Outcome::Right),
+            (
+                self.wrong_as_known,
+                Kind::KnownLimit,
+                known,
+                Outcome::WrongAsKnown,
+            ),
+            (self.failed, Kind::Truth, "", Outcome::Failed),
+        ];
+        let verdict = |(_, kind, check, outcome): &(usize, Kind, &str, Outcome)| Verdict {
+            check: (*check).to_owned(),
+            kind: *kind,
+            metric: String::new(),
+            value: None,
+            reference: None,
+            tolerance: None,
+            outcome: *outcome,
+            source: String::new(),
+        };
+        let some = counts.iter().filter(|(count, ..)| *count > 0);
+        some.map(verdict).collect()
     }
 
     /// Names of its metrics.
@@ -291,7 +326,7 @@ mod tests {
         run.set = vec!["cfl=0.2".to_owned()];
         run.status = Status::Failed;
         run.error = Some(Failure {
-            kind: String::new(),
+            kind: "off-grid".to_owned(),
             time: 1.5,
             step: 3,
             particle: 0,
@@ -307,7 +342,8 @@ mod tests {
         assert_eq!(again.folder(), run.folder());
         assert_eq!(again.metrics, run.metrics);
         assert_eq!(again.status, run.status);
-        assert_eq!(again.error.unwrap().time, 1.5);
+        let error = again.error.as_ref().unwrap();
+        assert_eq!((error.time, &*error.kind), (1.5, "off-grid"));
         let unknown = Row {
             set: "no_such=1".to_owned(),
             ..row

@@ -1,12 +1,12 @@
 //! Speed against error of all problems: what a target error costs with each remedy, and when F̄ is worth its price.
 
-use super::price::Prices;
+use super::price::{Price, Prices};
 use crate::cases;
 use crate::distinct;
 use crate::draw::{Ratio, Ratios, draw_ratios};
 use crate::error::Error;
 use crate::gallery::Picture;
-use crate::scheme::{BasisName, RemedyName};
+use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::study::summary::CaseStudy;
 use crate::table::Sheet;
 use std::path::Path;
@@ -61,6 +61,25 @@ impl Speed {
         ];
         let head = head.into_iter().chain(remedies.iter().map(|r| r.text()));
         Sheet::new(head).with(self.0.iter().map(row))
+    }
+
+    /// The median over all motions of what the target error costs with a scheme, over what it costs with the cheapest, and
+    /// in how many of those in which it was run it gets there; empty if there are none.
+    pub(super) fn median(&self, scheme: Scheme) -> String {
+        let motions = self.0.iter().map(|(_, p)| p).filter(|p| !p.of_stress);
+        let rows = motions.filter_map(|p| Some((p, p.of_scheme(scheme)?)));
+        let rows: Vec<(&Prices, &Price)> = rows.collect();
+        let ratios = rows.iter().filter_map(|(p, row)| p.over_cheapest(row));
+        let mut ratios: Vec<f64> = ratios.collect();
+        ratios.sort_by(f64::total_cmp);
+        match (rows.len(), ratios.len()) {
+            (0, _) => String::new(),
+            (all, 0) => format!("never (0/{all})"),
+            (all, n) => {
+                let median = 0.5 * (ratios[(n - 1) / 2] + ratios[n / 2]);
+                format!("{median:.1} ({n}/{all})")
+            }
+        }
     }
 
     /// When F̄ is worth its price, and which scheme to take.
@@ -207,7 +226,6 @@ mod tests {
     use super::*;
     use crate::record::Measured;
     use crate::record::fixture::record;
-    use crate::scheme::Scheme;
 
     /// Cook's membrane, where standard MPM never comes near and the pressure takes F̄ more.
     fn cook() -> CaseStudy {

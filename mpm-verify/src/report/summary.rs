@@ -1,8 +1,8 @@
 //! The summary in Markdown.
 
-use super::remedies;
 use super::speed::Speed;
 use super::words::{self, bless_commands, kind, local_orders, number, order, outcome};
+use super::{map, remedies};
 use crate::cases;
 use crate::error::Error;
 use crate::files::{write_csv, write_whole};
@@ -45,6 +45,16 @@ fn head(summary: &Summary, speed: &Speed) -> String {
     let (tier, counts) = (&summary.tier, summary.counts);
     let counts = counts.to_string().replace('\n', "  \n");
     let mut t = format!("# Verification, tier {tier}\n\n{counts}\n");
+    let records = summary.cases.iter().flat_map(|s| &s.records);
+    let panels = map::panels(records, speed);
+    if !panels.is_empty() {
+        let symbols = map::legend().map(|[symbol, text, _]| format!("{symbol} {text}"));
+        let _ = writeln!(t, "\n## Map\n\n{}", symbols.join(", "));
+    }
+    for panel in panels {
+        let table = panel.markdown(str::to_owned);
+        let _ = write!(t, "\n### {}\n\n{table}", panel.name);
+    }
     if !speed.is_empty() {
         let (advice, table) = (speed.advice(), speed.table().markdown());
         let _ = write!(t, "\n## Speed against error\n\n{advice}\n\n{table}");

@@ -3,6 +3,7 @@
 //! A table stands between `<!-- table NAME -->` and `<!-- end -->`, each on a line of its own; that of speed against error
 //! may begin with its name alone.
 
+use super::map;
 use super::speed::{self, Speed};
 use super::values::Values;
 use super::{remedies, rivals, rows, spaces};
@@ -178,9 +179,17 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
     let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
     let over_cases = remedies::all().into_iter().chain([spaces::table()]);
     let over_cases = over_cases.map(|t| table(&t, None));
+    let panels = map::panels(kept.iter().map(|(r, _)| r), &speed);
+    let map = map::PANELS.map(|name| {
+        let panel = panels.iter().find(|panel| panel.name == name);
+        let page = |case: &str| format!("[{case}]({case}.md)");
+        let text = panel.map(|panel| panel.markdown(page) + &oldest(&panel.told));
+        (format!("map-{name}"), text.unwrap_or_default())
+    });
     let speed = [(speed::NAME, told), (rivals::NAME, rivals)];
     let speed = speed.map(|(name, text)| (name.to_owned(), text));
-    of_cases.chain(over_cases).chain(speed).collect()
+    let over_cases = over_cases.chain(speed).chain(map);
+    of_cases.chain(over_cases).collect()
 }
 
 #[cfg(test)]

@@ -43,6 +43,26 @@ pub(super) fn outcome(outcome: Outcome) -> &'static str {
     }
 }
 
+/// Its symbol.
+pub(super) fn symbol(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Right => "✓",
+        Outcome::WrongAsKnown => "≈",
+        Outcome::NotJudged => "–",
+        Outcome::Failed => "✗",
+    }
+}
+
+/// The class of the style that gives its colour.
+pub(super) fn class(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Right => "pass",
+        Outcome::WrongAsKnown => "known",
+        Outcome::NotJudged => "none",
+        Outcome::Failed => "fail",
+    }
+}
+
 /// The verdict on a run in a sentence: its outcome, and the checks that decide it.
 pub(super) fn sentence(record: &Record) -> String {
     let found = outcome_of_run(record);
