@@ -12,16 +12,19 @@
 )]
 
 mod faults;
+#[allow(dead_code, reason = "tests of the workspace read what is left here")]
+mod kills;
 mod runs;
 
-use faults::{DRIFT, FAULTS, Fault};
+use faults::{DRIFT, Fault, faults};
+use kills::{Kills, Seer};
 use mpm_verify::cases;
 use mpm_verify::files::read_versioned;
 use mpm_verify::record::{self, Record};
 use mpm_verify::verdict::Verdict;
 use rayon::prelude::*;
-use runs::Runs;
-use std::collections::{BTreeMap, BTreeSet};
+use runs::{DEAR, Runs};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -29,12 +32,25 @@ use std::process::Command;
 /// Names the fault that is on.
 const SWITCH: &str = "MPM_SEEDED_FAULT";
 
-/// What the copy of the core gets besides the faults.
+/// Names the file in which a run writes what faults it could have had.
+const REACHED: &str = "MPM_SEEDED_REACHED";
+
+/// What stands for a check where the program ends without a record.
+const NO_RECORD: &str = "(no record)";
+
+/// What the copy of the core gets besides the faults. A line that is reached says so once.
 const SWITCHED: &str = r#"
-#[inline]
-pub(crate) fn seeded(fault: &str) -> bool {
+pub(crate) fn seeded(fault: &str, told: &std::sync::atomic::AtomicBool) -> bool {
+    use std::io::Write as _;
+    use std::sync::atomic::Ordering::Relaxed;
     static ON: std::sync::LazyLock<Option<String>> =
         std::sync::LazyLock::new(|| std::env::var("MPM_SEEDED_FAULT").ok());
+    if !told.load(Relaxed) && !told.swap(true, Relaxed) {
+        if let Ok(path) = std::env::var("MPM_SEEDED_REACHED") {
+            let file = std::fs::OpenOptions::new().append(true).create(true).open(path);
+            let _ = file.and_then(|mut file| file.write_all(format!("{fault}\n").as_bytes()));
+        }
+    }
     ON.as_deref() == Some(fault)
 }
 "#;
@@ -71,8 +87,18 @@ fn seed(copy: &Path, fault: &Fault) {
     let source = fs::read_to_string(&path).unwrap();
     let places = source.matches(sound).count();
     assert_eq!(places, 1, "{name}: the line has changed");
-    let switched = format!("(if crate::seeded({name:?}) {{ {broken} }} else {{ {sound} }})");
+    let told =
+        "static TOLD: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);";
+    let seeded = format!("{{ {told} crate::seeded({name:?}, &TOLD) }}");
+    let switched = format!("(if {seeded} {{ {broken} }} else {{ {sound} }})");
     fs::write(&path, source.replace(sound, &switched)).unwrap();
+}
+
+/// The sound program's verdicts in some runs, and the faults whose lines these reach.
+struct Sound {
+    runs: Runs,
+    verdicts: Vec<Verdict>,
+    reached: BTreeSet<String>,
 }
 
 /// The program of the copy.
@@ -114,10 +140,12 @@ impl<'a> Mutant<'a> {
         command
             .args(arguments)
             .current_dir(self.copy)
-            .env_remove(SWITCH);
-        if let Some(fault) = fault {
-            command.env(SWITCH, fault.name);
-        }
+            .env_remove(SWITCH)
+            .env_remove(REACHED);
+        match fault {
+            Some(fault) => command.env(SWITCH, fault.name),
+            None => command.env(REACHED, self.copy.join(REACHED)),
+        };
         let output = command.output().unwrap();
         (
             output.status.code().unwrap(),
@@ -125,60 +153,93 @@ impl<'a> Mutant<'a> {
         )
     }
 
-    /// All verdicts on some runs, one by one and together.
-    fn judge(&self, fault: Option<&Fault>, runs: Runs) -> Vec<Verdict> {
-        let records: Vec<Record> = runs
-            .iter()
-            .map(|run| {
-                let folder = tempfile::tempdir_in(self.copy).unwrap();
-                let mut arguments = vec!["run", "--threads", "1"];
-                arguments.extend(run.split_whitespace());
-                arguments.extend(["--out", folder.path().to_str().unwrap()]);
-                let (code, text) = self.call(fault, &arguments);
-                let record = folder.path().join("record.json");
-                let record: Record = read_versioned(&record, record::SCHEMA).unwrap();
-                let red = record.verdicts.iter().any(Verdict::failed);
-                assert_eq!(code != 0, red, "{run}: exit code {code}: {text}");
-                record
-            })
-            .collect();
+    /// All verdicts on some runs, one by one and together. A program that a fault makes end without a record has none.
+    fn judge(&self, fault: Option<&Fault>, runs: Runs) -> Option<Vec<Verdict>> {
+        let mut records = Vec::new();
+        for run in runs {
+            let folder = tempfile::tempdir_in(self.copy).unwrap();
+            let mut arguments = vec!["run", "--threads", "1"];
+            arguments.extend(run.split_whitespace());
+            arguments.extend(["--out", folder.path().to_str().unwrap()]);
+            let (code, text) = self.call(fault, &arguments);
+            let record = folder.path().join("record.json");
+            let record: Record = read_versioned(&record, record::SCHEMA).ok()?;
+            let red = record.verdicts.iter().any(Verdict::failed);
+            assert_eq!(code != 0, red, "{run}: exit code {code}: {text}");
+            records.push(record);
+        }
         let case = cases::find(&records[0].case).unwrap();
         let mut verdicts = case.judge_study(&records);
         verdicts.extend(records.into_iter().flat_map(|r| r.verdicts));
-        verdicts
+        Some(verdicts)
     }
 
-    /// What goes otherwise than it should. Runs are short and take one thread each: as many side by side as there are
-    /// cores.
-    fn complaints(&self) -> Vec<String> {
-        let pairs: Vec<(&Fault, Runs, &str)> = FAULTS
-            .iter()
-            .flat_map(|f| {
-                f.seen_by
-                    .iter()
-                    .map(move |(runs, check)| (f, *runs, *check))
+    /// What the sound program comes to in some runs, and the faults that it could have had there.
+    fn sound(&self, runs: Runs) -> Sound {
+        let copy = tempfile::tempdir_in(self.copy).unwrap();
+        let own = Mutant {
+            copy: copy.path(),
+            program: self.program.clone(),
+        };
+        let verdicts = own.judge(None, runs).unwrap();
+        let names = fs::read_to_string(copy.path().join(REACHED)).unwrap();
+        Sound {
+            runs,
+            verdicts,
+            reached: names.lines().map(str::to_owned).collect(),
+        }
+    }
+
+    /// What goes otherwise than it should, and which checks see which faults. Runs are short and take one thread
+    /// each: as many side by side as there are cores.
+    fn complaints(&self) -> (Vec<String>, Kills) {
+        let all: BTreeSet<Runs> = faults()
+            .flat_map(|f| f.seen_by.iter().map(|(runs, _)| *runs))
+            .collect();
+        let sound: Vec<Sound> = all.into_par_iter().map(|runs| self.sound(runs)).collect();
+        let named = |fault: &Fault, runs| fault.seen_by.iter().any(|(by, _)| *by == runs);
+        let tasks: Vec<(&Fault, &Sound)> = faults()
+            .flat_map(|fault| sound.iter().map(move |of| (fault, of)))
+            .filter(|(fault, of)| {
+                let others = of.reached.contains(fault.name) && !DEAR.contains(&of.runs);
+                named(fault, of.runs) || others
             })
             .collect();
-        let all: BTreeSet<Runs> = pairs.iter().map(|(_, runs, _)| *runs).collect();
-        let sound: BTreeMap<Runs, Vec<Verdict>> = all
+        let answers: Vec<(Vec<String>, &str, BTreeSet<Seer>)> = tasks
             .into_par_iter()
-            .map(|runs| (runs, self.judge(None, runs)))
+            .map(|(fault, of)| {
+                let (runs, whole) = (of.runs, &of.verdicts);
+                let mut complaints = Vec::new();
+                let broken = self.judge(Some(fault), runs);
+                let failed: BTreeSet<&str> = match &broken {
+                    Some(broken) => {
+                        let failed = broken.iter().filter(|v| v.failed());
+                        failed.map(|v| v.check.as_str()).collect()
+                    }
+                    None => BTreeSet::from([NO_RECORD]),
+                };
+                for (_, check) in fault.seen_by.iter().filter(|(by, _)| *by == runs) {
+                    let held = |v: &Verdict| v.check == *check && v.holds() == Some(true);
+                    if !whole.iter().any(held) || whole.iter().any(Verdict::failed) {
+                        complaints.push(format!("{check} of the sound program: {whole:#?}"));
+                    }
+                    if !failed.contains(check) {
+                        let name = fault.name;
+                        complaints.push(format!("{name} survives {check}: {broken:#?}"));
+                    }
+                }
+                let case = runs[0].split_whitespace().next().unwrap();
+                let seers = failed.iter().map(|c| (case.to_owned(), (*c).to_owned()));
+                (complaints, fault.name, seers.collect())
+            })
             .collect();
-        let complaints = pairs.into_par_iter().flat_map(|(fault, runs, check)| {
-            let mut complaints = Vec::new();
-            let whole = &sound[runs];
-            let held = |v: &Verdict| v.check == check && v.holds() == Some(true);
-            if !whole.iter().any(held) || whole.iter().any(Verdict::failed) {
-                complaints.push(format!("{check} of the sound program: {whole:#?}"));
-            }
-            let broken = self.judge(Some(fault), runs);
-            let red = |v: &Verdict| v.check == check && v.failed();
-            if !broken.iter().any(red) {
-                complaints.push(format!("{} survives {check}: {broken:#?}", fault.name));
-            }
-            complaints
-        });
-        complaints.collect()
+        let mut kills = Kills::default();
+        let mut all = Vec::new();
+        for (complaints, fault, seers) in answers {
+            all.extend(complaints);
+            kills.0.entry(fault.to_owned()).or_default().extend(seers);
+        }
+        (all, kills)
     }
 }
 
@@ -193,7 +254,7 @@ fn every_seeded_fault_turns_a_named_check_red() {
     for part in [".cargo", "mpm-core", "mpm-verify", "tests"] {
         copy_tree(&source.join(part), &copy.join(part));
     }
-    for fault in FAULTS.iter().chain([&DRIFT]) {
+    for fault in faults().chain([&DRIFT]) {
         seed(copy, fault);
     }
     let core = copy.join("mpm-core/src/lib.rs");
@@ -201,7 +262,8 @@ fn every_seeded_fault_turns_a_named_check_red() {
     fs::write(core, switched).unwrap();
     let mutant = Mutant::build(copy);
 
-    let mut complaints = mutant.complaints();
+    let (mut complaints, kills) = mutant.complaints();
+    kills.write(&source);
     fs::create_dir(copy.join("golden")).unwrap();
     let verify = [
         "verify", "cook", "--tier", "quick", "--golden", "golden", "--out", "report",

@@ -3,6 +3,9 @@
 /// Runs of one case, judged together: what follows `mpm-verify run`.
 pub(crate) type Runs = &'static [&'static str];
 
+/// Runs of seconds, which are asked about the faults alone that are to be seen by them.
+pub(crate) const DEAR: [Runs; 3] = [SLIDE, CUT, CUT_TWICE];
+
 pub(crate) const RATE: Runs = &["cook --basis bspline2 --remedy fbar-rate"];
 pub(crate) const RECURSIVE: Runs = &["cook --remedy fbar-recursive"];
 /// Large enough to tell where a body force is evaluated, too small for particles to cross cells.

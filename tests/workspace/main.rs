@@ -17,6 +17,7 @@ mod exact;
 mod folders;
 mod fuzz;
 mod gate;
+mod kills;
 mod readme;
 mod reports;
 mod scene;
@@ -31,6 +32,19 @@ mod cli_syntax;
 #[path = "../../mpm-verify/src/progress.rs"]
 #[allow(dead_code, reason = "as above")]
 mod progress;
+
+#[path = "../mutation/faults/mod.rs"]
+#[allow(
+    dead_code,
+    reason = "of the faults only their names and what sees them"
+)]
+mod faults;
+#[path = "../mutation/kills.rs"]
+#[allow(dead_code, reason = "a run of the faults writes it")]
+mod kill_matrix;
+#[path = "../mutation/runs.rs"]
+#[allow(dead_code, reason = "names of runs")]
+mod runs;
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,0 +1,133 @@
+//! Of laws, contacts and what a body is made of.
+
+use super::Fault;
+use crate::runs::*;
+
+pub(crate) const BODY: [Fault; 18] = [
+    Fault {
+        name: "Jaumann's stress turns by half of the rotation",
+        file: "material/hypoelastic.rs",
+        sound: "stress.push_forward(&cayley(0.5))",
+        broken: "stress.push_forward(&cayley(0.25))",
+        seen_by: &[(TURNED_BEAM, "corner")],
+    },
+    Fault {
+        name: "the strength is taken for that of the norm √(3/2)‖s‖",
+        file: "material/strength.rs",
+        sound: "std::f64::consts::SQRT_2 * shear_strength",
+        broken: "3.0_f64.sqrt() * shear_strength",
+        seen_by: &[(FOOTING, "prandtl")],
+    },
+    Fault {
+        name: "the strength in tension is taken for Tresca's",
+        file: "material/strength.rs",
+        sound: "std::f64::consts::SQRT_2 * shear_strength",
+        broken: "(8.0_f64 / 3.0).sqrt() * shear_strength",
+        seen_by: &[(FOOTING, "prandtl")],
+    },
+    Fault {
+        name: "the flow doesn't keep the volume",
+        file: "material/hencky_j2.rs",
+        sound: "direction.scale_add_identity(-share, T::default())",
+        broken: "direction.scale_add_identity(-share, T::splat(-0.1) * flow)",
+        seen_by: &[(FOOTING, "completes")],
+    },
+    Fault {
+        name: "the law holds √(3/2) ‖s‖ against the strength of ‖s‖",
+        file: "material/hencky_j2.rs",
+        sound: "shear * norm",
+        broken: "shear * norm * T::splat(1.5_f64.sqrt())",
+        seen_by: &[(FOOTING, "prandtl")],
+    },
+    Fault {
+        name: "softening is forgotten",
+        file: "material/strength.rs",
+        sound: "(T::splat(-eta) * plastic_strain).exp()",
+        broken: "(T::splat(0.0 * eta) * plastic_strain).exp()",
+        seen_by: &[(SLIDE, "energy-closure")],
+    },
+    Fault {
+        name: "the barrier presses back with half the force",
+        file: "contact/mod.rs",
+        sound: "self.reaction.force[a] -= force[a]",
+        broken: "self.reaction.force[a] -= 0.5 * force[a]",
+        seen_by: &[(BARRIER, "quasi-static")],
+    },
+    Fault {
+        name: "the water's pressure is a tenth too low",
+        file: "material/newtonian_fluid.rs",
+        sound: "T::splat(self.bulk_modulus) * (j - T::splat(1.0))",
+        broken: "T::splat(0.9 * self.bulk_modulus) * (j - T::splat(1.0))",
+        seen_by: &[(RESTING, "pressure-profile")],
+    },
+    Fault {
+        name: "the water is as viscous as tar",
+        file: "material/newtonian_fluid.rs",
+        sound: "2.0 * self.viscosity",
+        broken: "2e7 * self.viscosity",
+        seen_by: &[(DAM, "front")],
+    },
+    Fault {
+        name: "contact looks at one particle alone",
+        file: "contact/mod.rs",
+        sound: "self.near.push(k as u32)",
+        broken: "if k == 0 { self.near.push(k as u32) }",
+        seen_by: &[(BARRIER, "quasi-static")],
+    },
+    Fault {
+        name: "clay's volume flows half as much as its normal asks for",
+        file: "material/cam_clay/flow.rs",
+        sound: "volume - trial.volume - multiplier * here.excess",
+        broken: "volume - trial.volume - number(0.5) * multiplier * here.excess",
+        seen_by: &[(UNIFORM_CLAY, "uniform-clay")],
+    },
+    Fault {
+        name: "strength in a straight line never falls",
+        file: "material/strength.rs",
+        sound: "difference - T::splat(slope) * plastic_strain",
+        broken: "difference - T::splat(slope) * T::default()",
+        seen_by: &[(CUT_TWICE, "peak-does-not-fail")],
+    },
+    Fault {
+        name: "flow is said to dissipate what strength no longer holds",
+        file: "material/strength.rs",
+        sound: "until * (difference - 0.5 * slope * until)",
+        broken: "until * difference",
+        seen_by: &[(CUT, "no-energy-gain")],
+    },
+    Fault {
+        name: "a stage begins with ground that was never loaded",
+        file: "body.rs",
+        sound: "self.replace((particles, states), check)",
+        broken: "self.replace((particles, self.states.clone()), check)",
+        seen_by: &[(CUT, "flow")],
+    },
+    Fault {
+        name: "a base holds twice what Coulomb's law allows",
+        file: "contact/friction.rs",
+        sound: "self.mu * normal / self.stiffness",
+        broken: "2.0 * self.mu * normal / self.stiffness",
+        seen_by: &[(SLIPPERY, "coulomb")],
+    },
+    Fault {
+        name: "a stick pulls the way it is stretched",
+        file: "contact/friction.rs",
+        sound: "-self.stiffness * u",
+        broken: "self.stiffness * u",
+        seen_by: &[(BARRIER, "completes")],
+    },
+    Fault {
+        name: "a body that is handed on has lost its stresses",
+        file: "body.rs",
+        sound: "(self.particles, self.states) = (particles, states)",
+        broken: "(self.particles, self.states) = (Particles { stress: self.particles.stress.clone(), ..particles }, states)",
+        seen_by: &[(SLIPPERY, "taken-over")],
+    },
+    Fault {
+        name: "sorting halves the mass of the first particle",
+        file: "particles.rs",
+        sound: "permute(&mut self.mass, order)",
+        broken: "{ permute(&mut self.mass, order); self.mass.iter_mut().take(1).for_each(|m| *m *= 0.5); }",
+        seen_by: &[(DAM, "mass")],
+    },
+];
