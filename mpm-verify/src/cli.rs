@@ -29,6 +29,14 @@ pub(crate) struct Cli {
     pub(crate) command: Command,
 }
 
+/// A positive number of gibibytes.
+fn memory(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("a positive number of GiB is expected".to_owned()),
+    }
+}
+
 /// How much is said.
 #[derive(Args, Clone, Copy)]
 pub(crate) struct Told {
@@ -110,6 +118,9 @@ pub(crate) enum Command {
         /// Threads (all cores if not given)
         #[arg(long, value_parser = threads())]
         threads: Option<usize>,
+        /// Refuse a scene that takes more memory at its start (what the machine has to give if not said)
+        #[arg(long, value_name = "GIB", value_parser = memory)]
+        memory: Option<f64>,
         #[command(flatten)]
         told: Told,
     },

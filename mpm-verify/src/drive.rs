@@ -1,11 +1,12 @@
 //! The one job of every case: a simulation that goes from row to row, and what watches it.
 
-use crate::job::{Column, Job, Snapshot};
+use crate::job::{Column, Job, Pulse, Snapshot};
 use crate::metric::Metric;
 use crate::record::{Discretisation, Measured, WorkDone};
 use mpm_core::{Error, Memory, MemoryError, Saved, Simulation, Spent};
 use serde::{Serialize, de::DeserializeOwned};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The simulation of now. A run may be made of several, one after the other: a gravity stage, then the flow.
 pub struct Stage<const D: usize> {
@@ -13,6 +14,7 @@ pub struct Stage<const D: usize> {
     pub run: Box<dyn Simulation<D>>,
     /// Work of those before it.
     before: WorkDone,
+    pulse: Arc<Pulse>,
 }
 
 impl<const D: usize> Stage<D> {
@@ -21,7 +23,11 @@ impl<const D: usize> Stage<D> {
     /// # Errors
     /// The computation broke down.
     pub fn steps(&mut self, count: u64) -> Result<(), Error> {
-        (0..count).try_for_each(|_| self.run.step())
+        (0..count).try_for_each(|_| {
+            self.run.step()?;
+            self.pulse.beat(self.run.time());
+            Ok(())
+        })
     }
 
     /// Goes on with another simulation: with its own body, or with that of an earlier one.
@@ -96,6 +102,7 @@ impl<const D: usize, W: Watch<D>> Drive<D, W> {
         let stage = Stage {
             run: watch.scene(&seen)?,
             before: WorkDone::default(),
+            pulse: Arc::default(),
         };
         Ok(Self { watch, seen, stage })
     }
@@ -124,7 +131,7 @@ impl<const D: usize, W: Watch<D>> Memory for Drive<D, W> {
         let scene = self.watch.scene(&seen);
         let mut scene = scene.map_err(|e| MemoryError::Scene(e.to_string()))?;
         scene.restore(&run)?;
-        self.stage = Stage { run: scene, before };
+        (self.stage.run, self.stage.before) = (scene, before);
         self.seen = seen;
         Ok(())
     }
@@ -166,6 +173,10 @@ impl<const D: usize, W: Watch<D>> Job for Drive<D, W> {
 
     fn work(&self) -> WorkDone {
         self.stage.work()
+    }
+
+    fn pulse(&self) -> Arc<Pulse> {
+        Arc::clone(&self.stage.pulse)
     }
 
     fn spent(&self) -> Spent {

@@ -3,6 +3,8 @@
 use crate::record::{Discretisation, Measured, WorkDone};
 use mpm_core::{Memory, Spent};
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// A named particle column with its unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +24,33 @@ pub struct Snapshot {
     pub time: f64,
     /// What is kept of them.
     pub columns: Vec<Column>,
+}
+
+/// How far a job has come since it was begun or restored, step by step, for others to see between its rows.
+#[derive(Debug, Default)]
+pub struct Pulse {
+    steps: AtomicU64,
+    time: AtomicU64,
+}
+
+impl Pulse {
+    /// One more step, which ended at `time` (s).
+    pub(crate) fn beat(&self, time: f64) {
+        self.time.store(time.to_bits(), Relaxed);
+        self.steps.fetch_add(1, Relaxed);
+    }
+
+    /// Steps.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps.load(Relaxed)
+    }
+
+    /// Simulated time (s).
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        f64::from_bits(self.time.load(Relaxed))
+    }
 }
 
 /// A running simulation of a case. Its memory is all that it gathers from row to row, with that of what it
@@ -50,6 +79,10 @@ pub trait Job: Memory + Send {
     fn metrics(&mut self) -> BTreeMap<String, Measured>;
     /// Work so far.
     fn work(&self) -> WorkDone;
+    /// How far it has come between rows; nothing of a job that takes no steps.
+    fn pulse(&self) -> Arc<Pulse> {
+        Arc::default()
+    }
     /// Where the time of the simulation of now went, as far as it tells.
     fn spent(&self) -> Spent {
         Spent::default()

@@ -20,7 +20,7 @@ use mpm_verify::night::Night;
 use mpm_verify::record::Version;
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::{describe, discard_report, keep::keep, shown, tables::Page, write_report};
-use mpm_verify::run::checkpoint::Saving;
+use mpm_verify::run::{checkpoint::Saving, size};
 use mpm_verify::scheme::{RemedyName, Scheme, TransferName};
 use mpm_verify::spec::RunSpec;
 use mpm_verify::study::complete::Completeness;
@@ -115,6 +115,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             resume,
             checkpoint_every,
             threads,
+            memory,
             told,
         } => {
             let scheme = match scheme {
@@ -150,7 +151,9 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             let saving = saving(checkpoint_every, resume.is_some());
             let folder = resume.or(out);
             let place = folder.as_deref().map(|folder| (folder, saving));
-            run_one(case, &spec, place, or_all_cores(threads), told)
+            let memory = memory.map(|gib| gib * size::GIBIBYTE);
+            let memory = memory.or_else(size::available_memory);
+            run_one(case, &spec, place, (or_all_cores(threads), memory), told)
         }
         Command::Verify {
             cases: named,

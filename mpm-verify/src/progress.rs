@@ -6,9 +6,12 @@ use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::error::{Error, one_line};
 use mpm_verify::record::Record;
 use mpm_verify::report::describe;
+use mpm_verify::run::Progress;
 use mpm_verify::study::schedule::Listener;
 use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::time::Instant;
 
 /// Positions of a full bar.
 pub(crate) const SCALE: f64 = 1000.0;
@@ -26,6 +29,80 @@ pub(crate) fn single(message: &str, shown: bool) -> ProgressBar {
     };
     bar.set_message(message.to_owned());
     bar
+}
+
+/// Seconds after which a run that no terminal shows first says how far it has come; then each time after twice as long,
+/// but at least so often.
+const FIRST_S: u64 = 10;
+const LEAST_OFTEN_S: u64 = 600;
+
+/// Says how far one run has come: a bar on a terminal, else a line now and then.
+pub(crate) struct Teller {
+    name: String,
+    bar: ProgressBar,
+    lines: bool,
+    begun: Instant,
+    /// When the next line is due (s).
+    next: AtomicU64,
+}
+
+impl Teller {
+    pub(crate) fn new(name: &str, shown: bool) -> Self {
+        Self {
+            name: name.to_owned(),
+            bar: single(name, shown),
+            lines: shown && !io::stderr().is_terminal(),
+            begun: Instant::now(),
+            next: AtomicU64::new(FIRST_S),
+        }
+    }
+
+    /// Hears how far the run has come.
+    pub(crate) fn hear(&self, now: Progress) {
+        let seconds = self.begun.elapsed().as_secs_f64();
+        let text = so_far(now, seconds);
+        self.bar.set_position((now.share * SCALE) as u64);
+        self.bar.set_message(format!("{}  {text}", self.name));
+        let next = self.next.load(Relaxed);
+        if self.lines && seconds >= next as f64 {
+            let later = (2 * next).min(next + LEAST_OFTEN_S);
+            let mine = self.next.compare_exchange(next, later, Relaxed, Relaxed);
+            if mine.is_ok() {
+                // Nothing more can be done if stderr is closed.
+                let _ = writeln!(io::stderr(), "{}: {text}", self.name);
+            }
+        }
+    }
+
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// How far a run has come in so many seconds, and what is left of it at the rate at which this machine went.
+pub(crate) fn so_far(now: Progress, seconds: f64) -> String {
+    let rate = now.steps as f64 / seconds;
+    let mut text = format!(
+        "step {}, t = {:.4e} s, {rate:.0} steps/s",
+        now.steps, now.time
+    );
+    if now.share > 0.0 {
+        let left = seconds * (1.0 / now.share - 1.0);
+        text += &format!(
+            ", {:.0} %, at most {} left",
+            100.0 * now.share,
+            lasting(left)
+        );
+    }
+    text
+}
+
+/// A time in words.
+fn lasting(seconds: f64) -> String {
+    let units = [(86400.0, "d"), (3600.0, "h"), (60.0, "min")];
+    let unit = units.into_iter().find(|(of, _)| seconds >= *of);
+    let (of, name) = unit.unwrap_or((1.0, "s"));
+    format!("{:.1} {name}", seconds / of)
 }
 
 /// The progress of runs side by side.

@@ -1,7 +1,7 @@
 //! The command `run`: one run of a case, begun or gone on with.
 
 use super::{Told, say, say_json};
-use crate::progress;
+use crate::progress::Teller;
 use mpm_verify::case::Case;
 use mpm_verify::error::{Error, ExitCode, one_line};
 use mpm_verify::files::lock::hold;
@@ -9,6 +9,7 @@ use mpm_verify::parameter::Parameters;
 use mpm_verify::record::Record;
 use mpm_verify::report::{describe, discard_report, single};
 use mpm_verify::run::checkpoint::{self, Identity, Saving};
+use mpm_verify::run::size::Size;
 use mpm_verify::run::{RECORD, require_tables};
 use mpm_verify::scheme::Scheme;
 use mpm_verify::spec::RunSpec;
@@ -16,15 +17,17 @@ use mpm_verify::study::found::own_record;
 use mpm_verify::study::judge::{exit_code, judge, judged_run};
 use std::path::Path;
 
-/// Runs `spec` of `case`, draws it into its folder, if it has one, and says what it found.
+/// Runs `spec` of `case` on so many threads, draws it into its folder, if it has one, and says what it takes, how far it
+/// has come and what it found.
 ///
 /// # Errors
-/// The case does not offer the scheme, the folder holds another run, or those of [`judged_run`].
+/// The case does not offer the scheme, the scene takes more bytes of memory than it may, the folder holds another run, or
+/// those of [`judged_run`].
 pub(crate) fn run_one(
     case: &'static Case,
     spec: &RunSpec,
     place: Option<(&Path, Saving)>,
-    threads: usize,
+    (threads, memory): (usize, Option<f64>),
     told: Told,
 ) -> Result<ExitCode, Error> {
     let offered = case.schemes();
@@ -40,6 +43,8 @@ pub(crate) fn run_one(
     if let Some((folder, Saving { resume: true, .. })) = place {
         if let Some(record) = ended(case, spec, folder, told)? {
             checkpoint::discard(folder)?;
+            // A run may have been killed between its record and its pictures.
+            single::draw(&record, folder)?;
             if told.progress() {
                 say("This run has ended before; there is nothing to resume.\n\n")?;
             }
@@ -52,14 +57,18 @@ pub(crate) fn run_one(
             ))?;
         }
     }
+    let size = Size::of(case, spec)?;
+    size.require(memory, spec)?;
+    if told.progress() {
+        say(format!("{size}.\n"))?;
+    }
     if let Some((folder, _)) = place {
         discard_report(folder)?;
     }
-    let bar = progress::single(&format!("{} {}", case.name, spec.folder()), told.progress());
-    let record = judged_run(case, spec, place, threads, &|share| {
-        bar.set_position((share * progress::SCALE) as u64);
-    })?;
-    bar.finish_and_clear();
+    let name = format!("{} {}", case.name, spec.folder());
+    let teller = Teller::new(&name, told.progress());
+    let record = judged_run(case, spec, place, threads, &|now| teller.hear(now))?;
+    teller.finish();
     if let Some((folder, _)) = place {
         let pictures = single::draw(&record, folder)?;
         if told.progress() {

@@ -63,9 +63,17 @@ impl Hydrostatic {
             width: p.number(WIDTH),
             height: p.number(HEIGHT),
         };
-        let limit = column.bulk_modulus / (column.density * column.gravity);
-        require_below(["height", "m", INVERTS], column.height, limit)?;
-        Ok(column)
+        column.upright("height")
+    }
+
+    /// The same, its height being the parameter of that name.
+    ///
+    /// # Errors
+    /// A height at which the floor would carry more than K.
+    pub(crate) fn upright(self, height: &str) -> Result<Self, Error> {
+        let limit = self.bulk_modulus / (self.density * self.gravity);
+        require_below([height, "m", INVERTS], self.height, limit)?;
+        Ok(self)
     }
 
     /// Pressure p (Pa) at the reference height `y` (m).

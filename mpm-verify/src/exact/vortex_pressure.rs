@@ -64,16 +64,19 @@ impl VortexPressure {
     pub fn new(p: &Parameters) -> Result<Self, Error> {
         let vortex = Vortex::new(p, BOX)?;
         let pressure = p.number(PRESSURE);
-        require_below(
-            ["pressure", "Pa", INVERTS],
-            pressure,
-            vortex.material.lambda,
-        )?;
+        let limit = vortex.material.lambda;
+        if pressure != 0.0 {
+            require_below(["pressure", "Pa", INVERTS], pressure, limit)?;
+        }
         Ok(Self { vortex, pressure })
     }
 
     fn stretched(&self, x: &Vector3<f64>, t: f64) -> Stretched {
-        let epsilon = self.pressure / (self.vortex.material.lambda * TAU);
+        // Without a pressure nothing is stretched, whatever λ is.
+        let epsilon = match self.pressure == 0.0 {
+            true => 0.0,
+            false => self.pressure / (self.vortex.material.lambda * TAU),
+        };
         let [s, s_t, s_tt] = sine(self.vortex.angular_frequency, t).map(|s| epsilon * s);
         let mut place = *x;
         let mut first = Matrix4::identity();

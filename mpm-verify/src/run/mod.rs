@@ -2,6 +2,7 @@
 
 pub mod checkpoint;
 pub mod series;
+pub mod size;
 pub mod vtu;
 
 use crate::case::Case;
@@ -20,7 +21,9 @@ use cpu_time::ProcessTime;
 use series::Series;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::{Duration, Instant};
 use vtu::{write_pvd, write_vtu};
 
 /// File of a run's record.
@@ -28,12 +31,26 @@ pub const RECORD: &str = "record.json";
 /// File of its particles at the end.
 const PARTICLES: &str = "particles.csv";
 
+/// Time from one look at a run to the next.
+const BEAT: Duration = Duration::from_secs(1);
+
+/// How far a run has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Share of the longest possible run that was done at the last row, 0 to 1.
+    pub share: f64,
+    /// Steps since the run began or was resumed.
+    pub steps: u64,
+    /// Simulated time (s); zero before the first step.
+    pub time: f64,
+}
+
 /// Runs `spec` of `case` on `threads` threads. With a folder, the series is written there row by row,
 /// checkpoints now and then and, at the end, particles and record; a run that breaks down keeps what it
-/// has written and its record says why.
+/// has written and its record says why. `progress` hears of it after every row, and every second.
 ///
 /// # Errors
-/// The scene can't be built, a file can't be written, or the checkpoint to go on from is refused
+/// The scene can't be built or has no particle, a file can't be written, or the checkpoint to go on from is refused
 /// ([`Error::Checkpoint`], and nothing in the folder has changed). A numerical breakdown is not an error here.
 pub fn execute(
     case: &Case,
@@ -41,7 +58,7 @@ pub fn execute(
     place: Option<(&Path, Saving)>,
     threads: usize,
     judge: &(dyn Fn(&Record) -> Vec<Verdict> + Sync),
-    progress: &(dyn Fn(f64) + Sync),
+    progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Record, Error> {
     let parameters = Parameters::new(&case.parameters, &spec.set)?;
     let pool = rayon::ThreadPoolBuilder::new()
@@ -49,7 +66,10 @@ pub fn execute(
         .build()
         .map_err(|e| Error::Input(format!("{threads} threads can't be started: {e}")))?;
     // The scene as well is built by no more threads.
-    let mut job = pool.install(|| (case.begin)(spec, &parameters))?;
+    let begun = pool.install(|| (case.begin)(spec, &parameters));
+    let mut job = begun
+        .and_then(size::require_particles)
+        .map_err(|e| size::given(e, spec))?;
     let mut journal = None;
     let mut before = Timing::default();
     if let Some((folder, saving)) = place {
@@ -57,9 +77,21 @@ pub fn execute(
         let (begun, taken) = Journal::open(folder, saving, identity, job.as_mut())?;
         (journal, before) = (Some(begun), taken);
     }
-    pool.install(|| {
+    let (pulse, share) = (job.pulse(), AtomicU64::new(0));
+    let look = || {
+        progress(Progress {
+            share: f64::from_bits(share.load(Relaxed)),
+            steps: pulse.steps(),
+            time: pulse.time(),
+        });
+    };
+    let come = |done: f64| {
+        share.store(done.to_bits(), Relaxed);
+        look();
+    };
+    let run = || {
         let clock = Clock::start(threads, before);
-        let failure = drive(job.as_mut(), journal.as_mut(), &clock, progress)?;
+        let failure = drive(job.as_mut(), journal.as_mut(), &clock, &come)?;
         let time = clock.time();
         let mut record = Record {
             schema: SCHEMA,
@@ -96,6 +128,27 @@ pub fn execute(
             journal.keeper.end()?;
         }
         Ok(record)
+    };
+    watched(&pool, run, look)
+}
+
+/// Does `work` in the pool, and looks at it from outside every second until it has ended.
+fn watched(
+    pool: &rayon::ThreadPool,
+    work: impl FnOnce() -> Result<Record, Error> + Send,
+    look: impl Fn() + Send,
+) -> Result<Record, Error> {
+    let (tell, ended) = mpsc::channel();
+    pool.in_place_scope(|scope| {
+        // Who waits for it is there until it has ended.
+        scope.spawn(move |_| drop(tell.send(work())));
+        loop {
+            match ended.recv_timeout(BEAT) {
+                Ok(result) => return result,
+                Err(RecvTimeoutError::Timeout) => look(),
+                Err(e) => return Err(Error::Input(format!("the run has stopped: {e}"))),
+            }
+        }
     })
 }
 
@@ -413,4 +466,27 @@ fn write_columns(file: &Path, columns: &[Column]) -> Result<(), Error> {
         &header,
         (0..rows).map(|k| columns.iter().map(|c| c.values[k].to_string()).collect()),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::AtomicUsize;
+
+    /// Between rows as well.
+    #[test]
+    fn a_run_is_looked_at_every_second() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        let looks = AtomicUsize::new(0);
+        let work = || {
+            std::thread::sleep(BEAT.mul_f64(1.5));
+            Err(Error::Input("the end".to_owned()))
+        };
+        let look = || {
+            looks.fetch_add(1, Relaxed);
+        };
+        let ended = watched(&pool.unwrap(), work, look).unwrap_err();
+        assert_eq!(ended.to_string(), "the end");
+        assert_eq!(looks.load(Relaxed), 1);
+    }
 }

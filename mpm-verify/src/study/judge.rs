@@ -5,7 +5,7 @@ use crate::check::Finding;
 use crate::error::{Error, ExitCode};
 use crate::record::{BREAKS_DOWN, Record, Status};
 use crate::run::checkpoint::Saving;
-use crate::run::execute;
+use crate::run::{Progress, execute};
 use crate::spec::RunSpec;
 use crate::verdict::{Kind, Outcome, Verdict};
 use std::path::Path;
@@ -19,7 +19,7 @@ pub fn judged_run(
     spec: &RunSpec,
     place: Option<(&Path, Saving)>,
     threads: usize,
-    progress: &(dyn Fn(f64) + Sync),
+    progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Record, Error> {
     execute(case, spec, place, threads, &|r| judge(case, r), progress)
 }

@@ -94,8 +94,8 @@ impl Task {
         }
         let run = |saving| {
             let place = Some((self.folder.as_path(), saving));
-            judged_run(self.case, &self.spec, place, 1, &|share| {
-                listener.progress(k, share);
+            judged_run(self.case, &self.spec, place, 1, &|now| {
+                listener.progress(k, now.share);
             })
         };
         match run(saving) {

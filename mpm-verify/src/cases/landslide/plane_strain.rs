@@ -4,12 +4,13 @@ use super::metrics as m;
 use super::watch::Slide;
 use crate::drive::{Drive, measured};
 use crate::error::Error;
-use crate::job::{Column, Job, Snapshot};
+use crate::job::{Column, Job, Pulse, Snapshot};
 use crate::parameter::Parameters;
 use crate::record::{Discretisation, Measured, WorkDone};
 use crate::spec::RunSpec;
 use mpm_core::memory::{Memory, MemoryError, Saved};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Columns of a slide's series that are shown of the section beside it.
 const TOE: usize = 1;
@@ -97,5 +98,9 @@ impl Job for Beside {
 
     fn work(&self) -> WorkDone {
         self.slide.work()
+    }
+
+    fn pulse(&self) -> Arc<Pulse> {
+        self.slide.pulse()
     }
 }

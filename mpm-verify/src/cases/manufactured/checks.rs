@@ -8,8 +8,9 @@ use super::metrics::{BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_SCALE, MASS, STRES
 use crate::accuracy::fit_order;
 use crate::cases::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::check::{Check, Finding, On, judge, run, study};
-use crate::exact::parameters::ANGULAR_FREQUENCY;
+use crate::exact::parameters::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
 use crate::metric::Metric;
+use crate::parameter::Parameters;
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use mpm_core::Law;
@@ -128,9 +129,30 @@ pub(in crate::cases) fn motion_lost(
         "wherever the rms error of u at the end is larger than the largest rms of the exact u, and no bound on it is judged: nothing is left of the motion",
         run(move |r| {
             let scale = r.metric(DISPLACEMENT_SCALE);
-            let lost = r.metric(DISPLACEMENT_L2) > scale;
+            let lost = r.metric(DISPLACEMENT_L2) > scale && moves(&r.parameters);
             let why = why(r).filter(|_| lost);
             why.map(|why| judge(r, DISPLACEMENT_L2).above(scale, why))
+        }),
+    )
+}
+
+/// Whether a standing wave has an amplitude, and gravity where that drives it; a problem without these moves.
+pub(in crate::cases) fn moves(p: &Parameters) -> bool {
+    [AMPLITUDE, GRAVITY].iter().all(|of| p.number(*of) != 0.0)
+}
+
+/// A wave without an amplitude, or without what drives it, is a state of rest; so far (m) may particles be off it.
+pub(in crate::cases) fn rests(
+    statement: &'static str,
+    bound: impl Fn(&Record) -> f64 + Send + Sync + 'static,
+) -> Check {
+    Check::truth(
+        "rests",
+        statement,
+        run(move |r| {
+            let why = "the exact solution is a state of rest";
+            let found = judge(r, DISPLACEMENT_L2).at_most(bound(r), why);
+            (!moves(&r.parameters)).then_some(found)
         }),
     )
 }
@@ -164,6 +186,15 @@ fn error_bound(claims: Claims, wave: Wave) -> Check {
 fn unbounded(r: &Record, claim: &Claim, wave: &Wave) -> Option<&'static str> {
     if wave.error_of_steps(r) >= 1.0 {
         return Some("steps as long as these follow nothing of the motion");
+    }
+    // Of central differences, beside that of the cells: θ²/12 of the driven motion.
+    let phase = r.parameters.number(ANGULAR_FREQUENCY) * r.discretisation.dt;
+    let kh = wave.number * r.discretisation.h;
+    let of_steps = phase * phase / 12.0 * wave.ratio(r).powi(2);
+    if r.scheme().rule().is_none() && of_steps > DISPERSION * kh * kh {
+        return Some(
+            "steps of this length err more than the cells: a soft or heavy body is driven",
+        );
     }
     match claim {
         Claim::Second | Claim::Observed(..) => {

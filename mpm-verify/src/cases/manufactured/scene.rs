@@ -4,6 +4,7 @@ use super::{AUTO, Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RAT
 use crate::cases::observe::{implicit_settings, settings};
 use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS};
 use crate::error::Error;
+use crate::exact::parameters::ANGULAR_FREQUENCY;
 use crate::exact::{Exact, Material};
 use crate::parameter::{Parameter, Parameters};
 use crate::scheme::{RemedyName, Scheme};
@@ -23,6 +24,8 @@ use std::sync::Arc;
 const COARSEST: f64 = 8.0;
 /// The explicit solver's steps are shorter.
 const EXPLICIT_CFL: f64 = 1.0;
+/// Phase ωΔt (rad) of a motion in a step that an explicit run follows, at most.
+const MOST_PHASE: f64 = 1.0;
 /// Cells above a free surface.
 const HEADROOM: usize = 4;
 
@@ -70,10 +73,16 @@ impl Timing {
         };
         let longest = courant_time_step(cfl * finer, spec.level.h, speed);
         let steps = (number(DURATION) / longest).ceil();
-        Ok(Self {
-            steps,
-            dt: number(DURATION) / steps,
-        })
+        let dt = number(DURATION) / steps;
+        let omega = number(ANGULAR_FREQUENCY);
+        if matches!(spec.scheme, Scheme::Explicit(_)) && omega * dt > MOST_PHASE {
+            return Err(Error::Input(format!(
+                "angular_frequency = {omega} rad/s is too high to be followed by steps of {dt:e} s, which cfl = {cfl} and \
+                 the body's waves of {speed:e} m/s make; allowed: at most {:e}",
+                MOST_PHASE / dt
+            )));
+        }
+        Ok(Self { steps, dt })
     }
 }
 
@@ -228,12 +237,29 @@ fn cells([lo, hi]: [f64; 2], h: f64) -> usize {
     ((hi - lo) / h).round() as usize
 }
 
+/// Checks that a body fills its cells: particles of the whole cells would be another body.
+fn require_whole_cells(solution: &dyn Exact, h: f64) -> Result<(), mpm_core::Error> {
+    for axis in 0..solution.dimension() {
+        let [lo, hi] = solution.extent()[axis];
+        let value = (hi - lo) / h;
+        if value < 0.5 || (value - value.round()).abs() > 1e-9 * value {
+            return Err(mpm_core::Error::Input {
+                what: "length of the body over that of a cell",
+                value,
+                allowed: "a whole number",
+            });
+        }
+    }
+    Ok(())
+}
+
 /// The grid and what holds the body.
 fn surroundings<const D: usize>(
     boundary: Boundary,
     solution: &dyn Exact,
     h: f64,
 ) -> Result<(Grid<D>, Vec<Wall>), mpm_core::Error> {
+    require_whole_cells(solution, h)?;
     let mut walls = Vec::new();
     let mut hold = |axis, end, kind| walls.push(Wall { axis, end, kind });
     let extent = solution.extent();

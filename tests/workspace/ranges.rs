@@ -1,0 +1,103 @@
+//! Ends of ranges: zero, where it is allowed, gives what is right for it, or the parameter is named.
+
+use super::progress::so_far;
+use mpm_verify::cases;
+use mpm_verify::parameter::{Domain, Parameters};
+use mpm_verify::run::checkpoint::Saving;
+use mpm_verify::run::{Progress, series};
+use mpm_verify::spec::RunSpec;
+use mpm_verify::study::judge::judged_run;
+use mpm_verify::table::Table;
+use std::time::Duration;
+
+/// Cases that take hundredths of a second, and what makes the last of them as short.
+const CASES: [(&str, &[&str]); 12] = [
+    ("mms-axis", &[]),
+    ("mms-wall-pressure", &[]),
+    ("mms-vortex-ring", &[]),
+    ("mms-vortex-box", &[]),
+    ("mms-vortex-pressure", &[]),
+    ("mms-double-shear", &[]),
+    ("mms-static", &[]),
+    ("vibrating-bar", &[]),
+    ("standing-wave", &[]),
+    ("translate", &[]),
+    ("shock", &[]),
+    ("column", &["duration=0.005"]),
+];
+
+#[test]
+fn zero_where_it_is_allowed_is_right_or_refused_by_name() {
+    let mut tried = 0;
+    for (name, set) in CASES {
+        let case = cases::find(name).unwrap();
+        for p in &case.parameters {
+            let Domain::Number { least, .. } = p.domain else {
+                continue;
+            };
+            if least > 0.0 || p.parse("0").is_err() {
+                continue;
+            }
+            tried += 1;
+            let mut set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+            set.push(format!("{}=0", p.name));
+            let spec = RunSpec {
+                scheme: case.default_scheme(None),
+                level: case.levels[0],
+                set,
+                perturbed: false,
+            };
+            let folder = tempfile::tempdir().unwrap();
+            let every = Duration::from_secs(3600);
+            let saving = Saving {
+                every,
+                resume: false,
+            };
+            let place = Some((folder.path(), saving));
+            let record = match judged_run(case, &spec, place, 1, &|_| {}) {
+                Ok(record) => record,
+                Err(refusal) => {
+                    assert!(refusal.to_string().contains(p.name), "{name}: {refusal}");
+                    continue;
+                }
+            };
+            let failed = record.verdicts.iter().find(|v| v.failed());
+            assert!(failed.is_none(), "{name} {}: {failed:?}", p.name);
+            let rows = Table::read(&folder.path().join(series::FILE)).unwrap();
+            for (header, column) in rows.iter() {
+                let finite = column.iter().all(|x| x.is_finite());
+                assert!(finite, "{name} {}: {header}", p.name);
+            }
+        }
+    }
+    assert!(tried > 40, "{tried}");
+}
+
+/// What is said and kept comes with rows: none is longer than so many steps, however long the run.
+#[test]
+fn a_row_of_a_long_run_has_so_many_steps_at_most() {
+    let case = cases::find("vibrating-bar").unwrap();
+    let spec = RunSpec {
+        scheme: case.default_scheme(None),
+        level: case.levels[0],
+        set: vec!["amplitude=0".to_owned(), "duration=1e5".to_owned()],
+        perturbed: false,
+    };
+    let parameters = Parameters::new(&case.parameters, &spec.set).unwrap();
+    let mut job = (case.begin)(&spec, &parameters).unwrap();
+    job.advance().unwrap();
+    assert_eq!(job.work().steps, 100_000);
+    assert_eq!(job.pulse().steps(), 100_000);
+    assert!(job.pulse().time() > 0.0 && job.progress() < 1e-3);
+}
+
+/// What a run that no terminal shows says now and then.
+#[test]
+fn a_run_tells_how_far_it_has_come() {
+    let (share, steps, time) = (0.0, 2000, 0.25);
+    let mut now = Progress { share, steps, time };
+    let early = so_far(now, 10.0);
+    assert_eq!(early, "step 2000, t = 2.5000e-1 s, 200 steps/s");
+    now.share = 0.001;
+    assert!(so_far(now, 10.0).ends_with(", 0 %, at most 2.8 h left"));
+}
