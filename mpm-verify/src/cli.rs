@@ -124,6 +124,28 @@ pub(crate) enum Command {
         #[command(flatten)]
         told: Told,
     },
+    /// Run a scene of one's own that a file describes and, with --out, draw it
+    Scene {
+        /// The scene file, in TOML: docs/reference/scene-files.md
+        file: PathBuf,
+        /// Folder for record, series, particles, VTU and pictures
+        #[arg(long, group = "folder")]
+        out: Option<PathBuf>,
+        /// In place of --out: go on in this folder from the checkpoint that the same scene has left there
+        #[arg(long, value_name = "DIR", group = "folder")]
+        resume: Option<PathBuf>,
+        /// Write a checkpoint so often, by the clock; 0: after every row of the series
+        #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
+        checkpoint_every: u64,
+        /// Refuse a scene that takes more memory at its start (what the machine has to give if not said)
+        #[arg(long, value_name = "GIB", value_parser = memory)]
+        memory: Option<f64>,
+        /// Threads (all cores if not given)
+        #[arg(long, value_parser = threads())]
+        threads: Option<usize>,
+        #[command(flatten)]
+        told: Told,
+    },
     /// Run a tier of cases, judge them and write the report
     Verify {
         /// The cases (all if none is given)

@@ -11,7 +11,7 @@ use mpm_core::number::FUSED;
 use mpm_verify::bench::{self, Peers};
 use mpm_verify::bless::{Blessing, Candidates};
 use mpm_verify::case::{Case, find_level};
-use mpm_verify::cases;
+use mpm_verify::cases::{self, scene::SceneFile};
 use mpm_verify::error::{Error, ExitCode, is_unfit, one_line};
 use mpm_verify::exact;
 use mpm_verify::files::lock::hold;
@@ -68,10 +68,18 @@ fn or_all_cores(threads: Option<usize>) -> usize {
     threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
 }
 
+/// The memory (bytes) that a scene may take: so many gibibytes, or what the machine has to give, if it tells.
+fn memory_of(gib: Option<f64>) -> Option<f64> {
+    let bytes = gib.map(|gib| gib * size::GIBIBYTE);
+    bytes.or_else(size::available_memory)
+}
+
 /// Bounds what starts besides the threads of a run, whatever the environment says.
 fn bound_threads(command: &Command) -> Result<(), Error> {
     let asked = match command {
-        Command::Run { threads, .. } | Command::Verify { threads, .. } => *threads,
+        Command::Run { threads, .. }
+        | Command::Scene { threads, .. }
+        | Command::Verify { threads, .. } => *threads,
         Command::Bless { threads, .. } => *threads,
         _ => None,
     };
@@ -151,9 +159,27 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             let saving = saving(checkpoint_every, resume.is_some());
             let folder = resume.or(out);
             let place = folder.as_deref().map(|folder| (folder, saving));
-            let memory = memory.map(|gib| gib * size::GIBIBYTE);
-            let memory = memory.or_else(size::available_memory);
-            run_one(case, &spec, place, (or_all_cores(threads), memory), told)
+            let resources = (or_all_cores(threads), memory_of(memory));
+            run_one(case, &spec, place, resources, told)
+        }
+        Command::Scene {
+            file,
+            out,
+            resume,
+            checkpoint_every,
+            memory,
+            threads,
+            told,
+        } => {
+            let scene = SceneFile::read(&file)?;
+            if told.progress() {
+                say(format!("{}\n", one_line(&scene.title)))?;
+            }
+            let saving = saving(checkpoint_every, resume.is_some());
+            let folder = resume.or(out);
+            let place = folder.as_deref().map(|folder| (folder, saving));
+            let resources = (or_all_cores(threads), memory_of(memory));
+            run_one(&scene.case, &scene.spec, place, resources, told)
         }
         Command::Verify {
             cases: named,

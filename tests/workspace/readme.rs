@@ -32,6 +32,7 @@ fn every_command_of_the_readme_works() {
     copy_tree(quick().0, &report);
     copy_tree(&golden(), &goldens);
     let place = text(&report);
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/slope.toml");
     let commands: Vec<&str> = readme
         .lines()
         .filter_map(|line| line.strip_prefix("mpm-verify "))
@@ -51,6 +52,7 @@ fn every_command_of_the_readme_works() {
             "DIR" | "OUT" | "OLD" | "NEW" => place,
             // The level of the example takes ten times as long.
             "h1" => "h2",
+            "mpm-verify/scenes/slope.toml" => scene,
             word => word,
         });
         let mut arguments: Vec<&str> = words.collect();

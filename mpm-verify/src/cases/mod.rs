@@ -33,6 +33,7 @@ mod mms_wall_pressure;
 mod observe;
 pub(crate) mod parameters;
 mod pictures;
+pub mod scene;
 mod shock;
 mod slope_stability;
 mod spin;

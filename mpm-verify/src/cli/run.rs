@@ -24,7 +24,7 @@ use std::path::Path;
 /// The case does not offer the scheme, the scene takes more bytes of memory than it may, the folder holds another run, or
 /// those of [`judged_run`].
 pub(crate) fn run_one(
-    case: &'static Case,
+    case: &Case,
     spec: &RunSpec,
     place: Option<(&Path, Saving)>,
     (threads, memory): (usize, Option<f64>),
@@ -44,7 +44,7 @@ pub(crate) fn run_one(
         if let Some(record) = ended(case, spec, folder, told)? {
             checkpoint::discard(folder)?;
             // A run may have been killed between its record and its pictures.
-            single::draw(&record, folder)?;
+            single::draw(case, &record, folder)?;
             if told.progress() {
                 say("This run has ended before; there is nothing to resume.\n\n")?;
             }
@@ -70,7 +70,7 @@ pub(crate) fn run_one(
     let record = judged_run(case, spec, place, threads, &|now| teller.hear(now))?;
     teller.finish();
     if let Some((folder, _)) = place {
-        let pictures = single::draw(&record, folder)?;
+        let pictures = single::draw(case, &record, folder)?;
         if told.progress() {
             let names = pictures
                 .iter()

@@ -29,6 +29,7 @@ pub mod tables;
 mod values;
 mod words;
 
+use crate::case::Case;
 use crate::cases;
 use crate::error::Error;
 use crate::files::{
@@ -83,10 +84,11 @@ fn draw(
     goldens: &Goldens,
     out: &Path,
 ) -> Result<Vec<Picture>, Error> {
+    let case = cases::find(&study.case)?;
     let mut pictures = drift::draw(study, gathered, goldens, out)?;
-    pictures.extend(draw_own(study, gathered, out)?);
+    pictures.extend(draw_own(case, study, gathered, out)?);
     if let [record] = &study.records[..] {
-        pictures.extend(single::own(record, gathered.folder(record)?, out)?);
+        pictures.extend(single::own(case, record, gathered.folder(record)?, out)?);
     }
     pictures.extend(convergence::draw(study, out)?);
     pictures.extend(sweep::draw(study, out)?);
@@ -97,10 +99,15 @@ fn draw(
 }
 
 /// Draws what only this case has.
-fn draw_own(study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Picture>, Error> {
+fn draw_own(
+    case: &Case,
+    study: &CaseStudy,
+    gathered: &Gathered,
+    out: &Path,
+) -> Result<Vec<Picture>, Error> {
     let folder = |r: &Record| gathered.folder(r).map(Path::to_path_buf);
     let mut gallery = Gallery::new(&study.case, &study.records, &folder, out);
-    (cases::find(&study.case)?.pictures)(&mut gallery)?;
+    (case.pictures)(&mut gallery)?;
     Ok(gallery.pictures())
 }
 

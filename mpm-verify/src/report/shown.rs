@@ -160,7 +160,7 @@ fn draw_runs(folders: &[PathBuf], out: &Path) -> Result<Tier, Error> {
     let found = gathered.judge(|_| Ok(Vec::new()))?;
     let tier = Tier::parse(&found.tier)?;
     for study in &found.cases {
-        let _: Vec<Picture> = draw_own(study, &gathered, out)?;
+        let _: Vec<Picture> = draw_own(cases::find(&study.case)?, study, &gathered, out)?;
     }
     Ok(tier)
 }

@@ -1,7 +1,7 @@
 //! The pictures of one run by itself.
 
 use super::{draw_own, owning};
-use crate::cases;
+use crate::case::Case;
 use crate::draw::{Chart, FieldFigure, FieldPanel, Series, draw_charts, draw_fields};
 use crate::error::Error;
 use crate::gallery::Picture;
@@ -17,29 +17,42 @@ use std::path::Path;
 ///
 /// # Errors
 /// A file of the run is damaged, or a picture can't be written.
-pub fn draw(record: &Record, folder: &Path) -> Result<Vec<Picture>, Error> {
+pub fn draw(case: &Case, record: &Record, folder: &Path) -> Result<Vec<Picture>, Error> {
     let study = CaseStudy::new(&record.case, vec![record.clone()]);
     let gathered = Gathered::single(record.clone(), folder);
     owning(folder, || {
-        let mut pictures = draw_own(&study, &gathered, folder)?;
-        pictures.extend(own(record, folder, folder)?);
+        let mut pictures = draw_own(case, &study, &gathered, folder)?;
+        pictures.extend(own(case, record, folder, folder)?);
         Ok(pictures)
     })
 }
 
 /// Draws the run in `folder`: its particles, and what it went through.
-pub(super) fn own(record: &Record, folder: &Path, out: &Path) -> Result<Vec<Picture>, Error> {
-    let pictures = [field(record, folder, out)?, history(record, folder, out)?];
+pub(super) fn own(
+    case: &Case,
+    record: &Record,
+    folder: &Path,
+    out: &Path,
+) -> Result<Vec<Picture>, Error> {
+    let pictures = [
+        field(case, record, folder, out)?,
+        history(case, record, folder, out)?,
+    ];
     Ok(pictures.into_iter().flatten().collect())
 }
 
 /// Draws the particles of a plane run in `folder` at its end, coloured by what its readers should see first.
-fn field(record: &Record, folder: &Path, out: &Path) -> Result<Option<Picture>, Error> {
+fn field(
+    case: &Case,
+    record: &Record,
+    folder: &Path,
+    out: &Path,
+) -> Result<Option<Picture>, Error> {
     let path = folder.join("particles.csv");
     if !path.exists() || record.discretisation.dim != 2 {
         return Ok(None);
     }
-    let view = cases::find(&record.case)?.field;
+    let view = case.field;
     let value = view.map_or("mean_stress", |view| view.value);
     let table = Table::read(&path)?;
     let header = table.iter().map(|(header, _)| header);
@@ -88,9 +101,13 @@ fn bulk(values: &[f64]) -> Option<(f64, f64)> {
 }
 
 /// Draws the columns of the time series of the run in `folder` that its readers should see first, a chart each.
-fn history(record: &Record, folder: &Path, out: &Path) -> Result<Option<Picture>, Error> {
+fn history(
+    case: &Case,
+    record: &Record,
+    folder: &Path,
+    out: &Path,
+) -> Result<Option<Picture>, Error> {
     let path = folder.join(series::FILE);
-    let case = cases::find(&record.case)?;
     if !path.exists() || case.watched.is_empty() {
         return Ok(None);
     }

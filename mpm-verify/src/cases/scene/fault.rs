@@ -1,0 +1,98 @@
+//! Where a scene file is wrong: file, line, key, what is there and what may be.
+
+use crate::error::Error;
+use serde::Deserialize;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+/// A value that remembers where it stands.
+pub(super) type Line<T> = Spanned<T>;
+
+/// A scene file's text, to say where something in it is wrong.
+pub(super) struct Source {
+    pub(super) path: PathBuf,
+    pub(super) text: String,
+}
+
+impl Source {
+    /// Reads what the text says.
+    ///
+    /// # Errors
+    /// It is no TOML, or not of this form.
+    pub(super) fn parse<T: for<'a> Deserialize<'a>>(&self) -> Result<T, Error> {
+        toml::from_str(&self.text).map_err(|e| {
+            let span = e.span().unwrap_or_default();
+            let mut said = e.message().replace('\n', "; ");
+            if let Some(name) = nearest(&said) {
+                said.push_str(&format!("; is `{name}` meant?"));
+            }
+            self.fault(&span, said)
+        })
+    }
+
+    /// What is wrong with the value of a span.
+    pub(super) fn fault(&self, span: &Range<usize>, said: impl std::fmt::Display) -> Error {
+        let before = self.text.get(..span.start).unwrap_or_default();
+        let line = before.matches('\n').count() + 1;
+        let told = match self.key(span) {
+            Some(key) => format!("line {line}, {key}: {said}"),
+            None => format!("line {line}: {said}"),
+        };
+        Error::file(&self.path, told)
+    }
+
+    /// What is wrong with a value that remembers its place.
+    pub(super) fn at<T>(&self, value: &Line<T>, said: impl std::fmt::Display) -> Error {
+        self.fault(&value.span(), said)
+    }
+
+    /// The key, or the head of the table, that a span belongs to.
+    fn key(&self, span: &Range<usize>) -> Option<&str> {
+        let start = self
+            .text
+            .get(..span.start)?
+            .rfind('\n')
+            .map_or(0, |k| k + 1);
+        let line = self.text.get(start..)?.lines().next()?;
+        if line.trim_start().starts_with('[') {
+            return Some(line.trim());
+        }
+        let before = line.get(..span.start - start)?;
+        let named = match before.rfind('=') {
+            Some(end) => &before[..end],
+            None => line.split('=').next()?,
+        };
+        let of_key = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+        let key = named.trim_end().rsplit(|c| !of_key(c)).next()?;
+        (!key.is_empty()).then_some(key)
+    }
+
+    /// A file beside this one.
+    ///
+    /// # Errors
+    /// Not a plain name.
+    pub(super) fn beside<T>(&self, value: &Line<T>, name: &str) -> Result<PathBuf, Error> {
+        let plain = Path::new(name).file_name().is_some_and(|n| n == name);
+        match plain {
+            true => Ok(self.path.with_file_name(name)),
+            false => Err(self.at(
+                value,
+                format!("file {name:?} where the name of a file beside the scene is allowed"),
+            )),
+        }
+    }
+}
+
+/// The name that an unknown one in the message of serde is nearest to: the message has the names between backticks, the
+/// unknown one first.
+fn nearest(said: &str) -> Option<&str> {
+    if !said.starts_with("unknown ") {
+        return None;
+    }
+    let mut names = said.split('`').skip(1).step_by(2);
+    let given = names.next()?;
+    let distance = |name: &&str| strsim::damerau_levenshtein(given, name);
+    let name = names.min_by_key(distance)?;
+    (distance(&name) <= 1 + given.len() / 3).then_some(name)
+}

@@ -1,0 +1,168 @@
+//! Scenes of one's own: a file in TOML describes grid, body, law, what acts, solver and phases, and is run like a case.
+//! Nothing is known of the answer, so nothing is judged but that the run ends and keeps its mass.
+//!
+//! The format: `docs/reference/scene-files.md`.
+
+mod fault;
+mod form;
+mod law;
+mod phase;
+mod setup;
+mod shape;
+mod solving;
+mod watch;
+
+#[cfg(test)]
+mod tests;
+
+use super::family::family;
+use crate::case::{Begin, Case, Tier};
+use crate::check::{checks, judge, run};
+use crate::error::Error;
+use crate::files::{Mark, read_text};
+use crate::job::Job;
+use crate::parameter::Parameters;
+use crate::scheme::Scheme;
+use crate::sketch::Sketch;
+use crate::spec::{Level, RunSpec};
+use fault::Source;
+use form::{FORMAT, Form};
+use setup::Setup;
+use solving::{Compiled, Solving};
+use std::path::Path;
+use watch::{Course, MASS};
+
+/// What a check on a run's mass allows, relative to it: a sum of so many terms rounds.
+const ROUNDING: f64 = 1e-9;
+
+/// A scene that a file describes.
+pub struct SceneFile {
+    /// It, as a case with one run.
+    pub case: Case,
+    /// Its run.
+    pub spec: RunSpec,
+    /// The title in the file.
+    pub title: String,
+}
+
+impl SceneFile {
+    /// Reads a file. Names made from it live as long as the program, which reads one.
+    ///
+    /// # Errors
+    /// The file can't be read, or makes no scene: the error names line and key.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let source = Source {
+            path: path.to_path_buf(),
+            text: read_text(path)?,
+        };
+        let form: Form = source.parse()?;
+        let format = form.format.get_ref();
+        if *format != FORMAT {
+            let said = format!("format {format} where {FORMAT} is read");
+            return Err(source.at(&form.format, said));
+        }
+        let title = form.title.clone();
+        let dimension = form.grid.get_ref().cells.len();
+        let h = form.grid.get_ref().cell_size_m.0;
+        let look = match dimension {
+            1 => look::<1>,
+            2 => look::<2>,
+            3 => look::<3>,
+            _ => {
+                let said = format!("cells has {dimension} numbers where 1 to 3 are allowed");
+                return Err(source.at(&form.grid, said));
+            }
+        };
+        let (scheme, mass, mark) = look(&source, form)?;
+        let level = Level {
+            name: Box::leak(format!("{mark:08x}").into_boxed_str()),
+            h,
+        };
+        let begin = move |_: &RunSpec, _: &Parameters| match dimension {
+            1 => begin::<1>(&source),
+            2 => begin::<2>(&source),
+            _ => begin::<3>(&source),
+        };
+        Ok(Self {
+            case: case(level, scheme, mass, Box::new(begin)),
+            spec: RunSpec {
+                scheme,
+                level,
+                set: Vec::new(),
+                perturbed: false,
+            },
+            title,
+        })
+    }
+}
+
+/// Builds every phase once, so that what is wrong in the last one is said before the first: scheme, mass (kg) and a checksum
+/// of file and particles, by which a checkpoint knows its scene.
+fn look<const D: usize>(source: &Source, form: Form) -> Result<(Scheme, f64, u32), Error>
+where
+    Compiled: Solving<D>,
+{
+    let setup = Setup::<D>::new(source, form)?;
+    let mut mass = 0.0;
+    for phase in &setup.phases {
+        let run = Compiled::solve(&setup, phase);
+        let run =
+            run.map_err(|e| Error::file(&source.path, format!("phase {}: {e}", phase.name)))?;
+        mass = run.totals().mass;
+    }
+    let mut all = source.text.clone().into_bytes();
+    all.extend(
+        setup
+            .places
+            .as_flattened()
+            .iter()
+            .flat_map(|x| x.to_le_bytes()),
+    );
+    Ok((setup.scheme, mass, Mark::of(&all).checksum))
+}
+
+fn begin<const D: usize>(source: &Source) -> Result<Box<dyn Job>, Error>
+where
+    Compiled: Solving<D>,
+{
+    let form: Form = source.parse()?;
+    let every = form.output.get_ref().snapshot_rows;
+    let setup = Setup::<D>::new(source, form)?;
+    Ok(Box::new(Course::drive(
+        setup,
+        every.map(|rows| rows.0 as usize),
+    )?))
+}
+
+/// The case of a scene whose body has a `mass` (kg).
+fn case(level: Level, scheme: Scheme, mass: f64, begin: Begin) -> Case {
+    let kept = run(move |r| {
+        let why = "particles carry their mass: a sum of it rounds";
+        [judge(r, MASS).within(mass, ROUNDING * mass, why)]
+    });
+    Case {
+        name: "scene",
+        title: "A scene of one's own",
+        description: "What a scene file describes.",
+        references: Vec::new(),
+        limits: &["Nothing is known of the answer, so nothing is judged."],
+        parameters: Vec::new(),
+        levels: vec![level],
+        plan: vec![family(Tier::Long, &[level], &[scheme], &[])],
+        metrics: watch::ALL.to_vec(),
+        checks: checks! { bookkeeping "mass": "The mass stays what it was." => kept; },
+        headlines: Vec::new(),
+        quantities: Vec::new(),
+        sweeps: Vec::new(),
+        watched: &["displacement_max", "kinetic_energy"],
+        field: None,
+        sketch: Sketch::default(),
+        cost: Box::new(|_| 1.0),
+        ladder: &[],
+        own_runs: crate::record::of_defaults,
+        begin,
+        pictures: |_| Ok(()),
+        tables: Vec::new(),
+        breaks_down: |_| None,
+    }
+}

@@ -1,0 +1,151 @@
+//! The phases of a scene, and how each is solved.
+
+use super::fault::{Line, Source};
+use super::form::{Form, LawForm, WaterForm};
+use super::law::Material;
+use crate::error::Error;
+use crate::scheme::Scheme;
+use mpm_core::explicit::courant_time_step;
+
+/// Most rows of a phase, and most steps of a row.
+const MOST_ROWS: f64 = 1e7;
+const MOST_STEPS: f64 = 1e12;
+
+/// A phase.
+pub(super) struct Phase {
+    pub(super) name: String,
+    pub(super) material: Material,
+    pub(super) rows: usize,
+    pub(super) steps_per_row: u64,
+    pub(super) dt: f64,
+    pub(super) damping: f64,
+}
+
+/// The scheme, and that nothing is set that only another kind of solver has.
+pub(super) fn scheme(source: &Source, form: &Form) -> Result<Scheme, Error> {
+    let given = form.solver.get_ref();
+    let scheme = Scheme::parse(&given.scheme).map_err(|e| source.at(&form.solver, e))?;
+    let kind = match scheme {
+        Scheme::Explicit(_) => "explicit",
+        Scheme::Implicit(_) => "implicit",
+        Scheme::Poro(_) => "poro",
+    };
+    let own = [
+        ("cfl", given.cfl.is_some(), &["explicit"][..]),
+        ("flip", given.flip.is_some(), &["explicit"]),
+        (
+            "pic_rate_per_s",
+            given.pic_rate_per_s.is_some(),
+            &["explicit"],
+        ),
+        (
+            "kinetic_damping",
+            given.kinetic_damping.is_some(),
+            &["explicit"],
+        ),
+        ("walls", given.walls.is_some(), &["explicit"]),
+        (
+            "tolerance",
+            given.tolerance.is_some(),
+            &["implicit", "poro"],
+        ),
+        (
+            "ghost_penalty",
+            given.ghost_penalty.is_some(),
+            &["implicit", "poro"],
+        ),
+        ("lumped", given.lumped.is_some(), &["implicit"]),
+        ("ghost_pressure", given.ghost_pressure.is_some(), &["poro"]),
+        (
+            "projection_per_pa",
+            given.projection_per_pa.is_some(),
+            &["poro"],
+        ),
+    ];
+    for (name, is_set, kinds) in own {
+        if is_set && !kinds.contains(&kind) {
+            let said = format!("{name} has no meaning with the scheme {scheme}");
+            return Err(source.at(&form.solver, said));
+        }
+    }
+    if form.water.is_some() != (kind == "poro") {
+        let said =
+            "water and a scheme of the kind poro go together: the one is there without the other";
+        return Err(source.at(&form.solver, said));
+    }
+    Ok(scheme)
+}
+
+pub(super) fn phases(
+    source: &Source,
+    form: &Form,
+    scheme: Scheme,
+    h: f64,
+) -> Result<Vec<Phase>, Error> {
+    let porosity = form
+        .water
+        .as_ref()
+        .map(|w: &Line<WaterForm>| w.get_ref().porosity.0);
+    let law =
+        |at: &Line<_>, law: &LawForm| Material::of(law, porosity).map_err(|e| source.at(at, e));
+    let own = Material::of(form.law.get_ref(), porosity).map_err(|e| source.at(&form.law, e))?;
+    let (solver, row) = (form.solver.get_ref(), form.output.get_ref().row_s.0);
+    let explicit = matches!(scheme, Scheme::Explicit(_));
+    let mut all: Vec<Phase> = Vec::new();
+    for phase in &form.phases {
+        let given = phase.get_ref();
+        let material = match &given.law {
+            Some(changed) => law(phase, changed)?,
+            None => own,
+        };
+        if std::mem::discriminant(&material) != std::mem::discriminant(&own) {
+            let said = "another kind of law than the scene's: only its constants may change";
+            return Err(source.at(phase, said));
+        }
+        let speed = material.wave_speed(form.body.get_ref().density_kg_m3.0);
+        let (dt, steps_per_row) = match (solver.time_step_s, solver.cfl) {
+            (Some(dt), None) => (dt.0, (row / dt.0).round().max(1.0)),
+            (None, Some(cfl)) => {
+                // The largest step of the CFL number of which a whole number makes a row.
+                let steps = (row / courant_time_step(cfl.0, h, speed)).ceil().max(1.0);
+                (row / steps, steps)
+            }
+            _ => {
+                let said = "either time_step_s or, of an explicit scheme, cfl";
+                return Err(source.at(&form.solver, said));
+            }
+        };
+        let rows = given.duration_s.0 / (dt * steps_per_row);
+        if !(0.5..=MOST_ROWS).contains(&rows) || steps_per_row > MOST_STEPS {
+            let said = format!(
+                "{} s in rows of {} s: 1 to 10⁷ of them are allowed",
+                given.duration_s.0,
+                dt * steps_per_row
+            );
+            return Err(source.at(phase, said));
+        }
+        if given.local_damping.is_some() && !explicit {
+            let said = "local_damping has no meaning with an implicit scheme";
+            return Err(source.at(phase, said));
+        }
+        if all.iter().any(|p| p.name == given.name.0) {
+            let said = format!("a second phase {:?}", given.name.0);
+            return Err(source.at(phase, said));
+        }
+        all.push(Phase {
+            name: given.name.0.clone(),
+            material,
+            rows: rows.round() as usize,
+            steps_per_row: steps_per_row as u64,
+            dt,
+            damping: given.local_damping.map_or(0.0, |share| share.0),
+        });
+    }
+    match all.is_empty() {
+        true => Err(Error::file(
+            &source.path,
+            "phases: none, where 1 or more are allowed",
+        )),
+        false => Ok(all),
+    }
+}

@@ -1,0 +1,466 @@
+//! From a scene file to scenes: grid, body, what acts on it, phase by phase.
+
+use super::fault::{Line, Source};
+use super::form::{
+    AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, LoadForm,
+    NotNegative, SupportForm, WallForm, WallsForm,
+};
+use super::phase::{Phase, phases, scheme};
+use super::shape::{ends, holds, seed, vector};
+use crate::error::Error;
+use crate::scheme::{RuleName, Scheme, SpaceName};
+use mpm_core::basis::WallTreatment;
+use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
+use mpm_core::explicit::transfer::Flip;
+use mpm_core::implicit::{self, Stabilisation, TimeRule};
+use mpm_core::material::Law;
+use mpm_core::poro::{self, Conductivity, Face, PressureSpace, Water};
+use mpm_core::stage::{
+    Constraint, DeadForce, End, Gravity, KineticDamping, Load, LocalDamping, RigidNodes, Wall,
+    WallKind, smooth_rise,
+};
+use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, explicit};
+
+/// Most cells of a grid.
+const MOST_CELLS: f64 = 1e8;
+
+/// Everything that a run of a scene file needs.
+pub(super) struct Setup<const D: usize> {
+    form: Form,
+    pub(super) scheme: Scheme,
+    pub(super) phases: Vec<Phase>,
+    grid: Grid<D>,
+    pub(super) places: Vec<[f64; D]>,
+    velocity: [f64; D],
+    spacing: f64,
+}
+
+impl<const D: usize> Setup<D> {
+    /// Of what a file says.
+    ///
+    /// # Errors
+    /// What it says makes no scene: the error names line and key.
+    pub(super) fn new(source: &Source, form: Form) -> Result<Self, Error> {
+        let grid = grid(source, &form)?;
+        let scheme = scheme(source, &form)?;
+        let body = form.body.get_ref();
+        let spacing = grid.h / f64::from(body.particles_per_direction.0);
+        let places = seed(source, body, spacing)?;
+        let velocity = match &body.velocity_m_s {
+            Some(given) => vector(source, &form.body, "velocity_m_s", given)?,
+            None => [0.0; D],
+        };
+        let phases = phases(source, &form, scheme, grid.h)?;
+        let setup = Self {
+            scheme,
+            phases,
+            grid,
+            places,
+            velocity,
+            spacing,
+            form,
+        };
+        setup.check(source)?;
+        Ok(setup)
+    }
+
+    /// That what acts has as many components as the grid has axes, and acts in phases that there are.
+    fn check(&self, source: &Source) -> Result<(), Error> {
+        let known = |at: &std::ops::Range<usize>, phases: &[String]| {
+            let unknown = phases
+                .iter()
+                .find(|name| self.phases.iter().all(|p| p.name != **name));
+            match unknown {
+                None => Ok(()),
+                Some(name) => {
+                    let names: Vec<&str> = self.phases.iter().map(|p| &*p.name).collect();
+                    let said = format!("unknown phase {name:?}; allowed: {}", names.join(", "));
+                    Err(source.fault(at, said))
+                }
+            }
+        };
+        for load in &self.form.loads {
+            let (name, numbers, phases) = match load.get_ref() {
+                LoadForm::Gravity {
+                    acceleration_m_s2: g,
+                    phases,
+                    ..
+                } => ("acceleration_m_s2", g, phases),
+                LoadForm::Force {
+                    total_n, phases, ..
+                } => ("total_n", total_n, phases),
+            };
+            vector::<D, _>(source, load, name, numbers)?;
+            known(&load.span(), phases)?;
+        }
+        for support in &self.form.supports {
+            let (axes, phases): (Vec<AxisForm>, _) = match support.get_ref() {
+                SupportForm::Wall { axis, phases, .. } => (vec![*axis], phases),
+                SupportForm::Nodes {
+                    velocity_m_s,
+                    phases,
+                    ..
+                } => (velocity_m_s.keys().copied().collect(), phases),
+            };
+            axes.iter()
+                .try_for_each(|axis| own_axis::<D, _>(source, support, *axis))?;
+            known(&support.span(), phases)?;
+        }
+        for contact in &self.form.contacts {
+            let form = contact.get_ref();
+            own_axis::<D, _>(source, contact, form.axis)?;
+            if let Some(velocity) = &form.velocity_m_s {
+                vector::<D, _>(source, contact, "velocity_m_s", velocity)?;
+            }
+            known(&contact.span(), &form.phases)?;
+        }
+        let faces = self.form.water.iter().flat_map(|w| &w.get_ref().faces);
+        for face in faces {
+            let form = face.get_ref();
+            own_axis::<D, _>(source, face, form.axis)?;
+            match (&form.traction_pa, form.drain_penalty_m_pa_s) {
+                (Some(traction), None) => {
+                    vector::<D, _>(source, face, "traction_pa", traction)?;
+                }
+                (None, Some(_)) => {}
+                _ => {
+                    let said = "a face has either traction_pa or drain_penalty_m_pa_s";
+                    return Err(source.at(face, said));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Particles per cell.
+    pub(super) fn per_cell(&self) -> u32 {
+        self.form
+            .body
+            .get_ref()
+            .particles_per_direction
+            .0
+            .pow(D as u32)
+    }
+
+    /// How B-splines meet walls.
+    pub(super) fn walls(&self) -> WallTreatment {
+        match self.form.solver.get_ref().walls {
+            Some(WallsForm::WallLine) => WallTreatment::WallLine,
+            Some(WallsForm::OpenKnot) | None => WallTreatment::OpenKnot,
+        }
+    }
+
+    /// Cell size (m).
+    pub(super) fn h(&self) -> f64 {
+        self.grid.h
+    }
+
+    /// Names of supports, then of contacts, of a phase, in the scene's order.
+    pub(super) fn parts(&self, phase: &str) -> [Vec<&str>; 2] {
+        let supports = self.form.supports.iter().map(|s| match s.get_ref() {
+            SupportForm::Wall { name, phases, .. } | SupportForm::Nodes { name, phases, .. } => {
+                (name, phases)
+            }
+        });
+        let contacts = self.form.contacts.iter().map(|c| {
+            let form = c.get_ref();
+            (&form.name, &form.phases)
+        });
+        [
+            supports
+                .filter(|(_, phases)| acts(phases, phase))
+                .map(|(name, _)| &*name.0)
+                .collect(),
+            contacts
+                .filter(|(_, phases)| acts(phases, phase))
+                .map(|(name, _)| &*name.0)
+                .collect(),
+        ]
+    }
+
+    /// The scene of a phase, of a body of some law.
+    pub(super) fn scene<M: Law>(
+        &self,
+        law: M,
+        phase: &Phase,
+    ) -> Result<Scene<D, M>, mpm_core::Error> {
+        let body = self.form.body.get_ref();
+        let half_size = [0.5 * self.spacing; D];
+        let volume = self.spacing.powi(D as i32);
+        let mut particles =
+            Particles::new(self.places.clone(), volume, body.density_kg_m3.0, half_size)?;
+        particles.velocity.fill(self.velocity);
+        let loads = self.loads(&phase.name, &particles)?;
+        let contacts = self.contacts(&phase.name)?;
+        Ok(Scene {
+            grid: self.grid,
+            body: Body::new(law, particles)?,
+            loads,
+            constraints: self.constraints(&phase.name),
+            contacts,
+        })
+    }
+
+    fn loads(
+        &self,
+        phase: &str,
+        particles: &Particles<D>,
+    ) -> Result<Vec<Box<dyn Load<D>>>, mpm_core::Error> {
+        let mut all: Vec<Box<dyn Load<D>>> = Vec::new();
+        for load in &self.form.loads {
+            match load.get_ref() {
+                LoadForm::Gravity {
+                    acceleration_m_s2,
+                    rise_s,
+                    phases,
+                } if acts(phases, phase) => {
+                    let g = components::<D>(acceleration_m_s2);
+                    let rise = rise_s.0;
+                    all.push(Box::new(Gravity(Box::new(move |time| {
+                        g.map(|g| g * smooth_rise(time, rise))
+                    }))));
+                }
+                LoadForm::Force {
+                    total_n,
+                    on,
+                    rise_s,
+                    phases,
+                } if acts(phases, phase) => {
+                    let on = holds(on);
+                    let total = components(total_n);
+                    let force = DeadForce::shared(total, rise_s.0, particles, on);
+                    if force.count() == 0 {
+                        return Err(mpm_core::Error::Input {
+                            what: "particles that a force acts on",
+                            value: 0.0,
+                            allowed: "1 or more in the region `on` of a load",
+                        });
+                    }
+                    all.push(Box::new(force));
+                }
+                _ => {}
+            }
+        }
+        Ok(all)
+    }
+
+    fn constraints(&self, phase: &str) -> Vec<Box<dyn Constraint<D>>> {
+        let mut all: Vec<Box<dyn Constraint<D>>> = Vec::new();
+        for support in &self.form.supports {
+            match support.get_ref() {
+                SupportForm::Wall {
+                    axis,
+                    end,
+                    kind,
+                    phases,
+                    ..
+                } if acts(phases, phase) => all.push(Box::new(Wall {
+                    axis: *axis as usize,
+                    end: end_of(*end),
+                    kind: match kind {
+                        WallForm::Fixed => WallKind::Fixed,
+                        WallForm::Roller => WallKind::Roller,
+                        WallForm::Separable => WallKind::Separable,
+                    },
+                })),
+                SupportForm::Nodes {
+                    within,
+                    velocity_m_s,
+                    rise_s,
+                    phases,
+                    ..
+                } if acts(phases, phase) => {
+                    let axes = [AxisForm::X, AxisForm::Y, AxisForm::Z];
+                    all.push(Box::new(RigidNodes {
+                        extent: ends(within),
+                        velocity: std::array::from_fn(|a| velocity_m_s.get(&axes[a]).map(|v| v.0)),
+                        ramp: rise_s.0,
+                    }));
+                }
+                _ => {}
+            }
+        }
+        all
+    }
+
+    fn contacts(&self, phase: &str) -> Result<Vec<RigidContact<D>>, mpm_core::Error> {
+        let forms = self.form.contacts.iter().map(Line::get_ref);
+        let forms = forms.filter(|form| acts(&form.phases, phase));
+        forms.map(contact).collect()
+    }
+
+    /// How an explicit run takes its steps.
+    pub(super) fn explicit(&self, phase: &Phase) -> Result<explicit::Settings<D>, mpm_core::Error> {
+        let form = self.form.solver.get_ref();
+        let flip = match (form.flip, form.pic_rate_per_s) {
+            (Some(share), _) => share.0,
+            (None, Some(rate)) => (-rate.0 * phase.dt).exp(),
+            (None, None) => 1.0,
+        };
+        let mut settings = explicit::Settings::new(phase.dt)
+            .wall(self.walls())
+            .remedy(self.scheme.remedy().build());
+        if phase.damping > 0.0 {
+            settings = settings.filter_forces(LocalDamping::new(phase.damping)?);
+        }
+        if form.kinetic_damping == Some(true) {
+            settings = settings.filter_particles(KineticDamping::default());
+        }
+        Ok(settings.transfer(Flip::new(flip)?))
+    }
+
+    /// How an implicit run takes its steps.
+    pub(super) fn implicit(&self, phase: &Phase) -> implicit::Settings {
+        let form = self.form.solver.get_ref();
+        let rule = match self.scheme.rule() {
+            Some(RuleName::Midpoint) => TimeRule::Midpoint {
+                lumped: form.lumped.map_or(0.0, |share| share.0),
+            },
+            Some(RuleName::Newmark) => TimeRule::Newmark {
+                alpha: 0.25,
+                delta: 0.5,
+            },
+            Some(RuleName::QuasiStatic) | None => TimeRule::Static,
+        };
+        let settings = implicit::Settings::new(phase.dt).rule(rule);
+        let ghost = form.ghost_penalty.map_or(0.0, |factor| factor.0);
+        implicit::Settings {
+            tolerance: form.tolerance.map_or(settings.tolerance, |t| t.0),
+            stabilisation: match ghost > 0.0 {
+                true => Stabilisation::Ghost(ghost),
+                false => Stabilisation::None,
+            },
+            ..settings
+        }
+    }
+
+    /// How a run with water takes its steps.
+    pub(super) fn poro(&self, phase: &Phase) -> poro::Settings {
+        let form = self.form.solver.get_ref();
+        let settings = poro::Settings::new(phase.dt);
+        let number = |x: Option<NotNegative>| x.map_or(0.0, |x| x.0);
+        poro::Settings {
+            pressure_space: match self.scheme {
+                Scheme::Poro(parts) if parts.space == SpaceName::TwoGrid => PressureSpace::TwoGrid,
+                Scheme::Poro(parts) if parts.space == SpaceName::Ppp => PressureSpace::Projected {
+                    strength: form.projection_per_pa.map_or(f64::NAN, |x| x.0),
+                },
+                _ => PressureSpace::Equal,
+            },
+            tolerance: form.tolerance.map_or(settings.tolerance, |t| t.0),
+            ghost_displacement: number(form.ghost_penalty),
+            ghost_pressure: number(form.ghost_pressure),
+            ..settings
+        }
+    }
+
+    /// The water in a body of these particles.
+    ///
+    /// # Errors
+    /// The file has none.
+    pub(super) fn water(&self, particles: &Particles<D>) -> Result<Water<D>, mpm_core::Error> {
+        let form = self.form.water.as_ref().ok_or(mpm_core::Error::Input {
+            what: "tables `water`",
+            value: 0.0,
+            allowed: "1 with a scheme of the kind poro",
+        })?;
+        let form = form.get_ref();
+        let conductivity = match form.conductivity {
+            ConductivityForm::Constant { m2_pa_s } => Conductivity::Constant(m2_pa_s.0),
+            ConductivityForm::KozenyCarman { m2_pa_s } => Conductivity::KozenyCarman(m2_pa_s.0),
+        };
+        let mut water = Water::new(form.porosity.0, conductivity);
+        if let Some(region) = &form.drained {
+            water = water.drained(holds(region));
+        }
+        let faces = form.faces.iter();
+        Ok(faces.fold(water, |water, face| {
+            water.face(face_of(face.get_ref(), particles))
+        }))
+    }
+}
+
+fn face_of<const D: usize>(form: &FaceForm, particles: &Particles<D>) -> Face<D> {
+    let (on, at) = (holds(&form.on), (form.axis as usize, end_of(form.end)));
+    match (&form.traction_pa, form.drain_penalty_m_pa_s) {
+        (Some(traction), _) => {
+            let (traction, rise) = (components::<D>(traction), form.rise_s.0);
+            Face::loaded(particles, on, at, move |time| {
+                traction.map(|t| t * smooth_rise(time, rise))
+            })
+        }
+        (None, penalty) => Face::drained(particles, on, at, penalty.map_or(f64::NAN, |p| p.0)),
+    }
+}
+
+fn contact<const D: usize>(form: &ContactForm) -> Result<RigidContact<D>, mpm_core::Error> {
+    let mut face = RigidFace::half_space(form.axis as usize, end_of(form.end), form.at_m.0)?
+        .within(ends(&form.within));
+    if let Some(velocity) = &form.velocity_m_s {
+        face = face.moving(components(velocity), form.rise_s.0)?;
+    }
+    let contact = RigidContact::new(face, Barrier::new(form.stiffness_n_m.0, form.reach_m.0)?);
+    Ok(match form.friction {
+        None => contact,
+        Some(friction) => contact.with_friction(match friction.coefficient {
+            Some(mu) => Friction::new(mu.0, friction.stiffness_n_m.0)?,
+            None => Friction::rough(friction.stiffness_n_m.0)?,
+        }),
+    })
+}
+
+/// Components of a vector whose length [`Setup::check`] has looked at.
+fn components<const D: usize>(given: &[Finite]) -> [f64; D] {
+    std::array::from_fn(|a| given.get(a).map_or(0.0, |x| x.0))
+}
+
+/// Whether what acts in these phases, or in all if none is named, acts in one.
+fn acts(phases: &[String], phase: &str) -> bool {
+    phases.is_empty() || phases.iter().any(|name| name == phase)
+}
+
+fn end_of(form: EndForm) -> End {
+    match form {
+        EndForm::Lo => End::Lo,
+        EndForm::Hi => End::Hi,
+    }
+}
+
+fn own_axis<const D: usize, T>(source: &Source, at: &Line<T>, axis: AxisForm) -> Result<(), Error> {
+    match (axis as usize) < D {
+        true => Ok(()),
+        false => {
+            let said = format!("axis {axis:?} where the grid has {D}").to_lowercase();
+            Err(source.at(at, said))
+        }
+    }
+}
+
+fn grid<const D: usize>(source: &Source, form: &Form) -> Result<Grid<D>, Error> {
+    let given = form.grid.get_ref();
+    let lower: [f64; D] = vector(source, &form.grid, "lower_m", &given.lower_m)?;
+    if given.ends.len() != D {
+        let said = format!(
+            "ends has {} entries where the grid has {D} axes",
+            given.ends.len()
+        );
+        return Err(source.at(&form.grid, said));
+    }
+    let all: f64 = given.cells.iter().map(|n| f64::from(n.0)).product();
+    if all > MOST_CELLS {
+        let said = format!("cells: {all} in all where {MOST_CELLS} are allowed");
+        return Err(source.at(&form.grid, said));
+    }
+    let axis = |a: usize| {
+        let cells = given.cells[a].0 as usize;
+        let (wall, open) = (Side::Wall, Side::Open);
+        match given.ends[a] {
+            EndsForm::Walls => Axis::walls(lower[a], cells),
+            EndsForm::Open => Axis::open(lower[a], cells),
+            EndsForm::WallOpen => Axis::bounded(lower[a], cells, (wall, open)),
+            EndsForm::OpenWall => Axis::bounded(lower[a], cells, (open, wall)),
+            EndsForm::Periodic => Axis::periodic(lower[a], cells),
+        }
+    };
+    Grid::new(given.cell_size_m.0, std::array::from_fn(axis)).map_err(|e| source.at(&form.grid, e))
+}

@@ -1,0 +1,237 @@
+//! Where the particles of a body stand: at the points (k + ½) s of a lattice, with whole numbers k and the distance s, that
+//! lie in one of its shapes.
+
+use super::fault::{Line, Source};
+use super::form::{BodyForm, Finite, Region, ShapeForm};
+use crate::error::Error;
+use crate::table::Table;
+use std::collections::HashSet;
+
+/// Most particles of a scene.
+const MOST: usize = 50_000_000;
+/// Most lattice points about a shape, over that: each is looked at.
+const LOOKED_AT: f64 = 4.0;
+/// A point this near to a side, over the distance of points, is in the shape.
+const ON_SIDE: f64 = 1e-9;
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The places (m) of the particles, shape by shape; a point of two shapes is there once.
+///
+/// # Errors
+/// A shape of another dimension or without a point, a file that can't be read, too many particles.
+pub(super) fn seed<const D: usize>(
+    source: &Source,
+    body: &BodyForm,
+    spacing: f64,
+) -> Result<Vec<[f64; D]>, Error> {
+    let mut places = Vec::new();
+    let mut taken = HashSet::new();
+    for shape in &body.shapes {
+        let before = places.len();
+        if let ShapeForm::Particles { file } = shape.get_ref() {
+            places.extend(from_file::<D>(source, shape, file)?);
+        } else {
+            let form = Shape::<D>::of(source, shape, spacing)?;
+            let room = MOST.saturating_sub(places.len());
+            if form.points() > LOOKED_AT * MOST as f64 {
+                return Err(too_many(source, shape));
+            }
+            for k in form.lattice() {
+                let x = k.map(|k| (k as f64 + 0.5) * spacing);
+                if (form.holds)(&x) && taken.insert(k) {
+                    if places.len() - before >= room {
+                        return Err(too_many(source, shape));
+                    }
+                    places.push(x);
+                }
+            }
+        }
+        if places.len() == before {
+            let said = format!("a shape without a particle: they stand {spacing} m apart");
+            return Err(source.at(shape, said));
+        }
+    }
+    Ok(places)
+}
+
+fn too_many<T>(source: &Source, shape: &Line<T>) -> Error {
+    let said = format!("more particles than the {MOST} that a scene may have");
+    source.at(shape, said)
+}
+
+/// Components along the axes.
+///
+/// # Errors
+/// More or fewer than the grid has axes.
+pub(super) fn vector<const D: usize, T>(
+    source: &Source,
+    at: &Line<T>,
+    name: &str,
+    given: &[Finite],
+) -> Result<[f64; D], Error> {
+    let numbers: Vec<f64> = given.iter().map(|x| x.0).collect();
+    <[f64; D]>::try_from(numbers).map_err(|numbers| {
+        let count = numbers.len();
+        let said = format!("{name} has {count} numbers where the grid has {D} axes");
+        source.at(at, said)
+    })
+}
+
+/// Lower and upper end (m) of a region along the axes.
+pub(super) fn ends<const D: usize>(region: &Region) -> [[f64; 2]; D] {
+    let all = [region.x_m, region.y_m, region.z_m];
+    std::array::from_fn(|a| match all[a] {
+        Some(ends) => ends.map(|x| x.0),
+        None => [f64::NEG_INFINITY, f64::INFINITY],
+    })
+}
+
+/// Whether a region, its sides with it, has a place (m).
+pub(super) fn holds<const D: usize>(region: &Region) -> impl Fn(&[f64; D]) -> bool + use<D> {
+    let ends = ends::<D>(region);
+    move |x| x.iter().zip(&ends).all(|(x, [lo, hi])| lo <= x && x <= hi)
+}
+
+/// Whether a place (m) is in a shape.
+type Holds<const D: usize> = Box<dyn Fn(&[f64; D]) -> bool>;
+
+/// A shape, between two corners.
+struct Shape<const D: usize> {
+    /// Along the axes, the first whole number of its lattice points, the step to the next, and how many there are.
+    rows: [(i64, i64, u64); D],
+    /// Whether a point between the corners is in it.
+    holds: Holds<D>,
+}
+
+impl<const D: usize> Shape<D> {
+    fn of(source: &Source, at: &Line<ShapeForm>, spacing: f64) -> Result<Self, Error> {
+        let margin = ON_SIDE * spacing;
+        match at.get_ref() {
+            ShapeForm::Box { from_m, to_m } => {
+                let from = vector(source, at, "from_m", from_m)?;
+                let to = vector(source, at, "to_m", to_m)?;
+                Ok(Self::between(from, to, spacing, |_| true))
+            }
+            ShapeForm::Disc { centre_m, radius_m } => {
+                let centre: [f64; D] = vector(source, at, "centre_m", centre_m)?;
+                let (least, most) = (
+                    centre.map(|c| c - radius_m.0),
+                    centre.map(|c| c + radius_m.0),
+                );
+                let square = (radius_m.0 + margin).powi(2);
+                Ok(Self::between(least, most, spacing, move |x| {
+                    let off = x.iter().zip(&centre).map(|(x, c)| (x - c) * (x - c));
+                    off.sum::<f64>() <= square
+                }))
+            }
+            ShapeForm::Polygon { corners_m, z_m } => {
+                if D == 1 || z_m.is_some() != (D == 3) || corners_m.len() < 3 {
+                    let said = "a polygon has three corners or more in the plane of x and y, and z_m where the grid \
+                                has a third axis, nowhere else";
+                    return Err(source.at(at, said));
+                }
+                let corners: Vec<[f64; 2]> = corners_m.iter().map(|c| c.map(|x| x.0)).collect();
+                let z = z_m.map_or([0.0; 2], |ends| ends.map(|x| x.0));
+                let end = |best: fn(f64, f64) -> f64, side: usize| {
+                    std::array::from_fn(|a| match a {
+                        2 => z[side],
+                        _ => corners.iter().map(|c| c[a]).reduce(best).unwrap_or(0.0),
+                    })
+                };
+                let (least, most) = (end(f64::min, 0), end(f64::max, 1));
+                Ok(Self::between(least, most, spacing, move |x| {
+                    is_inside(&corners, [x[0], x[1]], margin)
+                }))
+            }
+            ShapeForm::Particles { .. } => Ok(Self {
+                rows: [(0, 1, 0); D],
+                holds: Box::new(|_| false),
+            }),
+        }
+    }
+
+    /// Between two corners, in the order from the first to the second along each axis.
+    fn between(
+        from: [f64; D],
+        to: [f64; D],
+        spacing: f64,
+        holds: impl Fn(&[f64; D]) -> bool + 'static,
+    ) -> Self {
+        let up = |x: f64| (x / spacing - 0.5 - ON_SIDE).ceil() as i64;
+        let down = |x: f64| (x / spacing - 0.5 + ON_SIDE).floor() as i64;
+        let row = |from: f64, to: f64| {
+            let (least, most) = (up(from.min(to)), down(from.max(to)));
+            let count = (most - least + 1).max(0) as u64;
+            if from <= to {
+                (least, 1, count)
+            } else {
+                (most, -1, count)
+            }
+        };
+        Self {
+            rows: std::array::from_fn(|a| row(from[a], to[a])),
+            holds: Box::new(holds),
+        }
+    }
+
+    fn points(&self) -> f64 {
+        self.rows.iter().map(|(.., count)| *count as f64).product()
+    }
+
+    /// Its lattice points, the last axis fastest.
+    fn lattice(&self) -> impl Iterator<Item = [i64; D]> + use<D> {
+        let rows = self.rows;
+        let all: u64 = rows.iter().map(|(.., count)| count).product();
+        (0..all).map(move |mut place| {
+            let mut k = [0; D];
+            for a in (0..D).rev() {
+                let (first, step, count) = rows[a];
+                k[a] = first + step * (place % count) as i64;
+                place /= count;
+            }
+            k
+        })
+    }
+}
+
+/// Whether a point is in a polygon: on a side, or to the right of an odd number of sides.
+fn is_inside(corners: &[[f64; 2]], [x, y]: [f64; 2], margin: f64) -> bool {
+    let mut inside = false;
+    for (k, b) in corners.iter().enumerate() {
+        let a = corners[(k + corners.len() - 1) % corners.len()];
+        let (along, off) = ([b[0] - a[0], b[1] - a[1]], [x - a[0], y - a[1]]);
+        let length = along[0].hypot(along[1]);
+        let (ahead, beside) = (
+            (off[0] * along[0] + off[1] * along[1]) / length,
+            (off[0] * along[1] - off[1] * along[0]) / length,
+        );
+        if beside.abs() <= margin && (-margin..=length + margin).contains(&ahead) {
+            return true;
+        }
+        if (a[1] > y) != (b[1] > y) && x < a[0] + along[0] * (y - a[1]) / along[1] {
+            inside = !inside;
+        }
+    }
+    inside
+}
+
+/// Places from a table.
+fn from_file<const D: usize>(
+    source: &Source,
+    at: &Line<ShapeForm>,
+    name: &str,
+) -> Result<Vec<[f64; D]>, Error> {
+    let path = source.beside(at, name)?;
+    let table = Table::read_finite(&path)?;
+    let columns = AXES.map(|axis| table.column(axis));
+    let rows = columns[0].len();
+    if let Some(axis) = (0..D).find(|a| columns[*a].len() != rows || rows == 0) {
+        let said = format!("no column {} (m), or no rows", AXES[axis]);
+        return Err(Error::file(&path, said));
+    }
+    if rows > MOST {
+        return Err(too_many(source, at));
+    }
+    let place = |k: usize| std::array::from_fn(|a| columns[a][k]);
+    Ok((0..rows).map(place).collect())
+}

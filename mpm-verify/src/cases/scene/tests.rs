@@ -1,0 +1,213 @@
+use super::*;
+use crate::cases;
+use crate::parameter::Parameters;
+use std::path::PathBuf;
+
+fn shipped(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("scenes")
+        .join(name)
+}
+
+/// A run of a shipped file, and the same of a case, at their start.
+fn both(file: &str, case: &str, level: &str, set: &[&str]) -> [Box<dyn Job>; 2] {
+    let scene = SceneFile::read(&shipped(file)).unwrap();
+    let case = cases::find(case).unwrap();
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    let parameters = Parameters::new(&case.parameters, &set).unwrap();
+    let spec = RunSpec {
+        scheme: scene.spec.scheme,
+        level: crate::case::find_level(case, level).unwrap(),
+        set,
+        perturbed: false,
+    };
+    let none = Parameters::new(&[], &[]).unwrap();
+    [
+        (scene.case.begin)(&scene.spec, &none).unwrap(),
+        (case.begin)(&spec, &parameters).unwrap(),
+    ]
+}
+
+/// Places of all particles.
+fn places(job: &mut dyn Job) -> Vec<Vec<f64>> {
+    let columns = job.particles().into_iter();
+    let places = columns.filter(|c| ["x", "y", "z"].contains(&c.name));
+    places.map(|c| c.values).collect()
+}
+
+/// That so many rows of the file's run end, step for step, where those of the case do, to the last bit.
+fn same_bits(file: &str, case: &str, level: &str, set: &[&str], rows: usize) {
+    let [mut ours, mut cases] = both(file, case, level, set);
+    assert_eq!(ours.discretisation(), cases.discretisation(), "{file}");
+    let start = places(ours.as_mut());
+    for _ in 0..rows {
+        ours.advance().unwrap();
+        cases.advance().unwrap();
+    }
+    assert_eq!(ours.work(), cases.work(), "{file}");
+    assert_ne!(places(ours.as_mut()), start, "{file}");
+    assert_eq!(places(ours.as_mut()), places(cases.as_mut()), "{file}");
+}
+
+#[test]
+fn shipped_scenes_are_the_cases_to_the_last_bit() {
+    same_bits("cook.toml", "cook", "h2", &[], 3);
+    same_bits("footing.toml", "footing", "b10", &[], 2);
+    same_bits("footing-quasi-static.toml", "footing", "b10", &[], 2);
+    same_bits("terzaghi.toml", "terzaghi", "n10", &[], 3);
+    same_bits("landslide.toml", "landslide", "h0.5", &[], 1);
+    // The gate is taken away after twelve rows.
+    let staged = ["start=gravity-stage"];
+    same_bits("dam-break.toml", "dam-break", "h0.5", &staged, 13);
+}
+
+/// What is said of `slope.toml` with `from` replaced by `to`.
+fn refusal(from: &str, to: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let text = std::fs::read_to_string(shipped("slope.toml")).unwrap();
+    assert!(text.contains(from), "{from}");
+    std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
+    match SceneFile::read(&path) {
+        Ok(_) => format!("{to}: nothing is wrong with it"),
+        Err(e) => e.to_string(),
+    }
+}
+
+#[test]
+fn what_is_wrong_is_named_with_line_and_key() {
+    // What is replaced, by what; what the error must say.
+    let wrong: [(&str, &str, &[&str]); 18] = [
+        (
+            "cell_size_m",
+            "cell_sise_m",
+            &["line 7", "cell_sise_m", "is `cell_size_m` meant?"],
+        ),
+        (
+            "cell_size_m = 0.5",
+            "cell_size_m = -0.5",
+            &["line 7, cell_size_m", "-0.5", "positive"],
+        ),
+        (
+            "cell_size_m = 0.5",
+            "cell_size_m = \"0.5\"",
+            &["line 7, cell_size_m", "string"],
+        ),
+        (
+            "cells = [60, 14]",
+            "cells = [60, 2]",
+            &["line 9, cells", "2", "4 to 100000"],
+        ),
+        (
+            "lower_m = [0.0, 0.0]",
+            "lower_m = [0.0]",
+            &["line 6, [grid]", "lower_m", "2 axes"],
+        ),
+        (
+            "\"wall-open\", \"wall-open\"",
+            "\"wal-open\", \"wall-open\"",
+            &["line 10, ends", "is `wall-open` meant?"],
+        ),
+        (
+            "[law.hencky-j2]",
+            "[law.hencky-j3]",
+            &["hencky-j3", "hencky-j2"],
+        ),
+        ("poisson_ratio = 0.49\n", "", &["poisson_ratio", "missing"]),
+        (
+            "poisson_ratio = 0.49",
+            "poisson_ratio = 0.5",
+            &["law", "Poisson's ratio", "0.5"],
+        ),
+        (
+            "polygon = {",
+            "polygone = {",
+            &["line 16, polygone", "is `polygon` meant?"],
+        ),
+        (
+            "[10, 5], [0, 5]",
+            "[10, 1e9], [0, 5]",
+            &["line 15", "50000000"],
+        ),
+        (
+            "[0, -9.81], rise_s",
+            "[0, -9.81, 0], rise_s",
+            &["acceleration_m_s2 has 3 numbers", "2 axes"],
+        ),
+        (
+            "phases = [\"weight\"]",
+            "phases = [\"wait\"]",
+            &["\"wait\"", "weight, slide"],
+        ),
+        ("axis = \"y\"", "axis = \"z\"", &["axis z"]),
+        (
+            "name = \"base\"",
+            "name = \"=cmd()\"",
+            &["=cmd()", "lower-case letters"],
+        ),
+        (
+            "gimp-fbar-consistent-flip",
+            "gimp-fbar-flip",
+            &["[solver]", "fbar", "fbar-consistent"],
+        ),
+        (
+            "cfl = 0.3",
+            "cfl = 0.3\ntolerance = 1e-9",
+            &["tolerance has no meaning"],
+        ),
+        (
+            "duration_s = 1.0",
+            "duration_s = inf",
+            &["duration_s", "inf"],
+        ),
+    ];
+    for (from, to, parts) in wrong {
+        let said = refusal(from, to);
+        assert!(said.contains("own.toml: "), "{said}");
+        for part in parts {
+            assert!(said.contains(part), "{part} in: {said}");
+        }
+    }
+}
+
+#[test]
+fn particles_stand_where_shapes_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let text = std::fs::read_to_string(shipped("slope.toml")).unwrap();
+    let shape = text
+        .lines()
+        .find(|line| line.starts_with("polygon"))
+        .unwrap();
+    let count = |by: &str| {
+        std::fs::write(&path, text.replace(shape, by)).unwrap();
+        SceneFile::read(&path).map(|scene| {
+            let none = Parameters::new(&[], &[]).unwrap();
+            let mut job = (scene.case.begin)(&scene.spec, &none).unwrap();
+            job.particles()[0].values.len()
+        })
+    };
+    let square = "box = { from_m = [0, 4], to_m = [4, 0] }";
+    assert_eq!(count(square).unwrap(), 256);
+    // What two shapes cover is there once.
+    let twice = format!("{square}\n[[body.shapes]]\nbox = {{ from_m = [2, 0], to_m = [6, 4] }}");
+    assert_eq!(count(&twice).unwrap(), 384);
+    let disc = count("disc = { centre_m = [10, 3], radius_m = 2.5 }").unwrap();
+    assert!(
+        (disc as f64 / 16.0 - 2.5 * 2.5 * std::f64::consts::PI).abs() < 1.0,
+        "{disc}"
+    );
+    std::fs::write(folder.path().join("p.csv"), "x (m),y (m)\n1.1,1\n2.3,1\n").unwrap();
+    assert_eq!(count("particles = { file = \"p.csv\" }").unwrap(), 2);
+    for (by, part) in [
+        ("particles = { file = \"../p.csv\" }", "beside the scene"),
+        ("particles = { file = \"q.csv\" }", "q.csv"),
+        (
+            "box = { from_m = [0, 0], to_m = [0.1, 0.1] }",
+            "without a particle",
+        ),
+    ] {
+        let said = count(by).unwrap_err().to_string();
+        assert!(said.contains(part), "{said}");
+    }
+}

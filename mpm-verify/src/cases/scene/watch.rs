@@ -1,0 +1,274 @@
+//! What is seen of a scene's run: phase by phase, row by row.
+
+use super::phase::Phase;
+use super::setup::Setup;
+use super::solving::{Compiled, Solving};
+use crate::cases::observe::{checkerboard, column, position_columns};
+use crate::drive::{Drive, Stage, Watch};
+use crate::error::Error;
+use crate::job::{Column, Snapshot};
+use crate::metric::{Metric, metrics};
+use crate::record::Discretisation;
+use crate::scheme::Scheme;
+use mpm_core::basis::WallTreatment;
+use mpm_core::{Field, Part, Simulation};
+use serde::{Deserialize, Serialize};
+
+metrics! { pub(super) ALL:
+    MASS = "mass", "kg", "mass of the body";
+    MOST_MOVED = "displacement_max", "m", "largest displacement of a particle";
+    KINETIC = "kinetic_energy", "J", "kinetic energy at the end";
+    J_MIN = "jacobian_min", "-", "least J of a particle";
+    J_MAX = "jacobian_max", "-", "greatest J of a particle";
+    STRESS_MIN = "mean_stress_least", "Pa", "least mean normal stress of a particle, tension positive";
+    STRESS_MAX = "mean_stress_greatest", "Pa", "greatest mean normal stress of a particle";
+    BOARD = "mean_stress_oscillation", "Pa", "rms over particles of the mean stress less its average in the cells";
+    PLASTIC = "plastic_strain_max", "-", "largest equivalent plastic strain of a particle";
+    PLACES = "place_checksum", "-", "checksum of the places of all particles at the end: two runs of the same bits have the same";
+}
+
+/// What has been seen of a run.
+#[derive(Default, Serialize, Deserialize)]
+pub(super) struct Seen {
+    /// The phase, and its rows so far.
+    phase: usize,
+    row: usize,
+    /// Rows of all phases.
+    rows: usize,
+    /// Time (s) of the phases before.
+    before: f64,
+    /// Impulses (N s) on the parts at the last row.
+    impulses: Vec<[f64; 3]>,
+}
+
+/// A run of a scene file.
+pub(super) struct Course<const D: usize> {
+    setup: Setup<D>,
+    /// Names of all parts, and of the columns.
+    parts: Vec<String>,
+    columns: Vec<&'static str>,
+    snapshot_rows: Option<usize>,
+}
+
+impl<const D: usize> Course<D>
+where
+    Compiled: Solving<D>,
+{
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// The solver refuses the scene.
+    pub(super) fn drive(
+        setup: Setup<D>,
+        snapshot_rows: Option<usize>,
+    ) -> Result<Drive<D, Self>, Error> {
+        let mut parts: Vec<String> = Vec::new();
+        for phase in &setup.phases {
+            for name in setup.parts(&phase.name).concat() {
+                if parts.iter().all(|known| known != name) {
+                    parts.push(name.to_owned());
+                }
+            }
+        }
+        let columns = columns::<D>(setup.scheme, &parts);
+        let course = Self {
+            setup,
+            parts,
+            columns,
+            snapshot_rows,
+        };
+        Ok(Drive::new(course, Seen::default())?)
+    }
+
+    fn phase(&self, seen: &Seen) -> &Phase {
+        &self.setup.phases[seen.phase.min(self.setup.phases.len() - 1)]
+    }
+
+    /// Rows of all phases.
+    fn whole(&self) -> usize {
+        self.setup.phases.iter().map(|p| p.rows).sum()
+    }
+
+    /// Mean force (N) over the last row on every part of the scene, in all phases' order; zero on one that a phase has not.
+    fn forces(&self, seen: &mut Seen, stage: &Stage<D>) -> Vec<f64> {
+        let phase = self.phase(seen);
+        let duration = phase.steps_per_row as f64 * phase.dt;
+        let here = self.setup.parts(&phase.name);
+        let mut forces = Vec::new();
+        for (k, name) in self.parts.iter().enumerate() {
+            let place = |names: &[&str]| names.iter().position(|n| n == name);
+            let part = match (place(&here[0]), place(&here[1])) {
+                (Some(place), _) => Some(Part::Constraint(place)),
+                (None, Some(place)) => Some(Part::Contact(place)),
+                (None, None) => None,
+            };
+            let now = part.map_or([0.0; 3], |part| {
+                let reaction = stage.run.on(part);
+                match self.setup.scheme {
+                    Scheme::Explicit(_) => reaction.impulse,
+                    _ => reaction.force.map(|f| f * duration),
+                }
+            });
+            let before = std::mem::replace(&mut seen.impulses[k], now);
+            let explicit = matches!(self.setup.scheme, Scheme::Explicit(_));
+            let change = |a: usize| match explicit {
+                true => (now[a] - before[a]) / duration,
+                false => now[a] / duration,
+            };
+            forces.extend((0..D).map(change));
+        }
+        forces
+    }
+}
+
+/// Names of the columns, which live as long as the program: a scene is read once in it.
+fn columns<const D: usize>(scheme: Scheme, parts: &[String]) -> Vec<&'static str> {
+    let mut all = vec![
+        "time (s)",
+        "kinetic_energy (J)",
+        "stored_energy (J)",
+        "displacement_max (m)",
+    ];
+    match scheme {
+        Scheme::Explicit(_) => {}
+        Scheme::Implicit(_) => all.push("newton_iterations (-)"),
+        Scheme::Poro(_) => all.extend(["newton_iterations (-)", "outflow (m³)"]),
+    }
+    for name in parts {
+        for axis in ["x", "y", "z"].into_iter().take(D) {
+            all.push(Box::leak(format!("{name}_{axis} (N)").into_boxed_str()));
+        }
+    }
+    all
+}
+
+/// The largest displacement (m).
+fn most_moved<const D: usize>(run: &dyn Simulation<D>) -> f64 {
+    let p = run.particles();
+    let pairs = p.position.iter().zip(&p.reference);
+    let squares = pairs.map(|(x, from)| {
+        let off = x.iter().zip(from).map(|(x, from)| (x - from) * (x - from));
+        off.sum::<f64>()
+    });
+    squares.fold(0.0, f64::max).sqrt()
+}
+
+impl<const D: usize> Watch<D> for Course<D>
+where
+    Compiled: Solving<D>,
+{
+    type Seen = Seen;
+
+    fn discretisation(&self) -> Discretisation {
+        let wall = match self.setup.walls() {
+            WallTreatment::OpenKnot => "open-knot",
+            WallTreatment::WallLine => "wall-line",
+        };
+        Discretisation {
+            dim: D,
+            h: self.setup.h(),
+            ppc: self.setup.per_cell(),
+            dt: self.setup.phases[0].dt,
+            wall: wall.to_owned(),
+        }
+    }
+
+    fn scene(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+        Compiled::solve(&self.setup, self.phase(seen))
+    }
+
+    fn columns(&self) -> Vec<&'static str> {
+        self.columns.clone()
+    }
+
+    fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, mpm_core::Error> {
+        if seen.row == self.phase(seen).rows {
+            let body = stage.run.body()?;
+            seen.before += stage.run.time();
+            (seen.phase, seen.row) = (seen.phase + 1, 0);
+            seen.impulses.clear();
+            stage.enter(self.scene(seen)?, Some(&body))?;
+        }
+        seen.impulses.resize(self.parts.len(), [0.0; 3]);
+        let iterations = stage.run.work().newton_iterations;
+        stage.steps(self.phase(seen).steps_per_row)?;
+        (seen.row, seen.rows) = (seen.row + 1, seen.rows + 1);
+        let run = stage.run.as_ref();
+        let totals = run.totals();
+        let mut row = vec![
+            seen.before + run.time(),
+            totals.kinetic_energy,
+            totals.stored_energy,
+            most_moved(run),
+        ];
+        if !matches!(self.setup.scheme, Scheme::Explicit(_)) {
+            row.push((run.work().newton_iterations - iterations) as f64);
+        }
+        row.extend(run.water().map(|water| water.outflow));
+        row.extend(self.forces(seen, stage));
+        Ok(row)
+    }
+
+    fn progress(&self, seen: &Seen, _: &Stage<D>) -> f64 {
+        seen.rows as f64 / self.whole() as f64
+    }
+
+    fn snapshot(&self, seen: &Seen, stage: &mut Stage<D>) -> Option<Snapshot> {
+        let every = self.snapshot_rows?;
+        let time = seen.before + stage.run.time();
+        seen.rows.is_multiple_of(every).then(|| Snapshot {
+            time,
+            columns: self.particles(seen, stage),
+        })
+    }
+
+    fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {
+        let run = stage.run.as_mut();
+        let fields = [
+            ("mean_stress", "Pa", Field::MeanStress),
+            ("mean_stress_averaged", "Pa", Field::AveragedMeanStress),
+            ("plastic_strain", "-", Field::PlasticStrain),
+            ("pore_pressure", "Pa", Field::PorePressure),
+        ];
+        // A run lacks the fields that its solver or law knows nothing of.
+        let fields = fields.map(|(name, unit, field)| (name, unit, run.field(field)));
+        let p = run.particles();
+        let mut columns = position_columns(p);
+        let of_velocity = [("velocity_x", 0), ("velocity_y", 1), ("velocity_z", 2)];
+        // Equilibrium has no velocities.
+        let components = if p.velocity.is_empty() { 0 } else { D };
+        for (name, a) in of_velocity.into_iter().take(components) {
+            columns.push(column(name, "m/s", p.seeded(|k| p.velocity[k][a])));
+        }
+        for (name, unit, values) in fields.into_iter().filter(|f| f.2.len() == p.len()) {
+            columns.push(column(name, unit, p.seeded(|k| values[k])));
+        }
+        columns.push(column("jacobian", "-", p.seeded(|k| p.jacobian[k])));
+        columns
+    }
+
+    fn metrics(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<(Metric, f64)> {
+        let run = stage.run.as_mut();
+        let mean = run.field(Field::MeanStress);
+        let averaged = run.field(Field::AveragedMeanStress);
+        let plastic = run.field(Field::PlasticStrain);
+        let most = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
+        let totals = run.totals();
+        let p = run.particles();
+        let places = (0..D).flat_map(|a| p.seeded(|k| p.position[k][a]));
+        let bytes: Vec<u8> = places.flat_map(f64::to_le_bytes).collect();
+        vec![
+            (MASS, totals.mass),
+            (MOST_MOVED, most_moved(run)),
+            (KINETIC, totals.kinetic_energy),
+            (J_MIN, totals.jacobian.0),
+            (J_MAX, totals.jacobian.1),
+            (STRESS_MIN, least(&mean)),
+            (STRESS_MAX, most(&mean)),
+            (BOARD, checkerboard(&mean, &averaged)),
+            (PLASTIC, most(&plastic)),
+            (PLACES, f64::from(crc32fast::hash(&bytes))),
+        ]
+    }
+}
