@@ -3,12 +3,15 @@
 //! Set-up, choices and tolerances: `docs/mms-static.md`.
 
 use super::family::family;
-use super::manufactured::checks::{Claim, Claims, locking, of_motion, stress_order};
+use super::manufactured::checks::{
+    Claim, Claims, is_beyond_unseen, locking, of_motion, stress_order,
+};
 use super::manufactured::metrics::{self as m, DISPLACEMENT_L2};
 use super::manufactured::{DURATION, LOAD_STEPS, Manufactured, PPC_PER_DIRECTION, levels};
 use super::mms_vortex_box::{LOCKING_CURVE, WAVE};
-use super::parameters::POISSON_RATIO;
+use super::parameters::{POISSON_RATIO, UNSEEN};
 use crate::case::{Case, Family, Tier};
+use crate::check::{Check, Finding, study};
 use crate::error::Error;
 use crate::exact::parameters::ANGULAR_FREQUENCY;
 use crate::exact::twist::ANGLE;
@@ -17,7 +20,7 @@ use crate::exact::{Exact, swirl, vortex_pressure};
 use crate::metric::Metric;
 use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use crate::record::Record;
-use crate::results::{Column, ResultTable, SCHEME, SHORT, share};
+use crate::results::{Column, Format, ResultTable, SCHEME, SHORT, fixed, share};
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::spec::Level;
 
@@ -44,6 +47,7 @@ pub(super) fn case() -> Case {
     let mut checks = of_motion(ORDERS, WAVE);
     checks.push(stress_order(ORDERS));
     checks.extend(locking());
+    checks.push(unseen_locks());
     Case {
         limits: &[
             "Quadrature by moved particles: of linear functions, whose gradients jump, it spoils convergence from the second step on.",
@@ -56,7 +60,7 @@ pub(super) fn case() -> Case {
         plan: plan(&levels),
         levels,
         checks,
-        tables: vec![over_cells("mms-static", &[]), over_cells("mms-static-soft", SOFT), over_cells("mms-static-pressure", PRESSED), ratios()],
+        tables: vec![over_cells("mms-static", &[]), over_cells("mms-static-soft", SOFT), over_cells("mms-static-pressure", PRESSED), ratios(), iterations()],
         ..Manufactured::solid(solution).slow_case(names, all_parameters())
     }
 }
@@ -131,6 +135,9 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         family(Nightly, three, &all, SOFT),
         family(Nightly, three, &all, &["poisson_ratio=0.49"]),
         family(Nightly, three, &all, &["poisson_ratio=0.499"]),
+        family(Nightly, two, &all, &["poisson_ratio=0.49999"]),
+        family(Nightly, two, &all, &["poisson_ratio=0.499999"]),
+        family(Nightly, two, &all, &["poisson_ratio=0.4999999"]),
         family(Nightly, three, &all, &["load_steps=1"]),
         family(Nightly, three, &few, &["load_steps=16"]),
         family(Nightly, three, &all, PRESSED),
@@ -163,19 +170,65 @@ fn over_cells(name: &str, set: &'static [&'static str]) -> ResultTable {
     ResultTable::new(name, move |r| r.set == set, &[SCHEME], columns)
 }
 
+/// Poisson's ratios of the tables.
+const RATIOS: [f64; 7] = [0.3, 0.49, 0.499, 0.4999, 0.49999, 0.499999, 0.4999999];
+
 /// Errors at n16 over Poisson's ratios.
 fn ratios() -> ResultTable {
-    let ratios = [0.3, 0.49, 0.499, 0.4999];
     let relative = |r: &Record| r.metric(m::DISPLACEMENT_L2) / r.metric(m::DISPLACEMENT_SCALE);
-    let columns = ratios.map(|ratio| {
-        Column::value(format!("ν = {ratio}"), relative, share(2))
+    over_ratios("mms-static-ratios", relative, share(2))
+}
+
+/// Newton iterations of a load step, likewise.
+fn iterations() -> ResultTable {
+    let in_a_step = |r: &Record| r.metric(m::NEWTON_ITERATIONS) / r.work.steps as f64;
+    over_ratios("mms-static-iterations", in_a_step, fixed(1))
+}
+
+fn over_ratios(name: &str, value: fn(&Record) -> f64, format: Format) -> ResultTable {
+    let columns = RATIOS.map(|ratio| {
+        Column::value(format!("ν = {ratio}"), value, format)
             .of(move |r| r.parameters.number(POISSON_RATIO) == ratio)
     });
     ResultTable::new(
-        "mms-static-ratios",
+        name,
         |r| r.level == "n16" && r.changes_none_but(&[POISSON_RATIO.name]),
         &[SCHEME],
         columns,
+    )
+}
+
+/// What a run errs by beside one that has the stiffness of the unseen everywhere.
+const ALIKE: f64 = 0.1;
+
+/// Where the stiffness ε² K of what the average can't see is what locks.
+fn unseen_locks() -> Check {
+    Check::known_limit(
+        "unseen-locks",
+        "GIMP with fbar-consistent beyond 1 − 2ν = ε²: the rms error of u is, within a tenth, that of no remedy at the ratio ν′ with 1 − 2ν′ = (1 − 2ν)/ε², whose bulk modulus is ε² K",
+        study(|records| {
+            let beyond = records.iter().filter(|r| {
+                r.basis() == Gimp
+                    && is_beyond_unseen(r)
+                    && r.changes_none_but(&[POISSON_RATIO.name])
+            });
+            let compressible = |r: &Record| 1.0 - 2.0 * r.parameters.number(POISSON_RATIO);
+            let found = beyond.filter_map(|r| {
+                let soft = compressible(r) / (UNSEEN * UNSEEN);
+                let like = records.iter().find(|l| {
+                    l.basis() == Gimp
+                        && l.remedy() == RemedyName::None
+                        && l.level == r.level
+                        && l.changes_none_but(&[POISSON_RATIO.name])
+                        && (compressible(l) / soft - 1.0).abs() < 1e-6
+                })?;
+                let ratio = r.metric(DISPLACEMENT_L2) / like.metric(DISPLACEMENT_L2);
+                let about = format!("{} of {} over that of none at {}", DISPLACEMENT_L2.name, r.level, like.set.join(" "));
+                let why = "strains that Π can't see are as stiff as without a remedy at that ratio, and more than nodes can avoid";
+                Some(Finding::within(about, ratio, 1.0, ALIKE, why))
+            });
+            found.collect()
+        }),
     )
 }
 

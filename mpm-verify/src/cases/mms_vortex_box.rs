@@ -91,6 +91,9 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         )
     });
     let [three, four] = more_particles(Nightly, &levels[..3]);
+    let two = &levels[..2];
+    let near = [RemedyName::None, RemedyName::FbarRecursive, FbarConsistent];
+    let limit = pairs(&[Gimp, Bspline2], &near);
     vec![
         family(Quick, &levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
         family(Pr, &levels[..3], &few, &[]),
@@ -129,6 +132,42 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         family(Long, &levels[4..], &newmark, &["cfl=10"]),
         three,
         four,
+        family(
+            Nightly,
+            two,
+            &limit,
+            &["poisson_ratio=0.49999", "step_poisson_ratio=0.49999"],
+        ),
+        family(
+            Nightly,
+            two,
+            &limit,
+            &["poisson_ratio=0.499999", "step_poisson_ratio=0.499999"],
+        ),
+        family(
+            Nightly,
+            two,
+            &limit,
+            &["poisson_ratio=0.4999999", "step_poisson_ratio=0.4999999"],
+        ),
+        family(
+            Nightly,
+            two,
+            &midpoint,
+            &["cfl=50", "poisson_ratio=0.49999"],
+        ),
+        family(
+            Nightly,
+            two,
+            &midpoint,
+            &["cfl=50", "poisson_ratio=0.499999"],
+        ),
+        family(
+            Nightly,
+            two,
+            &midpoint,
+            &["cfl=50", "poisson_ratio=0.4999999"],
+        ),
         family(Nightly, &levels[..3], &all, &["poisson_ratio=0.3"]),
         family(Nightly, &levels[..3], &all, &["poisson_ratio=0.49"]),
         family(Nightly, &levels[..3], &all, &["poisson_ratio=0.499"]),

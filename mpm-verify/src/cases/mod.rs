@@ -13,12 +13,14 @@ mod course;
 mod critical_step;
 mod dam_break;
 mod discs;
+mod drop;
 mod excavation;
 mod family;
 mod footing;
 mod forms;
 mod growth;
 mod landslide;
+mod lattice_waves;
 mod mandel;
 mod manufactured;
 mod mms_axis;
@@ -30,6 +32,7 @@ mod mms_vortex_box;
 mod mms_vortex_pressure;
 mod mms_vortex_ring;
 mod mms_wall_pressure;
+mod newton;
 mod observe;
 pub(crate) mod parameters;
 mod pictures;
@@ -39,6 +42,7 @@ mod slope_stability;
 mod spin;
 mod standing_wave;
 mod still;
+mod stretch;
 mod strip;
 mod terzaghi;
 mod translate;
@@ -78,6 +82,9 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         spin::case(),
         translate::case(),
         shock::case(),
+        stretch::case(),
+        newton::case(),
+        drop::case(),
     ]
 });
 

@@ -5,6 +5,10 @@ use crate::record::Record;
 
 pub(super) use crate::exact::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 
+/// What `fbar-consistent` keeps of a strain that Π can't see: ε of `docs/remedy.md`, whose square is the share of the bulk
+/// modulus that resists it.
+pub(super) const UNSEEN: f64 = 0.01;
+
 /// Words of [`WALL`].
 pub(super) const WALL_LINE: &str = "wall-line";
 

@@ -1,5 +1,6 @@
 //! The largest step by linear analysis: `docs/modes.md`, in one to three dimensions and for every transfer.
 
+use crate::cases::parameters::UNSEEN;
 use crate::scheme::{BasisName, Explicit, RemedyName, TransferName};
 use mpm_core::Axis;
 use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
@@ -11,8 +12,6 @@ const CELLS: usize = 12;
 const CELL: f64 = 5.0;
 /// Step of the second derivative, in cells.
 const NEARBY: f64 = 1e-6;
-/// What `fbar-consistent` keeps of a strain that Π can't see: ε of `docs/remedy.md`.
-const UNSEEN: f64 = 0.01;
 /// What counts as zero of sums of a few weights.
 const ROUNDING: f64 = 1e-9;
 

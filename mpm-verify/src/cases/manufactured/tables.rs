@@ -1,11 +1,14 @@
 //! Tables of errors and orders of the motions with an exact solution.
 
-use super::CFL;
-use super::metrics::{DISPLACEMENT_L2, DISPLACEMENT_LINF, MEAN_STRESS_L2, STRESS_L2, VELOCITY_L2};
+use super::metrics::{
+    DISPLACEMENT_L2, DISPLACEMENT_LINF, DISPLACEMENT_SCALE, MEAN_STRESS_L2, STRESS_L2, VELOCITY_L2,
+};
+use super::{CFL, STEP_POISSON_RATIO};
+use crate::cases::parameters::POISSON_RATIO;
 use crate::metric::Metric;
 use crate::record::{Record, Status};
 use crate::results::{
-    Column, Format, Label, ResultTable, SCHEME, SHORT, fixed, is_flip, order, scientific,
+    Column, Format, Label, ResultTable, SCHEME, SHORT, fixed, is_flip, order, scientific, share,
 };
 use crate::scheme::{BasisName, RemedyName};
 
@@ -43,6 +46,7 @@ pub(super) fn of(case: &'static str) -> Vec<ResultTable> {
             locking("mms-vortex-box-locking", SIX),
             price("mms-vortex-box-price", &LEVELS[..3], &["poisson_ratio=0.3"]),
             pressure("mms-vortex-box-pressure", LEVELS),
+            limit("mms-vortex-box-limit"),
             cost("mms-vortex-box-cost", ["n8", "n16", "n32"], |r| {
                 let remedies = [RemedyName::None, RemedyName::FbarConsistent];
                 remedies.contains(&r.remedy()) && is_smooth(r) && r.changes_none_but(&[CFL.name])
@@ -137,6 +141,40 @@ fn of_wall_pressure() -> Vec<ResultTable> {
             levels,
         ),
     ]
+}
+
+/// Error over the motion, steps and cost at n16 towards incompressibility, at the CFL numbers of the case.
+fn limit(name: &str) -> ResultTable {
+    let ratios = [0.4999, 0.49999, 0.499999, 0.4999999];
+    let relative = |r: &Record| r.metric(DISPLACEMENT_L2) / r.metric(DISPLACEMENT_SCALE);
+    let of_ratio = |ratio: f64| {
+        let at = move |r: &Record| r.parameters.number(POISSON_RATIO) == ratio;
+        [
+            Column::value(format!("ν = {ratio}"), relative, share(1)).of(at),
+            Column::value("steps", |r| r.work.steps as f64, fixed(0)).of(at),
+            Column::value("CPU (s)", |r| r.time.cpu_s, fixed(1)).of(at),
+        ]
+    };
+    let shows = |r: &Record| {
+        let set = [POISSON_RATIO.name, STEP_POISSON_RATIO.name, CFL.name];
+        let remedies = [
+            RemedyName::None,
+            RemedyName::FbarRecursive,
+            RemedyName::FbarConsistent,
+        ];
+        let own = is_flip(r) || r.set.iter().any(|s| s == "cfl=50");
+        r.level == "n16"
+            && r.changes_none_but(&set)
+            && own
+            && is_smooth(r)
+            && remedies.contains(&r.remedy())
+    };
+    ResultTable::new(
+        name,
+        shows,
+        &[SCHEME],
+        ratios.into_iter().flat_map(of_ratio),
+    )
 }
 
 /// Whether a run is one of an implicit ladder.

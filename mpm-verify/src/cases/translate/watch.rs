@@ -5,6 +5,7 @@ use super::parameters::{
     CELLS, CFL, FLIP, PARTICLES, POISSON_RATIO, PPC_PER_DIRECTION, SPEED, STRETCH,
 };
 use crate::cases::course::{Course, Watched};
+use crate::cases::lattice_waves::{force, symbol, transform};
 use crate::cases::observe::{column, position_columns, settings};
 use crate::drive::Drive;
 use crate::error::Error;
@@ -20,7 +21,7 @@ use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::NeoHookean;
 use mpm_core::{Axis, Body, Error as Fault, Grid, Law, Particles, Scene, Simulation};
 use nalgebra::{Matrix2, Matrix3};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Cells of a period along the motion and across it.
 pub(super) const PERIOD: usize = 8;
@@ -95,27 +96,21 @@ impl Translation {
     /// What the lattice's forces of a uniform stress come to: see `docs/translate.md`.
     fn predicted(&self) -> f64 {
         let per_cell = self.parameters.number(PARTICLES) / PERIOD as f64;
-        let sinc = |x: f64| if x == 0.0 { 1.0 } else { x.sin() / x };
-        // Functions are repeated averages: their transform is a power of sinc, GIMP's has that of the domain.
-        let transform = |k: f64| match self.spec.scheme.basis().degree() {
-            1 => sinc(0.5 * k).powi(2),
-            2 if self.is_gimp() => sinc(0.5 * k).powi(2) * sinc(0.5 * k / per_cell),
-            degree => sinc(0.5 * k).powi(degree as i32 + 1),
-        };
+        let basis = self.spec.scheme.basis();
+        let of_basis = |k: f64| transform(basis, per_cell, k);
         let answers = (1..=WAVES).map(|k| {
             let waves = per_cell * f64::from(k);
-            let force = 2.0 * TAU * waves * transform(TAU * waves).abs();
             // The nodes see the wave of the lattice as one of this angle from node to node, which passes the body at so
             // many radians in the time that sound takes through a cell; half-way between two of them it is both.
             let passes = |whole: f64| {
-                let (stiffness, kept) = symbol(TAU * (waves - whole), &transform);
+                let [stiffness, kept] = symbol(TAU * (waves - whole), &of_basis);
                 let driven = self.parameters.number(SPEED) * TAU * whole;
                 let answer = 1.0 / (1.0 - driven * driven / (kept * stiffness)).abs();
                 (2.0 * stiffness).sqrt().recip() * answer
             };
             let (below, above) = (waves.floor(), waves.ceil());
             let nearest = waves.round();
-            force
+            force(waves, &of_basis)
                 * if waves - below == 0.5 {
                     0.5 * (passes(below) + passes(above))
                 } else {
@@ -124,20 +119,6 @@ impl Translation {
         });
         answers.map(|a| a * a).sum::<f64>().sqrt()
     }
-
-    fn is_gimp(&self) -> bool {
-        self.spec.scheme.basis() == crate::scheme::BasisName::Gimp
-    }
-}
-
-/// (ψ, ψ) h² and Π̂ of a wave of this angle, for particles everywhere: sums over its images.
-fn symbol(angle: f64, transform: &dyn Fn(f64) -> f64) -> (f64, f64) {
-    const IMAGES: i32 = 200;
-    let images = (-IMAGES..=IMAGES).map(|k| angle + 2.0 * PI * f64::from(k));
-    images.fold((0.0, 0.0), |(slopes, values), k| {
-        let square = transform(k).powi(2);
-        (slopes + k * k * square, values + square)
-    })
 }
 
 impl Course<2> for Translation {

@@ -1,0 +1,107 @@
+//! A body that is stretched and crushed alike everywhere: where it tears, where its step becomes too long, and what says so.
+//!
+//! Set-up, choices and tolerances: `docs/stretch.md`.
+
+mod checks;
+mod metrics;
+mod parameters;
+mod tables;
+mod theory;
+mod watch;
+
+use super::family::{BASES, REMEDIES, family, implicit, pairs};
+use crate::case::{Case, Family, Tier};
+use crate::results::headline;
+use crate::scheme::{RemedyName, RuleName};
+use crate::sketch::{Shape, Sketch};
+use crate::spec::Level;
+use metrics as m;
+use theory::FREE;
+use watch::Stretching;
+
+use Tier::{Nightly, Pr, Quick};
+
+const LEVELS: [Level; 1] = [Level {
+    name: "n8",
+    h: 0.5 / FREE as f64,
+}];
+const CRUSHED: &[&str] = &["end=0.05"];
+/// Steps that the waves of the deformed body outrun.
+const LONG_STEP: &[&str] = &["cfl=0.4"];
+const LONG_STEP_CRUSHED: &[&str] = &["cfl=0.55", "end=0.05"];
+const MORE: &[&str] = &["ppc_per_direction=4"];
+const SLOWER: &[&str] = &["speed=0.005"];
+
+pub(super) fn case() -> Case {
+    Case {
+        name: "stretch",
+        title: "A body that is stretched eightfold",
+        description: "The ends of a body move as if it were stretched alike everywhere, to eight times its length or a twentieth of it; \
+                      the part between them is free. Where does it tear, where is its step too long, and what says so?",
+        references: vec!["Exact: ".to_owned()],
+        limits: &["One"],
+        parameters: parameters::ALL.to_vec(),
+        plan: plan(),
+        levels: LEVELS.to_vec(),
+        metrics: m::ALL.to_vec(),
+        checks: checks::checks(),
+        headlines: vec![
+            headline(m::TEAR_STRETCH, "tears at (–)", 1.0, 2),
+            headline(m::UNSTABLE_STRETCH, "holds at least to (–)", 1.0, 2),
+            headline(m::PREDICTED_TEAR_STRETCH, "neighbours part at (–)", 1.0, 2),
+            headline(m::STOPPED_STRETCH, "stops at (–)", 1.0, 2),
+            headline(m::STRESS_NOISE, "noise of the stress (%)", 100.0, 1),
+            headline(m::PREDICTED_NOISE, "predicted (%)", 100.0, 1),
+            headline(m::STRESS_KEPT, "mean stress kept (%)", 100.0, 1),
+        ],
+        quantities: Vec::new(),
+        sweeps: Vec::new(),
+        watched: &["stress_kept", "stress_error"],
+        field: None,
+        sketch: sketch(),
+        cost: Box::new(|_| 0.1),
+        ladder: &[],
+        own_runs: crate::record::of_defaults,
+        begin: Box::new(|spec, parameters| Ok(Box::new(Stretching::drive(spec, parameters)?))),
+        pictures: |_| Ok(()),
+        tables: tables::all(),
+        breaks_down: |_| None,
+    }
+}
+
+fn plan() -> Vec<Family> {
+    let all = pairs(&BASES, &REMEDIES);
+    let remedies = [RemedyName::None, RemedyName::FbarConsistent];
+    let slow = implicit(&[RuleName::QuasiStatic], &BASES[..3], &remedies);
+    let plain = pairs(&BASES, &[RemedyName::None]);
+    let consistent = pairs(&BASES[1..2], &[RemedyName::FbarConsistent]);
+    vec![
+        family(Quick, &LEVELS, &consistent, &[]),
+        family(Pr, &LEVELS, &all, &[]),
+        family(Pr, &LEVELS, &slow, &[]),
+        family(Pr, &LEVELS, &all, CRUSHED),
+        family(Pr, &LEVELS, &slow, CRUSHED),
+        family(Pr, &LEVELS, &plain, LONG_STEP),
+        family(Pr, &LEVELS, &plain, LONG_STEP_CRUSHED),
+        family(Nightly, &LEVELS, &plain, MORE),
+        family(Nightly, &LEVELS, &plain, SLOWER),
+    ]
+}
+
+fn sketch() -> Sketch {
+    let (long, high) = (1.0, 0.12);
+    let body =
+        |from: f64, to: f64| Shape::Body(vec![[from, 0.0], [to, 0.0], [to, high], [from, high]]);
+    Sketch {
+        shapes: vec![
+            body(0.0, long),
+            body(-0.5, 0.0),
+            body(long, long + 0.5),
+            Shape::Load([long + 0.1, 0.5 * high], [long + 0.4, 0.5 * high]),
+            Shape::Load([-0.1, 0.5 * high], [-0.4, 0.5 * high]),
+            Shape::note([0.5 * long, 0.5 * high], "free"),
+            Shape::length([0.0, -0.08], [long, -0.08], "8 h"),
+        ],
+        description: "A body that is longer than eight cells; beside these its nodes move as all would.",
+    }
+}

@@ -1,0 +1,140 @@
+//! Where a lattice that is stretched loses its stiffness, where neighbours part, and how its stress is noisy until then.
+
+use crate::cases::lattice_waves::{force, symbol, transform};
+use crate::scheme::BasisName;
+use mpm_core::Axis;
+use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use nalgebra::DMatrix;
+use std::f64::consts::TAU;
+
+/// Cells of the free part on each side of the middle.
+pub(super) const FREE: usize = 4;
+/// Waves of the lattice whose forces are summed.
+const WAVES: i32 = 3;
+/// Step of the second derivative, in cells.
+const NEARBY: f64 = 1e-6;
+/// Cells beside the free part in which particles and nodes are looked at.
+const BESIDE: usize = 4;
+/// The least mass of a node that counts, in that of a particle's volume.
+const SEEN: f64 = 1e-9;
+/// What counts as below zero of a stiffness over a mass.
+const ROUNDING: f64 = 1e-9;
+
+/// A basis and the half size of the particles (cells).
+#[derive(Clone, Copy)]
+pub(super) struct Lattice {
+    pub(super) basis: BasisName,
+    pub(super) half_size: f64,
+}
+
+impl Lattice {
+    /// How far a particle's functions reach, in cells.
+    fn support(&self) -> f64 {
+        match self.basis {
+            BasisName::Linear => 1.0,
+            BasisName::Gimp => 1.0 + self.half_size,
+            BasisName::Bspline2 => 1.5,
+            BasisName::Bspline3 | BasisName::Q8 => 2.0,
+        }
+    }
+
+    /// Where the first node is, in cells from a grid line.
+    fn offset(&self) -> f64 {
+        match self.basis {
+            BasisName::Bspline2 => 0.5,
+            BasisName::Linear | BasisName::Gimp | BasisName::Bspline3 | BasisName::Q8 => 0.0,
+        }
+    }
+
+    /// First and last node that sees a particle at `x`, in cells: functions that begin at it see nothing.
+    fn nodes(&self, x: f64) -> [f64; 2] {
+        let (x, reach) = (x - self.offset(), self.support());
+        [(x - reach).floor() + 1.0, (x + reach).ceil() - 1.0]
+    }
+
+    /// Whether neighbours have no common node somewhere in the free part; places in cells.
+    pub(super) fn parted(&self, mut places: Vec<f64>) -> bool {
+        places.sort_by(f64::total_cmp);
+        let free = |x: f64| x.abs() < FREE as f64;
+        let apart = |pair: &[f64]| {
+            let ([_, last], [first, _]) = (self.nodes(pair[0]), self.nodes(pair[1]));
+            first > last && (free(pair[0]) || free(pair[1]))
+        };
+        places.windows(2).any(apart)
+    }
+
+    /// Least stiffness over mass of the free nodes: of the stiffness `axial` of a particle at these places (cells), and
+    /// of a stress that moves with it. Only its sign has a meaning.
+    pub(super) fn least_stiffness(&self, places: &[f64], axial: f64, stress: f64) -> f64 {
+        let matrix = match self.basis {
+            BasisName::Linear => self.tangent::<2, Linear>(places, axial, stress),
+            BasisName::Gimp | BasisName::Q8 => self.tangent::<3, Gimp>(places, axial, stress),
+            BasisName::Bspline2 => self.tangent::<3, QuadraticBSpline>(places, axial, stress),
+            BasisName::Bspline3 => self.tangent::<4, CubicBSpline>(places, axial, stress),
+        };
+        let values = matrix.complex_eigenvalues();
+        values.iter().map(|v| v.re).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether the least stiffness is below zero.
+    pub(super) fn is_unstable(&self, places: &[f64], axial: f64, stress: f64) -> bool {
+        self.least_stiffness(places, axial, stress) < -ROUNDING * axial
+    }
+
+    fn tangent<const S: usize, B: Basis<S>>(
+        &self,
+        places: &[f64],
+        axial: f64,
+        stress: f64,
+    ) -> DMatrix<f64> {
+        let cells = FREE + BESIDE;
+        let axis = Axis::open(-(cells as f64), 2 * cells);
+        let functions = B::new(&axis, 1.0, WallTreatment::OpenKnot);
+        let nodes = functions.nodes().position;
+        let free: Vec<usize> = (0..nodes.len())
+            .filter(|i| nodes[*i].abs() < FREE as f64 - NEARBY)
+            .collect();
+        let near = places
+            .iter()
+            .filter(|x| x.abs() < (FREE + BESIDE / 2) as f64);
+        let mut stiffness = DMatrix::zeros(free.len(), free.len());
+        let mut mass = vec![0.0; free.len()];
+        for x in near {
+            let [here, behind, ahead] =
+                [*x, x - NEARBY, x + NEARBY].map(|x| functions.weights(x, self.half_size));
+            let of = |found: &mpm_core::basis::AxisWeights<S>, node: usize| {
+                let k = node.checked_sub(found.first).filter(|k| *k < S);
+                k.map_or([0.0; 2], |k| [found.w[k], found.dw[k]])
+            };
+            for (row, i) in free.iter().enumerate() {
+                let [w, slope] = of(&here, *i);
+                mass[row] += w;
+                let curvature = (of(&ahead, *i)[1] - of(&behind, *i)[1]) / (2.0 * NEARBY);
+                for (column, j) in free.iter().enumerate() {
+                    let [value, other] = of(&here, *j);
+                    stiffness[(row, column)] += axial * slope * other + stress * curvature * value;
+                }
+            }
+        }
+        for (row, mass) in mass.iter().enumerate() {
+            let share = 1.0 / mass.max(SEEN);
+            stiffness.row_mut(row).scale_mut(share);
+        }
+        stiffness
+    }
+
+    /// Rms of the stress that answers the forces of a uniform stress, over it, with so many particles a cell: see
+    /// `docs/stretch.md`.
+    pub(super) fn noise(&self, per_cell: f64) -> f64 {
+        let of_basis = |k: f64| transform(self.basis, 0.5 / self.half_size, k);
+        let longest = TAU / (2 * FREE) as f64;
+        let answers = (1..=WAVES).map(|k| {
+            let waves = per_cell * f64::from(k);
+            // Held ends leave no wave that is longer than the free part.
+            let angle = (TAU * (waves - waves.round())).abs().max(longest);
+            let [stiffness, _] = symbol(angle, &of_basis);
+            force(waves, &of_basis) / (2.0 * stiffness).sqrt()
+        });
+        answers.map(|a| a * a).sum::<f64>().sqrt()
+    }
+}

@@ -1,0 +1,352 @@
+//! A body whose ends move as one that is stretched alike everywhere, and what its free part does.
+
+use super::metrics as m;
+use super::parameters::{CFL, END, POISSON_RATIO, PPC_PER_DIRECTION, ROWS, SPEED};
+use super::theory::{FREE, Lattice};
+use crate::cases::observe::{column, position_columns};
+use crate::drive::{Drive, Stage, Watch};
+use crate::error::Error;
+use crate::job::Column;
+use crate::metric::Metric;
+use crate::parameter::Parameters;
+use crate::record::Discretisation;
+use crate::scheme::{BasisName, Scheme};
+use crate::spec::RunSpec;
+use crate::statistics::rms;
+use mpm_core::explicit::{Settings, courant_time_step};
+use mpm_core::material::NeoHookean;
+use mpm_core::stage::Constraint;
+use mpm_core::{
+    Axis, Body, Error as Fault, Grid, Law, Memoryless, Particles, Scene, Simulation, implicit,
+};
+use nalgebra::Matrix3;
+use serde::{Deserialize, Serialize};
+
+/// Cells of the body beside the free part, always.
+const HELD: usize = 2;
+/// Young's modulus (Pa) and density of the undeformed body (kg/m³).
+const YOUNG_MODULUS: f64 = 1e6;
+const DENSITY: f64 = 1000.0;
+/// The share of its exact value below which the mean stress of the free part says that it has torn.
+const TORN: f64 = 0.5;
+/// An oscillation that a force sets off at once swings to twice its answer to it.
+pub(super) const SWING: f64 = 2.0;
+/// Steps of the stretch in which a prediction is looked for.
+const SCAN: f64 = 1e-3;
+const LOOK: f64 = 0.01;
+/// Relative step of a derivative.
+const STEP: f64 = 1e-5;
+
+/// What has been seen: the stretch now, where the free part tore, where neighbours lost their last common node, and where
+/// and how the program stopped.
+#[derive(Default, Clone, Serialize, Deserialize)]
+pub(super) struct Seen {
+    rows: u64,
+    /// Stretch and error of the stress, row by row.
+    errors: Vec<[f64; 2]>,
+    torn: Option<f64>,
+    parted: Option<f64>,
+    stopped: Option<f64>,
+    /// Mean stress of the free part, over the exact one.
+    kept: f64,
+}
+
+/// A body that is stretched.
+pub(super) struct Stretching {
+    spec: RunSpec,
+    parameters: Parameters,
+    law: NeoHookean,
+    /// Rate of the stretch (1/s), time step (s), steps.
+    rate: f64,
+    dt: f64,
+    steps: u64,
+}
+
+/// The nodes beside the free part move as all would.
+struct Held {
+    /// Where the free part ends (m), on both sides of zero.
+    beyond: f64,
+    rate: f64,
+}
+
+impl Memoryless for Held {}
+
+impl Constraint<1> for Held {
+    fn prescribe(&self, grid: &Grid<1>, [x]: &[f64; 1], _: usize) -> Option<f64> {
+        (x.abs() >= self.beyond - 1e-9 * grid.h).then_some(self.rate * x)
+    }
+
+    fn amplitude(&self, time: f64) -> f64 {
+        1.0 / (1.0 + self.rate * time)
+    }
+}
+
+impl Stretching {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// The parameters don't make a scene.
+    pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<1, Self>, Error> {
+        let number = |p| parameters.number(p);
+        let law = NeoHookean::new(YOUNG_MODULUS, number(POISSON_RATIO))?;
+        let waves = law.wave_speed(DENSITY);
+        let (h, stretch) = (spec.level.h, number(END) - 1.0);
+        let rate = (number(SPEED) * waves / (FREE as f64 * h)).copysign(stretch);
+        let duration = stretch / rate;
+        let steps = match spec.scheme {
+            Scheme::Explicit(_) => duration / courant_time_step(number(CFL), h, waves),
+            Scheme::Implicit(_) | Scheme::Poro(_) => number(ROWS),
+        };
+        let stretching = Self {
+            spec: spec.clone(),
+            parameters: parameters.clone(),
+            law,
+            rate,
+            dt: duration / steps.ceil(),
+            steps: steps.ceil() as u64,
+        };
+        Ok(Drive::new(stretching, Seen::default())?)
+    }
+
+    /// Cells of the undeformed body on each side of the middle.
+    fn half_length(&self) -> f64 {
+        let covers = (FREE + HELD) as f64 / self.parameters.number(END).min(1.0);
+        covers.ceil()
+    }
+
+    /// The stretch of what is held: that of the last particle.
+    fn stretch(run: &dyn Simulation<1>) -> f64 {
+        let p = run.particles();
+        let all = p.reference.iter().zip(&p.jacobian);
+        let last = all.max_by(|([a], _), ([b], _)| a.total_cmp(b));
+        last.map_or(f64::NAN, |(_, j)| *j)
+    }
+
+    /// The exact stress (Pa), and the speed of waves (m/s).
+    fn state(&self, stretch: f64) -> [f64; 2] {
+        let mut f = Matrix3::identity();
+        f[(0, 0)] = stretch;
+        let (stress, state) = self.law.at_rest(&f);
+        let modulus = self.law.wave_modulus(stretch, &stress, &state);
+        [stress.get(0, 0), (modulus / DENSITY).sqrt()]
+    }
+
+    fn lattice(&self) -> Lattice {
+        Lattice {
+            basis: self.spec.scheme.basis(),
+            half_size: 0.5 / self.parameters.number(PPC_PER_DIRECTION),
+        }
+    }
+
+    /// Places in cells of the particles of the undeformed body.
+    fn places(&self) -> Vec<f64> {
+        let n = self.parameters.number(PPC_PER_DIRECTION);
+        let count = (self.half_length() * n) as i64;
+        (-count..count).map(|k| (k as f64 + 0.5) / n).collect()
+    }
+
+    /// The stretches between one and the last, in their order.
+    fn stretches(&self, step: f64) -> impl Iterator<Item = f64> {
+        let whole = self.parameters.number(END) - 1.0;
+        let count = (whole.abs() / step).ceil();
+        (0..=count as u64).map(move |k| 1.0 + whole * k as f64 / count)
+    }
+
+    /// The exact places (cells) at a stretch.
+    fn places_at(&self, stretch: f64) -> Vec<f64> {
+        self.places().iter().map(|x| x * stretch).collect()
+    }
+
+    /// The first stretch at which the exact places leave neighbours without a common node.
+    fn predicted_parting(&self) -> Option<f64> {
+        let lattice = self.lattice();
+        self.stretches(SCAN)
+            .find(|stretch| lattice.parted(self.places_at(*stretch)))
+    }
+
+    /// The first stretch at which a wave of the free nodes has a negative stiffness in the exact state.
+    fn unstable(&self) -> Option<f64> {
+        // Slopes that jump have a curvature somewhere, and none elsewhere.
+        if self.spec.scheme.basis() == BasisName::Linear {
+            return None;
+        }
+        let lattice = self.lattice();
+        let stress = |stretch: f64| self.state(stretch)[0];
+        self.stretches(LOOK).find(|stretch| {
+            let rise = stress(stretch * (1.0 + STEP)) - stress(stretch * (1.0 - STEP));
+            let axial = stress(*stretch) + rise / (2.0 * STEP);
+            lattice.is_unstable(&self.places_at(*stretch), axial, stress(*stretch))
+        })
+    }
+
+    /// The most of the noise that is foretold up to a stretch.
+    fn predicted_noise(&self, end: f64) -> f64 {
+        let lattice = self.lattice();
+        let per_cell = self.parameters.number(PPC_PER_DIRECTION);
+        let within = |s: &f64| (s - 1.0).abs() <= (end - 1.0).abs();
+        let each = self.stretches(LOOK).take_while(within);
+        each.map(|s| lattice.noise(per_cell / s))
+            .fold(0.0, f64::max)
+    }
+
+    /// The first stretch at which the fastest particle and the waves of the exact state pass a cell in a step.
+    fn predicted_stop(&self) -> Option<f64> {
+        let h = self.spec.level.h;
+        let ends = self.places().last().map_or(0.0, |x| x * h) * self.rate.abs();
+        self.stretches(SCAN)
+            .find(|stretch| (self.state(*stretch)[1] + ends) * self.dt > h)
+    }
+
+    /// Mean over the free part of the stress over the exact one, and rms of what it differs from one by; of a free part
+    /// without particles that of no stress.
+    fn stresses(&self, run: &mut dyn Simulation<1>) -> [f64; 2] {
+        let exact = self.state(Self::stretch(run))[0];
+        let stress = run.force_stress();
+        let end = FREE as f64 * self.spec.level.h;
+        let places = run.particles().position.iter().zip(&stress);
+        let free = places.filter(|([x], _)| x.abs() < end);
+        let shares: Vec<f64> = free.map(|(_, s)| s.get(0, 0) / exact).collect();
+        if shares.is_empty() {
+            return [0.0, 1.0];
+        }
+        let mean = shares.iter().sum::<f64>() / shares.len() as f64;
+        [mean, rms(shares.iter().map(|s| s - 1.0))]
+    }
+}
+
+impl Watch<1> for Stretching {
+    type Seen = Seen;
+
+    fn discretisation(&self) -> Discretisation {
+        Discretisation {
+            dim: 1,
+            h: self.spec.level.h,
+            ppc: self.parameters.number(PPC_PER_DIRECTION) as u32,
+            dt: self.dt,
+            wall: "none".to_owned(),
+        }
+    }
+
+    fn scene(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, Fault> {
+        let h = self.spec.level.h;
+        let size = h / self.parameters.number(PPC_PER_DIRECTION);
+        let places = self.places().iter().map(|x| [x * h]).collect();
+        let mut particles =
+            Particles::new(self.spec.start_at(places), size, DENSITY, [0.5 * size])?;
+        for (v, [x]) in particles.velocity.iter_mut().zip(&particles.reference) {
+            *v = [self.rate * x];
+        }
+        let longest = self.half_length() * self.parameters.number(END).max(1.0);
+        let room = longest as usize + HELD;
+        let grid = Grid::new(h, [Axis::open(-(room as f64) * h, 2 * room)])?;
+        let held = Held {
+            beyond: FREE as f64 * h,
+            rate: self.rate,
+        };
+        let scene = Scene::new(grid, Body::new(self.law, particles)?).constrain(held);
+        match self.spec.scheme {
+            Scheme::Explicit(e) => {
+                let settings = Settings::new(self.dt).remedy(e.remedy.build());
+                mpm_solvers::solver(self.spec.scheme, scene, settings)
+            }
+            Scheme::Implicit(_) | Scheme::Poro(_) => {
+                let settings = implicit::Settings::new(self.dt);
+                mpm_solvers::implicit(self.spec.scheme, scene, settings)
+            }
+        }
+    }
+
+    fn columns(&self) -> Vec<&'static str> {
+        vec![
+            "time (s)",
+            "stretch (-)",
+            "stress_kept (-)",
+            "stress_error (-)",
+            "parted (-)",
+        ]
+    }
+
+    fn row(&self, seen: &mut Seen, stage: &mut Stage<1>) -> Result<Vec<f64>, Fault> {
+        let rows = self.parameters.number(ROWS) as u64;
+        seen.rows += 1;
+        let to = (seen.rows * self.steps).div_ceil(rows);
+        let done = stage.steps(to - stage.run.work().steps);
+        let stretch = Self::stretch(stage.run.as_ref());
+        match done {
+            Ok(()) => {}
+            // A run that stops has told what it should.
+            Err(Fault::Breakdown { .. } | Fault::NoConvergence { .. } | Fault::Singular { .. }) => {
+                seen.stopped = Some(stretch);
+            }
+            Err(other) => return Err(other),
+        }
+        let [mean, error] = self.stresses(stage.run.as_mut());
+        let h = self.spec.level.h;
+        let places = stage.run.particles().position.iter();
+        let apart = self.lattice().parted(places.map(|[x]| x / h).collect());
+        seen.kept = mean;
+        seen.errors.push([stretch, error]);
+        if mean < TORN {
+            seen.torn = seen.torn.or(Some(stretch));
+        }
+        if apart {
+            seen.parted = seen.parted.or(Some(stretch));
+        }
+        // A step that was not taken is a row of its end.
+        let ahead = seen.stopped.map_or(0.0, |_| self.dt);
+        Ok(vec![
+            stage.run.time() + ahead,
+            stretch,
+            mean,
+            error,
+            f64::from(u8::from(apart)),
+        ])
+    }
+
+    fn progress(&self, seen: &Seen, _: &Stage<1>) -> f64 {
+        match seen.stopped {
+            Some(_) => 1.0,
+            None => seen.rows as f64 / self.parameters.number(ROWS),
+        }
+    }
+
+    fn particles(&self, _: &Seen, stage: &mut Stage<1>) -> Vec<Column> {
+        let stress = stage.run.force_stress();
+        let p = stage.run.particles();
+        let mut columns = position_columns(p);
+        columns.push(column("stress_xx", "Pa", p.seeded(|k| stress[k].get(0, 0))));
+        columns
+    }
+
+    fn metrics(&self, seen: &Seen, _: &mut Stage<1>) -> Vec<(Metric, f64)> {
+        let unstable = self.unstable();
+        let parting = self.predicted_parting();
+        let end = unstable.or(parting);
+        let end = end.unwrap_or(self.parameters.number(END));
+        let predicted = self.predicted_noise(end);
+        let unstable = unstable.map(|s| s * (1.0 - SWING * predicted));
+        let end = unstable.unwrap_or(end);
+        let sound = |s: f64| (s - 1.0).abs() < (end - 1.0).abs();
+        let errors = seen.errors.iter().filter(|[s, _]| sound(*s));
+        let stops = matches!(self.spec.scheme, Scheme::Explicit(_));
+        let optional = [
+            (m::TEAR_STRETCH, seen.torn),
+            (m::PARTED_STRETCH, seen.parted),
+            (m::UNSTABLE_STRETCH, unstable),
+            (m::PREDICTED_TEAR_STRETCH, parting),
+            (m::STOPPED_STRETCH, seen.stopped),
+            (
+                m::PREDICTED_STOP_STRETCH,
+                self.predicted_stop().filter(|_| stops),
+            ),
+            (
+                m::STRESS_NOISE,
+                Some(errors.map(|[_, e]| *e).fold(0.0, f64::max)),
+            ),
+            (m::PREDICTED_NOISE, Some(predicted)),
+            (m::STRESS_KEPT, Some(seen.kept)),
+        ];
+        let values = optional.into_iter();
+        values.filter_map(|(m, v)| Some((m, v?))).collect()
+    }
+}
