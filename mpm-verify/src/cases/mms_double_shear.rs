@@ -60,6 +60,10 @@ pub(super) fn case() -> Case {
         levels,
         checks,
         sweeps: vec![LOCKING_CURVE],
+        breaks_down: |r| {
+            let scheme = (r.basis(), r.remedy()) == (Gimp, RemedyName::FbarTotal);
+            (r.is_default() && scheme && r.level == "n64").then_some(NULL_SPACE)
+        },
         pictures: |gallery| mean_stress(gallery, "n64", 100.0),
         ..motion.case(names, parameters)
     }

@@ -68,7 +68,11 @@ pub(super) fn case() -> Case {
         checks,
         sweeps: vec![LOCKING_CURVE],
         breaks_down: |r| {
-            let known = [(Bspline2, FbarRate, "n128"), (Linear, FbarTotal, "n64")];
+            let known = [
+                (Bspline2, FbarRate, "n128"),
+                (Linear, FbarTotal, "n64"),
+                (Gimp, FbarTotal, "n64"),
+            ];
             let this = |k: &(_, _, &str)| *k == (r.basis(), r.remedy(), &r.level);
             (r.is_default() && known.iter().any(this)).then_some(NULL_SPACE)
         },

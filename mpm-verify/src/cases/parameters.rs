@@ -1,7 +1,9 @@
 //! Parameters that several problems have: each is asked for by itself, so that a slip does not compile.
 
-use crate::parameter::{Domain, Parameter, number, parameters};
+use crate::error::Error;
+use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use crate::record::Record;
+use crate::spec::RunSpec;
 
 pub(super) use crate::exact::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 
@@ -11,9 +13,13 @@ pub(super) const UNSEEN: f64 = 0.01;
 
 /// Words of [`WALL`].
 pub(super) const WALL_LINE: &str = "wall-line";
+/// Word of [`TIME_STEP`].
+const AUTO: &str = "auto";
 
 parameters! { pub(super) const:
     CFL = "cfl", "-", "0.4", number(1e-3, 1.0, true), "CFL number c Δt / h of pressure waves";
+    TIME_STEP = "time_step", "-", "cfl", Domain::Choice(&["cfl", AUTO]),
+        "cfl: by the CFL number; auto, explicit: the step that is stable however particles lie, of all but linear functions";
     FLIP = "flip", "-", "1", number(0.0, 1.0, false), "PIC/FLIP blend η: 1 is FLIP";
     DAMPING = "damping", "-", "0", number(0.0, 1.0, true), "local damping factor";
     WALL = "wall", "-", "open-knot", Domain::Choice(&["open-knot", WALL_LINE]), "how B-splines meet walls";
@@ -38,6 +44,29 @@ parameters! { pub(super) const:
 
 /// Those that the implicit solvers of bodies that move have.
 pub(super) const DYNAMIC: [Parameter; 4] = [LUMPED, ALPHA, DELTA, TOLERANCE];
+
+/// The CFL number of a run in `dimension` dimensions: its own, or that of the step which is stable however particles lie,
+/// the smallest of them `half_size` cells from centre to face.
+///
+/// # Errors
+/// No step is, with its functions.
+pub(super) fn cfl(
+    spec: &RunSpec,
+    parameters: &Parameters,
+    dimension: usize,
+    half_size: f64,
+) -> Result<f64, Error> {
+    if !parameters.is(TIME_STEP, AUTO) {
+        return Ok(parameters.number(CFL));
+    }
+    let basis = spec.scheme.basis();
+    let found = mpm_solvers::stable_cfl(basis, dimension, half_size);
+    found.ok_or_else(|| {
+        Error::Input(format!(
+            "time_step = {AUTO} has no step for the basis {basis}, whose functions vanish with a slope; allowed: cfl"
+        ))
+    })
+}
 
 /// Whether a run was of its case's own problem, however divided in space and time.
 pub(crate) fn is_of_own_problem(record: &Record) -> bool {

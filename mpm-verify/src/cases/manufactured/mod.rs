@@ -142,12 +142,7 @@ pub(super) fn levels() -> Vec<Level> {
     )
 }
 
-/// Word of [`TIME_STEP`].
-const AUTO: &str = "auto";
-
 parameters! { pub(super) const:
-    TIME_STEP = "time_step", "-", "cfl", Domain::Choice(&["cfl", AUTO]),
-        "cfl: by the CFL number; auto, explicit: the step that is stable however particles lie, of all but linear functions";
     DURATION = "duration", "s", "1", number(1e-9, 1e6, false), "time to run";
     LOAD_STEPS = "load_steps", "-", "4", Domain::Integer { least: 1, most: 10_000 },
         "quasi-static: equal steps of time";
@@ -180,7 +175,7 @@ pub(super) fn all_parameters(
     let numerical = [
         DURATION.with_default(duration),
         CFL,
-        TIME_STEP,
+        parameters::TIME_STEP,
         parameters::STEP_SCALING,
         PPC_PER_DIRECTION,
         parameters::WALL,

@@ -1,8 +1,8 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
-use super::{AUTO, Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO, TIME_STEP};
+use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO};
 use crate::cases::observe::{implicit_settings, settings};
-use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS};
+use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS, cfl};
 use crate::error::Error;
 use crate::exact::parameters::ANGULAR_FREQUENCY;
 use crate::exact::{Exact, Material};
@@ -66,11 +66,12 @@ impl Timing {
         } else {
             1.0
         };
-        let cfl = if parameters.is(TIME_STEP, AUTO) {
-            offered(spec, solution.dimension(), number(PPC_PER_DIRECTION))?
-        } else {
-            number(CFL)
-        };
+        let cfl = cfl(
+            spec,
+            parameters,
+            solution.dimension(),
+            0.5 / number(PPC_PER_DIRECTION),
+        )?;
         let longest = courant_time_step(cfl * finer, spec.level.h, speed);
         let steps = (number(DURATION) / longest).ceil();
         let dt = number(DURATION) / steps;
@@ -84,17 +85,6 @@ impl Timing {
         }
         Ok(Self { steps, dt })
     }
-}
-
-/// The CFL number of the step that is stable however particles lie.
-fn offered(spec: &RunSpec, dimension: usize, per_direction: f64) -> Result<f64, Error> {
-    let found = mpm_solvers::stable_cfl(spec.scheme.basis(), dimension, 0.5 / per_direction);
-    found.ok_or_else(|| {
-        Error::Input(format!(
-            "time_step = {AUTO} has no step for the basis {}, whose functions vanish with a slope; allowed: cfl",
-            spec.scheme.basis()
-        ))
-    })
 }
 
 /// Particle steps per unit of cost, without a remedy.

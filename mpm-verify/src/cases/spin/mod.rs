@@ -36,6 +36,8 @@ const LEVELS: [Level; 2] = [
 ];
 const TWO: &[&str] = &["turns=2"];
 const HUNDRED: &[&str] = &["turns=100"];
+/// Two, with the step that is stable however particles lie.
+const BY_RULE: &[&str] = &["time_step=auto", "turns=2"];
 /// Shares of PIC: a hundredth, and all.
 const BLENDS: [&[&str]; 2] = [&["flip=0.99"], &["flip=0"]];
 
@@ -103,7 +105,7 @@ fn known_breakdown(r: &Record) -> Option<&'static str> {
 }
 
 fn cost(spec: &RunSpec) -> f64 {
-    let disc = Parameters::new(&parameters::ALL, &spec.set).map(|p| Disc::new(spec.level.h, &p));
+    let disc = Parameters::new(&parameters::ALL, &spec.set).map(|p| Disc::new(spec, &p));
     let steps = disc.map_or(0, |disc| disc.map_or(0, |disc| disc.steps));
     1e-6 * steps as f64 * (RADIUS / spec.level.h).powi(2)
 }
@@ -117,6 +119,8 @@ fn plan() -> Vec<Family> {
     // What breaks down at once is left to the night.
     let lives = |scheme: &&Scheme| **scheme != Scheme::flip(Linear, RemedyName::None);
     let alive: Vec<Scheme> = all.iter().filter(lives).copied().collect();
+    let smooth = all.iter().filter(|scheme| scheme.basis() != Linear);
+    let smooth: Vec<Scheme> = smooth.copied().collect();
     let mut plan = vec![
         family(Quick, &LEVELS[..1], &blended[..1], &[]),
         family(Pr, &LEVELS[..1], &alive, &[]),
@@ -124,6 +128,7 @@ fn plan() -> Vec<Family> {
         family(Nightly, &LEVELS, &all, TWO),
         family(Nightly, &LEVELS, &all, &[]),
         family(Nightly, &LEVELS[..1], &all, HUNDRED),
+        family(Nightly, &LEVELS, &smooth, BY_RULE),
     ];
     plan.extend(BLENDS.map(|set| family(Pr, &LEVELS[..1], &blended, set)));
     plan

@@ -14,10 +14,11 @@ parameters! { pub(super) const:
 }
 
 /// All of them.
-pub(super) const ALL: [Parameter; 7] = [
+pub(super) const ALL: [Parameter; 8] = [
     TURNS,
     RIM_SPEED,
     CFL,
+    common::TIME_STEP,
     FLIP,
     PPC_PER_DIRECTION,
     POISSON_RATIO,

@@ -1,7 +1,8 @@
 //! Where the disc begins, and the exact rotating disc.
 
-use super::parameters::{CFL, FLIP, POISSON_RATIO, PPC_PER_DIRECTION, RIM_SPEED, TURNS};
+use super::parameters::{FLIP, POISSON_RATIO, PPC_PER_DIRECTION, RIM_SPEED, TURNS};
 use crate::cases::observe::settings;
+use crate::cases::parameters::cfl;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
@@ -33,17 +34,18 @@ pub(super) struct Disc {
 }
 
 impl Disc {
-    /// The disc of these parameters on cells of size `h` (m).
+    /// The disc of these parameters on the cells of a run.
     ///
     /// # Errors
     /// A parameter is out of range.
-    pub(super) fn new(h: f64, parameters: &Parameters) -> Result<Self, Error> {
+    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
         let number = |p| parameters.number(p);
         let ratio = number(POISSON_RATIO);
         let law = NeoHookean::new(YOUNG_MODULUS, ratio)?;
         let speed = law.wave_speed(DENSITY);
         let omega = number(RIM_SPEED) * speed / RADIUS;
-        let dt = courant_time_step(number(CFL), h, speed);
+        let cfl = cfl(spec, parameters, 2, 0.5 / number(PPC_PER_DIRECTION))?;
+        let dt = courant_time_step(cfl, spec.level.h, speed);
         let stiffness = 8.0 * YOUNG_MODULUS * (1.0 - ratio);
         Ok(Self {
             law,
@@ -99,13 +101,37 @@ impl Disc {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scheme::{BasisName, RemedyName, Scheme};
+
+    fn spec(basis: BasisName) -> RunSpec {
+        RunSpec {
+            scheme: Scheme::flip(basis, RemedyName::None),
+            level: super::super::LEVELS[0],
+            set: Vec::new(),
+            perturbed: false,
+        }
+    }
+
+    #[test]
+    fn the_step_by_rule_is_that_of_the_steepest_functions() {
+        let p = Parameters::new(&super::super::parameters::ALL, &["time_step=auto".into()]);
+        let p = p.unwrap();
+        let dt =
+            |basis| Disc::new(&spec(basis), &p).map(|disc| disc.dt * disc.law.wave_speed(DENSITY));
+        let h = super::super::LEVELS[0].h;
+        // √(2/(D s)) with s = 6.
+        assert!((dt(BasisName::Bspline2).unwrap() / h - 6f64.sqrt().recip()).abs() < 1e-9);
+        let refusal = dt(BasisName::Linear).unwrap_err().to_string();
+        assert!(refusal.contains("time_step = auto"), "{refusal}");
+    }
 
     /// Equilibrium in a turning frame, and no traction at the rim, to second order in the strain.
     #[test]
     fn the_disc_is_in_equilibrium() {
         let p =
             Parameters::new(&super::super::parameters::ALL, &["rim_speed=0.01".into()]).unwrap();
-        let disc = Disc::new(0.1, &p).unwrap();
+        let spec = spec(BasisName::Gimp);
+        let disc = Disc::new(&spec, &p).unwrap();
         let stress = |r: f64| {
             let (_, f) = disc.state(&[r, 0.0]);
             let mut three = nalgebra::Matrix3::identity();

@@ -39,7 +39,7 @@ impl Spin {
         let spin = Self {
             spec: spec.clone(),
             parameters: parameters.clone(),
-            disc: Disc::new(spec.level.h, parameters)?,
+            disc: Disc::new(spec, parameters)?,
         };
         Ok(Drive::new(Watched(spin), Default::default())?)
     }

@@ -25,6 +25,8 @@ const LEVELS: [Level; 1] = [Level {
 }];
 const TENSION: &[&str] = &["stretch=1.02"];
 const FAST: &[&str] = &["speed=0.1"];
+/// The step is the one that is stable however particles lie.
+const BY_RULE: &[&str] = &["time_step=auto"];
 const TEN: &[&str] = &["cells=10"];
 
 pub(super) fn case() -> Case {
@@ -75,12 +77,14 @@ fn plan() -> Vec<Family> {
     let musl = [BasisName::Linear, BasisName::Gimp];
     all.extend(musl.map(|b| Scheme::explicit(b, RemedyName::None, TransferName::Musl)));
     let plain = pairs(&BASES, &[RemedyName::None]);
+    let offered = pairs(&BASES[1..], &[RemedyName::None, RemedyName::FbarConsistent]);
     vec![
         family(Quick, &LEVELS, &plain[1..2], TEN),
         family(Pr, &LEVELS, &all, &[]),
         family(Pr, &LEVELS, &plain, TENSION),
         family(Nightly, &LEVELS, &all, TENSION),
         family(Nightly, &LEVELS, &all, FAST),
+        family(Nightly, &LEVELS, &offered, BY_RULE),
     ]
 }
 

@@ -19,12 +19,13 @@ parameters! { pub(super) const:
 }
 
 /// All of them.
-pub(super) const ALL: [Parameter; 9] = [
+pub(super) const ALL: [Parameter; 10] = [
     STRETCH,
     SPEED,
     CELLS,
     PARTICLES,
     CFL,
+    common::TIME_STEP,
     FLIP,
     PPC_PER_DIRECTION,
     POISSON_RATIO,

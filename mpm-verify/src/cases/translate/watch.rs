@@ -1,12 +1,11 @@
 //! A prestressed body that moves through a periodic grid, and what is seen of it, twice in a cell.
 
 use super::metrics as m;
-use super::parameters::{
-    CELLS, CFL, FLIP, PARTICLES, POISSON_RATIO, PPC_PER_DIRECTION, SPEED, STRETCH,
-};
+use super::parameters::{CELLS, FLIP, PARTICLES, POISSON_RATIO, PPC_PER_DIRECTION, SPEED, STRETCH};
 use crate::cases::course::{Course, Watched};
 use crate::cases::lattice_waves::{force, symbol, transform};
 use crate::cases::observe::{column, position_columns, settings};
+use crate::cases::parameters::cfl;
 use crate::drive::Drive;
 use crate::error::Error;
 use crate::job::Column;
@@ -62,7 +61,14 @@ impl Translation {
         let number = |p| parameters.number(p);
         let law = NeoHookean::new(YOUNG_MODULUS, number(POISSON_RATIO))?;
         let waves = law.wave_speed(DENSITY);
-        let dt = courant_time_step(number(CFL), spec.level.h, waves);
+        let along = 0.5 * PERIOD as f64 / number(PARTICLES);
+        let cfl = cfl(
+            spec,
+            parameters,
+            2,
+            along.min(0.5 / number(PPC_PER_DIRECTION)),
+        )?;
+        let dt = courant_time_step(cfl, spec.level.h, waves);
         let mut stretched = Matrix3::identity() * number(STRETCH);
         stretched[(2, 2)] = 1.0;
         let distance = number(CELLS) * spec.level.h;
