@@ -13,7 +13,7 @@ import pathlib
 import sys
 
 PAGE = pathlib.Path(__file__).parent.parent / "docs/mutants.md"
-BEGIN, END = "<!-- score -->", "<!-- end of score -->"
+BEGIN, END = "<!--score-->", "<!--end of score-->"
 Z = 1.959964
 
 

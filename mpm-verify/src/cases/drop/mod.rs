@@ -84,13 +84,13 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         &[RemedyName::None],
     );
     let mut plan = vec![family(Quick, coarse, &explicit[..1], &[])];
-    for set in [&[], SLIDES, STIFF, SOFT] {
+    for set in [&[], SLIDES, STIFF] {
         plan.push(family(Pr, coarse, &explicit, set));
     }
     for set in [LONG, LONG_STIFF] {
         plan.push(family(Pr, coarse, &slow, set));
     }
-    for set in [STRAIGHT, FAST] {
+    for set in [SOFT, STRAIGHT, FAST] {
         plan.push(family(Nightly, coarse, &explicit, set));
     }
     for set in [&[], SLIDES, STIFF] {

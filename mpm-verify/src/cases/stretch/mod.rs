@@ -73,16 +73,19 @@ fn plan() -> Vec<Family> {
     let all = pairs(&BASES, &REMEDIES);
     let remedies = [RemedyName::None, RemedyName::FbarConsistent];
     let slow = implicit(&[RuleName::QuasiStatic], &BASES[..3], &remedies);
+    // Torn pieces answer rounding.
+    let sure = implicit(&[RuleName::QuasiStatic], &BASES[..3], &remedies[..1]);
     let plain = pairs(&BASES, &[RemedyName::None]);
     let consistent = pairs(&BASES[1..2], &[RemedyName::FbarConsistent]);
     vec![
         family(Quick, &LEVELS, &consistent, &[]),
         family(Pr, &LEVELS, &all, &[]),
-        family(Pr, &LEVELS, &slow, &[]),
+        family(Pr, &LEVELS, &sure, &[]),
         family(Pr, &LEVELS, &all, CRUSHED),
         family(Pr, &LEVELS, &slow, CRUSHED),
         family(Pr, &LEVELS, &plain, LONG_STEP),
         family(Pr, &LEVELS, &plain, LONG_STEP_CRUSHED),
+        family(Nightly, &LEVELS, &slow, &[]),
         family(Nightly, &LEVELS, &plain, MORE),
         family(Nightly, &LEVELS, &plain, SLOWER),
     ]
