@@ -24,7 +24,6 @@ metrics! { pub(super) ALL:
     STRESS_MAX = "mean_stress_greatest", "Pa", "greatest mean normal stress of a particle";
     BOARD = "mean_stress_oscillation", "Pa", "rms over particles of the mean stress less its average in the cells";
     PLASTIC = "plastic_strain_max", "-", "largest equivalent plastic strain of a particle";
-    PLACES = "place_checksum", "-", "checksum of the places of all particles at the end: two runs of the same bits have the same";
 }
 
 /// What has been seen of a run.
@@ -255,9 +254,6 @@ where
         let most = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
         let totals = run.totals();
-        let p = run.particles();
-        let places = (0..D).flat_map(|a| p.seeded(|k| p.position[k][a]));
-        let bytes: Vec<u8> = places.flat_map(f64::to_le_bytes).collect();
         vec![
             (MASS, totals.mass),
             (MOST_MOVED, most_moved(run)),
@@ -268,7 +264,6 @@ where
             (STRESS_MAX, most(&mean)),
             (BOARD, checkerboard(&mean, &averaged)),
             (PLASTIC, most(&plastic)),
-            (PLACES, f64::from(crc32fast::hash(&bytes))),
         ]
     }
 }

@@ -38,8 +38,11 @@ pub(super) fn case() -> Case {
         title: "A body that is stretched eightfold",
         description: "The ends of a body move as if it were stretched alike everywhere, to eight times its length or a twentieth of it; \
                       the part between them is free. Where does it tear, where is its step too long, and what says so?",
-        references: vec!["Exact: ".to_owned()],
-        limits: &["One"],
+        references: vec![
+            "Exact: the homogeneous motion and the law's stress in it.".to_owned(),
+            "Eigenvalues of the stiffness of the exact state, forces of its lattice: docs/stretch.md.".to_owned(),
+        ],
+        limits: &["One dimension, one law, undeformed domains, one lattice of particles."],
         parameters: parameters::ALL.to_vec(),
         plan: plan(),
         levels: LEVELS.to_vec(),
