@@ -24,6 +24,44 @@
 //! What only the implicit one needs, in [`implicit`]: functions as it asks for them, penalties, Newton's method. What a
 //! body with water has beside them, in [`poro`].
 //!
+//! A block of nearly incompressible rubber that begins to sag under its weight:
+//!
+//! ```
+//! use mpm_core::basis::QuadraticBSpline;
+//! use mpm_core::explicit::remedy::FbarConsistent;
+//! use mpm_core::explicit::{Settings, Solver, courant_time_step};
+//! use mpm_core::material::{Law, NeoHookean};
+//! use mpm_core::stage::{BodyForce, End, Wall, WallKind};
+//! use mpm_core::{Axis, Body, Error, Grid, Particles, Scene, Simulation};
+//!
+//! fn main() -> Result<(), Error> {
+//!     let (cell, spacing, density) = (0.25, 0.125, 1000.0);
+//!     // A square metre: two particles per direction and cell, one metre from the walls at the sides.
+//!     let place = |k: usize| (k as f64 + 0.5) * spacing;
+//!     let places = (0..64).map(|k| [1.0 + place(k % 8), place(k / 8)]);
+//!     let volume = spacing * spacing;
+//!     let particles = Particles::new(places.collect(), volume, density, [0.5 * spacing; 2])?;
+//!     let law = NeoHookean::new(1e5, 0.499)?;
+//!     let dt = courant_time_step(0.3, cell, law.wave_speed(density));
+//!     let grid = Grid::new(cell, [Axis::walls(0.0, 12), Axis::walls(0.0, 6)])?;
+//!     let scene = Scene::new(grid, Body::new(law, particles)?)
+//!         .load(BodyForce(Box::new(|_, _| [0.0, -9.81])))
+//!         .constrain(Wall { axis: 1, end: End::Lo, kind: WallKind::Fixed });
+//!     let settings = Settings::new(dt).remedy(Box::new(FbarConsistent::default()));
+//!     // Three quadratic splines are non-zero at a point.
+//!     let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings)?;
+//!     while solver.time() < 0.05 {
+//!         solver.step()?;
+//!     }
+//!     let p = solver.particles();
+//!     let sunk = (p.reference.iter().zip(&p.position)).map(|(from, to)| from[1] - to[1]);
+//!     let most = sunk.fold(0.0, f64::max);
+//!     // Less than in free fall, as the floor holds it.
+//!     assert!(most > 1e-3 && most < 0.5 * 9.81 * 0.05 * 0.05);
+//!     Ok(())
+//! }
+//! ```
+//!
 //! All quantities are in SI units. The dimension is a const generic: 1 (uniaxial strain),
 //! 2 (plane strain) or 3.
 

@@ -2,6 +2,8 @@
 
 #[path = "cli/run.rs"]
 pub(crate) mod run;
+#[path = "cli/score.rs"]
+pub(crate) mod score;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
@@ -145,6 +147,31 @@ pub(crate) enum Command {
         threads: Option<usize>,
         #[command(flatten)]
         told: Told,
+    },
+    /// Judge the result of another code, beside our runs
+    Score {
+        /// Folder with score.json and the tables that it names: docs/how-to/score.md
+        folder: PathBuf,
+        /// Folder for the verdicts as a page and as JSON
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        told: Told,
+    },
+    /// Write what another code needs to solve a case: particles, parameters, reference, a form for `score`
+    Export {
+        /// The case
+        #[arg(value_parser = scored_cases())]
+        case: String,
+        /// Level of refinement (the coarsest if not given)
+        #[arg(long)]
+        level: Option<String>,
+        /// Change a parameter
+        #[arg(long = "set", value_name = "NAME=VALUE")]
+        set: Vec<String>,
+        /// Folder for it
+        #[arg(long)]
+        out: PathBuf,
     },
     /// Run a tier of cases, judge them and write the report
     Verify {
@@ -328,6 +355,11 @@ fn case() -> impl TypedValueParser<Value = &'static Case> {
     let value = |case: &Case| PossibleValue::new(case.name).help(case.title);
     let names = cases::all().iter().map(value);
     PossibleValuesParser::new(names).try_map(|name| cases::find(&name))
+}
+
+/// The cases that score other codes.
+fn scored_cases() -> PossibleValuesParser {
+    PossibleValuesParser::new(cases::scored().map(|(case, _)| case.name))
 }
 
 /// More than four times as many threads as cores are surely a slip.

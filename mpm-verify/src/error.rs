@@ -32,6 +32,19 @@ pub fn one_line(message: &str) -> String {
     line
 }
 
+/// The name that an unknown one in the message of serde is nearest to: the message has the names between backticks, the
+/// unknown one first.
+pub(crate) fn nearest(said: &str) -> Option<&str> {
+    if !said.starts_with("unknown ") {
+        return None;
+    }
+    let mut names = said.split('`').skip(1).step_by(2);
+    let given = names.next()?;
+    let distance = |name: &&str| strsim::damerau_levenshtein(given, name);
+    let name = names.min_by_key(distance)?;
+    (distance(&name) <= 1 + given.len() / 3).then_some(name)
+}
+
 /// How the program ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]

@@ -6,6 +6,7 @@ mod progress;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use cli::run::run_one;
+use cli::score::{score, write_export};
 use cli::{Cli, Command, Told, of_syntax, say, say_json};
 use mpm_core::number::FUSED;
 use mpm_verify::bench::{self, Peers};
@@ -181,6 +182,13 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             let resources = (or_all_cores(threads), memory_of(memory));
             run_one(&scene.case, &scene.spec, place, resources, told)
         }
+        Command::Score { folder, out, told } => score(&folder, out.as_deref(), told),
+        Command::Export {
+            case,
+            level,
+            set,
+            out,
+        } => write_export(&case, level.as_deref(), set, &out),
         Command::Verify {
             cases: named,
             tier,

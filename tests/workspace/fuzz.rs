@@ -14,7 +14,9 @@ use mpm_verify::parameter::{Parameters, Value};
 use mpm_verify::record::Version;
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::keep::keep;
+use mpm_verify::report::scored::{Ours, text};
 use mpm_verify::run::checkpoint::{Checkpoint, Identity, Keeper};
+use mpm_verify::score::Scored;
 use mpm_verify::study::complete::Completeness;
 use mpm_verify::study::gather::Gathered;
 use mpm_verify::study::plan::Plan;
@@ -28,17 +30,20 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// What is damaged, and which share of the inputs it gets.
-const FAMILIES: [(&str, usize); 12] = [
-    ("record", 12),
+const FAMILIES: [(&str, usize); 15] = [
+    ("record", 10),
     ("series and particles", 8),
-    ("plan", 10),
-    ("golden", 12),
+    ("plan", 8),
+    ("golden", 10),
     ("field of a golden", 8),
     ("picture", 4),
-    ("checkpoint", 12),
+    ("checkpoint", 10),
     ("summary", 2),
     ("history", 6),
     ("kept rows", 6),
+    ("manifest of a result", 3),
+    ("tables of a result", 2),
+    ("grid of a result", 3),
     ("parameters", 10),
     ("command line", 10),
 ];
@@ -308,6 +313,40 @@ fn damaged_summaries_histories_and_rows_are_refused_or_kept_inside() {
 }
 
 #[test]
+fn a_damaged_result_of_another_code_is_refused_or_judged() {
+    let folder = run();
+    let manifest = folder.path().join("score.json");
+    let of = |particles: &str| {
+        format!(
+            "{{\"schema\": 1, \"code\": {{\"name\": \"another\"}}, \"scheme\": \"GIMP\", \"case\": \"cook\", \"level\": \"h2\", \
+             \"parameters\": {{\"load\": 1.0, \"load_at\": \"column\"}}, \"particles\": \"{particles}\", \
+             \"series\": \"series.csv\", \"cost\": {{\"cpu_s\": 1.5}}}}"
+        )
+    };
+    let score = || {
+        if let Ok(scored) = Scored::read(folder.path()) {
+            let ours = Ours::beside(&scored).unwrap();
+            assert!(!text(&scored, &ours).replace("\x1b[", "").contains('\x1b'));
+        }
+    };
+    fs::write(&manifest, of("particles.csv")).unwrap();
+    assert!(Scored::read(folder.path()).is_ok());
+    damage("manifest of a result", &manifest, |_| score());
+    damage(
+        "tables of a result",
+        &folder.path().join("particles.csv"),
+        |_| score(),
+    );
+    fs::write(&manifest, of("particles.vtu")).unwrap();
+    assert!(Scored::read(folder.path()).is_ok());
+    damage(
+        "grid of a result",
+        &folder.path().join("particles.vtu"),
+        |_| score(),
+    );
+}
+
+#[test]
 fn a_parameter_is_refused_or_within_its_range() {
     let names: Vec<(usize, usize)> = cases::all()
         .iter()
@@ -339,7 +378,7 @@ fn a_parameter_is_refused_or_within_its_range() {
 
 #[test]
 fn a_command_line_is_read_or_refused() {
-    let words = "run verify report bless list explain diff keep exact bench cook column --out --set --level --shard 1/2 \
+    let words = "run verify report bless list explain diff keep exact bench score export cook column --out --set --level --shard 1/2 \
         --threads 1 --tier quick --resume --scheme --basis gimp gimp-none-flip --json --quiet --reason --allow --night \
         --commit --at --time --help - -- = load=1 --golden";
     let words: Vec<&str> = words.split_whitespace().chain([""]).collect();

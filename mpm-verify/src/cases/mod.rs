@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::error::Error;
+use crate::foreign::Foreign;
 use std::sync::LazyLock;
 
 mod cantilever;
@@ -92,6 +93,33 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
 #[must_use]
 pub fn all() -> &'static [Case] {
     &ALL
+}
+
+static FOREIGN: LazyLock<Vec<(&str, Foreign)>> = LazyLock::new(|| {
+    vec![
+        ("cook", cook::foreign::foreign()),
+        ("footing", footing::foreign::foreign()),
+        ("dam-break", dam_break::foreign::foreign()),
+        ("cantilever", cantilever::foreign::foreign()),
+        ("consolidation", consolidation::foreign::foreign()),
+    ]
+});
+
+/// The problems by which other codes are scored, and how.
+pub fn scored() -> impl Iterator<Item = (&'static Case, &'static Foreign)> {
+    let scored = FOREIGN.iter();
+    scored.filter_map(|(name, foreign)| Some((find(name).ok()?, foreign)))
+}
+
+/// The problem of a name by which other codes are scored.
+///
+/// # Errors
+/// There is none; the error lists those there are.
+pub fn find_scored(name: &str) -> Result<(&'static Case, &'static Foreign), Error> {
+    let unknown = || Error::unknown("case that scores", name, FOREIGN.iter().map(|(n, _)| *n));
+    scored()
+        .find(|(case, _)| case.name == name)
+        .ok_or_else(unknown)
 }
 
 /// The place of a case among all; behind them if it is not known.

@@ -162,6 +162,22 @@ pub(super) fn reference_columns<const D: usize>(particles: &Particles<D>) -> Vec
         .collect()
 }
 
+/// The particles of a body before anything moves, as another code needs them: places, masses, volumes.
+pub(super) fn start_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
+    let (mass, volume) = match D {
+        1 => ("kg/m²", "m"),
+        2 => ("kg/m", "m²"),
+        _ => ("kg", "m³"),
+    };
+    let mut columns = reference_columns(particles);
+    columns.extend(position_columns(particles));
+    let seeded = |of: &[f64]| particles.seeded(|k| of[k]);
+    columns.push(column("mass", mass, seeded(&particles.mass)));
+    let volumes = seeded(&particles.reference_volume);
+    columns.push(column("reference_volume", volume, volumes));
+    columns
+}
+
 /// A named particle column; values in seeding order.
 pub(super) fn column(name: &'static str, unit: &'static str, values: Vec<f64>) -> Column {
     Column { name, unit, values }

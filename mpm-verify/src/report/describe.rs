@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Columns of a line.
-const WIDTH: usize = 100;
+pub(super) const WIDTH: usize = 100;
 /// Columns of the meaning of a metric, beside its name and value.
 const MEANING: usize = 47;
 /// Particle–node pairs that a core visits in a second, roughly: 1.5·10⁸ to 1.5·10⁹, by dimension, basis and remedy.
@@ -30,13 +30,13 @@ fn style(of: Outcome) -> Style {
 }
 
 /// A text in the colour of an outcome.
-fn painted(of: Outcome, text: &str) -> String {
+pub(super) fn painted(of: Outcome, text: &str) -> String {
     let style = style(of);
     format!("{style}{text}{style:#}")
 }
 
 /// A text in lines that begin with `indent`.
-fn wrapped(text: &str, first: &str, indent: &str) -> String {
+pub(super) fn wrapped(text: &str, first: &str, indent: &str) -> String {
     let options = textwrap::Options::new(WIDTH)
         .initial_indent(first)
         .subsequent_indent(indent);
@@ -44,7 +44,7 @@ fn wrapped(text: &str, first: &str, indent: &str) -> String {
 }
 
 /// The start of a text that fits so many columns.
-fn cut(text: &str, columns: usize) -> String {
+pub(super) fn cut(text: &str, columns: usize) -> String {
     match text.chars().count() > columns {
         true => text.chars().take(columns - 1).collect::<String>() + "…",
         false => text.to_owned(),
@@ -200,6 +200,37 @@ pub fn verdict_line(v: &Verdict) -> String {
     format!("{}{rest}{why}", painted(v.outcome, &name))
 }
 
+/// The metrics of a run, in the order of its case.
+pub(super) fn measured(case: &Case, r: &Record) -> String {
+    let mut t = String::new();
+    for m in &case.metrics {
+        if let Some(measured) = r.metrics.get(m.name) {
+            let value = quantity(measured.value, &measured.unit);
+            let meaning = cut(m.meaning, MEANING);
+            let line = format!("  {:26} {value:>20}   {meaning}", m.name);
+            let _ = writeln!(t, "{}", line.trim_end());
+        }
+    }
+    t
+}
+
+/// The verdicts on a run; of bookkeeping its failures, and what holds on one line.
+pub(super) fn judged(r: &Record) -> String {
+    let mut t = String::new();
+    let told = r.verdicts.iter();
+    let told = told.filter(|v| v.kind != Kind::Bookkeeping || v.failed());
+    t.extend(told.map(verdict_line));
+    let counted = r
+        .verdicts
+        .iter()
+        .filter(|v| v.kind == Kind::Bookkeeping && !v.failed());
+    let counted: Vec<&str> = counted.map(|v| &*v.check).collect();
+    if !counted.is_empty() {
+        let _ = writeln!(t, "{:14}  {} hold", "bookkeeping", counted.join(", "));
+    }
+    t
+}
+
 /// A run: its metrics in the order of its case, its verdicts, and the verdict on it in one line at the end.
 #[must_use]
 pub fn record(case: &Case, r: &Record) -> String {
@@ -214,26 +245,9 @@ pub fn record(case: &Case, r: &Record) -> String {
         r.time.wall_s,
         1e9 * r.time.wall_s / r.work.particle_steps.max(1) as f64
     );
-    for m in &case.metrics {
-        if let Some(measured) = r.metrics.get(m.name) {
-            let value = quantity(measured.value, &measured.unit);
-            let meaning = cut(m.meaning, MEANING);
-            let line = format!("  {:26} {value:>20}   {meaning}", m.name);
-            let _ = writeln!(t, "{}", line.trim_end());
-        }
-    }
+    t += &measured(case, r);
     t += "\n";
-    let told = r.verdicts.iter();
-    let told = told.filter(|v| v.kind != Kind::Bookkeeping || v.failed());
-    t.extend(told.map(verdict_line));
-    let counted = r
-        .verdicts
-        .iter()
-        .filter(|v| v.kind == Kind::Bookkeeping && !v.failed());
-    let counted: Vec<&str> = counted.map(|v| &*v.check).collect();
-    if !counted.is_empty() {
-        let _ = writeln!(t, "{:14}  {} hold", "bookkeeping", counted.join(", "));
-    }
+    t += &judged(r);
     if let Some(e) = &r.error {
         t += &wrapped(&e.message, "", "");
     }

@@ -18,6 +18,7 @@ mod price;
 mod remedies;
 mod rivals;
 mod rows;
+pub mod scored;
 pub mod shown;
 pub mod single;
 mod solvers;

@@ -23,7 +23,7 @@ const CLOSE: &str = " -->";
 const END: &str = "<!-- end -->";
 /// Columns of a line of text.
 const LINE: usize = 110;
-const RESULTS: &str = "reports/nightly/results.csv";
+pub(super) const RESULTS: &str = "reports/nightly/results.csv";
 
 /// A page with its tables and numbers as they should be.
 #[derive(Debug)]

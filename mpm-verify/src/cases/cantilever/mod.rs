@@ -3,6 +3,8 @@
 //! Section 3.1 of Wang, Vardon, Hicks & Chen (2016). Set-up, choices and tolerances: `docs/cantilever.md`.
 
 mod checks;
+mod edge;
+pub(super) mod foreign;
 mod metrics;
 mod parameters;
 mod pictures;

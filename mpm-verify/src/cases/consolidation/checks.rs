@@ -1,14 +1,18 @@
 //! What is checked of the column. Tolerances are derived in `docs/consolidation.md`.
 
+use super::errors::of_steps;
 use super::metrics::{
-    BASE_PRESSURE_ERROR_STEPS, MASS_ERROR, RATE_LOSS, SETTLEMENT_EARLY, SETTLEMENT_END,
-    SETTLEMENT_ERROR, SETTLEMENT_ERROR_STEPS, VOLUME_STEP,
+    BASE_PRESSURE_ERROR, BASE_PRESSURE_ERROR_STEPS, MASS_ERROR, RATE_LOSS, SETTLEMENT_EARLY,
+    SETTLEMENT_END, SETTLEMENT_ERROR, SETTLEMENT_ERROR_STEPS, VOLUME_STEP,
 };
-use super::parameters::{LOAD, LOGARITHMIC, REFINE, TOLERANCE, VOLUME_RATE};
+use super::parameters::{
+    GHOST_DISPLACEMENT, GHOST_PRESSURE, LOAD, LOGARITHMIC, REFINE, TOLERANCE, VOLUME_RATE,
+};
 use super::reference::{layer, solution};
 use super::scene::{HEIGHT, count};
 use crate::accuracy::fit_order;
 use crate::check::{Check, Finding, judge, run, study};
+use crate::metric::Metric;
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, Scheme, SpaceName};
 use std::collections::BTreeMap;
@@ -47,6 +51,16 @@ pub(super) fn checks() -> Vec<Check> {
             }),
         ),
         Check::truth(
+            "settlement",
+            "without ghost penalties: the settlement at the tabulated T from 0.1 on is that of the exact solution within h/H, a column of a cell more or less, and what the steps are off by",
+            run(|r| [against_exact(r, SETTLEMENT_ERROR, 0)]),
+        ),
+        Check::truth(
+            "base-pressure",
+            "likewise: the pressure at the base over the load, as 2 T |dp/dT| is at most 8/(π e) = 0.94",
+            run(|r| [against_exact(r, BASE_PRESSURE_ERROR, 1)]),
+        ),
+        Check::truth(
             "order-space",
             "GIMP, finest three levels where two cells of the pressure and more are in the layer at the top: order in h of settlement and base pressure at least 2 − 0.15",
             study(orders),
@@ -71,6 +85,25 @@ pub(super) fn checks() -> Vec<Check> {
 
 fn is_logarithmic(r: &Record) -> bool {
     r.parameters.is(VOLUME_RATE, LOGARITHMIC)
+}
+
+/// An error against the exact solution. On cells of h it is not known to less than h where the column ends: T = c_v t/H²
+/// then changes by 2 h/H, a settlement over H by h/H at most. Backward Euler's own error is known where its steps are.
+fn against_exact(r: &Record, metric: Metric, which: usize) -> Finding {
+    if solution(r.parameters.number(LOAD), None).is_empty() {
+        return Finding::not_applicable(metric, "no reference of this load");
+    }
+    if [GHOST_DISPLACEMENT, GHOST_PRESSURE]
+        .iter()
+        .any(|p| r.parameters.number(*p) > 0.0)
+    {
+        let why = "ghost penalties are there to show what they cost";
+        return Finding::not_applicable(metric, why);
+    }
+    let bound = r.discretisation.h / HEIGHT + of_steps(&r.parameters)[which];
+    let why =
+        "exact solution; a column that is a cell longer or shorter, and backward Euler's steps";
+    judge(r, metric).at_most(bound, why)
 }
 
 /// What Newton's method and rounding leave of the balance, over the outflow. A node balances at most three times what

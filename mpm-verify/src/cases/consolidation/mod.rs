@@ -3,6 +3,8 @@
 //! Set-up, reference and tolerances: `docs/consolidation.md`.
 
 mod checks;
+mod errors;
+pub(super) mod foreign;
 mod metrics;
 mod parameters;
 mod pictures;

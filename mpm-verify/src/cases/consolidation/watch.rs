@@ -1,8 +1,8 @@
 //! What is seen of the column, step by step.
 
+use super::errors::{of_base_pressure, of_settlement};
 use super::metrics as m;
-use super::parameters::{LOAD, REFINE};
-use super::reference::{At, between, solution};
+use super::reference::At;
 use super::scene::{HEIGHT, PER_CELL, TIME_SCALE, begin, count, load, steps};
 use crate::cases::observe::{column, position_columns, reference_columns};
 use crate::drive::{Drive, Stage, Watch};
@@ -81,16 +81,6 @@ fn settlement(run: &dyn Simulation<1>) -> f64 {
     (volume(&p.reference_volume) - volume(&p.volume)) / HEIGHT
 }
 
-/// The largest of a difference from `exact`, at its times; none where there is no exact one.
-fn largest(seen: &[At], exact: &[At], of: impl Fn(&At, &At) -> f64) -> f64 {
-    let distances = exact.iter().map(|exact| {
-        let own = between(seen, exact.t);
-        own.map_or(f64::NAN, |own| of(&own, exact).abs())
-    });
-    let greater = |most: f64, d: f64| if d > most || d.is_nan() { d } else { most };
-    distances.reduce(greater).unwrap_or(f64::NAN)
-}
-
 impl Watch<1> for Consolidation {
     type Seen = Seen;
 
@@ -163,39 +153,23 @@ impl Watch<1> for Consolidation {
     }
 
     fn metrics(&self, seen: &Seen, stage: &mut Stage<1>) -> Vec<(Metric, f64)> {
-        let [load, refine] = [LOAD, REFINE].map(|p| self.parameters.number(p));
-        let (whole, of_steps) = (solution(load, None), solution(load, Some(refine)));
-        let at = seen.at();
-        let settlement = |own: &At, exact: &At| own.settlement / exact.settlement - 1.0;
-        let base = |own: &At, exact: &At| own.base - exact.base;
         let run = stage.run.as_ref();
         let work = run.work();
         let water = run.water();
         let over_outflow = |of: f64| water.map_or(f64::NAN, |w| (of / w.outflow).abs());
         let lost = over_outflow(water.map_or(f64::NAN, |w| w.imbalance));
         let entries = work.nonzeros as f64 / work.factorisations.max(1) as f64;
-        vec![
-            (m::SETTLEMENT_ERROR, largest(&at, &whole, settlement)),
-            (
-                m::SETTLEMENT_ERROR_STEPS,
-                largest(&at, &of_steps, settlement),
-            ),
-            (m::BASE_PRESSURE_ERROR, largest(&at, &whole, base)),
-            (m::BASE_PRESSURE_ERROR_STEPS, largest(&at, &of_steps, base)),
-            (
-                m::SETTLEMENT_EARLY,
-                between(&at, 0.1).map_or(f64::NAN, |at| at.settlement),
-            ),
-            (
-                m::SETTLEMENT_END,
-                at.last().map_or(f64::NAN, |at| at.settlement),
-            ),
+        let at = seen.at();
+        let mut values = of_settlement(&at, &self.parameters);
+        values.extend(of_base_pressure(&at, &self.parameters));
+        values.extend([
             // What is no number stays none.
             (m::MASS_ERROR, if lost < ROUNDING { ROUNDING } else { lost }),
             (m::RATE_LOSS, over_outflow(seen.rate_loss)),
             (m::VOLUME_STEP, seen.volume_step),
             (m::NEWTON_ITERATIONS, work.newton_iterations as f64),
             (m::ENTRIES, entries),
-        ]
+        ]);
+        values
     }
 }

@@ -3,8 +3,9 @@
 use super::geometry::seed;
 use super::metrics as m;
 use super::parameters::{DENSITY, LOAD, LOAD_STEPS, PPC_PER_DIRECTION};
+use super::probes::Probes;
 use super::scene::{equilibrium, forbid_explicit};
-use super::watch::{Probes, displacement, of_shape, shape_columns};
+use super::watch::{displacement, of_shape, shape_columns};
 use crate::cases::observe::discretisation;
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;

@@ -4,10 +4,12 @@
 
 mod checks;
 mod equilibrium;
+pub(super) mod foreign;
 mod geometry;
 mod metrics;
 mod parameters;
 mod pictures;
+mod probes;
 mod reference;
 mod scene;
 mod sketch;

@@ -14,7 +14,7 @@ use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::implicit::{Settings, Stabilisation};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::stage::{DeadForce, End, KineticDamping, Wall, WallKind};
+use mpm_core::stage::{DeadForce, End, KineticDamping, Load, Wall, WallKind};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
 use mpm_solvers::solver;
 
@@ -79,6 +79,32 @@ pub(super) fn forbid_explicit(spec: &RunSpec, parameters: &Parameters) -> Result
     forbid(spec, parameters, &ALL, &OF_EXPLICIT)
 }
 
+/// The particles before anything moves, with the shares of the full load as their external forces.
+///
+/// # Errors
+/// The parameters make no body.
+pub(super) fn start(
+    spec: &RunSpec,
+    parameters: &Parameters,
+) -> Result<Particles<2>, mpm_core::Error> {
+    let mut particles = particles(spec, parameters)?;
+    let spacing = spec.level.h / parameters.number(PPC_PER_DIRECTION);
+    for load in loads(parameters, (spacing, 0.0), &particles) {
+        load.add(0.0, &mut particles);
+    }
+    Ok(particles)
+}
+
+fn particles(spec: &RunSpec, parameters: &Parameters) -> Result<Particles<2>, mpm_core::Error> {
+    let spacing = spec.level.h / parameters.number(PPC_PER_DIRECTION);
+    Particles::new(
+        spec.start_at(seed(spacing)),
+        spacing * spacing,
+        parameters.number(DENSITY),
+        [0.5 * spacing; 2],
+    )
+}
+
 /// The membrane, its clamp and its load, which grows over `ramp` (s), with so much more `headroom` (m).
 fn scene(
     spec: &RunSpec,
@@ -100,12 +126,7 @@ fn scene(
             ),
         ],
     )?;
-    let particles = Particles::new(
-        spec.start_at(seed(spacing)),
-        spacing * spacing,
-        parameters.number(DENSITY),
-        [0.5 * spacing; 2],
-    )?;
+    let particles = particles(spec, parameters)?;
     let loads = loads(parameters, (spacing, ramp), &particles);
     let scene = Scene::new(grid, Body::new(law(parameters)?, particles)?).constrain(Wall {
         axis: 0,
@@ -177,7 +198,6 @@ fn loads(
 mod tests {
     use super::super::parameters::ALL;
     use super::*;
-    use mpm_core::stage::Load;
 
     #[test]
     fn the_edge_load_has_its_resultant_on_the_side() {

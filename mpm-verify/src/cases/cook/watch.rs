@@ -1,9 +1,9 @@
 //! What is seen of the membrane on its way to rest.
 
-use super::geometry::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT, away_from_singularities, seed};
-use super::metrics::{self as m, MEAN_STRESSES};
+use super::geometry::seed;
+use super::metrics as m;
 use super::parameters::{DENSITY, LOAD_RAMP, MAX_PERIODS, PPC_PER_DIRECTION, REST_WINDOW};
-use super::reference::{Field as Reference, solution, stress_scale};
+use super::probes::Probes;
 use super::scene::{begin, check_together, period, time_step};
 use crate::cases::observe::{
     checkerboard, column, discretisation, mean_stress, position_columns, reference_columns,
@@ -13,7 +13,6 @@ use crate::error::Error;
 use crate::job::Column;
 use crate::metric::Metric;
 use crate::parameter::Parameters;
-use crate::probe::{PointProbe, nearest};
 use crate::record::Discretisation;
 use crate::scheme::RemedyName;
 use crate::spec::RunSpec;
@@ -29,18 +28,6 @@ const OBSERVATIONS: f64 = 240.0;
 /// Criterion of rest: relative out-of-balance virtual work, kinetic over stored energy, relative
 /// drift of the tip over the window.
 const REST: (f64, f64, f64) = (1e-3, 1e-5, 1e-4);
-/// Points on the right side whose mean is `edge_mean_uy`.
-const EDGE_POINTS: usize = 8;
-
-/// Where the membrane is probed.
-pub(super) struct Probes {
-    pub(super) mid_edge: PointProbe,
-    pub(super) tip: PointProbe,
-    edge: Vec<PointProbe>,
-    stress: Vec<(Metric, PointProbe)>,
-    tip_particle: usize,
-}
-
 /// What has been seen of the membrane.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
@@ -114,19 +101,6 @@ impl Loaded {
     }
 }
 
-/// Rms over the particles at `references` (m) of the mean stress (Pa) less the reference, where that is known.
-fn stress_error(references: &[[f64; 2]], parameters: &Parameters, mean_stress: &[f64]) -> f64 {
-    if !solution(parameters).is_ok_and(|s| s.poisson_ratio == 0.499) {
-        return f64::NAN;
-    }
-    let (field, scale) = (Reference::stored(), stress_scale(parameters));
-    let counted = references.iter().zip(mean_stress);
-    let off = counted
-        .filter(|(x, _)| away_from_singularities(x))
-        .filter_map(|(x, s)| Some(s - scale * field.interpolate(*x)?));
-    rms(off)
-}
-
 /// What is measured of the membrane's shape and stress, whatever brought it there.
 pub(super) fn of_shape(
     run: &mut dyn Simulation<2>,
@@ -138,36 +112,12 @@ pub(super) fn of_shape(
     let (mean_stress, averaged) = mean_stress(run);
     let stress_rms = rms(mean_stress.iter().copied());
     let board = checkerboard(&mean_stress, &averaged);
-    let mid_edge = probes.mid_edge.value(&uy);
-    let edge_mean = probes.edge_mean(&uy);
-    let tip = probes.tip.value(&uy);
-    let stress_error = stress_error(references, parameters, &mean_stress);
-    let mut values = vec![
-        (m::MID_EDGE_UY, mid_edge),
-        (m::EDGE_MEAN_UY, edge_mean),
-        (m::TIP_UY, tip),
-        (m::TIP_UY_NEAREST, uy[probes.tip_particle]),
-        (m::TIP_UX, probes.tip.value(&ux)),
-        (m::MEAN_STRESS_RMS_ERROR, stress_error),
-        (m::MEAN_STRESS_RMS, stress_rms),
+    let mut values = probes.of_displacement([&ux, &uy], parameters);
+    values.extend(probes.of_stress(references, &mean_stress, parameters));
+    values.extend([
         (m::CHECKERBOARD_RMS, board),
         (m::CHECKERBOARD_RATIO, board / stress_rms),
-    ];
-    let probed = probes.stress.iter();
-    values.extend(probed.map(|(metric, probe)| (*metric, probe.value(&mean_stress))));
-    if let Ok(reference) = solution(parameters) {
-        values.extend([
-            (
-                m::FEM_MID_EDGE_ERROR,
-                mid_edge / reference.mid_edge.uy - 1.0,
-            ),
-            (
-                m::FEM_EDGE_MEAN_ERROR,
-                edge_mean / reference.edge_mean_uy - 1.0,
-            ),
-            (m::FEM_TIP_ERROR, tip / reference.tip.uy - 1.0),
-        ]);
-    }
+    ]);
     values
 }
 
@@ -213,6 +163,11 @@ fn step_and_weigh(run: &mut dyn Simulation<2>, dt: f64) -> Result<f64, mpm_core:
     Ok((imbalance / load).abs())
 }
 
+/// Energy (J/m) that nothing accounts for: gained, or, if negative, lost.
+pub(super) fn energy_defect(kinetic: f64, stress_work: f64, losses: f64, load_work: f64) -> f64 {
+    kinetic + stress_work + losses - load_work
+}
+
 fn has_stopped(run: &dyn Simulation<2>) -> bool {
     let mut velocities = run.particles().velocity.iter().flatten();
     velocities.all(|v| *v == 0.0)
@@ -222,37 +177,6 @@ fn has_stopped(run: &dyn Simulation<2>) -> bool {
 fn creep(seen: &Seen, time: f64) -> Option<Line> {
     let later = seen.gaps.iter().copied().filter(|(t, _)| *t >= 0.5 * time);
     fit_line(&later.collect::<Vec<_>>())
-}
-
-impl Probes {
-    /// In particles at `references` (m), each within `radius` (m).
-    ///
-    /// # Errors
-    /// Too few particles.
-    pub(super) fn new(references: &[[f64; 2]], radius: f64) -> Result<Self, Error> {
-        let at = |x: f64, y: f64| {
-            PointProbe::new(references, [x, y], radius)
-                .ok_or_else(|| Error::Input(format!("no particles near ({x}, {y}) m to probe")))
-        };
-        let tip = LEFT_HEIGHT + RIGHT_HEIGHT;
-        let share = |k: usize| (k as f64 + 0.5) / EDGE_POINTS as f64;
-        Ok(Self {
-            mid_edge: at(LENGTH, LEFT_HEIGHT + 0.5 * RIGHT_HEIGHT)?,
-            tip: at(LENGTH, tip)?,
-            edge: (0..EDGE_POINTS)
-                .map(|k| at(LENGTH, LEFT_HEIGHT + RIGHT_HEIGHT * share(k)))
-                .collect::<Result<_, _>>()?,
-            stress: MEAN_STRESSES
-                .iter()
-                .map(|(metric, [x, y])| Ok((*metric, at(*x, *y)?)))
-                .collect::<Result<_, Error>>()?,
-            tip_particle: nearest(references, [LENGTH, tip]),
-        })
-    }
-
-    fn edge_mean(&self, uy: &[f64]) -> f64 {
-        self.edge.iter().map(|p| p.value(uy)).sum::<f64>() / EDGE_POINTS as f64
-    }
 }
 
 impl Watch<2> for Loaded {
@@ -315,7 +239,8 @@ impl Watch<2> for Loaded {
         seen.gaps.push((time, totals.log_jacobian_gap_rms));
         let work = totals.accumulated;
         let losses = work.damping + work.filter_loss + work.constraint_loss;
-        let defect = totals.kinetic_energy + work.stress_work + losses - work.load_work;
+        let kinetic = totals.kinetic_energy;
+        let defect = energy_defect(kinetic, work.stress_work, losses, work.load_work);
         let (gain, loss) = seen.energy_defect;
         seen.energy_defect = (gain.max(defect), loss.max(-defect));
         Ok(vec![

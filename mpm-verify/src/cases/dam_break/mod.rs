@@ -4,6 +4,7 @@
 
 mod checks;
 mod flow;
+pub(super) mod foreign;
 mod metrics;
 mod parameters;
 mod pictures;

@@ -3,6 +3,8 @@
 //! Section 4.2 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/footing.md`.
 
 mod checks;
+mod curve;
+pub(super) mod foreign;
 mod geometry;
 mod metrics;
 mod own;

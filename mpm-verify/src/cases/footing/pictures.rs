@@ -101,8 +101,10 @@ fn curves(runs: &mut Exhibit) -> Result<(), Error> {
             }
         }
     }
-    charts.extend(all_remedies);
     charts.retain(Chart::shows_something);
+    let bases = charts.len();
+    all_remedies.retain(Chart::shows_something);
+    charts.extend(all_remedies);
     if charts.is_empty() {
         return Ok(());
     }
@@ -113,8 +115,8 @@ fn curves(runs: &mut Exhibit) -> Result<(), Error> {
         y_range: Some(ABOUT),
         ..chart.clone()
     };
-    let about: Vec<Chart> = charts.iter().take(BASES.len()).map(about).collect();
-    charts.splice(BASES.len()..BASES.len(), about);
+    let about: Vec<Chart> = charts.iter().take(bases).map(about).collect();
+    charts.splice(bases..bases, about);
     draw_charts(&path, &charts, 2)?;
     runs.hang(
         name,

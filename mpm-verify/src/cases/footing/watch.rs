@@ -1,9 +1,9 @@
 //! What is seen while the footing presses.
 
-use super::geometry::{WIDTH, effective_width, mechanism_extent};
-use super::metrics::{self as m, CURVE, MEAN_STRESSES};
+use super::curve::{LoadCurve, Row, Surface, WINDOW, bearing_factor, plateau};
+use super::geometry::{WIDTH, effective_width};
+use super::metrics::{self as m, MEAN_STRESSES};
 use super::parameters::{PENETRATION, ROUGH, UNDRAINED_STRENGTH};
-use super::reference::EXACT;
 use super::scene::{BASE, FOOTING, Pace, Press, begin};
 use crate::cases::observe::{
     checkerboard, column, discretisation, mean_stress, position_columns, reference_columns,
@@ -16,27 +16,9 @@ use crate::parameter::Parameters;
 use crate::probe::PointProbe;
 use crate::record::Discretisation;
 use crate::spec::RunSpec;
-use crate::statistics::{fit_line, rms};
+use crate::statistics::rms;
 use mpm_core::{Field, Part, Simulation};
 use serde::{Deserialize, Serialize};
-
-/// The part of the surface (m from the axis) that is well inside of what Prandtl's mechanism pushes up.
-const BESIDE: (f64, f64) = (0.75 * WIDTH, 1.25 * WIDTH);
-/// The last share of the penetration, over which the plateau and the mechanism are observed.
-const PLATEAU: f64 = 0.25;
-/// Half of the window of penetration over B in which the curve is averaged.
-const WINDOW: f64 = 5e-5;
-
-/// One observation: means over the steps since the one before.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-struct Row {
-    /// Penetration over B; through a barrier, less how much that gives way in the mean.
-    penetration: f64,
-    /// Force of the ground on the footing per metre of depth, upward (N/m).
-    force: f64,
-    /// Force of the ground on its base, downward (N/m).
-    base: f64,
-}
 
 /// What has been seen of a footing.
 #[derive(Default, Serialize, Deserialize)]
@@ -97,67 +79,6 @@ impl Pressing {
     fn strength(&self) -> f64 {
         self.parameters.number(UNDRAINED_STRENGTH)
     }
-
-    /// Pressure over the undrained strength of a force (N/m) on half of a footing of `width` (m).
-    fn bearing_factor(&self, force: f64, width: f64) -> f64 {
-        force / (0.5 * width) / self.strength()
-    }
-
-    /// Penetration over B from which on the plateau is observed.
-    fn plateau(&self) -> f64 {
-        // A row at its beginning is on it, however that is rounded.
-        (1.0 - PLATEAU - 1e-9) * self.end
-    }
-
-    /// Relative growth of the load per 10⁻³ of penetration over B on the plateau.
-    fn rise(&self, rows: &[Row], mean_force: f64) -> f64 {
-        let on_plateau = rows.iter().filter(|r| r.penetration > self.plateau());
-        let points: Vec<(f64, f64)> = on_plateau
-            .map(|r| (r.penetration, r.force / mean_force))
-            .collect();
-        fit_line(&points).map_or(f64::NAN, |line| 1e-3 * line.slope)
-    }
-
-    /// d(q/s_u)/d(s/B), fitted after the start over all rows.
-    fn slope(&self, rows: &[Row]) -> f64 {
-        let begun = 2.0 * self.pace.begun();
-        let points: Vec<(f64, f64)> = rows
-            .iter()
-            .filter(|r| r.penetration > begun)
-            .map(|r| (r.penetration, self.bearing_factor(r.force, WIDTH)))
-            .collect();
-        fit_line(&points).map_or(f64::NAN, |line| line.slope)
-    }
-
-    /// Places (m) from the axis and rises (m) of the particles at the surface over the plateau, from the axis outward.
-    fn surface(&self, seen: &Seen, run: &dyn Simulation<2>) -> Vec<(f64, f64)> {
-        let spacing = self.discretisation.h / f64::from(self.discretisation.ppc).sqrt();
-        let p = run.particles();
-        let reference = p.seeded(|k| p.reference[k]);
-        let on_surface = |x: &[f64; 2]| x[1] > -0.75 * spacing;
-        let mut surface: Vec<(f64, f64)> = (reference.iter().zip(flow(seen, run)))
-            .filter(|(x, _)| on_surface(x))
-            .map(|(x, u)| (x[0], u[1]))
-            .collect();
-        surface.sort_by(|a, b| a.0.total_cmp(&b.0));
-        surface
-    }
-
-    /// Half the width (in B) of the ground that rises while the footing sinks over the plateau: the outermost
-    /// place where the surface rises by half of what it does in the mechanism of the limit load.
-    fn mechanism_width(&self, surface: &[(f64, f64)]) -> f64 {
-        // The ground does not change its volume: as much rises beside the footing as sinks under it.
-        let beside = mechanism_extent(self.parameters.boolean(ROUGH)) - 0.5 * WIDTH;
-        let half = 0.5 * sinking(surface) * 0.5 * WIDTH / beside;
-        surface
-            .windows(2)
-            .rev()
-            .find(|pair| pair[0].1 >= half && pair[1].1 < half)
-            .map_or(f64::NAN, |pair| {
-                let share = (pair[0].1 - half) / (pair[0].1 - pair[1].1);
-                (pair[0].0 + share * (pair[1].0 - pair[0].0)) / WIDTH
-            })
-    }
 }
 
 /// Displacement (m) of every particle over the plateau, in seeding order; none before it begins.
@@ -171,24 +92,20 @@ fn flow(seen: &Seen, run: &dyn Simulation<2>) -> Vec<[f64; 2]> {
     now.iter().enumerate().map(displacement).collect()
 }
 
-/// How far (m) the surface sinks at the axis.
-fn sinking(surface: &[(f64, f64)]) -> f64 {
-    surface.first().map_or(f64::NAN, |(_, rise)| -rise)
-}
-
-/// Mean rise of the surface within [`BESIDE`] over what the footing sinks.
-fn heave(surface: &[(f64, f64)]) -> f64 {
-    let beside = surface
-        .iter()
-        .filter(|(x, _)| (BESIDE.0..BESIDE.1).contains(x));
-    let rises: Vec<f64> = beside.map(|(_, rise)| *rise).collect();
-    rises.iter().sum::<f64>() / rises.len() as f64 / sinking(surface)
-}
-
-/// Mean of a quantity of the rows of which `keep` holds; NaN if there are none.
-fn mean(rows: &[Row], keep: impl Fn(&Row) -> bool, f: impl Fn(&Row) -> f64) -> f64 {
-    let kept: Vec<f64> = rows.iter().filter(|r| keep(r)).map(f).collect();
-    kept.iter().sum::<f64>() / kept.len() as f64
+/// The mean normal stress (Pa) of particles that start at `references` (m), over a strength (Pa), at the points of the
+/// reference, and its rms.
+pub(super) fn of_stress(
+    references: &[[f64; 2]],
+    mean_stress: &[f64],
+    (h, strength): (f64, f64),
+) -> Vec<(Metric, f64)> {
+    let mut values = vec![(m::MEAN_STRESS_RMS, rms(mean_stress.iter().copied()))];
+    for &(metric, point) in MEAN_STRESSES {
+        let probe = PointProbe::new(references, point, 2.0 * h);
+        let value = probe.map_or(f64::NAN, |p| p.value(mean_stress));
+        values.push((metric, value / strength));
+    }
+    values
 }
 
 impl Watch<2> for Pressing {
@@ -236,7 +153,8 @@ impl Watch<2> for Pressing {
             base: base / steps,
         };
         seen.rows.push(row);
-        if seen.before_plateau.is_empty() && self.pace.stroke(stage.run.time()) >= self.plateau() {
+        if seen.before_plateau.is_empty() && self.pace.stroke(stage.run.time()) >= plateau(self.end)
+        {
             let p = stage.run.particles();
             seen.before_plateau = p.seeded(|k| p.position[k]);
         }
@@ -246,7 +164,7 @@ impl Watch<2> for Pressing {
             row.penetration,
             row.force,
             row.base,
-            self.bearing_factor(row.force, WIDTH),
+            bearing_factor(row.force, WIDTH, self.strength()),
             totals.kinetic_energy,
             totals.stored_energy,
             totals.accumulated.stress_work,
@@ -283,60 +201,40 @@ impl Watch<2> for Pressing {
         let (mean_stress, averaged) = mean_stress(run);
         let plastic_strain = run.field(Field::PlasticStrain).into_iter();
         let (totals, h) = (run.totals(), self.discretisation.h);
-        let rows = &seen.rows;
-        let on_plateau = |r: &Row| r.penetration > self.plateau();
-        let force = mean(rows, on_plateau, |r| r.force);
-        let base = mean(rows, on_plateau, |r| r.base);
-        let most = rows.iter().map(|r| r.force).fold(0.0, f64::max);
-        let effective = effective_width(self.spec.scheme.basis(), h).0;
+        // Steps of equilibrium are few, and one stands for itself.
+        let implicit = self.spec.scheme.rule().is_some();
+        let curve = LoadCurve {
+            rows: &seen.rows,
+            strength: self.strength(),
+            end: self.end,
+            begun: self.pace.begun(),
+            h,
+            effective: effective_width(self.spec.scheme.basis(), h).0,
+            window: if implicit { 1e-9 } else { WINDOW },
+        };
         let stress_rms = rms(mean_stress.iter().copied());
         let board = checkerboard(&mean_stress, &averaged);
-        let surface = self.surface(seen, run);
-        let by_width = self.bearing_factor(force, WIDTH);
-        let mut values = vec![
-            (m::NC_B, by_width),
-            (m::NC_B_PLUS_H, self.bearing_factor(force, WIDTH + h)),
-            (m::NC_EFFECTIVE, self.bearing_factor(force, effective)),
-            (m::PRANDTL_ERROR, by_width / EXACT - 1.0),
-            (m::NC_PEAK, self.bearing_factor(most, WIDTH)),
-            (m::PLATEAU_RISE, self.rise(rows, force)),
-            (m::ELASTIC_SLOPE, self.slope(rows)),
-            (m::FORCE_IMBALANCE, base / force - 1.0),
-            (m::MECHANISM_WIDTH, self.mechanism_width(&surface)),
-            (m::HEAVE, heave(&surface)),
-            (m::MEAN_STRESS_RMS, stress_rms),
+        let p = run.particles();
+        let references = p.seeded(|k| p.reference[k]);
+        let spacing = h / f64::from(self.discretisation.ppc).sqrt();
+        let surface = Surface::new(&references, &flow(seen, run), spacing);
+        let mut values = curve.metrics();
+        values.extend(surface.metrics(self.parameters.boolean(ROUGH)));
+        values.extend(of_stress(&references, &mean_stress, (h, self.strength())));
+        values.extend([
+            (m::FORCE_IMBALANCE, curve.imbalance()),
             (m::CHECKERBOARD_RMS, board),
             (m::CHECKERBOARD_RATIO, board / stress_rms),
             (m::PLASTIC_STRAIN_MAX, plastic_strain.fold(0.0, f64::max)),
             (m::LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
             (m::MASS, totals.mass),
-        ];
-        // Steps of equilibrium are few, and one stands for itself.
-        let implicit = self.spec.scheme.rule().is_some();
+        ]);
         if implicit {
             let work = run.work();
             values.extend([
                 (m::NEWTON_ITERATIONS, work.newton_iterations as f64),
                 (m::LINEAR_ITERATIONS, work.linear_iterations as f64),
             ]);
-        }
-        let p = run.particles();
-        let references = p.seeded(|k| p.reference[k]);
-        for &(metric, point) in MEAN_STRESSES {
-            let probe = PointProbe::new(&references, point, 2.0 * h);
-            let value = probe.map_or(f64::NAN, |p| p.value(&mean_stress));
-            values.push((metric, value / self.strength()));
-        }
-        let window = if implicit { 1e-9 } else { WINDOW };
-        for &(metric, penetration) in CURVE {
-            let near = |r: &Row| (r.penetration - penetration).abs() <= window;
-            let reached = penetration + window <= self.end * (1.0 + 1e-9);
-            let force = if reached {
-                mean(rows, near, |r| r.force)
-            } else {
-                f64::NAN
-            };
-            values.push((metric, self.bearing_factor(force, WIDTH)));
         }
         values
     }

@@ -1,6 +1,6 @@
 //! Where a scene file is wrong: file, line, key, what is there and what may be.
 
-use crate::error::Error;
+use crate::error::{Error, nearest};
 use serde::Deserialize;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -82,17 +82,4 @@ impl Source {
             )),
         }
     }
-}
-
-/// The name that an unknown one in the message of serde is nearest to: the message has the names between backticks, the
-/// unknown one first.
-fn nearest(said: &str) -> Option<&str> {
-    if !said.starts_with("unknown ") {
-        return None;
-    }
-    let mut names = said.split('`').skip(1).step_by(2);
-    let given = names.next()?;
-    let distance = |name: &&str| strsim::damerau_levenshtein(given, name);
-    let name = names.min_by_key(distance)?;
-    (distance(&name) <= 1 + given.len() / 3).then_some(name)
 }

@@ -1,0 +1,110 @@
+//! What is measured of the beam's free end and of its stresses, whoever computed them.
+
+use super::metrics as m;
+use super::parameters::POINTS_PER_DIRECTION;
+use super::reference::{solution, stresses};
+use super::scene::{LENGTH, counts, seed};
+use crate::metric::Metric;
+use crate::parameter::Parameters;
+use crate::probe::PointProbe;
+use crate::spec::RunSpec;
+
+/// The particles, column by column, where the beam is looked at.
+pub(super) struct Edge {
+    pub(super) references: Vec<[f64; 2]>,
+    /// Particles along the length and the depth.
+    counts: [usize; 2],
+    stress: Vec<(Metric, [f64; 2], PointProbe)>,
+}
+
+impl Edge {
+    /// Of a run.
+    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Self {
+        let h = spec.level.h;
+        let references = spec.start_at(seed(h, parameters));
+        let probes = m::STRESSES
+            .iter()
+            .filter_map(|&(metric, at)| Some((metric, at, PointProbe::new(&references, at, h)?)));
+        Self {
+            stress: probes.collect(),
+            references,
+            counts: counts(h, parameters),
+        }
+    }
+
+    /// The distance (m) of particles that are equally far apart.
+    pub(super) fn spacing(spec: &RunSpec, parameters: &Parameters) -> f64 {
+        spec.level.h / parameters.number(POINTS_PER_DIRECTION)
+    }
+
+    /// A field, in seeding order, extrapolated to the right side at every row of particles, from below.
+    fn at_edge(&self, field: &[f64]) -> Vec<f64> {
+        let [along, up] = self.counts;
+        (0..up)
+            .map(|row| {
+                let [a, b] = [1, 2].map(|k| (along - k) * up + row);
+                let [xa, xb] = [a, b].map(|k| self.references[k][0]);
+                field[a] + (field[a] - field[b]) * (LENGTH - xa) / (xa - xb)
+            })
+            .collect()
+    }
+
+    /// Of a displacement (m) that of the corner, and the mean over the right side.
+    pub(super) fn tip(&self, displacement: &[f64]) -> [f64; 2] {
+        let edge = self.at_edge(displacement);
+        let [y0, y1] = [0, 1].map(|row| self.references[row][1]);
+        let corner = edge[0] - (edge[1] - edge[0]) * y0 / (y1 - y0);
+        [corner, edge.iter().sum::<f64>() / edge.len() as f64]
+    }
+
+    /// What is measured of displacements along x and y (m).
+    pub(super) fn of_displacement(
+        &self,
+        [ux, uy]: [&[f64]; 2],
+        parameters: &Parameters,
+    ) -> Vec<(Metric, f64)> {
+        let ([corner_x, mean_x], [corner_y, mean_y]) = (self.tip(ux), self.tip(uy));
+        let mut values = vec![
+            (m::CORNER_UX, corner_x),
+            (m::CORNER_UY, corner_y),
+            (m::EDGE_MEAN_UX, mean_x),
+            (m::EDGE_MEAN_UY, mean_y),
+        ];
+        if let Ok(truth) = solution(parameters) {
+            let [_, corner] = truth.bottom_right;
+            values.push((m::CORNER_ERROR, (corner_y / corner - 1.0).abs()));
+            if let Some([_, mean]) = truth.right_edge_mean {
+                values.push((m::EDGE_MEAN_ERROR, (mean_y / mean - 1.0).abs()));
+            }
+        }
+        values
+    }
+
+    /// What is measured of σ_xx (Pa): its extremes, its values at the points of the reference, and their distance from
+    /// there, as far as it is known.
+    pub(super) fn of_stress(&self, field: &[f64], parameters: &Parameters) -> Vec<(Metric, f64)> {
+        let [least, greatest] = extremes(field);
+        let mut values = vec![(m::STRESS_MIN, least), (m::STRESS_MAX, greatest)];
+        let mut squares = [0.0; 2];
+        let known = stresses(parameters);
+        for (metric, at, probe) in &self.stress {
+            let value = probe.value(field);
+            values.push((*metric, value));
+            if let Some(exact) = known.as_ref().ok().and_then(|known| known.at(*at)) {
+                squares[0] += (value - exact.value).powi(2);
+                squares[1] += exact.value.powi(2);
+            }
+        }
+        if squares[1] > 0.0 {
+            values.push((m::STRESS_ERROR, (squares[0] / squares[1]).sqrt()));
+        }
+        values
+    }
+}
+
+/// The least and the greatest.
+pub(super) fn extremes(field: &[f64]) -> [f64; 2] {
+    (field.iter()).fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], s| {
+        [lo.min(*s), hi.max(*s)]
+    })
+}

@@ -1,0 +1,81 @@
+//! What another code gives of the column.
+
+use super::errors::{of_base_pressure, of_settlement};
+use super::metrics as m;
+use super::parameters::LOAD;
+use super::reference::{At, solution};
+use super::scene::{PER_CELL, begin};
+use crate::cases::observe::start_columns;
+use crate::foreign::{Asked, Foreign, Given, Group};
+use crate::record::Discretisation;
+use crate::scheme::{BasisName, Scheme, SpaceName};
+
+const TIME: Asked = Asked::series(
+    "time_factor",
+    "-",
+    "T = c_v t/H², c_v = κ₀ M₀; at least four rows, about T = 0.1, 0.2, 0.3, 0.5, 0.75, 1, 1.5 and 2",
+);
+const SETTLEMENT: Asked = Asked::series("settlement", "-", "settlement of the top over H");
+const BASE: Asked = Asked::series(
+    "base_pressure",
+    "-",
+    "pore pressure at the floor over the load",
+);
+
+pub(in crate::cases) fn foreign() -> Foreign {
+    Foreign {
+        judged_as: |_| Scheme::poro(BasisName::Gimp, SpaceName::TwoGrid),
+        discretisation: |spec, _, dt| Discretisation {
+            dim: 1,
+            h: spec.level.h,
+            ppc: PER_CELL as u32,
+            dt,
+            wall: "open-knot".to_owned(),
+        },
+        groups: vec![
+            Group {
+                columns: &[TIME, SETTLEMENT],
+                metrics: vec![
+                    m::SETTLEMENT_ERROR,
+                    m::SETTLEMENT_ERROR_STEPS,
+                    m::SETTLEMENT_EARLY,
+                    m::SETTLEMENT_END,
+                ],
+                measure: |given| Ok(of_settlement(&rows(given), &given.parameters)),
+            },
+            Group {
+                columns: &[TIME, BASE],
+                metrics: vec![m::BASE_PRESSURE_ERROR, m::BASE_PRESSURE_ERROR_STEPS],
+                measure: |given| Ok(of_base_pressure(&rows(given), &given.parameters)),
+            },
+        ],
+        start: |spec, parameters| Ok(start_columns(begin(spec, parameters)?.particles())),
+        setup: &[
+            "One dimension, H = 1 m, the floor at x = 0 rigid and sealed, the top drained and loaded. No gravity, no inertia.",
+            "Solid: improved Hencky law, W = G ‖dev h‖² + K v²/(2n), h = ½ ln b, v = ln J, n = 1 − (1 − n₀)/J, with K = 50 kPa, G = 300 kPa, n₀ = 0.5: M₀ = K/n₀ + 4G/3 = 500 kPa.",
+            "Water: Darcy's law by Kozeny–Carman, κ = c n³/(1 − n)², κ₀ = 10⁻⁶/9810 m²/(Pa s) at n₀.",
+            "The load is `load` M₀: from zero at T = 0 in a straight line to its whole at T = 0.05, then constant; the end is T = 2.",
+        ],
+        curves: |parameters| {
+            let exact = solution(parameters.number(LOAD), None);
+            let column = |of: fn(&At) -> f64| exact.iter().map(of).collect();
+            let columns = vec![
+                (TIME.header(), column(|at| at.t)),
+                (SETTLEMENT.header(), column(|at| at.settlement)),
+                (BASE.header(), column(|at| at.base)),
+            ];
+            vec![("reference-curve.csv", columns)]
+        },
+    }
+}
+
+/// The rows that a code gives; what it does not give is zero, which no group takes.
+fn rows(given: &Given) -> Vec<At> {
+    let at = |asked: &Asked, k: usize| given.column(asked).get(k).copied().unwrap_or_default();
+    let row = |(k, t): (usize, &f64)| At {
+        t: *t,
+        settlement: at(&SETTLEMENT, k),
+        base: at(&BASE, k),
+    };
+    given.column(&TIME).iter().enumerate().map(row).collect()
+}

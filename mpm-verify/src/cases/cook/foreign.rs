@@ -1,0 +1,113 @@
+//! What another code gives of the membrane.
+
+use super::metrics::{self as m, MEAN_STRESSES};
+use super::probes::Probes;
+use super::scene::start;
+use super::watch::energy_defect;
+use crate::cases::observe::{column, discretisation, start_columns};
+use crate::error::Error;
+use crate::foreign::{Asked, Foreign, Given, Group, Measured};
+use crate::scheme::{BasisName, RemedyName, Scheme};
+
+const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
+const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
+const MOVED_X: Asked = Asked::particle("ux", "m", "displacement along x at rest");
+const MOVED_Y: Asked = Asked::particle("uy", "m", "displacement along y at rest");
+const MEAN_STRESS: Asked = Asked::particle(
+    "mean_stress",
+    "Pa",
+    "mean normal stress at rest, (σ_xx + σ_yy + σ_zz)/3, tension positive",
+);
+const REACTION: Asked = Asked::series(
+    "reaction_y",
+    "N/m",
+    "upward force of the clamp on the membrane, the last row at rest: −1 N/m under the case's own load",
+);
+const KINETIC: Asked = Asked::series("kinetic_energy", "J/m", "kinetic energy");
+const STRESS_WORK: Asked = Asked::series("stress_work", "J/m", "work of the stress so far");
+const LOAD_WORK: Asked = Asked::series("load_work", "J/m", "work of the load so far");
+const LOSSES: Asked = Asked::series("damping_losses", "J/m", "what damping has taken so far");
+
+pub(in crate::cases) fn foreign() -> Foreign {
+    let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
+    Foreign {
+        judged_as: |_| Scheme::flip(BasisName::Bspline2, RemedyName::FbarConsistent),
+        discretisation: |spec, parameters, dt| discretisation(2, spec, parameters, dt),
+        groups: vec![
+            Group {
+                columns: &[START_X, START_Y, MOVED_X, MOVED_Y],
+                metrics: vec![
+                    m::MID_EDGE_UY,
+                    m::EDGE_MEAN_UY,
+                    m::TIP_UY,
+                    m::TIP_UY_NEAREST,
+                    m::TIP_UX,
+                    m::FEM_MID_EDGE_ERROR,
+                    m::FEM_EDGE_MEAN_ERROR,
+                    m::FEM_TIP_ERROR,
+                ],
+                measure: |given| {
+                    let (probes, _) = probes(given)?;
+                    let moved = [&MOVED_X, &MOVED_Y].map(|u| given.column(u));
+                    Ok(probes.of_displacement(moved, &given.parameters))
+                },
+            },
+            Group {
+                columns: &[START_X, START_Y, MEAN_STRESS],
+                metrics: [m::MEAN_STRESS_RMS_ERROR, m::MEAN_STRESS_RMS]
+                    .into_iter()
+                    .chain(stresses)
+                    .collect(),
+                measure: |given| {
+                    let (probes, references) = probes(given)?;
+                    let stress = given.column(&MEAN_STRESS);
+                    Ok(probes.of_stress(&references, stress, &given.parameters))
+                },
+            },
+            Group {
+                columns: &[REACTION],
+                metrics: vec![m::REACTION_UY],
+                measure: |given| {
+                    let last = given.column(&REACTION).last();
+                    Ok(vec![(m::REACTION_UY, last.copied().unwrap_or(f64::NAN))])
+                },
+            },
+            Group {
+                columns: &[KINETIC, STRESS_WORK, LOAD_WORK, LOSSES],
+                metrics: vec![m::ENERGY_GAIN],
+                measure: energy_gain,
+            },
+        ],
+        start: |spec, parameters| {
+            let particles = start(spec, parameters)?;
+            let mut columns = start_columns(&particles);
+            let load = particles.seeded(|k| particles.external_force[k][1]);
+            columns.push(column("load_y", "N/m", load));
+            Ok(columns)
+        },
+        setup: &[
+            "Plane strain. Corners (0, 0), (48, 44), (48, 60), (0, 44) m; the side x = 0 is clamped.",
+            "Neo-Hookean rubber, W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 ln² J, with `young_modulus`, `poisson_ratio` and `density`.",
+            "Dead load `load` (N/m) upward on the right side, to full and constant; `load_y` is every particle's share of it.",
+            "No gravity. Damp as you like: the state of rest is judged.",
+        ],
+        curves: |_| Vec::new(),
+    }
+}
+
+/// The probes in the particles of a code, and where those start.
+fn probes(given: &Given) -> Result<(Probes, Vec<[f64; 2]>), Error> {
+    let references = given.points([&START_X, &START_Y]);
+    // The cells of a code need not have as many particles as ours; two cells are as wide for all.
+    let probes = Probes::new(&references, 2.0 * given.spec.level.h)?;
+    Ok((probes, references))
+}
+
+fn energy_gain(given: &Given) -> Measured {
+    let [kinetic, stress, load, losses] =
+        [&KINETIC, &STRESS_WORK, &LOAD_WORK, &LOSSES].map(|c| given.column(c));
+    let rows = 0..kinetic.len();
+    let defects = rows.map(|k| energy_defect(kinetic[k], stress[k], losses[k], load[k]));
+    let gain = defects.fold(0.0, f64::max) / load.last().copied().unwrap_or(f64::NAN);
+    Ok(vec![(m::ENERGY_GAIN, gain)])
+}

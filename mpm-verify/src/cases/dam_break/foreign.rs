@@ -1,0 +1,107 @@
+//! What another code gives of the dam break.
+
+use super::flow::{Flow, Row};
+use super::metrics as m;
+use super::parameters::DENSITY;
+use super::reference::front_curve;
+use super::scene::Dam;
+use crate::cases::observe::{column, discretisation, start_columns};
+use crate::foreign::{Asked, Foreign, Given, Group, Measured};
+use crate::scheme::{BasisName, RemedyName, Scheme};
+
+const TIME: Asked = Asked::series(
+    "time",
+    "s",
+    "time since the gate was removed, a row every 0.005 s",
+);
+const FRONT: Asked = Asked::series(
+    "front",
+    "m",
+    "x of the outermost particle and half its spacing",
+);
+const KINETIC: Asked = Asked::series("kinetic_energy", "J/m", "kinetic energy");
+const POTENTIAL: Asked = Asked::series("potential_energy", "J/m", "Σ m g y, zero at the floor");
+const STRESS_WORK: Asked = Asked::series(
+    "stress_work",
+    "J/m",
+    "work that the stress has done on the water since the start: what it stores and loses",
+);
+const COVERED: Asked = Asked::series(
+    "covered",
+    "m²",
+    "area under the highest particles, in strips two particles wide, with half a spacing on top",
+);
+
+pub(in crate::cases) fn foreign() -> Foreign {
+    Foreign {
+        judged_as: |_| Scheme::flip(BasisName::Bspline2, RemedyName::FbarConsistent),
+        discretisation: |spec, parameters, dt| discretisation(2, spec, parameters, dt),
+        groups: vec![
+            Group {
+                columns: &[TIME, FRONT],
+                metrics: vec![
+                    m::FRONT_X_EARLY,
+                    m::FRONT_RMS_ERROR,
+                    m::FRONT_SPEED_MAX,
+                    m::ARRIVAL_TIME,
+                    m::ARRIVAL_ERROR,
+                ],
+                measure: of_flow,
+            },
+            Group {
+                columns: &[TIME, KINETIC, POTENTIAL],
+                metrics: vec![m::MOTION_RATIO_2S, m::MOTION_EXCESS, m::MOTION_LOSS],
+                measure: of_flow,
+            },
+            Group {
+                columns: &[TIME, KINETIC, POTENTIAL, STRESS_WORK],
+                metrics: vec![m::ENERGY_RATIO, m::ENERGY_RATIO_2S, m::ENERGY_EXCESS],
+                measure: of_flow,
+            },
+            Group {
+                columns: &[TIME, COVERED],
+                metrics: vec![m::COVERED_EARLY],
+                measure: of_flow,
+            },
+        ],
+        start: |spec, parameters| {
+            let run = Dam::new(spec, parameters)?.released()?;
+            let p = run.particles();
+            let mut columns = start_columns(p);
+            columns.push(column("jacobian", "-", p.seeded(|k| p.jacobian[k])));
+            Ok(columns)
+        },
+        setup: &[
+            "Plane strain. Water fills 0 ≤ x ≤ 4 m, 0 ≤ y ≤ 2 m of a tank from x = 0 to 6 m, open above; g = 9.81 m/s².",
+            "Pressure `bulk_modulus` (1 − J); Newtonian with `viscosity`; `density` is that without pressure.",
+            "At t = 0 the gate at x = 4 m is gone and the water at rest, compressed by its own weight: x and `jacobian` of particles.csv say how.",
+            "Water slides freely along floor and walls; if `wall_contact` is separable, it comes off them as freely.",
+            "The series ends at `duration` or later.",
+        ],
+        curves: |_| {
+            let (time, front) = front_curve().into_iter().unzip();
+            let columns = vec![
+                ("time (s)".to_owned(), time),
+                ("front (m)".to_owned(), front),
+            ];
+            vec![("reference-front.csv", columns)]
+        },
+    }
+}
+
+/// What is measured of a flow; what a column is missing for is measured of zeros, which no group takes.
+fn of_flow(given: &Given) -> Measured {
+    let at = |asked: &Asked, k: usize| given.column(asked).get(k).copied().unwrap_or_default();
+    let row = |k: usize| Row {
+        time: at(&TIME, k),
+        front: at(&FRONT, k),
+        kinetic: at(&KINETIC, k),
+        potential: at(&POTENTIAL, k),
+        stress_work: at(&STRESS_WORK, k),
+        covered: at(&COVERED, k),
+        ..Row::default()
+    };
+    let rows = (0..given.column(&TIME).len()).map(row).collect();
+    let density = given.parameters.number(DENSITY);
+    Ok(Flow { rows }.metrics(density, given.spec.level.h))
+}

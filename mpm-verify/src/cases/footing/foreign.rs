@@ -1,0 +1,145 @@
+//! What another code gives of the footing.
+
+use super::curve::{LoadCurve, Row, Surface, WINDOW};
+use super::geometry::effective_width;
+use super::metrics::{self as m, CURVE, MEAN_STRESSES};
+use super::parameters::{PENETRATION, PPC_PER_DIRECTION, ROUGH, UNDRAINED_STRENGTH};
+use super::reference::limit_curve;
+use super::scene::{Pace, Press, begin};
+use super::watch::of_stress;
+use crate::cases::observe::{discretisation, start_columns};
+use crate::foreign::{Asked, Foreign, Given, Group, Measured};
+use crate::metric::Metric;
+use crate::scheme::{RemedyName, Scheme};
+
+const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
+const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
+const FLOW_X: Asked = Asked::particle(
+    "plateau_ux",
+    "m",
+    "displacement along x over the last quarter of the penetration",
+);
+const FLOW_Y: Asked = Asked::particle("plateau_uy", "m", "along y, likewise");
+const MEAN_STRESS: Asked = Asked::particle(
+    "mean_stress",
+    "Pa",
+    "mean normal stress at the end, (σ_xx + σ_yy + σ_zz)/3, tension positive",
+);
+const PENETRATED: Asked = Asked::series("penetration", "-", "penetration over B");
+const FORCE: Asked = Asked::series(
+    "footing_force",
+    "N/m",
+    "upward force of the ground on the half of the footing that is simulated",
+);
+const BASE: Asked = Asked::series(
+    "base_force",
+    "N/m",
+    "downward force of the ground on its base",
+);
+
+pub(in crate::cases) fn foreign() -> Foreign {
+    let curve = CURVE.iter().map(|(metric, _)| *metric);
+    let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
+    let of_load = [
+        m::NC_B,
+        m::NC_B_PLUS_H,
+        m::NC_EFFECTIVE,
+        m::PRANDTL_ERROR,
+        m::NC_PEAK,
+        m::PLATEAU_RISE,
+        m::ELASTIC_SLOPE,
+    ];
+    Foreign {
+        judged_as: |basis| Scheme::flip(basis, RemedyName::FbarConsistent),
+        discretisation: |spec, parameters, dt| discretisation(2, spec, parameters, dt),
+        groups: vec![
+            Group {
+                columns: &[PENETRATED, FORCE],
+                metrics: of_load.into_iter().chain(curve).collect(),
+                measure: |given| of_rows(given, None, |c| c.metrics()),
+            },
+            Group {
+                columns: &[PENETRATED, FORCE, BASE],
+                metrics: vec![m::FORCE_IMBALANCE],
+                measure: |given| {
+                    let imbalance = |c: &LoadCurve| vec![(m::FORCE_IMBALANCE, c.imbalance())];
+                    of_rows(given, Some(&BASE), imbalance)
+                },
+            },
+            Group {
+                columns: &[START_X, START_Y, FLOW_X, FLOW_Y],
+                metrics: vec![m::MECHANISM_WIDTH, m::HEAVE],
+                measure: |given| {
+                    let start = given.points([&START_X, &START_Y]);
+                    let flow = given.points([&FLOW_X, &FLOW_Y]);
+                    let spacing = given.spec.level.h / given.parameters.number(PPC_PER_DIRECTION);
+                    let surface = Surface::new(&start, &flow, spacing);
+                    Ok(surface.metrics(given.parameters.boolean(ROUGH)))
+                },
+            },
+            Group {
+                columns: &[START_X, START_Y, MEAN_STRESS],
+                metrics: std::iter::once(m::MEAN_STRESS_RMS)
+                    .chain(stresses)
+                    .collect(),
+                measure: |given| {
+                    let start = given.points([&START_X, &START_Y]);
+                    let strength = given.parameters.number(UNDRAINED_STRENGTH);
+                    let h = given.spec.level.h;
+                    Ok(of_stress(&start, given.column(&MEAN_STRESS), (h, strength)))
+                },
+            },
+        ],
+        start: |spec, parameters| {
+            let press = Press::new(spec.level.h, parameters)?;
+            let pace = Pace::new(spec, parameters)?;
+            let run = begin(spec, parameters, &press, &pace)?;
+            Ok(start_columns(run.particles()))
+        },
+        setup: &[
+            "Plane strain, right half: 0 ≤ x ≤ `domain_width` B, −`domain_depth` B ≤ y ≤ 0, B = 1 m. Base fixed, rollers at both sides.",
+            "Hencky elasticity with `young_modulus`, `poisson_ratio`; perfectly plastic at ‖s‖ = √2 `undrained_strength`. No gravity.",
+            "A rigid footing on 0 ≤ x ≤ B/2, y = 0 goes down by `penetration` B; the ground sticks to it if `rough`.",
+            "Slowly: the force on the base is to be that on the footing. Rows of the series 10⁻⁵ apart in penetration, or closer.",
+            "`basis` of score.json says how wide the footing acts: B with `bspline2` and for any code whose footing ends at B/2, B + h with `linear` and `gimp`, whose last held node stands on B/2, B + h/2 with `bspline3`.",
+        ],
+        curves: |_| {
+            let (settlement, pressure) = limit_curve().into_iter().unzip();
+            let columns = vec![
+                ("penetration (-)".to_owned(), settlement),
+                ("pressure_over_strength (-)".to_owned(), pressure),
+            ];
+            vec![("reference-curve.csv", columns)]
+        },
+    }
+}
+
+/// What is measured of the load that a code gives.
+fn of_rows(
+    given: &Given,
+    base: Option<&Asked>,
+    of: fn(&LoadCurve<'_>) -> Vec<(Metric, f64)>,
+) -> Measured {
+    let (forces, bases) = (given.column(&FORCE), base.map(|b| given.column(b)));
+    let row = |(k, penetration): (usize, &f64)| Row {
+        penetration: *penetration,
+        force: forces[k],
+        base: bases.map_or(f64::NAN, |base| base[k]),
+    };
+    let rows: Vec<Row> = given
+        .column(&PENETRATED)
+        .iter()
+        .enumerate()
+        .map(row)
+        .collect();
+    let (h, parameters) = (given.spec.level.h, &given.parameters);
+    Ok(of(&LoadCurve {
+        rows: &rows,
+        strength: parameters.number(UNDRAINED_STRENGTH),
+        end: parameters.number(PENETRATION),
+        begun: Pace::new(&given.spec, parameters)?.begun(),
+        h,
+        effective: effective_width(given.spec.scheme.basis(), h).0,
+        window: WINDOW,
+    }))
+}

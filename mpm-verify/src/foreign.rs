@@ -1,0 +1,237 @@
+//! What another code gives of a case, and what is measured of it: the same as of a run, by the same functions.
+
+use crate::error::Error;
+use crate::job::Column;
+use crate::metric::Metric;
+use crate::parameter::Parameters;
+use crate::record::Discretisation;
+use crate::scheme::{BasisName, Scheme};
+use crate::spec::RunSpec;
+use crate::table::Table;
+use std::path::{Path, PathBuf};
+
+/// Most rows of a table.
+const MOST_ROWS: usize = 5_000_000;
+
+/// The table that a column stands in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// A row a particle, at the end.
+    Particles,
+    /// A row a time.
+    Series,
+}
+
+impl Part {
+    /// Its key in a manifest.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Particles => "particles",
+            Self::Series => "series",
+        }
+    }
+}
+
+/// A column that a code may give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Asked {
+    /// Where it stands.
+    pub part: Part,
+    /// Name, as our runs have it.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+}
+
+impl Asked {
+    /// A column of the particles.
+    pub(crate) const fn particle(
+        name: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+    ) -> Self {
+        Self {
+            part: Part::Particles,
+            name,
+            unit,
+            meaning,
+        }
+    }
+
+    /// A column of the series.
+    pub(crate) const fn series(
+        name: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+    ) -> Self {
+        Self {
+            part: Part::Series,
+            ..Self::particle(name, unit, meaning)
+        }
+    }
+
+    /// As it stands at the head of a table.
+    #[must_use]
+    pub fn header(&self) -> String {
+        format!("{} ({})", self.name, self.unit)
+    }
+}
+
+/// What is measured of a result.
+pub type Measured = Result<Vec<(Metric, f64)>, Error>;
+
+/// Metrics, and the columns that all of them are measured from.
+pub struct Group {
+    /// The columns.
+    pub columns: &'static [Asked],
+    /// The metrics.
+    pub metrics: Vec<Metric>,
+    /// Measures them.
+    pub measure: fn(&Given) -> Measured,
+}
+
+/// A curve of a reference, to be compared with: the name of its file, and its columns with their units.
+pub type Curve = (&'static str, Vec<(String, Vec<f64>)>);
+
+/// How another code is scored by a case.
+pub struct Foreign {
+    /// The scheme that a code with these functions is judged as: one whose results are to be right.
+    pub judged_as: fn(BasisName) -> Scheme,
+    /// What is known of the discretisation when the time step (s) is that.
+    pub discretisation: fn(&RunSpec, &Parameters, f64) -> Discretisation,
+    /// What is measured from which columns.
+    pub groups: Vec<Group>,
+    /// The particles before anything moves.
+    pub start: fn(&RunSpec, &Parameters) -> Result<Vec<Column>, Error>,
+    /// The problem in words: body, supports, loads, end.
+    pub setup: &'static [&'static str],
+    /// Curves of the reference.
+    pub curves: fn(&Parameters) -> Vec<Curve>,
+}
+
+impl Foreign {
+    /// The columns, each once.
+    #[must_use]
+    pub fn columns(&self) -> Vec<Asked> {
+        crate::distinct(self.groups.iter().flat_map(|g| g.columns).copied())
+    }
+
+    /// Its tables.
+    #[must_use]
+    pub fn parts(&self) -> Vec<Part> {
+        crate::distinct(self.columns().iter().map(|c| c.part))
+    }
+}
+
+/// What a code gives of one run.
+pub struct Given {
+    /// The run that it is compared with: scheme, level, parameters that are changed.
+    pub spec: RunSpec,
+    /// All parameters.
+    pub parameters: Parameters,
+    /// The discretisation.
+    pub discretisation: Discretisation,
+    /// The tables.
+    pub tables: Vec<(Part, PathBuf, Table)>,
+}
+
+impl Given {
+    /// A column; empty if it is not there.
+    pub(crate) fn column(&self, asked: &Asked) -> &[f64] {
+        let table = self.tables.iter().find(|(part, ..)| *part == asked.part);
+        let column = table.and_then(|(.., table)| table.get(&asked.header()));
+        column.unwrap_or_default()
+    }
+
+    /// Whether a column is there.
+    #[must_use]
+    pub fn has(&self, asked: &Asked) -> bool {
+        !self.column(asked).is_empty()
+    }
+
+    /// Rows of a table.
+    #[must_use]
+    pub fn rows(&self, part: Part) -> usize {
+        let table = self.tables.iter().find(|(of, ..)| *of == part);
+        table.map_or(0, |(.., table)| table.rows())
+    }
+
+    /// Two columns as points.
+    pub(crate) fn points(&self, [x, y]: [&Asked; 2]) -> Vec<[f64; 2]> {
+        let ys = self.column(y).iter();
+        let both = self.column(x).iter().zip(ys);
+        both.map(|(x, y)| [*x, *y]).collect()
+    }
+
+    /// The places in the table of the particles that start at `seeded` (m), where parts of the size `spacing` (m) along
+    /// the axes have one each.
+    ///
+    /// # Errors
+    /// Others start, or in other places.
+    pub(crate) fn in_order(
+        &self,
+        start: [&Asked; 2],
+        seeded: &[[f64; 2]],
+        spacing: f64,
+    ) -> Result<Vec<usize>, Error> {
+        let part = |x: &[f64; 2]| x.map(|x| (x / spacing).floor() as i64);
+        let given = self.points(start);
+        let places: std::collections::HashMap<[i64; 2], usize> =
+            given.iter().map(part).zip(0..).collect();
+        let refused = |cause: String| {
+            let table = self.tables.iter().find(|(of, ..)| *of == start[0].part);
+            let path = table.map_or(Path::new("particles"), |(_, path, _)| path);
+            Err(Error::file(path, cause))
+        };
+        if given.len() != seeded.len() {
+            let said = format!(
+                "{} particles where {} start: those of `export`, in any order",
+                given.len(),
+                seeded.len()
+            );
+            return refused(said);
+        }
+        let mut order = Vec::with_capacity(seeded.len());
+        for x in seeded {
+            match places.get(&part(x)) {
+                Some(place) => order.push(*place),
+                None => {
+                    let said =
+                        format!("no particle starts at ({}, {}) m: see `export`", x[0], x[1]);
+                    return refused(said);
+                }
+            }
+        }
+        Ok(order)
+    }
+
+    /// Checks the heads of the tables against the columns that a case asks for: those that it does not know.
+    ///
+    /// # Errors
+    /// A table has no row, or too many, or a column in another unit.
+    pub fn require_heads(&self, asked: &[Asked]) -> Result<Vec<String>, Error> {
+        let mut unknown = Vec::new();
+        for (part, path, table) in &self.tables {
+            if table.rows() == 0 || table.rows() > MOST_ROWS {
+                let rows = table.rows();
+                let said = format!("{rows} rows where 1 to {MOST_ROWS} are allowed");
+                return Err(Error::file(path, said));
+            }
+            for (head, _) in table.iter() {
+                let name = head.split(" (").next().unwrap_or(head);
+                match asked.iter().find(|a| a.part == *part && a.name == name) {
+                    Some(own) if own.header() != head => {
+                        let said = format!("column \"{head}\"; allowed: \"{}\"", own.header());
+                        return Err(Error::file(path, said));
+                    }
+                    Some(_) => {}
+                    None => unknown.push(head.to_owned()),
+                }
+            }
+        }
+        Ok(unknown)
+    }
+}

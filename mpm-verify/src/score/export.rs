@@ -1,0 +1,208 @@
+//! What another code needs to solve a case: particles, parameters, reference, and a form to fill in.
+
+use super::blank;
+use super::manifest::{FILE, SCHEMA};
+use crate::case::Case;
+use crate::error::Error;
+use crate::files::{make_folder, write_csv, write_json, write_whole};
+use crate::foreign::{Foreign, Group, Part};
+use crate::parameter::Parameters;
+use crate::record::Measured;
+use crate::spec::RunSpec;
+use crate::table::{Sheet, Table};
+use crate::verdict::{Kind, Verdict};
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::Path;
+
+/// File of the particles before anything moves.
+const START: &str = "start.csv";
+
+/// Writes what another code needs to solve a case at a level, with parameters changed, and the names of the files.
+///
+/// # Errors
+/// The parameters make no scene, or a file can't be written.
+pub fn export(
+    case: &Case,
+    foreign: &Foreign,
+    spec: &RunSpec,
+    folder: &Path,
+) -> Result<Vec<String>, Error> {
+    let parameters = Parameters::new(&case.parameters, &spec.set)?;
+    let start = (foreign.start)(spec, &parameters)?;
+    make_folder(folder)?;
+    let columns = start.into_iter();
+    let columns = columns.map(|c| (format!("{} ({})", c.name, c.unit), c.values));
+    Table::of_columns(columns.collect()).write(&folder.join(START))?;
+    write_json(
+        &folder.join("parameters.json"),
+        &described(case, foreign, spec, &parameters),
+    )?;
+    let demands = demands(case, foreign, spec, &parameters);
+    let header = ["check", "metric", "unit", "reference", "tolerance", "why"].map(str::to_owned);
+    let number = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
+    let rows = demands.iter().map(|(v, group)| {
+        let unit = group.metrics.iter().find(|m| m.name == v.metric);
+        let unit = unit.map_or("", |m| m.unit).to_owned();
+        let [reference, tolerance] = [v.reference, v.tolerance].map(number);
+        let (check, metric, why) = (v.check.clone(), v.metric.clone(), v.source.clone());
+        vec![check, metric, unit, reference, tolerance, why]
+    });
+    write_csv(&folder.join("reference.csv"), &header, rows)?;
+    let curves = (foreign.curves)(&parameters);
+    let mut files = vec![START, "parameters.json", "reference.csv"];
+    for (name, columns) in curves {
+        Table::of_columns(columns).write(&folder.join(name))?;
+        files.push(name);
+    }
+    write_json(&folder.join(FILE), &Form::of(case, foreign, spec))?;
+    let readme = readme(case, foreign, spec, &demands, &files);
+    write_whole(&folder.join("README.md"), readme.as_bytes())?;
+    files.extend([FILE, "README.md"]);
+    Ok(files.into_iter().map(str::to_owned).collect())
+}
+
+/// The problem, as data.
+fn described(case: &Case, foreign: &Foreign, spec: &RunSpec, parameters: &Parameters) -> Value {
+    let values = serde_json::to_value(parameters).unwrap_or_default();
+    let told = case.parameters.iter().map(
+        |p| json!({"name": p.name, "value": values[p.name], "unit": p.unit, "meaning": p.meaning}),
+    );
+    json!({
+        "case": case.name,
+        "title": case.title,
+        "level": spec.level.name,
+        "cell_size_m": spec.level.h,
+        "dimension": (foreign.discretisation)(spec, parameters, f64::NAN).dim,
+        "setup": foreign.setup,
+        "parameters": told.collect::<Value>(),
+    })
+}
+
+/// A manifest to fill in, its keys in the order in which they are read.
+#[derive(Serialize)]
+struct Form<'a> {
+    schema: u32,
+    code: Named,
+    scheme: &'static str,
+    case: &'a str,
+    level: &'a str,
+    parameters: serde_json::Map<String, Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    particles: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    series: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Named {
+    name: &'static str,
+}
+
+impl<'a> Form<'a> {
+    fn of(case: &'a Case, foreign: &Foreign, spec: &'a RunSpec) -> Self {
+        let changed = spec.set.iter().filter_map(|set| set.split_once('='));
+        let of_text = |text: &str| serde_json::from_str(text).unwrap_or(json!(text));
+        let parts = foreign.parts();
+        let file = |part: Part| {
+            parts
+                .contains(&part)
+                .then(|| format!("{}.csv", part.name()))
+        };
+        Self {
+            schema: SCHEMA,
+            code: Named { name: "my code" },
+            scheme: "what it does, in your words",
+            case: case.name,
+            level: spec.level.name,
+            parameters: changed
+                .map(|(name, text)| (name.to_owned(), of_text(text)))
+                .collect(),
+            particles: file(Part::Particles),
+            series: file(Part::Series),
+        }
+    }
+}
+
+/// What the checks of the case demand of another code: those of a record whose metrics are all zero, of which nothing but
+/// the demand is taken.
+fn demands<'a>(
+    case: &Case,
+    foreign: &'a Foreign,
+    spec: &RunSpec,
+    parameters: &Parameters,
+) -> Vec<(Verdict, &'a Group)> {
+    let metrics = foreign.groups.iter().flat_map(|g| &g.metrics);
+    let zero = |unit: &str| Measured {
+        value: Some(0.0),
+        unit: unit.to_owned(),
+    };
+    let discretisation = (foreign.discretisation)(spec, parameters, f64::NAN);
+    let mut record = blank(case, spec, parameters, discretisation);
+    record.metrics = metrics.map(|m| (m.name.to_owned(), zero(m.unit))).collect();
+    let verdicts = case.judge(&record).into_iter();
+    let demanded = verdicts.filter(|v| v.kind == Kind::Truth && v.tolerance.is_some());
+    let of_group = |v: Verdict| {
+        let mut groups = foreign.groups.iter();
+        let group = groups.find(|g| g.metrics.iter().any(|m| m.name == v.metric))?;
+        Some((v, group))
+    };
+    demanded.filter_map(of_group).collect()
+}
+
+fn readme(
+    case: &Case,
+    foreign: &Foreign,
+    spec: &RunSpec,
+    demands: &[(Verdict, &Group)],
+    files: &[&str],
+) -> String {
+    let mut t = format!("# {}, level {}\n\n", case.title, spec.level.name);
+    for line in foreign.setup {
+        let _ = writeln!(t, "- {line}");
+    }
+    let _ = write!(
+        t,
+        "\nCells of {} m. All numbers are in SI units; forces and masses are per metre of depth, of section in one dimension. \
+         The values of parameters stand in `parameters.json`.\n\n## Files\n\n",
+        spec.level.h
+    );
+    for file in files {
+        let what = match *file {
+            START => {
+                "the particles of our runs before anything moves; yours may start elsewhere unless it is said above"
+            }
+            "parameters.json" => "parameters with values, units and meanings",
+            "reference.csv" => "what the checks demand: reference ± tolerance, or a bound",
+            _ => "the reference as a curve",
+        };
+        let _ = writeln!(t, "- `{file}`: {what}");
+    }
+    let _ = writeln!(t, "- `{FILE}`: a form to fill in");
+    for part in foreign.parts() {
+        let what = match part {
+            Part::Particles => "a row a particle, in any order",
+            Part::Series => "a row a time",
+        };
+        let _ = write!(t, "\n## `{}.csv`: {what}\n\n", part.name());
+        let columns = foreign.columns().into_iter().filter(|c| c.part == part);
+        let rows = columns.map(|c| vec![format!("`{}`", c.header()), c.meaning.to_owned()]);
+        t += &Sheet::new(["column", "what it is"]).with(rows).markdown();
+    }
+    t += "\nA column that is missing is not judged. Others may stand beside these.\n\n## What is judged\n\n";
+    let rows = demands.iter().map(|(v, group)| {
+        let columns: Vec<String> = (group.columns.iter())
+            .map(|c| format!("`{}`", c.name))
+            .collect();
+        vec![v.check.clone(), v.metric.clone(), columns.join(", ")]
+    });
+    t += &Sheet::new(["check", "of", "from"]).with(rows).markdown();
+    let _ = write!(
+        t,
+        "\n`mpm-verify explain {}` says what every check demands and why. Fill in `{FILE}`, put your tables beside it, and\n\n\
+         ```sh\nmpm-verify score .\n```\n",
+        case.name
+    );
+    t
+}

@@ -1,0 +1,232 @@
+//! The manifest of a result: which code gave it, of which case, and where its tables are.
+
+use crate::error::{Error, is_unfit, nearest};
+use crate::files::read_text;
+use crate::scheme::BasisName;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Name of its file.
+pub const FILE: &str = "score.json";
+/// The version of the format that this program reads: `docs/reference/score.schema.json`.
+pub const SCHEMA: u32 = 1;
+/// Most characters of a text.
+const LONGEST: usize = 200;
+/// Most parameters.
+const MOST: usize = 100;
+
+/// A line of text of the user's.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
+pub struct Line(pub String);
+
+impl TryFrom<String> for Line {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let count = text.chars().count();
+        let fits = (1..=LONGEST).contains(&count) && !text.chars().any(is_unfit);
+        match fits && !text.trim().is_empty() {
+            true => Ok(Self(text)),
+            false => Err(format!(
+                "a text of {count} characters where a line of 1 to {LONGEST} is allowed"
+            )),
+        }
+    }
+}
+
+/// The name of a file beside the manifest.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
+pub struct FileName(pub String);
+
+impl TryFrom<String> for FileName {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<Self, String> {
+        let plain = Path::new(&name).file_name().is_some_and(|n| *n == *name);
+        let short = name.chars().count() <= LONGEST && !name.chars().any(is_unfit);
+        match plain && short && !name.contains(['/', '\\']) {
+            true => Ok(Self(name)),
+            false => Err(format!(
+                "file {name:?} where the name of a file beside {FILE} is allowed"
+            )),
+        }
+    }
+}
+
+/// A positive, finite number.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(try_from = "f64")]
+pub struct Positive(pub f64);
+
+impl TryFrom<f64> for Positive {
+    type Error = String;
+
+    fn try_from(value: f64) -> Result<Self, String> {
+        match value.is_finite() && value > 0.0 {
+            true => Ok(Self(value)),
+            false => Err(format!(
+                "{value} where a positive, finite number is allowed"
+            )),
+        }
+    }
+}
+
+/// A code.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Code {
+    /// Its name.
+    pub name: Line,
+    /// Its version or commit.
+    pub version: Option<Line>,
+    /// Where it is found.
+    pub url: Option<Line>,
+}
+
+/// What a run took, as far as it is known.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cost {
+    /// Processor time (s).
+    pub cpu_s: Option<Positive>,
+    /// Time by the clock (s).
+    pub wall_s: Option<Positive>,
+    /// Steps.
+    pub steps: Option<u64>,
+    /// Threads.
+    pub threads: Option<u32>,
+    /// The machine.
+    pub machine: Option<Line>,
+}
+
+/// Parameters by name, in their order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Changed(pub Vec<String>);
+
+impl<'de> Deserialize<'de> for Changed {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(Assignments)
+    }
+}
+
+/// Reads names and values as `name=value`: a name that is there twice is there twice.
+struct Assignments;
+
+impl<'de> Visitor<'de> for Assignments {
+    type Value = Changed;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("names of parameters with numbers, booleans or words")
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Changed, M::Error> {
+        use serde::de::Error;
+        let mut changed = Vec::new();
+        while let Some((name, value)) = map.next_entry::<Line, Value>()? {
+            let Line(name) = name;
+            let text = match value {
+                Value::Bool(b) => b.to_string(),
+                Value::Number(x) => x.to_string(),
+                Value::String(word) => {
+                    let fit = Line::try_from(word);
+                    fit.map_err(|e| M::Error::custom(format!("{name}: {e}")))?.0
+                }
+                _ => {
+                    let said = format!("{name}: a number, boolean or word is allowed");
+                    return Err(M::Error::custom(said));
+                }
+            };
+            if changed.len() == MOST {
+                let said = format!("more parameters than the {MOST} that are allowed");
+                return Err(M::Error::custom(said));
+            }
+            changed.push(format!("{name}={text}"));
+        }
+        Ok(Changed(changed))
+    }
+}
+
+/// What a code says of its result.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// The code.
+    pub code: Code,
+    /// Its scheme, in its own words.
+    pub scheme: Line,
+    /// Its functions, where a case asks for them.
+    #[serde(default)]
+    pub basis: Basis,
+    /// The case.
+    pub case: Line,
+    /// The level: the size of its cells.
+    pub level: Line,
+    /// Parameters that are not the case's own.
+    #[serde(default)]
+    pub parameters: Changed,
+    /// File of the particles at the end.
+    pub particles: Option<FileName>,
+    /// File of the series.
+    pub series: Option<FileName>,
+    /// Time step (s), if it has one.
+    pub time_step_s: Option<Positive>,
+    /// What the run took.
+    #[serde(default)]
+    pub cost: Cost,
+}
+
+/// Basis functions; quadratic splines unless it is said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(transparent)]
+pub struct Basis(pub BasisName);
+
+impl Default for Basis {
+    fn default() -> Self {
+        Self(BasisName::Bspline2)
+    }
+}
+
+impl Manifest {
+    /// Reads the manifest in a folder.
+    ///
+    /// # Errors
+    /// It is missing, no plain file, too large, no JSON, of another schema, or not of this form.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        #[derive(Deserialize)]
+        struct Versioned {
+            schema: u32,
+        }
+        let path = folder.join(FILE);
+        let text = read_text(&path)?;
+        let refused = |e: serde_json::Error| {
+            let mut said = e.to_string();
+            if let Some(name) = nearest(&said) {
+                said.push_str(&format!("; is `{name}` meant?"));
+            }
+            Error::file(&path, said)
+        };
+        let Versioned { schema } = serde_json::from_str(&text).map_err(refused)?;
+        if schema != SCHEMA {
+            let said = format!("schema {schema} where {SCHEMA} is read");
+            return Err(Error::file(&path, said));
+        }
+        serde_json::from_str(&text).map_err(refused)
+    }
+
+    /// The error that a value of a key is not allowed.
+    pub(super) fn refuse(folder: &Path, key: &str, cause: &Error) -> Error {
+        Error::file(&folder.join(FILE), format!("{key}: {cause}"))
+    }
+
+    /// The path of a file beside it.
+    pub(super) fn beside(folder: &Path, name: &FileName) -> PathBuf {
+        folder.join(&name.0)
+    }
+}

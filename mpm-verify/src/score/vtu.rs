@@ -1,0 +1,359 @@
+//! Particles from an unstructured grid of VTK, as other codes and ParaView write it: one piece, whose points and scalar
+//! point data become columns; in ASCII, or binary in place or appended, plain or compressed by zlib.
+
+use crate::error::Error;
+use crate::files::{TABLE, read as read_file};
+use crate::table::Table;
+use flate2::read::ZlibDecoder;
+use quick_xml::Reader;
+use quick_xml::events::{BytesStart, Event};
+use std::io::Read;
+use std::path::Path;
+
+/// Most points, and most compressed blocks of an array.
+const MOST: usize = 5_000_000;
+const MOST_BLOCKS: u64 = 100_000;
+/// The element behind whose mark the numbers of all arrays may stand.
+const APPENDED: &[u8] = b"<AppendedData";
+const AXES: [&str; 3] = ["x (m)", "y (m)", "z (m)"];
+
+/// Types of numbers: their name, bytes and value.
+type Kind = (&'static str, usize, fn([u8; 8]) -> f64);
+
+/// From the first bytes, the lowest first.
+const KINDS: [Kind; 10] = [
+    ("Float64", 8, f64::from_le_bytes),
+    ("Float32", 4, |b| {
+        f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+    }),
+    ("Int64", 8, |b| i64::from_le_bytes(b) as f64),
+    ("UInt64", 8, |b| u64::from_le_bytes(b) as f64),
+    ("Int32", 4, |b| {
+        f64::from(i32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+    }),
+    ("UInt32", 4, |b| {
+        f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+    }),
+    ("Int16", 2, |b| f64::from(i16::from_le_bytes([b[0], b[1]]))),
+    ("UInt16", 2, |b| f64::from(u16::from_le_bytes([b[0], b[1]]))),
+    ("Int8", 1, |b| f64::from(b[0] as i8)),
+    ("UInt8", 1, |b| f64::from(b[0])),
+];
+
+/// What the head of a file says of all arrays.
+#[derive(Default)]
+struct Layout {
+    points: Option<usize>,
+    big_endian: bool,
+    long_headers: bool,
+    compressed: bool,
+    appended_base64: bool,
+}
+
+/// An array, as it is described.
+struct Array {
+    name: String,
+    of_points: bool,
+    kind: String,
+    components: usize,
+    format: String,
+    offset: usize,
+    text: String,
+}
+
+/// Reads a table of particles.
+///
+/// # Errors
+/// The file can't be read, or is no such grid: the error names the array.
+pub(super) fn read(path: &Path) -> Result<Table, Error> {
+    let bytes = read_file(path, TABLE)?;
+    table(&bytes).map_err(|said| Error::file(path, said))
+}
+
+fn table(bytes: &[u8]) -> Result<Table, String> {
+    let end = bytes.windows(APPENDED.len()).position(|w| w == APPENDED);
+    let (head, tail) = bytes.split_at(end.unwrap_or(bytes.len()));
+    let head = std::str::from_utf8(head).map_err(|_| "not UTF-8")?;
+    let (mut layout, arrays) = described(head)?;
+    let tag = tail.iter().position(|b| *b == b'>').unwrap_or(tail.len());
+    let (tag, data) = tail.split_at(tag);
+    layout.appended_base64 = tag.windows(6).any(|w| w == b"base64");
+    let mark = data.iter().position(|b| *b == b'_');
+    let data = mark.map_or(&[][..], |mark| &data[mark + 1..]);
+    let points = layout.points.ok_or("no piece with NumberOfPoints")?;
+    let mut columns: Vec<(String, Vec<f64>)> = Vec::new();
+    for array in arrays {
+        let numbers = array
+            .numbers(&layout, points, data)
+            .map_err(|said| format!("array {:?}: {said}", array.name))?;
+        if array.of_points {
+            for (axis, name) in AXES.iter().enumerate() {
+                let along = numbers.iter().skip(axis).step_by(3).copied();
+                columns.push(((*name).to_owned(), along.collect()));
+            }
+        } else {
+            columns.push((array.name, numbers));
+        }
+    }
+    for (k, (name, values)) in columns.iter().enumerate() {
+        if columns[..k].iter().any(|(other, _)| other == name) {
+            return Err(format!("array {name:?} is there twice"));
+        }
+        if let Some(row) = values.iter().position(|v| !v.is_finite()) {
+            return Err(format!(
+                "array {name:?}, point {}: {}",
+                row + 1,
+                values[row]
+            ));
+        }
+    }
+    match columns.is_empty() {
+        true => Err("no points and no scalar point data".to_owned()),
+        false => Ok(Table::of_columns(columns)),
+    }
+}
+
+/// An attribute of an element, whose name some programs begin with a capital.
+fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
+    let mut all = element.attributes().flatten();
+    let found = all.find(|a| a.key.as_ref().eq_ignore_ascii_case(name))?;
+    Some(found.value.into_owned())
+}
+
+/// Points and scalar point data of a grid.
+fn described(head: &str) -> Result<(Layout, Vec<Array>), String> {
+    let mut reader = Reader::from_str(head);
+    let (mut layout, mut arrays) = (Layout::default(), Vec::<Array>::new());
+    let (mut section, mut open) = (String::new(), false);
+    loop {
+        let event = reader.read_event().map_err(|e| e.to_string())?;
+        let empty = matches!(event, Event::Empty(_));
+        match event {
+            Event::Eof => return Ok((layout, arrays)),
+            Event::Start(e) | Event::Empty(e) => match e.name().as_ref() {
+                "VTKFile" => {
+                    let is =
+                        |name: &str, value: &str| attribute(&e, name).is_some_and(|v| v == value);
+                    if !is("type", "UnstructuredGrid") {
+                        return Err("no VTKFile of type UnstructuredGrid".to_owned());
+                    }
+                    layout.big_endian = is("byte_order", "BigEndian");
+                    layout.long_headers = is("header_type", "UInt64");
+                    let compressor = attribute(&e, "compressor").filter(|c| !c.is_empty());
+                    layout.compressed = compressor.is_some();
+                    if compressor.is_some_and(|c| c != "vtkZLibDataCompressor") {
+                        return Err("a compressor other than vtkZLibDataCompressor".to_owned());
+                    }
+                }
+                "Piece" if layout.points.is_some() => return Err("more than one piece".to_owned()),
+                "Piece" => {
+                    let points =
+                        attribute(&e, "NumberOfPoints").and_then(|n| n.trim().parse().ok());
+                    layout.points = points.filter(|n| (1..=MOST).contains(n));
+                    if layout.points.is_none() {
+                        return Err(format!("NumberOfPoints: 1 to {MOST} are allowed"));
+                    }
+                }
+                "DataArray" => {
+                    let array = Array::of(&e, section == "Points");
+                    let wanted = section == "Points" || section == "PointData";
+                    open = wanted && !empty && array.is_read();
+                    if wanted && array.is_read() {
+                        arrays.push(array);
+                    }
+                }
+                name if !empty => name.clone_into(&mut section),
+                _ => {}
+            },
+            Event::End(e) if e.name().as_ref() == "DataArray" => open = false,
+            Event::Text(t) if open => {
+                if let Some(array) = arrays.last_mut() {
+                    array.text.push_str(&t);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+impl Array {
+    fn of(element: &BytesStart<'_>, of_points: bool) -> Self {
+        let text = |name: &str| attribute(element, name).unwrap_or_default();
+        let number = |name: &str, or: usize| match attribute(element, name) {
+            Some(text) => text.trim().parse().unwrap_or(usize::MAX),
+            None => or,
+        };
+        Self {
+            name: text("Name"),
+            of_points,
+            kind: text("type"),
+            components: number("NumberOfComponents", 1),
+            format: text("format"),
+            offset: number("offset", 0),
+            text: String::new(),
+        }
+    }
+
+    /// Whether it becomes a column, or those of places.
+    fn is_read(&self) -> bool {
+        self.components == if self.of_points { 3 } else { 1 }
+    }
+
+    fn numbers(&self, layout: &Layout, points: usize, data: &[u8]) -> Result<Vec<f64>, String> {
+        let count = points * self.components;
+        let short = || format!("not {count} numbers");
+        let numbers: Vec<f64> = match &*self.format {
+            "ascii" => {
+                let words = self.text.split_ascii_whitespace().take(count + 1);
+                let numbers = words.map(|w| w.parse().map_err(|_| format!("{w:?} is no number")));
+                numbers.collect::<Result<_, _>>()?
+            }
+            "binary" => self.unpack(layout, count, &mut Base64::new(self.text.as_bytes()))?,
+            "appended" => {
+                let own = data.get(self.offset..).ok_or("an offset behind the data")?;
+                match layout.appended_base64 {
+                    true => self.unpack(layout, count, &mut Base64::new(own))?,
+                    false => self.unpack(layout, count, &mut &own[..])?,
+                }
+            }
+            other => {
+                return Err(format!(
+                    "format {other:?}; allowed: ascii, binary, appended"
+                ));
+            }
+        };
+        match numbers.len() == count {
+            true => Ok(numbers),
+            false => Err(short()),
+        }
+    }
+
+    /// So many numbers of packed bytes: their length, or the sizes of compressed blocks, goes before them.
+    fn unpack(
+        &self,
+        layout: &Layout,
+        count: usize,
+        from: &mut impl Read,
+    ) -> Result<Vec<f64>, String> {
+        let known = KINDS.iter().find(|(name, ..)| *name == self.kind);
+        let (_, size, value) = known.ok_or_else(|| format!("type {:?}", self.kind))?;
+        let whole = (count * size) as u64;
+        let wrong = |what: &str| format!("{what}, where {whole} bytes are described");
+        let mut bytes = Vec::new();
+        if layout.compressed {
+            let mut header = || layout.header(from);
+            let [blocks, _, _] = [header()?, header()?, header()?];
+            if blocks > MOST_BLOCKS {
+                return Err(wrong("too many blocks"));
+            }
+            let sizes = (0..blocks)
+                .map(|_| header())
+                .collect::<Result<Vec<_>, _>>()?;
+            for size in sizes {
+                let mut packed = from.by_ref().take(size);
+                let left = whole + 1 - (bytes.len() as u64).min(whole);
+                let inflated = ZlibDecoder::new(&mut packed)
+                    .take(left)
+                    .read_to_end(&mut bytes);
+                inflated.map_err(|e| wrong(&e.to_string()))?;
+                std::io::copy(&mut packed, &mut std::io::sink()).map_err(|e| e.to_string())?;
+            }
+        } else {
+            let said = layout.header(from)?;
+            if said != whole {
+                return Err(wrong(&format!("{said} bytes")));
+            }
+            let taken = from.take(whole).read_to_end(&mut bytes);
+            taken.map_err(|e| e.to_string())?;
+        }
+        if bytes.len() as u64 != whole {
+            return Err(wrong(&format!("{} bytes", bytes.len())));
+        }
+        let numbers = bytes
+            .chunks_exact(*size)
+            .map(|bytes| value(layout.lowest_first(bytes)));
+        Ok(numbers.collect())
+    }
+}
+
+impl Layout {
+    /// Up to eight bytes, the lowest first.
+    fn lowest_first(&self, bytes: &[u8]) -> [u8; 8] {
+        let mut all = [0; 8];
+        all[..bytes.len()].copy_from_slice(bytes);
+        if self.big_endian {
+            all[..bytes.len()].reverse();
+        }
+        all
+    }
+
+    /// A number of a header.
+    fn header(&self, from: &mut impl Read) -> Result<u64, String> {
+        let mut bytes = [0; 8];
+        let own = &mut bytes[..if self.long_headers { 8 } else { 4 }];
+        from.read_exact(own).map_err(|_| "no header".to_owned())?;
+        let own = own.to_vec();
+        Ok(u64::from_le_bytes(self.lowest_first(&own)))
+    }
+}
+
+/// Bytes written in base64, in pieces that are each filled up; ends at what is none.
+struct Base64<'a> {
+    text: std::slice::Iter<'a, u8>,
+    /// Bytes that are decoded and not taken, the next one last.
+    ready: Vec<u8>,
+}
+
+impl<'a> Base64<'a> {
+    fn new(text: &'a [u8]) -> Self {
+        Self {
+            text: text.iter(),
+            ready: Vec::new(),
+        }
+    }
+
+    /// Decodes the next four characters.
+    fn fill(&mut self) {
+        let mut group = 0_u32;
+        let mut bits = 0;
+        for _ in 0..4 {
+            let Some(c) = self.text.find(|c| !c.is_ascii_whitespace()) else {
+                return;
+            };
+            let digit = match c {
+                b'A'..=b'Z' => c - b'A',
+                b'a'..=b'z' => c - b'a' + 26,
+                b'0'..=b'9' => c - b'0' + 52,
+                b'+' => 62,
+                b'/' => 63,
+                b'=' => {
+                    group <<= 6;
+                    continue;
+                }
+                _ => {
+                    self.text = [].iter();
+                    return;
+                }
+            };
+            group = group << 6 | u32::from(digit);
+            bits += 6;
+        }
+        let [_, bytes @ ..] = group.to_be_bytes();
+        self.ready.extend(bytes[..bits / 8].iter().rev());
+    }
+}
+
+impl Read for Base64<'_> {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        let mut count = 0;
+        for place in into {
+            if self.ready.is_empty() {
+                self.fill();
+            }
+            let Some(byte) = self.ready.pop() else { break };
+            *place = byte;
+            count += 1;
+        }
+        Ok(count)
+    }
+}

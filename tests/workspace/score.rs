@@ -1,0 +1,476 @@
+//! Results of other codes: our own runs told as such are judged as they are, and nothing else passes for one.
+
+use super::{code, copy_tree, json, mpm_verify, stderr, stdout, text, workspace};
+use mpm_verify::cases;
+use mpm_verify::report::scored;
+use mpm_verify::score::Scored;
+use mpm_verify::verdict::{Outcome, Verdict};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// A run of every case that scores: scheme as which a code is judged, level, parameters that are changed.
+const RUNS: [(&str, &str, &str, &[&str]); 5] = [
+    ("cook", "bspline2-fbar-consistent-flip", "h2", &[]),
+    (
+        "footing",
+        "bspline2-fbar-consistent-flip",
+        "b10",
+        &["domain_width=3", "domain_depth=3", "penetration=0.0025"],
+    ),
+    (
+        "dam-break",
+        "bspline2-fbar-consistent-flip",
+        "h0.5",
+        &["cfl=0.3"],
+    ),
+    ("cantilever", "quasi-static-bspline2-none", "h0.1", &[]),
+    ("consolidation", "poro-gimp-two-grid", "n8", &[]),
+];
+
+fn write(folder: &Path, manifest: &Value) {
+    fs::write(folder.join("score.json"), manifest.to_string()).unwrap();
+}
+
+/// What another code would say of a run.
+fn manifest(case: &str, level: &str, set: &[&str]) -> Value {
+    let parameters = set.iter().map(|set| {
+        let (name, value) = set.split_once('=').unwrap();
+        (name.to_owned(), serde_json::from_str(value).unwrap())
+    });
+    json!({
+        "schema": 1,
+        "code": {"name": "another"},
+        "scheme": "ours, told as another's",
+        "case": case,
+        "level": level,
+        "parameters": parameters.collect::<serde_json::Map<_, _>>(),
+        "particles": "particles.csv",
+        "series": "series.csv",
+    })
+}
+
+/// The runs, each in the folder of its case, with what another code would say of it.
+fn made() -> &'static Path {
+    static MADE: OnceLock<tempfile::TempDir> = OnceLock::new();
+    let made = MADE.get_or_init(|| {
+        let root = tempfile::tempdir().unwrap();
+        for (case, scheme, level, set) in RUNS {
+            let out = root.path().join(case);
+            let mut arguments = vec!["run", case, "--scheme", scheme, "--level", level];
+            arguments.extend(["--out", text(&out), "--threads", "1"]);
+            arguments.extend(set.iter().flat_map(|set| ["--set", set]));
+            let output = mpm_verify(&arguments);
+            assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+            write(&out, &manifest(case, level, set));
+        }
+        root
+    });
+    made.path()
+}
+
+/// A copy of a run that may be damaged.
+struct Copy {
+    _root: tempfile::TempDir,
+    folder: PathBuf,
+}
+
+impl Copy {
+    fn of(case: &str) -> Self {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join(case);
+        copy_tree(&made().join(case), &folder);
+        Self {
+            _root: root,
+            folder,
+        }
+    }
+
+    /// Changes the cells of a column; without, it is taken away.
+    fn change(&self, table: &str, column: &str, change: Option<fn(f64) -> f64>) {
+        let path = self.folder.join(table);
+        let before = fs::read_to_string(&path).unwrap();
+        let mut lines = before.lines();
+        let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+        let place = head.iter().position(|h| *h == column).unwrap();
+        let row = |cells: Vec<String>| {
+            let kept = cells.into_iter().enumerate();
+            let kept = kept.filter(|(k, _)| change.is_some() || *k != place);
+            kept.map(|(_, c)| c).collect::<Vec<_>>().join(",") + "\n"
+        };
+        let mut after = row(head.iter().map(|h| (*h).to_owned()).collect());
+        for line in lines {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if let Some(change) = change {
+                cells[place] = change(cells[place].parse().unwrap()).to_string();
+            }
+            after += &row(cells);
+        }
+        fs::write(path, after).unwrap();
+    }
+
+    fn score(&self) -> Scored {
+        Scored::read(&self.folder).unwrap()
+    }
+}
+
+pub(super) fn of<'a>(scored: &'a Scored, check: &str) -> Vec<&'a Verdict> {
+    let all = scored.record.verdicts.iter();
+    all.filter(|v| v.check == check).collect()
+}
+
+/// The same columns through the same functions are the same numbers, and the same checks find the same of them.
+#[test]
+fn our_own_run_told_as_anothers_is_measured_and_judged_as_it_is() {
+    for (case, scheme, ..) in RUNS {
+        let folder = made().join(case);
+        let (own, scored) = (
+            json(&folder.join("record.json")),
+            Scored::read(&folder).unwrap(),
+        );
+        assert_eq!(scored.record.scheme().to_string(), scheme);
+        assert!(scored.missing.is_empty(), "{case}: {:?}", scored.missing);
+        assert!(!scored.record.metrics.is_empty());
+        for (name, measured) in &scored.record.metrics {
+            assert_eq!(
+                json!(measured.value),
+                own["metrics"][name]["value"],
+                "{case} {name}"
+            );
+        }
+        let judged: Vec<Value> = scored.record.verdicts.iter().map(|v| json!(v)).collect();
+        let of_run = own["verdicts"].as_array().unwrap();
+        for verdict in &judged {
+            assert!(of_run.contains(verdict), "{case}: {verdict}");
+        }
+        let right = |v: &&Value| v["kind"] == "truth" && v["outcome"] == "right";
+        assert!(judged.iter().any(|v| right(&v)), "{case}");
+    }
+}
+
+/// Each column of a headline made wrong on purpose, the check that sees it, and what is judged when it is missing.
+#[test]
+fn a_wrong_column_fails_and_a_missing_one_is_not_judged() {
+    type Wrong = (
+        &'static str,
+        &'static str,
+        &'static str,
+        fn(f64) -> f64,
+        &'static str,
+    );
+    let wrong: [Wrong; 10] = [
+        ("cook", "particles.csv", "uy (m)", |u| 0.9 * u, "mid-edge"),
+        (
+            "cook",
+            "particles.csv",
+            "mean_stress (Pa)",
+            |s| s + 0.5,
+            "mean-stress-probe",
+        ),
+        (
+            "cook",
+            "series.csv",
+            "reaction_y (N/m)",
+            |r| 0.9 * r,
+            "reaction",
+        ),
+        (
+            "footing",
+            "series.csv",
+            "footing_force (N/m)",
+            |f| 1.1 * f,
+            "prandtl",
+        ),
+        (
+            "footing",
+            "particles.csv",
+            "mean_stress (Pa)",
+            |s| 3.0 * s,
+            "mean-stress",
+        ),
+        ("dam-break", "series.csv", "front (m)", |x| x - 0.8, "front"),
+        (
+            "dam-break",
+            "series.csv",
+            "kinetic_energy (J/m)",
+            |k| 2.0 * k,
+            "motion-not-gained",
+        ),
+        (
+            "cantilever",
+            "particles.csv",
+            "uy (m)",
+            |u| 0.95 * u,
+            "corner",
+        ),
+        (
+            "consolidation",
+            "series.csv",
+            "settlement (-)",
+            |s| 1.3 * s,
+            "settlement",
+        ),
+        (
+            "consolidation",
+            "series.csv",
+            "base_pressure (-)",
+            |p| p + 0.2,
+            "base-pressure",
+        ),
+    ];
+    for (case, table, column, change, check) in wrong {
+        let copy = Copy::of(case);
+        let outcomes = |scored: &Scored| {
+            let found = of(scored, check);
+            assert!(!found.is_empty(), "{case}: {check}");
+            found.iter().map(|v| v.outcome).collect::<Vec<_>>()
+        };
+        assert!(
+            !outcomes(&copy.score()).contains(&Outcome::Failed),
+            "{case}: {check}"
+        );
+        copy.change(table, column, Some(change));
+        assert!(
+            outcomes(&copy.score()).contains(&Outcome::Failed),
+            "{case}: {check}"
+        );
+        let output = mpm_verify(&["score", text(&copy.folder), "--quiet"]);
+        assert_eq!(code(&output), 1, "{}{}", stdout(&output), stderr(&output));
+        assert!(stdout(&output).contains(check), "{}", stdout(&output));
+        copy.change(table, column, None);
+        let scored = copy.score();
+        let all = outcomes(&scored);
+        let unjudged = all.iter().all(|of| *of == Outcome::NotJudged);
+        assert!(unjudged, "{case}: {check} {all:?}");
+        assert!(of(&scored, check)[0].source.contains(column), "{column}");
+        assert!(scored.missing.iter().any(|c| c.header() == column));
+    }
+}
+
+#[test]
+fn a_result_stands_beside_ours() {
+    let copy = Copy::of("cook");
+    let out = copy.folder.join("out");
+    let output = mpm_verify(&["score", text(&copy.folder), "--out", text(&out)]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let said = stdout(&output);
+    for named in ["another", "gimp none ", "(%)", "Verdict: right"] {
+        assert!(said.contains(named), "{named}: {said}");
+    }
+    let page = fs::read_to_string(out.join("score.md")).unwrap();
+    assert!(page.contains("| gimp none |"), "{page}");
+    let found = json(&out.join("verdicts.json"));
+    assert_eq!(found["exit_code"], 0);
+    assert!(!found["ours"].as_array().unwrap().is_empty());
+    let told = mpm_verify(&["score", text(&copy.folder), "--json"]);
+    assert_eq!(
+        serde_json::from_str::<Value>(&stdout(&told)).unwrap(),
+        found
+    );
+    for (case, ..) in RUNS {
+        let scored = Scored::read(&made().join(case)).unwrap();
+        let ours = scored::Ours::beside(&scored).unwrap();
+        for line in scored::text(&scored, &ours).lines() {
+            // Without the marks of colours.
+            let mut parts = line.split('\u{1b}');
+            let first = parts.next().unwrap_or_default().to_owned();
+            let rest = parts.map(|part| part.split_once('m').map_or(part, |(_, text)| text));
+            let plain = first + &rest.collect::<String>();
+            assert!(plain.chars().count() <= 100, "{plain}");
+        }
+    }
+}
+
+/// What `export` writes tells every column and check, and is a result once the tables are there.
+#[test]
+fn what_is_exported_can_be_filled_in() {
+    for (case, _, level, set) in RUNS {
+        let root = tempfile::tempdir().unwrap();
+        let out = root.path().join("out");
+        let mut arguments = vec!["export", case, "--level", level, "--out", text(&out)];
+        arguments.extend(set.iter().flat_map(|set| ["--set", set]));
+        let output = mpm_verify(&arguments);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let readme = fs::read_to_string(out.join("README.md")).unwrap();
+        let (_, foreign) = cases::find_scored(case).unwrap();
+        for column in foreign.columns() {
+            assert!(readme.contains(&column.header()), "{case}: {}", column.name);
+        }
+        let empty = mpm_verify(&["score", text(&out)]);
+        assert_eq!(code(&empty), 2, "{case}");
+        for part in foreign.parts() {
+            let name = format!("{}.csv", part.name());
+            fs::copy(made().join(case).join(&name), out.join(&name)).unwrap();
+        }
+        let scored = Scored::read(&out).unwrap();
+        let reference = fs::read_to_string(out.join("reference.csv")).unwrap();
+        for verdict in scored
+            .record
+            .verdicts
+            .iter()
+            .filter(|v| v.judges() && v.value.is_some())
+        {
+            assert!(
+                reference.contains(&verdict.metric),
+                "{case}: {}",
+                verdict.metric
+            );
+            assert!(readme.contains(&verdict.check), "{case}: {}", verdict.check);
+        }
+        let particles = fs::read_to_string(out.join("start.csv")).unwrap();
+        let rows = json(&made().join(case).join("record.json"))["work"]["particles"].clone();
+        assert_eq!(json!(particles.lines().count() - 1), rows, "{case}");
+    }
+    let other = mpm_verify(&["export", "landslide", "--out", "out"]);
+    assert_eq!(code(&other), 2);
+    assert!(stderr(&other).contains("dam-break"), "{}", stderr(&other));
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let copy = Copy::of("cook");
+    let sound = manifest("cook", "h2", &[]);
+    let with = |key: &str, value: Value| {
+        let mut changed = sound.clone();
+        changed[key] = value;
+        changed.to_string()
+    };
+    let set = |name: &str, value: Value| with("parameters", json!({name: value}));
+    let twice = sound.to_string().replace(
+        "\"parameters\":{}",
+        "\"parameters\":{\"load\":1,\"load\":1}",
+    );
+    let series = "series";
+    for (manifest, named) in [
+        ("{".to_owned(), "line 1"),
+        (with("schema", json!(2)), "schema 2 where 1 is read"),
+        (with("partikles", json!("a.csv")), "is `particles` meant?"),
+        (
+            with("code", json!({"name": "a", "vesion": "1"})),
+            "is `version` meant?",
+        ),
+        (with("code", json!({"name": ""})), "a line of 1 to 200"),
+        (with("scheme", json!("a\u{1b}[31m")), "a line of 1 to 200"),
+        (
+            with("case", json!("cok")),
+            "case: unknown case that scores \"cok\"; allowed: cook",
+        ),
+        (with("case", json!("landslide")), "allowed: cook"),
+        (
+            with("level", json!("h3")),
+            "level: unknown level \"h3\"; allowed: h2",
+        ),
+        (with("basis", json!("fem")), "expected one of `linear`"),
+        (
+            set("poisson_ration", json!(0.3)),
+            "parameters: unknown parameter",
+        ),
+        (set("poisson_ratio", json!(0.5)), "below 0.5"),
+        (
+            set("poisson_ratio", json!([0.3])),
+            "a number, boolean or word is allowed",
+        ),
+        (twice, "parameter load is set twice"),
+        (
+            with("particles", json!("../particles.csv")),
+            "where the name of a file beside",
+        ),
+        (
+            with("particles", json!("/etc/passwd")),
+            "where the name of a file beside",
+        ),
+        (
+            with("particles", json!("particles.txt")),
+            "particles \"particles.txt\"; allowed: a .csv",
+        ),
+        (with("particles", json!("none.csv")), "none.csv"),
+        (with("time_step_s", json!(0)), "a positive, finite number"),
+        (with("cost", json!({"cpu": 1})), "is `cpu_s` meant?"),
+        (
+            with("particles", Value::Null).replace("series.csv", "folder.csv"),
+            "not a plain file",
+        ),
+        (
+            with(series, json!("link.csv")),
+            "a link, which is not followed",
+        ),
+        (with(series, json!("pipe.csv")), "not a plain file"),
+        (
+            with(series, json!("units.csv")),
+            "allowed: \"reaction_y (N/m)\"",
+        ),
+        (with(series, json!("nan.csv")), "row 1: NaN"),
+        (with(series, json!("empty.csv")), "0 rows where 1 to"),
+        (with(series, json!("short.csv")), "short.csv"),
+    ] {
+        let folder = &copy.folder;
+        if !folder.join("link.csv").exists() {
+            fs::create_dir(folder.join("folder.csv")).unwrap();
+            std::os::unix::fs::symlink("series.csv", folder.join("link.csv")).unwrap();
+            let pipe = std::process::Command::new("mkfifo")
+                .arg(folder.join("pipe.csv"))
+                .status();
+            assert!(pipe.unwrap().success());
+            fs::write(folder.join("units.csv"), "reaction_y (kN/m)\n1\n").unwrap();
+            fs::write(folder.join("nan.csv"), "reaction_y (N/m)\nNaN\n").unwrap();
+            fs::write(folder.join("empty.csv"), "reaction_y (N/m)\n").unwrap();
+            fs::write(folder.join("short.csv"), "a,b\n1,2\n3\n").unwrap();
+        }
+        fs::write(folder.join("score.json"), &manifest).unwrap();
+        let output = mpm_verify(&["score", text(folder)]);
+        let said = stderr(&output);
+        assert_eq!(code(&output), 2, "{manifest}: {said}");
+        assert!(said.contains(named), "{manifest}: {said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
+}
+
+/// The schema for editors has the keys that the reader takes, and demands those that it demands.
+#[test]
+fn the_schema_is_that_of_the_reader() {
+    let schema = json(&workspace().join("docs/reference/score.schema.json"));
+    let copy = Copy::of("cook");
+    let refusal = |manifest: Value| {
+        write(&copy.folder, &manifest);
+        Scored::read(&copy.folder)
+            .map(|_| ())
+            .unwrap_err()
+            .to_string()
+    };
+    let known = |said: &str| {
+        let names = said.split('`').skip(3).step_by(2).map(str::to_owned);
+        names.collect::<BTreeSet<String>>()
+    };
+    for (key, place) in [
+        (None, &schema),
+        (Some("code"), &schema["properties"]["code"]),
+        (Some("cost"), &schema["properties"]["cost"]),
+    ] {
+        let mut wrong = manifest("cook", "h2", &[]);
+        match key {
+            None => wrong["zzzzzzzzzz"] = json!(1),
+            Some(key) => wrong[key]["zzzzzzzzzz"] = json!(1),
+        }
+        let keys: BTreeSet<String> = place["properties"]
+            .as_object()
+            .unwrap()
+            .keys()
+            .cloned()
+            .collect();
+        assert_eq!(known(&refusal(wrong)), keys, "{key:?}");
+        assert_eq!(place["additionalProperties"], false);
+    }
+    for key in schema["required"].as_array().unwrap() {
+        let key = key.as_str().unwrap();
+        let mut wrong = manifest("cook", "h2", &[]);
+        wrong.as_object_mut().unwrap().remove(key);
+        assert!(
+            refusal(wrong).contains(&format!("missing field `{key}`")),
+            "{key}"
+        );
+    }
+    let scored: Vec<&str> = cases::scored().map(|(case, _)| case.name).collect();
+    assert_eq!(schema["properties"]["case"]["enum"], json!(scored));
+}
