@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::error::Error;
 use crate::files::{make_folder, write_csv, write_json, write_whole};
 use crate::foreign::{Foreign, Group, Part};
-use crate::parameter::Parameters;
+use crate::parameter::{Parameter, Parameters};
 use crate::record::Measured;
 use crate::spec::RunSpec;
 use crate::table::{Sheet, Table};
@@ -57,7 +57,7 @@ pub fn export(
         files.push(name);
     }
     write_json(&folder.join(FILE), &Form::of(case, foreign, spec))?;
-    let readme = readme(case, foreign, spec, &demands, &files);
+    let readme = readme((case, foreign), (spec, &parameters), &demands, &files);
     write_whole(&folder.join("README.md"), readme.as_bytes())?;
     files.extend([FILE, "README.md"]);
     Ok(files.into_iter().map(str::to_owned).collect())
@@ -80,12 +80,11 @@ fn described(case: &Case, foreign: &Foreign, spec: &RunSpec, parameters: &Parame
     })
 }
 
-/// A manifest to fill in, its keys in the order in which they are read.
+/// A manifest to fill in. The lines of tables may be taken out: others stand behind them.
 #[derive(Serialize)]
 struct Form<'a> {
     schema: u32,
     code: Named,
-    scheme: &'static str,
     case: &'a str,
     level: &'a str,
     parameters: serde_json::Map<String, Value>,
@@ -93,6 +92,7 @@ struct Form<'a> {
     particles: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     series: Option<String>,
+    scheme: &'static str,
 }
 
 #[derive(Serialize)]
@@ -113,7 +113,6 @@ impl<'a> Form<'a> {
         Self {
             schema: SCHEMA,
             code: Named { name: "my code" },
-            scheme: "what it does, in your words",
             case: case.name,
             level: spec.level.name,
             parameters: changed
@@ -121,6 +120,7 @@ impl<'a> Form<'a> {
                 .collect(),
             particles: file(Part::Particles),
             series: file(Part::Series),
+            scheme: "what it does, in your words",
         }
     }
 }
@@ -152,9 +152,8 @@ fn demands<'a>(
 }
 
 fn readme(
-    case: &Case,
-    foreign: &Foreign,
-    spec: &RunSpec,
+    (case, foreign): (&Case, &Foreign),
+    (spec, parameters): (&RunSpec, &Parameters),
     demands: &[(Verdict, &Group)],
     files: &[&str],
 ) -> String {
@@ -165,9 +164,27 @@ fn readme(
     let _ = write!(
         t,
         "\nCells of {} m. All numbers are in SI units; forces and masses are per metre of depth, of section in one dimension. \
-         The values of parameters stand in `parameters.json`.\n\n## Files\n\n",
+         Of the parameters that are named above:\n\n",
         spec.level.h
     );
+    let named = |p: &&Parameter| {
+        foreign
+            .setup
+            .iter()
+            .any(|s| s.contains(&format!("`{}`", p.name)))
+    };
+    let rows = case.parameters.iter().filter(named);
+    let rows = rows.map(|p| {
+        vec![
+            format!("`{}`", p.name),
+            parameters.text(*p),
+            p.unit.to_owned(),
+        ]
+    });
+    t += &Sheet::new(["parameter", "value", "unit"])
+        .with(rows)
+        .markdown();
+    t += "\n## Files\n\n";
     for file in files {
         let what = match *file {
             START => {
