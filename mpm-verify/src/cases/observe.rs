@@ -98,8 +98,16 @@ pub(super) fn check_rule(
         Scheme::Poro(_) => return refused(spec.scheme.solver()),
         Scheme::Explicit(_) => &["step_factor", "lumped", "alpha", "delta", "tolerance"],
         Scheme::Implicit(parts) => match parts.rule {
-            RuleName::Midpoint => &["alpha", "delta", "wall", "flip", "relaxation", "time_step"],
-            RuleName::Newmark => &["lumped", "wall", "flip", "relaxation", "time_step"],
+            RuleName::Midpoint => &[
+                "alpha",
+                "delta",
+                "wall",
+                "flip",
+                "relaxation",
+                "hold",
+                "time_step",
+            ],
+            RuleName::Newmark => &["lumped", "wall", "flip", "relaxation", "hold", "time_step"],
             RuleName::QuasiStatic => return refused(spec.scheme.solver()),
         },
     };

@@ -2,6 +2,7 @@
 
 use super::{Deformation, Remedy, fill, fill_with_products, mean};
 use crate::eights::{AHEAD, Eights};
+use crate::error::{Error, require};
 use crate::memory::Memoryless;
 use crate::number::Eight;
 use crate::parallel::{CHUNK, for_each_piece};
@@ -18,9 +19,16 @@ use crate::tensor::SymmetricTensor;
 /// doesn't feed it. It fills as particles pass each other, and is
 /// emptied by J̄ ← J̄ − (I − Π) θ (I − Π) J̄ with θ = min(1, β γ) and γ the shear strain of the step,
 /// which keeps the volume, never adds energy to first order, and does nothing at rest.
+///
+/// A pressure above ε² K does feed it. [`holding`](Self::holding) gives every particle an ε of its own, that the
+/// pressure there asks for: A = I − (I − Π)(1 − ε)(I − Π) is as symmetric (`docs/disorder.md`).
 #[derive(Debug, Clone)]
 pub struct FbarConsistent {
     relaxation: f64,
+    /// How many times the smooth pressure ε² K holds at least, over K (1/Pa); zero for the same ε everywhere.
+    hold: f64,
+    /// ε of every particle in the step; empty where all have the same.
+    kept: Vec<f64>,
     averaged: Vec<f64>,
     next: Vec<f64>,
     rest: Vec<f64>,
@@ -44,10 +52,24 @@ impl FbarConsistent {
     pub fn new(relaxation: f64) -> Self {
         Self {
             relaxation,
+            hold: 0.0,
+            kept: Vec::new(),
             averaged: Vec::new(),
             next: Vec::new(),
             rest: Vec::new(),
         }
+    }
+
+    /// With a stiffness ε² K of what Π can't see that is at least `times` the smooth pressure Π p at every particle, in a material of the
+    /// modulus K = `modulus` (Pa); ε is at most one. Zero `times` for the same ε everywhere.
+    ///
+    /// # Errors
+    /// `times` that are negative, a modulus that is not positive, or either not finite.
+    pub fn holding(mut self, times: f64, modulus: f64) -> Result<Self, Error> {
+        require(times >= 0.0, "pressures to hold", times, "zero or positive")?;
+        require(modulus > 0.0, "modulus", modulus, "positive (Pa)")?;
+        self.hold = times / modulus;
+        Ok(self)
     }
 
     /// Takes (I − Π) θ (I − Π) J̄ off the next J̄.
@@ -72,20 +94,24 @@ impl FbarConsistent {
     }
 }
 
-/// Replaces `field` by A `field` = Π field + ε r + (1 − ε) Π r with r = (I − Π) field, which `rest` is for.
+/// Replaces `field` by A `field` = Π field + ε r + Π (1 − ε) r with r = (I − Π) field, which `rest` is for; ε is that which
+/// every particle has `kept`, or the same of all.
 fn sharpened<const D: usize>(
     particles: &Particles<D>,
     average: &mut dyn Average<D>,
     field: &mut [f64],
     rest: &mut Vec<f64>,
+    kept: &[f64],
 ) {
+    let kept = |p: usize| kept.get(p).copied().unwrap_or(UNSEEN);
     rest.clear();
     rest.extend_from_slice(field);
     average.average(particles, rest);
-    for_each_pair(field, rest, |_, field, smooth| {
+    for_each_pair(field, rest, |p, field, smooth| {
         let rough = *field - *smooth;
-        *field = *smooth + UNSEEN * rough;
-        *smooth = rough;
+        *field = *smooth + kept(p) * rough;
+        // The factor is one, and changes no bit, where all have the same ε.
+        *smooth = rough * ((1.0 - kept(p)) / (1.0 - UNSEEN));
     });
     average.average(particles, rest);
     for_each_pair(field, rest, |_, field, seen| {
@@ -131,7 +157,15 @@ impl<const D: usize> Remedy<D> for FbarConsistent {
                 Eight::new(*j_bar.at(k)) / Eight::new(*j.at(k)) * mean::<Eight, D>(&stress)
             }
         });
-        sharpened(particles, average, of_force, &mut self.rest);
+        if self.hold > 0.0 {
+            // The pressure that drives is the smooth one; noise of the true one would hold the more, the more there is.
+            self.kept.clone_from(of_force);
+            average.average(particles, &mut self.kept);
+            for kept in &mut self.kept {
+                *kept = (self.hold * kept.abs()).sqrt().clamp(UNSEEN, 1.0);
+            }
+        }
+        sharpened(particles, average, of_force, &mut self.rest, &self.kept);
     }
 
     fn next_j_bar(
@@ -141,7 +175,13 @@ impl<const D: usize> Remedy<D> for FbarConsistent {
         average: &mut dyn Average<D>,
     ) -> Option<&[f64]> {
         self.averaged.clone_from(&deformation.volume_change);
-        sharpened(particles, average, &mut self.averaged, &mut self.rest);
+        let Self {
+            averaged,
+            rest,
+            kept,
+            ..
+        } = self;
+        sharpened(particles, average, averaged, rest, kept);
         fill_with_products(&mut self.next, &particles.j_bar, &self.averaged);
         if self.relaxation > 0.0 {
             self.relax(particles, &deformation.shear, average);

@@ -148,6 +148,8 @@ parameters! { pub(super) const:
         "quasi-static: equal steps of time";
     RELAXATION = "relaxation", "-", "10", number(0.0, 1e9, false),
         "relaxation β of the remedy fbar-consistent";
+    HOLD = "hold", "-", "0", number(0.0, 1e9, false),
+        "ε² M of the remedy fbar-consistent is at least this many times the smooth pressure, M the body's modulus of pressure waves; zero: ε = 0.01 everywhere";
     STEP_POISSON_RATIO = "step_poisson_ratio", "-", "0.49", number(0.0, 0.5, true),
         "the time step is that of a body with this Poisson's ratio, if the body's own is lower: runs at several ratios then differ in nothing else";
 }
@@ -181,6 +183,7 @@ pub(super) fn all_parameters(
         parameters::WALL,
         FLIP,
         RELAXATION,
+        HOLD,
     ];
     let mut all = [of_solution, &numerical, own].concat();
     for p in &mut all {

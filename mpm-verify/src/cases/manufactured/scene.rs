@@ -1,6 +1,6 @@
 //! Where a motion that is known in closed form begins: grid, walls, law, particles and time step.
 
-use super::{Boundary, DURATION, Manufactured, RELAXATION, STEP_POISSON_RATIO};
+use super::{Boundary, DURATION, HOLD, Manufactured, RELAXATION, STEP_POISSON_RATIO};
 use crate::cases::observe::{implicit_settings, settings};
 use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS, cfl};
 use crate::error::Error;
@@ -162,7 +162,10 @@ fn solved<const D: usize, M: Solvable<D> + Solved<D>>(
     }
     let number = |p| parameters.number(p);
     let remedy: Box<dyn Remedy<D>> = match spec.scheme.remedy() {
-        RemedyName::FbarConsistent => Box::new(FbarConsistent::new(number(RELAXATION))),
+        RemedyName::FbarConsistent => {
+            let remedy = FbarConsistent::new(number(RELAXATION));
+            Box::new(remedy.holding(number(HOLD), scene.body.wave_modulus())?)
+        }
         other => other.build(),
     };
     let settings = settings(spec, parameters, dt, 0.0)?
