@@ -14,6 +14,7 @@
 //! * [`stage`]: loads, force filters, constraints and particle filters;
 //! * [`contact`]: barrier contact with rigid bodies, with friction;
 //! * [`projection`]: the volume average Π;
+//! * [`frame`]: the same scene from elsewhere, in other units;
 //! * [`monitor`]: mass, momentum, the energy budget, J and ln(J/J̄), reactions;
 //! * [`memory`]: how a run is stopped and goes on as if it had not been.
 //!
@@ -71,6 +72,7 @@ pub mod contact;
 pub mod eights;
 pub mod error;
 pub mod explicit;
+pub mod frame;
 pub mod grid;
 pub mod implicit;
 pub mod lattice;
@@ -96,6 +98,7 @@ pub mod work;
 pub use basis::Basis;
 pub use body::Body;
 pub use error::{Error, Fault};
+pub use frame::Frame;
 pub use grid::{Axis, Grid, Side};
 pub use lattice::Lattice;
 pub use material::Law;

@@ -1,6 +1,7 @@
 //! The particles of a body, as columns.
 
 use crate::error::{Error, require};
+use crate::frame::Frame;
 use crate::memory::{MemoryError, row, rows};
 use crate::parallel::{CHUNK, for_each_piece};
 use crate::tensor::SymmetricTensor;
@@ -106,6 +107,43 @@ impl<const D: usize> Particles<D> {
             (*position, *delta_f) = state(reference);
         }
         self
+    }
+
+    /// The same particles, before their first step, seen from `frame`; those of a [`Body`](crate::Body) get their stress and
+    /// volume from it.
+    #[must_use]
+    pub fn seen_from(&self, frame: &Frame<D>) -> Self {
+        let [length, area, volume] = [1, 2, D as i32].map(|power| frame.scale(0, power));
+        let vectors = |column: &[[f64; D]], scale: f64| -> Vec<[f64; D]> {
+            column.iter().map(|v| frame.vector(v, scale)).collect()
+        };
+        let places = |column: &[[f64; D]]| -> Vec<[f64; D]> {
+            column.iter().map(|x| frame.place(x)).collect()
+        };
+        let scaled = |column: &[f64], scale: f64| -> Vec<f64> {
+            column.iter().map(|value| scale * value).collect()
+        };
+        let matrices = |column: &[SMatrix<f64, D, D>], scale: f64| -> Vec<_> {
+            column.iter().map(|m| frame.matrix(m, scale)).collect()
+        };
+        Self {
+            half_size: frame.vector(&self.half_size, length).map(f64::abs),
+            id: self.id.clone(),
+            reference: places(&self.reference),
+            position: places(&self.position),
+            velocity: vectors(&self.velocity, length),
+            acceleration: vectors(&self.acceleration, length),
+            affine: matrices(&self.affine, area),
+            mass: scaled(&self.mass, frame.stiffness()),
+            reference_volume: scaled(&self.reference_volume, volume),
+            volume: scaled(&self.volume, volume),
+            jacobian: self.jacobian.clone(),
+            j_bar: self.j_bar.clone(),
+            stress: vec![SymmetricTensor::default(); self.stress.len()],
+            external_force: vectors(&self.external_force, frame.force()),
+            delta_f: matrices(&self.delta_f, 1.0),
+            increment: vectors(&self.increment, length),
+        }
     }
 
     /// Number of particles.

@@ -2,6 +2,8 @@
 
 use crate::body::Body;
 use crate::contact::RigidContact;
+use crate::error::Error;
+use crate::frame::Frame;
 use crate::grid::Grid;
 use crate::material::Law;
 use crate::memory::{MemoryError, Saved};
@@ -79,6 +81,24 @@ impl<const D: usize, M: Law> Scene<D, M> {
             let (rows, _) = sticks.as_chunks();
             contact.stick((0..).zip(rows.iter().copied()));
         }
+    }
+
+    /// The same scene, before its first step, seen from `frame`.
+    ///
+    /// # Errors
+    /// As [`Body::new`].
+    pub fn seen_from(self, frame: &Frame<D>) -> Result<Self, Error> {
+        let law = self.body.law.in_units(frame.scale(1, 0));
+        let loads = self.loads.into_iter().map(|load| load.seen_from(frame));
+        let constraints = self.constraints.into_iter().map(|c| c.seen_from(frame));
+        let contacts = self.contacts.iter().map(|c| c.seen_from(frame));
+        Ok(Self {
+            grid: frame.grid(&self.grid),
+            body: Body::new(law, self.body.particles.seen_from(frame))?,
+            loads: loads.collect(),
+            constraints: constraints.collect(),
+            contacts: contacts.collect(),
+        })
     }
 
     /// With another contact.

@@ -19,6 +19,7 @@ mod folders;
 mod fuzz;
 mod gate;
 mod kills;
+mod metamorphic;
 mod ranges;
 mod readme;
 mod reports;

@@ -58,6 +58,14 @@ impl Barrier {
         Self::new(force / Self::new(1.0, distance)?.force(gap), distance)
     }
 
+    /// The same barrier in units of which a metre is `length`, its unit of stiffness `stiffness`.
+    pub(super) fn in_units(self, length: f64, stiffness: f64) -> Self {
+        Self {
+            stiffness: stiffness * self.stiffness,
+            distance: length * self.distance,
+        }
+    }
+
     /// Gap d̂ (m) at which the barrier begins.
     #[must_use]
     pub fn distance(&self) -> f64 {

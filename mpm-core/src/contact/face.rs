@@ -1,6 +1,7 @@
 //! The face of a rigid body that moves as it is told.
 
 use crate::error::{Error, require};
+use crate::frame::Frame;
 use crate::particles::Particles;
 use crate::stage::{End, smooth_rise, smooth_stroke};
 
@@ -84,6 +85,22 @@ impl<const D: usize> RigidFace<D> {
         Self {
             position: self.position + self.sign * (nearest - gap),
             ..self
+        }
+    }
+
+    /// The same face seen from `frame`.
+    #[must_use]
+    pub fn seen_from(&self, frame: &Frame<D>) -> Self {
+        let (axis, sign) = frame.axis(self.axis);
+        let mut on_face = [0.0; D];
+        on_face[self.axis] = self.position;
+        Self {
+            axis,
+            sign: sign * self.sign,
+            position: frame.place(&on_face)[axis],
+            extent: frame.extent(&self.extent),
+            velocity: frame.vector(&self.velocity, frame.scale(0, 1)),
+            ramp: self.ramp,
         }
     }
 

@@ -43,6 +43,14 @@ impl Friction {
         })
     }
 
+    /// The same friction in units of which a stiffness of one is `stiffness`.
+    pub(super) fn in_units(self, stiffness: f64) -> Self {
+        Self {
+            stiffness: stiffness * self.stiffness,
+            ..self
+        }
+    }
+
     /// Stiffness k_t (N/m) of the stick.
     #[must_use]
     pub fn stiffness(&self) -> f64 {

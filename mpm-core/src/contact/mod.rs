@@ -11,6 +11,7 @@ pub use face::RigidFace;
 pub use friction::Friction;
 
 use crate::error::Fault;
+use crate::frame::Frame;
 use crate::memory::{Memory, MemoryError, Saved};
 use crate::monitor::Reaction;
 use crate::particles::Particles;
@@ -61,6 +62,18 @@ impl<const D: usize> RigidContact<D> {
         Self {
             friction: Some(friction),
             ..self
+        }
+    }
+
+    /// The same contact, before its first step, seen from `frame`.
+    #[must_use]
+    pub fn seen_from(&self, frame: &Frame<D>) -> Self {
+        Self {
+            friction: self.friction.map(|f| f.in_units(frame.stiffness())),
+            ..Self::new(
+                self.face.seen_from(frame),
+                self.barrier.in_units(frame.scale(0, 1), frame.stiffness()),
+            )
         }
     }
 

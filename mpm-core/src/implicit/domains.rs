@@ -2,6 +2,11 @@
 
 use crate::particles::Particles;
 
+/// The share of a domain that is its own, and no rounding of its size.
+const WITHIN: f64 = 1.0 - 1e-12;
+/// Spacings of numbers as large as the farthest coordinate by which places are rounded at most.
+const SPACINGS: f64 = 4.0;
+
 /// The domains of a body's particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Domains<'a, const D: usize> {
@@ -27,6 +32,29 @@ impl<'a, const D: usize> Domains<'a, D> {
         Self {
             centre: &particles.position,
             half_size: HalfSizes::OfAll(particles.half_size),
+        }
+    }
+
+    /// What places are rounded by (m).
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        let coordinates = self.centre.as_flattened().iter();
+        let farthest = coordinates.fold(0.0, |most: f64, x| most.max(x.abs()));
+        SPACINGS * f64::EPSILON * farthest
+    }
+
+    /// The same domains without what they touch by rounding alone where they end on grid lines; `sizes` are to hold theirs.
+    #[must_use]
+    pub fn within<'b>(&self, sizes: &'b mut Vec<[f64; D]>) -> Domains<'b, D>
+    where
+        'a: 'b,
+    {
+        let rounding = self.rounding();
+        let own = |(_, size): (_, [f64; D])| size.map(|half| half * WITHIN - rounding);
+        *sizes = self.iter().map(own).collect();
+        Domains {
+            centre: self.centre,
+            half_size: HalfSizes::OfEach(sizes),
         }
     }
 

@@ -11,6 +11,11 @@ use std::ops::{AddAssign, Range};
 
 /// Units in the last place by which a stress is rounded.
 pub(crate) const LAST_BITS: f64 = 4.0;
+/// What a function counts at least, of its value and its slope over a cell, at one particle: less is rounding, of a
+/// domain that ends on a grid line.
+const LEAST: f64 = 1e-12;
+/// That slope over the share of a cell by which the domain, of an eighth of it or more, reaches over the line.
+const PER_ROUNDING: f64 = 8.0;
 /// Elements that one thread sums at once.
 const BATCH: usize = 64;
 
@@ -30,6 +35,8 @@ pub(crate) struct Elements<const D: usize> {
     dw: Vec<[f64; D]>,
     /// Where the functions of every particle begin, and those of the last one end.
     first: Vec<usize>,
+    /// What the places of particles are rounded by (m).
+    rounding: f64,
 }
 
 /// The order of particles by element, stable within one.
@@ -73,6 +80,7 @@ impl<const D: usize> Elements<D> {
             w: Vec::with_capacity(count * support),
             dw: Vec::with_capacity(count * support),
             first: vec![0],
+            rounding: domains.rounding(),
         };
         let mut functions = Functions::new();
         let mut last = None;
@@ -107,6 +115,7 @@ impl<const D: usize> Elements<D> {
             w: Vec::new(),
             dw: Vec::new(),
             first: vec![0],
+            rounding: self.rounding,
         };
         for (element, run) in self.particles.iter().enumerate() {
             // Of every function so far, whose it becomes a part of: place among the new ones, and share.
@@ -197,6 +206,21 @@ impl<const D: usize> Elements<D> {
         let (nodes, w, _) = self.seen(particle);
         let pairs = nodes.iter().zip(w);
         pairs.fold(SVector::zeros(), |sum, (node, w)| sum + field[*node] * *w)
+    }
+
+    /// Of every one of `nodes` nodes whether a particle sees it by more than rounding, on cells of size `h` (m). A function
+    /// with no value but a gradient at a particle bears force and counts.
+    pub(crate) fn seen_nodes(&self, nodes: usize, h: f64) -> Vec<bool> {
+        let mut seen = vec![false; nodes];
+        let least = LEAST + PER_ROUNDING * self.rounding / h;
+        for p in 0..self.element.len() {
+            let (nodes, w, dw) = self.seen(p);
+            for ((node, w), dw) in nodes.iter().zip(w).zip(dw) {
+                let slope = dw.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+                seen[*node] |= w + h * slope > least;
+            }
+        }
+        seen
     }
 
     /// Pairs of a particle and a function that sees it.

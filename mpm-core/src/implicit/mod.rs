@@ -248,9 +248,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let particles = &self.scene.body.particles;
         let (elements, average) = self.averaging();
         let stabilisation = self.settings.stabilisation;
-        let mut penalties =
-            self.functions
-                .penalties(stabilisation, self.moduli, Domains::of(particles));
+        let mut sizes = Vec::new();
+        let within = Domains::of(particles).within(&mut sizes);
+        let mut penalties = self.functions.penalties(stabilisation, self.moduli, within);
         for node in penalties.iter_mut().flat_map(|p| &mut p.node) {
             *node = self.originals[*node];
         }
@@ -261,7 +261,12 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             Some(held.velocity * (place * travel[held.by]))
         };
         let nodes = self.functions.len();
-        let unknowns = Unknowns::new(nodes, &elements, &penalties, prescribed);
+        let unknowns = Unknowns::new(
+            (nodes, self.functions.grid().h),
+            &elements,
+            &penalties,
+            prescribed,
+        );
         let averages = self.settings.remedy == Remedy::FbarConsistent;
         let width = D + usize::from(averages);
         let pattern = Pattern::new(width, &unknowns, &elements, &penalties);

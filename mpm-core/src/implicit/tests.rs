@@ -98,6 +98,10 @@ impl<const D: usize> Constraint<D> for Affine<D> {
                 .sum()
         })
     }
+
+    fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
+        self
+    }
 }
 
 /// The stresses after one step of the particles that lie within `radius` (m) of the centre, which is affine too.

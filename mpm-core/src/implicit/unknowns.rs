@@ -18,23 +18,14 @@ pub(crate) struct Unknowns<const D: usize> {
 }
 
 impl<const D: usize> Unknowns<D> {
-    /// The components of nodes that see a particle or a penalty. A function with no value but a gradient at a particle
-    /// bears force and counts.
+    /// The components of so many nodes, on cells of a size (m), that see a particle or a penalty.
     pub(crate) fn new(
-        nodes: usize,
+        (nodes, h): (usize, f64),
         elements: &Elements<D>,
         penalties: &[Penalty],
         prescribed: impl Fn(usize, usize) -> Option<f64>,
     ) -> Self {
-        let mut seen = vec![false; nodes];
-        for run in &elements.particles {
-            for p in run.clone() {
-                let (nodes, w, dw) = elements.seen(p);
-                for ((node, w), dw) in nodes.iter().zip(w).zip(dw) {
-                    seen[*node] |= *w != 0.0 || *dw != [0.0; D];
-                }
-            }
-        }
+        let mut seen = elements.seen_nodes(nodes, h);
         for node in penalties.iter().flat_map(|p| &p.node) {
             seen[*node] = true;
         }

@@ -143,6 +143,14 @@ impl Law for CamClay {
     /// p_c of a step's end is in what the step dissipates, and with α or γ < 1 flow is not normal to the surface.
     const CONSERVATIVE: bool = false;
 
+    fn in_units(&self, stress: f64) -> Self {
+        Self {
+            elasticity: self.elasticity.in_units(stress),
+            preconsolidation: stress * self.preconsolidation,
+            ..*self
+        }
+    }
+
     fn initial_state(&self) -> CamClayState {
         let size = (2.0 / 3.0 * self.initial_volume).exp();
         CamClayState {

@@ -30,6 +30,13 @@ impl Hencky {
 impl Law for Hencky {
     type State = SymmetricTensor;
 
+    fn in_units(&self, stress: f64) -> Self {
+        Self {
+            bulk_modulus: stress * self.bulk_modulus,
+            shear_modulus: stress * self.shear_modulus,
+        }
+    }
+
     fn initial_state(&self) -> SymmetricTensor {
         SymmetricTensor::identity()
     }

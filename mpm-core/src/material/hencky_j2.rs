@@ -42,6 +42,14 @@ impl HenckyJ2 {
 impl Law for HenckyJ2 {
     type State = ElastoplasticState;
 
+    fn in_units(&self, stress: f64) -> Self {
+        Self {
+            bulk_modulus: stress * self.bulk_modulus,
+            shear_modulus: stress * self.shear_modulus,
+            strength: self.strength.in_units(stress),
+        }
+    }
+
     fn initial_state(&self) -> ElastoplasticState {
         ElastoplasticState {
             elastic: SymmetricTensor::identity(),

@@ -98,6 +98,14 @@ impl Law for Hypoelastic {
     /// A rate of stress that follows from no energy.
     const CONSERVATIVE: bool = false;
 
+    fn in_units(&self, stress: f64) -> Self {
+        Self {
+            lambda: stress * self.lambda,
+            mu: stress * self.mu,
+            update: self.update,
+        }
+    }
+
     fn initial_state(&self) -> SymmetricTensor {
         SymmetricTensor::default()
     }

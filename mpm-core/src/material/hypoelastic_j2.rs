@@ -43,6 +43,13 @@ impl Law for HypoelasticJ2 {
     /// A rate of stress that follows from no energy.
     const CONSERVATIVE: bool = false;
 
+    fn in_units(&self, stress: f64) -> Self {
+        Self {
+            elastic: self.elastic.in_units(stress),
+            strength: self.strength.in_units(stress),
+        }
+    }
+
     fn initial_state(&self) -> ElastoplasticState {
         ElastoplasticState {
             elastic: self.elastic.initial_state(),

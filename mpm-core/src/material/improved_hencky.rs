@@ -75,6 +75,14 @@ impl ImprovedHencky {
 impl Law for ImprovedHencky {
     type State = SymmetricTensor;
 
+    fn in_units(&self, stress: f64) -> Self {
+        Self {
+            bulk_parameter: stress * self.bulk_parameter,
+            shear_modulus: stress * self.shear_modulus,
+            porosity: self.porosity,
+        }
+    }
+
     fn initial_state(&self) -> SymmetricTensor {
         SymmetricTensor::identity()
     }

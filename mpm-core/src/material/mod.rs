@@ -71,13 +71,17 @@ impl State for SymmetricTensor {
 pub type StateOf<M, T> = <<M as Law>::State as State>::Of<T>;
 
 /// A constitutive law.
-pub trait Law: Send + Sync {
+pub trait Law: Sized + Send + Sync {
     /// What a particle remembers.
     type State: State;
 
     /// Whether the stress of a step is the derivative of a potential (a stored energy; of associated plasticity, with
     /// what flow dissipates): stiffness matrices are then symmetric.
     const CONSERVATIVE: bool = true;
+
+    /// The same material in units of which a pascal is `stress`; seconds stay.
+    #[must_use]
+    fn in_units(&self, stress: f64) -> Self;
 
     /// The state of undeformed material.
     fn initial_state(&self) -> Self::State;

@@ -47,6 +47,13 @@ impl NeoHookean {
 impl Law for NeoHookean {
     type State = SymmetricTensor;
 
+    fn in_units(&self, stress: f64) -> Self {
+        Self {
+            lambda: stress * self.lambda,
+            mu: stress * self.mu,
+        }
+    }
+
     fn initial_state(&self) -> SymmetricTensor {
         SymmetricTensor::identity()
     }

@@ -49,6 +49,13 @@ impl Law for NewtonianFluid {
     /// Viscous stresses dissipate.
     const CONSERVATIVE: bool = false;
 
+    fn in_units(&self, stress: f64) -> Self {
+        Self {
+            bulk_modulus: stress * self.bulk_modulus,
+            viscosity: stress * self.viscosity,
+        }
+    }
+
     fn initial_state(&self) -> f64 {
         1.0
     }

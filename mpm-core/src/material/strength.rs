@@ -77,6 +77,18 @@ impl Strength {
         Self::new(peak, residual, Softening::Linear(slope))
     }
 
+    /// The same in units of which a pascal is `stress`.
+    pub(super) fn in_units(&self, stress: f64) -> Self {
+        Self {
+            peak: stress * self.peak,
+            residual: stress * self.residual,
+            softening: match self.softening {
+                Softening::Linear(slope) => Softening::Linear(stress * slope),
+                softening => softening,
+            },
+        }
+    }
+
     fn new(peak: f64, residual: f64, softening: Softening) -> Result<Self, Error> {
         require(peak > 0.0, "peak strength", peak, "positive (Pa)")?;
         require(

@@ -3,6 +3,7 @@
 use super::Space;
 use super::pores::Pores;
 use crate::error::{Error, Fault, require};
+use crate::frame::Frame;
 use crate::implicit::{Functions, OfHats};
 use crate::particles::Particles;
 use crate::stage::End;
@@ -80,6 +81,26 @@ impl<const D: usize> Face<D> {
         penalty: f64,
     ) -> Self {
         Self::new(particles, select, at, Acts::Drains { penalty })
+    }
+
+    /// The same face seen from `frame`.
+    pub(super) fn seen_from(self, frame: &Frame<D>) -> Self {
+        let (axis, end) = self.end.seen_from(self.axis, frame);
+        let frame = *frame;
+        let acts = match self.acts {
+            Acts::Load(of) => Acts::Load(Box::new(move |time| {
+                frame.vector(&of(time), frame.scale(1, 0))
+            })),
+            Acts::Drains { penalty } => Acts::Drains {
+                penalty: frame.scale(-1, 1) * penalty,
+            },
+        };
+        Self {
+            axis,
+            end,
+            acts,
+            ..self
+        }
     }
 
     /// Refuses a face that is not one of so many `particles`.

@@ -31,7 +31,7 @@ use crate::implicit::elements::{Elements, of_domains};
 use crate::implicit::held::{self, Held};
 use crate::implicit::linear::{self, Direct};
 use crate::implicit::newton::{Failure, clocked, in_parts};
-use crate::implicit::{Domains, Functions, HalfSizes, Moduli, OfHats};
+use crate::implicit::{Functions, Moduli, OfHats};
 use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Accumulated, Convergence, Reaction, Residual, Totals, WaterBalance};
@@ -44,9 +44,6 @@ use newton::Newton;
 use pores::Pores;
 use step::{Setting, Step};
 use unknowns::{Place, Unknowns};
-
-/// The share of a domain that is its own, and no rounding.
-const WITHIN: f64 = 1.0 - 1e-12;
 
 /// Functions on a grid, and of every node the one that it is an image of.
 struct Space<I> {
@@ -295,13 +292,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             on_all + on_increments,
         ];
         // What a domain touches by rounding alone is not of the body: its nodes are no unknowns.
-        let within: Vec<[f64; D]> = (self.pores.half_size.iter())
-            .map(|size| size.map(|half| half * WITHIN))
-            .collect();
-        let within = Domains {
-            centre: &particles.position,
-            half_size: HalfSizes::OfEach(&within),
-        };
+        let mut sizes = Vec::new();
+        let within = self.pores.domains(particles).within(&mut sizes);
         let ghosts = [(0, D), (1, 1)].map(|(k, components)| {
             let space = spaces[k];
             if strengths[k] == 0.0 {

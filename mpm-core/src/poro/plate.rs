@@ -3,6 +3,8 @@
 use super::face::Force;
 use super::water::OfPlace;
 use crate::error::{Error, require};
+use crate::frame::Frame;
+use crate::grid::Grid;
 use crate::implicit::OfHats;
 use crate::implicit::held::Held;
 
@@ -28,6 +30,17 @@ impl<const D: usize> Plate<D> {
             takes: Box::new(takes),
             force: Box::new(force),
         }
+    }
+
+    /// The same plate on the nodes of `grid`, seen from `frame`.
+    pub(super) fn seen_from(self, frame: &Frame<D>, grid: &Grid<D>) -> Self {
+        let (axis, sign) = frame.axis(self.axis);
+        let (frame, grid, takes, force) = (*frame, *grid, self.takes, self.force);
+        Self::new(
+            axis,
+            move |place| takes(&frame.node_of_scene(&grid, place)),
+            move |time| frame.force() * sign * force(time),
+        )
     }
 }
 

@@ -96,6 +96,21 @@ impl Settings {
         }
     }
 
+    /// The same in units of which a pascal is `stress`.
+    #[must_use]
+    pub fn in_units(self, stress: f64) -> Self {
+        let pressure_space = match self.pressure_space {
+            PressureSpace::Projected { strength } => PressureSpace::Projected {
+                strength: strength / stress,
+            },
+            space => space,
+        };
+        Self {
+            pressure_space,
+            ..self
+        }
+    }
+
     /// With ghost penalties on displacement and pressure.
     #[must_use]
     pub fn ghosts(self, displacement: f64, pressure: f64) -> Self {

@@ -125,6 +125,10 @@ impl<const D: usize> Constraint<D> for Affine<D> {
         let at_edge = position.iter().zip(&grid.axes).any(on_face);
         at_edge.then(|| (0..D).map(|b| self.0[(axis, b)] * position[b]).sum())
     }
+
+    fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
+        self
+    }
 }
 
 /// A box between walls, all of whose faces move as an affine field does, is strained by it all through; where water may

@@ -8,10 +8,6 @@ use crate::particles::Particles;
 use nalgebra::SVector;
 use std::collections::BTreeMap;
 
-/// What a function counts at least, of its value and its slope over a cell, at one particle: less is rounding, of a
-/// domain that ends on a grid line.
-const LEAST: f64 = 1e-12;
-
 /// Of a nodal value whether it is an unknown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Place {
@@ -35,19 +31,6 @@ pub(super) struct Unknowns<const D: usize> {
     pub(super) count: usize,
 }
 
-/// Of every one of `nodes` nodes whether a particle sees it, on cells of size `h` (m).
-fn seen<const D: usize>(elements: &Elements<D>, nodes: usize, h: f64) -> Vec<bool> {
-    let mut seen = vec![false; nodes];
-    for p in elements.particles.iter().flat_map(Clone::clone) {
-        let (nodes, w, dw) = elements.seen(p);
-        for ((node, w), dw) in nodes.iter().zip(w).zip(dw) {
-            let slope = dw.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
-            seen[*node] |= w + h * slope > LEAST;
-        }
-    }
-    seen
-}
-
 /// The number of the next unknown.
 fn next(count: &mut usize) -> usize {
     *count += 1;
@@ -66,7 +49,7 @@ impl<const D: usize> Unknowns<D> {
         held_pressure: impl Fn(usize) -> Option<f64>,
     ) -> Self {
         let mut count = 0;
-        let of = |k: usize| seen(elements[k], nodes[k], h[k]);
+        let of = |k: usize| elements[k].seen_nodes(nodes[k], h[k]);
         // Of every plate its unknown, which the first of its nodes brings.
         let mut plates: BTreeMap<usize, usize> = BTreeMap::new();
         let displacement: Vec<[Place; D]> = (of(0).into_iter().enumerate())

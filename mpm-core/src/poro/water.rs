@@ -4,6 +4,8 @@
 use super::face::Face;
 use super::plate::Plate;
 use crate::error::{Error, require};
+use crate::frame::Frame;
+use crate::grid::Grid;
 use crate::number::Real;
 
 /// κ = k/(ρ g) (m²/(Pa s)) of a hydraulic conductivity k (m/s): the flux that a pressure gradient of one drives.
@@ -133,6 +135,41 @@ impl<const D: usize> Water<D> {
     pub fn plate(mut self, plate: Plate<D>) -> Self {
         self.plates.push(plate);
         self
+    }
+
+    /// The same water in a body on `grid`, seen from `frame`.
+    #[must_use]
+    pub fn seen_from(self, frame: &Frame<D>, grid: &Grid<D>) -> Self {
+        let (frame, grid) = (*frame, *grid);
+        let permeability = frame.scale(-1, 2);
+        let density = frame.scale(1, -2);
+        let (start, drained) = (self.start, self.drained);
+        let sources = self.sources.into_iter().map(|source| -> Source<D> {
+            Box::new(move |x, times| source(&frame.place_of_scene(x), times))
+        });
+        Self {
+            porosity: self.porosity,
+            conductivity: match self.conductivity {
+                Conductivity::Constant(k) => Conductivity::Constant(permeability * k),
+                Conductivity::KozenyCarman(c) => Conductivity::KozenyCarman(permeability * c),
+            },
+            gravity: self.gravity.map(|gravity| Gravity {
+                water: density * gravity.water,
+                grains: density * gravity.grains,
+                acceleration: frame.vector(&gravity.acceleration, frame.scale(0, 1)),
+            }),
+            start: Box::new(move |x| frame.scale(1, 0) * start(&frame.place_of_scene(x))),
+            drained: Box::new(move |x| drained(&frame.node_of_scene(&grid, x))),
+            faces: self
+                .faces
+                .into_iter()
+                .map(|f| f.seen_from(&frame))
+                .collect(),
+            sources: sources.collect(),
+            plates: (self.plates.into_iter())
+                .map(|plate| plate.seen_from(&frame, &grid))
+                .collect(),
+        }
     }
 
     /// κ (m²/(Pa s)) of undeformed material.

@@ -1,6 +1,7 @@
 //! Body forces and dead forces.
 
 use super::{Load, smooth_rise};
+use crate::frame::Frame;
 use crate::memory::Memoryless;
 use crate::parallel::{CHUNK, for_each_piece};
 use crate::particles::Particles;
@@ -26,6 +27,14 @@ impl<const D: usize> Load<D> for BodyForce<D> {
             }
         });
     }
+
+    fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Load<D>> {
+        let frame = *frame;
+        Box::new(Self(Box::new(move |reference, time| {
+            let b = (self.0)(&frame.place_of_scene(reference), time);
+            frame.vector(&b, frame.scale(0, 1))
+        })))
+    }
 }
 
 /// An acceleration (m/s²) of all material as a function of time (s).
@@ -45,6 +54,13 @@ impl<const D: usize> Load<D> for Gravity<D> {
 
     fn acceleration(&self, time: f64) -> Option<[f64; D]> {
         Some((self.0)(time))
+    }
+
+    fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Load<D>> {
+        let frame = *frame;
+        Box::new(Self(Box::new(move |time| {
+            frame.vector(&(self.0)(time), frame.scale(0, 1))
+        })))
     }
 }
 
@@ -97,5 +113,12 @@ impl<const D: usize> Load<D> for DeadForce<D> {
                 }
             }
         }
+    }
+
+    fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Load<D>> {
+        Box::new(Self {
+            force: frame.vector(&self.force, frame.force()),
+            ..*self
+        })
     }
 }

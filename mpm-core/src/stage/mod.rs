@@ -24,6 +24,7 @@ pub use rest::{Observation, RestCriterion};
 pub use rigid_nodes::RigidNodes;
 pub use wall::{End, Wall, WallKind};
 
+use crate::frame::Frame;
 use crate::memory::Memory;
 use crate::nodes::NodalState;
 use crate::particles::Particles;
@@ -38,6 +39,9 @@ pub trait Load<const D: usize>: Memory + Send {
     fn acceleration(&self, _time: f64) -> Option<[f64; D]> {
         None
     }
+
+    /// The same load seen from `frame`.
+    fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Load<D>>;
 }
 
 /// A filter of nodal forces.
@@ -105,6 +109,9 @@ pub trait Constraint<const D: usize>: Memory + Send {
     fn amplitude(&self, _time: f64) -> f64 {
         1.0
     }
+
+    /// The same constraint seen from `frame`.
+    fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>>;
 }
 
 /// A filter of the particles at the end of a step.

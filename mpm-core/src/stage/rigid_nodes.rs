@@ -1,6 +1,7 @@
 //! A rigid body as prescribed velocities of the nodes that it covers.
 
 use super::{Constraint, smooth_rise};
+use crate::frame::Frame;
 use crate::grid::Grid;
 use crate::memory::Memoryless;
 
@@ -33,5 +34,18 @@ impl<const D: usize> Constraint<D> for RigidNodes<D> {
 
     fn amplitude(&self, time: f64) -> f64 {
         smooth_rise(time, self.ramp)
+    }
+
+    fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>> {
+        let mut velocity = [None; D];
+        for (axis, v) in self.velocity.iter().enumerate() {
+            let (axis, sign) = frame.axis(axis);
+            velocity[axis] = v.map(|v| frame.scale(0, 1) * sign * v);
+        }
+        Box::new(Self {
+            extent: frame.extent(&self.extent),
+            velocity,
+            ramp: self.ramp,
+        })
     }
 }

@@ -1,6 +1,7 @@
 //! Walls on the ends of an axis.
 
 use super::{Bound, Constraint};
+use crate::frame::Frame;
 use crate::grid::Grid;
 use crate::memory::Memoryless;
 
@@ -11,6 +12,26 @@ pub enum End {
     Lo,
     /// The upper end.
     Hi,
+}
+
+impl End {
+    /// The end where this is along an axis that points the other way.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Lo => Self::Hi,
+            Self::Hi => Self::Lo,
+        }
+    }
+
+    /// This end of `axis` seen from `frame`, with its axis there.
+    #[must_use]
+    pub fn seen_from<const D: usize>(self, axis: usize, frame: &Frame<D>) -> (usize, Self) {
+        match frame.axis(axis) {
+            (axis, sign) if sign < 0.0 => (axis, self.opposite()),
+            (axis, _) => (axis, self),
+        }
+    }
 }
 
 /// What a wall holds.
@@ -58,5 +79,10 @@ impl<const D: usize> Constraint<D> for Wall {
             (WallKind::Separable, End::Lo) => Bound::AtLeast,
             (WallKind::Separable, End::Hi) => Bound::AtMost,
         }
+    }
+
+    fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>> {
+        let (axis, end) = self.end.seen_from(self.axis, frame);
+        Box::new(Self { axis, end, ..*self })
     }
 }

@@ -27,6 +27,13 @@ struct Prestressed {
 impl Law for Prestressed {
     type State = f64;
 
+    fn in_units(&self, stress: f64) -> Self {
+        Self {
+            bulk: self.bulk.in_units(stress),
+            mean: stress * self.mean,
+        }
+    }
+
     fn initial_state(&self) -> f64 {
         1.0
     }

@@ -1,6 +1,7 @@
 //! From the name of a scheme to a solver: every instance that the cases offer, compiled in this package and nowhere else.
 
 pub mod scheme;
+pub mod trial;
 
 use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
@@ -35,7 +36,7 @@ pub fn solver<const D: usize, M: Solvable<D>>(
     scene: Scene<D, M>,
     settings: Settings<D>,
 ) -> Built<D> {
-    M::solver(scheme, scene, settings)
+    trial::built(scene, |scene, _| M::solver(scheme, scene, settings))
 }
 
 /// Compiles solvers for a law: bases with FLIP, bases with APIC and XPIC too, and bases with MUSL.
@@ -132,7 +133,7 @@ pub fn implicit<const D: usize, M: Solved<D>>(
     scene: Scene<D, M>,
     settings: implicit::Settings,
 ) -> Built<D> {
-    M::implicit(scheme, scene, settings)
+    trial::built(scene, |scene, _| M::implicit(scheme, scene, settings))
 }
 
 /// Compiles implicit solvers for a law.
@@ -214,7 +215,14 @@ pub fn poro<const D: usize, M: Soaked<D>>(
     water: Water<D>,
     settings: poro::Settings,
 ) -> Built<D> {
-    M::poro(scheme, scene, water, settings)
+    let grid = scene.grid;
+    trial::built(scene, |scene, frame| match frame {
+        None => M::poro(scheme, scene, water, settings),
+        Some(frame) => {
+            let settings = settings.in_units(frame.scale(1, 0));
+            M::poro(scheme, scene, water.seen_from(frame, &grid), settings)
+        }
+    })
 }
 
 /// Compiles solvers of solid and water for a law, on linear functions and GIMP.

@@ -11,6 +11,10 @@ impl<const D: usize> Constraint<D> for Carried {
     fn prescribe(&self, _: &Grid<D>, _: &[f64; D], axis: usize) -> Option<f64> {
         Some(if axis + 1 == D { self.0 } else { 0.0 })
     }
+
+    fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
+        self
+    }
 }
 
 /// Cells of a body along an axis, empty ones before it and on the whole.

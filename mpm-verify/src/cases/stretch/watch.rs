@@ -17,7 +17,8 @@ use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::NeoHookean;
 use mpm_core::stage::Constraint;
 use mpm_core::{
-    Axis, Body, Error as Fault, Grid, Law, Memoryless, Particles, Scene, Simulation, implicit,
+    Axis, Body, Error as Fault, Frame, Grid, Law, Memoryless, Particles, Scene, Simulation,
+    implicit,
 };
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
@@ -64,7 +65,8 @@ pub(super) struct Stretching {
 
 /// The nodes beside the free part move as all would.
 struct Held {
-    /// Where the free part ends (m), on both sides of zero.
+    /// The middle (m), and how far from it the free part ends (m).
+    middle: f64,
     beyond: f64,
     rate: f64,
 }
@@ -73,11 +75,22 @@ impl Memoryless for Held {}
 
 impl Constraint<1> for Held {
     fn prescribe(&self, grid: &Grid<1>, [x]: &[f64; 1], _: usize) -> Option<f64> {
-        (x.abs() >= self.beyond - 1e-9 * grid.h).then_some(self.rate * x)
+        let from_middle = x - self.middle;
+        let held = from_middle.abs() >= self.beyond - 1e-9 * grid.h;
+        held.then_some(self.rate * from_middle)
     }
 
     fn amplitude(&self, time: f64) -> f64 {
         1.0 / (1.0 + self.rate * time)
+    }
+
+    fn seen_from(self: Box<Self>, frame: &Frame<1>) -> Box<dyn Constraint<1>> {
+        let [middle] = frame.place(&[self.middle]);
+        Box::new(Self {
+            middle,
+            beyond: frame.scale(0, 1) * self.beyond,
+            rate: self.rate,
+        })
     }
 }
 
@@ -240,6 +253,7 @@ impl Watch<1> for Stretching {
         let room = longest as usize + HELD;
         let grid = Grid::new(h, [Axis::open(-(room as f64) * h, 2 * room)])?;
         let held = Held {
+            middle: 0.0,
             beyond: FREE as f64 * h,
             rate: self.rate,
         };

@@ -1,0 +1,261 @@
+//! The same scene from elsewhere: along other axes, from another origin, in other units.
+//!
+//! No result may depend on that, but for the digits that places far from the origin lose. Axes may change places and point
+//! the other way; other angles would turn the grid against the body, which is another scene. Of the units those of length and
+//! stress are free. The second stays, so that mass follows from them: with millimetres and megapascals, in tonnes.
+
+use crate::grid::{Axis, AxisKind, Grid};
+use crate::tensor::SymmetricTensor;
+use nalgebra::SMatrix;
+
+/// How a scene is described from elsewhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame<const D: usize> {
+    /// Of every axis of the frame the axis of the scene that it lies along, and 1 or −1 if it points the other way.
+    axes: [(usize, f64); D],
+    /// Where the scene's origin lies, in the frame's units.
+    origin: [f64; D],
+    /// What a metre and a pascal are in the frame's units.
+    length: f64,
+    stress: f64,
+}
+
+/// Nodes of all bases lie on these shares of a cell.
+const SHARES: f64 = 6.0;
+
+impl<const D: usize> Frame<D> {
+    /// The frame whose axis `k` lies along the scene's axis `axes[k].0`, with the sign `axes[k].1`.
+    #[must_use]
+    pub fn along(axes: [(usize, f64); D]) -> Self {
+        Self {
+            axes,
+            origin: [0.0; D],
+            length: 1.0,
+            stress: 1.0,
+        }
+    }
+
+    /// The scene's own axes.
+    #[must_use]
+    pub fn own() -> Self {
+        Self::along(std::array::from_fn(|axis| (axis, 1.0)))
+    }
+
+    /// Seen from where the scene's origin lies at `origin`, in the frame's units.
+    #[must_use]
+    pub fn shifted(self, origin: [f64; D]) -> Self {
+        Self { origin, ..self }
+    }
+
+    /// In units of which a metre is `length` and a pascal `stress`.
+    #[must_use]
+    pub fn in_units(self, length: f64, stress: f64) -> Self {
+        Self {
+            length,
+            stress,
+            ..self
+        }
+    }
+
+    /// What a quantity of the unit Paᵃ mᵇ is multiplied by.
+    #[must_use]
+    pub fn scale(&self, stress: i32, length: i32) -> f64 {
+        self.stress.powi(stress) * self.length.powi(length)
+    }
+
+    /// What a force (Pa mᴰ⁻¹) is multiplied by.
+    #[must_use]
+    pub fn force(&self) -> f64 {
+        self.scale(1, D as i32 - 1)
+    }
+
+    /// What a stiffness, a force over a length, is multiplied by.
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        self.scale(1, D as i32 - 2)
+    }
+
+    /// The axis of the frame along the scene's `axis`, and its sign.
+    #[must_use]
+    pub fn axis(&self, axis: usize) -> (usize, f64) {
+        let found = self.axes.iter().position(|(own, _)| *own == axis);
+        found.map_or((axis, 1.0), |k| (k, self.axes[k].1))
+    }
+
+    /// A vector of a unit that is multiplied by `scale`.
+    #[must_use]
+    pub fn vector(&self, of_scene: &[f64; D], scale: f64) -> [f64; D] {
+        self.axes.map(|(axis, sign)| scale * sign * of_scene[axis])
+    }
+
+    /// A vector of the frame as the scene has it: the inverse of [`Self::vector`].
+    #[must_use]
+    pub fn vector_of_scene(&self, vector: &[f64; D], scale: f64) -> [f64; D] {
+        let mut of_scene = [0.0; D];
+        for ((axis, sign), v) in self.axes.iter().zip(vector) {
+            of_scene[*axis] = sign * v / scale;
+        }
+        of_scene
+    }
+
+    /// A place.
+    #[must_use]
+    pub fn place(&self, of_scene: &[f64; D]) -> [f64; D] {
+        let turned = self.vector(of_scene, self.length);
+        std::array::from_fn(|k| turned[k] + self.origin[k])
+    }
+
+    /// A place of the frame as the scene has it: the inverse of [`Self::place`].
+    #[must_use]
+    pub fn place_of_scene(&self, place: &[f64; D]) -> [f64; D] {
+        let from_origin = std::array::from_fn(|k| place[k] - self.origin[k]);
+        self.vector_of_scene(&from_origin, self.length)
+    }
+
+    /// The place of a node of the frame as the scene, on `grid`, has it: without what the way there and back rounds off.
+    #[must_use]
+    pub fn node_of_scene(&self, grid: &Grid<D>, place: &[f64; D]) -> [f64; D] {
+        let near = self.place_of_scene(place);
+        std::array::from_fn(|a| {
+            let lo = grid.axes[a].lo;
+            let shares = (near[a] - lo) / grid.h * SHARES;
+            lo + shares.round() / SHARES * grid.h
+        })
+    }
+
+    /// Lower and upper ends along the axes.
+    #[must_use]
+    pub fn extent(&self, of_scene: &[[f64; 2]; D]) -> [[f64; 2]; D] {
+        let [lo, hi] = [0, 1].map(|end| self.place(&of_scene.map(|ends| ends[end])));
+        std::array::from_fn(|k| match self.axes[k].1 > 0.0 {
+            true => [lo[k], hi[k]],
+            false => [hi[k], lo[k]],
+        })
+    }
+
+    /// A tensor of a unit that is multiplied by `scale`.
+    #[must_use]
+    pub fn matrix(&self, of_scene: &SMatrix<f64, D, D>, scale: f64) -> SMatrix<f64, D, D> {
+        SMatrix::from_fn(|i, j| {
+            let ((a, s), (b, t)) = (self.axes[i], self.axes[j]);
+            scale * s * t * of_scene[(a, b)]
+        })
+    }
+
+    /// A stress of the frame as the scene (Pa) has it. Axes beyond the dimension stay.
+    #[must_use]
+    pub fn stress_of_scene(&self, stress: &SymmetricTensor) -> SymmetricTensor {
+        let of = |a: usize, b: usize| {
+            let [(i, s), (j, t)] = [a, b].map(|axis| self.axis(axis));
+            s * t * stress.get(i, j) / self.stress
+        };
+        SymmetricTensor {
+            xx: of(0, 0),
+            yy: of(1, 1),
+            zz: of(2, 2),
+            xy: of(0, 1),
+            yz: of(1, 2),
+            xz: of(0, 2),
+        }
+    }
+
+    /// The grid.
+    #[must_use]
+    pub fn grid(&self, of_scene: &Grid<D>) -> Grid<D> {
+        let ends = of_scene.axes.map(|a| [a.lo, a.hi(of_scene.h)]);
+        let ends = self.extent(&ends);
+        let axes = std::array::from_fn(|k| {
+            let (axis, sign) = self.axes[k];
+            let own = of_scene.axes[axis];
+            let kind = match own.kind {
+                AxisKind::Bounded { lo, hi } if sign < 0.0 => AxisKind::Bounded { lo: hi, hi: lo },
+                kind => kind,
+            };
+            Axis {
+                lo: ends[k][0],
+                kind,
+                ..own
+            }
+        });
+        Grid {
+            h: self.length * of_scene.h,
+            axes,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turned() -> Frame<2> {
+        Frame::along([(1, -1.0), (0, 1.0)])
+            .shifted([5.0, -3.0])
+            .in_units(8.0, 0.25)
+    }
+
+    #[test]
+    fn there_and_back_is_where_it_was() {
+        let (frame, x) = (turned(), [0.75, 2.5]);
+        assert_eq!(frame.place(&x), [5.0 - 20.0, -3.0 + 6.0]);
+        assert_eq!(frame.place_of_scene(&frame.place(&x)), x);
+        assert_eq!(
+            frame.vector_of_scene(&frame.vector(&x, frame.force()), 2.0),
+            x
+        );
+        assert_eq!(frame.axis(0), (1, 1.0));
+        assert_eq!(frame.axis(1), (0, -1.0));
+        assert_eq!(frame.axis(2), (2, 1.0));
+    }
+
+    #[test]
+    fn ends_change_sides_with_their_axis() {
+        let axes = [
+            Axis::bounded(-1.0, 4, (crate::Side::Wall, crate::Side::Open)),
+            Axis::open(2.0, 6),
+        ];
+        let grid = turned().grid(&Grid { h: 0.5, axes });
+        assert_eq!(grid.h, 4.0);
+        assert_eq!((grid.axes[0].lo, grid.axes[0].cells), (5.0 - 40.0, 6));
+        assert_eq!(grid.axes[1].wall_ends(), (true, false));
+        let mirrored = Frame::along([(0, -1.0), (1, 1.0)]).grid(&Grid { h: 0.5, axes });
+        assert_eq!(mirrored.axes[0].wall_ends(), (false, true));
+        assert_eq!(mirrored.axes[0].lo, -1.0);
+    }
+
+    /// The components of a stress turn as n ⊗ n does.
+    #[test]
+    fn a_stress_turns_with_its_directions() {
+        let n = [0.25, -1.5];
+        let m = turned().vector(&n, 1.0);
+        let square = |n: [f64; 2]| SymmetricTensor {
+            xx: n[0] * n[0],
+            yy: n[1] * n[1],
+            zz: 7.0,
+            xy: n[0] * n[1],
+            ..SymmetricTensor::default()
+        };
+        let back = turned().stress_of_scene(&square(m));
+        let expected = square(n);
+        assert_eq!(
+            (back.xx, back.yy, back.xy),
+            (4.0 * expected.xx, 4.0 * expected.yy, 4.0 * expected.xy)
+        );
+        assert_eq!(back.zz, 28.0);
+    }
+
+    #[test]
+    fn a_node_far_away_is_the_node_it_was() {
+        let h = 0.05;
+        let grid = Grid {
+            h,
+            axes: [Axis::open(0.0, 8)],
+        };
+        let frame = Frame::own().shifted([1e6]);
+        for sixths in 0..48 {
+            let x = f64::from(sixths) / 6.0 * h;
+            let seen = frame.node_of_scene(&grid, &frame.place(&[x]));
+            assert!((seen[0] - x).abs() < 1e-16);
+        }
+    }
+}
