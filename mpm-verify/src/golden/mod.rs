@@ -79,36 +79,33 @@ pub fn why_none(case: &Case, record: &Record) -> Option<String> {
     }
 }
 
-/// Particle–node pairs of all golden runs of a case.
+/// Particle–node pairs of all golden runs of a case whose count does not answer rounding.
 ///
 /// # Errors
 /// The case is not known, or a run has no golden.
 pub fn pairs(root: &Path, case: &str) -> Result<u64, Error> {
-    let path = file(root, case);
-    let of_runs = counts(root, case, PAIRS)?.into_iter().map(|(run, count)| {
-        count.ok_or_else(|| Error::file(&path, format!("no {PAIRS} of {run}")))
-    });
-    of_runs.sum()
+    count(root, case, PAIRS)
 }
 
 /// Entries of the matrices that all golden runs of a case factorise, over all factorisations; of runs without any none.
 ///
 /// # Errors
-/// The case is not known.
+/// The case is not known, or a run has no golden.
 pub fn nonzeros(root: &Path, case: &str) -> Result<u64, Error> {
-    let of_runs = counts(root, case, NONZEROS)?;
-    Ok(of_runs.into_iter().filter_map(|(_, count)| count).sum())
+    count(root, case, NONZEROS)
 }
 
-/// A count of all golden runs of a case, where they have it.
-fn counts(root: &Path, case: &str, count: &str) -> Result<Vec<(String, Option<u64>)>, Error> {
-    let golden = Golden::read(&file(root, case))?;
+/// The sum of a count over all golden runs of a case that have it.
+fn count(root: &Path, case: &str, count: &str) -> Result<u64, Error> {
+    let path = file(root, case);
+    let golden = Golden::read(&path)?;
     let of_run = |run: String| {
-        let columns = golden.run(&run).map_or(&[][..], |run| &run.columns);
-        let column = columns.iter().find(|c| c.quantity == count);
-        (run, column.map(|c| c.points[0].value as u64))
+        let found = golden.run(&run);
+        let found = found.ok_or_else(|| Error::file(&path, format!("no golden of {run}")))?;
+        let column = found.columns.iter().find(|c| c.quantity == count);
+        Ok(column.map_or(0, |c| c.points[0].value as u64))
     };
-    Ok(runs(cases::find(case)?).into_iter().map(of_run).collect())
+    runs(cases::find(case)?).into_iter().map(of_run).sum()
 }
 
 fn of_drift(found: Finding) -> Verdict {
