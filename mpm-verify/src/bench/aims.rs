@@ -178,15 +178,16 @@ fn laws(bench: &Bench, aims: &mut Vec<Aim>) {
 }
 
 fn iterations(bench: &Bench, aims: &mut Vec<Aim>) {
-    for scheme in newton::schemes().map(|scheme| scheme.to_string()) {
-        let part = |(part, _): &(&str, _)| bench.find("newton", &newton::name(&scheme, part), 1);
+    for steps in newton::all().iter().filter(|steps| steps.case == "cook") {
+        let part = |(part, _): &(&str, _)| bench.find("newton", &steps.name(part), 1);
         let parts: Vec<&Measured> = newton::PARTS.iter().skip(1).filter_map(part).collect();
         let rounds = parts.iter().map(|m| m.samples.len()).min().unwrap_or(0);
         let seconds = |s: &Sample| s.cpu_s / s.updates as f64;
         let of_round = |k: usize| parts.iter().map(|m| seconds(&m.samples[k])).sum();
         if let Some(spread) = Spread::of((0..rounds).map(of_round)) {
             let what = format!(
-                "6. {scheme}, Cook at h = ½ m: assembly, factorisation and solution of a Newton iteration, one thread"
+                "6. {}, Cook at h = ½ m: assembly, factorisation and solution of a Newton iteration, one thread",
+                steps.scheme
             );
             aims.push(at_most(what, ITERATION, " s", spread));
         }

@@ -1,4 +1,5 @@
-//! Where the time of a Newton iteration goes: Cook's membrane of 23,072 particles, load step by load step, on one thread.
+//! Where the time of a Newton iteration goes, load step by load step, on one thread: Cook's membrane of 23,072 particles,
+//! and the strip on soil full of water of 6,400.
 
 use super::local::{Going, Local};
 use super::{Options, Sample, Timed, Turn};
@@ -7,13 +8,18 @@ use crate::cases;
 use crate::error::Error;
 use crate::job::Job;
 use crate::parameter::Parameters;
-use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::scheme::{BasisName, RemedyName, Scheme, SpaceName};
 use crate::spec::RunSpec;
 use mpm_core::Spent;
 use std::sync::{Arc, Mutex};
 
-const CASE: &str = "cook";
-const LEVEL: &str = "h0.5";
+/// What is measured: a problem, its level and a scheme.
+pub(super) struct Steps {
+    pub(super) case: &'static str,
+    level: &'static str,
+    pub(super) scheme: Scheme,
+}
+
 /// The whole of an iteration; a load step's setting-up is shared out among its own.
 pub(super) const WHOLE: &str = "iteration";
 /// Picks what a part took (s).
@@ -39,11 +45,11 @@ struct LoadSteps {
 }
 
 impl LoadSteps {
-    fn begin(scheme: Scheme, told: Told) -> Result<Self, Error> {
-        let case = cases::find(CASE)?;
+    fn begin(steps: &Steps, told: Told) -> Result<Self, Error> {
+        let case = cases::find(steps.case)?;
         let spec = RunSpec {
-            scheme,
-            level: find_level(case, LEVEL)?,
+            scheme: steps.scheme,
+            level: find_level(case, steps.level)?,
             set: Vec::new(),
             perturbed: false,
         };
@@ -99,31 +105,45 @@ impl Timed for Part {
     }
 }
 
-/// The name under which a part of a scheme's iteration is measured.
-pub(super) fn name(scheme: &str, part: &str) -> String {
-    format!("{scheme} {part}")
+impl Steps {
+    /// The name under which a part of an iteration is measured.
+    pub(super) fn name(&self, part: &str) -> String {
+        format!("{} {part}", self.scheme)
+    }
 }
 
-/// The schemes that are measured.
-pub(super) fn schemes() -> impl Iterator<Item = Scheme> {
+/// All that is measured.
+pub(super) fn all() -> Vec<Steps> {
+    let cook = |scheme| Steps {
+        case: "cook",
+        level: "h0.5",
+        scheme,
+    };
     let remedies = [RemedyName::None, RemedyName::FbarConsistent];
-    let of = move |basis| remedies.map(|remedy| Scheme::quasi_static(basis, remedy));
-    [BasisName::Gimp, BasisName::Bspline2]
+    let of = |basis| remedies.map(|remedy| cook(Scheme::quasi_static(basis, remedy)));
+    let mut all: Vec<Steps> = [BasisName::Gimp, BasisName::Bspline2]
         .into_iter()
         .flat_map(of)
+        .collect();
+    all.push(Steps {
+        case: "strip",
+        level: "b8",
+        scheme: Scheme::poro(BasisName::Gimp, SpaceName::TwoGrid),
+    });
+    all
 }
 
-/// Every scheme's iteration, and behind it its parts.
+/// Every iteration, and behind it its parts.
 pub(super) fn turns(_: &Options) -> Result<Vec<Turn>, Error> {
     let mut turns = Vec::new();
-    for scheme in schemes() {
+    for steps in all() {
         let told = Told::default();
-        let local = Local::new(1, || LoadSteps::begin(scheme, told.clone()))?;
+        let local = Local::new(1, || LoadSteps::begin(&steps, told.clone()))?;
         let particles = local.going().job.work().particles;
         let mut add = |part: &str, timed: Box<dyn Timed>| {
             turns.push(Turn {
                 group: "newton",
-                name: name(&scheme.to_string(), part),
+                name: steps.name(part),
                 threads: 1,
                 particles,
                 timed,

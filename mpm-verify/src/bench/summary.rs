@@ -180,8 +180,8 @@ fn problems(bench: &Bench) -> String {
 }
 
 fn iterations(bench: &Bench) -> String {
-    let row = |scheme: String| {
-        let of = |part: &str| bench.find("newton", &newton::name(&scheme, part), 1);
+    let row = |steps: &newton::Steps| {
+        let of = |part: &str| bench.find("newton", &steps.name(part), 1);
         let whole = of(newton::WHOLE)?;
         let milliseconds = |m: Option<&Measured>| {
             let per = |m: &Measured| {
@@ -195,7 +195,8 @@ fn iterations(bench: &Bench) -> String {
         let particles = whole.particles.to_string();
         let all = milliseconds(Some(whole));
         Some([
-            scheme.clone(),
+            steps.case.to_owned(),
+            steps.scheme.to_string(),
             particles,
             all,
             forces,
@@ -205,7 +206,8 @@ fn iterations(bench: &Bench) -> String {
         ])
     };
     let header = [
-        "Cook, load steps",
+        "load steps of",
+        "scheme",
         "particles",
         "iteration (ms)",
         "forces",
@@ -214,8 +216,7 @@ fn iterations(bench: &Bench) -> String {
         "solution",
     ];
     let title = "Newton's iterations, one thread";
-    let rows = newton::schemes().map(|s| s.to_string());
-    table(title, header, rows.filter_map(row))
+    table(title, header, newton::all().iter().filter_map(row))
 }
 
 fn sizes(bench: &Bench) -> String {

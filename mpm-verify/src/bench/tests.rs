@@ -111,10 +111,11 @@ fn assembly_factors_and_solution_of_an_iteration_are_added_up() {
         "factorisation",
         "solution",
     ];
-    let scheme = newton::schemes().next().unwrap().to_string();
+    let all = newton::all();
+    let steps = all.first().unwrap();
     let part = |(k, part): (usize, &&str)| Turn {
         group: "newton",
-        name: newton::name(&scheme, part),
+        name: steps.name(part),
         ..turn(0.05 * k as f64, None)
     };
     let turns = parts.iter().enumerate().map(part).collect();
