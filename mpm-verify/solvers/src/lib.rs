@@ -225,9 +225,9 @@ pub fn poro<const D: usize, M: Soaked<D>>(
     })
 }
 
-/// Compiles solvers of solid and water for a law, on linear functions and GIMP.
+/// Compiles solvers of solid and water for a law.
 macro_rules! soaked {
-    ($dimension:literal, $law:ty) => {
+    ($dimension:literal, $law:ty, [$($basis:ident: $functions:ty),*]) => {
         impl Soaked<$dimension> for $law {
             fn poro(
                 scheme: Scheme,
@@ -239,16 +239,11 @@ macro_rules! soaked {
                     return Err(other_solver("poro"));
                 };
                 match parts.basis {
-                    BasisName::Linear => Ok(Box::new(poro::Solver::<
-                        $dimension,
-                        Lattice<$dimension, 2, Linear>,
-                        Self,
-                    >::new(scene, water, settings)?)),
-                    BasisName::Gimp => Ok(Box::new(poro::Solver::<
-                        $dimension,
-                        Lattice<$dimension, 3, Gimp>,
-                        Self,
-                    >::new(scene, water, settings)?)),
+                    $(BasisName::$basis => {
+                        let solver =
+                            poro::Solver::<$dimension, $functions, Self>::new(scene, water, settings)?;
+                        Ok(Box::new(solver))
+                    })*
                     basis => Err(not_compiled($dimension, basis, TransferName::Flip)),
                 }
             }
@@ -256,11 +251,12 @@ macro_rules! soaked {
     };
 }
 
-soaked!(1, Hencky);
-soaked!(2, Hencky);
-soaked!(1, ImprovedHencky);
-soaked!(2, ImprovedHencky);
-soaked!(2, CamClay);
+soaked!(1, Hencky, [Linear: Lattice<1, 2, Linear>, Gimp: Lattice<1, 3, Gimp>]);
+soaked!(2, Hencky, [Linear: Lattice<2, 2, Linear>, Gimp: Lattice<2, 3, Gimp>]);
+soaked!(1, ImprovedHencky, [Linear: Lattice<1, 2, Linear>, Gimp: Lattice<1, 3, Gimp>]);
+soaked!(2, ImprovedHencky, [Linear: Lattice<2, 2, Linear>, Gimp: Lattice<2, 3, Gimp>]);
+soaked!(3, ImprovedHencky, [Gimp: Lattice<3, 3, Gimp>]);
+soaked!(2, CamClay, [Linear: Lattice<2, 2, Linear>, Gimp: Lattice<2, 3, Gimp>]);
 
 fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {
     match remedy {

@@ -5,7 +5,10 @@ use super::metrics as m;
 use super::parameters::{GHOST_DISPLACEMENT, HALF_WIDTH, LOAD, PENETRATION, STEPS, TOLERANCE};
 use super::reference::solution;
 use super::scene::{SIDE, is_driven, is_plastic, moduli};
-use super::{CLAY, CLAY_BELOW, LIMIT_LOAD, LIMIT_SETTLEMENT, SMALL, UNDRAINED, UNIFORM};
+use super::{
+    CLAY, CLAY_BELOW, LIMIT_LOAD, LIMIT_SETTLEMENT, SMALL, SQUARE, SQUARE_UNDRAINED, UNDRAINED,
+    UNIFORM,
+};
 use crate::accuracy::fit_order;
 use crate::check::{Check, Finding, judge, run, study};
 use crate::metric::Metric;
@@ -46,6 +49,11 @@ pub(super) fn is_small(r: &Record) -> bool {
     is_set(r, SMALL) || is_set(r, UNDRAINED)
 }
 
+/// Whether a run is of a square under a small load.
+pub(super) fn is_square_small(r: &Record) -> bool {
+    is_set(r, SQUARE) || is_set(r, SQUARE_UNDRAINED)
+}
+
 pub(super) fn is_undrained_small(r: &Record) -> bool {
     is_set(r, UNDRAINED)
 }
@@ -64,7 +72,7 @@ pub(super) fn checks() -> Vec<Check> {
             "support",
             "the base bears all loads but for what Newton's method leaves",
             run(|r| {
-                let unknowns = 2.0 * nodes(r);
+                let unknowns = r.discretisation.dim as f64 * nodes(r);
                 let bound = ROUNDING + 2.0 * unknowns.sqrt() * r.parameters.number(TOLERANCE);
                 let why = "the equations of all nodes add up to the balance of forces";
                 // What a step that has no solution leaves of its last part is no less in balance.
@@ -101,6 +109,11 @@ pub(super) fn checks() -> Vec<Check> {
                     Finding::at_most(metric, order, 1.0 - SLACK, why)
                 })
             }),
+        ),
+        Check::truth(
+            "square",
+            "a square, small load, two levels: the settlement of the finer is that of the finite elements but for an index of first order with a safety of 3, their uncertainty and 10 q/G of finite strain",
+            study(squares),
         ),
         Check::truth(
             "smooth",
@@ -162,7 +175,7 @@ const SAFE: [f64; 2] = [1.25, 3.0];
 
 /// Nodes of the displacement.
 fn nodes(r: &Record) -> f64 {
-    (SIDE / r.discretisation.h + 1.0).powi(2)
+    (SIDE / r.discretisation.h + 1.0).powi(r.discretisation.dim as i32)
 }
 
 /// What Newton's method and rounding leave of the water, over what the strip displaces. A node balances what is stored
@@ -172,15 +185,18 @@ fn water_left(r: &Record) -> f64 {
     let tolerance = r.parameters.number(TOLERANCE);
     let left = nodes(r).sqrt() * (1.0 + 2.0 * cells) * tolerance * r.metric(m::TURNOVER);
     // The last bits of J̃ of every particle in every step.
-    let swept = r.metric(m::SETTLEMENT) * r.parameters.number(HALF_WIDTH).powi(2);
-    let rounding = 4.0 * f64::EPSILON * r.parameters.number(STEPS) * SIDE * SIDE / swept;
+    let [all, displaced] = [SIDE, r.parameters.number(HALF_WIDTH)]
+        .map(|length| length.powi(r.discretisation.dim as i32));
+    let swept = r.metric(m::SETTLEMENT) * displaced;
+    let rounding = 4.0 * f64::EPSILON * r.parameters.number(STEPS) * all / swept;
     ROUNDING + left + rounding
 }
 
-/// Runs of one kind by what it is called, coarsest first, of which the finest three decide.
+/// Runs of one kind by what it is called, coarsest first, where there are as many as `deciding`.
 fn ladders<'a>(
     runs: impl Iterator<Item = &'a Record>,
     name: impl Fn(&Record) -> String,
+    deciding: usize,
 ) -> BTreeMap<String, Vec<&'a Record>> {
     let mut ladders: BTreeMap<String, Vec<&Record>> = BTreeMap::new();
     for r in runs.filter(|r| r.status == Status::Ok) {
@@ -189,7 +205,7 @@ fn ladders<'a>(
     for runs in ladders.values_mut() {
         runs.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
     }
-    ladders.retain(|_, runs| runs.len() >= DECIDING);
+    ladders.retain(|_, runs| runs.len() >= deciding);
     ladders
 }
 
@@ -217,7 +233,7 @@ fn orders<'a>(
         let order = fit_order(&points.collect::<Vec<_>>()).map_or(f64::NAN, |o| o.order);
         found(format!("order in h of {} of {kind}", metric.name), order)
     };
-    ladders(runs, kind).into_iter().map(of).collect()
+    ladders(runs, kind, DECIDING).into_iter().map(of).collect()
 }
 
 /// Roache's index of a value at three levels, each of half the cells of the one before, that theory gives an order: the
@@ -233,30 +249,51 @@ fn index([coarse, middle, fine]: [f64; 3], theory: f64) -> f64 {
     safe * steps[1].abs() / (order.exp2() - 1.0)
 }
 
+/// What the settlement of a run may be off by beside the error of its cells: the reference's uncertainty and finite strain.
+fn beside(r: &Record) -> Option<f64> {
+    let known = solution(r.discretisation.h, &r.parameters)?;
+    let uncertain = known.settlement_uncertainty / known.settlement;
+    let [_, shear] = moduli(&r.parameters);
+    Some(uncertain + FINITE * r.parameters.number(LOAD) / shear)
+}
+
 /// A value of the finest three of some runs.
-fn of_finest(runs: &[&Record], value: impl Fn(&Record) -> f64) -> Option<([f64; 3], f64)> {
+fn of_finest(runs: &[&Record], value: impl Fn(&Record) -> f64) -> Option<[f64; 3]> {
     let [coarse, middle, fine] = runs.get(runs.len().checked_sub(DECIDING)?..)? else {
         return None;
     };
-    let values = [coarse, middle, fine].map(|r| value(r));
-    Some((values, fine.discretisation.h))
+    Some([coarse, middle, fine].map(|r| value(r)))
 }
 
 fn settlements(records: &[Record]) -> Vec<Finding> {
     let of = |(kind, runs): (String, Vec<&Record>)| {
-        let (ratios, h) = of_finest(&runs, |r| r.metric(m::SETTLEMENT_RATIO))?;
-        let fine = runs.last()?;
-        let known = solution(h, &fine.parameters)?;
-        let uncertain = known.settlement_uncertainty / known.settlement;
-        let [_, shear] = moduli(&fine.parameters);
-        let finite = FINITE * fine.parameters.number(LOAD) / shear;
-        let bound = index(ratios, 2.0) + uncertain + finite;
+        let ratios = of_finest(&runs, |r| r.metric(m::SETTLEMENT_RATIO))?;
+        let bound = index(ratios, 2.0) + beside(runs.last()?)?;
         let name = format!("{} of {kind}", m::SETTLEMENT_RATIO.name);
         let why = "finite elements of Taylor and Hood, and Roache's index of three levels";
         Some(Finding::within(name, ratios[2], 1.0, bound, why))
     };
     let small = records.iter().filter(|r| is_small(r));
-    ladders(small, kind).into_iter().filter_map(of).collect()
+    ladders(small, kind, DECIDING)
+        .into_iter()
+        .filter_map(of)
+        .collect()
+}
+
+fn squares(records: &[Record]) -> Vec<Finding> {
+    let of = |(kind, runs): (String, Vec<&Record>)| {
+        let [.., coarse, fine] = runs[..] else {
+            return None;
+        };
+        let ratio = |r: &Record| r.metric(m::SETTLEMENT_RATIO);
+        let index = SAFE[1] * (ratio(coarse) - ratio(fine)).abs();
+        let bound = index + beside(fine)?;
+        let name = format!("{} of {kind}", m::SETTLEMENT_RATIO.name);
+        let why = "finite elements of Taylor and Hood, and Roache's index of two levels";
+        Some(Finding::within(name, ratio(fine), 1.0, bound, why))
+    };
+    let own = records.iter().filter(|r| is_square_small(r));
+    ladders(own, kind, 2).into_iter().filter_map(of).collect()
 }
 
 fn order_in_time(records: &[Record]) -> Vec<Finding> {
@@ -326,7 +363,7 @@ fn limits(records: &[Record]) -> Vec<Finding> {
         .iter()
         .filter(|r| is_set(r, LIMIT_LOAD) || is_set(r, LIMIT_SETTLEMENT));
     let of = |(kind, runs): (String, Vec<&Record>)| {
-        let (over, _) = of_finest(&runs, |r| r.metric(m::LIMIT_LOAD) / prandtl(&r.parameters))?;
+        let over = of_finest(&runs, |r| r.metric(m::LIMIT_LOAD) / prandtl(&r.parameters))?;
         let fine = &runs.last()?.parameters;
         let moved = fine.number(PENETRATION) / fine.number(HALF_WIDTH);
         let metric = format!("{} of {kind} over Prandtl's", m::LIMIT_LOAD.name);
@@ -339,7 +376,10 @@ fn limits(records: &[Record]) -> Vec<Finding> {
             why,
         ))
     };
-    ladders(own, kind).into_iter().filter_map(of).collect()
+    ladders(own, kind, DECIDING)
+        .into_iter()
+        .filter_map(of)
+        .collect()
 }
 
 /// Why a run of this kind is known to break down: without a ghost penalty on displacements small cuts have no stiffness.

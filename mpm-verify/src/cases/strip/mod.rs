@@ -22,17 +22,21 @@ use crate::scheme::{BasisName, Scheme, SpaceName};
 use crate::sketch::{Shape, Sketch};
 use crate::spec::Level;
 use metrics as m;
-use watch::Strip;
+use watch::drive;
 
 use BasisName::Gimp;
 use SpaceName::{Equal, Ppp, TwoGrid};
-use Tier::{Nightly, Pr, Quick};
+use Tier::{Long, Nightly, Pr, Quick};
 
 const LEVELS: [(&str, f64); 3] = [("b2", 2.0), ("b4", 4.0), ("b8", 8.0)];
 
 /// Loads at which strain is small: the reference's steps, and no flow.
 const SMALL: &[&str] = &["load=40"];
 const UNDRAINED: &[&str] = &["conductivity=1e-16", "load=40", "steps=1"];
+/// A square instead of a strip, at such loads and at the whole one.
+const SQUARE: &[&str] = &["dimension=3", "load=40"];
+const SQUARE_UNDRAINED: &[&str] = &["conductivity=1e-16", "dimension=3", "load=40", "steps=1"];
+const SQUARE_LARGE: &[&str] = &["dimension=3"];
 /// Clay, until it bears no more.
 const CLAY: &[&str] = &["law=cam-clay", "load=1e5"];
 /// Clay before that.
@@ -107,9 +111,9 @@ pub(super) fn case() -> Case {
         name: "strip",
         title: "Flexible strip on soil full of water",
         description: "A strip without stiffness presses on soil full of water in plane strain, elastic or Cam clay: the surface leaves the \
-                      grid's lines by half the strip's half width, and clay yields until it bears no more.",
+                      grid's lines by half the strip's half width, and clay yields until it bears no more. Or a square on a cube of soil.",
         references: vec![
-            "references/strip_fem.py: Taylor and Hood's finite elements at small strain, of the same steps and undrained.".to_owned(),
+            "references/strip_fem.py: Taylor and Hood's finite elements at small strain, of the same steps and undrained, of a strip and of a square.".to_owned(),
             "Prandtl's limit load (2 + π) s_u of undrained clay, with the strength of its critical state.".to_owned(),
         ],
         limits: &[
@@ -139,10 +143,13 @@ pub(super) fn case() -> Case {
         watched: &["load", "settlement"],
         field: None,
         sketch: sketch(),
-        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-3)),
+        cost: Box::new(|spec| match spec.set.iter().any(|s| s == SQUARE_LARGE[0]) {
+            true => 0.1 * spec.level.h.powi(-6),
+            false => 1e-3 * spec.level.h.powi(-3),
+        }),
         ladder: &[],
         own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Strip::drive(spec, parameters)?))),
+        begin: Box::new(drive),
         pictures: pictures::draw,
         tables: tables::all(),
         breaks_down: checks::breaks_down,
@@ -165,6 +172,14 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         family(Nightly, levels, two_grid, LIMIT_LOAD),
         family(Nightly, levels, two_grid, LIMIT_SETTLEMENT),
     ];
+    plan.extend([
+        family(Pr, &levels[..1], two_grid, SQUARE_UNDRAINED),
+        family(Nightly, &levels[..1], &all, SQUARE_UNDRAINED),
+        family(Nightly, &levels[..1], two_grid, SQUARE),
+        family(Long, coarse, &all, SQUARE_UNDRAINED),
+        family(Long, coarse, two_grid, SQUARE),
+        family(Long, coarse, two_grid, SQUARE_LARGE),
+    ]);
     plan.extend(UNIFORM.map(|set| family(Pr, &levels[..1], two_grid, set)));
     plan.extend(STEPS.map(|set| family(Nightly, b4, two_grid, set)));
     plan.extend(GHOSTS.map(|set| family(Nightly, b4, two_grid, set)));

@@ -17,6 +17,8 @@ pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO
 parameters! { pub(super) const:
     LAW = "law", "-", "elastic", Domain::Choice(&["elastic", CAM_CLAY]),
         "improved Hencky, or modified Cam clay with that elasticity";
+    DIMENSION = "dimension", "-", "2", Domain::Integer { least: 2, most: 3 },
+        "2: a strip, in plane strain; 3: a square whose half side is half_width, on a cube of elastic soil";
     POROSITY = "porosity", "-", "0.4", number(0.01, 0.99, false), "porosity of the undeformed soil";
     CONDUCTIVITY = "conductivity", "m/s", "1e-6", number(1e-18, 1.0, false),
         "hydraulic conductivity k of the undeformed soil, of water of 9810 N/m³, after Kozeny and Carman";
@@ -42,8 +44,9 @@ parameters! { pub(super) const:
 }
 
 /// All of them.
-pub(super) const ALL: [Parameter; 22] = [
+pub(super) const ALL: [Parameter; 23] = [
     LAW,
+    DIMENSION,
     YOUNG_MODULUS,
     POISSON_RATIO,
     POROSITY,

@@ -1,7 +1,8 @@
 //! Finite elements of Taylor and Hood at small strain: `references/strip_fem.py`.
 
 use super::parameters::{
-    CONDUCTIVITY, DURATION, HALF_WIDTH, LAW, LOAD, POISSON_RATIO, POROSITY, STEPS, YOUNG_MODULUS,
+    CONDUCTIVITY, DIMENSION, DURATION, HALF_WIDTH, LAW, LOAD, POISSON_RATIO, POROSITY, STEPS,
+    YOUNG_MODULUS,
 };
 use crate::parameter::Parameters;
 use serde::Deserialize;
@@ -17,11 +18,17 @@ const UNIT: f64 = 1e-5;
 
 #[derive(Debug, Deserialize)]
 struct Document {
+    strip: Solutions,
+    square: Solutions,
+}
+
+#[derive(Debug, Deserialize)]
+struct Solutions {
     drained: Vec<Solution>,
     undrained: Vec<Solution>,
 }
 
-/// A solution at the particles of cells of one size.
+/// A solution at the particles of cells of one size, of a square at those next to a plane of symmetry.
 #[derive(Debug, Deserialize)]
 pub(super) struct Solution {
     h: f64,
@@ -63,6 +70,11 @@ pub(super) fn solution(h: f64, parameters: &Parameters) -> Option<&'static Solut
         return None;
     }
     let all = document()?;
+    let all = if is(DIMENSION, 3.0) {
+        &all.square
+    } else {
+        &all.strip
+    };
     let of = if undrained {
         &all.undrained
     } else {
@@ -78,12 +90,14 @@ mod tests {
     #[test]
     fn every_size_has_its_pressures() {
         let all = document().unwrap();
-        for s in all.drained.iter().chain(&all.undrained) {
-            let row = (10.0 / s.h).round() as usize;
-            assert_eq!(s.pressure.len(), row * row);
-            assert!(s.settlement_uncertainty < 1e-3);
+        for (of, levels) in [(&all.strip, 3), (&all.square, 2)] {
+            for s in of.drained.iter().chain(&of.undrained) {
+                let row = (10.0 / s.h).round() as usize;
+                assert_eq!(s.pressure.len(), row * row);
+                assert!(s.settlement_uncertainty < 2e-3);
+            }
+            assert_eq!(of.drained.len(), levels);
         }
-        assert_eq!(all.drained.len(), 3);
     }
 
     /// Of deep undrained ground the pressure is the mean stress in the plane, which under a strip is the angle that it is
@@ -91,13 +105,31 @@ mod tests {
     #[test]
     fn undrained_pressure_is_boussinesqs_mean_stress() {
         let all = document().unwrap();
-        let fine = &all.undrained[2];
+        let fine = &all.strip.undrained[2];
         for row in 60..80 {
             let depth = 5.0 - (row as f64 + 0.5) * 0.0625;
             let x = 0.03125_f64;
             let seen = ((1.0 - x) / depth).atan() + ((1.0 + x) / depth).atan();
             let exact = seen / std::f64::consts::PI;
             assert!((fine.pressure(0, row) - exact).abs() < 0.06, "{depth}");
+        }
+    }
+
+    /// Likewise below a square: the mean stress is the solid angle that it is seen by over 2π. Near a corner of the square a
+    /// right-angled part of a by b in the depth z fills atan(ab / (z √(a² + b² + z²))) of it.
+    #[test]
+    fn undrained_pressure_below_a_square_is_loves_mean_stress() {
+        let all = document().unwrap();
+        let fine = &all.square.undrained[1];
+        for row in 32..40 {
+            let depth = 5.0 - (row as f64 + 0.5) * 0.125;
+            let sides = [-1.0, 1.0].map(|sign| 1.0 + sign * 0.0625);
+            let part =
+                |a: f64, b: f64| (a * b / (depth * (a * a + b * b + depth * depth).sqrt())).atan();
+            let seen: f64 = sides.iter().flat_map(|a| sides.map(|b| part(*a, b))).sum();
+            let exact = seen / (2.0 * std::f64::consts::PI);
+            let found = fine.pressure(0, row);
+            assert!((found - exact).abs() < 0.06, "{depth} {found} {exact}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Where the strip begins: half of it, on a square of soil.
+//! Where the strip begins: half of it, on a square of soil; or a quarter of a square, on a cube.
 
 use super::parameters::{
     ALPHA, CAM_CLAY, COMPRESSIBILITY, CONDUCTIVITY, CONTROL, CRITICAL_RATIO, DRAIN, DURATION,
@@ -14,6 +14,7 @@ use mpm_core::poro::{Conductivity, Face, PressureSpace, Settings, Tangent, Water
 use mpm_core::stage::{End, RigidNodes, Wall, WallKind};
 use mpm_core::{Axis, Body, Error, Grid, Law, Particles, Scene, Side, Simulation};
 use mpm_solvers::Soaked;
+use std::array::from_fn;
 
 /// Side of the soil (m).
 pub(super) const SIDE: f64 = 5.0;
@@ -23,9 +24,13 @@ pub(super) const PER_CELL: usize = 2;
 const ROOM: f64 = 1.0;
 /// Weight of water (N/m³).
 const WATER_WEIGHT: f64 = 9810.0;
-/// Places of constraints in the scene's list.
+/// Place of the base in the scene's list of constraints.
 pub(super) const BASE: usize = 0;
-pub(super) const STRIP: usize = 3;
+
+/// Likewise of a rigid strip in so many dimensions, behind the base and two sides an axis.
+pub(super) const fn strip(dimension: usize) -> usize {
+    1 + 2 * (dimension - 1)
+}
 
 /// Bulk modulus and shear modulus (Pa) of the soil at rest.
 pub(super) fn moduli(parameters: &Parameters) -> [f64; 2] {
@@ -62,18 +67,31 @@ pub(super) fn load(parameters: &Parameters, t: f64) -> f64 {
     parameters.number(LOAD) * t / parameters.number(DURATION)
 }
 
-/// The simulation at its start.
+/// The simulation at its start, of elastic soil.
 ///
 /// # Errors
 /// The parameters don't make a scene, or the scheme doesn't solve it.
-pub(super) fn begin(
+pub(super) fn elastic<const D: usize>(
+    spec: &RunSpec,
+    parameters: &Parameters,
+) -> Result<Box<dyn Simulation<D>>, Error>
+where
+    ImprovedHencky: Soaked<D>,
+{
+    ground(elasticity(parameters)?, spec, parameters)
+}
+
+/// Likewise of soil of any law, in the plane.
+///
+/// # Errors
+/// As [`elastic`].
+pub(super) fn plane(
     spec: &RunSpec,
     parameters: &Parameters,
 ) -> Result<Box<dyn Simulation<2>>, Error> {
-    if is_plastic(parameters) {
-        ground(clay(parameters)?, spec, parameters)
-    } else {
-        ground(elasticity(parameters)?, spec, parameters)
+    match is_plastic(parameters) {
+        true => ground(clay(parameters)?, spec, parameters),
+        false => elastic(spec, parameters),
     }
 }
 
@@ -95,38 +113,39 @@ pub(super) fn clay(parameters: &Parameters) -> Result<CamClay, Error> {
     clay.shaped(number(ALPHA), number(GAMMA))
 }
 
-fn ground<M: Law + Soaked<2>>(
+fn ground<const D: usize, M: Law + Soaked<D>>(
     law: M,
     spec: &RunSpec,
     parameters: &Parameters,
-) -> Result<Box<dyn Simulation<2>>, Error> {
+) -> Result<Box<dyn Simulation<D>>, Error> {
     let number = |p| parameters.number(p);
-    let h = spec.level.h;
+    let (h, up) = (spec.level.h, D - 1);
     let cells = |length: f64| (length / h).round() as usize;
-    let upward = Axis::bounded(0.0, cells(SIDE + ROOM), (Side::Wall, Side::Open));
-    let grid = Grid::new(h, [Axis::walls(0.0, cells(SIDE)), upward])?;
+    let mut axes = [Axis::walls(0.0, cells(SIDE)); D];
+    axes[up] = Axis::bounded(0.0, cells(SIDE + ROOM), (Side::Wall, Side::Open));
+    let grid = Grid::new(h, axes)?;
     let spacing = h / PER_CELL as f64;
     let row = cells(SIDE) * PER_CELL;
-    let places = (0..row * row).map(|k| [k % row, k / row].map(|i| (i as f64 + 0.5) * spacing));
+    let place = |k: usize| from_fn(|a| ((k / row.pow(a as u32) % row) as f64 + 0.5) * spacing);
     // Nothing moves by its weight: any density will do.
     let particles = Particles::new(
-        spec.start_at(places.collect()),
-        spacing * spacing,
+        spec.start_at((0..row.pow(D as u32)).map(place).collect()),
+        spacing.powi(D as i32),
         1000.0,
-        [0.5 * spacing; 2],
+        [0.5 * spacing; D],
     )?;
     let wall = |axis, end, kind| Wall { axis, end, kind };
-    let scene = Scene::new(grid, Body::new(law, particles)?).constrain_all([
-        wall(1, End::Lo, WallKind::Fixed),
-        wall(0, End::Lo, WallKind::Roller),
-        wall(0, End::Hi, WallKind::Roller),
-    ]);
+    let roller = |axis| [End::Lo, End::Hi].map(|end| wall(axis, end, WallKind::Roller));
+    let scene = Scene::new(grid, Body::new(law, particles)?)
+        .constrain_all([wall(up, End::Lo, WallKind::Fixed)])
+        .constrain_all((0..up).flat_map(roller));
     let kappa = number(CONDUCTIVITY) / WATER_WEIGHT;
     let porosity = number(POROSITY);
     // c n³/(1 − n)² is κ₀ at n₀.
     let c = kappa * (1.0 - porosity).powi(2) / porosity.powi(3);
-    let surface = move |x: &[f64; 2]| x[1] > SIDE - spacing;
-    let (particles, top) = (&scene.body.particles, (1, End::Hi));
+    let surface = move |x: &[f64; D]| x[up] > SIDE - spacing;
+    let downward = move |pressure: f64| from_fn(|a| if a == up { -pressure } else { 0.0 });
+    let (particles, top) = (&scene.body.particles, (up, End::Hi));
     let mut water = Water::new(porosity, Conductivity::KozenyCarman(c)).face(Face::drained(
         particles,
         surface,
@@ -136,20 +155,24 @@ fn ground<M: Law + Soaked<2>>(
     let rests = surcharge(parameters);
     if rests > 0.0 {
         water = water.face(Face::loaded(particles, surface, top, move |_| {
-            [0.0, -rests]
+            downward(rests)
         }));
     }
     let half_width = number(HALF_WIDTH);
     let scene = if is_driven(parameters) {
+        let mut extent = [[f64::NEG_INFINITY, half_width]; D];
+        extent[up] = [SIDE, f64::INFINITY];
+        let mut velocity = [None; D];
+        velocity[up] = Some(-number(PENETRATION) / number(DURATION));
         scene.constrain(RigidNodes {
-            extent: [[f64::NEG_INFINITY, half_width], [SIDE, f64::INFINITY]],
-            velocity: [None, Some(-number(PENETRATION) / number(DURATION))],
+            extent,
+            velocity,
             ramp: 0.0,
         })
     } else {
-        let under = move |x: &[f64; 2]| surface(x) && x[0] < half_width;
+        let under = move |x: &[f64; D]| surface(x) && x[..up].iter().all(|x| *x < half_width);
         let given = parameters.clone();
-        let load = Face::loaded(particles, under, top, move |t| [0.0, -load(&given, t)]);
+        let load = Face::loaded(particles, under, top, move |t| downward(load(&given, t)));
         water = water.face(load);
         scene
     };

@@ -1,9 +1,10 @@
 //! Tables of its results.
 
-use super::checks::{is_of, is_small, is_undrained_small, steps};
+use super::checks::{is_of, is_small, steps};
 use super::limit::prandtl;
 use super::metrics as m;
-use super::parameters::{CONTROL, GHOST_DISPLACEMENT, GHOST_PRESSURE, STEPS};
+use super::parameters::{CONTROL, DIMENSION, GHOST_DISPLACEMENT, GHOST_PRESSURE, STEPS};
+use super::reference::is_undrained;
 use super::scene::is_plastic;
 use super::{CLAY, LEVELS, LIMIT_LOAD, LIMIT_SETTLEMENT, UNIFORM};
 use crate::record::Record;
@@ -12,7 +13,7 @@ use crate::scheme::SpaceName;
 
 const OF_STEPS: Label = ("steps", |r| r.parameters.text(STEPS));
 const OF_WATER: Label = ("water", |r| {
-    let words = if is_undrained_small(r) {
+    let words = if is_undrained(&r.parameters) {
         "none flows"
     } else {
         "flows"
@@ -21,7 +22,15 @@ const OF_WATER: Label = ("water", |r| {
 });
 
 pub(super) fn all() -> Vec<ResultTable> {
-    vec![small(), large(), of_steps(), ghosts(), limit(), uniform()]
+    vec![
+        small(),
+        large(),
+        of_steps(),
+        ghosts(),
+        limit(),
+        uniform(),
+        square(),
+    ]
 }
 
 /// Against finite elements at a small load.
@@ -123,4 +132,30 @@ fn uniform() -> ResultTable {
         &[OF_STEPS],
         columns,
     )
+}
+
+/// A square.
+fn square() -> ResultTable {
+    const LOADED: Label = ("load (Pa)", |r| r.parameters.text(super::parameters::LOAD));
+    const SIZE: Label = ("B/h", |r| (1.0 / r.discretisation.h).round().to_string());
+    let columns = [
+        Column::metric("settlement/B", m::SETTLEMENT, fixed(6)),
+        Column::metric(
+            "over that of finite elements",
+            m::SETTLEMENT_RATIO,
+            fixed(4),
+        ),
+        Column::metric("error of p/q", m::PRESSURE_ERROR, share(2)),
+        Column::metric("roughness", m::ROUGHNESS, share(3)),
+        Column::metric("Newton iterations", m::NEWTON_ITERATIONS, fixed(0)),
+        Column::metric(
+            "entries of a matrix (10⁶)",
+            m::ENTRIES,
+            fixed(2).times(1e-6),
+        ),
+        Column::cpu(),
+    ];
+    let labels = [LOADED, OF_WATER, SCHEME, SIZE];
+    let shows = |r: &Record| r.parameters.number(DIMENSION) == 3.0;
+    ResultTable::new("strip-square", shows, &labels, columns)
 }

@@ -2,15 +2,16 @@
 
 use super::metrics as m;
 use super::oedometer::settlement as settlement_of_clay;
-use super::parameters::{ALPHA, GAMMA, HALF_WIDTH, LOAD, PENETRATION, STEPS};
+use super::parameters::{ALPHA, DIMENSION, GAMMA, HALF_WIDTH, LAW, LOAD, PENETRATION, STEPS};
 use super::reference::solution;
 use super::scene::{
-    BASE, PER_CELL, SIDE, STRIP, begin, duration, is_driven, is_plastic, load, moduli, surcharge,
+    BASE, PER_CELL, SIDE, duration, elastic, is_driven, is_plastic, load, moduli, plane, strip,
+    surcharge,
 };
 use crate::cases::observe::{column, position_columns, reference_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
-use crate::job::{Column, Snapshot};
+use crate::job::{Column, Job, Snapshot};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::record::Discretisation;
@@ -18,6 +19,7 @@ use crate::spec::RunSpec;
 use crate::statistics::rms;
 use mpm_core::{Error as Broken, Field, Part, Simulation};
 use serde::{Deserialize, Serialize};
+use std::array::from_fn;
 
 /// Least value of what is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -58,87 +60,127 @@ impl Seen {
     }
 }
 
-/// A strip that settles.
-pub(super) struct Strip {
+/// What begins a run.
+type Begin<const D: usize> = fn(&RunSpec, &Parameters) -> Result<Box<dyn Simulation<D>>, Broken>;
+
+/// A strip that settles, or a square.
+pub(super) struct Strip<const D: usize> {
     spec: RunSpec,
     parameters: Parameters,
-    discretisation: Discretisation,
+    begin: Begin<D>,
 }
 
-impl Strip {
-    /// A run at its start.
-    ///
-    /// # Errors
-    /// The parameters don't make a scene.
-    pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
+/// A run at its start.
+///
+/// # Errors
+/// The parameters don't make a scene.
+pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
+    match parameters.number(DIMENSION) {
+        2.0 => Strip::drive(spec, parameters, plane),
+        _ if is_plastic(parameters) => Err(Error::Input(format!(
+            "{} = {} has no meaning with dimension = 3; allowed: {}",
+            LAW.name,
+            parameters.text(LAW),
+            LAW.default
+        ))),
+        _ => Strip::drive(spec, parameters, elastic::<3>),
+    }
+}
+
+impl<const D: usize> Strip<D> {
+    /// The axis upward.
+    const UP: usize = D - 1;
+
+    fn drive(
+        spec: &RunSpec,
+        parameters: &Parameters,
+        begin: Begin<D>,
+    ) -> Result<Box<dyn Job>, Error> {
         let strip = Self {
             spec: spec.clone(),
             parameters: parameters.clone(),
-            discretisation: Discretisation {
-                dim: 2,
-                h: spec.level.h,
-                ppc: (PER_CELL * PER_CELL) as u32,
-                dt: duration(parameters),
-                wall: "open-knot".to_owned(),
-            },
+            begin,
         };
-        Ok(Drive::new(strip, Seen::default())?)
+        Ok(Box::new(Drive::new(strip, Seen::default())?))
     }
 
     fn half_width(&self) -> f64 {
         self.parameters.number(HALF_WIDTH)
     }
 
+    /// Of the strip, or the square, what lies in the scene (m or m²).
+    fn area(&self) -> f64 {
+        self.half_width().powi(Self::UP as i32)
+    }
+
     fn spacing(&self) -> f64 {
         self.spec.level.h / PER_CELL as f64
     }
 
-    /// Column and row of a particle at the start.
-    fn place(&self, reference: &[f64; 2]) -> [usize; 2] {
+    /// Particles along an edge.
+    fn row(&self) -> usize {
+        (SIDE / self.spacing()).round() as usize
+    }
+
+    /// Place of a particle along every axis at the start.
+    fn place(&self, reference: &[f64; D]) -> [usize; D] {
         reference.map(|x| (x / self.spacing()).floor() as usize)
     }
 
     /// Of the particle next to the axis at the surface, over the half width.
-    fn settlement(&self, run: &dyn Simulation<2>) -> f64 {
+    fn settlement(&self, run: &dyn Simulation<D>) -> f64 {
         let p = run.particles();
-        let top = (SIDE / self.spacing()).round() as usize - 1;
-        let next = p.reference.iter().position(|x| self.place(x) == [0, top]);
+        let mut top = [0; D];
+        top[Self::UP] = self.row() - 1;
+        let next = p.reference.iter().position(|x| self.place(x) == top);
         next.map_or(f64::NAN, |k| {
-            (p.reference[k][1] - p.position[k][1]) / self.half_width()
+            (p.reference[k][Self::UP] - p.position[k][Self::UP]) / self.half_width()
         })
     }
 
     /// Load on the strip (Pa) beside what rests on the whole surface.
-    fn load(&self, run: &dyn Simulation<2>) -> f64 {
+    fn load(&self, run: &dyn Simulation<D>) -> f64 {
         if is_driven(&self.parameters) {
-            run.on(Part::Constraint(STRIP)).force[1] / self.half_width()
+            run.on(Part::Constraint(strip(D))).force[Self::UP] / self.area()
         } else {
             load(&self.parameters, run.time())
         }
     }
 
-    /// Pressure of the particles over the load by their rows and columns at the start; NaN where there is none.
-    fn pressures(&self, stage: &mut Stage<2>, over: f64) -> Vec<Vec<f64>> {
+    /// Pressure over the load of the particles, row by row as they were at the start; NaN where there is none.
+    fn pressures(&self, stage: &mut Stage<D>, over: f64) -> Vec<f64> {
         let field = stage.run.field(Field::PorePressure);
-        let row = (SIDE / self.spacing()).round() as usize;
-        let mut all = vec![vec![f64::NAN; row]; row];
+        let row = self.row();
+        let mut all = vec![f64::NAN; row.pow(D as u32)];
         for (p, x) in field.iter().zip(&stage.run.particles().reference) {
-            let [i, j] = self.place(x);
-            if let Some(value) = all.get_mut(j).and_then(|of| of.get_mut(i)) {
+            let k = self.place(x).iter().rev().fold(0, |k, i| k * row + i);
+            if let Some(value) = all.get_mut(k) {
                 *value = p / over;
             }
         }
         all
     }
 
-    /// Whether the particle in this column and row was not near the strip's edge.
-    fn is_far(&self, i: usize, j: usize) -> bool {
-        let [x, y] = [i, j].map(|k| (k as f64 + 0.5) * self.spacing());
-        (x - self.half_width()).hypot(y - SIDE) > NEAR * self.half_width()
+    /// Whether a particle in this place was not near the strip's edge.
+    fn is_far(&self, place: [usize; D]) -> bool {
+        let from_edge = place.map(|k| (k as f64 + 0.5) * self.spacing() - self.half_width());
+        let across = &from_edge[..Self::UP];
+        let inside = across.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b));
+        let outside = across.iter().map(|x| x.max(0.0).powi(2)).sum::<f64>();
+        let across = if inside < 0.0 { inside } else { outside.sqrt() };
+        let depth = from_edge[Self::UP] + self.half_width() - SIDE;
+        across.hypot(depth) > NEAR * self.half_width()
+    }
+
+    /// Places of the particles, as their pressures are stored.
+    fn places(&self) -> impl Iterator<Item = [usize; D]> {
+        let row = self.row();
+        let of = move |k: usize| from_fn(|a| k / row.pow(a as u32) % row);
+        (0..row.pow(D as u32)).map(of)
     }
 
     /// Of clay under a load on its whole surface the settlement's relative error.
-    fn uniform_error(&self, run: &dyn Simulation<2>) -> f64 {
+    fn uniform_error(&self, run: &dyn Simulation<D>) -> f64 {
         let own = |p| self.parameters.number(p) == 1.0;
         let whole = self.half_width() == SIDE;
         if !(whole && is_plastic(&self.parameters) && own(ALPHA) && own(GAMMA)) {
@@ -150,14 +192,15 @@ impl Strip {
         (settled / settlement_of_clay(&self.parameters) - 1.0).abs()
     }
 
-    fn roughness(&self, all: &[Vec<f64>]) -> f64 {
-        let inner = 1..all.len() - 1;
-        let places = inner
-            .clone()
-            .flat_map(|j| inner.clone().map(move |i| (i, j)));
-        rms(places.filter(|(i, j)| self.is_far(*i, *j)).map(|(i, j)| {
-            let beside = all[j][i - 1] + all[j][i + 1] + all[j - 1][i] + all[j + 1][i];
-            all[j][i] - 0.25 * beside
+    fn roughness(&self, all: &[f64]) -> f64 {
+        let row = self.row();
+        let is_inner = |place: &[usize; D]| place.iter().all(|i| (1..row - 1).contains(i));
+        let places = self.places().enumerate();
+        let inner = places.filter(|(_, place)| is_inner(place) && self.is_far(*place));
+        rms(inner.map(|(k, _)| {
+            let beside = (0..D).map(|a| row.pow(a as u32));
+            let sum: f64 = beside.map(|next| all[k - next] + all[k + next]).sum();
+            all[k] - sum / (2 * D) as f64
         }))
     }
 }
@@ -170,15 +213,21 @@ fn is_limit(error: &Broken) -> bool {
     )
 }
 
-impl Watch<2> for Strip {
+impl<const D: usize> Watch<D> for Strip<D> {
     type Seen = Seen;
 
     fn discretisation(&self) -> Discretisation {
-        self.discretisation.clone()
+        Discretisation {
+            dim: D,
+            h: self.spec.level.h,
+            ppc: PER_CELL.pow(D as u32) as u32,
+            dt: duration(&self.parameters),
+            wall: "open-knot".to_owned(),
+        }
     }
 
-    fn scene(&self, _: &Seen) -> Result<Box<dyn Simulation<2>>, Broken> {
-        begin(&self.spec, &self.parameters)
+    fn scene(&self, _: &Seen) -> Result<Box<dyn Simulation<D>>, Broken> {
+        (self.begin)(&self.spec, &self.parameters)
     }
 
     fn columns(&self) -> Vec<&'static str> {
@@ -186,13 +235,17 @@ impl Watch<2> for Strip {
             "time (s)",
             "load (Pa)",
             "settlement (-)",
-            "outflow (m²)",
+            if D == 2 {
+                "outflow (m²)"
+            } else {
+                "outflow (m³)"
+            },
             "newton_iterations (-)",
             "parts (-)",
         ]
     }
 
-    fn row(&self, seen: &mut Seen, stage: &mut Stage<2>) -> Result<Vec<f64>, Broken> {
+    fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, Broken> {
         let iterations = stage.run.work().newton_iterations;
         let before = volumes(stage.run.as_ref());
         match stage.steps(1) {
@@ -222,14 +275,14 @@ impl Watch<2> for Strip {
         ])
     }
 
-    fn progress(&self, seen: &Seen, _: &Stage<2>) -> f64 {
+    fn progress(&self, seen: &Seen, _: &Stage<D>) -> f64 {
         if seen.stopped {
             return 1.0;
         }
         seen.steps as f64 / self.parameters.number(STEPS)
     }
 
-    fn snapshot(&self, seen: &Seen, stage: &mut Stage<2>) -> Option<Snapshot> {
+    fn snapshot(&self, seen: &Seen, stage: &mut Stage<D>) -> Option<Snapshot> {
         let all = self.parameters.number(STEPS) as u64;
         let quarter = all.is_multiple_of(QUARTERS) && seen.steps.is_multiple_of(all / QUARTERS);
         (quarter && seen.steps < all).then(|| Snapshot {
@@ -238,7 +291,7 @@ impl Watch<2> for Strip {
         })
     }
 
-    fn particles(&self, _: &Seen, stage: &mut Stage<2>) -> Vec<Column> {
+    fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {
         let pressure = stage.run.field(Field::PorePressure);
         let porosity = stage.run.field(Field::Porosity);
         let strain = stage.run.field(Field::PlasticStrain);
@@ -257,7 +310,7 @@ impl Watch<2> for Strip {
         columns
     }
 
-    fn metrics(&self, seen: &Seen, stage: &mut Stage<2>) -> Vec<(Metric, f64)> {
+    fn metrics(&self, seen: &Seen, stage: &mut Stage<D>) -> Vec<(Metric, f64)> {
         let last = self.load(stage.run.as_ref());
         let pressures = self.pressures(stage, last);
         let strain = stage.run.field(Field::PlasticStrain);
@@ -268,33 +321,31 @@ impl Watch<2> for Strip {
         let run = stage.run.as_ref();
         let settlement = self.settlement(run);
         let work = run.work();
-        let swept = settlement * self.half_width().powi(2);
+        let swept = settlement * self.half_width() * self.area();
         let lost = run
             .water()
             .map_or(f64::NAN, |w| (w.imbalance / swept).abs());
-        let all = last * self.half_width() + surcharge(&self.parameters) * SIDE;
-        let held = -run.on(Part::Constraint(BASE)).force[1];
+        let rests = surcharge(&self.parameters) * SIDE.powi(Self::UP as i32);
+        let all = last * self.area() + rests;
+        let held = -run.on(Part::Constraint(BASE)).force[Self::UP];
         // What is no number stays none.
         let above = |value: f64| if value < ROUNDING { ROUNDING } else { value };
-        let least = |of: &[Vec<f64>]| of.iter().flatten().copied().fold(f64::INFINITY, f64::min);
-        let most = |of: &[Vec<f64>]| {
-            of.iter()
-                .flatten()
-                .copied()
-                .fold(f64::NEG_INFINITY, f64::max)
-        };
+        let least = pressures.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let known = solution(self.spec.level.h, &self.parameters);
         let ratio = known.map_or(f64::NAN, |s| {
             let [_, shear] = moduli(&self.parameters);
             settlement * self.half_width() * shear / (self.parameters.number(LOAD) * s.settlement)
         });
+        // Of a square those next to a plane of symmetry, where it is known.
+        let here = |place: &[usize; D]| place[1..Self::UP].iter().all(|i| *i == 0);
         let apart = |far: bool| {
-            let rows = pressures.iter().enumerate();
-            rows.flat_map(move |(j, row)| {
-                let places = row.iter().enumerate().map(move |(i, p)| (i, j, *p));
-                places.filter(move |(i, j, _)| !far || self.is_far(*i, *j))
+            let places = self.places().zip(&pressures);
+            let here =
+                places.filter(move |(place, _)| here(place) && (!far || self.is_far(*place)));
+            here.map(move |(place, p)| {
+                known.map_or(f64::NAN, |s| p - s.pressure(place[0], place[Self::UP]))
             })
-            .map(move |(i, j, p)| known.map_or(f64::NAN, |s| p - s.pressure(i, j)))
         };
         vec![
             (m::SETTLEMENT, settlement),
@@ -305,8 +356,8 @@ impl Watch<2> for Strip {
                 known.map_or(f64::NAN, |_| apart(true).fold(0.0, |a, b| b.abs().max(a))),
             ),
             (m::ROUGHNESS, self.roughness(&pressures)),
-            (m::LEAST_PRESSURE, least(&pressures)),
-            (m::MOST_PRESSURE, most(&pressures)),
+            (m::LEAST_PRESSURE, least),
+            (m::MOST_PRESSURE, most),
             (m::LAST_LOAD, last),
             (m::LIMIT_LOAD, limit),
             (
@@ -332,8 +383,8 @@ impl Watch<2> for Strip {
     }
 }
 
-/// Volumes of the particles (m²) by their identity.
-fn volumes(run: &dyn Simulation<2>) -> Vec<f64> {
+/// Volumes of the particles (m³, m² in plane strain) by their identity.
+fn volumes<const D: usize>(run: &dyn Simulation<D>) -> Vec<f64> {
     let p = run.particles();
     p.seeded(|k| p.volume[k])
 }
