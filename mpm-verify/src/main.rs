@@ -175,6 +175,9 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             let scene = SceneFile::read(&file)?;
             if told.progress() {
                 say(format!("{}\n", one_line(&scene.title)))?;
+                for line in &scene.made {
+                    say(format!("{line}\n"))?;
+                }
             }
             let saving = saving(checkpoint_every, resume.is_some());
             let folder = resume.or(out);

@@ -21,7 +21,7 @@ pub enum NameError {
     },
     /// A scheme that lacks a part.
     #[error(
-        "scheme \"{0}\" is not of the form basis-remedy-transfer, solver-basis-remedy or poro-basis-space"
+        "scheme \"{0}\" is not of the form basis-remedy-transfer, solver-basis-remedy or poro-basis-space, as gimp-fbar-consistent-flip, quasi-static-gimp-none or poro-gimp-two-grid; `explain` lists those of a case"
     )]
     Form(String),
 }

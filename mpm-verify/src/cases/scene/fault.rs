@@ -24,6 +24,10 @@ impl Source {
         toml::from_str(&self.text).map_err(|e| {
             let span = e.span().unwrap_or_default();
             let mut said = e.message().replace('\n', "; ");
+            // Of a table that stands for one of several kinds.
+            if said.starts_with("wanted exactly 1 element") {
+                said = "one kind of it is allowed, and the file names more or none".to_owned();
+            }
             if let Some(name) = nearest(&said) {
                 said.push_str(&format!("; is `{name}` meant?"));
             }
@@ -57,6 +61,9 @@ impl Source {
         let line = self.text.get(start..)?.lines().next()?;
         if line.trim_start().starts_with('[') {
             return Some(line.trim());
+        }
+        if line.trim_start().starts_with('#') {
+            return None;
         }
         let before = line.get(..span.start - start)?;
         let named = match before.rfind('=') {

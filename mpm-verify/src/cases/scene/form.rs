@@ -43,6 +43,8 @@ numbers! {
     NotNegative(f64): |x| x.is_finite() && x >= 0.0, "zero or a positive, finite number";
     /// A share.
     Share(f64): |x| (0.0..=1.0).contains(&x), "0 to 1";
+    /// A CFL number.
+    Courant(f64): |x| x > 0.0 && x <= 1.0, "a positive number of at most 1";
     /// Particles along a side of a cell.
     PerDirection(u32): |x| x.fract() == 0.0 && (1.0..=f64::from(MOST_PER_DIRECTION)).contains(&x),
         format!("a whole number from 1 to {MOST_PER_DIRECTION}");
@@ -356,7 +358,7 @@ pub(super) struct FrictionForm {
 pub(super) struct SolverForm {
     pub(super) scheme: String,
     pub(super) time_step_s: Option<Positive>,
-    pub(super) cfl: Option<Positive>,
+    pub(super) cfl: Option<Courant>,
     pub(super) flip: Option<Share>,
     pub(super) pic_rate_per_s: Option<NotNegative>,
     pub(super) kinetic_damping: Option<bool>,

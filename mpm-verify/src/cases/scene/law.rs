@@ -79,6 +79,18 @@ impl Material {
     }
 }
 
+/// The undrained shear strength (Pa) at the start, ‖s‖/√2, of a law that yields by one.
+pub(super) fn shear_strength(form: &LawForm) -> Option<f64> {
+    let LawForm::HenckyJ2 { strength, .. } = form else {
+        return None;
+    };
+    Some(match strength {
+        StrengthForm::Undrained { shear_strength_pa } => shear_strength_pa.0,
+        StrengthForm::Perfect { norm_pa } => norm_pa.0 / f64::sqrt(2.0),
+        StrengthForm::Softening { peak_pa, .. } => peak_pa.0 / f64::sqrt(2.0),
+    })
+}
+
 fn strength_of(form: &StrengthForm) -> Result<Strength, mpm_core::Error> {
     match form {
         StrengthForm::Undrained { shear_strength_pa } => Strength::undrained(shear_strength_pa.0),

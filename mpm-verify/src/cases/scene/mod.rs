@@ -43,6 +43,8 @@ pub struct SceneFile {
     pub spec: RunSpec,
     /// The title in the file.
     pub title: String,
+    /// What the file makes of body and steps, a line each: a slip in a unit shows here.
+    pub made: Vec<String>,
 }
 
 impl SceneFile {
@@ -73,9 +75,10 @@ impl SceneFile {
                 return Err(source.at(&form.grid, said));
             }
         };
-        let (scheme, mass, mark) = look(&source, form)?;
+        let found = look(&source, form)?;
+        let scheme = found.scheme;
         let level = Level {
-            name: Box::leak(format!("{mark:08x}").into_boxed_str()),
+            name: Box::leak(format!("{:08x}", found.mark).into_boxed_str()),
             h,
         };
         let begin = move |_: &RunSpec, _: &Parameters| match dimension {
@@ -84,7 +87,7 @@ impl SceneFile {
             _ => begin::<3>(&source),
         };
         Ok(Self {
-            case: case(level, scheme, mass, Box::new(begin)),
+            case: case(dimension, level, scheme, found.mass, Box::new(begin)),
             spec: RunSpec {
                 scheme,
                 level,
@@ -92,13 +95,23 @@ impl SceneFile {
                 perturbed: false,
             },
             title,
+            made: found.made,
         })
     }
 }
 
-/// Builds every phase once, so that what is wrong in the last one is said before the first: scheme, mass (kg) and a checksum
-/// of file and particles, by which a checkpoint knows its scene.
-fn look<const D: usize>(source: &Source, form: Form) -> Result<(Scheme, f64, u32), Error>
+/// What is found by building a scene.
+struct Found {
+    scheme: Scheme,
+    /// Mass (kg, kg/m in plane strain).
+    mass: f64,
+    /// A checksum of file and particles, by which a checkpoint tells its scene from others.
+    mark: u32,
+    made: Vec<String>,
+}
+
+/// Builds every phase once, so that what is wrong in the last one is said before the first.
+fn look<const D: usize>(source: &Source, form: Form) -> Result<Found, Error>
 where
     Compiled: Solving<D>,
 {
@@ -118,7 +131,12 @@ where
             .iter()
             .flat_map(|x| x.to_le_bytes()),
     );
-    Ok((setup.scheme, mass, Mark::of(&all).checksum))
+    Ok(Found {
+        scheme: setup.scheme,
+        mass,
+        mark: Mark::of(&all).checksum,
+        made: setup.made(),
+    })
 }
 
 fn begin<const D: usize>(source: &Source) -> Result<Box<dyn Job>, Error>
@@ -134,8 +152,8 @@ where
     )?))
 }
 
-/// The case of a scene whose body has a `mass` (kg).
-fn case(level: Level, scheme: Scheme, mass: f64, begin: Begin) -> Case {
+/// The case of a scene in so many dimensions whose body has a `mass` (kg).
+fn case(dimension: usize, level: Level, scheme: Scheme, mass: f64, begin: Begin) -> Case {
     let kept = run(move |r| {
         let why = "particles carry their mass: a sum of it rounds";
         [judge(r, MASS).within(mass, ROUNDING * mass, why)]
@@ -149,7 +167,7 @@ fn case(level: Level, scheme: Scheme, mass: f64, begin: Begin) -> Case {
         parameters: Vec::new(),
         levels: vec![level],
         plan: vec![family(Tier::Long, &[level], &[scheme], &[])],
-        metrics: watch::ALL.to_vec(),
+        metrics: watch::metrics_in(dimension),
         checks: checks! { bookkeeping "mass": "The mass stays what it was." => kept; },
         headlines: Vec::new(),
         quantities: Vec::new(),

@@ -2,7 +2,7 @@
 
 use super::fault::{Line, Source};
 use super::form::{Form, LawForm, WaterForm};
-use super::law::Material;
+use super::law::{Material, shear_strength};
 use crate::error::Error;
 use crate::scheme::Scheme;
 use mpm_core::explicit::courant_time_step;
@@ -15,6 +15,8 @@ const MOST_STEPS: f64 = 1e12;
 pub(super) struct Phase {
     pub(super) name: String,
     pub(super) material: Material,
+    /// Undrained shear strength at the start (Pa), of a law that has one.
+    pub(super) strength: Option<f64>,
     pub(super) rows: usize,
     pub(super) steps_per_row: u64,
     pub(super) dt: f64,
@@ -135,6 +137,7 @@ pub(super) fn phases(
         all.push(Phase {
             name: given.name.0.clone(),
             material,
+            strength: shear_strength(given.law.as_ref().unwrap_or(form.law.get_ref())),
             rows: rows.round() as usize,
             steps_per_row: steps_per_row as u64,
             dt,

@@ -5,6 +5,7 @@ use super::fault::{Line, Source};
 use super::form::{BodyForm, Finite, Region, ShapeForm};
 use crate::error::Error;
 use crate::table::Table;
+use mpm_core::Grid;
 use std::collections::HashSet;
 
 /// Most particles of a scene.
@@ -18,10 +19,11 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// The places (m) of the particles, shape by shape; a point of two shapes is there once.
 ///
 /// # Errors
-/// A shape of another dimension or without a point, a file that can't be read, too many particles.
+/// A shape of another dimension, without a point or with one off the grid, a file that can't be read, too many particles.
 pub(super) fn seed<const D: usize>(
     source: &Source,
     body: &BodyForm,
+    grid: &Grid<D>,
     spacing: f64,
 ) -> Result<Vec<[f64; D]>, Error> {
     let mut places = Vec::new();
@@ -50,8 +52,30 @@ pub(super) fn seed<const D: usize>(
             let said = format!("a shape without a particle: they stand {spacing} m apart");
             return Err(source.at(shape, said));
         }
+        check_on_grid(source, shape, grid, &places[before..])?;
     }
     Ok(places)
+}
+
+/// Refuses a shape with a particle off the grid.
+fn check_on_grid<const D: usize>(
+    source: &Source,
+    shape: &Line<ShapeForm>,
+    grid: &Grid<D>,
+    places: &[[f64; D]],
+) -> Result<(), Error> {
+    for (a, axis) in grid.axes.iter().enumerate() {
+        let (lo, hi) = (axis.lo, axis.hi(grid.h));
+        let off = places.iter().map(|x| x[a]).find(|x| *x < lo || *x > hi);
+        if let Some(x) = off {
+            let said = format!(
+                "a particle at {} = {x} m, off the grid, which reaches from {lo} to {hi} m",
+                AXES[a]
+            );
+            return Err(source.at(shape, said));
+        }
+    }
+    Ok(())
 }
 
 fn too_many<T>(source: &Source, shape: &Line<T>) -> Error {
@@ -131,6 +155,14 @@ impl<const D: usize> Shape<D> {
                     return Err(source.at(at, said));
                 }
                 let corners: Vec<[f64; 2]> = corners_m.iter().map(|c| c.map(|x| x.0)).collect();
+                if let Some([k, m]) = crossing(&corners) {
+                    let said = format!(
+                        "the polygon crosses itself: its side {} crosses its side {}, the first from its first corner to its second",
+                        k + 1,
+                        m + 1
+                    );
+                    return Err(source.at(at, said));
+                }
                 let z = z_m.map_or([0.0; 2], |ends| ends.map(|x| x.0));
                 let end = |best: fn(f64, f64) -> f64, side: usize| {
                     std::array::from_fn(|a| match a {
@@ -192,6 +224,24 @@ impl<const D: usize> Shape<D> {
             k
         })
     }
+}
+
+/// Two sides of a polygon, by their first corners, that cross each other.
+fn crossing(corners: &[[f64; 2]]) -> Option<[usize; 2]> {
+    let count = corners.len();
+    let side = |k: usize| [corners[k], corners[(k + 1) % count]];
+    // On which side of a line from a to b a point lies.
+    let turn = |[a, b]: [[f64; 2]; 2], c: [f64; 2]| {
+        let (along, off) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+        along[0] * off[1] - along[1] * off[0]
+    };
+    let parts = |line, [a, b]: [[f64; 2]; 2]| turn(line, a) * turn(line, b) < 0.0;
+    let pairs = (0..count).flat_map(|k| (k + 1..count).map(move |m| [k, m]));
+    let cross = |[k, m]: &[usize; 2]| {
+        let (one, other) = (side(*k), side(*m));
+        parts(one, other) && parts(other, one)
+    };
+    pairs.into_iter().find(cross)
 }
 
 /// Whether a point is in a polygon: on a side, or to the right of an odd number of sides.

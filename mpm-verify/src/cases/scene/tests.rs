@@ -77,7 +77,7 @@ fn refusal(from: &str, to: &str) -> String {
 #[test]
 fn what_is_wrong_is_named_with_line_and_key() {
     // What is replaced, by what; what the error must say.
-    let wrong: [(&str, &str, &[&str]); 18] = [
+    let wrong: [(&str, &str, &[&str]); 23] = [
         (
             "cell_size_m",
             "cell_sise_m",
@@ -118,6 +118,32 @@ fn what_is_wrong_is_named_with_line_and_key() {
             "poisson_ratio = 0.49",
             "poisson_ratio = 0.5",
             &["law", "Poisson's ratio", "0.5"],
+        ),
+        (
+            "[law.hencky-j2]",
+            "[law.hencky]\nyoung_modulus_pa = 5e6\npoisson_ratio = 0.3\n[law.hencky-j2]",
+            &["law", "one kind of it is allowed"],
+        ),
+        (
+            "format = 1",
+            "",
+            &["own.toml: line 1: missing field `format`"],
+        ),
+        ("cfl = 0.3", "cfl = 3", &["cfl: 3 where", "at most 1"]),
+        (
+            "[16, 1], [10, 5]",
+            "[10, 5], [16, 1]",
+            &["line 16", "crosses itself"],
+        ),
+        (
+            "[10, 5], [0, 5]",
+            "[10, 9], [0, 9]",
+            &[
+                "line 15",
+                "a particle at y = ",
+                "off the grid",
+                "from 0 to 7 m",
+            ],
         ),
         (
             "polygon = {",

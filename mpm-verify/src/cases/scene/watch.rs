@@ -26,6 +26,25 @@ metrics! { pub(super) ALL:
     PLASTIC = "plastic_strain_max", "-", "largest equivalent plastic strain of a particle";
 }
 
+/// A unit in so many dimensions: in the plane masses, energies and forces are per metre of depth.
+fn per_depth(unit: &'static str, dimension: usize) -> &'static str {
+    match (unit, dimension) {
+        ("kg", 2) => "kg/m",
+        ("J", 2) => "J/m",
+        ("N", 2) => "N/m",
+        (unit, _) => unit,
+    }
+}
+
+/// The metrics of a scene in so many dimensions.
+pub(super) fn metrics_in(dimension: usize) -> Vec<Metric> {
+    let of = |m: &Metric| Metric {
+        unit: per_depth(m.unit, dimension),
+        ..*m
+    };
+    ALL.iter().map(of).collect()
+}
+
 /// What has been seen of a run.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
@@ -122,10 +141,12 @@ where
 
 /// Names of the columns, which live as long as the program: a scene is read once in it.
 fn columns<const D: usize>(scheme: Scheme, parts: &[String]) -> Vec<&'static str> {
+    let named = |name: String| -> &'static str { Box::leak(name.into_boxed_str()) };
+    let [energy, force] = ["J", "N"].map(|unit| per_depth(unit, D));
     let mut all = vec![
         "time (s)",
-        "kinetic_energy (J)",
-        "stored_energy (J)",
+        named(format!("kinetic_energy ({energy})")),
+        named(format!("stored_energy ({energy})")),
         "displacement_max (m)",
     ];
     match scheme {
@@ -135,7 +156,7 @@ fn columns<const D: usize>(scheme: Scheme, parts: &[String]) -> Vec<&'static str
     }
     for name in parts {
         for axis in ["x", "y", "z"].into_iter().take(D) {
-            all.push(Box::leak(format!("{name}_{axis} (N)").into_boxed_str()));
+            all.push(named(format!("{name}_{axis} ({force})")));
         }
     }
     all
