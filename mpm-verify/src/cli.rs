@@ -223,11 +223,11 @@ pub(crate) enum Command {
         #[command(flatten)]
         told: Told,
     },
-    /// Keep of a night's report a row a run, its history and, of all cases, the summary
+    /// Keep a row of every run of a night's report, and its trends
     Keep {
         /// Folder of the report
         report: PathBuf,
-        /// Folder that has nightly/results.csv, nightly/summary.md and history.csv
+        /// Folder that has nightly/results.csv and history.csv
         #[arg(long, default_value = "reports")]
         into: PathBuf,
     },

@@ -1,11 +1,10 @@
-//! What stays of a night's report: a row a run, trends, and the gist of the summary.
+//! What stays of a night's report: a row a run, and trends. Pages are filled from the rows: `tables`.
 //!
 //! A night may hold some cases alone. Its rows replace those of the same runs, and the others stay, each with the
 //! night and the program that made it.
 
 use super::rows::{Row, read, text};
-use super::speed::Speed;
-use super::{SUMMARY, history, summary};
+use super::{SUMMARY, history};
 use crate::cases;
 use crate::error::Error;
 use crate::files::{make_folder, read_versioned, write_whole};
@@ -16,12 +15,9 @@ use std::path::Path;
 
 /// Most bytes of the rows.
 const MOST_ROWS: usize = 1_000_000;
-/// Most bytes of the gist.
-const MOST_GIST: usize = 100_000;
 
-/// Takes the night of the report in `report` into `folder`: its runs into `nightly/results.csv`, its trends into
-/// `history.csv` and, if it holds every case, its gist into `nightly/summary.md`. Returns how many rows it has replaced
-/// or added.
+/// Takes the night of the report in `report` into `folder`: its runs into `nightly/results.csv` and its trends into
+/// `history.csv`. Returns how many rows it has replaced or added.
 ///
 /// # Errors
 /// The report is missing, damaged or of no night; a file of `folder` is damaged, can't be written, or would be larger
@@ -48,21 +44,9 @@ pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
     }
     let (count, rows) = (fresh.len(), merge(former, fresh));
     let rows = text(&rows).map_err(|e| Error::file(&results, e))?;
-    let gist = nightly.join("summary.md");
-    let whole = cases::all()
-        .iter()
-        .all(|c| found.cases.iter().any(|s| s.case == c.name));
-    let told = match whole {
-        true => Some(summary::text(&found, &Speed::of(&found.cases))?),
-        false => None,
-    };
     require_small(&results, rows.len(), MOST_ROWS)?;
-    require_small(&gist, told.as_ref().map_or(0, String::len), MOST_GIST)?;
     make_folder(&nightly)?;
     history::merge(report, folder)?;
-    if let Some(told) = told {
-        write_whole(&gist, told.as_bytes())?;
-    }
     write_whole(&results, &rows)?;
     Ok(count)
 }

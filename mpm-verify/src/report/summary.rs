@@ -26,8 +26,34 @@ pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), 
 ///
 /// # Errors
 /// A case that is not known.
-pub(super) fn text(summary: &Summary, speed: &Speed) -> Result<String, Error> {
-    let mut t = head(summary, speed);
+fn text(summary: &Summary, speed: &Speed) -> Result<String, Error> {
+    let counts = summary.counts.to_string().replace('\n', "  \n");
+    let title = format!("tier {}", summary.tier);
+    let begin = counts + "\n" + &of_map(summary, speed);
+    body(summary, speed, [&title, &begin], &programs(summary))
+}
+
+/// The same of rows that are kept, of any night; `nights` says of which.
+///
+/// # Errors
+/// A case that is not known.
+pub(super) fn of_rows(studies: Vec<CaseStudy>, nights: &Sheet) -> Result<String, Error> {
+    let summary = Summary::new("", studies);
+    let speed = Speed::of(&summary.cases);
+    // Of its checks a row counts those alone that judge.
+    let counts = summary.counts.to_string();
+    let counts: Vec<&str> = counts.lines().take(2).collect();
+    let begin = counts.join("  \n") + "\n\nThe map of schemes and cases: `docs/hard-cases.md`.\n";
+    body(&summary, &speed, ["all runs that are kept", &begin], nights)
+}
+
+fn body(
+    summary: &Summary,
+    speed: &Speed,
+    said: [&str; 2],
+    programs: &Sheet,
+) -> Result<String, Error> {
+    let mut t = head(summary, speed, said, programs);
     for study in &summary.cases {
         let case = cases::find(&study.case)?;
         let shown = |c: &&Convergence| {
@@ -41,10 +67,31 @@ pub(super) fn text(summary: &Summary, speed: &Speed) -> Result<String, Error> {
 }
 
 /// What is said of all cases together.
-fn head(summary: &Summary, speed: &Speed) -> String {
-    let (tier, counts) = (&summary.tier, summary.counts);
-    let counts = counts.to_string().replace('\n', "  \n");
-    let mut t = format!("# Verification, tier {tier}\n\n{counts}\n");
+fn head(summary: &Summary, speed: &Speed, [title, begin]: [&str; 2], programs: &Sheet) -> String {
+    let mut t = format!("# Verification, {title}\n\n{begin}");
+    if !speed.is_empty() {
+        let (advice, table) = (speed.advice(), speed.table().markdown());
+        let _ = write!(t, "\n## Speed against error\n\n{advice}\n\n{table}");
+    }
+    for command in bless_commands(summary) {
+        let _ = writeln!(t, "\nIf the drift is meant, accept it with `{command}`.");
+    }
+    let _ = write!(t, "\n{}", programs.markdown());
+    failures(summary, &mut t);
+    for basis in remedies::BASES {
+        let records = summary.cases.iter().flat_map(|s| &s.records);
+        let (table, _) = remedies::criteria(basis).fill(records);
+        if !table.rows.is_empty() {
+            let table = table.markdown();
+            let _ = writeln!(t, "\n## Remedies against criteria, {basis}\n\n{table}");
+        }
+    }
+    t
+}
+
+/// How every scheme comes out in every case.
+fn of_map(summary: &Summary, speed: &Speed) -> String {
+    let mut t = String::new();
     let records = summary.cases.iter().flat_map(|s| &s.records);
     let panels = map::panels(records, speed);
     if !panels.is_empty() {
@@ -54,23 +101,6 @@ fn head(summary: &Summary, speed: &Speed) -> String {
     for panel in panels {
         let table = panel.markdown(str::to_owned);
         let _ = write!(t, "\n### {}\n\n{table}", panel.name);
-    }
-    if !speed.is_empty() {
-        let (advice, table) = (speed.advice(), speed.table().markdown());
-        let _ = write!(t, "\n## Speed against error\n\n{advice}\n\n{table}");
-    }
-    for command in bless_commands(summary) {
-        let _ = writeln!(t, "\nIf the drift is meant, accept it with `{command}`.");
-    }
-    let _ = write!(t, "\n{}", programs(summary).markdown());
-    failures(summary, &mut t);
-    for basis in remedies::BASES {
-        let records = summary.cases.iter().flat_map(|s| &s.records);
-        let (table, _) = remedies::criteria(basis).fill(records);
-        if !table.rows.is_empty() {
-            let table = table.markdown();
-            let _ = writeln!(t, "\n## Remedies against criteria, {basis}\n\n{table}");
-        }
     }
     t
 }

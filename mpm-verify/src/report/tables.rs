@@ -1,4 +1,5 @@
-//! The tables of results in README and docs, and the numbers in their sentences, filled from the rows that are kept.
+//! The tables of results in README and docs, the numbers in their sentences, and the summary of all nights, filled from the
+//! rows that are kept.
 //!
 //! A table stands between `<!-- table NAME -->` and `<!-- end -->`, each on a line of its own; that of speed against error
 //! may begin with its name alone.
@@ -6,13 +7,16 @@
 use super::map;
 use super::speed::{self, Speed};
 use super::values::Values;
-use super::{remedies, rivals, rows, spaces};
+use super::{remedies, rivals, rows, spaces, summary};
 use crate::cases;
+use crate::distinct;
 use crate::error::Error;
 use crate::files::{read_text, write_whole};
 use crate::record::Record;
 use crate::results::ResultTable;
+use crate::study::convergence::convergence;
 use crate::study::summary::CaseStudy;
+use crate::table::Sheet;
 use jiff::civil::Date;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -24,6 +28,9 @@ const END: &str = "<!-- end -->";
 /// Columns of a line of text.
 const LINE: usize = 110;
 pub(super) const RESULTS: &str = "reports/nightly/results.csv";
+const GIST: &str = "reports/nightly/summary.md";
+/// Most bytes of the summary.
+const MOST_GIST: usize = 100_000;
 
 /// A page with its tables and numbers as they should be.
 #[derive(Debug)]
@@ -36,7 +43,7 @@ pub struct Page {
 }
 
 impl Page {
-    /// The pages of the repository in `root`: its README, and what lies in docs.
+    /// The pages of the repository in `root`: its README, what lies in docs, and the summary of all nights.
     ///
     /// # Errors
     /// Rows or pages are missing or damaged; a page has a block or a number that nothing fills or that does not end; no
@@ -58,11 +65,50 @@ impl Page {
         let mut shown = BTreeSet::new();
         let pages = files.into_iter();
         let pages = pages.map(|file| Self::read(file, &tables, &values, &mut shown));
-        let pages = pages.collect::<Result<Vec<Self>, Error>>()?;
+        let mut pages = pages.collect::<Result<Vec<Self>, Error>>()?;
+        pages.push(Self::gist(root.join(GIST), &rows)?);
         match tables.keys().find(|name| !shown.contains(*name)) {
             Some(name) => Err(Error::Input(format!("no page shows the table {name}"))),
             None => Ok(pages),
         }
+    }
+
+    /// The summary of all nights.
+    fn gist(file: PathBuf, rows: &[rows::Row]) -> Result<Self, Error> {
+        let mut nights = Sheet::new(["case", "runs", "oldest night", "newest", "programs"]);
+        let mut studies = Vec::new();
+        for case in cases::all() {
+            let own = || rows.iter().filter(|row| row.case == case.name);
+            let (Some(oldest), Some(newest)) =
+                (own().map(|r| r.night).min(), own().map(|r| r.night).max())
+            else {
+                continue;
+            };
+            let records: Vec<Record> = own().filter_map(rows::Row::record).collect();
+            let programs = distinct(own().map(|row| &*row.program)).len();
+            nights = nights.with([vec![
+                case.name.to_owned(),
+                records.len().to_string(),
+                oldest.to_string(),
+                newest.to_string(),
+                programs.to_string(),
+            ]]);
+            let mut study = CaseStudy::new(case.name, records);
+            study.convergence = convergence(case, &study.records);
+            studies.push(study);
+        }
+        let text = summary::of_rows(studies, &nights)?;
+        if text.len() > MOST_GIST {
+            let cause = format!("{} bytes where {MOST_GIST} are allowed", text.len());
+            return Err(Error::file(&file, cause));
+        }
+        let same = file.exists() && read_text(&file)? == text;
+        let stale = if same {
+            Vec::new()
+        } else {
+            vec!["all of it".to_owned()]
+        };
+        Ok(Self { file, stale, text })
     }
 
     /// A page, with the names of the tables that it shows added to `shown`.

@@ -81,7 +81,10 @@ pub(super) fn sentence(record: &Record) -> String {
         (_, Some(e)) if record.broke_down() || broke_as_known(record) => {
             format!("it broke down at {} s", number(Some(e.time)))
         }
-        (Outcome::Right, _) => right,
+        (Outcome::Right, _) => match checks(Outcome::NotJudged).len() {
+            0 => right,
+            n => format!("{right}, {n} not judged"),
+        },
         (Outcome::NotJudged, _) => "no check against the truth applies".to_owned(),
         (found, _) => format!("{}; {right}", checks(found).join(", ")),
     };
