@@ -110,7 +110,7 @@ const INTRODUCTION: &str = "# Which check sees which fault
 
 Written by `just mutants` from its own runs: every [seeded fault](verification.md#seeded-faults) in all runs that
 reach the line it breaks, and the checks that go red there. Three sets of runs that take seconds each, a landslide and
-two of a slope that is cut, are asked about their own faults only. A check is named once a case, however many of the
+two of a slope that is cut, are made for their own faults only. A check is named once a case, however many of the
 runs see the fault by it.
 
 A fault that one check alone sees tells what would be lost with that check.

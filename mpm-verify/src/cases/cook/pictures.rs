@@ -60,7 +60,17 @@ fn charts(runs: &mut Exhibit, name: &str, charts: &[Chart], caption: &str) -> Re
 
 fn fields(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let mut panels = Vec::new();
-    for level in ["h1", "h0.5"] {
+    let has = |level: &&str| {
+        runs.records
+            .iter()
+            .any(|r| r.basis() == basis && r.level == **level)
+    };
+    let levels: Vec<&str> = ["h0.5", "h1", "h2"]
+        .into_iter()
+        .filter(has)
+        .take(2)
+        .collect();
+    for level in levels.into_iter().rev() {
         for remedy in [RemedyName::None, RemedyName::FbarConsistent] {
             let Some(record) = runs.find(basis, remedy, level) else {
                 continue;
@@ -103,6 +113,7 @@ fn displacement(runs: &mut Exhibit) -> Result<(), Error> {
         RemedyName::None,
         RemedyName::FbarTotal,
         RemedyName::FbarRate,
+        RemedyName::FbarConsistent,
     ];
     let chart = |title: &str, metric: Metric, error: Metric| {
         let curves = over_levels(runs, &at_rest, |r| (r.discretisation.h, r.metric(metric)));
@@ -130,13 +141,14 @@ fn displacement(runs: &mut Exhibit) -> Result<(), Error> {
     )
 }
 
-/// Approach to rest at the finest level that all four remedies have run with GIMP.
+/// Approach to rest at the finest level that all remedies have run with GIMP.
 fn rest(runs: &mut Exhibit) -> Result<(), Error> {
     let remedies = [
         RemedyName::None,
         RemedyName::FbarRecursive,
         RemedyName::FbarTotal,
         RemedyName::FbarRate,
+        RemedyName::FbarConsistent,
     ];
     let Some(level) = runs.level(BasisName::Gimp, &remedies, &["h1", "h2"]) else {
         return Ok(());
