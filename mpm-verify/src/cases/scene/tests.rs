@@ -131,8 +131,8 @@ fn what_is_wrong_is_named_with_line_and_key() {
         ),
         ("cfl = 0.3", "cfl = 3", &["cfl: 3 where", "at most 1"]),
         (
-            "[16, 1], [10, 5]",
-            "[10, 5], [16, 1]",
+            "[30, 0], [30, 1]",
+            "[30, 1], [30, 0]",
             &["line 16", "crosses itself"],
         ),
         (
