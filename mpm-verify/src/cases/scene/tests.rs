@@ -133,7 +133,7 @@ fn what_is_wrong_is_named_with_line_and_key() {
         (
             "[30, 0], [30, 1]",
             "[30, 1], [30, 0]",
-            &["line 16", "crosses itself"],
+            &["line 15", "side 1 crosses its side 3"],
         ),
         (
             "[10, 5], [0, 5]",
