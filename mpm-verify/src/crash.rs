@@ -4,9 +4,11 @@ use crate::case::Case;
 use crate::cases;
 use crate::error::Error;
 use crate::files::fault::{Fault, Step, on_machine};
-use crate::files::{read, read_versioned, write_whole};
+use crate::files::{make_folder, read, read_versioned, write_whole};
 use crate::golden::Goldens;
+use crate::night::Night;
 use crate::record::Record;
+use crate::report::keep::keep;
 use crate::report::write_report;
 use crate::run::checkpoint::Saving;
 use crate::scheme::{BasisName, RemedyName, Scheme};
@@ -238,4 +240,147 @@ fn a_verification_and_its_report_survive_failures() {
         let twin = straight.path().join("cook").join(name.file_name().unwrap());
         assert_eq!(difference(&name, &twin), [""; 0].map(PathBuf::from));
     }
+}
+
+/// The share of one shard of some of a plan of as many runs, each with a length of its own.
+fn plan(index: usize, count: usize) -> Plan {
+    let (case, spec) = spec();
+    let run = |shard: usize| {
+        let mut set = spec.set.clone();
+        set[0] = format!("max_periods=0.0{shard}");
+        PlannedRun {
+            case: case.name.to_owned(),
+            scheme: spec.scheme,
+            level: spec.level.name.to_owned(),
+            set,
+            shard,
+        }
+    };
+    Plan {
+        schema: 1,
+        tier: "quick".to_owned(),
+        shard: Shard { index, count },
+        runs: (1..=count).map(run).collect(),
+    }
+}
+
+/// Reports what lies in some folders below `root` in `out`.
+fn report(root: &Path, from: &[&str], out: &str, night: Option<&Night>) -> Result<(), Error> {
+    let from: Vec<PathBuf> = from.iter().map(|name| root.join(name)).collect();
+    let gathered = Gathered::read(&from)?;
+    let goldens = Goldens::open(&root.join("golden"))?;
+    let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
+    write_report(&gathered, judged, &goldens, night, &root.join(out)).map(drop)
+}
+
+/// A command that changes files below a folder.
+struct Deed {
+    name: &'static str,
+    /// Its steps, at least: the page says so.
+    least: usize,
+    /// Of how many steps one is failed at. No multiple of those of a file, so that steps of all kinds are.
+    of: usize,
+    /// What is there before it.
+    prepare: fn(&Path) -> Result<(), Error>,
+    work: fn(&Path) -> Result<(), Error>,
+}
+
+/// One run, and an empty folder of goldens.
+fn one_run(root: &Path) -> Result<(), Error> {
+    make_folder(&root.join("golden"))?;
+    make_runs(&plan(1, 1), &root.join("runs"), saving(), 1, &Deaf).map(drop)
+}
+
+fn night() -> Night {
+    Night::new("2026-01-02", "abc").unwrap()
+}
+
+const DEEDS: [Deed; 2] = [
+    Deed {
+        name: "merge",
+        least: 50,
+        of: 1,
+        prepare: |root| {
+            make_folder(&root.join("golden"))?;
+            ["a", "b"].into_iter().zip(1..).try_for_each(|(name, k)| {
+                make_runs(&plan(k, 2), &root.join(name), saving(), 1, &Deaf).map(drop)
+            })
+        },
+        work: |root| report(root, &["a", "b"], "all", None),
+    },
+    Deed {
+        name: "keep",
+        least: 10,
+        of: 1,
+        prepare: |root| {
+            one_run(root)?;
+            report(root, &["runs"], "runs", Some(&night()))?;
+            keep(&root.join("runs"), &root.join("kept")).map(drop)?;
+            report(
+                root,
+                &["runs"],
+                "runs",
+                Some(&Night::new("2026-01-03", "def").unwrap()),
+            )
+        },
+        work: |root| keep(&root.join("runs"), &root.join("kept")).map(drop),
+    },
+];
+
+fn copy(from: &Path) -> tempfile::TempDir {
+    let to = tempfile::tempdir().unwrap();
+    for (name, bytes) in walk(from) {
+        let path = to.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+    fs::create_dir_all(to.path().join("golden")).unwrap();
+    to
+}
+
+/// A command that fails at any of its steps ends, when it is given again, with the files of one that has not failed.
+fn survives(deed: &Deed) {
+    let before = tempfile::tempdir().unwrap();
+    (deed.prepare)(before.path()).unwrap();
+    let straight = copy(before.path());
+    let work = || (deed.work)(straight.path());
+    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, work);
+    made.unwrap();
+    assert!(log.len() >= deed.least, "{}: {}", deed.name, log.len());
+    require_safe_names(&log);
+    for fault in [Fault::Kill, Fault::Full] {
+        for at in (0..log.len()).step_by(deed.of) {
+            let folder = copy(before.path());
+            let work = || (deed.work)(folder.path());
+            let (failed, steps) = on_machine(folder.path(), fault, at, work);
+            let adds = |(step, _): &(Step, PathBuf)| matches!(step, Step::Create | Step::Write);
+            let fails = fault == Fault::Kill || log[at..].iter().any(adds);
+            assert_eq!(failed.is_err(), fails, "{} {fault:?} at {at}", deed.name);
+            // The sign of a whole report is there at its end or not at all.
+            for name in ["runs", "all"] {
+                let sign = folder.path().join(name).join("summary.json");
+                assert!(!sign.exists() || read_versioned::<Summary>(&sign, SCHEMA).is_ok());
+            }
+            (deed.work)(folder.path()).unwrap();
+            let different = difference(folder.path(), straight.path());
+            let none = [""; 0].map(PathBuf::from);
+            assert_eq!(
+                different,
+                none,
+                "{} {fault:?} at {at}: {:?}",
+                deed.name,
+                steps.last()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_merge_survives_failures_at_every_step() {
+    survives(&DEEDS[0]);
+}
+
+#[test]
+fn keeping_survives_failures_at_every_step() {
+    survives(&DEEDS[1]);
 }
