@@ -85,7 +85,8 @@ fn counts(record: &Record, twin: &Record) -> Vec<Column> {
 }
 
 /// Evenly spaced rows of a column and the last, as far as none of them responds too strongly. What a row responds by is
-/// the most of all rows up to it, the kept ones and the others: a difference may pass through zero.
+/// the most of all rows up to it, the kept ones and the others: a difference may pass through zero. A row is found by its
+/// time, so that of several at one time, as static steps are, none is kept but the first.
 fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column> {
     let total = values[0].len();
     let mut kept: Vec<usize> = (1..=ROWS).map(|k| (k * total).div_ceil(ROWS)).collect();
@@ -98,7 +99,8 @@ fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column>
             break;
         }
         response = response.max(difference);
-        if kept.contains(&(k + 1)) {
+        let is_later = k == 0 || times[0][k] > times[0][k - 1];
+        if kept.contains(&(k + 1)) && is_later {
             points.push(Point {
                 time: Some(rounded(times[0][k], 10)),
                 value: rounded(values[0][k], 10),
@@ -126,6 +128,15 @@ pub(super) fn rounded(number: f64, digits: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::record::fixture::record;
+
+    #[test]
+    fn of_rows_at_one_time_the_first_is_kept() {
+        let times = [&[0.0, 0.0, 0.5, 1.0][..]; 2];
+        let values = [&[1.0, 2.0, 3.0, 4.0][..]; 2];
+        let kept = rows("moved (m)", times, values).unwrap();
+        let kept: Vec<_> = kept.points.iter().map(|p| (p.time, p.value)).collect();
+        assert_eq!(kept, [(Some(0.0), 1.0), (Some(0.5), 3.0), (Some(1.0), 4.0)]);
+    }
 
     #[test]
     fn a_count_that_answers_rounding_strongly_is_no_golden() {
