@@ -6,6 +6,7 @@
 mod fault;
 mod form;
 mod law;
+mod made;
 mod phase;
 mod setup;
 mod shape;

@@ -26,13 +26,13 @@ const MOST_CELLS: f64 = 1e8;
 
 /// Everything that a run of a scene file needs.
 pub(super) struct Setup<const D: usize> {
-    form: Form,
+    pub(super) form: Form,
     pub(super) scheme: Scheme,
     pub(super) phases: Vec<Phase>,
     grid: Grid<D>,
     pub(super) places: Vec<[f64; D]>,
     velocity: [f64; D],
-    spacing: f64,
+    pub(super) spacing: f64,
 }
 
 impl<const D: usize> Setup<D> {
@@ -130,54 +130,6 @@ impl<const D: usize> Setup<D> {
             }
         }
         Ok(())
-    }
-
-    /// What the file makes of the body and of every phase.
-    pub(super) fn made(&self) -> Vec<String> {
-        let reach: [f64; D] = std::array::from_fn(|a| {
-            let along = || self.places.iter().map(|x| x[a]);
-            let (least, most) = (
-                along().fold(f64::MAX, f64::min),
-                along().fold(f64::MIN, f64::max),
-            );
-            most - least + self.spacing
-        });
-        let density = self.form.body.get_ref().density_kg_m3.0;
-        // Σ |g| times the reach: the stress below a column as high as the body.
-        let weight = |load: &Line<LoadForm>| match load.get_ref() {
-            LoadForm::Gravity {
-                acceleration_m_s2: g,
-                ..
-            } => g
-                .iter()
-                .zip(&reach)
-                .map(|(g, reach)| density * g.0.abs() * reach)
-                .sum(),
-            LoadForm::Force { .. } => 0.0,
-        };
-        let weight = self.form.loads.iter().map(weight).fold(0.0, f64::max);
-        let size: Vec<String> = reach.iter().map(|reach| format!("{reach:.2}")).collect();
-        let volume = self.places.len() as f64 * self.spacing.powi(D as i32);
-        let of = |phase: &Phase| {
-            let strength = phase.strength.map_or(String::new(), |s| {
-                format!(", undrained shear strength {s:.0} Pa")
-            });
-            format!(
-                "Phase {}: speed of sound {:.1} m/s{strength}; {} steps of {:.3e} s.",
-                phase.name,
-                phase.material.wave_speed(density),
-                phase.rows as u64 * phase.steps_per_row,
-                phase.dt
-            )
-        };
-        let unit = ["m", "m²", "m³"][D - 1];
-        let body = format!(
-            "Body: {} m, {volume:.2} {unit}, {density} kg/m³; its height weighs {weight:.0} Pa.",
-            size.join(" × ")
-        );
-        std::iter::once(body)
-            .chain(self.phases.iter().map(of))
-            .collect()
     }
 
     /// Particles per cell.
