@@ -9,6 +9,7 @@ mod improved_hencky;
 mod neo_hookean;
 mod newtonian_fluid;
 mod strength;
+mod viscous;
 
 pub use cam_clay::{CamClay, CamClayState};
 pub use hencky::Hencky;
@@ -19,6 +20,7 @@ pub use improved_hencky::ImprovedHencky;
 pub use neo_hookean::NeoHookean;
 pub use newtonian_fluid::NewtonianFluid;
 pub use strength::{ElastoplasticState, Strength};
+pub use viscous::Viscous;
 
 use crate::number::{Dual, EIGHT, Eight, Lanes, Real};
 use crate::tensor::SymmetricTensor;
@@ -64,6 +66,20 @@ impl State for SymmetricTensor {
     #[inline(always)]
     fn part<T: Lanes>(of: &SymmetricTensor<T>, k: usize) -> Self {
         of.part(k)
+    }
+}
+
+impl<S: State> State for (S, f64) {
+    type Of<T: Real> = (S::Of<T>, T);
+
+    #[inline(always)]
+    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> Self::Of<T> {
+        (S::pack(|k| of(k).0), T::pack(|k| of(k).1))
+    }
+
+    #[inline(always)]
+    fn part<T: Lanes>(of: &Self::Of<T>, k: usize) -> Self {
+        (S::part(&of.0, k), of.1.part(k))
     }
 }
 

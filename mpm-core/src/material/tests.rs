@@ -271,6 +271,58 @@ fn the_rate_of_a_stress_has_waves_too() {
     }
 }
 
+/// q = ρ h ε̇ (c₁ c + c₂ h ε̇), c² = 4/2, in compression and nowhere else; the law beside it is what it was.
+#[test]
+fn an_artificial_viscosity_resists_quick_compression_alone() {
+    let own = NeoHookean {
+        lambda: 2.0,
+        mu: 1.0,
+    };
+    let law = Viscous::new(own, 2.0, 0.5, [0.1, 3.0]).unwrap();
+    // Half of the volume is there: the density is twice that of undeformed material.
+    let (state, dt) = (own.initial_state(), 1e-3);
+    let squeezed = |rate: f64| {
+        let mut f = Matrix3::identity();
+        f[(0, 0)] = 1.0 - rate * dt;
+        f
+    };
+    for rate in [-2.0, 0.0, 2.0_f64] {
+        let f = squeezed(rate);
+        let (stress, after) = law.update(&f, dt, &(state, 0.5 / f.determinant()));
+        let (without, own_state) = own.update(&f, dt, &state);
+        let compressed = rate.max(0.0);
+        let q = 4.0 * 0.5 * compressed * (0.1 * 2.0_f64.sqrt() + 3.0 * 0.5 * compressed);
+        for (with, without) in [
+            (stress.xx, without.xx),
+            (stress.yy, without.yy),
+            (stress.zz, without.zz),
+        ] {
+            assert!(
+                (with - (without - q)).abs() < 1e-11,
+                "{rate} {with} {without} {q}"
+            );
+        }
+        assert!(after.0 == own_state && law.energy(&after) == own.energy(&own_state));
+        assert_eq!(law.at_rest(&f).0, own.at_rest(&f).0);
+    }
+    // In units of half a pascal all of it doubles.
+    let (twice, once) = (
+        law.in_units(2.0)
+            .update(&squeezed(2.0), dt, &law.initial_state())
+            .0,
+        law.update(&squeezed(2.0), dt, &law.initial_state()).0,
+    );
+    assert!((twice.xx - 2.0 * once.xx).abs() < 1e-12);
+    for (density, h, c) in [
+        (0.0, 1.0, [0.0; 2]),
+        (1.0, f64::NAN, [0.0; 2]),
+        (1.0, 1.0, [-1.0, 0.0]),
+        (1.0, 1.0, [0.0, f64::INFINITY]),
+    ] {
+        assert!(Viscous::new(own, density, h, c).is_err());
+    }
+}
+
 // Viscosity is not elastic: what it adds is tested below.
 every_law_must!(inviscid_fluid, NewtonianFluid::new(5.0, 0.0).unwrap());
 

@@ -9,7 +9,7 @@ use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Serendipity};
 use mpm_core::material::{
     CamClay, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, NeoHookean,
-    NewtonianFluid,
+    NewtonianFluid, Viscous,
 };
 use mpm_core::poro::{self, Water};
 use mpm_core::{Error, Lattice, Law, Scene, Simulation};
@@ -73,6 +73,7 @@ macro_rules! solvable {
 }
 
 solvable!(1, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: [], musl: []);
+solvable!(1, Viscous<NeoHookean>, flip: [Linear, Gimp, Bspline2, Bspline3], others: [], musl: []);
 solvable!(2, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2], musl: [Linear, Gimp]);
 solvable!(2, HenckyJ2, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2], musl: []);
 solvable!(2, NewtonianFluid, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2], musl: []);

@@ -91,12 +91,16 @@ fn figures(study: &CaseStudy, out: &Path) -> Vec<Value> {
 /// Where the page of a case in `docs` lies: on the server that builds the report, else in the repository.
 fn docs(case: &str, study: &CaseStudy) -> Value {
     let file = format!("docs/{case}.md");
-    let repository = env::var("GITHUB_SERVER_URL")
-        .ok()
-        .zip(env::var("GITHUB_REPOSITORY").ok());
     let commit = study.night.as_ref().map_or("HEAD", |night| &night.commit);
-    let href = repository.map(|(server, name)| format!("{server}/{name}/blob/{commit}/{file}"));
+    let href = on_server(commit, &file);
     context! { file, href }
+}
+
+/// Where a file of the repository lies on the server that builds the report, if one does.
+fn on_server(commit: &str, file: &str) -> Option<String> {
+    let variable = |name| env::var(name).ok();
+    let (server, name) = variable("GITHUB_SERVER_URL").zip(variable("GITHUB_REPOSITORY"))?;
+    Some(format!("{server}/{name}/blob/{commit}/{file}"))
 }
 
 fn index(
@@ -146,6 +150,7 @@ fn index(
         legend => map::legend().map(|entry| entry.to_vec()).to_vec(),
         advice => (!speed.is_empty()).then(|| speed.advice()),
         speed => (!speed.is_empty()).then(|| sheet(speed.table())),
+        advised => on_server("HEAD", "README.md#which-scheme-to-take"),
         picture,
         machines => distinct(machines),
         programs => sheet(programs(summary)),

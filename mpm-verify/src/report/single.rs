@@ -1,5 +1,6 @@
 //! The pictures of one run by itself.
 
+use super::words::number;
 use super::{draw_own, owning};
 use crate::case::Case;
 use crate::draw::{Chart, FieldFigure, FieldPanel, Series, draw_charts, draw_fields};
@@ -63,7 +64,7 @@ fn field(
         return Ok(None);
     };
     let d = &record.discretisation;
-    let title = format!("{} {}", record.scheme().title(), record.level);
+    let title = format!("{}, h = {} m", record.scheme().title(), number(Some(d.h)));
     let figure = FieldFigure {
         title: String::new(),
         panels: vec![FieldPanel {

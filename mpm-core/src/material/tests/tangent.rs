@@ -131,6 +131,26 @@ fn of_a_viscous_fluid() {
     }
 }
 
+#[test]
+fn of_an_artificial_viscosity() {
+    let own = NeoHookean {
+        lambda: 5.0,
+        mu: 2.0,
+    };
+    let law = Viscous::new(own, 1.0, 1e-3, [0.06, 1.5]).unwrap();
+    for f in special()
+        .into_iter()
+        .filter(|f| (f.determinant() - 1.0).abs() > 1e-3)
+    {
+        tangent_is_the_slope(
+            &law,
+            &f,
+            &law.initial_state(),
+            condition(&f) * modulus(&law),
+        );
+    }
+}
+
 /// Ground that yields at an elastic strain of half a percent.
 fn strengths() -> [Strength; 3] {
     [

@@ -99,6 +99,7 @@ pub(super) fn case() -> Case {
             "Tension is allowed: water that is pulled apart holds together by cells.",
             "After the front has met the wall single particles are chaotic; only sums over the water, compared over levels and ensembles, mean something.",
             "There is no air and no surface tension: jets are not those of water.",
+            "Nothing damps sound: the pressure of fbar-consistent is noisier than that of fbar-recursive.",
         ],
         parameters: parameters::ALL.to_vec(),
         levels: LEVELS.to_vec(),

@@ -6,6 +6,8 @@ use nalgebra::Matrix3;
 
 /// Halvings of the interval in which the stretch is.
 const HALVINGS: u32 = 200;
+/// Slices of a front that are summed.
+const SLICES: usize = 1000;
 /// Relative step of derivatives.
 const STEP: f64 = 1e-4;
 
@@ -20,6 +22,8 @@ pub(super) struct Jump {
     pub(super) lost: f64,
     /// See `jump_bound`.
     pub(super) bound: f64,
+    law: NeoHookean,
+    density: f64,
 }
 
 fn stretched(stretch: f64) -> Matrix3<f64> {
@@ -63,7 +67,28 @@ impl Jump {
             speed: speed / (1.0 - stretch),
             lost,
             bound: (0.5 * curvature * lost / slope / own).abs(),
+            law: *law,
+            density,
         }
+    }
+
+    /// The distance (m), in the undeformed bar, between the shares `from` and `to` of the jump in a steady front that an
+    /// artificial viscosity with the coefficients c₁ and c₂ on cells of size `h` (m) makes: q = ρ₀ S² (1 − F) + P(F) is
+    /// what it must bear, which gives the rate ε̇ = −Ḟ/F, and X = S t.
+    pub(super) fn width(&self, [linear, quadratic]: [f64; 2], h: f64, [from, to]: [f64; 2]) -> f64 {
+        let c = self.law.wave_speed(self.density);
+        let depth = 1.0 - self.stretch;
+        let slice = (to - from) / SLICES as f64;
+        let widths = (0..SLICES).map(|k| {
+            let stretch = 1.0 - depth * (from + (k as f64 + 0.5) * slice);
+            let line = self.density * self.speed * self.speed * (1.0 - stretch);
+            let q = stretch * (line + stress(&self.law, stretch)) / (self.density * h);
+            // q F/(ρ₀ h) = c₁ c ε̇ + c₂ h ε̇², whose root in this form is good for c₂ = 0 too.
+            let rate =
+                2.0 * q / (linear * c + (linear * linear * c * c + 4.0 * quadratic * h * q).sqrt());
+            self.speed * depth * slice / (stretch * rate)
+        });
+        widths.sum()
     }
 }
 
@@ -86,6 +111,17 @@ mod tests {
             // A front heats: nothing is gained.
             assert!(jump.lost > 0.0 && jump.lost < 500.0 * v * v, "{jump:?}");
         }
+        // A weak front with ν = c₁ h c is Burgers': ν ln 19/(S − c) wide from a twentieth to nineteen twentieths.
+        let weak = Jump::new(&law, 1000.0, 1e-2 * c);
+        let burgers = 0.06 * 0.01 * c * 19.0_f64.ln() / (weak.speed - c);
+        let width = weak.width([0.06, 0.0], 0.01, [0.05, 0.95]);
+        assert!((width / burgers - 1.0).abs() < 0.02, "{width} {burgers}");
+        // With a quadratic one alone, ρ₀ h² c₂ Ḟ² = κ (1 − F)(F − F₁): half a period of a sine, κ = ρ₀ (S² − c²)/(1 − F₁).
+        let width = weak.width([0.0, 1.5], 0.01, [0.05, 0.95]);
+        let kappa =
+            (weak.speed * weak.speed - c * c) / (1.0 - weak.stretch) / (weak.speed * weak.speed);
+        let sine = 2.0 * 0.9_f64.asin() * 0.01 * (1.5 / kappa).sqrt();
+        assert!((width / sine - 1.0).abs() < 0.02, "{width} {sine}");
         let weak = Jump::new(&law, 1000.0, 1e-3 * c);
         assert!(
             (weak.speed / c - 1.0).abs() < 2e-3 && weak.bound < 1e-6,

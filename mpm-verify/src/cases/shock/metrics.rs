@@ -17,7 +17,12 @@ metrics! { pub(super) ALL:
     ENERGY_GAIN = "energy_gain", "-", "largest rise of it, likewise";
     ENERGY_LOSS_ERROR = "energy_loss_error", "-",
         "energy lost at the end over what the exact front has taken by then, less one";
+    LOSS_RATE_ERROR = "loss_rate_error", "-",
+        "with an artificial viscosity: rate at which energy is lost in the last half of the run, over that of the exact front, less one";
     JUMP_BOUND = "jump_bound", "-",
         "how far the mean stress can be off as the energy that should be lost rings, over the exact stress";
+    FRONT_WIDTH = "front_width", "m",
+        "with an artificial viscosity: how far apart in the undeformed bar a twentieth and nineteen twentieths of the jump are at the end";
+    PREDICTED_WIDTH = "predicted_width", "m", "the same of the steady front that the viscosity makes";
     MASS = "mass", "kg/m²", "mass of the bar";
 }

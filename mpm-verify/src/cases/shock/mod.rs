@@ -22,6 +22,16 @@ use Tier::{Nightly, Pr, Quick};
 
 /// Speeds other than half of that of waves.
 const SPEEDS: [&[&str]; 3] = [&["mach=0.1"], &["mach=1"], &["mach=2"]];
+/// An artificial viscosity that takes what rings, at some speeds, and one that doesn't.
+const VISCOUS: [&[&str]; 3] = [
+    &["linear_viscosity=0.5", "quadratic_viscosity=2"],
+    &["mach=1", "linear_viscosity=0.5", "quadratic_viscosity=2"],
+    &["mach=2", "linear_viscosity=0.5", "quadratic_viscosity=2"],
+];
+const WEAK: [&[&str]; 2] = [
+    &["linear_viscosity=0.06", "quadratic_viscosity=1.5"],
+    &["mach=2", "linear_viscosity=0.06", "quadratic_viscosity=1.5"],
+];
 
 pub(super) fn case() -> Case {
     let levels = levels(1.0, [("n64", 64.0), ("n128", 128.0), ("n256", 256.0)]);
@@ -34,7 +44,9 @@ pub(super) fn case() -> Case {
             "Exact: Rankine and Hugoniot's conditions in uniaxial strain, src/cases/shock/jump.rs."
                 .to_owned(),
         ],
-        limits: &["No artificial viscosity: what a front should take rings behind it."],
+        limits: &[
+            "Without an artificial viscosity what a front should take rings behind it: none is the default.",
+        ],
         parameters: parameters::ALL.to_vec(),
         plan: plan(&levels),
         levels,
@@ -51,6 +63,9 @@ pub(super) fn case() -> Case {
                 100.0,
                 0,
             ),
+            headline(m::LOSS_RATE_ERROR, "rate of the loss (%)", 100.0, 1),
+            headline(m::FRONT_WIDTH, "width of the front (m)", 1.0, 4),
+            headline(m::PREDICTED_WIDTH, "predicted (m)", 1.0, 4),
         ],
         quantities: Vec::new(),
         sweeps: Vec::new(),
@@ -86,7 +101,19 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         ],
     );
     let sound = pairs(&BASES, &[RemedyName::None, RemedyName::FbarConsistent]);
+    // Not of linear functions, whose stress fades as they cross cells.
+    let viscous = pairs(&BASES[1..], &[RemedyName::None, RemedyName::FbarConsistent]);
+    let [half, as_fast, twice] = VISCOUS;
+    let weak = &pairs(&BASES[1..], &[RemedyName::None]);
     vec![
+        family(Pr, &levels[..1], &viscous, half),
+        family(Pr, &levels[..2], &viscous[..2], twice),
+        family(Pr, &levels[1..2], &weak[..1], WEAK[1]),
+        family(Nightly, levels, &viscous, half),
+        family(Nightly, levels, &viscous, as_fast),
+        family(Nightly, levels, &viscous, twice),
+        family(Nightly, &levels[1..], weak, WEAK[0]),
+        family(Nightly, &levels[1..], weak, WEAK[1]),
         family(Quick, &levels[..1], &plain[1..2], &[]),
         family(Pr, &levels[..1], &all, &[]),
         family(Pr, &levels[..2], &plain, &[]),

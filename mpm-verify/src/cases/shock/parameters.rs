@@ -10,7 +10,23 @@ pub(super) const PPC_PER_DIRECTION: Parameter = common::PPC_PER_DIRECTION;
 pub(super) const WALL: Parameter = common::WALL;
 parameters! { pub(super) const:
     MACH = "mach", "-", "0.5", number(0.01, 3.0, false), "speed of the bar over that of its waves";
+    LINEAR_VISCOSITY = "linear_viscosity", "-", "0", number(0.0, 10.0, false),
+        "coefficient c₁ of the linear artificial viscosity: 0.5 takes what rings";
+    QUADRATIC_VISCOSITY = "quadratic_viscosity", "-", "0", number(0.0, 10.0, false),
+        "coefficient c₂ of the quadratic artificial viscosity: 2 makes a front five to ten cells wide";
 }
 
 /// All of them.
-pub(super) const ALL: [Parameter; 6] = [MACH, CFL, FLIP, PPC_PER_DIRECTION, POISSON_RATIO, WALL];
+pub(super) const ALL: [Parameter; 8] = [
+    MACH,
+    LINEAR_VISCOSITY,
+    QUADRATIC_VISCOSITY,
+    CFL,
+    FLIP,
+    PPC_PER_DIRECTION,
+    POISSON_RATIO,
+    WALL,
+];
+
+/// The coefficients of the artificial viscosity, the linear one first.
+pub(super) const VISCOSITY: [Parameter; 2] = [LINEAR_VISCOSITY, QUADRATIC_VISCOSITY];

@@ -2,7 +2,7 @@
 
 use super::jump::Jump;
 use super::metrics as m;
-use super::parameters::{CFL, FLIP, MACH, POISSON_RATIO, PPC_PER_DIRECTION};
+use super::parameters::{CFL, FLIP, MACH, POISSON_RATIO, PPC_PER_DIRECTION, VISCOSITY};
 use crate::cases::course::{Course, Watched};
 use crate::cases::observe::{column, discretisation, position_columns, settings};
 use crate::drive::Drive;
@@ -15,9 +15,10 @@ use crate::spec::RunSpec;
 use crate::statistics::{fit_line, rms};
 use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
-use mpm_core::material::NeoHookean;
+use mpm_core::material::{NeoHookean, Viscous};
 use mpm_core::stage::{End, Wall, WallKind};
 use mpm_core::{Axis, Body, Error as Fault, Grid, Law, Part, Particles, Scene, Side, Simulation};
+use mpm_solvers::Solvable;
 
 /// Length (m), Young's modulus (Pa) and density (kg/m³) of the bar.
 const LENGTH: f64 = 1.0;
@@ -26,6 +27,8 @@ const DENSITY: f64 = 1000.0;
 /// The share of the bar that the front goes through, and those of its way between which the state is taken.
 pub(super) const WAY: f64 = 0.7;
 const BEHIND: [f64; 2] = [0.1, 0.8];
+/// The shares of the jump between which a front is as wide as it is said to be.
+const FRONT: [f64; 2] = [0.05, 0.95];
 /// Rows of the series.
 const ROWS: u64 = 100;
 /// Cells beyond the bar.
@@ -36,6 +39,8 @@ pub(super) struct Bar {
     spec: RunSpec,
     parameters: Parameters,
     law: NeoHookean,
+    /// Coefficients of the artificial viscosity.
+    viscosity: [f64; 2],
     /// Speed of the bar (m/s), time step (s), steps.
     speed: f64,
     dt: f64,
@@ -57,11 +62,17 @@ impl Bar {
         let waves = law.wave_speed(DENSITY);
         let speed = number(MACH) * waves;
         let jump = Jump::new(&law, DENSITY, speed);
-        let dt = courant_time_step(number(CFL), spec.level.h, waves);
+        let viscosity = VISCOSITY.map(number);
+        let [linear, quadratic] = viscosity;
+        // The jump in one cell is the quickest compression; damping makes the step of the steepest wave shorter so much.
+        let damping = linear + 2.0 * quadratic * number(MACH);
+        let shorter = damping.hypot(1.0) + damping;
+        let dt = courant_time_step(number(CFL) / shorter, spec.level.h, waves);
         let bar = Self {
             spec: spec.clone(),
             parameters: parameters.clone(),
             law,
+            viscosity,
             speed,
             dt,
             steps: (WAY * LENGTH / jump.speed / dt).ceil() as u64,
@@ -70,9 +81,13 @@ impl Bar {
         Ok(Drive::new(Watched(bar), Default::default())?)
     }
 
-    /// Where in the undeformed bar (m) the front is: from the free end, where the straight line through the mean stretches of
-    /// two cells first is half-way.
-    fn front(&self, run: &dyn Simulation<1>) -> f64 {
+    fn is_viscous(&self) -> bool {
+        self.viscosity != [0.0; 2]
+    }
+
+    /// Where in the undeformed bar (m) a share of the jump is: from the free end, where the straight line through the mean
+    /// stretches of two cells first reaches it.
+    fn front(&self, run: &dyn Simulation<1>, share: f64) -> f64 {
         let (h, p) = (self.spec.level.h, run.particles());
         let cells = (LENGTH / h).round() as usize;
         let mut sums = vec![[0.0; 2]; cells];
@@ -81,13 +96,35 @@ impl Bar {
                 *sum = [sum[0] + j, sum[1] + 1.0];
             }
         }
-        let half = 0.5 * (1.0 + self.jump.stretch);
+        let sought = 1.0 - share * (1.0 - self.jump.stretch);
         let mean = |k: usize| sums[k][0] / sums[k][1];
-        let reached = (0..cells).rev().find(|k| mean(*k) < half);
+        let reached = (0..cells).rev().find(|k| mean(*k) < sought);
         reached.map_or(0.0, |k| {
             let beyond = if k + 1 < cells { mean(k + 1) } else { 1.0 };
-            (k as f64 + 0.5 + (half - mean(k)) / (beyond - mean(k))) * h
+            (k as f64 + 0.5 + (sought - mean(k)) / (beyond - mean(k))) * h
         })
+    }
+
+    /// A simulation of the bar, made of `law`.
+    fn of<M: Solvable<1>>(&self, law: M) -> Result<Box<dyn Simulation<1>>, Fault> {
+        let h = self.spec.level.h;
+        let size = h / self.parameters.number(PPC_PER_DIRECTION);
+        let cells = (LENGTH / h).round() as usize;
+        let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
+        let count = (LENGTH / size).round() as usize;
+        let places = (0..count).map(|k| [(k as f64 + 0.5) * size]).collect();
+        let mut particles =
+            Particles::new(self.spec.start_at(places), size, DENSITY, [0.5 * size])?;
+        particles.velocity.fill([-self.speed]);
+        let wall = Wall {
+            axis: 0,
+            end: End::Lo,
+            kind: WallKind::Roller,
+        };
+        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(wall);
+        let settings = settings(&self.spec, &self.parameters, self.dt, 0.0)?;
+        let settings = settings.transfer(Flip::new(self.parameters.number(FLIP))?);
+        mpm_solvers::solver(self.spec.scheme, scene, settings)
     }
 
     /// Stress (Pa) and velocity (m/s) of the particles behind the front, at the end.
@@ -112,25 +149,13 @@ impl Course<1> for Bar {
     }
 
     fn begin(&self) -> Result<Box<dyn Simulation<1>>, Fault> {
-        let h = self.spec.level.h;
-        let size = h / self.parameters.number(PPC_PER_DIRECTION);
-        let cells = (LENGTH / h).round() as usize;
-        let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
-        let count = (LENGTH / size).round() as usize;
-        let places = (0..count).map(|k| [(k as f64 + 0.5) * size]).collect();
-        let mut particles =
-            Particles::new(self.spec.start_at(places), size, DENSITY, [0.5 * size])?;
-        particles.velocity.fill([-self.speed]);
-        let wall = Wall {
-            axis: 0,
-            end: End::Lo,
-            kind: WallKind::Roller,
-        };
-        let scene =
-            Scene::new(Grid::new(h, [axis])?, Body::new(self.law, particles)?).constrain(wall);
-        let settings = settings(&self.spec, &self.parameters, self.dt, 0.0)?;
-        let settings = settings.transfer(Flip::new(self.parameters.number(FLIP))?);
-        mpm_solvers::solver(self.spec.scheme, scene, settings)
+        match self.is_viscous() {
+            true => {
+                let h = self.spec.level.h;
+                self.of(Viscous::new(self.law, DENSITY, h, self.viscosity)?)
+            }
+            false => self.of(self.law),
+        }
     }
 
     fn columns(&self) -> Vec<&'static str> {
@@ -147,7 +172,7 @@ impl Course<1> for Bar {
         let totals = run.totals();
         vec![
             run.time(),
-            self.front(run),
+            self.front(run, 0.5),
             run.on(Part::Constraint(0)).impulse[0],
             totals.kinetic_energy,
             totals.stored_energy,
@@ -181,7 +206,7 @@ impl Course<1> for Bar {
         let rise = |row: &Vec<f64>| energy(row) / start - 1.0;
         let lost = -rows.last().map_or(f64::NAN, rise);
         let taken = self.jump.lost * self.jump.speed * run.time() / start;
-        vec![
+        let mut found = vec![
             (m::SHOCK_SPEED_ERROR, slope(1) / self.jump.speed - 1.0),
             (m::STRESS_ERROR, stress / exact - 1.0),
             (m::VELOCITY_ERROR, mean(1) / self.speed),
@@ -199,6 +224,17 @@ impl Course<1> for Bar {
             (m::ENERGY_LOSS_ERROR, lost / taken - 1.0),
             (m::JUMP_BOUND, self.jump.bound),
             (m::MASS, run.totals().mass),
-        ]
+        ];
+        if self.is_viscous() {
+            let [ahead, behind] = FRONT.map(|share| self.front(run, share));
+            let predicted = self.jump.width(self.viscosity, self.spec.level.h, FRONT);
+            let whole: Vec<(f64, f64)> = late.iter().map(|row| (of(row, 0), energy(row))).collect();
+            let rate = fit_line(&whole).map_or(f64::NAN, |line| -line.slope);
+            let exact = self.jump.lost * self.jump.speed;
+            found.push((m::LOSS_RATE_ERROR, rate / exact - 1.0));
+            found.push((m::FRONT_WIDTH, ahead - behind));
+            found.push((m::PREDICTED_WIDTH, predicted));
+        }
+        found
     }
 }
