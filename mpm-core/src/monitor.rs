@@ -41,6 +41,8 @@ pub struct Convergence {
     pub residuals: Vec<f64>,
     /// The paper's out-of-balance force ratio, Eq. (37): ‖F_ext − F_int‖ / ‖F_ext‖ over all free components.
     pub force_ratio: f64,
+    /// What rounding of the stresses by some last bits may leave of that: less is not asked for.
+    pub force_rounding: f64,
     /// The analogue of the paper's energy ratio, Eq. (38), where nothing moves: the residual's work on the last
     /// correction over that of the external force on the increment.
     pub energy_ratio: f64,

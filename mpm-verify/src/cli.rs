@@ -200,6 +200,9 @@ pub(crate) enum Command {
         /// Runs side by side (as many as there are cores if not given)
         #[arg(long, value_parser = threads())]
         threads: Option<usize>,
+        /// Refuse scenes that take more memory at their start, side by side (not asked if not said)
+        #[arg(long, value_name = "GIB", value_parser = memory)]
+        memory: Option<f64>,
         #[command(flatten)]
         told: Told,
     },

@@ -1,5 +1,7 @@
 //! Runs, verifications and reports on machines that fail at every step by which they change a file.
 
+mod bless;
+
 use crate::case::Case;
 use crate::cases;
 use crate::error::Error;
@@ -295,7 +297,11 @@ fn night() -> Night {
     Night::new("2026-01-02", "abc").unwrap()
 }
 
-const DEEDS: [Deed; 2] = [
+fn next_night() -> Night {
+    Night::new("2026-01-03", "def").unwrap()
+}
+
+const DEEDS: [Deed; 3] = [
     Deed {
         name: "merge",
         least: 50,
@@ -316,14 +322,19 @@ const DEEDS: [Deed; 2] = [
             one_run(root)?;
             report(root, &["runs"], "runs", Some(&night()))?;
             keep(&root.join("runs"), &root.join("kept")).map(drop)?;
-            report(
-                root,
-                &["runs"],
-                "runs",
-                Some(&Night::new("2026-01-03", "def").unwrap()),
-            )
+            report(root, &["runs"], "runs", Some(&next_night()))
         },
         work: |root| keep(&root.join("runs"), &root.join("kept")).map(drop),
+    },
+    Deed {
+        name: "report",
+        least: 80,
+        of: 9,
+        prepare: |root| {
+            one_run(root)?;
+            report(root, &["runs"], "runs", Some(&night()))
+        },
+        work: |root| report(root, &["runs"], "runs", Some(&next_night())),
     },
 ];
 
@@ -378,6 +389,11 @@ fn survives(deed: &Deed) {
 #[test]
 fn a_merge_survives_failures_at_every_step() {
     survives(&DEEDS[0]);
+}
+
+#[test]
+fn a_report_over_an_earlier_one_survives_failures() {
+    survives(&DEEDS[2]);
 }
 
 #[test]

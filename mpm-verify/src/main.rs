@@ -28,7 +28,7 @@ use mpm_verify::study::complete::Completeness;
 use mpm_verify::study::gather::Gathered;
 use mpm_verify::study::judge::exit_code;
 use mpm_verify::study::plan::{Plan, Shard};
-use mpm_verify::study::schedule::make_runs;
+use mpm_verify::study::schedule::{make_runs, require_memory};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -201,13 +201,17 @@ fn dispatch(command: Command) -> Result<ExitCode, Error> {
             out,
             golden,
             threads,
+            memory,
             told,
         } => {
             let chosen = |c: &&Case| named.is_empty() || named.iter().any(|n| n.name == c.name);
             let plan = Plan::new(cases::all().iter().filter(chosen), tier, shard)?;
             let saving = saving(checkpoint_every, resume);
-            let golden = golden::place(golden);
-            verify(&plan, saving, &out, &golden, or_all_cores(threads), told)
+            let (golden, workers) = (golden::place(golden), or_all_cores(threads));
+            if let Some(gib) = memory {
+                require_memory(&plan, gib * size::GIBIBYTE, workers)?;
+            }
+            verify(&plan, saving, &out, &golden, workers, told)
         }
         Command::Report {
             folders,

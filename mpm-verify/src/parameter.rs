@@ -95,6 +95,11 @@ impl Parameter {
         Self { default, ..self }
     }
 
+    /// The same with other allowed values.
+    pub(crate) const fn within(self, domain: Domain) -> Self {
+        Self { domain, ..self }
+    }
+
     /// The same with another meaning.
     pub(crate) const fn meaning(self, meaning: &'static str) -> Self {
         Self { meaning, ..self }

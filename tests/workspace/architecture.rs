@@ -116,3 +116,18 @@ fn a_dry_body_carries_no_water() {
         }
     }
 }
+
+/// What makes the results that are kept is one toolchain, and new enough for the packages.
+#[test]
+fn the_workflows_pin_one_toolchain() {
+    let value = |file: &str, name: &str| {
+        let text = std::fs::read_to_string(workspace().join(file)).unwrap();
+        let mut found = text.lines().filter_map(|l| l.trim().strip_prefix(name));
+        let version = found.next().unwrap().trim_matches('"').split('.');
+        version.map(|n| n.parse().unwrap()).collect::<Vec<u32>>()
+    };
+    let [pr, nightly] = ["pr", "nightly"]
+        .map(|w| value(&format!(".github/workflows/{w}.yml"), "RUSTUP_TOOLCHAIN: "));
+    assert_eq!(pr, nightly);
+    assert!(pr >= value("Cargo.toml", "rust-version = "));
+}

@@ -25,6 +25,17 @@ fn short(more: &[&str]) -> Output {
     mpm_verify(&[&SHORT[..], &REST, more].concat())
 }
 
+/// A plan with a scene that memory can't hold is refused before it begins.
+#[test]
+fn a_verification_that_memory_cannot_hold_leaves_nothing() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("out");
+    let verify = ["verify", "terzaghi", "--tier", "quick", "--memory", "1e-6"];
+    let output = mpm_verify(&[&verify[..], &["--out", text(&out)]].concat());
+    let said = "terzaghi/poro-gimp-two-grid/n10: the scene is larger than";
+    refused(&output, said, root.path(), &Files::new());
+}
+
 /// Refused by one line that says why, and nothing has changed below `root`.
 fn refused(output: &Output, needle: &str, root: &Path, before: &impl PartialEq<Files>) {
     let said = stderr(output);

@@ -73,6 +73,69 @@ fn zero_where_it_is_allowed_is_right_or_refused_by_name() {
     assert!(tried > 40, "{tried}");
 }
 
+/// What is right at the end of a range.
+enum End {
+    /// All that is judged holds.
+    Right,
+    /// A refusal that names the parameter.
+    Refused,
+    /// Likewise, and this check is not judged.
+    NotJudged(&'static str),
+}
+
+/// Ends of ranges at which a run once failed.
+const ENDS: [(&str, &str, End); 20] = [
+    ("cantilever", "young_modulus=1e-3", End::Refused),
+    ("cantilever", "young_modulus=1e12", End::Right),
+    ("cantilever", "weight=1", End::Right),
+    ("cantilever", "weight=1e6", End::Refused),
+    ("cantilever", "tolerance=1e-13", End::Right),
+    ("cantilever", "points_per_direction=1", End::Refused),
+    ("terzaghi", "young_modulus=1e-3", End::Refused),
+    ("terzaghi", "young_modulus=1e12", End::Right),
+    ("terzaghi", "load=1e6", End::Refused),
+    ("mandel", "young_modulus=1e-3", End::Refused),
+    ("mandel", "load=0.001", End::Right),
+    ("mandel", "load=1e6", End::Refused),
+    ("slope-stability", "young_modulus=1000", End::Refused),
+    ("strip", "young_modulus=1e-3", End::Refused),
+    ("footing", "young_modulus=1e-3", End::Refused),
+    ("dam-break", "bulk_modulus=1e5", End::Refused),
+    ("excavation", "lumped=0", End::Refused),
+    ("mms-static", "ppc_per_direction=1", End::Refused),
+    ("mms-axis", "half_waves=7", End::Right),
+    ("mms-axis", "half_waves=16", End::NotJudged("error-bound")),
+];
+
+#[test]
+fn the_ends_of_ranges_are_right_or_told() {
+    for (name, set, end) in ENDS {
+        let case = cases::find(name).unwrap();
+        let spec = RunSpec {
+            scheme: case.default_scheme(None),
+            level: case.levels[0],
+            set: vec![set.to_owned()],
+            perturbed: false,
+        };
+        let made = judged_run(case, &spec, None, 1, &|_| {});
+        let record = match (made, &end) {
+            (Err(refusal), End::Refused) => {
+                let parameter = set.split('=').next().unwrap();
+                assert!(refusal.to_string().contains(parameter), "{name}: {refusal}");
+                continue;
+            }
+            (Ok(record), End::Right | End::NotJudged(_)) => record,
+            (other, _) => panic!("{name} {set}: {other:?}"),
+        };
+        let failed = record.verdicts.iter().find(|v| v.failed());
+        assert!(failed.is_none(), "{name} {set}: {failed:?}");
+        if let End::NotJudged(check) = end {
+            let mut of = record.verdicts.iter().filter(|v| v.check == check);
+            assert!(of.all(|v| v.holds().is_none()), "{name} {set}");
+        }
+    }
+}
+
 /// What is said and kept comes with rows: none is longer than so many steps, however long the run.
 #[test]
 fn a_row_of_a_long_run_has_so_many_steps_at_most() {

@@ -218,7 +218,9 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
             let share = if loads > 0.0 { size / loads } else { size };
             convergence.residuals.push(share);
             if share <= self.settings.tolerance || size <= self.rounding {
-                convergence.force_ratio = size / norm(&external).max(f64::MIN_POSITIVE);
+                let scale = norm(&external).max(f64::MIN_POSITIVE);
+                convergence.force_ratio = size / scale;
+                convergence.force_rounding = self.rounding / scale;
                 let work = dot(&external, &u).abs().max(f64::MIN_POSITIVE);
                 convergence.energy_ratio = dot(&residual, &last).abs() / work;
                 return Ok(Solution {

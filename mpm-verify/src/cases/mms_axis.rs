@@ -11,13 +11,13 @@ use super::manufactured::metrics::DISPLACEMENT_L2;
 use super::manufactured::{CFL, Manufactured, PPC_PER_DIRECTION, all_parameters, levels};
 use super::parameters::{DYNAMIC, STEP_SCALING, WALL, WALL_LINE};
 use crate::case::{Case, Family, Tier};
-use crate::exact::axis_aligned::ENTRY;
+use crate::exact::axis_aligned::{ENTRY, HALF_WAVES};
 use crate::exact::parameters::{AMPLITUDE, DIMENSION};
 use crate::metric::{Metric, Sweep};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
 use crate::spec::Level;
-use std::f64::consts::TAU;
+use std::f64::consts::PI;
 
 use BasisName::{Bspline2, Bspline3, Gimp, Linear};
 use RemedyName::{FbarConsistent, FbarRate, FbarRecursive};
@@ -26,9 +26,9 @@ use Tier::{Long, Nightly, Pr, Quick};
 /// Displacements (m) beyond this cross cells that the levels have.
 const CROSSING: f64 = 0.01;
 
-/// The motion: a wave across the body.
+/// The motion: half waves across the body, a wave by default.
 const WAVE: Wave = Wave {
-    number: TAU,
+    number: |p| PI * p.number(HALF_WAVES),
     shear: false,
 };
 

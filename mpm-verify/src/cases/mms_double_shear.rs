@@ -23,7 +23,7 @@ use Tier::{Nightly, Pr, Quick};
 
 /// The motion: one wave across the body.
 const WAVE: Wave = Wave {
-    number: TAU,
+    number: |_| TAU,
     shear: true,
 };
 

@@ -24,7 +24,7 @@ use Tier::{Long, Nightly, Pr, Quick};
 
 /// The vortex: its profile falls from one to a half over 0.16 m, a sixth of a wave.
 pub(super) const WAVE: Wave = Wave {
-    number: 6.5,
+    number: |_| 6.5,
     shear: true,
 };
 /// Below this cell size (m) the motion crosses so many cells that errors have a floor.

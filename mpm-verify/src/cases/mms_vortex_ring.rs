@@ -23,7 +23,7 @@ const LARGE: f64 = 0.1;
 
 /// The motion: half a wave across the ring.
 const WAVE: Wave = Wave {
-    number: TAU,
+    number: |_| TAU,
     shear: true,
 };
 

@@ -24,7 +24,7 @@ use Tier::{Long, Nightly, Pr, Quick};
 
 /// The motion: half a wave across the body.
 const WAVE: Wave = Wave {
-    number: PI,
+    number: |_| PI,
     shear: false,
 };
 

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use crate::record::Record;
 use crate::spec::RunSpec;
+use std::ops::RangeInclusive;
 
 pub(super) use crate::exact::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 
@@ -66,6 +67,34 @@ pub(super) fn cfl(
             "time_step = {AUTO} has no step for the basis {basis}, whose functions vanish with a slope; allowed: cfl"
         ))
     })
+}
+
+/// Checks a quotient of parameters, which `what` names with its value.
+///
+/// # Errors
+/// It is not among the `allowed`; `why` says what is beyond.
+pub(super) fn require_quotient(
+    what: &str,
+    value: f64,
+    allowed: RangeInclusive<f64>,
+    why: &str,
+) -> Result<(), Error> {
+    if allowed.contains(&value) {
+        return Ok(());
+    }
+    let (least, most) = (allowed.start(), allowed.end());
+    Err(Error::Input(format!(
+        "{what} = {value:.3e}; allowed: {least:.3e} to {most:.3e}, {why}"
+    )))
+}
+
+/// Share of a strain that rounding of positions and volumes may make in a run: four last bits a step, of what is of the
+/// order of one. A percent hides what cases of small strain are about.
+const HIDDEN: f64 = 0.01;
+
+/// The least strain that so many steps don't hide behind rounding.
+pub(super) fn least_strain(steps: f64) -> f64 {
+    4.0 * f64::EPSILON * steps / HIDDEN
 }
 
 /// Whether a run was of its case's own problem, however divided in space and time.

@@ -125,6 +125,25 @@ impl Size {
     }
 }
 
+/// Checks that memory of so many bytes holds as many of the largest of these scenes as run side by side.
+///
+/// # Errors
+/// It does not.
+pub fn require_together(sizes: &[Size], memory: f64, side_by_side: usize) -> Result<(), Error> {
+    let mut bytes: Vec<f64> = sizes.iter().map(|size| size.bytes).collect();
+    bytes.sort_by(|a, b| b.total_cmp(a));
+    bytes.truncate(side_by_side);
+    let all: f64 = bytes.iter().sum();
+    if all <= memory {
+        return Ok(());
+    }
+    let [all, memory] = [all, memory].map(|bytes| bytes / GIBIBYTE);
+    Err(Error::Input(format!(
+        "the {} largest scenes take {all:.3} GiB side by side, and may take {memory:.3} GiB (--memory): fewer --threads",
+        bytes.len()
+    )))
+}
+
 impl std::fmt::Display for Size {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let count = |n: f64| match self.worked_out {
@@ -290,6 +309,20 @@ mod tests {
         let named = Size::of(case, &spec(case, 0, &["bulk_modulus=0.001", "height=2"]));
         let named = named.unwrap_err().to_string();
         assert!(named.contains("parameter height") && named.contains("bulk_modulus"));
+    }
+
+    #[test]
+    fn scenes_side_by_side_share_the_memory() {
+        let sizes = [1.0, 3.0, 2.0].map(|bytes| Size {
+            particles: 1.0,
+            nodes: 1.0,
+            bytes,
+            worked_out: false,
+        });
+        require_together(&sizes, 3.0, 1).unwrap();
+        require_together(&sizes, 5.0, 2).unwrap();
+        let refusal = require_together(&sizes, 4.9, 2).unwrap_err();
+        assert!(refusal.to_string().contains("the 2 largest"), "{refusal}");
     }
 
     #[test]

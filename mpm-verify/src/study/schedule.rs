@@ -10,6 +10,7 @@ use crate::files::require_inside;
 use crate::record::{Record, Version};
 use crate::run::checkpoint::Saving;
 use crate::run::discard_run;
+use crate::run::size::{Size, require_together};
 use crate::spec::RunSpec;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -64,6 +65,22 @@ pub fn make_runs(
     }
     plan.write(out)?;
     run_all(&tasks, saving, workers, listener)
+}
+
+/// Checks that memory of so many bytes holds the scenes of a plan's own shard, as many side by side as there are `workers`.
+///
+/// # Errors
+/// It does not, or a scene can't be built.
+pub fn require_memory(plan: &Plan, memory: f64, workers: usize) -> Result<(), Error> {
+    let mut sizes = Vec::new();
+    for run in plan.own() {
+        let (case, spec) = run.resolve()?;
+        let size = Size::of(case, &spec)?;
+        let held = size.require(Some(memory), &spec);
+        held.map_err(|why| Error::Input(format!("{}: {why}", run.folder().display())))?;
+        sizes.push(size);
+    }
+    require_together(&sizes, memory, workers)
 }
 
 /// A run to be made in a folder.

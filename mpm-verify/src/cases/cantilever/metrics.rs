@@ -22,8 +22,10 @@ metrics! { pub(super) OWN:
         "log₁₀ of the estimated condition, in the 1-norm, of the stiffness at the end, scaled to a diagonal of ones";
     FORCE_RATIO = "force_ratio", "-",
         "largest out-of-balance force ratio of a step, the paper's Eq. (37); the tolerance, if it is less";
+    FORCE_ROUNDING = "force_rounding", "-",
+        "largest such ratio that rounding of the stresses by four last bits may leave: Newton's method asks for no less";
     ENERGY_RATIO = "energy_ratio", "-",
-        "largest work of a step's residual on its last correction over that of the loads, for the paper's Eq. (38); likewise";
+        "largest work of a step's residual on its last correction over that of the loads, for the paper's Eq. (38); the tolerance, if it is less";
     REACTION_ERROR = "reaction_error", "-",
         "distance of the clamp's reaction from the weight over the weight; likewise";
     MASS = "mass", "kg/m", "mass of the beam";

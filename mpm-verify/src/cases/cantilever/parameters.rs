@@ -21,8 +21,8 @@ pub(super) const LOAD_STEPS: Parameter = common::LOAD_STEPS
 parameters! { pub(super) const:
     LAW = "law", "-", HENCKY, Domain::Choice(&[HENCKY, NEO_HOOKEAN, JAUMANN, JAUMANN_LINEAR]),
         "elastic law; jaumann is integrated to second order, jaumann-linear as the paper does";
-    POINTS_PER_DIRECTION = "points_per_direction", "-", "4", Domain::Integer { least: 1, most: 8 },
-        "particles per cell and direction";
+    POINTS_PER_DIRECTION = "points_per_direction", "-", "4", Domain::Integer { least: 2, most: 8 },
+        "particles per cell and direction; of one, in the middle, what alternates from node to node has no strain";
     POINTS = "points", "-", "uniform", Domain::Choice(&["uniform", GAUSS]),
         "where particles start: in the middle of equal parts of a cell, or, the paper's subdivision, two Gauss points in each half of their number";
     STABILISATION = "stabilisation", "-", GHOST, Domain::Choice(&[NONE, SOFT, GHOST, EXTENSION]),

@@ -5,19 +5,25 @@ use super::parameters::{
     POINTS_PER_DIRECTION, POISSON_RATIO, SOFT, STABILISATION, STABILISATION_FACTOR, TOLERANCE,
     WEIGHT, YOUNG_MODULUS,
 };
+use crate::cases::parameters::require_quotient;
+use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
 use mpm_core::implicit::{Settings, Stabilisation};
 use mpm_core::material::{Hencky, Hypoelastic, JaumannUpdate, Law, NeoHookean};
 use mpm_core::stage::{BodyForce, End, Wall, WallKind};
-use mpm_core::{Axis, Body, Error, Grid, Particles, Scene, Side, Simulation};
+use mpm_core::{Axis, Body, Error as Refusal, Grid, Particles, Scene, Side, Simulation};
 use mpm_solvers::{Solved, implicit};
+use std::ops::RangeInclusive;
 
 /// Length and depth (m).
 pub(super) const LENGTH: f64 = 1.0;
 pub(super) const DEPTH: f64 = 0.3;
 /// Room of the grid (m): beyond the tip, below and above.
 const ROOM: (f64, f64, f64) = (0.2, 0.9, 0.2);
+/// Allowed weight over Young's modulus (1/m) in units of 1/(1 + ν): at the greatest the shear w L²/(2 G) of the beam alone
+/// moves the tip by the room below, and at the least the rounding of stresses is a percent of the loads.
+const WEIGHT_OVER_MODULUS: RangeInclusive<f64> = 1e-9..=ROOM.1 / (LENGTH * LENGTH);
 /// Density (kg/m³) that the weight is told by; nothing moves.
 const DENSITY: f64 = 1000.0;
 
@@ -47,11 +53,24 @@ pub(super) fn counts(h: f64, parameters: &Parameters) -> [usize; 2] {
 /// Where the particles are seeded (m), column by column.
 pub(super) fn seed(h: f64, parameters: &Parameters) -> Vec<[f64; 2]> {
     let per_cell = parameters.number(POINTS_PER_DIRECTION) as usize;
-    // A single particle stands in the middle either way.
+    // Of an odd number one stands in the middle either way.
     let gauss = parameters.is(POINTS, GAUSS) && per_cell.is_multiple_of(2);
     let [xs, ys] = [LENGTH, DEPTH].map(|l| along(cells(l, h), h, per_cell, gauss));
     let column = |x: &f64| ys.iter().map(|y| [*x, *y]).collect::<Vec<_>>();
     xs.iter().flat_map(column).collect()
+}
+
+/// Checks that the beam can bear its weight within the grid.
+///
+/// # Errors
+/// It can't, or rounding hides the answer.
+pub(super) fn require_bearable(parameters: &Parameters) -> Result<(), Error> {
+    let number = |p| parameters.number(p);
+    let strain = number(WEIGHT) * (1.0 + number(POISSON_RATIO)) / number(YOUNG_MODULUS);
+    let why =
+        "1/m: below, rounding hides the answer, and above, shear alone takes the tip off the grid";
+    let what = "weight (1 + poisson_ratio) / young_modulus";
+    require_quotient(what, strain, WEIGHT_OVER_MODULUS, why)
 }
 
 /// How the run is solved.
@@ -79,7 +98,7 @@ pub(super) fn settings(parameters: &Parameters) -> Settings {
 pub(super) fn begin(
     spec: &RunSpec,
     parameters: &Parameters,
-) -> Result<Box<dyn Simulation<2>>, Error> {
+) -> Result<Box<dyn Simulation<2>>, Refusal> {
     let number = |p| parameters.number(p);
     let (young, ratio) = (number(YOUNG_MODULUS), number(POISSON_RATIO));
     let law = |update| Hypoelastic::new(young, ratio, update);
@@ -98,7 +117,7 @@ fn of_law<M: Law + Solved<2>>(
     spec: &RunSpec,
     parameters: &Parameters,
     law: M,
-) -> Result<Box<dyn Simulation<2>>, Error> {
+) -> Result<Box<dyn Simulation<2>>, Refusal> {
     let h = spec.level.h;
     let (beyond, below, above) = ROOM;
     let lower = cells(below, h);

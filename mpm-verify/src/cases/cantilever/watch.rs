@@ -3,7 +3,7 @@
 use super::edge::{Edge, extremes};
 use super::metrics as m;
 use super::parameters::{LOAD_STEPS, POINTS_PER_DIRECTION, TOLERANCE, WEIGHT};
-use super::scene::{DEPTH, LENGTH, begin};
+use super::scene::{DEPTH, LENGTH, begin, require_bearable};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -22,6 +22,7 @@ pub(super) struct Seen {
     cut: u64,
     /// The largest so far.
     force_ratio: f64,
+    force_rounding: f64,
     energy_ratio: f64,
 }
 
@@ -39,6 +40,7 @@ impl Bending {
     /// # Errors
     /// The parameters don't make a scene, or give too few particles to extrapolate from.
     pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
+        require_bearable(parameters)?;
         let h = spec.level.h;
         let per_direction = parameters.number(POINTS_PER_DIRECTION);
         let bending = Self {
@@ -125,6 +127,7 @@ impl Watch<2> for Bending {
         seen.steps += 1;
         seen.cut += u64::from(convergence.parts > 1);
         seen.force_ratio = seen.force_ratio.max(convergence.force_ratio);
+        seen.force_rounding = seen.force_rounding.max(convergence.force_rounding);
         seen.energy_ratio = seen.energy_ratio.max(convergence.energy_ratio);
         let last = |k: usize| {
             convergence
@@ -193,6 +196,7 @@ impl Watch<2> for Bending {
             (m::CUTS, seen.cut as f64),
             (m::LOG10_CONDITION, run.condition().log10()),
             (m::FORCE_RATIO, seen.force_ratio.max(tolerance)),
+            (m::FORCE_ROUNDING, seen.force_rounding),
             (m::ENERGY_RATIO, seen.energy_ratio.max(tolerance)),
             (m::REACTION_ERROR, self.reaction_error(run).max(tolerance)),
             (m::MASS, run.totals().mass),

@@ -10,6 +10,7 @@ use super::parameters::{
 };
 use super::reference::{layer, solution};
 use super::scene::{HEIGHT, count};
+use super::watch::ROUNDING;
 use crate::accuracy::fit_order;
 use crate::check::{Check, Finding, judge, run, study};
 use crate::metric::Metric;
@@ -111,9 +112,9 @@ fn against_exact(r: &Record, metric: Metric, which: usize) -> Finding {
 /// 3 √(n + 1) of it, and their sum √(n + 1) times the norm of what is left.
 fn left(r: &Record) -> f64 {
     let nodes = HEIGHT / r.discretisation.h + 1.0;
-    // The last bits of J̃ in every step, over all that has left.
+    // The last bits of J̃ in every step, over all that has left. What is measured is never less than its floor.
     let rounding = 8.0 * f64::EPSILON * count(&r.parameters) / r.metric(SETTLEMENT_END);
-    3.0 * nodes * r.parameters.number(TOLERANCE) + rounding
+    (3.0 * nodes * r.parameters.number(TOLERANCE) + rounding).max(ROUNDING)
 }
 
 /// The cells of the pressure of a run (m).

@@ -16,7 +16,7 @@ use mpm_core::{Field, Simulation};
 use serde::{Deserialize, Serialize};
 
 /// Least value of what is rounding.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// What has been seen of the column.
 #[derive(Default, Serialize, Deserialize)]

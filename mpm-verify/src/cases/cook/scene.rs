@@ -7,6 +7,7 @@ use super::parameters::{
     REST_WINDOW, YOUNG_MODULUS,
 };
 use crate::cases::observe::{forbid, settings};
+use crate::cases::parameters::require_quotient;
 use crate::error::Error;
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
@@ -17,6 +18,7 @@ use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{DeadForce, End, KineticDamping, Load, Wall, WallKind};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, Simulation};
 use mpm_solvers::solver;
+use std::ops::RangeInclusive;
 
 /// Room of the grid beyond the membrane (m): right, below, above.
 const MARGIN: (f64, f64, f64) = (2.0, 2.0, 6.0);
@@ -25,7 +27,7 @@ const RISE: f64 = 20.0;
 /// The fundamental period (s) at E = 70 Pa and ρ = 1 kg/m³, rounded; it scales as √(ρ/E).
 const PERIOD: f64 = 60.0;
 /// Allowed load per metre of depth over Young's modulus (m).
-const LOAD_OVER_MODULUS: (f64, f64) = (1e-7, 100.0);
+const LOAD_OVER_MODULUS: RangeInclusive<f64> = 1e-7..=100.0;
 
 /// The fundamental period (s).
 pub(super) fn period(parameters: &Parameters) -> f64 {
@@ -50,12 +52,8 @@ pub(super) fn time_step(h: f64, parameters: &Parameters) -> Result<f64, mpm_core
 pub(super) fn check_together(parameters: &Parameters) -> Result<(), Error> {
     let number = |p| parameters.number(p);
     let strain = number(LOAD) / number(YOUNG_MODULUS);
-    let (least, most) = LOAD_OVER_MODULUS;
-    if !(least..=most).contains(&strain) {
-        return Err(Error::Input(format!(
-            "load / young_modulus = {strain} m; allowed: {least} to {most} m, below which rounding hides the answer"
-        )));
-    }
+    let why = "m; below, rounding hides the answer";
+    require_quotient("load / young_modulus", strain, LOAD_OVER_MODULUS, why)?;
     for of in [REST_WINDOW, LOAD_RAMP] {
         if number(of) >= number(MAX_PERIODS) {
             return Err(Error::Input(format!(

@@ -5,8 +5,8 @@ mod studies;
 use super::geometry::{WIDTH, effective_width, mechanism_extent};
 use super::metrics::{self as m, CURVE, MEAN_STRESSES};
 use super::parameters::{
-    BARRIER, CONTACT, DOMAIN_DEPTH, DOMAIN_WIDTH, PENETRATION, PENETRATION_RATE, ROUGH,
-    UNDRAINED_STRENGTH, YOUNG_MODULUS,
+    BARRIER, CONTACT, DENSITY, DOMAIN_DEPTH, DOMAIN_WIDTH, PENETRATION, PENETRATION_RATE, RAMP,
+    ROUGH, UNDRAINED_STRENGTH, YOUNG_MODULUS,
 };
 use super::reference::{EXACT, curve, elastic_slope, has_the_curve_of, mean_stress_at};
 use crate::check::{Check, Finding, checks, judge, run, study};
@@ -41,8 +41,10 @@ const SMEARED: f64 = 2.0;
 const PLASTIC: f64 = 18.5;
 /// Largest penetration over B at which the ground has kept its shape.
 const SMALL: f64 = 0.01;
-/// The fastest rate (m/s) that halving proves slow enough.
+/// The fastest rate (m/s) that halving proves slow enough, and Young's modulus over the density (m²/s²) of the ground that it
+/// does so of: where waves are slower, so must the footing be.
 const SLOW: f64 = 2e-3;
+const STIFF: f64 = 1000.0;
 /// Strength over Young's modulus and penetration beyond which nothing yields.
 const ELASTIC: f64 = 10.0;
 
@@ -154,14 +156,29 @@ fn why_no_limit(record: &Record) -> Option<String> {
 
 /// Why nothing is said of a run but that it is one: it is there to show how it rings, or resists.
 fn why_shown_only(record: &Record) -> Option<String> {
-    let rate = record.parameters.number(PENETRATION_RATE);
+    let number = |p| record.parameters.number(p);
+    let (rate, moves) = (number(PENETRATION_RATE), record.scheme().rule().is_none());
     if rate > SLOW {
         Some(format!("pressed faster than {SLOW} m/s, the ground rings"))
+    } else if let Some(why) = rings(record) {
+        Some(why)
+    } else if moves && number(PENETRATION) * WIDTH <= 0.5 * rate * number(RAMP) {
+        Some("the footing still gets under way".to_owned())
     } else if ![TransferName::Flip, TransferName::None].contains(&record.transfer()) {
         Some("what this transfer takes from the motion every step resists the footing as a viscosity does".to_owned())
     } else {
         None
     }
+}
+
+/// Why a soft or heavy ground rings, if it does.
+fn rings(record: &Record) -> Option<String> {
+    let number = |p| record.parameters.number(p);
+    let slowness = (STIFF * number(DENSITY) / number(YOUNG_MODULUS)).sqrt();
+    let rings = record.scheme().rule().is_none()
+        && slowness > 1.0
+        && number(PENETRATION_RATE) * slowness > SLOW * (1.0 + f64::EPSILON);
+    rings.then(|| format!("waves are {slowness:.1} times slower than in the ground of which {SLOW} m/s is known to be slow"))
 }
 
 fn is_elastic(record: &Record) -> bool {
@@ -188,6 +205,9 @@ fn slope(record: &Record) -> Finding {
     const METRIC: Metric = m::ELASTIC_SLOPE;
     if !is_elastic(record) {
         let why = "the ground yields: see the runs of great strength";
+        return Finding::not_applicable(METRIC, why);
+    }
+    if let Some(why) = rings(record) {
         return Finding::not_applicable(METRIC, why);
     }
     match elastic_slope(record) {
@@ -323,7 +343,12 @@ fn mean_stress(record: &Record) -> Vec<Finding> {
     } else if record.parameters.is(CONTACT, BARRIER) {
         UNKNOWN_WIDTH
     } else {
+        let depth = record.parameters.number(DOMAIN_DEPTH);
         let found = MEAN_STRESSES.iter().filter_map(|(metric, point)| {
+            if point[1] >= depth {
+                let why = "this point lies on the base of so shallow a ground";
+                return Some(Finding::not_applicable(*metric, why));
+            }
             let known = mean_stress_at(*point)?;
             let tolerance = GRADIENT * record.discretisation.h + known.uncertainty;
             let why = "finite elements of vanishing size";

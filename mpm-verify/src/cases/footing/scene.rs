@@ -96,9 +96,20 @@ impl Pace {
             number(PENETRATION_RATE),
             courant_time_step(number(CFL), spec.level.h, speed),
         );
+        let ramp = number(RAMP);
+        let pressed = number(PENETRATION) * WIDTH / rate;
+        let depth = number(DOMAIN_DEPTH) * WIDTH;
+        if speed * (ramp + pressed) < depth {
+            return Err(CaseError::Input(format!(
+                "pressure waves of young_modulus = {} Pa go {:.3e} m until the end, with ramp, penetration and \
+                 penetration_rate; allowed: at least the {depth} m to the base, which feels nothing sooner",
+                number(YOUNG_MODULUS),
+                speed * (ramp + pressed),
+            )));
+        }
         Ok(Self {
             rate,
-            ramp: number(RAMP),
+            ramp,
             dt,
             steps_per_row: ((ROW * WIDTH / rate / dt).round() as u64).max(1),
         })

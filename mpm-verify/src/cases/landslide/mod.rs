@@ -15,6 +15,7 @@ mod tables;
 mod watch;
 
 pub(super) use ground::{Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety};
+pub(super) use section::GRAVITY;
 pub(super) use sketch::sketch;
 
 use super::family::{family, more_particles, other_transfers, pairs};

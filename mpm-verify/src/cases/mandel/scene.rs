@@ -23,6 +23,8 @@ pub(super) const FROM: f64 = 0.01;
 pub(super) const PER_CELL: usize = 2;
 /// Empty cells beside and above it: of eight cells of the displacement an axis has four of the pressure, the fewest.
 const ROOM: [usize; 2] = [2, 6];
+/// The largest F/(G a): ten times as much, which what is finite of the strain may add to a distance, is a percent.
+pub(super) const SMALL: f64 = 1e-3;
 /// Weight of water (N/m³).
 const WATER_WEIGHT: f64 = 9810.0;
 

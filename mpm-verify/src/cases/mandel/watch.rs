@@ -1,12 +1,13 @@
 //! What is seen of the slab, step by step.
 
 use super::metrics as m;
-use super::parameters::LOAD;
+use super::parameters::{LOAD, STEPS};
 use super::scene::{
-    PER_CELL, WIDTH, begin, first_measured, moduli, slab, slab_of_cells, slab_of_run,
+    PER_CELL, SMALL, WIDTH, begin, first_measured, moduli, slab, slab_of_cells, slab_of_run,
     slab_of_steps, steps, time_scale,
 };
 use crate::cases::observe::{column, position_columns, reference_columns};
+use crate::cases::parameters::{least_strain, require_quotient};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::exact::mandel::{Mandel, Slab};
@@ -54,6 +55,12 @@ impl Consolidation {
     /// # Errors
     /// The parameters don't make a scene.
     pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<2, Self>, Error> {
+        let strain = parameters.number(LOAD) / (moduli(parameters)[1] * WIDTH);
+        let (least, why) = (
+            least_strain(parameters.number(STEPS)),
+            "below which rounding hides the answer and above which the strain is not small",
+        );
+        require_quotient("load / (a G) of young_modulus", strain, least..=SMALL, why)?;
         let h = spec.level.h;
         let consolidation = Self {
             spec: spec.clone(),

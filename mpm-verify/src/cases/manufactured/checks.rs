@@ -16,6 +16,7 @@ use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use mpm_core::Law;
 use mpm_core::material::NeoHookean;
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 /// Order of a method that reproduces linear fields, and what an observed order may lack of it.
 const FORMAL: f64 = 2.0;
@@ -78,8 +79,8 @@ pub(in crate::cases) fn is_other_transfer(r: &Record) -> bool {
 /// A motion as its bounds see it.
 #[derive(Clone, Copy)]
 pub(in crate::cases) struct Wave {
-    /// Wave number k (1/m).
-    pub(in crate::cases) number: f64,
+    /// Wave number k (1/m) by the parameters.
+    pub(in crate::cases) number: fn(&Parameters) -> f64,
     /// Whether it travels by shear, or by pressure.
     pub(in crate::cases) shear: bool,
 }
@@ -112,7 +113,7 @@ impl Wave {
         } else {
             law.wave_speed(density)
         };
-        number(ANGULAR_FREQUENCY) / (self.number * speed)
+        number(ANGULAR_FREQUENCY) / ((self.number)(&r.parameters) * speed)
     }
 }
 
@@ -196,7 +197,10 @@ fn unbounded(r: &Record, claim: &Claim, wave: &Wave) -> Option<&'static str> {
     }
     // Of central differences, beside that of the cells: θ²/12 of the driven motion.
     let phase = r.parameters.number(ANGULAR_FREQUENCY) * r.discretisation.dt;
-    let kh = wave.number * r.discretisation.h;
+    let kh = (wave.number)(&r.parameters) * r.discretisation.h;
+    if kh >= PI {
+        return Some("cells carry no wave that is shorter than two of them");
+    }
     let of_steps = phase * phase / 12.0 * wave.ratio(r).powi(2);
     if r.scheme().rule().is_none() && of_steps > DISPERSION * kh * kh {
         return Some(
@@ -220,7 +224,7 @@ fn bound(r: &Record, claim: &Claim, wave: &Wave) -> Finding {
     if let Some(why) = unbounded(r, claim, wave) {
         return Finding::not_applicable(metric, why);
     }
-    let kh = wave.number * r.discretisation.h;
+    let kh = (wave.number)(&r.parameters) * r.discretisation.h;
     // At rest for all time, a body errs by its motion.
     let of_cells = DISPERSION * kh * kh * wave.amplification(r);
     let bound = (of_cells + wave.error_of_steps(r)).min(1.0);

@@ -4,11 +4,14 @@ use super::{
     FACTOR_ERROR, FAILS_AT, LOAD_STEPS, MASS, MOST, MOVED_STANDING, NEWTON_ITERATIONS, OF_EXPLICIT,
     OF_QUASI_STATIC, PARAMETERS, STANDS_AT, STRENGTH, STRENGTH_REDUCTION_FACTOR, TRIALS,
 };
-use crate::cases::landslide::parameters::FACE_ANGLE;
-use crate::cases::landslide::{Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety};
+use crate::cases::landslide::parameters::{DENSITY, FACE_ANGLE, HEIGHT, YOUNG_MODULUS};
+use crate::cases::landslide::{
+    GRAVITY, Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety,
+};
 use crate::cases::observe::{
     column, discretisation, finds_equilibrium, forbid, implicit_settings, position_columns,
 };
+use crate::cases::parameters::require_quotient;
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -97,6 +100,16 @@ impl Trials {
             None => &OF_QUASI_STATIC,
         };
         forbid(spec, parameters, &PARAMETERS, foreign)?;
+        let number = |p| parameters.number(p);
+        let strain = number(DENSITY) * GRAVITY * number(HEIGHT) / number(YOUNG_MODULUS);
+        let why =
+            "above which it sinks elastically, γ H²/(2 E), by what a slope that fails moves by";
+        require_quotient(
+            "density g height / young_modulus",
+            strain,
+            0.0..=2.0 * FAILS,
+            why,
+        )?;
         let trials = Self {
             ground: Ground::new(spec, parameters)?,
             spec: spec.clone(),

@@ -9,6 +9,7 @@ use super::scene::{
     surcharge,
 };
 use crate::cases::observe::{column, position_columns, reference_columns};
+use crate::cases::parameters::require_quotient;
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::{Column, Job, Snapshot};
@@ -75,6 +76,12 @@ pub(super) struct Strip<const D: usize> {
 /// # Errors
 /// The parameters don't make a scene.
 pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
+    if !is_plastic(parameters) && !is_driven(parameters) {
+        let [bulk, shear] = moduli(parameters);
+        let strain = parameters.number(LOAD) / (bulk + 4.0 / 3.0 * shear);
+        let why = "where soil that stays as stiff as at rest would keep no height";
+        require_quotient("load / M of young_modulus", strain, 0.0..=1.0, why)?;
+    }
     match parameters.number(DIMENSION) {
         2.0 => Strip::drive(spec, parameters, plane),
         _ if is_plastic(parameters) => Err(Error::Input(format!(

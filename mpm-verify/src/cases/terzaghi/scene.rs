@@ -19,6 +19,8 @@ pub(super) const HEIGHT: f64 = 1.0;
 pub(super) const PER_CELL: usize = 2;
 /// Empty cells above it.
 const ROOM: usize = 2;
+/// The largest q/M: what is finite of the strain adds ten times as much to a distance.
+pub(super) const SMALL: f64 = 1e-6;
 /// Weight of water (N/m³).
 const WATER_WEIGHT: f64 = 9810.0;
 

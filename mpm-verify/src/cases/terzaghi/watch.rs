@@ -2,8 +2,9 @@
 
 use super::metrics as m;
 use super::parameters::{LOAD, STEPS};
-use super::scene::{HEIGHT, PER_CELL, begin, durations, moduli, steps, time_scale};
+use super::scene::{HEIGHT, PER_CELL, SMALL, begin, durations, moduli, steps, time_scale};
 use crate::cases::observe::{column, position_columns, reference_columns};
+use crate::cases::parameters::{least_strain, require_quotient};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::exact::terzaghi;
@@ -39,6 +40,12 @@ impl Consolidation {
     /// # Errors
     /// The parameters don't make a scene.
     pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<1, Self>, Error> {
+        let strain = parameters.number(LOAD) / moduli(parameters)[0];
+        let (least, why) = (
+            least_strain(parameters.number(STEPS)),
+            "below which rounding hides the answer and above which the strain is not small",
+        );
+        require_quotient("load / M of young_modulus", strain, least..=SMALL, why)?;
         let h = spec.level.h;
         let consolidation = Self {
             spec: spec.clone(),

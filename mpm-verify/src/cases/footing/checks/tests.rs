@@ -22,6 +22,25 @@ fn run(scheme: (BasisName, RemedyName), h: f64, set: &[&str], metrics: &[(&str, 
 const OURS: (BasisName, RemedyName) = (BasisName::Gimp, RemedyName::FbarConsistent);
 
 #[test]
+fn a_ground_that_rings_is_shown_and_not_judged() {
+    let sets: [&[&str]; 4] = [
+        &[],
+        &["density=1e6"],
+        &["young_modulus=1e4"],
+        &["penetration=0.0001"],
+    ];
+    let judged = sets.map(|set| {
+        let run = run(OURS, 0.1, set, &[("force_imbalance", 1.0)]);
+        outcomes(&judge(&run), "quasi-static")
+    });
+    let [own, rest @ ..] = judged;
+    assert_eq!(own, [Some(false)]);
+    for outcomes in rest {
+        assert_eq!(outcomes, [None]);
+    }
+}
+
+#[test]
 fn the_order_of_the_pressure_is_that_of_the_width() {
     let at = |scheme, error: fn(f64) -> f64| {
         let levels = [0.1, 0.05, 0.025];

@@ -157,7 +157,7 @@ fn of_error(claims: &'static [(Metric, Claims)], share: f64) -> Vec<(String, Out
         },
     );
     let wave = Wave {
-        number: 100.0,
+        number: |_| 16.0,
         shear: true,
     };
     let checks = of_motion(claims, wave);
