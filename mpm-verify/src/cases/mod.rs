@@ -34,18 +34,22 @@ mod mms_vortex_pressure;
 mod mms_vortex_ring;
 mod mms_wall_pressure;
 mod newton;
+mod noise;
 mod observe;
 pub(crate) mod parameters;
 mod pictures;
+mod rest;
 pub mod scene;
 mod shock;
 mod slope_stability;
+mod sparse;
 mod spin;
 mod standing_wave;
 mod still;
 mod stretch;
 mod strip;
 mod terzaghi;
+mod thin;
 mod translate;
 mod undrained;
 mod vibrating_bar;
@@ -86,6 +90,9 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         stretch::case(),
         newton::case(),
         drop::case(),
+        sparse::case(),
+        thin::case(),
+        rest::case(),
     ]
 });
 

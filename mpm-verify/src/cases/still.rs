@@ -29,8 +29,20 @@ pub(super) trait Look: Send {
     fn particles(&self) -> Vec<Column>;
     /// The metrics of all rows.
     fn metrics(&self, rows: &[Self::Row]) -> Vec<(Metric, f64)>;
-    /// Particles and, for each row, pairs with functions.
-    fn work(&self) -> [u64; 2];
+    /// What the rows took.
+    fn work(&self, rows: &[Self::Row]) -> WorkDone;
+}
+
+/// What rows took that each visit `pairs` of their `particles` with functions.
+pub(super) fn visited(rows: usize, [particles, pairs]: [u64; 2]) -> WorkDone {
+    let steps = rows as u64;
+    WorkDone {
+        particles,
+        steps,
+        particle_steps: steps * particles,
+        particle_node_pairs: steps * pairs,
+        ..WorkDone::default()
+    }
 }
 
 /// A run of a [`Look`].
@@ -95,14 +107,6 @@ impl<L: Look> Job for Still<L> {
     }
 
     fn work(&self) -> WorkDone {
-        let [particles, pairs] = self.look.work();
-        let steps = self.found.len() as u64;
-        WorkDone {
-            particles,
-            steps,
-            particle_steps: steps * particles,
-            particle_node_pairs: steps * pairs,
-            ..WorkDone::default()
-        }
+        self.look.work(&self.found)
     }
 }

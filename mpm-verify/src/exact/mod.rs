@@ -11,6 +11,7 @@ mod check;
 pub(crate) mod double_shear;
 mod free_fall;
 pub(crate) mod hydrostatic;
+pub(crate) mod incline;
 pub mod mandel;
 mod material;
 pub(crate) mod parameters;
@@ -32,6 +33,7 @@ pub use axis_aligned::AxisAligned;
 pub use double_shear::DoubleShear;
 pub use free_fall::FreeFall;
 pub use hydrostatic::Hydrostatic;
+pub use incline::Incline;
 pub use material::Material;
 pub use patch::Patch;
 pub use rigid::{Rotation, Translation};
@@ -110,7 +112,7 @@ pub struct Entry {
 /// All solutions.
 #[must_use]
 pub fn all() -> &'static [Entry] {
-    const ALL: [Entry; 14] = [
+    const ALL: [Entry; 15] = [
         axis_aligned::ENTRY,
         vortex_ring::ENTRY,
         vortex_box::ENTRY,
@@ -119,6 +121,7 @@ pub fn all() -> &'static [Entry] {
         swirl::ENTRY,
         wall_pressure::ENTRY,
         hydrostatic::ENTRY,
+        incline::ENTRY,
         vibrating_bar::ENTRY,
         standing_wave::ENTRY,
         rigid::TRANSLATION,
@@ -380,7 +383,7 @@ mod tests {
             let s = check::solution(entry, &[]);
             assert!((1..=3).contains(&s.dimension()));
             let x = Vector3::new(0.3, 0.4, 0.6);
-            if entry.name != "hydrostatic" {
+            if !["hydrostatic", "incline"].contains(&entry.name) {
                 assert!(s.displacement(&x, 0.0).norm() < 1e-15, "{}", entry.name);
             }
             for p in entry.parameters {

@@ -2,12 +2,12 @@
 
 use super::forms::{Found, PARTICLES, Setting};
 use super::metrics as m;
-use crate::cases::still::Look;
+use crate::cases::still::{Look, visited};
 use crate::error::Error;
 use crate::job::Column;
 use crate::metric::Metric;
 use crate::parameter::Parameters;
-use crate::record::Discretisation;
+use crate::record::{Discretisation, WorkDone};
 use crate::spec::RunSpec;
 
 /// The half ellipse.
@@ -109,8 +109,8 @@ impl Look for Cuts {
         ]
     }
 
-    fn work(&self) -> [u64; 2] {
+    fn work(&self, rows: &[Found]) -> WorkDone {
         let particles = self.setting.cloud(0).places.len() as u64;
-        [particles, self.setting.pairs()]
+        visited(rows.len(), [particles, self.setting.pairs()])
     }
 }

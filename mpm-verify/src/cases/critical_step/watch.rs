@@ -5,6 +5,7 @@ use super::parameters::{
     CUT, CUT_WORD, JITTERED, LAYOUT, POISSON_RATIO, PPC_PER_DIRECTION, STEPS, STRETCH,
 };
 use super::theory::Setting;
+use crate::cases::noise::noise;
 use crate::cases::observe::{discretisation, position_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
@@ -62,16 +63,6 @@ impl Seen {
         let [lo, hi] = self.range();
         (0.5 * (lo + hi)).exp()
     }
-}
-
-/// A number from −1 to 1 by its place in a sequence.
-fn noise(k: usize) -> f64 {
-    let mut x = (k as u64)
-        .wrapping_add(1)
-        .wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
 /// A lattice of particles with noise.

@@ -6,7 +6,7 @@ use mpm_core::{Particles, Simulation};
 use nalgebra::{Matrix3, Vector3};
 
 /// Displacement of a particle minus the exact one (m); across a periodic end the nearest image counts.
-pub(super) fn of_displacement<const D: usize>(
+pub(in crate::cases) fn of_displacement<const D: usize>(
     solution: &dyn Exact,
     p: &Particles<D>,
     k: usize,
@@ -24,7 +24,7 @@ pub(super) fn of_displacement<const D: usize>(
 }
 
 /// Cauchy stress of a run, as it enters the forces, minus that of the exact motion (Pa), in the particles' order.
-pub(super) fn of_stress<const D: usize>(
+pub(in crate::cases) fn of_stress<const D: usize>(
     solution: &dyn Exact,
     run: &mut dyn Simulation<D>,
 ) -> Vec<Matrix3<f64>> {

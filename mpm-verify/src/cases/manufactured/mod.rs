@@ -3,7 +3,7 @@
 //! Choices, gates and tolerances: `docs/manufactured.md`.
 
 pub(super) mod checks;
-mod errors;
+pub(super) mod errors;
 pub(super) mod metrics;
 pub(super) mod pictures;
 mod scene;
@@ -21,6 +21,7 @@ use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use crate::spec::{Level, RunSpec};
 use metrics::{ERRORS, METRICS, headlines};
 use mpm_core::stage::WallKind;
+pub(super) use scene::{forcing, vector};
 use slow::Slow;
 use watch::Motion;
 
@@ -33,6 +34,8 @@ pub(super) enum Boundary {
     Periodic,
     /// Rollers on floor and sides, a free surface above.
     Vessel,
+    /// A fixed floor, sides that are one, a free surface above.
+    Slope,
 }
 
 /// A motion that is known in closed form, and what holds the body.

@@ -206,7 +206,7 @@ where
 }
 
 /// The body force that the motion needs.
-fn forcing<const D: usize>(solution: &Arc<dyn Exact>) -> BodyForce<D> {
+pub(in crate::cases) fn forcing<const D: usize>(solution: &Arc<dyn Exact>) -> BodyForce<D> {
     let exact = Arc::clone(solution);
     BodyForce(Box::new(move |x: &[f64; D], t| {
         components(&exact.body_force(&vector(x), t))
@@ -214,7 +214,7 @@ fn forcing<const D: usize>(solution: &Arc<dyn Exact>) -> BodyForce<D> {
 }
 
 /// Components in three dimensions; those that are missing are zero.
-pub(super) fn vector<const D: usize>(x: &[f64; D]) -> Vector3<f64> {
+pub(in crate::cases) fn vector<const D: usize>(x: &[f64; D]) -> Vector3<f64> {
     let mut v = Vector3::zeros();
     v.as_mut_slice()[..D].copy_from_slice(x);
     v
@@ -265,10 +265,17 @@ fn surroundings<const D: usize>(
                 Axis::walls(lo, n)
             }
             Boundary::Periodic => Axis::periodic(lo, n),
-            Boundary::Vessel if axis + 1 == D => {
-                hold(axis, End::Lo, WallKind::Roller);
+            Boundary::Vessel | Boundary::Slope if axis + 1 == D => {
+                let slides = matches!(boundary, Boundary::Vessel);
+                let kind = if slides {
+                    WallKind::Roller
+                } else {
+                    WallKind::Fixed
+                };
+                hold(axis, End::Lo, kind);
                 Axis::bounded(lo, n + HEADROOM, (Side::Wall, Side::Open))
             }
+            Boundary::Slope => Axis::periodic(lo, n),
             Boundary::Vessel => {
                 hold(axis, End::Lo, WallKind::Roller);
                 hold(axis, End::Hi, WallKind::Roller);

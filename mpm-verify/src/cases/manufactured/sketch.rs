@@ -22,6 +22,7 @@ pub(super) fn sketch(case: &Manufactured, known: &[Parameter]) -> Sketch {
         (Boundary::Periodic, _) => &[],
         (Boundary::Walls(_), 1) => &[(a, d), (c, b)],
         (Boundary::Walls(_), _) => &[(b, a), (a, d), (d, c), (c, b)],
+        (Boundary::Slope, _) => &[(b, a)],
         (Boundary::Vessel, _) => &[(b, a), (a, d), (c, b)],
     };
     shapes.extend(held.iter().map(|(from, to)| Shape::Held(*from, *to)));
@@ -47,6 +48,7 @@ pub(super) fn sketch(case: &Manufactured, known: &[Parameter]) -> Sketch {
                 "The body at rest; material slides along its sides but doesn't leave them."
             }
             Boundary::Periodic => "One cell of a periodic body at rest.",
+            Boundary::Slope => "A period of the layer at rest, fixed at its foot, free above.",
             Boundary::Vessel => "The liquid at rest in a vessel with slippery walls, open above.",
         },
     }

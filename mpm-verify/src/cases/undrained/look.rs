@@ -3,12 +3,12 @@
 use super::forms::{Found, Setting, is_fitted};
 use super::metrics as m;
 use super::parameters::PARTICLES;
-use crate::cases::still::Look;
+use crate::cases::still::{Look, visited};
 use crate::error::Error;
 use crate::job::Column;
 use crate::metric::Metric;
 use crate::parameter::Parameters;
-use crate::record::Discretisation;
+use crate::record::{Discretisation, WorkDone};
 use crate::spec::RunSpec;
 
 /// A body at one level.
@@ -101,8 +101,8 @@ impl Look for Undrained {
         all
     }
 
-    fn work(&self) -> [u64; 2] {
-        self.setting.work()
+    fn work(&self, rows: &[Found]) -> WorkDone {
+        visited(rows.len(), self.setting.work())
     }
 }
 

@@ -1,0 +1,306 @@
+//! A vortex in a box on clouds of particles without order: a row for each cloud.
+
+use super::metrics as m;
+use super::parameters::{
+    CFL, HOLES, JITTERED, LATTICE, LAYOUT, POISSON_RATIO, PPC_PER_DIRECTION, SCATTERED, SEEDS,
+};
+use crate::cases::manufactured::{errors, forcing, vector};
+use crate::cases::noise::noise;
+use crate::cases::still::Look;
+use crate::error::Error;
+use crate::exact::vortex_box::ENTRY;
+use crate::exact::{Exact, Material};
+use crate::job::Column;
+use crate::metric::Metric;
+use crate::parameter::Parameters;
+use crate::record::{Discretisation, WorkDone};
+use crate::scheme::{RuleName, Scheme};
+use crate::spec::RunSpec;
+use crate::statistics::rms;
+use mpm_core::explicit::{Settings, courant_time_step};
+use mpm_core::material::{Law, NeoHookean};
+use mpm_core::stage::{End, Wall, WallKind};
+use mpm_core::{Axis, Body, Error as Fault, Grid, Particles, Scene, Simulation, implicit};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Largest angle of the vortex (rad): so small that particles stay where they are.
+const ANGLE: f64 = 0.01;
+/// Time (s) to the largest angle of a body that moves, and of one that is always in equilibrium.
+const MOVING: f64 = 0.5;
+const SLOW: f64 = 1e6;
+
+/// What is found of a cloud.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Row {
+    /// Relative errors of displacement and stress, and the displacement along the exact one; none of a cloud that breaks
+    /// down.
+    found: Option<[f64; 3]>,
+    work: WorkDone,
+}
+
+/// Clouds of one kind.
+pub(super) struct Clouds {
+    spec: RunSpec,
+    parameters: Parameters,
+    solution: Arc<dyn Exact>,
+    law: NeoHookean,
+    dt: f64,
+    steps: u64,
+}
+
+impl Clouds {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// A scheme that is neither explicit nor quasi-static; parameters that make no scene.
+    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
+        let slow = match spec.scheme {
+            Scheme::Explicit(_) => false,
+            Scheme::Implicit(parts) if parts.rule == RuleName::QuasiStatic => true,
+            other => {
+                let solvers = ["explicit", "quasi-static"];
+                return Err(Error::unknown("solver of clouds", other.solver(), solvers));
+            }
+        };
+        if parameters.is(LAYOUT, HOLES) && parameters.number(PPC_PER_DIRECTION) < 2.0 {
+            return Err(Error::Input(
+                "ppc_per_direction = 1 with layout = holes leaves no particle; allowed: from 2 on"
+                    .to_owned(),
+            ));
+        }
+        let duration = if slow { SLOW } else { MOVING };
+        let set = [
+            format!("poisson_ratio={}", parameters.number(POISSON_RATIO)),
+            format!("angle={ANGLE}"),
+            format!("angular_frequency={}", 0.5 * PI / duration),
+        ];
+        let solution: Arc<dyn Exact> =
+            (ENTRY.build)(&Parameters::new(ENTRY.parameters, &set)?)?.into();
+        let Material {
+            mu,
+            lambda,
+            density,
+        } = solution.material();
+        let law = NeoHookean { mu, lambda };
+        let longest = match slow {
+            true => duration,
+            false => courant_time_step(
+                parameters.number(CFL),
+                spec.level.h,
+                law.wave_speed(density),
+            ),
+        };
+        let steps = (duration / longest).ceil();
+        Ok(Self {
+            spec: spec.clone(),
+            parameters: parameters.clone(),
+            solution,
+            law,
+            dt: duration / steps,
+            steps: steps as u64,
+        })
+    }
+
+    fn cells(&self) -> usize {
+        (1.0 / self.spec.level.h).round() as usize
+    }
+
+    fn per_direction(&self) -> usize {
+        self.parameters.number(PPC_PER_DIRECTION) as usize
+    }
+
+    /// Places (m) of the `k`-th cloud.
+    fn places(&self, k: usize) -> Vec<[f64; 2]> {
+        let (cells, n, h) = (self.cells(), self.per_direction(), self.spec.level.h);
+        let count = cells * cells * n * n;
+        // A number from 0 to 1, of its own for every cloud, particle and axis.
+        let chance = |p: usize, axis: usize| 0.5 + 0.5 * noise((k * count + p) * 3 + axis);
+        let is = |word| self.parameters.is(LAYOUT, word);
+        let cell_of = |p: usize| [p / (n * n) % cells, p / (n * n) / cells];
+        let part_of = |p: usize| [p % (n * n) % n, p % (n * n) / n];
+        let place = |p: usize| {
+            std::array::from_fn(|a| {
+                let (cell, part) = (cell_of(p)[a] as f64, part_of(p)[a] as f64);
+                if is(SCATTERED) {
+                    chance(p, a)
+                } else if is(JITTERED) {
+                    h * (cell + (part + chance(p, a)) / n as f64)
+                } else if is(LATTICE) || is(HOLES) {
+                    h * (cell + (part + 0.5) / n as f64)
+                } else {
+                    h * (cell + chance(p, a))
+                }
+            })
+        };
+        let stays = |p: &usize| {
+            let lacks = (chance(p / (n * n), 2) * (n * n) as f64) as usize;
+            !is(HOLES) || p % (n * n) != lacks
+        };
+        (0..count).filter(stays).map(place).collect()
+    }
+
+    /// Whether the next cloud is another one.
+    fn varies(&self) -> bool {
+        !self.parameters.is(LAYOUT, LATTICE)
+    }
+
+    fn particles_of(&self, k: usize) -> Result<Particles<2>, Fault> {
+        let places = self.places(k);
+        let volume = 1.0 / places.len() as f64;
+        let half = 0.5 * self.spec.level.h / self.per_direction() as f64;
+        let density = self.solution.material().density;
+        let mut particles = Particles::new(self.spec.start_at(places), volume, density, [half; 2])?;
+        // Velocities of an explicit run live half a step before places.
+        let since = -0.5 * self.dt;
+        if let Scheme::Explicit(_) = self.spec.scheme {
+            for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
+                let exact = self.solution.velocity(&vector(x), since);
+                *v = [exact.x, exact.y];
+            }
+        }
+        Ok(particles)
+    }
+
+    fn begin(&self, k: usize) -> Result<Box<dyn Simulation<2>>, Fault> {
+        let axis = Axis::walls(0.0, self.cells());
+        let grid = Grid::new(self.spec.level.h, [axis, axis])?;
+        let ends = [(0, End::Lo), (0, End::Hi), (1, End::Lo), (1, End::Hi)];
+        let kind = WallKind::Roller;
+        let walls = ends.map(|(axis, end)| Wall { axis, end, kind });
+        let scene = Scene::new(grid, Body::new(self.law, self.particles_of(k)?)?)
+            .load(forcing(&self.solution))
+            .constrain_all(walls.to_vec());
+        match self.spec.scheme {
+            Scheme::Explicit(_) => {
+                let settings = Settings::new(self.dt).remedy(self.spec.scheme.remedy().build());
+                mpm_solvers::solver(self.spec.scheme, scene, settings)
+            }
+            _ => mpm_solvers::implicit(self.spec.scheme, scene, implicit::Settings::new(self.dt)),
+        }
+    }
+
+    /// Relative errors of displacement and stress, and the displacement along the exact one.
+    fn errors(&self, run: &mut dyn Simulation<2>) -> [f64; 3] {
+        let (solution, t) = (self.solution.as_ref(), run.time());
+        let stress = errors::of_stress(solution, run);
+        let p = run.particles();
+        let exact = |k: usize| solution.displacement(&vector(&p.reference[k]), t);
+        let off = |k: usize| errors::of_displacement(solution, p, k, t);
+        let stress_of = |k: usize| {
+            let x = vector(&p.reference[k]);
+            solution.first_piola(&x, t).norm()
+        };
+        let all = || 0..p.len();
+        let along: f64 = all().map(|k| (exact(k) + off(k)).dot(&exact(k))).sum();
+        let squares: f64 = all().map(|k| exact(k).norm_squared()).sum();
+        [
+            rms(all().map(|k| off(k).norm())) / rms(all().map(|k| exact(k).norm())),
+            rms(stress.iter().map(|s| s.norm())) / rms(all().map(stress_of)),
+            along / squares,
+        ]
+    }
+}
+
+impl Look for Clouds {
+    type Row = Row;
+
+    fn discretisation(&self) -> Discretisation {
+        let full = self.per_direction().pow(2) as u32;
+        Discretisation {
+            dim: 2,
+            h: self.spec.level.h,
+            ppc: full - u32::from(self.parameters.is(LAYOUT, HOLES)),
+            dt: self.dt,
+            wall: "open-knot".to_owned(),
+        }
+    }
+
+    fn columns(&self) -> Vec<&'static str> {
+        vec![
+            "seed (-)",
+            "displacement_error (-)",
+            "stress_error (-)",
+            "along (-)",
+        ]
+    }
+
+    fn rows(&self) -> usize {
+        match self.varies() {
+            true => self.parameters.number(SEEDS) as usize,
+            false => 1,
+        }
+    }
+
+    fn look(&self, k: usize) -> Result<Row, Fault> {
+        use Fault::{Breakdown, NoConvergence, Singular};
+        let mut run = self.begin(k)?;
+        let found = match (0..self.steps).try_for_each(|_| run.step()) {
+            Ok(()) => Some(self.errors(run.as_mut())),
+            Err(Breakdown { .. } | NoConvergence { .. } | Singular { .. }) => None,
+            Err(other) => return Err(other),
+        };
+        let work = run.work().into();
+        Ok(Row { found, work })
+    }
+
+    fn numbers(&self, k: usize, row: &Row) -> Vec<f64> {
+        let found = row.found.unwrap_or([f64::NAN; 3]);
+        [vec![k as f64], found.to_vec()].concat()
+    }
+
+    fn particles(&self) -> Vec<Column> {
+        let places = self.places(0);
+        let column = |name, a: usize| Column {
+            name,
+            unit: "m",
+            values: places.iter().map(|x| x[a]).collect(),
+        };
+        vec![column("x", 0), column("y", 1)]
+    }
+
+    fn metrics(&self, rows: &[Row]) -> Vec<(Metric, f64)> {
+        let of = |which: usize, share: f64| {
+            let value = |row: &Row| row.found.map_or(f64::INFINITY, |found| found[which]);
+            quantile(rows.iter().map(value).collect(), share)
+        };
+        let broken = rows.iter().filter(|row| row.found.is_none()).count();
+        vec![
+            (m::ERROR_MEDIAN, of(0, 0.5)),
+            (m::ERROR_HIGH, of(0, 0.9)),
+            (m::STRESS_MEDIAN, of(1, 0.5)),
+            (m::SOFTENING, of(2, 0.5) - 1.0),
+            (m::BROKEN, broken as f64 / rows.len() as f64),
+        ]
+    }
+
+    fn work(&self, rows: &[Row]) -> WorkDone {
+        let add = |sum: WorkDone, row: &Row| row.work.after(sum);
+        let none = WorkDone {
+            particles: self.places(0).len() as u64,
+            ..WorkDone::default()
+        };
+        rows.iter().fold(none, add)
+    }
+}
+
+/// The least value that this share of all reaches.
+fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let place = (share * values.len() as f64).ceil() as usize;
+    values.get(place.max(1) - 1).copied().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quantile_is_reached_by_its_share() {
+        let values: Vec<f64> = (1..=20).rev().map(f64::from).collect();
+        assert_eq!(quantile(values.clone(), 0.5), 10.0);
+        assert_eq!(quantile(values, 0.9), 18.0);
+        assert!(quantile(vec![1.0, f64::INFINITY], 0.9).is_infinite());
+    }
+}
