@@ -127,10 +127,11 @@ pub(super) fn checks() -> Vec<Check> {
 
 /// What the dispersion of functions leaves of the motion.
 fn bound(r: &Record) -> f64 {
-    let of_cells = DISPERSION * (WAVE.number * r.discretisation.h).powi(2);
+    let number = (WAVE.number)(&r.parameters);
+    let of_cells = DISPERSION * (number * r.discretisation.h).powi(2);
     // E/ρ is 1 m²/s².
     let speed = (0.5 / (1.0 + r.parameters.number(POISSON_RATIO))).sqrt();
-    let driven = FREQUENCY / (WAVE.number * speed);
+    let driven = FREQUENCY / (number * speed);
     match is_static(r) {
         true => of_cells,
         false => of_cells / (1.0 - driven * driven).abs(),
