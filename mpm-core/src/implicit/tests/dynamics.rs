@@ -1,7 +1,7 @@
 //! Momentum, energy and time order of what moves.
 
 use super::*;
-use crate::stage::Gravity;
+use crate::stage::{Gravity, RigidNodes, smooth_rise};
 
 const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.05 };
 const NEWMARK: TimeRule = TimeRule::Newmark {
@@ -110,6 +110,30 @@ fn a_body_falls_freely() {
                 (v[1] + 9.81 * time).abs() < 1e-9 && v[0].abs() < 1e-9,
                 "{rule:?}"
             );
+        }
+    }
+}
+
+/// A body that is held all over follows what holds it, whose speed rises meanwhile.
+#[test]
+fn what_is_held_moves_as_it_is_told_at_every_time() {
+    const SPEED: f64 = 0.3;
+    let ramp = 6.0 * DT;
+    let plate = RigidNodes {
+        extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2],
+        velocity: [Some(SPEED), None],
+        ramp,
+    };
+    let mut scene = tumbling(rubber());
+    scene.body.particles.velocity.fill([0.0; 2]);
+    let settings = Settings::new(DT).rule(MIDPOINT);
+    let scene = scene.constrain(plate);
+    let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
+    for _ in 0..8 {
+        solver.step().unwrap();
+        let speed = SPEED * smooth_rise(solver.time(), ramp);
+        for [vx, vy] in &solver.particles().velocity {
+            assert!((vx - speed).abs() < 1e-12 && vy.abs() < 1e-12, "{vx} {vy}");
         }
     }
 }
