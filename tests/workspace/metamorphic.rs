@@ -112,9 +112,9 @@ impl Run {
         !(on_lines && change.name.starts_with("mirror"))
     }
 
-    /// An explicit step on GIMP is not continuous where a domain begins to reach over a grid line.
+    /// A step with inertia on GIMP is not continuous where a domain begins to reach over a grid line.
     fn shrunk(&self) -> bool {
-        self.spec.scheme.solver() == "explicit"
+        ["explicit", "midpoint", "newmark"].contains(&self.spec.scheme.solver())
     }
 
     fn of(&self, trial: Trial) -> Option<Outcome> {
@@ -353,7 +353,7 @@ fn require(gate: &Gate, least_runs: usize, most_pairs: u64) {
 #[test]
 fn no_view_of_a_scene_changes_what_a_solver_finds() {
     let small = all(|spec| spec.scheme.solver());
-    require(&gate(small, SMALL, 20), 49, 31_000_000);
+    require(&gate(small, SMALL, 20), 53, 32_000_000);
 }
 
 #[test]
@@ -365,5 +365,5 @@ fn no_view_of_a_larger_scene_changes_it_in_a_step() {
 #[test]
 fn no_view_of_a_scene_changes_what_a_scheme_finds() {
     let schemes = all(|spec| spec.scheme);
-    require(&gate(schemes, 20_000, 20), 471, 230_000_000);
+    require(&gate(schemes, 20_000, 20), 500, 230_000_000);
 }
