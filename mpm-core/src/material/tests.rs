@@ -26,6 +26,19 @@ fn modulus<M: Law>(law: &M) -> f64 {
     law.wave_speed(1.0).powi(2)
 }
 
+/// In units of a quarter of a pascal stress and energy have four times the number.
+fn stress_has_the_unit_of_the_law<M: Law>(law: &M, f: &Matrix3<f64>) {
+    let other = law.in_units(4.0);
+    let [(own, of_own), (seen, of_seen)] = [deform(law, f), deform(&other, f)];
+    let off = (seen.to_matrix() - own.to_matrix() * 4.0).norm();
+    assert!(
+        off <= 1e-12 * own.to_matrix().norm().max(modulus(law)),
+        "{off}"
+    );
+    let [energy, energy_seen] = [law.energy(&of_own), other.energy(&of_seen)];
+    assert!((energy_seen - 4.0 * energy).abs() <= 1e-12 * modulus(law));
+}
+
 /// Cauchy stress from the stored energy: σ = (∂W/∂F) Fᵀ / J by central differences. With step d the
 /// error is of order d² M from truncation and 1e-16 M/d from rounding: 1e-9 M at d = 1e-5.
 fn stress_is_the_derivative_of_the_energy<M: Law>(law: &M, f: &Matrix3<f64>) {
@@ -173,6 +186,11 @@ macro_rules! every_elastic_law_must {
                 #[test]
                 fn rest_as_slow_deformation_ends(f in deformations()) {
                     rest_is_the_limit_of_slow_deformation(&$law, &f);
+                }
+
+                #[test]
+                fn have_a_unit_of_stress(f in deformations()) {
+                    stress_has_the_unit_of_the_law(&$law, &f);
                 }
 
                 #[test]

@@ -13,7 +13,7 @@ use mpm_core::projection::Average;
 use mpm_core::simulation::Part;
 use mpm_core::stage::Load;
 use mpm_core::stage::{
-    BodyForce, Constraint, End, Gravity, KineticDamping, LocalDamping, Wall, WallKind,
+    BodyForce, Constraint, End, Gravity, KineticDamping, LocalDamping, RigidNodes, Wall, WallKind,
 };
 use mpm_core::{Axis, Basis, Error, Fault, Grid, Memoryless, Particles, Side, Simulation};
 use std::f64::consts::PI;
@@ -312,6 +312,35 @@ fn sums_over_nodes_are_those_of_a_falling_body_however_many_nodes() {
             // Rounding of sums over 25 thousand nodes.
             assert!((sum / exact - 1.0).abs() < 1e-11, "{sum} for {exact}");
         }
+    }
+}
+
+/// A body at v is stopped to w all over while g pulls: M (½ (v² − w²) + g Δt w) is what the constraint takes in the first
+/// step, and M g Δt w, which it holds against the pull, in each of those after it.
+#[test]
+fn what_constraints_take_is_known() {
+    let [v, w, g] = [2.0, 0.5, 3.0];
+    let mut particles = block(0.5, 2, [4, 4], [8, 8]);
+    particles.velocity.fill([v, 0.0]);
+    let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), particles);
+    settings.remedy = Box::new(Standard);
+    let plate = RigidNodes {
+        extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2],
+        velocity: [Some(w), None],
+        ramp: 0.0,
+    };
+    let scene = scene
+        .load(Gravity(Box::new(move |_| [g, 0.0])))
+        .constrain(plate);
+    let dt = settings.dt;
+    let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
+    let mass = solver.totals().mass;
+    let mut exact = 0.5 * mass * (v * v - w * w);
+    for _ in 0..3 {
+        solver.step().unwrap();
+        exact += mass * g * dt * w;
+        let taken = solver.totals().accumulated.constraint_loss;
+        assert!((taken / exact - 1.0).abs() < 1e-12, "{taken} for {exact}");
     }
 }
 

@@ -245,3 +245,15 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn strength_has_a_unit_of_stress() {
+    for f in special() {
+        for law in ground() {
+            stress_has_the_unit_of_the_law(&law, &f);
+        }
+        for law in hypoelastic_ground() {
+            stress_has_the_unit_of_the_law(&law, &f);
+        }
+    }
+}
