@@ -162,6 +162,12 @@ impl Table {
             .map_or(&[], |(_, values)| values)
     }
 
+    /// Header of the first column, by which the rows are ordered: time, or what is tried one after another.
+    #[must_use]
+    pub fn abscissa(&self) -> &str {
+        self.header.first().map_or("", String::as_str)
+    }
+
     /// Two columns as points.
     #[must_use]
     pub fn points(&self, x: &str, y: &str) -> Vec<(f64, f64)> {

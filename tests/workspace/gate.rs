@@ -22,6 +22,45 @@ fn row(quantity: &str, change: impl Fn(&mut [String])) -> impl Fn(&str) -> Strin
     }
 }
 
+/// A file of goldens with the run and the quantity of each row written out.
+fn spelt_out(text: &str) -> String {
+    let mut above = [String::new(), String::new()];
+    changed_rows(text, |cells| {
+        for (cell, above) in cells.iter_mut().zip(&mut above) {
+            match cell.is_empty() {
+                true => cell.clone_from(above),
+                false => above.clone_from(cell),
+            }
+        }
+    })
+}
+
+/// The same as the program lays it out: without what the row above has, too.
+fn laid_out(text: &str) -> String {
+    let mut above = Vec::new();
+    changed_rows(text, |cells| {
+        let own = cells.to_vec();
+        if above.first() == own.first() {
+            cells[0].clear();
+            if above.get(1) == own.get(1) {
+                cells[1].clear();
+            }
+        }
+        above = own;
+    })
+}
+
+fn changed_rows(text: &str, mut change: impl FnMut(&mut [String])) -> String {
+    let mut line = |line: &str| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if !line.starts_with('#') && cells.len() > 1 {
+            change(&mut cells);
+        }
+        cells.join(",")
+    };
+    text.split_inclusive('\n').map(&mut line).collect()
+}
+
 /// A number as goldens have it.
 fn written(number: f64) -> String {
     let text = format!("{number:?}");
@@ -36,7 +75,7 @@ fn scaled(cell: &mut String, factor: f64) {
 fn counted(text: &str) -> String {
     let rows = text.lines().filter(|l| !l.starts_with('#')).count() - 1;
     let (_, rest) = text.split_once('\n').unwrap();
-    format!("# format 1, {rows} rows\n{rest}")
+    format!("# format 2, {rows} rows\n{rest}")
 }
 
 #[test]
@@ -94,8 +133,8 @@ fn every_defect_of_a_golden_is_a_clear_line_of_drift() {
         ("empty", Box::new(|_| String::new()), "no line \"# format"),
         (
             "other format",
-            Box::new(|t| t.replacen("format 1", "format 7", 1)),
-            "format 7 where 1",
+            Box::new(|t| t.replacen("format 2", "format 7", 1)),
+            "format 7 where 2",
         ),
         (
             "no blessing",
@@ -199,15 +238,26 @@ fn every_defect_of_a_golden_is_a_clear_line_of_drift() {
     let scene = Scene::new();
     let file = scene.golden.join("cook.csv");
     let sound = fs::read_to_string(&file).unwrap();
+    let all = spelt_out(&sound);
+    assert_eq!(laid_out(&all), sound);
     for (name, damage, needle) in damages {
-        let damaged = damage(&sound);
-        assert_ne!(damaged, sound, "{name}: nothing to change");
-        fs::write(&file, damaged).unwrap();
+        let damaged = damage(&all);
+        assert_ne!(damaged, all, "{name}: nothing to change");
+        fs::write(&file, laid_out(&damaged)).unwrap();
         let drift = scene.drift();
         assert!(
             drift.iter().any(|line| line.contains(needle)),
             "{name}: {drift:?}"
         );
+    }
+    let (head, rows) = sound.split_once("response\n").unwrap();
+    let first = &rows[rows.find(',').unwrap()..];
+    for (text, needle) in [
+        (format!("{head}response\n{first}"), "row 1: no run"),
+        (all, "not laid out"),
+    ] {
+        fs::write(&file, text).unwrap();
+        assert!(scene.drift()[0].contains(needle), "{:?}", scene.drift());
     }
     fs::write(&file, b"run,\xff\n").unwrap();
     assert!(scene.drift()[0].contains("UTF-8"));
@@ -327,7 +377,7 @@ fn drift_is_shown_named_and_accepted_with_a_reason() {
     let file = scene.golden.join("cook.csv");
     let old = row("metric/tip_uy", |c| c[3] = "0.27".to_owned());
     let sound = fs::read_to_string(&file).unwrap();
-    fs::write(&file, old(&sound)).unwrap();
+    fs::write(&file, laid_out(&old(&spelt_out(&sound)))).unwrap();
     let output = scene.report();
     assert_eq!(code(&output), 3);
     let said = stdout(&output);

@@ -67,7 +67,9 @@ impl Goldens {
             .find(|(run, ..)| planned.first() == Some(&run.name));
         if let Some((run, record, folder)) = of_shown {
             if run.has_series() {
-                write_small(&curves(run)?, &picture_file(&self.root, case.name))?;
+                let series = Table::read(&folder.join(series::FILE))?;
+                let drawn = curves(run, series.abscissa())?;
+                write_small(&drawn, &picture_file(&self.root, case.name))?;
             }
             if let Some(view) = case.field {
                 field::bless(&field::files(&self.root, case.name), &view, record, folder)?;
@@ -116,7 +118,7 @@ impl Goldens {
         let case = cases::find(&record.case)?;
         if runs(case).first() == Some(&record.folder()) {
             if golden.has_series() {
-                verdicts.push(self.judge_picture(record, &now.snapped(golden), blessing));
+                verdicts.push(self.judge_picture(&now, golden, blessing));
             }
             if let Some(view) = case.field {
                 let files = field::files(&self.root, case.name);
@@ -128,10 +130,10 @@ impl Goldens {
 
     /// Whether the picture of the case's first run, drawn from numbers that have not drifted as they were blessed, is
     /// that which is kept.
-    fn judge_picture(&self, record: &Record, now: &Run, blessing: &str) -> Verdict {
-        let path = picture_file(&self.root, &record.case);
+    fn judge_picture(&self, now: &Now<'_>, golden: &Run, blessing: &str) -> Verdict {
+        let path = picture_file(&self.root, &now.record.case);
         let metric = "different pixels of the picture";
-        match curves(now).and_then(|drawn| pixels_of(&path, &drawn)) {
+        match now.drawn(golden).and_then(|drawn| pixels_of(&path, &drawn)) {
             Ok(different) => {
                 let different = different as f64;
                 of_drift(Finding::within(metric, different, 0.0, 0.0, blessing))
@@ -147,8 +149,8 @@ impl Goldens {
     pub fn pictures(&self, record: &Record, folder: &Path) -> Result<[RgbImage; 2], Error> {
         let found = self.find(record);
         let (golden, _) = found.map_err(|why| Error::file(&self.root, why))?;
-        let now = Now::read(record, folder)?.snapped(golden);
-        Ok([curves(golden)?, curves(&now)?])
+        let now = Now::read(record, folder)?;
+        Ok([curves(golden, now.series.abscissa())?, now.drawn(golden)?])
     }
 }
 
@@ -219,6 +221,11 @@ impl<'a> Now<'a> {
             }
         }
         worst.1
+    }
+
+    /// The picture of the run, from the numbers of its golden where they hold.
+    fn drawn(&self, golden: &Run) -> Result<RgbImage, Error> {
+        curves(&self.snapped(golden), self.series.abscissa())
     }
 
     /// The run as its golden has it, with the present number wherever it has drifted.

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Version of the format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 const HEADER: [&str; 5] = ["run", "quantity", "time", "value", "response"];
 /// Blessings that a file tells of, the last ones.
 const BLESSINGS: usize = 5;
@@ -160,13 +160,23 @@ impl Golden {
             let [run, quantity, time, value, response] = cells[..] else {
                 return Err(format!("row {found}: not {} cells", HEADER.len()));
             };
+            let above = golden
+                .runs
+                .last()
+                .and_then(|r| Some((r, r.columns.last()?)));
+            let (run, quantity) = match (run, quantity, above) {
+                ("", "", Some((r, c))) => (r.name.clone(), c.quantity.clone()),
+                ("", quantity, Some((r, _))) => (r.name.clone(), quantity.to_owned()),
+                ("", _, None) => return Err(format!("row {found}: no run")),
+                (run, quantity, _) => (run.to_owned(), quantity.to_owned()),
+            };
             let number = |text: &str| match text.parse::<f64>() {
                 Ok(number) if number.is_finite() => Ok(number),
                 _ => Err(format!("{run} {quantity}, row {found}: {text}")),
             };
             golden.add(
-                run,
-                quantity,
+                &run,
+                &quantity,
                 Point {
                     time: (!time.is_empty()).then(|| number(time)).transpose()?,
                     value: number(value)?,
@@ -255,7 +265,7 @@ impl Golden {
         self.blessings.drain(..surplus);
     }
 
-    /// The file.
+    /// The file. A run and a quantity stand in their first row alone.
     fn text(&self) -> csv::Result<Vec<u8>> {
         let rows = self.columns().map(|(_, c)| c.points.len()).sum::<usize>();
         let mut text = format!("# format {FORMAT}, {rows} rows\n");
@@ -264,11 +274,16 @@ impl Golden {
         }
         let mut writer = csv::Writer::from_writer(text.into_bytes());
         writer.write_record(HEADER)?;
-        for (run, column) in self.columns() {
-            for point in &column.points {
-                let time = point.time.map(written).unwrap_or_default();
-                let [value, response] = [point.value, point.response].map(written);
-                writer.write_record([run, &column.quantity, &time, &value, &response])?;
+        for run in &self.runs {
+            let mut name = &*run.name;
+            for column in &run.columns {
+                let mut quantity = &*column.quantity;
+                for point in &column.points {
+                    let time = point.time.map(written).unwrap_or_default();
+                    let [value, response] = [point.value, point.response].map(written);
+                    writer.write_record([name, quantity, &time, &value, &response])?;
+                    (name, quantity) = ("", "");
+                }
             }
         }
         writer.into_inner().map_err(|e| e.into_error().into())

@@ -17,12 +17,16 @@ const SHADE: u16 = 17;
 /// The last chunk of a PNG file.
 const END_OF_PNG: &[u8] = b"IEND\xaeB`\x82";
 
-/// Draws the watched columns of a run, a chart each.
+/// Draws the watched columns of a run over the first column of its series, a chart each.
 ///
 /// # Errors
 /// There are none, or the picture can't be drawn.
-pub(super) fn curves(run: &Run) -> Result<RgbImage, Error> {
-    let charts: Vec<Chart> = run.columns.iter().filter_map(chart).collect();
+pub(super) fn curves(run: &Run, abscissa: &str) -> Result<RgbImage, Error> {
+    let charts: Vec<Chart> = run
+        .columns
+        .iter()
+        .filter_map(|column| chart(column, abscissa))
+        .collect();
     small(|path| draw_charts(path, &charts, charts.len().min(2)))
 }
 
@@ -51,7 +55,7 @@ pub(super) fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
     Ok(different_pixels(&read_picture(kept)?, drawn))
 }
 
-fn chart(column: &Column) -> Option<Chart> {
+fn chart(column: &Column, abscissa: &str) -> Option<Chart> {
     let header = column.quantity.strip_prefix(SERIES)?;
     let points = column
         .points
@@ -61,7 +65,7 @@ fn chart(column: &Column) -> Option<Chart> {
         marker: Marker::Circle,
         ..Series::line("", points.collect(), 0)
     };
-    Some(Chart::new("", ["time (s)", header], vec![curve]))
+    Some(Chart::new("", [abscissa, header], vec![curve]))
 }
 
 /// Writes a PNG file as small as it gets.

@@ -114,12 +114,14 @@ fn history(
     }
     let table = Table::read(&path)?;
     let chart = |name: &&str| {
-        let points = table.points("time", name);
+        let (at, values) = (table.iter().next(), table.column(name).iter());
+        let at = at.map_or(&[][..], |(_, at)| at).iter();
+        let points = at.copied().zip(values.copied()).collect();
         let header = table.iter().map(|(header, _)| header);
         let label = header.filter(|h| h.split(" (").next() == Some(name)).last();
         Chart::new(
             "",
-            ["time (s)", label.unwrap_or(name)],
+            [table.abscissa(), label.unwrap_or(name)],
             vec![Series::line("", points, 0)],
         )
     };
