@@ -23,6 +23,8 @@ parameters! { pub(super) const:
         "cfl: by the CFL number; auto, explicit: the step that is stable however particles lie, of all but linear functions";
     FLIP = "flip", "-", "1", number(0.0, 1.0, false), "PIC/FLIP blend η: 1 is FLIP";
     DAMPING = "damping", "-", "0", number(0.0, 1.0, true), "local damping factor";
+    LINEAR_VISCOSITY = "linear_viscosity", "-", "0", number(0.0, 10.0, false),
+        "coefficient c₁ of the linear artificial viscosity: 0.5 takes what rings behind a shock";
     WALL = "wall", "-", "open-knot", Domain::Choice(&["open-knot", WALL_LINE]), "how B-splines meet walls";
     PPC_PER_DIRECTION = "ppc_per_direction", "-", "2", Domain::Integer { least: 1, most: 4 },
         "particles per cell and direction";

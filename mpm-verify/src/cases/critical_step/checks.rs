@@ -1,7 +1,7 @@
 //! What is checked of the largest step. The bounds are derived in `docs/critical-step.md`.
 
 use super::metrics::{CRITICAL_CFL, FED_CFL, OFFERED_CFL, PREDICTED_CFL};
-use super::parameters::{CUT_WORD, LAYOUT, STRETCH};
+use super::parameters::{CUT_WORD, LAYOUT, LINEAR_VISCOSITY, STRETCH};
 use crate::check::{Check, judge, run};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, TransferName};
@@ -30,10 +30,11 @@ pub(super) fn checks() -> Vec<Check> {
         ),
         Check::truth(
             "offered-step",
-            "aligned, jittered and cut, without a stretch, all but linear functions: the step that time_step=auto takes is stable",
+            "aligned, jittered and cut, without a stretch and a viscosity, all but linear functions: the step that time_step=auto takes is stable",
             run(|r| {
                 let offered = r.metric(OFFERED_CFL);
-                let at_rest = r.parameters.number(STRETCH) == 1.0;
+                let p = &r.parameters;
+                let at_rest = p.number(STRETCH) == 1.0 && p.number(LINEAR_VISCOSITY) == 0.0;
                 let why = "the stiffness of a particle over its share of the nodes' masses bounds that of all";
                 (at_rest && offered.is_finite())
                     .then(|| judge(r, CRITICAL_CFL).above(offered * (1.0 - 0.5 * SEEN), why))

@@ -16,7 +16,9 @@ use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use crate::sketch::{Shape, Sketch};
 use crate::spec::Level;
 use metrics::{CRITICAL_CFL, FED_CFL, OFFERED_CFL, PREDICTED_CFL};
-use watch::{PERIOD, Trials};
+use mpm_core::material::Viscous;
+use parameters::LINEAR_VISCOSITY;
+use watch::{DENSITY, PERIOD, Trials};
 
 use BasisName::{Bspline2, Gimp, Linear};
 use Tier::{Nightly, Pr, Quick};
@@ -38,6 +40,11 @@ const NUMBERS: [&[&str]; 3] = [
     &["dimension=1", "ppc_per_direction=4"],
 ];
 const SPACE: &[&str] = &["dimension=3"];
+/// With an artificial viscosity.
+const VISCOUS: [&[&str]; 2] = [
+    &["dimension=1", "linear_viscosity=0.5"],
+    &["dimension=1", "linear_viscosity=1"],
+];
 
 pub(super) fn case() -> Case {
     Case {
@@ -45,7 +52,7 @@ pub(super) fn case() -> Case {
         title: "Largest stable step",
         description: "A lattice of particles at rest with a little noise: ten halvings find the largest CFL number at which the noise \
                       does not grow, for every explicit scheme, in one to three dimensions, aligned, off the lattice, cut by the \
-                      grid, compressed and stretched.",
+                      grid, compressed and stretched, and with an artificial viscosity.",
         references: vec![
             "Linear analysis, docs/modes.md: Jury's conditions of a wave's two by two matrix, here in every dimension and for every transfer.".to_owned(),
             "A bound for any arrangement of particles, docs/critical-step.md.".to_owned(),
@@ -75,9 +82,16 @@ pub(super) fn case() -> Case {
         own_runs: crate::record::of_defaults,
         begin: Box::new(|spec, p| {
             Ok(match p.number(parameters::DIMENSION) as u32 {
-                1 => Box::new(Trials::<1>::drive(spec, p)?),
-                2 => Box::new(Trials::<2>::drive(spec, p)?),
-                _ => Box::new(Trials::<3>::drive(spec, p)?),
+                1 if p.number(LINEAR_VISCOSITY) > 0.0 => {
+                    let viscous = |law| {
+                        let coefficients = [p.number(LINEAR_VISCOSITY), 0.0];
+                        Viscous::new(law, DENSITY, spec.level.h, coefficients)
+                    };
+                    Box::new(Trials::<1, _>::drive(spec, p, viscous)?)
+                }
+                1 => Box::new(Trials::<1, _>::drive(spec, p, Ok)?),
+                2 => Box::new(Trials::<2, _>::drive(spec, p, Ok)?),
+                _ => Box::new(Trials::<3, _>::drive(spec, p, Ok)?),
             })
         }),
         pictures: |_| Ok(()),
@@ -107,6 +121,7 @@ fn plan() -> Vec<Family> {
         family(Nightly, &LEVELS, &plain, &["layout=cut"]),
         family(Nightly, &LEVELS, &space, SPACE),
     ];
+    plan.extend(VISCOUS.map(|set| family(Pr, &LEVELS, &plain, set)));
     plan.extend(NUMBERS.map(|set| family(Nightly, &LEVELS, &flip, set)));
     plan
 }

@@ -3,6 +3,7 @@
 use crate::cases::parameters as common;
 use crate::parameter::{Domain, Parameter, number, parameters};
 
+pub(super) const LINEAR_VISCOSITY: Parameter = common::LINEAR_VISCOSITY;
 pub(super) const PPC_PER_DIRECTION: Parameter = common::PPC_PER_DIRECTION;
 pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.3");
 /// Words of [`LAYOUT`].
@@ -21,11 +22,12 @@ parameters! { pub(super) const:
 }
 
 /// All of them.
-pub(super) const ALL: [Parameter; 7] = [
+pub(super) const ALL: [Parameter; 8] = [
     DIMENSION,
     LAYOUT,
     CUT,
     STRETCH,
+    LINEAR_VISCOSITY,
     STEPS,
     PPC_PER_DIRECTION,
     POISSON_RATIO,

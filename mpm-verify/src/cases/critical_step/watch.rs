@@ -2,7 +2,8 @@
 
 use super::metrics as m;
 use super::parameters::{
-    CUT, CUT_WORD, JITTERED, LAYOUT, POISSON_RATIO, PPC_PER_DIRECTION, STEPS, STRETCH,
+    CUT, CUT_WORD, JITTERED, LAYOUT, LINEAR_VISCOSITY, POISSON_RATIO, PPC_PER_DIRECTION, STEPS,
+    STRETCH,
 };
 use super::theory::Setting;
 use crate::cases::noise::noise;
@@ -27,7 +28,7 @@ pub(super) const PERIOD: usize = 6;
 const ROOM: usize = 3;
 /// Young's modulus (Pa) and density (kg/m³).
 const YOUNG_MODULUS: f64 = 1e6;
-const DENSITY: f64 = 1000.0;
+pub(super) const DENSITY: f64 = 1000.0;
 /// Least and greatest CFL number of a trial, and how many there are: each halves the range of the logarithm.
 const LEAST: f64 = 1e-3;
 const MOST: f64 = 1.0;
@@ -65,26 +66,29 @@ impl Seen {
     }
 }
 
-/// A lattice of particles with noise.
-pub(super) struct Trials<const D: usize> {
+/// A lattice of particles of the law `M` with noise.
+pub(super) struct Trials<const D: usize, M> {
     spec: RunSpec,
     parameters: Parameters,
     scheme: Explicit,
+    /// The law without a viscosity, and as the particles have it.
     law: NeoHookean,
+    material: M,
     /// Speed of waves (m/s) of the state of the start along the axis.
     speed: f64,
     discretisation: Discretisation,
 }
 
-impl<const D: usize> Trials<D>
-where
-    NeoHookean: Solvable<D>,
-{
-    /// A run at its start.
+impl<const D: usize, M: Solvable<D> + Copy> Trials<D, M> {
+    /// A run at its start, of particles of what `material` makes of their law.
     ///
     /// # Errors
     /// The parameters don't make a scene.
-    pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<D, Self>, Error> {
+    pub(super) fn drive(
+        spec: &RunSpec,
+        parameters: &Parameters,
+        material: impl FnOnce(NeoHookean) -> Result<M, Fault>,
+    ) -> Result<Drive<D, Self>, Error> {
         let Scheme::Explicit(scheme) = spec.scheme else {
             let solver = spec.scheme.solver();
             return Err(Error::unknown(
@@ -94,10 +98,17 @@ where
             ));
         };
         let stretch = parameters.number(STRETCH);
-        if stretch != 1.0 && D > 1 {
-            return Err(Error::Input(format!(
-                "stretch = {stretch} is out of range in {D} dimensions; allowed: 1"
-            )));
+        let viscosity = parameters.number(LINEAR_VISCOSITY);
+        let out_of_range = |name: &str, value: f64, place: &str, allowed: f64| {
+            let why = format!("{name} = {value} is out of range {place}; allowed: {allowed}");
+            Err(Error::Input(why))
+        };
+        if D > 1 && stretch != 1.0 {
+            return out_of_range("stretch", stretch, "in two and three dimensions", 1.0);
+        }
+        if viscosity > 0.0 && (D > 1 || stretch != 1.0) {
+            let place = "but in one dimension without a stretch";
+            return out_of_range("linear_viscosity", viscosity, place, 0.0);
         }
         let law = NeoHookean::new(YOUNG_MODULUS, parameters.number(POISSON_RATIO))?;
         let (stress, state) = law.at_rest(&stretched::<3>(stretch));
@@ -108,6 +119,7 @@ where
             parameters: parameters.clone(),
             scheme,
             law,
+            material: material(law)?,
             speed,
             discretisation: discretisation(D, spec, parameters, longest),
         };
@@ -187,7 +199,7 @@ where
             _ => Axis::periodic(0.0, PERIOD),
         };
         let grid = Grid::new(h, std::array::from_fn(axis))?;
-        let scene = Scene::new(grid, Body::new(self.law, particles)?);
+        let scene = Scene::new(grid, Body::new(self.material, particles)?);
         let settings = Settings::new(courant_time_step(cfl, h, self.speed));
         solver(
             self.spec.scheme,
@@ -211,6 +223,7 @@ where
             axial: stretch * rise / (2.0 * STEP) / modulus,
             shear: law.mu / modulus,
             mean_stress: stretch * nominal(stretch) / modulus,
+            viscosity: self.parameters.number(LINEAR_VISCOSITY),
         }
     }
 }
@@ -222,10 +235,7 @@ fn stretched<const D: usize>(stretch: f64) -> SMatrix<f64, D, D> {
     f
 }
 
-impl<const D: usize> Watch<D> for Trials<D>
-where
-    NeoHookean: Solvable<D>,
-{
+impl<const D: usize, M: Solvable<D> + Copy> Watch<D> for Trials<D, M> {
     type Seen = Seen;
 
     fn discretisation(&self) -> Discretisation {

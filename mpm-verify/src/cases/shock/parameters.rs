@@ -8,10 +8,10 @@ pub(super) const FLIP: Parameter = common::FLIP;
 pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.3");
 pub(super) const PPC_PER_DIRECTION: Parameter = common::PPC_PER_DIRECTION;
 pub(super) const WALL: Parameter = common::WALL;
+pub(super) const LINEAR_VISCOSITY: Parameter = common::LINEAR_VISCOSITY;
+
 parameters! { pub(super) const:
     MACH = "mach", "-", "0.5", number(0.01, 3.0, false), "speed of the bar over that of its waves";
-    LINEAR_VISCOSITY = "linear_viscosity", "-", "0", number(0.0, 10.0, false),
-        "coefficient c₁ of the linear artificial viscosity: 0.5 takes what rings";
     QUADRATIC_VISCOSITY = "quadratic_viscosity", "-", "0", number(0.0, 10.0, false),
         "coefficient c₂ of the quadratic artificial viscosity: 2 makes a front five to ten cells wide";
 }
