@@ -39,7 +39,8 @@ fn every_command_of_the_readme_works() {
         .map(|line| line.split('#').next().unwrap().trim())
         .collect();
     assert!(commands.len() >= 7, "{commands:?}");
-    for command in commands {
+    // `quick` has run it.
+    for command in commands.into_iter().filter(|c| *c != "verify --tier quick") {
         let mut words: Vec<&str> = Vec::new();
         for (k, part) in command.split('"').enumerate() {
             if k % 2 == 1 {

@@ -3,7 +3,6 @@
 //!
 //! `.ci/paths` compares them between builds for different instructions.
 
-#[path = "../benches/body/mod.rs"]
 mod body;
 
 use body::{DENSITY, fluid, sheared, soil, solid};
