@@ -1,4 +1,4 @@
-//! What functions of a regular grid see of waves and of regular lattices of particles.
+//! What functions of a regular grid see: particles, waves, and regular lattices of particles.
 
 use crate::scheme::BasisName;
 use std::f64::consts::{PI, TAU};
@@ -31,4 +31,24 @@ pub(super) fn symbol(angle: f64, transform: &dyn Fn(f64) -> f64) -> [f64; 2] {
 /// Amplitude of the force of a uniform stress over the stress, as a wave of the lattice with `waves` periods a cell.
 pub(super) fn force(waves: f64, transform: &dyn Fn(f64) -> f64) -> f64 {
     4.0 * PI * waves * transform(TAU * waves).abs()
+}
+
+/// How far from a particle of this half size (cells) its functions are, in cells.
+pub(super) fn support(basis: BasisName, half_size: f64) -> f64 {
+    match basis {
+        BasisName::Linear => 1.0,
+        BasisName::Gimp => 1.0 + half_size,
+        BasisName::Bspline2 => 1.5,
+        BasisName::Bspline3 | BasisName::Q8 => 2.0,
+    }
+}
+
+/// First and last node that sees a particle at `x`, in cells from a grid line: functions that begin at it see nothing.
+pub(super) fn nodes(basis: BasisName, half_size: f64, x: f64) -> [f64; 2] {
+    let first = match basis {
+        BasisName::Bspline2 => 0.5,
+        BasisName::Linear | BasisName::Gimp | BasisName::Bspline3 | BasisName::Q8 => 0.0,
+    };
+    let (x, reach) = (x - first, support(basis, half_size));
+    [(x - reach).floor() + 1.0, (x + reach).ceil() - 1.0]
 }

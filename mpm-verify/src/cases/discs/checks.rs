@@ -1,10 +1,12 @@
 //! What is checked of the discs. The bounds are derived in `docs/discs.md`.
 
+use super::metrics as m;
 use super::metrics::{ASYMMETRY, ENERGY_GAIN, MASS, MOMENTUM_ERROR, NEWTON_ITERATIONS};
 use super::parameters::{LUMPED, OFFSET, STEP_FACTOR, TOLERANCE};
+use super::scene::RADIUS;
 use crate::check::{Check, Finding, judge, run};
 use crate::record::Record;
-use crate::scheme::{BasisName, RuleName};
+use crate::scheme::{BasisName, RuleName, Scheme, TransferName};
 
 /// Roundings of a step's sum of forces, in shares of the discs' momentum.
 const ROUNDINGS: f64 = 16.0;
@@ -14,6 +16,18 @@ const NO_GAIN: f64 = 1e-4;
 const GAINED: f64 = 1e-3;
 /// What rounding may become in the collision.
 const MIRRORED: f64 = 1e-6;
+
+/// Half of what a step exchanges.
+const HALF: f64 = 0.5;
+
+/// What rounding may come to in an explicit run.
+fn rounding(r: &Record) -> f64 {
+    (r.work.steps as f64 * ROUNDINGS * f64::EPSILON).max(1e-12)
+}
+
+fn is_explicit(r: &Record) -> bool {
+    matches!(r.scheme(), Scheme::Explicit(_))
+}
 
 /// Whether linear functions go through fine cells: each face that a particle crosses is a jump.
 fn jumps(r: &Record) -> bool {
@@ -87,12 +101,70 @@ pub(super) fn checks() -> Vec<Check> {
         ),
         Check::truth(
             "mirror",
-            "without offset, all but linear functions, whose gradients jump where rounding decides: particles stay mirror images about the centre",
+            "all but linear functions, whose gradients jump where rounding decides: particles stay mirror images about the centre",
             run(|r| {
                 let why = "the scene and the lattice are; rounding grows in the collision";
                 let found = judge(r, ASYMMETRY).at_most(MIRRORED, why);
-                let continuous = r.basis() != BasisName::Linear;
-                (continuous && r.parameters.number(OFFSET) == 0.0).then_some(found)
+                (r.basis() != BasisName::Linear).then_some(found)
+            }),
+        ),
+        Check::truth(
+            "free-flight",
+            "explicit: until a function sees both discs every particle keeps its velocity, to rounding, and its volume; for ever if none does",
+            run(|r| {
+                let why = "functions sum to one and their slopes to zero: a uniform motion has no strain and no force";
+                let each = [m::FLIGHT_ERROR, m::FLIGHT_STRAIN];
+                let judged = is_explicit(r);
+                let found = each.map(|metric| judge(r, metric).at_most(rounding(r), why));
+                found.into_iter().filter(|_| judged).collect::<Vec<_>>()
+            }),
+        ),
+        Check::truth(
+            "exchange",
+            "explicit, not musl: kinetic and stored energy never above their start by more than half of what a step changes the stored one by",
+            run(|r| {
+                let bound = HALF * r.metric(m::ENERGY_EXCHANGED) + rounding(r);
+                let why = "velocities live half a step before places, and transfers only take";
+                (is_explicit(r) && r.transfer() != TransferName::Musl)
+                    .then(|| judge(r, ENERGY_GAIN).at_most(bound, why))
+            }),
+        ),
+        Check::truth(
+            "restitution",
+            "explicit: the discs part no faster than they met, but for what a step exchanges",
+            run(|r| {
+                let bound = 1.0 + HALF * r.metric(m::ENERGY_EXCHANGED) + rounding(r);
+                let why = "the motion of the centres of mass is part of the energy";
+                is_explicit(r).then(|| judge(r, m::RESTITUTION).at_most(bound, why))
+            }),
+        ),
+        Check::truth(
+            "affine-keeps-angular-momentum",
+            "apic: angular momentum, that of the affine parts with it, is kept to rounding",
+            run(|r| {
+                let why = "the affine part carries what a node's arm has, and stresses are symmetric: docs/spin.md";
+                (r.transfer() == TransferName::Apic)
+                    .then(|| judge(r, m::ANGULAR_MOMENTUM_ERROR).at_most(rounding(r), why))
+            }),
+        ),
+        Check::truth(
+            "no-spin",
+            "explicit, head on, all but linear functions: the angular momentum stays zero",
+            run(|r| {
+                let why = "the scene is its own image in the line of motion, which turns angular momentum round";
+                let head_on = r.parameters.number(OFFSET) == 0.0;
+                (is_explicit(r) && head_on && r.basis() != BasisName::Linear)
+                    .then(|| judge(r, m::ANGULAR_MOMENTUM_ERROR).at_most(MIRRORED, why))
+            }),
+        ),
+        Check::known_limit(
+            "touches-through-the-grid",
+            "explicit, discs that pass each other within reach of the functions: a hundredth of their velocity and more is turned or lost, though they don't touch",
+            run(|r| {
+                let why = "nodes that see both have one velocity";
+                let apart = r.parameters.number(OFFSET) >= 2.0 * RADIUS;
+                let meet = r.metric(m::FREE_UNTIL).is_finite();
+                (is_explicit(r) && apart && meet).then(|| judge(r, m::DEFLECTION).above(0.01, why))
             }),
         ),
         Check::truth(

@@ -16,9 +16,20 @@ metrics! { pub(super) ALL:
     MOMENTUM_ERROR = "momentum_error", "-",
         "largest change of the linear momentum, over the sum of its magnitudes at the start; 10⁻¹² if it is less, which no golden should hold";
     ANGULAR_MOMENTUM_ERROR = "angular_momentum_error", "-",
-        "largest change of the angular momentum about the centre, over that sum times 0.4 m; likewise";
+        "largest change of the angular momentum about the centre, that of affine parts with it, over that sum times 0.4 m; likewise";
+    ENERGY_EXCHANGED = "energy_exchanged", "-",
+        "largest change of the stored energy in a step, over the energy at the start";
+    RESTITUTION = "restitution", "-",
+        "speed at which the discs' centres of mass move against each other at the end, over that at the start";
+    DEFLECTION = "deflection", "-",
+        "change of the velocity at which they do, over its start: 2 of discs that bounce back, 0 of discs that miss each other";
+    FREE_UNTIL = "free_until", "s",
+        "last time at which no node would see both discs if they flew freely, if one comes to";
+    FLIGHT_ERROR = "flight_error", "-",
+        "until then, or to the end, the largest change of a particle's velocity, over its speed; 10⁻¹² if it is less";
+    FLIGHT_STRAIN = "flight_strain", "-", "likewise the largest |J − 1|";
     ASYMMETRY = "asymmetry", "-",
-        "without offset: largest distance at the end of a particle from where its mirror image about the centre is, over the radius; 10⁻⁹ if it is less";
+        "largest distance at the end of a particle from where its mirror image about the centre is, over the radius; 10⁻⁹ if it is less";
     CLOSEST = "closest", "m", "least distance of the discs' centres of mass";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
     MASS = "mass", "kg/m", "mass of both discs";

@@ -8,7 +8,7 @@ use crate::draw::{Chart, Dash, FieldFigure, FieldPanel, Series, draw_charts, dra
 use crate::error::Error;
 use crate::gallery::Gallery;
 use crate::record::{Record, Status};
-use crate::scheme::{BasisName, RemedyName};
+use crate::scheme::{BasisName, RemedyName, TransferName};
 
 /// Mean stress is drawn between plus and minus this (Pa).
 const STRESS_RANGE: f64 = 100.0;
@@ -31,6 +31,7 @@ fn energies(gallery: &mut Gallery) -> Result<(), Error> {
                 && r.remedy() == RemedyName::None
                 && r.parameters.is(STEP_FACTOR, factor)
                 && r.changes_none_but(&[STEP_FACTOR.name])
+                && is_drawn(r)
         };
         let mut curves = Vec::new();
         for record in gallery.records.iter().filter(own) {
@@ -64,6 +65,15 @@ fn energies(gallery: &mut Gallery) -> Result<(), Error> {
     draw_charts(&gallery.place("energy.png"), &charts, charts.len().min(3))?;
     gallery.hang("energy.png", "Kinetic and stored energy over the start; the paper's Figure 6 shows its accumulated one. Newmark's rule gains while the discs touch.");
     Ok(())
+}
+
+/// Explicit runs are drawn by FLIP, and by MUSL where that breaks down.
+fn is_drawn(r: &Record) -> bool {
+    match r.transfer() {
+        TransferName::Flip | TransferName::None => true,
+        TransferName::Musl => r.basis() == BasisName::Linear,
+        TransferName::Apic | TransferName::Xpic2 => false,
+    }
 }
 
 /// The discs pressed together: the paper's Figure 5.

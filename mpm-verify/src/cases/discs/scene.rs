@@ -1,11 +1,12 @@
 //! Where the discs begin: grid, particles and velocities.
 
 use super::parameters::{
-    OFFSET, POISSON_RATIO, PPC_PER_DIRECTION, SPEED, STEP_FACTOR, YOUNG_MODULUS,
+    FLIP, OFFSET, POISSON_RATIO, PPC_PER_DIRECTION, SPEED, STEP_FACTOR, YOUNG_MODULUS,
 };
 use crate::cases::observe::{implicit_settings, settings};
 use crate::parameter::Parameters;
 use crate::spec::RunSpec;
+use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::NeoHookean;
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Simulation};
 
@@ -23,11 +24,20 @@ const DENSITY: f64 = 1000.0;
 pub(super) const CELL: f64 = 0.05;
 const STEP: f64 = 0.0025;
 const DURATION: f64 = 37.5;
+/// Likewise with an offset: centres that fly freely are then half a metre beyond each other.
+const DURATION_ASIDE: f64 = 95.0;
 const AT_SPEED: f64 = 0.005;
+
+/// How far a disc that flies freely comes in a run, along each axis (m).
+fn way(parameters: &Parameters) -> f64 {
+    let is_aside = parameters.number(OFFSET) > 0.0;
+    let lasts = if is_aside { DURATION_ASIDE } else { DURATION };
+    lasts * AT_SPEED
+}
 
 /// Time step (s) with cells of size `h` (m), and how many there are.
 pub(super) fn timing(h: f64, parameters: &Parameters) -> (f64, u64) {
-    let duration = DURATION * AT_SPEED / parameters.number(SPEED);
+    let duration = way(parameters) / parameters.number(SPEED);
     let dt = STEP * (h / CELL) * step_factor(parameters);
     (dt, (duration / dt).ceil() as u64)
 }
@@ -35,6 +45,11 @@ pub(super) fn timing(h: f64, parameters: &Parameters) -> (f64, u64) {
 /// Time step over the paper's.
 pub(super) fn step_factor(parameters: &Parameters) -> f64 {
     parameters.text(STEP_FACTOR).parse().unwrap_or(1.0)
+}
+
+/// How far each disc is shifted along each axis (m): half of the offset across the diagonal.
+fn aside(parameters: &Parameters) -> f64 {
+    0.5 * parameters.number(OFFSET) * std::f64::consts::FRAC_1_SQRT_2
 }
 
 /// The particles' places (m) of one disc after the other; those of the second are those of the first, mirrored about the
@@ -48,8 +63,9 @@ pub(super) fn seed(h: f64, parameters: &Parameters) -> Vec<[f64; 2]> {
     let first: Vec<[f64; 2]> = first
         .filter(|[x, y]| (x - x0).hypot(y - y0) <= RADIUS)
         .collect();
-    let aside = parameters.number(OFFSET) * std::f64::consts::FRAC_1_SQRT_2;
-    let mirrored = |[x, y]: &[f64; 2]| [2.0 * MIDDLE - x - aside, 2.0 * MIDDLE - y + aside];
+    let aside = aside(parameters);
+    let first: Vec<[f64; 2]> = first.iter().map(|[x, y]| [x + aside, y - aside]).collect();
+    let mirrored = |[x, y]: &[f64; 2]| [2.0 * MIDDLE - x, 2.0 * MIDDLE - y];
     let second: Vec<[f64; 2]> = first.iter().map(mirrored).collect();
     [first, second].concat()
 }
@@ -64,7 +80,8 @@ pub(super) fn begin(
 ) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
     let number = |p| parameters.number(p);
     let h = spec.level.h;
-    let room = (ROOM / h).round();
+    let beyond = way(parameters) - DURATION * AT_SPEED + aside(parameters);
+    let room = (ROOM / h).round() + (beyond / h).ceil();
     let cells = (SIDE / h).round() + 2.0 * room;
     let grid = Grid::new(h, [Axis::open(-room * h, cells as usize); 2])?;
     let spacing = h / number(PPC_PER_DIRECTION);
@@ -82,5 +99,6 @@ pub(super) fn begin(
         return mpm_solvers::implicit(spec.scheme, scene, settings);
     }
     let settings = settings(spec, parameters, dt, 0.0)?;
+    let settings = settings.transfer(Flip::new(number(FLIP))?);
     mpm_solvers::solver(spec.scheme, scene, settings)
 }

@@ -1,7 +1,8 @@
 //! What is seen of the discs, four times a second at the paper's speed.
 
+use super::flight::until_met;
 use super::metrics as m;
-use super::parameters::{ALL, OFFSET};
+use super::parameters::{ALL, SPEED};
 use super::scene::{CELL, MIDDLE, RADIUS, begin, seed, step_factor, timing};
 use crate::cases::observe::{check_rule, column, discretisation, position_columns};
 use crate::drive::{Drive, Stage, Watch};
@@ -29,6 +30,8 @@ struct Sums {
     angular: f64,
     /// Σ|p| (kg m/s).
     magnitude: f64,
+    /// Velocity of the first disc against the second (m/s).
+    relative: [f64; 2],
     /// Kinetic, stored, accumulated (J).
     energies: [f64; 3],
 }
@@ -45,6 +48,11 @@ pub(super) struct Seen {
     angular: f64,
     node_gap: f64,
     closest: f64,
+    /// The stored energy of the last step (J), and the most that a step changed it by.
+    stored: f64,
+    exchanged: f64,
+    /// Largest change of a velocity, and of a volume, in free flight.
+    flight: [f64; 2],
     rows: u64,
 }
 
@@ -56,6 +64,8 @@ pub(super) struct Collision {
     steps: u64,
     /// Particles of a disc, the first ones in seeding order.
     half: usize,
+    /// See [`m::FREE_UNTIL`].
+    free: Option<f64>,
 }
 
 impl Collision {
@@ -72,6 +82,7 @@ impl Collision {
             discretisation: discretisation(2, spec, parameters, dt),
             steps,
             half: seed(spec.level.h, parameters).len() / 2,
+            free: until_met(spec, parameters, steps as f64 * dt),
         };
         let seen = Seen {
             closest: f64::INFINITY,
@@ -91,14 +102,36 @@ impl Collision {
             ],
             ..Sums::default()
         };
-        for ((x, v), m) in p.position.iter().zip(&p.velocity).zip(&p.mass) {
-            for (sum, v) in sums.momentum.iter_mut().zip(v) {
-                *sum += m * v;
+        for (k, ((x, v), m)) in p.position.iter().zip(&p.velocity).zip(&p.mass).enumerate() {
+            let sign = self.sign(p.id[k]) / self.half as f64;
+            for a in 0..2 {
+                sums.momentum[a] += m * v[a];
+                sums.relative[a] += sign * v[a];
             }
             sums.angular += m * ((x[0] - MIDDLE) * v[1] - (x[1] - MIDDLE) * v[0]);
+            if let Some(b) = p.affine.get(k) {
+                sums.angular += m * (b[(1, 0)] - b[(0, 1)]);
+            }
             sums.magnitude += m * v[0].hypot(v[1]);
         }
         sums
+    }
+
+    /// 1 of the first disc, −1 of the second.
+    fn sign(&self, id: u32) -> f64 {
+        if (id as usize) < self.half { 1.0 } else { -1.0 }
+    }
+
+    /// Largest change of a particle's velocity, over its speed, and of its volume, over it.
+    fn flight(&self, run: &dyn Simulation<2>) -> [f64; 2] {
+        let p = run.particles();
+        let speed = self.parameters.number(SPEED);
+        let changes = p.velocity.iter().zip(&p.id).map(|(v, id)| {
+            let own = self.sign(*id) * speed;
+            (v[0] - own).hypot(v[1] - own) / (speed * 2f64.sqrt())
+        });
+        let strains = p.jacobian.iter().map(|j| (j - 1.0).abs());
+        [changes.fold(0.0, f64::max), strains.fold(0.0, f64::max)]
     }
 
     /// Distance of the centres of mass (m).
@@ -106,13 +139,8 @@ impl Collision {
         let p = run.particles();
         let mut apart = [0.0; 2];
         for (x, id) in p.position.iter().zip(&p.id) {
-            let sign = if (*id as usize) < self.half {
-                -1.0
-            } else {
-                1.0
-            };
             for (sum, x) in apart.iter_mut().zip(x) {
-                *sum += sign * x / self.half as f64;
+                *sum += self.sign(*id) * x / self.half as f64;
             }
         }
         apart[0].hypot(apart[1])
@@ -138,6 +166,12 @@ impl Collision {
         let angular = (sums.angular - start.angular).abs() / (start.magnitude * 2.0 * RADIUS);
         seen.angular = seen.angular.max(angular);
         seen.closest = seen.closest.min(self.distance(run));
+        seen.exchanged = seen.exchanged.max((s - seen.stored).abs() / whole);
+        seen.stored = s;
+        if self.free.is_none_or(|free| run.time() <= free) {
+            let now = self.flight(run);
+            seen.flight = [0, 1].map(|i| seen.flight[i].max(now[i]));
+        }
     }
 
     /// See [`m::ASYMMETRY`].
@@ -250,6 +284,8 @@ impl Watch<2> for Collision {
         let [k0, s0, _] = start.energies;
         let [k, s, _] = sums.energies;
         let work = run.work();
+        let [before, after] = [start.relative, sums.relative];
+        let closing = before[0].hypot(before[1]);
         let mut values = vec![
             (m::ENERGY_GAIN, seen.gain),
             (m::ENERGY_LOSS, seen.loss),
@@ -262,13 +298,20 @@ impl Watch<2> for Collision {
             (m::NODE_ENERGY_GAP, seen.node_gap),
             (m::MOMENTUM_ERROR, seen.momentum.max(ROUNDING)),
             (m::ANGULAR_MOMENTUM_ERROR, seen.angular.max(ROUNDING)),
+            (m::ENERGY_EXCHANGED, seen.exchanged),
+            (m::RESTITUTION, after[0].hypot(after[1]) / closing),
+            (
+                m::DEFLECTION,
+                (after[0] - before[0]).hypot(after[1] - before[1]) / closing,
+            ),
+            (m::FLIGHT_ERROR, seen.flight[0].max(ROUNDING)),
+            (m::FLIGHT_STRAIN, seen.flight[1].max(ROUNDING)),
+            (m::ASYMMETRY, self.asymmetry(run).max(MIRRORED)),
             (m::CLOSEST, seen.closest),
             (m::NEWTON_ITERATIONS, work.newton_iterations as f64),
             (m::MASS, run.totals().mass),
         ];
-        if self.parameters.number(OFFSET) == 0.0 {
-            values.push((m::ASYMMETRY, self.asymmetry(run).max(MIRRORED)));
-        }
+        values.extend(self.free.map(|free| (m::FREE_UNTIL, free)));
         values
     }
 }

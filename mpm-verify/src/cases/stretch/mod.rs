@@ -9,10 +9,10 @@ mod tables;
 mod theory;
 mod watch;
 
-use super::family::{BASES, REMEDIES, family, implicit, pairs};
+use super::family::{BASES, REMEDIES, family, implicit, other_transfers, pairs};
 use crate::case::{Case, Family, Tier};
 use crate::results::headline;
-use crate::scheme::{RemedyName, RuleName};
+use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
 use crate::sketch::{Shape, Sketch};
 use crate::spec::Level;
 use metrics as m;
@@ -29,6 +29,9 @@ const CRUSHED: &[&str] = &["end=0.05"];
 /// Steps that the waves of the deformed body outrun.
 const LONG_STEP: &[&str] = &["cfl=0.4"];
 const LONG_STEP_CRUSHED: &[&str] = &["cfl=0.55", "end=0.05"];
+/// The same J in the plane.
+const PLANE: &[&str] = &["dimension=2", "end=0.2236"];
+const PLANE_LONG_STEP: &[&str] = &["cfl=0.7", "dimension=2", "end=0.2236"];
 const MORE: &[&str] = &["ppc_per_direction=4"];
 const SLOWER: &[&str] = &["speed=0.005"];
 
@@ -42,7 +45,7 @@ pub(super) fn case() -> Case {
             "Exact: the homogeneous motion and the law's stress in it.".to_owned(),
             "Eigenvalues of the stiffness of the exact state, forces of its lattice: docs/stretch.md.".to_owned(),
         ],
-        limits: &["One dimension, one law, undeformed domains, one lattice of particles."],
+        limits: &["One law, undeformed domains, one lattice of particles; in the plane crushed only."],
         parameters: parameters::ALL.to_vec(),
         plan: plan(),
         levels: LEVELS.to_vec(),
@@ -53,6 +56,7 @@ pub(super) fn case() -> Case {
             headline(m::UNSTABLE_STRETCH, "holds at least to (–)", 1.0, 2),
             headline(m::PREDICTED_TEAR_STRETCH, "neighbours part at (–)", 1.0, 2),
             headline(m::STOPPED_STRETCH, "stops at (–)", 1.0, 2),
+            headline(m::PREDICTED_STOP_STRETCH, "predicted to stop at (–)", 1.0, 2),
             headline(m::STRESS_NOISE, "noise of the stress (%)", 100.0, 1),
             headline(m::PREDICTED_NOISE, "predicted (%)", 100.0, 1),
             headline(m::STRESS_KEPT, "mean stress kept (%)", 100.0, 1),
@@ -62,10 +66,10 @@ pub(super) fn case() -> Case {
         watched: &["stress_kept", "stress_error"],
         field: None,
         sketch: sketch(),
-        cost: Box::new(|_| 0.1),
+        cost: Box::new(|spec| if spec.set == PLANE { 1.0 } else { 0.1 }),
         ladder: &[],
         own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Stretching::drive(spec, parameters)?))),
+        begin: Box::new(Stretching::begin),
         pictures: |_| Ok(()),
         tables: tables::all(),
         breaks_down: |_| None,
@@ -80,6 +84,10 @@ fn plan() -> Vec<Family> {
     let sure = implicit(&[RuleName::QuasiStatic], &BASES[..3], &remedies[..1]);
     let plain = pairs(&BASES, &[RemedyName::None]);
     let consistent = pairs(&BASES[1..2], &[RemedyName::FbarConsistent]);
+    // What the plane has beside FLIP.
+    let mut transfers = other_transfers();
+    let musl = |basis| Scheme::explicit(basis, RemedyName::None, TransferName::Musl);
+    transfers.extend([BasisName::Linear, BasisName::Gimp].map(musl));
     vec![
         family(Quick, &LEVELS, &consistent, &[]),
         family(Pr, &LEVELS, &all, &[]),
@@ -89,6 +97,10 @@ fn plan() -> Vec<Family> {
         family(Pr, &LEVELS, &plain, LONG_STEP),
         family(Pr, &LEVELS, &plain, LONG_STEP_CRUSHED),
         family(Nightly, &LEVELS, &slow, &[]),
+        family(Pr, &LEVELS, &plain[1..2], PLANE),
+        family(Nightly, &LEVELS, &all, PLANE),
+        family(Nightly, &LEVELS, &transfers, PLANE),
+        family(Nightly, &LEVELS, &plain, PLANE_LONG_STEP),
         family(Nightly, &LEVELS, &plain, MORE),
         family(Nightly, &LEVELS, &plain, SLOWER),
     ]

@@ -10,7 +10,9 @@ pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("
 pub(super) const PPC_PER_DIRECTION: Parameter = common::PPC_PER_DIRECTION;
 parameters! { pub(super) const:
     END = "end", "-", "8", number(0.02, 20.0, false),
-        "stretch at the end: above 1 the body is pulled, below it is crushed";
+        "stretch of each axis at the end: above 1 the body is pulled, below it is crushed";
+    DIMENSION = "dimension", "-", "1", Domain::Integer { least: 1, most: 2 },
+        "1: uniaxial strain; 2: plane strain, alike along both axes";
     SPEED = "speed", "-", "0.02", number(1e-3, 0.2, false),
         "speed of the ends of the free part at the start over that of waves in the undeformed body";
     ROWS = "rows", "-", "140", Domain::Integer { least: 10, most: 10_000 },
@@ -18,4 +20,12 @@ parameters! { pub(super) const:
 }
 
 /// All of them.
-pub(super) const ALL: [Parameter; 6] = [END, SPEED, ROWS, CFL, PPC_PER_DIRECTION, POISSON_RATIO];
+pub(super) const ALL: [Parameter; 7] = [
+    END,
+    DIMENSION,
+    SPEED,
+    ROWS,
+    CFL,
+    PPC_PER_DIRECTION,
+    POISSON_RATIO,
+];

@@ -1,6 +1,6 @@
 //! Where a lattice that is stretched loses its stiffness, where neighbours part, and how its stress is noisy until then.
 
-use crate::cases::lattice_waves::{force, symbol, transform};
+use crate::cases::lattice_waves::{force, nodes, symbol, transform};
 use crate::scheme::BasisName;
 use mpm_core::Axis;
 use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
@@ -28,36 +28,13 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// How far a particle's functions reach, in cells.
-    fn support(&self) -> f64 {
-        match self.basis {
-            BasisName::Linear => 1.0,
-            BasisName::Gimp => 1.0 + self.half_size,
-            BasisName::Bspline2 => 1.5,
-            BasisName::Bspline3 | BasisName::Q8 => 2.0,
-        }
-    }
-
-    /// Where the first node is, in cells from a grid line.
-    fn offset(&self) -> f64 {
-        match self.basis {
-            BasisName::Bspline2 => 0.5,
-            BasisName::Linear | BasisName::Gimp | BasisName::Bspline3 | BasisName::Q8 => 0.0,
-        }
-    }
-
-    /// First and last node that sees a particle at `x`, in cells: functions that begin at it see nothing.
-    fn nodes(&self, x: f64) -> [f64; 2] {
-        let (x, reach) = (x - self.offset(), self.support());
-        [(x - reach).floor() + 1.0, (x + reach).ceil() - 1.0]
-    }
-
     /// Whether neighbours have no common node somewhere in the free part; places in cells.
     pub(super) fn parted(&self, mut places: Vec<f64>) -> bool {
         places.sort_by(f64::total_cmp);
         let free = |x: f64| x.abs() < FREE as f64;
         let apart = |pair: &[f64]| {
-            let ([_, last], [first, _]) = (self.nodes(pair[0]), self.nodes(pair[1]));
+            let seen = |x| nodes(self.basis, self.half_size, x);
+            let ([_, last], [first, _]) = (seen(pair[0]), seen(pair[1]));
             first > last && (free(pair[0]) || free(pair[1]))
         };
         places.windows(2).any(apart)

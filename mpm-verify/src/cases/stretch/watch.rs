@@ -1,12 +1,12 @@
 //! A body whose ends move as one that is stretched alike everywhere, and what its free part does.
 
 use super::metrics as m;
-use super::parameters::{CFL, END, POISSON_RATIO, PPC_PER_DIRECTION, ROWS, SPEED};
+use super::parameters::{CFL, DIMENSION, END, POISSON_RATIO, PPC_PER_DIRECTION, ROWS, SPEED};
 use super::theory::{FREE, Lattice};
 use crate::cases::observe::{column, position_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
-use crate::job::Column;
+use crate::job::{Column, Job};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::record::Discretisation;
@@ -20,6 +20,7 @@ use mpm_core::{
     Axis, Body, Error as Fault, Frame, Grid, Law, Memoryless, Particles, Scene, Simulation,
     implicit,
 };
+use mpm_solvers::{Solvable, Solved};
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
@@ -64,30 +65,30 @@ pub(super) struct Stretching {
 }
 
 /// The nodes beside the free part move as all would.
-struct Held {
+struct Held<const D: usize> {
     /// The middle (m), and how far from it the free part ends (m).
-    middle: f64,
+    middle: [f64; D],
     beyond: f64,
     rate: f64,
 }
 
-impl Memoryless for Held {}
+impl<const D: usize> Memoryless for Held<D> {}
 
-impl Constraint<1> for Held {
-    fn prescribe(&self, grid: &Grid<1>, [x]: &[f64; 1], _: usize) -> Option<f64> {
-        let from_middle = x - self.middle;
-        let held = from_middle.abs() >= self.beyond - 1e-9 * grid.h;
-        held.then_some(self.rate * from_middle)
+impl<const D: usize> Constraint<D> for Held<D> {
+    fn prescribe(&self, grid: &Grid<D>, x: &[f64; D], axis: usize) -> Option<f64> {
+        let from_middle = |a: usize| x[a] - self.middle[a];
+        let beyond = |a: usize| from_middle(a).abs() >= self.beyond - 1e-9 * grid.h;
+        let held = (0..D).any(beyond);
+        held.then(|| self.rate * from_middle(axis))
     }
 
     fn amplitude(&self, time: f64) -> f64 {
         1.0 / (1.0 + self.rate * time)
     }
 
-    fn seen_from(self: Box<Self>, frame: &Frame<1>) -> Box<dyn Constraint<1>> {
-        let [middle] = frame.place(&[self.middle]);
+    fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>> {
         Box::new(Self {
-            middle,
+            middle: frame.place(&self.middle),
             beyond: frame.scale(0, 1) * self.beyond,
             rate: self.rate,
         })
@@ -99,7 +100,7 @@ impl Stretching {
     ///
     /// # Errors
     /// The parameters don't make a scene.
-    pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<1, Self>, Error> {
+    pub(super) fn begin(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
         let number = |p| parameters.number(p);
         let law = NeoHookean::new(YOUNG_MODULUS, number(POISSON_RATIO))?;
         let waves = law.wave_speed(DENSITY);
@@ -118,7 +119,14 @@ impl Stretching {
             dt: duration / steps.ceil(),
             steps: steps.ceil() as u64,
         };
-        Ok(Drive::new(stretching, Seen::default())?)
+        Ok(match stretching.dimension() {
+            1 => Box::new(Drive::<1, Self>::new(stretching, Seen::default())?),
+            _ => Box::new(Drive::<2, Self>::new(stretching, Seen::default())?),
+        })
+    }
+
+    fn dimension(&self) -> usize {
+        self.parameters.number(DIMENSION) as usize
     }
 
     /// Cells of the undeformed body on each side of the middle.
@@ -128,19 +136,22 @@ impl Stretching {
     }
 
     /// The stretch of what is held: that of the last particle.
-    fn stretch(run: &dyn Simulation<1>) -> f64 {
+    fn stretch<const D: usize>(run: &dyn Simulation<D>) -> f64 {
         let p = run.particles();
         let all = p.reference.iter().zip(&p.jacobian);
-        let last = all.max_by(|([a], _), ([b], _)| a.total_cmp(b));
-        last.map_or(f64::NAN, |(_, j)| *j)
+        let last = all.max_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
+        last.map_or(f64::NAN, |(_, j)| j.powf((D as f64).recip()))
     }
 
     /// The exact stress (Pa), and the speed of waves (m/s).
     fn state(&self, stretch: f64) -> [f64; 2] {
         let mut f = Matrix3::identity();
-        f[(0, 0)] = stretch;
+        for a in 0..self.dimension() {
+            f[(a, a)] = stretch;
+        }
         let (stress, state) = self.law.at_rest(&f);
-        let modulus = self.law.wave_modulus(stretch, &stress, &state);
+        let j = stretch.powi(self.dimension() as i32);
+        let modulus = self.law.wave_modulus(j, &stress, &state);
         [stress.get(0, 0), (modulus / DENSITY).sqrt()]
     }
 
@@ -179,8 +190,8 @@ impl Stretching {
 
     /// The first stretch at which a wave of the free nodes has a negative stiffness in the exact state.
     fn unstable(&self) -> Option<f64> {
-        // Slopes that jump have a curvature somewhere, and none elsewhere.
-        if self.spec.scheme.basis() == BasisName::Linear {
+        // Slopes that jump have a curvature somewhere, and none elsewhere; in the plane nothing is foretold.
+        if self.spec.scheme.basis() == BasisName::Linear || self.dimension() > 1 {
             return None;
         }
         let lattice = self.lattice();
@@ -192,14 +203,15 @@ impl Stretching {
         })
     }
 
-    /// The most of the noise that is foretold up to a stretch.
+    /// The most of the noise that is foretold up to a stretch. In the plane there are waves along either axis, whose
+    /// stress across is no more than that along.
     fn predicted_noise(&self, end: f64) -> f64 {
         let lattice = self.lattice();
         let per_cell = self.parameters.number(PPC_PER_DIRECTION);
         let within = |s: &f64| (s - 1.0).abs() <= (end - 1.0).abs();
         let each = self.stretches(LOOK).take_while(within);
-        each.map(|s| lattice.noise(per_cell / s))
-            .fold(0.0, f64::max)
+        let along = each.map(|s| lattice.noise(per_cell / s));
+        along.fold(0.0, f64::max) * (self.dimension() as f64).sqrt()
     }
 
     /// The first stretch at which the fastest particle and the waves of the exact state pass a cell in a step.
@@ -212,13 +224,14 @@ impl Stretching {
 
     /// Mean over the free part of the stress over the exact one, and rms of what it differs from one by; of a free part
     /// without particles that of no stress.
-    fn stresses(&self, run: &mut dyn Simulation<1>) -> [f64; 2] {
-        let exact = self.state(Self::stretch(run))[0];
+    fn stresses<const D: usize>(&self, run: &mut dyn Simulation<D>) -> [f64; 2] {
+        let exact = self.state(Self::stretch::<D>(run))[0];
         let stress = run.force_stress();
         let end = FREE as f64 * self.spec.level.h;
         let places = run.particles().position.iter().zip(&stress);
-        let free = places.filter(|([x], _)| x.abs() < end);
-        let shares: Vec<f64> = free.map(|(_, s)| s.get(0, 0) / exact).collect();
+        let free = places.filter(|(x, _)| x.iter().all(|x| x.abs() < end));
+        let axes = free.flat_map(|(_, s)| (0..D).map(move |a| s.get(a, a) / exact));
+        let shares: Vec<f64> = axes.collect();
         if shares.is_empty() {
             return [0.0, 1.0];
         }
@@ -227,33 +240,40 @@ impl Stretching {
     }
 }
 
-impl Watch<1> for Stretching {
+impl<const D: usize> Watch<D> for Stretching
+where
+    NeoHookean: Solvable<D> + Solved<D>,
+{
     type Seen = Seen;
 
     fn discretisation(&self) -> Discretisation {
         Discretisation {
-            dim: 1,
+            dim: D,
             h: self.spec.level.h,
-            ppc: self.parameters.number(PPC_PER_DIRECTION) as u32,
+            ppc: self.parameters.number(PPC_PER_DIRECTION).powi(D as i32) as u32,
             dt: self.dt,
             wall: "none".to_owned(),
         }
     }
 
-    fn scene(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, Fault> {
+    fn scene(&self, _: &Seen) -> Result<Box<dyn Simulation<D>>, Fault> {
         let h = self.spec.level.h;
         let size = h / self.parameters.number(PPC_PER_DIRECTION);
-        let places = self.places().iter().map(|x| [x * h]).collect();
-        let mut particles =
-            Particles::new(self.spec.start_at(places), size, DENSITY, [0.5 * size])?;
-        for (v, [x]) in particles.velocity.iter_mut().zip(&particles.reference) {
-            *v = [self.rate * x];
+        let along = self.places();
+        let place = |k: usize, a: usize| along[k / along.len().pow(a as u32) % along.len()] * h;
+        let count = along.len().pow(D as u32);
+        let places = (0..count).map(|k| std::array::from_fn(|a| place(k, a)));
+        let places = self.spec.start_at(places.collect());
+        let volume = size.powi(D as i32);
+        let mut particles = Particles::new(places, volume, DENSITY, [0.5 * size; D])?;
+        for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
+            *v = x.map(|x| self.rate * x);
         }
         let longest = self.half_length() * self.parameters.number(END).max(1.0);
         let room = longest as usize + HELD;
-        let grid = Grid::new(h, [Axis::open(-(room as f64) * h, 2 * room)])?;
+        let grid = Grid::new(h, [Axis::open(-(room as f64) * h, 2 * room); D])?;
         let held = Held {
-            middle: 0.0,
+            middle: [0.0; D],
             beyond: FREE as f64 * h,
             rate: self.rate,
         };
@@ -280,12 +300,12 @@ impl Watch<1> for Stretching {
         ]
     }
 
-    fn row(&self, seen: &mut Seen, stage: &mut Stage<1>) -> Result<Vec<f64>, Fault> {
+    fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, Fault> {
         let rows = self.parameters.number(ROWS) as u64;
         seen.rows += 1;
         let to = (seen.rows * self.steps).div_ceil(rows);
         let done = stage.steps(to - stage.run.work().steps);
-        let stretch = Self::stretch(stage.run.as_ref());
+        let stretch = Self::stretch::<D>(stage.run.as_ref());
         match done {
             Ok(()) => {}
             // A run that stops has told what it should.
@@ -297,7 +317,7 @@ impl Watch<1> for Stretching {
         let [mean, error] = self.stresses(stage.run.as_mut());
         let h = self.spec.level.h;
         let places = stage.run.particles().position.iter();
-        let apart = self.lattice().parted(places.map(|[x]| x / h).collect());
+        let apart = self.lattice().parted(places.map(|x| x[0] / h).collect());
         seen.kept = mean;
         seen.errors.push([stretch, error]);
         if mean < TORN {
@@ -317,14 +337,14 @@ impl Watch<1> for Stretching {
         ])
     }
 
-    fn progress(&self, seen: &Seen, _: &Stage<1>) -> f64 {
+    fn progress(&self, seen: &Seen, _: &Stage<D>) -> f64 {
         match seen.stopped {
             Some(_) => 1.0,
             None => seen.rows as f64 / self.parameters.number(ROWS),
         }
     }
 
-    fn particles(&self, _: &Seen, stage: &mut Stage<1>) -> Vec<Column> {
+    fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {
         let stress = stage.run.force_stress();
         let p = stage.run.particles();
         let mut columns = position_columns(p);
@@ -332,7 +352,7 @@ impl Watch<1> for Stretching {
         columns
     }
 
-    fn metrics(&self, seen: &Seen, _: &mut Stage<1>) -> Vec<(Metric, f64)> {
+    fn metrics(&self, seen: &Seen, _: &mut Stage<D>) -> Vec<(Metric, f64)> {
         let unstable = self.unstable();
         let parting = self.predicted_parting();
         let end = unstable.or(parting);

@@ -1,0 +1,102 @@
+//! How long the discs fly before a function sees both.
+
+use super::parameters::{PPC_PER_DIRECTION, SPEED};
+use super::scene::seed;
+use crate::cases::lattice_waves::nodes;
+use crate::parameter::Parameters;
+use crate::spec::RunSpec;
+
+/// Way in cells, along each axis, between two looks.
+const LOOK: f64 = 0.005;
+
+/// Columns of particles of a disc: where they stand, and their ends (cells).
+fn columns(disc: &[[f64; 2]], h: f64) -> Vec<[[f64; 2]; 2]> {
+    let alike = |[a, _]: &[f64; 2], [b, _]: &[f64; 2]| a == b;
+    let ends = disc.chunk_by(alike).map(|column| {
+        let ys = || column.iter().map(|[_, y]| y / h);
+        let x = column[0][0] / h;
+        let [low, high] = [
+            ys().fold(f64::INFINITY, f64::min),
+            ys().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        [[x; 2], [low, high]]
+    });
+    ends.collect()
+}
+
+/// The last look (s) before a node sees both discs, if one does within `duration` (s).
+pub(super) fn until_met(spec: &RunSpec, parameters: &Parameters, duration: f64) -> Option<f64> {
+    let (h, basis) = (spec.level.h, spec.scheme.basis());
+    let half_size = 0.5 / parameters.number(PPC_PER_DIRECTION);
+    let places = seed(h, parameters);
+    let (first, second) = places.split_at(places.len() / 2);
+    let [first, second] = [first, second].map(|disc| columns(disc, h));
+    // Particles of a column stand so close that it sees all nodes between those that its ends see.
+    let seen = |column: &[[f64; 2]; 2], way: f64| {
+        column.map(|[low, high]| {
+            let [from, to] = [low, high].map(|x| nodes(basis, half_size, x + way));
+            [from[0], to[1]]
+        })
+    };
+    let look = LOOK * h / parameters.number(SPEED);
+    let meet = |k: &u64| {
+        let way = LOOK * *k as f64;
+        let others: Vec<_> = second.iter().map(|column| seen(column, -way)).collect();
+        let meets = |own: [[f64; 2]; 2]| {
+            let common = |a: [f64; 2], b: [f64; 2]| a[0] <= b[1] && b[0] <= a[1];
+            others
+                .iter()
+                .any(|other| common(own[0], other[0]) && common(own[1], other[1]))
+        };
+        first.iter().any(|column| meets(seen(column, way)))
+    };
+    let looks = (duration / look).ceil() as u64;
+    let met = (0..=looks).find(meet)?;
+    Some(look * met.saturating_sub(1) as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parameters::ALL;
+    use super::super::scene::RADIUS;
+    use super::*;
+    use crate::cases::lattice_waves::support;
+    use crate::scheme::{BasisName, RemedyName, Scheme};
+    use crate::spec::Level;
+
+    fn met(basis: BasisName, h: f64, offset: f64) -> Option<f64> {
+        let spec = RunSpec {
+            scheme: Scheme::flip(basis, RemedyName::None),
+            level: Level { name: "", h },
+            set: Vec::new(),
+            perturbed: false,
+        };
+        let parameters = Parameters::new(&ALL, &[format!("offset={offset}")]).unwrap();
+        until_met(&spec, &parameters, 95.0)
+    }
+
+    /// A function that sees both has a support of each within √2 of it, along the diagonal.
+    #[test]
+    fn discs_miss_each_other_beyond_what_functions_reach() {
+        for basis in [BasisName::Linear, BasisName::Gimp, BasisName::Bspline2] {
+            for h in [0.05, 0.025] {
+                let reach = 2.0 * 2f64.sqrt() * support(basis, 0.25) * h;
+                assert!(met(basis, h, 2.0 * RADIUS + reach).is_none(), "{basis} {h}");
+                assert!(met(basis, h, 2.0 * RADIUS).is_some(), "{basis} {h}");
+            }
+        }
+    }
+
+    /// Head on, rims are a gap of 0.6 √2 − 0.4 m apart.
+    #[test]
+    fn discs_meet_head_on_once_their_gap_is_within_reach() {
+        let gap = 0.6 * 2f64.sqrt() - 0.4;
+        let closing = 2.0 * 2f64.sqrt() * 0.005;
+        for basis in [BasisName::Linear, BasisName::Gimp, BasisName::Bspline2] {
+            let reach = 2.0 * 2f64.sqrt() * support(basis, 0.25) * 0.05;
+            let free = met(basis, 0.05, 0.0).unwrap();
+            let (earliest, latest) = ((gap - reach) / closing, (gap + 0.05) / closing);
+            assert!((earliest..latest).contains(&free), "{basis} {free}");
+        }
+    }
+}
