@@ -134,12 +134,11 @@ impl Case {
         verdicts.flatten().collect()
     }
 
-    /// The schemes that it compares: those of its plan, by transfer, basis and remedy.
+    /// The schemes that it compares, each once: those of its plan, by transfer, basis and remedy.
     #[must_use]
     pub fn schemes(&self) -> Vec<Scheme> {
-        let mut schemes: Vec<Scheme> = self.plan.iter().flat_map(|f| f.schemes.clone()).collect();
+        let mut schemes = crate::distinct(self.plan.iter().flat_map(|f| f.schemes.clone()));
         schemes.sort_by_key(|s| (s.transfer(), s.basis(), s.remedy()));
-        schemes.dedup();
         schemes
     }
 

@@ -17,6 +17,8 @@ fn folders(case: &Case, tier: Tier) -> BTreeSet<String> {
 fn every_scheme_and_level_belongs_to_a_tier() {
     for case in cases::all() {
         let plan = case.runs(Tier::Long);
+        let once: BTreeSet<_> = case.schemes().into_iter().collect();
+        assert_eq!(once.len(), case.schemes().len(), "{}", case.name);
         for scheme in case.schemes() {
             for level in &case.levels {
                 let there = plan.iter().any(|s| s.scheme == scheme && s.level == *level);
