@@ -174,9 +174,8 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     ];
     plan.extend([
         family(Pr, &levels[..1], two_grid, SQUARE_UNDRAINED),
-        family(Nightly, &levels[..1], &all, SQUARE_UNDRAINED),
+        family(Nightly, coarse, &all, SQUARE_UNDRAINED),
         family(Nightly, &levels[..1], two_grid, SQUARE),
-        family(Long, coarse, &all, SQUARE_UNDRAINED),
         family(Long, coarse, two_grid, SQUARE),
         family(Long, coarse, two_grid, SQUARE_LARGE),
     ]);
