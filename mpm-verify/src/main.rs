@@ -445,11 +445,7 @@ fn bless(
     let _held = hold(root)?;
     let gathered = Gathered::read(from)?;
     gathered.require_tier()?;
-    let summary = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
-    let Some(study) = summary.cases.into_iter().find(|s| s.case == case.name) else {
-        let name = case.name;
-        return Err(Error::Input(format!("the folder has no runs of {name}")));
-    };
+    let study = gathered.judge_case(case, |r| goldens.compare(r, gathered.folder(r)?))?;
     let candidates = Candidates::of(&study)?;
     say(candidates.table())?;
     if let Some(refusal) = candidates.refusal() {

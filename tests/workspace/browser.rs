@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Put into a copy of a page, before all else: tells the page around it what went wrong.
+/// Put into a copy of a page, before all else: tells the page around it what it found, under its name.
 const PROBE: &str = r#"<head><script>
 const found = [];
 addEventListener("error", e => found.push("fault error: " + (e.message || e.target.outerHTML)), true);
@@ -17,16 +17,16 @@ addEventListener("load", () => {
   for (const e of document.querySelectorAll("[id]")) found.push("id " + e.id);
   const width = document.documentElement.scrollWidth;
   if (width > innerWidth) found.push("fault scrolls: " + width + " in " + innerWidth);
-  parent.postMessage(found.join("\n"), "*");
+  parent.postMessage([name].concat(found).join("\n"), "*");
 });
 </script>"#;
 
-/// A phone around the copy: the window itself can't be as narrow. It writes down what it is told.
-const PHONE: &str = r#"<!DOCTYPE html><script>
+/// Around the copies, each in a phone: the window itself can't be as narrow. It writes down what it is told.
+const PHONES: &str = r#"<!DOCTYPE html><script>
 addEventListener("message", e => {
-  document.body.append("\nbegin\n" + e.data + "\nend\n");
+  document.body.append("\nbegin " + e.data + "\nend\n");
 });
-</script><body><iframe src="probed.html" width="400" height="800"></iframe>"#;
+</script><body>"#;
 
 fn browser() -> Option<PathBuf> {
     let named = std::env::var_os("CHROME").map(PathBuf::from);
@@ -39,15 +39,17 @@ fn browser() -> Option<PathBuf> {
     })
 }
 
-/// What the browser finds on a page, line by line: `fault …`, `picture …`, `link …`, `id …`.
-fn look_at(browser: &Path, page: &Path) -> Vec<String> {
-    let text = std::fs::read_to_string(page).unwrap();
-    let (probed, phone) = (
-        page.with_file_name("probed.html"),
-        page.with_file_name("phone.html"),
-    );
-    std::fs::write(&probed, text.replacen("<head>", PROBE, 1)).unwrap();
-    std::fs::write(&phone, PHONE).unwrap();
+/// What the browser finds on pages of a folder, line by line: `fault …`, `picture …`, `link …`, `id …`.
+fn look_at(browser: &Path, folder: &Path, pages: &[String]) -> Vec<Vec<String>> {
+    let mut phones = PHONES.to_owned();
+    for page in pages {
+        let text = std::fs::read_to_string(folder.join(page)).unwrap();
+        let probe = PROBE.replacen("const found", &format!("const name = {page:?}, found"), 1);
+        let copy = format!("probed-{page}");
+        std::fs::write(folder.join(&copy), text.replacen("<head>", &probe, 1)).unwrap();
+        phones += &format!(r#"<iframe src="{copy}" width="400" height="800"></iframe>"#);
+    }
+    std::fs::write(folder.join("phones.html"), phones).unwrap();
     let profile = tempfile::tempdir().unwrap();
     let output = Command::new(browser)
         .args(["--headless", "--no-sandbox", "--disable-gpu"])
@@ -56,21 +58,27 @@ fn look_at(browser: &Path, page: &Path) -> Vec<String> {
         .args(["--virtual-time-budget=20000", "--dump-dom"])
         .args(["--enable-logging=stderr", "--v=0"])
         .arg(format!("--user-data-dir={}", profile.path().display()))
-        .arg(format!("file://{}", phone.display()))
+        .arg(format!("file://{}/phones.html", folder.display()))
         .output()
         .expect("the browser starts");
     let dom = stdout(&output);
-    let told = dom
-        .split_once("\nbegin\n")
-        .and_then(|(_, rest)| rest.split_once("\nend\n"))
-        .unwrap_or_else(|| panic!("{}: the page did not load: {dom}", page.display()));
     let console = stderr(&output);
-    let errors = console.lines().filter(|l| l.contains("CONSOLE"));
-    told.0
-        .lines()
-        .map(str::to_owned)
-        .chain(errors.map(|line| format!("fault console: {line}")))
-        .collect()
+    let found = |page: &String| {
+        let told = dom
+            .split_once(&format!("\nbegin {page}"))
+            .and_then(|(_, rest)| rest.split_once("\nend\n"))
+            .unwrap_or_else(|| panic!("{page} did not load: {dom}"));
+        let of_page = format!("/probed-{page}");
+        let errors = console
+            .lines()
+            .filter(|l| l.contains("CONSOLE") && l.contains(&of_page));
+        told.0
+            .lines()
+            .map(str::to_owned)
+            .chain(errors.map(|line| format!("fault console: {line}")))
+            .collect()
+    };
+    pages.iter().map(found).collect()
 }
 
 fn all<'a>(found: &'a [String], kind: &str) -> Vec<&'a str> {
@@ -96,10 +104,7 @@ fn the_report_works_in_a_browser() {
     for study in cases["cases"].as_array().unwrap() {
         pages.push(format!("{}.html", study["case"].as_str().unwrap()));
     }
-    let looked: Vec<_> = pages
-        .iter()
-        .map(|page| look_at(&browser, &out.join(page)))
-        .collect();
+    let looked = look_at(&browser, out, &pages);
     for (page, found) in pages.iter().zip(&looked) {
         assert!(all(found, "fault").is_empty(), "{page}: {found:?}");
         for target in all(found, "link") {
@@ -116,6 +121,6 @@ fn the_report_works_in_a_browser() {
 
     // What is missing is seen.
     std::fs::remove_file(out.join("cook/rest.png")).unwrap();
-    let found = look_at(&browser, &out.join("cook.html"));
+    let found = look_at(&browser, out, &["cook.html".to_owned()]).remove(0);
     assert!(all(&found, "fault").iter().any(|f| f.contains("rest.png")));
 }

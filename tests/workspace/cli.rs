@@ -428,6 +428,9 @@ fn brief(name: &str) -> Option<&'static str> {
         "duration" => Some("0.01"),
         "penetration" => Some("2e-4"),
         "trials" => Some("1"),
+        // A slope with little ground around it.
+        "floor" => Some("6"),
+        "crest" => Some("1"),
         _ => None,
     }
 }

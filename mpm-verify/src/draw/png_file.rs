@@ -68,7 +68,8 @@ fn encoder(
     let mut encoder = png::Encoder::new(bytes, width, height);
     encoder.set_color(colour);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Best);
+    // `Best` takes twice as long, and its files are no smaller: 2 % larger over those of a report.
+    encoder.set_compression(png::Compression::Default);
     encoder.set_adaptive_filter(png::AdaptiveFilterType::Adaptive);
     encoder
 }
@@ -82,11 +83,13 @@ fn written(
     write_whole(path, &bytes).map_err(|e| PlotError::write(path, &e))
 }
 
-/// The palette of a picture of few colours, and the index of each pixel's.
+/// The palette of a picture of few colours, and the index of each pixel's. Neighbours of one colour, most of a chart,
+/// are looked up once.
 fn with_palette(image: &RgbImage) -> Option<(Vec<Pixel>, Vec<u8>)> {
+    let (pixels, _) = image.as_raw().as_chunks::<3>();
     let mut counts: HashMap<Pixel, usize> = HashMap::new();
-    for pixel in image.pixels() {
-        *counts.entry(pixel.0).or_default() += 1;
+    for alike in pixels.chunk_by(Pixel::eq) {
+        *counts.entry(alike[0]).or_default() += alike.len();
         if counts.len() > FEW {
             return None;
         }
@@ -107,7 +110,10 @@ fn with_palette(image: &RgbImage) -> Option<(Vec<Pixel>, Vec<u8>)> {
         }
         index.insert(*colour, nearest as u8);
     }
-    let indices = image.pixels().map(|p| index[&p.0]).collect();
+    let mut indices = Vec::with_capacity(pixels.len());
+    for alike in pixels.chunk_by(Pixel::eq) {
+        indices.resize(indices.len() + alike.len(), index[&alike[0]]);
+    }
     Some((palette, indices))
 }
 

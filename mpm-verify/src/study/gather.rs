@@ -5,7 +5,7 @@ use super::found::record_in;
 use super::judge::judge;
 use super::plan::{Plan, PlannedRun};
 use super::summary::{CaseStudy, Summary};
-use crate::case::{Tier, find_level};
+use crate::case::{Case, Tier, find_level};
 use crate::cases;
 use crate::error::Error;
 use crate::files::{read_versioned, require_inside};
@@ -147,19 +147,44 @@ impl Gathered {
         &self,
         drift: impl Fn(&Record) -> Result<Vec<Verdict>, Error> + Sync,
     ) -> Result<Summary, Error> {
-        let mut cases = self.studies.clone();
-        for study in &mut cases {
-            let case = cases::find(&study.case)?;
-            study.records.par_iter_mut().try_for_each(|record| {
-                record.verdicts = judge(case, record);
-                record.verdicts.extend(drift(record)?);
-                Ok::<(), Error>(())
-            })?;
-            study.verdicts = case.judge_study(&study.records);
-            study.convergence = convergence(case, &study.records);
-        }
-        Ok(Summary::new(&self.tier, cases))
+        let cases = self.studies.iter().map(|study| judged(study, &drift));
+        Ok(Summary::new(&self.tier, cases.collect::<Result<_, _>>()?))
     }
+
+    /// As [`Self::judge`], of the runs of one case.
+    ///
+    /// # Errors
+    /// It has none, or as there.
+    pub fn judge_case(
+        &self,
+        case: &Case,
+        drift: impl Fn(&Record) -> Result<Vec<Verdict>, Error> + Sync,
+    ) -> Result<CaseStudy, Error> {
+        match self.studies.iter().find(|study| study.case == case.name) {
+            Some(study) => judged(study, &drift),
+            None => Err(Error::Input(format!(
+                "the folder has no runs of {}",
+                case.name
+            ))),
+        }
+    }
+}
+
+/// A study with its verdicts.
+fn judged(
+    study: &CaseStudy,
+    drift: &(impl Fn(&Record) -> Result<Vec<Verdict>, Error> + Sync),
+) -> Result<CaseStudy, Error> {
+    let mut study = study.clone();
+    let case = cases::find(&study.case)?;
+    study.records.par_iter_mut().try_for_each(|record| {
+        record.verdicts = judge(case, record);
+        record.verdicts.extend(drift(record)?);
+        Ok::<(), Error>(())
+    })?;
+    study.verdicts = case.judge_study(&study.records);
+    study.convergence = convergence(case, &study.records);
+    Ok(study)
 }
 
 /// Whether one program made all records.
