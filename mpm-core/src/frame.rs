@@ -245,6 +245,15 @@ mod tests {
     }
 
     #[test]
+    fn a_tensor_turns_with_its_directions() {
+        let n = [0.25, -1.5];
+        let m = turned().vector(&n, 1.0);
+        let of_scene = SMatrix::from_fn(|i, j| n[i] * n[j]);
+        let expected = SMatrix::<f64, 2, 2>::from_fn(|i, j| 3.0 * m[i] * m[j]);
+        assert_eq!(turned().matrix(&of_scene, 3.0), expected);
+    }
+
+    #[test]
     fn a_node_far_away_is_the_node_it_was() {
         let h = 0.05;
         let grid = Grid {

@@ -172,6 +172,20 @@ mod tests {
         assert_eq!((press.axis(), press.sign()), (1, -1.0));
     }
 
+    #[test]
+    fn what_is_near_is_within_a_distance_along_every_axis() {
+        let press = RigidFace::half_space(1, End::Hi, 1.0)
+            .unwrap()
+            .within([[0.0, 2.0], [5.0, 6.0]]);
+        let far_within = [1.0, 9.0];
+        for near in [[1.0, 0.6], [1.0, 1.0], [-0.4, 1.0], [2.4, 1.0], far_within] {
+            assert!(press.is_near(&near, 0.5), "{near:?}");
+        }
+        for far in [[1.0, 0.4], [-0.6, 1.0], [2.6, 1.0]] {
+            assert!(!press.is_near(&far, 0.5), "{far:?}");
+        }
+    }
+
     /// Central differences of step s of a cubic's integral: truncation s²/6 of the second derivative of the rise,
     /// at most 6/ramp².
     #[test]

@@ -95,3 +95,15 @@ impl<const D: usize, T> Settings<D, T> {
         self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_is_a_share_of_the_time_over_a_cell() {
+        assert_eq!(courant_time_step(0.5, 4.0, 8.0), 0.25);
+        assert_eq!(stable_cfl(1, 2.0), 1.0);
+        assert_eq!(stable_cfl(2, 4.0), 0.5);
+    }
+}

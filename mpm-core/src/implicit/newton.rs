@@ -359,3 +359,34 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Parts that fail as often as told, and the shares of a step that are done.
+    fn parts(most_halvings: u32, fails: impl Fn(f64, f64) -> bool) -> (Option<u32>, Vec<[f64; 2]>) {
+        let mut made = Vec::new();
+        let count = in_parts(most_halvings, |done, size| {
+            if fails(done, size) {
+                return Err(Failure::Singular(0));
+            }
+            made.push([done, size]);
+            Ok(())
+        });
+        (count.ok(), made)
+    }
+
+    #[test]
+    fn parts_are_halved_and_doubled_and_make_up_the_step() {
+        assert_eq!(parts(3, |_, _| false), (Some(1), vec![[0.0, 1.0]]));
+        // Hard at the start alone: the last part ends with the step.
+        let (count, made) = parts(3, |done, size| done == 0.0 && size > 0.125);
+        let expected = [[0.0, 0.125], [0.125, 0.25], [0.375, 0.5], [0.875, 0.125]];
+        assert_eq!((count, made), (Some(4), expected.to_vec()));
+        // One halving less than is needed, and as many.
+        let hard = |_, size: f64| size > 0.125;
+        assert_eq!(parts(2, hard), (None, Vec::new()));
+        assert_eq!(parts(3, hard).0, Some(8));
+    }
+}

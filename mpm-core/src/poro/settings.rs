@@ -176,3 +176,20 @@ impl Settings {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A strength times a pressure has no unit.
+    #[test]
+    fn a_strength_has_the_unit_of_a_compliance() {
+        let projected = |strength| Settings {
+            pressure_space: PressureSpace::Projected { strength },
+            ..Settings::new(2.0)
+        };
+        let found = projected(6.0).in_units(4.0);
+        assert_eq!(found.pressure_space, projected(1.5).pressure_space);
+        assert_eq!(found.dt, 2.0);
+    }
+}

@@ -76,6 +76,14 @@ fn a_face_that_comes_into_an_empty_cell_breaks_the_run() {
     }
 }
 
+#[test]
+fn a_face_may_bear_no_load() {
+    let settings = Settings::new(0.05 / (KAPPA * MODULUS));
+    let mut solver = loaded::<1, Hats<1>>(0.0, settings);
+    solver.step().unwrap();
+    assert_eq!(solver.totals().accumulated.load_work, 0.0);
+}
+
 /// A load of which a part is missing is none: here that of a side that the face has and the body not.
 #[test]
 fn the_sum_of_a_load_is_checked_in_every_step() {
