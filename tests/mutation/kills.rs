@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 /// The file, and the page that is made of it, from the root of the repository.
-pub(crate) const FILE: &str = "tests/mutation/kills.csv";
+pub(crate) const FILE: &str = "mpm-verify/assets/kills.csv";
 pub(crate) const PAGE: &str = "docs/kill-matrix.md";
 
 const HEAD: &str = "fault,case,check";

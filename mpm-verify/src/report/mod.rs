@@ -7,6 +7,7 @@ pub mod describe;
 pub mod diff;
 mod drift;
 mod fate;
+mod faults;
 #[cfg(test)]
 mod fixture;
 pub mod history;

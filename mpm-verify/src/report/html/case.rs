@@ -7,6 +7,7 @@ use crate::distinct;
 use crate::draw::sketch;
 use crate::metric::Quantity;
 use crate::record::Record;
+use crate::report::faults::Faults;
 use crate::report::price::Prices;
 use crate::report::words::{kind, local_orders, made_by, number, order};
 use crate::study::convergence::Convergence;
@@ -49,6 +50,7 @@ pub(super) fn page(case: &Case, study: &CaseStudy, tier: &str, out: &Path) -> Va
         context! { href, name, verdict => verdict(v) }
     });
     let headings = case.headlines.iter().map(|h| h.title.clone());
+    let faults = Faults::of(case.name);
     context! {
         tier,
         name => case.name,
@@ -71,7 +73,9 @@ pub(super) fn page(case: &Case, study: &CaseStudy, tier: &str, out: &Path) -> Va
         failed => failed.collect::<Vec<_>>(),
         headings => headings.collect::<Vec<_>>(),
         runs => study.records.iter().map(|r| run(case, study, r)).collect::<Vec<_>>(),
-        checks => checks(case, study),
+        checks => checks(case, study, &faults),
+        all_faults => faults.all,
+        faults => sheet(faults.table()),
         together => study.verdicts.iter().map(verdict).collect::<Vec<_>>(),
         limits => case.limits.to_vec(),
         metrics => sheet(metrics),
@@ -161,8 +165,8 @@ fn run(case: &Case, study: &CaseStudy, r: &Record) -> Value {
     }
 }
 
-/// Every check with its outcomes: those that the case declares, then those that every case has.
-fn checks(case: &Case, study: &CaseStudy) -> Vec<Value> {
+/// Every check with its outcomes and the number of seeded faults that it sees: those that the case declares, then those that every case has.
+fn checks(case: &Case, study: &CaseStudy, faults: &Faults) -> Vec<Value> {
     let all = || {
         study
             .records
@@ -185,7 +189,8 @@ fn checks(case: &Case, study: &CaseStudy) -> Vec<Value> {
             Outcome::NotJudged,
             Outcome::Failed,
         ];
-        context! { name, kind => kind(of), statement, counts => outcomes.map(count).to_vec() }
+        let counts = outcomes.map(count).to_vec();
+        context! { name, kind => kind(of), statement, counts, faults => faults.seen_by(name) }
     };
     declared.chain(undeclared).map(row).collect()
 }
