@@ -100,7 +100,7 @@ mod tests {
     fn is_completed_with_the_identity<const D: usize>() {
         let entries: [[f64; D]; D] =
             std::array::from_fn(|a| std::array::from_fn(|b| (2 + a + 3 * b) as f64));
-        let matrix = SMatrix::from_fn(|a, b| entries[a][b]);
+        let matrix = SMatrix::<f64, D, D>::from_fn(|a, b| entries[a][b]);
         let expected = Matrix3::from_fn(|i, j| match i < D && j < D {
             true => (2 + i + 3 * j) as f64,
             false => f64::from(i == j),
