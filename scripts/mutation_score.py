@@ -3,8 +3,8 @@
 
     scripts/mutation_score.py FOLDER...     folders that hold mutants.out of cargo-mutants, shards of one program
 
-Of viable mutants, those that build, a share is caught: a test fails, or runs without end. The interval is Wilson's of
-95 % for a sample of them all.
+Of viable mutants, those that build, a share is caught: a unit test or, of the core, a test of behaviour fails, or runs
+without end. The interval is Wilson's of 95 % for a sample of them all.
 """
 
 import json
@@ -18,13 +18,21 @@ Z = 1.959964
 
 
 def outcomes(folders):
+    """Part and fate of every mutant; a later stage, in a folder `behaviour`, has only those that survived the first."""
     found = {}
     for folder in folders:
         for path in sorted(pathlib.Path(folder).glob("**/outcomes.json")):
+            again = "behaviour" in path.parts
             for outcome in json.loads(path.read_text())["outcomes"]:
-                if outcome["scenario"] != "Baseline":
-                    mutant = outcome["scenario"]["Mutant"]
-                    found[mutant["name"]] = (part(mutant["file"]), outcome["summary"])
+                if outcome["scenario"] == "Baseline":
+                    continue
+                mutant = outcome["scenario"]["Mutant"]
+                caught = outcome["summary"] in ("CaughtMutant", "Timeout")
+                if again and not caught:
+                    continue
+                fate = ("behaviour" if again else "unit") if caught else outcome["summary"]
+                if again or mutant["name"] not in found:
+                    found[mutant["name"]] = (part(mutant["file"]), fate)
     return list(found.values())
 
 
@@ -40,23 +48,23 @@ def wilson(caught, count):
     return [(middle + sign * spread) / (1 + Z * Z / count) for sign in (-1, 1)]
 
 
-def row(name, summaries):
-    count = {s: summaries.count(s) for s in ("CaughtMutant", "Timeout", "MissedMutant", "Unviable")}
-    caught = count["CaughtMutant"] + count["Timeout"]
-    viable = caught + count["MissedMutant"]
+def row(name, fates):
+    unit, behaviour, survive, unviable = (fates.count(f) for f in ("unit", "behaviour", "MissedMutant", "Unviable"))
+    viable = unit + behaviour + survive
     score = "–"
     if viable:
-        low, high = wilson(caught, viable)
-        score = f"{100 * caught / viable:.0f} % ({100 * low:.0f}–{100 * high:.0f} %)"
-    return f"| {name} | {len(summaries)} | {count['Unviable']} | {caught} | {count['MissedMutant']} | {score} |"
+        low, high = wilson(unit + behaviour, viable)
+        score = f"{100 * (unit + behaviour) / viable:.0f} % ({100 * low:.0f}–{100 * high:.0f} %)"
+    return f"| {name} | {len(fates)} | {unviable} | {unit} | {behaviour} | {survive} | {score} |"
 
 
 def main(folders):
     tried = outcomes(folders)
-    lines = ["| part | tried | don't build | caught | survive | caught of viable (95 %) |", "|---|---|---|---|---|---|"]
+    head = ["part", "tried", "don't build", "caught by unit tests", "by behaviour", "survive", "caught of viable (95 %)"]
+    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
     for name in sorted({name for name, _ in tried}):
-        lines.append(row(name, [summary for part, summary in tried if part == name]))
-    lines.append(row("**all**", [summary for _, summary in tried]))
+        lines.append(row(name, [fate for part, fate in tried if part == name]))
+    lines.append(row("**all**", [fate for _, fate in tried]))
     text = PAGE.read_text()
     before, rest = text.split(BEGIN)
     _, after = rest.split(END)
