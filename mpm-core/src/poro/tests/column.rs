@@ -164,6 +164,29 @@ fn newton_converges_quadratically() {
     }
 }
 
+/// A column half as high has less room than its grains take: 1 − (1 − n)/J of pores.
+#[test]
+fn pores_that_close_are_a_typed_error() {
+    let solver = loaded::<1, Hats<1>>(0.0, Settings::new(1.0));
+    let setting = solver.setting(1.0, Vec::new()).unwrap();
+    let mut values = vec![0.0; setting.unknowns.count];
+    for (node, place) in setting.unknowns.displacement.iter().enumerate() {
+        if let [Place::Free(i)] = place {
+            values[*i] = -0.5 * H * node as f64;
+        }
+    }
+    let failed = solver.equations(&setting, 1.0).trial(&values).err();
+    match failed {
+        Some((_, Fault::NonPositivePorosity(share))) => {
+            assert!(
+                (share - (1.0 - (1.0 - POROSITY) / 0.5)).abs() < 1e-12,
+                "{share}"
+            );
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
 /// Twenty times the modulus at once, drained: an undamped correction would close the pores.
 #[test]
 fn pores_stay_open_under_any_load() {
