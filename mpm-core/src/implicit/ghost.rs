@@ -167,3 +167,35 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
     }
     found
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::super::domains::HalfSizes;
+    use super::*;
+    use crate::basis::{Linear, WallTreatment};
+    use crate::grid::{Axis, Grid};
+
+    /// Two rows of cells: as many faces between them, and in each row one fewer, or as many where it closes.
+    #[test]
+    fn faces_are_between_all_cells_that_are_next_to_each_other() {
+        const CELLS: usize = 6;
+        let centre: Vec<[f64; 2]> = (0..2 * CELLS)
+            .map(|k| [(k % CELLS) as f64 + 0.5, (k / CELLS) as f64 + 2.5])
+            .collect();
+        let half_size = HalfSizes::OfAll([0.25; 2]);
+        for (axis, in_a_row) in [
+            (Axis::open(0.0, CELLS), CELLS - 1),
+            (Axis::periodic(0.0, CELLS), CELLS),
+        ] {
+            let grid = Grid::new(1.0, [axis, Axis::open(0.0, CELLS)]).unwrap();
+            let lattice = Lattice::<2, 2, Linear>::new(grid, WallTreatment::OpenKnot);
+            let domains = Domains {
+                centre: &centre,
+                half_size,
+            };
+            let found = penalties(&lattice, 1.0, 1, domains);
+            assert_eq!(found.len(), CELLS + 2 * in_a_row);
+        }
+    }
+}

@@ -227,6 +227,11 @@ fn newton_converges_quadratically() {
         solver.step().unwrap();
         let convergence = solver.convergence().unwrap();
         assert_eq!(convergence.parts, 1);
+        if remedy == Remedy::None {
+            // One solution by factors an iteration.
+            let work = solver.work();
+            assert_eq!(work.linear_iterations, work.newton_iterations);
+        }
         let residuals: Vec<f64> = convergence.residuals.clone();
         let near: Vec<f64> = residuals.iter().copied().filter(|r| *r < 0.1).collect();
         let order = |k: usize| (near[k + 2] / near[k + 1]).ln() / (near[k + 1] / near[k]).ln();

@@ -49,3 +49,32 @@ impl<const D: usize> Constraint<D> for RigidNodes<D> {
         })
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+    use crate::grid::Axis;
+
+    #[test]
+    fn nodes_at_its_ends_are_its_own() {
+        let grid = Grid::new(0.5, [Axis::open(0.0, 8); 2]).unwrap();
+        let body = RigidNodes {
+            extent: [[1.0, 2.0], [0.5, 0.5]],
+            velocity: [Some(3.0), None],
+            ramp: 0.0,
+        };
+        for (x, held) in [
+            (0.5, false),
+            (1.0, true),
+            (1.5, true),
+            (2.0, true),
+            (2.5, false),
+        ] {
+            let own = body.prescribe(&grid, &[x, 0.5], 0);
+            assert_eq!(own, held.then_some(3.0), "{x}");
+            assert_eq!(body.prescribe(&grid, &[x, 0.5], 1), None);
+            assert_eq!(body.prescribe(&grid, &[x, 1.0], 0), None);
+        }
+    }
+}
