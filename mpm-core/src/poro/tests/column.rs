@@ -170,10 +170,14 @@ fn pores_that_close_are_a_typed_error() {
     let solver = loaded::<1, Hats<1>>(0.0, Settings::new(1.0));
     let setting = solver.setting(1.0, Vec::new()).unwrap();
     let mut values = vec![0.0; setting.unknowns.count];
-    for (node, place) in setting.unknowns.displacement.iter().enumerate() {
-        if let [Place::Free(i)] = place {
-            values[*i] = -0.5 * H * node as f64;
-        }
+    // From the node after the one that is held.
+    let places = setting.unknowns.displacement.iter().flatten();
+    let free = places.filter_map(|place| match place {
+        Place::Free(i) => Some(*i),
+        _ => None,
+    });
+    for (above, i) in free.enumerate() {
+        values[i] = -0.5 * H * (above + 1) as f64;
     }
     let failed = solver.equations(&setting, 1.0).trial(&values).err();
     match failed {
