@@ -296,6 +296,22 @@ mod tests {
     /// quotient, its product with a power and two sums are rounded, and so is the other.
     const UNITS: f64 = 4.0;
 
+    /// One number among seven that are within, or by itself.
+    fn all_are_between(x: f64) -> [bool; 2] {
+        let eight = Eight::pack(|l| if l == 5 { x } else { 1.5 });
+        let found = [eight.all_between(1.0, 2.0), x.all_between(1.0, 2.0)];
+        assert_eq!(eight.all_below(2.0), x.all_below(2.0));
+        found
+    }
+
+    #[test]
+    fn ends_are_not_between() {
+        for (x, between) in [(0.5, false), (1.0, false), (1.25, true), (2.0, false)] {
+            assert_eq!(all_are_between(x), [between; 2], "{x}");
+        }
+        assert_eq!(all_are_between(f64::NAN), [false; 2]);
+    }
+
     proptest! {
         #[test]
         fn the_logarithm_of_eight_is_that_of_each(

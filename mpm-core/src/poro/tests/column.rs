@@ -164,6 +164,21 @@ fn newton_converges_quadratically() {
     }
 }
 
+/// Of the coarse cells, from the floor up; at once the water there is pressed.
+#[test]
+fn pressures_of_nodes_are_at_their_places() {
+    let load = 1e-3 * MODULUS;
+    let soon = 1e-6 * H * H / (KAPPA * MODULUS);
+    let mut solver = loaded::<1, Hats<1>>(load, Settings::new(soon));
+    solver.step().unwrap();
+    let nodes = solver.pressure_nodes();
+    assert_eq!(nodes.len(), HIGH / 2 + 1);
+    for (k, ([x], pressure)) in nodes.into_iter().enumerate() {
+        assert!((x - 2.0 * H * k as f64).abs() < 1e-12, "{x}");
+        assert!(k > 0 || pressure > 0.0, "{pressure}");
+    }
+}
+
 /// A column half as high has less room than its grains take: 1 − (1 − n)/J of pores.
 #[test]
 fn pores_that_close_are_a_typed_error() {
