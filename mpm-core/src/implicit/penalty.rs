@@ -50,3 +50,24 @@ impl Moduli {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// E = 10 and ν = ¼: λ = μ = 4.
+    #[test]
+    fn youngs_modulus_is_that_of_lames() {
+        let moduli = Moduli {
+            lambda: 4.0,
+            mu: 4.0,
+        };
+        assert_eq!(moduli.young(), 10.0);
+        let stiffer = Moduli {
+            lambda: 6.0,
+            mu: 2.0,
+        };
+        // ν = λ/2(λ + μ) = 3/8, E = 2 μ (1 + ν).
+        assert_eq!(stiffer.young(), 5.5);
+    }
+}

@@ -189,4 +189,18 @@ mod tests {
             assert!((slope[0] - exact[0]).abs() + (slope[1] - exact[1]).abs() < 1e-12);
         }
     }
+
+    #[test]
+    fn every_cell_is_an_element_of_its_own() {
+        let grid = Grid::new(0.5, [Axis::open(0.0, 5), Axis::open(0.0, 4)]).unwrap();
+        let elements = Serendipity::on(grid).unwrap();
+        let mut seen = Functions::new();
+        let mut numbers = Vec::new();
+        for k in 0..20 {
+            let x = [k / 4, k % 4].map(|cell| 0.5 * f64::from(cell) + 0.1);
+            elements.functions(&x, &[0.0; 2], &mut seen);
+            numbers.push(seen.element);
+        }
+        assert_eq!(numbers, (0..20).collect::<Vec<_>>());
+    }
 }
