@@ -18,21 +18,17 @@ Z = 1.959964
 
 
 def outcomes(folders):
-    """Part and fate of every mutant; a later stage, in a folder `behaviour`, has only those that survived the first."""
+    """Part and fate of every mutant; one that several runs tried is caught if one of them caught it."""
     found = {}
     for folder in folders:
         for path in sorted(pathlib.Path(folder).glob("**/outcomes.json")):
-            again = "behaviour" in path.parts
             for outcome in json.loads(path.read_text())["outcomes"]:
                 if outcome["scenario"] == "Baseline":
                     continue
                 mutant = outcome["scenario"]["Mutant"]
                 caught = outcome["summary"] in ("CaughtMutant", "Timeout")
-                if again and not caught:
-                    continue
-                fate = ("behaviour" if again else "unit") if caught else outcome["summary"]
-                if again or mutant["name"] not in found:
-                    found[mutant["name"]] = (part(mutant["file"]), fate)
+                if caught or mutant["name"] not in found:
+                    found[mutant["name"]] = (part(mutant["file"]), "caught" if caught else outcome["summary"])
     return list(found.values())
 
 
@@ -49,18 +45,18 @@ def wilson(caught, count):
 
 
 def row(name, fates):
-    unit, behaviour, survive, unviable = (fates.count(f) for f in ("unit", "behaviour", "MissedMutant", "Unviable"))
-    viable = unit + behaviour + survive
+    caught, survive, unviable = (fates.count(fate) for fate in ("caught", "MissedMutant", "Unviable"))
+    viable = caught + survive
     score = "–"
     if viable:
-        low, high = wilson(unit + behaviour, viable)
-        score = f"{100 * (unit + behaviour) / viable:.0f} % ({100 * low:.0f}–{100 * high:.0f} %)"
-    return f"| {name} | {len(fates)} | {unviable} | {unit} | {behaviour} | {survive} | {score} |"
+        low, high = wilson(caught, viable)
+        score = f"{100 * caught / viable:.0f} % ({100 * low:.0f}–{100 * high:.0f} %)"
+    return f"| {name} | {len(fates)} | {unviable} | {caught} | {survive} | {score} |"
 
 
 def main(folders):
     tried = outcomes(folders)
-    head = ["part", "tried", "don't build", "caught by unit tests", "by behaviour", "survive", "caught of viable (95 %)"]
+    head = ["part", "tried", "don't build", "caught", "survive", "caught of viable (95 %)"]
     lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
     for name in sorted({name for name, _ in tried}):
         lines.append(row(name, [fate for part, fate in tried if part == name]))

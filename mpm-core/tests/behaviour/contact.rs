@@ -410,6 +410,25 @@ fn a_closed_gap_names_time_particle_and_gap() {
     assert_eq!(fault.kind(), "gap-closed");
 }
 
+/// A face that comes by three d̂ in the first step, to a body at a gap of two, is d̂ inside at its end.
+#[test]
+fn a_gap_is_that_to_where_the_face_is_at_the_end_of_a_step() {
+    let dt = courant_time_step(CFL, H, law().wave_speed(DENSITY));
+    let particles = block::<2>(8);
+    let face = floor(&particles, 2.0 * DISTANCE);
+    let comes = face.moving([0.0, 3.0 * DISTANCE / dt], 0.0).unwrap();
+    let contact = RigidContact::new(comes, barrier());
+    let mut solver = started(scene(particles, vec![contact])).unwrap();
+    match solver.step().unwrap_err() {
+        Error::Breakdown {
+            step: 0,
+            fault: Fault::GapClosed(gap),
+            ..
+        } => assert!((gap + DISTANCE).abs() < ROUNDING, "{gap}"),
+        other => panic!("{other}"),
+    }
+}
+
 /// A scene with sticks of stiffness over mass `ratio` (1/s²), and noise.
 fn shaken(ratio: f64) -> Block<2> {
     let mut particles = block::<2>(8);
