@@ -71,7 +71,9 @@ fn look_at(browser: &Path, folder: &Path, pages: &[String]) -> Vec<Vec<String>> 
         let of_page = format!("/probed-{page}");
         let errors = console
             .lines()
-            .filter(|l| l.contains("CONSOLE") && l.contains(&of_page));
+            .filter(|l| l.contains("CONSOLE"))
+            // One that names no page may be of any.
+            .filter(|l| l.contains(&of_page) || !l.contains("/probed-"));
         told.0
             .lines()
             .map(str::to_owned)
