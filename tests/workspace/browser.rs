@@ -125,4 +125,11 @@ fn the_report_works_in_a_browser() {
     std::fs::remove_file(out.join("cook/rest.png")).unwrap();
     let found = look_at(&browser, out, &["cook.html".to_owned()]).remove(0);
     assert!(all(&found, "fault").iter().any(|f| f.contains("rest.png")));
+    let spoken = "<script>console.error('spoken')</script>";
+    std::fs::write(out.join("spoken.html"), format!("<head></head>{spoken}")).unwrap();
+    std::fs::write(out.join("silent.html"), "<head></head>").unwrap();
+    let pages = ["spoken.html", "silent.html"].map(str::to_owned);
+    let [spoken, silent] = look_at(&browser, out, &pages).try_into().unwrap();
+    assert!(all(&spoken, "fault")[0].contains("spoken"), "{spoken:?}");
+    assert!(all(&silent, "fault").is_empty(), "{silent:?}");
 }
