@@ -53,9 +53,10 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// Pressures on cells twice as large as the `n` of the displacement.
+    /// Pressures on cells twice as large as the `n` of the displacement, two at least.
     #[must_use]
     pub fn two_grid(n: usize) -> Self {
+        let n = n.max(2);
         Self {
             of_solid: n,
             of_water: n / 2,
@@ -63,9 +64,10 @@ impl Cells {
         }
     }
 
-    /// Pressures on the same `n` cells, with a projection of strength τ times the modulus; zero without.
+    /// Pressures on the same `n` cells, one at least, with a projection of strength τ times the modulus; zero without.
     #[must_use]
     pub fn same(n: usize, projection: f64) -> Self {
+        let n = n.max(1);
         Self {
             of_solid: n,
             of_water: n,
