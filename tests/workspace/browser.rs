@@ -101,7 +101,7 @@ fn the_report_works_in_a_browser() {
     let out = folder.path();
     copy_tree(quick().0, out);
 
-    let mut pages = vec!["index.html".to_owned()];
+    let mut pages = ["index.html", "faults.html"].map(str::to_owned).to_vec();
     let cases = super::json(&out.join("summary.json"));
     for study in cases["cases"].as_array().unwrap() {
         pages.push(format!("{}.html", study["case"].as_str().unwrap()));
@@ -119,7 +119,7 @@ fn the_report_works_in_a_browser() {
             }
         }
     }
-    assert!(all(&looked[1], "picture").len() > 2, "{:?}", looked[1]);
+    assert!(all(&looked[2], "picture").len() > 2, "{:?}", looked[2]);
 
     // What is missing is seen.
     std::fs::remove_file(out.join("cook/rest.png")).unwrap();

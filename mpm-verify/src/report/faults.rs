@@ -1,50 +1,65 @@
 //! Seeded faults: faults of physics that were put into the code on purpose, and the checks that went red.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Fault, case and check on a line, as the last run of all faults left them.
 const SEEN: &str = include_str!("../../assets/kills.csv");
 
-/// What the checks of a case see.
-pub(super) struct Faults {
-    /// How many of them each check sees.
-    seen: BTreeMap<String, usize>,
-    /// How many faults there are.
-    pub(super) all: usize,
+/// A fault.
+#[derive(Default)]
+pub(super) struct Fault {
+    /// What is wrong.
+    pub(super) name: String,
+    /// The checks that see it, case by case.
+    pub(super) seen_by: BTreeMap<String, Vec<String>>,
 }
 
-impl Faults {
-    pub(super) fn of(case: &str) -> Self {
-        let mut reader = csv::Reader::from_reader(SEEN.as_bytes());
-        let lines = reader.deserialize::<[String; 3]>().flatten();
-        let (mut all, mut seen) = (BTreeSet::new(), BTreeMap::new());
-        for [fault, seer, check] in lines {
-            all.insert(fault);
-            if seer == case {
-                *seen.entry(check).or_default() += 1;
-            }
-        }
-        let all = all.len();
-        Self { seen, all }
+impl Fault {
+    /// Whether it hangs on one check of one case.
+    pub(super) fn hangs_on_one(&self) -> bool {
+        self.seen_by.values().map(Vec::len).sum::<usize>() == 1
     }
+}
 
-    pub(super) fn seen_by(&self, check: &str) -> usize {
-        self.seen.get(check).copied().unwrap_or(0)
+/// All faults, by name.
+pub(super) fn faults() -> Vec<Fault> {
+    let mut reader = csv::Reader::from_reader(SEEN.as_bytes());
+    let mut faults: Vec<Fault> = Vec::new();
+    for [name, case, check] in reader.deserialize::<[String; 3]>().flatten() {
+        if faults.last().is_none_or(|fault| fault.name != name) {
+            let seen_by = BTreeMap::new();
+            faults.push(Fault { name, seen_by });
+        }
+        if let Some(fault) = faults.last_mut() {
+            fault.seen_by.entry(case).or_default().push(check);
+        }
     }
+    faults
+}
+
+/// How many of the faults a check of a case sees.
+pub(super) fn seen(faults: &[Fault], case: &str, check: &str) -> usize {
+    let own = faults.iter().filter_map(|fault| fault.seen_by.get(case));
+    own.filter(|checks| checks.iter().any(|c| c == check))
+        .count()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     #[test]
-    fn every_line_counts_for_a_check_of_its_case() {
+    fn a_line_is_a_check_that_sees_a_fault() {
+        let faults = faults();
+        let names: BTreeSet<&str> = faults.iter().map(|fault| &*fault.name).collect();
+        assert!(names.len() == faults.len() && faults.len() >= 40);
+        let checks = |fault: &Fault| fault.seen_by.values().map(Vec::len).sum::<usize>();
         let lines = SEEN.lines().count() - 1;
-        let cases = crate::cases::all().iter().map(|case| Faults::of(case.name));
-        let pairs = cases.map(|f| f.seen.values().sum::<usize>());
-        assert_eq!(pairs.sum::<usize>(), lines);
-        let footing = Faults::of("footing");
-        assert!(footing.seen_by("prandtl") > 0 && footing.seen_by("none") == 0);
-        assert!(footing.all >= 40);
+        assert_eq!(faults.iter().map(checks).sum::<usize>(), lines);
+        assert!(seen(&faults, "footing", "prandtl") > 0);
+        assert_eq!(seen(&faults, "footing", "none"), 0);
+        let alone = faults.iter().filter(|fault| fault.hangs_on_one()).count();
+        assert!(alone > 0 && alone < faults.len());
     }
 }

@@ -1,6 +1,7 @@
 //! The report as a site that needs no server and no script: an index and a page per case.
 
 mod case;
+mod faults;
 
 use super::map::{self, Cell, Line, Panel};
 use super::speed::Speed;
@@ -22,15 +23,17 @@ use minijinja::{Environment, UndefinedBehavior, Value, context};
 use std::env;
 use std::path::Path;
 
-const TEMPLATES: [(&str, &str); 5] = [
+const TEMPLATES: [(&str, &str); 7] = [
     ("style.css", include_str!("../../templates/style.css")),
+    ("map.css", include_str!("../../templates/map.css")),
     ("page.html", include_str!("../../templates/page.html")),
     ("parts.html", include_str!("../../templates/parts.html")),
     ("index.html", include_str!("../../templates/index.html")),
     ("case.html", include_str!("../../templates/case.html")),
+    ("faults.html", include_str!("../../templates/faults.html")),
 ];
 
-/// Writes `index.html` and the page of every case into `out`; on the index the picture of speed against error, if there
+/// Writes `index.html`, `faults.html` and the page of every case into `out`; on the index the picture of speed against error, if there
 /// is one.
 pub(super) fn write(
     summary: &Summary,
@@ -49,8 +52,11 @@ pub(super) fn write(
         "index.html",
         index(summary, speed, picture, out)?,
     )?;
+    let seeded = super::faults::faults();
+    page("faults.html", "faults.html", faults::page(&seeded, summary))?;
     for study in &summary.cases {
-        let context = case::page(cases::find(&study.case)?, study, &summary.tier, out);
+        let case = cases::find(&study.case)?;
+        let context = case::page(case, study, &summary.tier, &seeded, out);
         page(&file_of(study), "case.html", context)?;
     }
     Ok(())
@@ -423,7 +429,11 @@ mod tests {
         }
         let folder = tempfile::tempdir().unwrap();
         write(&summary, &Speed::of(&summary.cases), None, folder.path()).unwrap();
-        for name in cases::all().iter().map(|c| c.name).chain(["index"]) {
+        for name in cases::all()
+            .iter()
+            .map(|c| c.name)
+            .chain(["index", "faults"])
+        {
             let page = folder.path().join(format!("{name}.html"));
             let bytes = std::fs::metadata(page).unwrap().len();
             assert!(bytes < 300_000, "{name}: {bytes} bytes");

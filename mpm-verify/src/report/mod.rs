@@ -50,7 +50,7 @@ use std::path::{Path, PathBuf};
 const SUMMARY: &str = "summary.json";
 
 /// Writes the pictures of every case, the CSV of everything plotted, `summary.json`, `summary.md`,
-/// `junit.xml` and the pages: `index.html` and one per case; what has drifted from its golden
+/// `junit.xml` and the pages: `index.html`, `faults.html` and one per case; what has drifted from its golden
 /// is drawn beside it. With a night, it enters the history.
 ///
 /// # Errors
@@ -159,7 +159,14 @@ pub fn discard_report(out: &Path) -> Result<(), Error> {
 
 /// The files in `out` that have the place and the kind of a report's, of whatever cases: their paths from there.
 fn places(out: &Path) -> Result<Vec<PathBuf>, Error> {
-    let pages = [SUMMARY, "summary.md", "junit.xml", "index.html"].map(PathBuf::from);
+    let pages = [
+        SUMMARY,
+        "summary.md",
+        "junit.xml",
+        "index.html",
+        "faults.html",
+    ]
+    .map(PathBuf::from);
     let mut files = pages.to_vec();
     files.extend(["png", "svg"].map(|e| PathBuf::from(format!("{}.{e}", speed::NAME))));
     for case in cases::all() {

@@ -7,7 +7,7 @@ use crate::distinct;
 use crate::draw::sketch;
 use crate::metric::Quantity;
 use crate::record::Record;
-use crate::report::faults::Faults;
+use crate::report::faults::{self, Fault};
 use crate::report::price::Prices;
 use crate::report::words::{kind, local_orders, made_by, number, order};
 use crate::study::convergence::Convergence;
@@ -18,7 +18,13 @@ use crate::verdict::{Kind, Outcome, Verdict};
 use minijinja::{Value, context};
 use std::path::Path;
 
-pub(super) fn page(case: &Case, study: &CaseStudy, tier: &str, out: &Path) -> Value {
+pub(super) fn page(
+    case: &Case,
+    study: &CaseStudy,
+    tier: &str,
+    seeded: &[Fault],
+    out: &Path,
+) -> Value {
     let parameters = case.parameters.iter().map(|p| {
         let allowed = p.domain.to_string();
         [p.name, p.unit, p.default, &allowed, p.meaning]
@@ -50,7 +56,6 @@ pub(super) fn page(case: &Case, study: &CaseStudy, tier: &str, out: &Path) -> Va
         context! { href, name, verdict => verdict(v) }
     });
     let headings = case.headlines.iter().map(|h| h.title.clone());
-    let faults = Faults::of(case.name);
     context! {
         tier,
         name => case.name,
@@ -73,8 +78,8 @@ pub(super) fn page(case: &Case, study: &CaseStudy, tier: &str, out: &Path) -> Va
         failed => failed.collect::<Vec<_>>(),
         headings => headings.collect::<Vec<_>>(),
         runs => study.records.iter().map(|r| run(case, study, r)).collect::<Vec<_>>(),
-        checks => checks(case, study, &faults),
-        faults => faults.all,
+        checks => checks(case, study, seeded),
+        faults => seeded.len(),
         together => study.verdicts.iter().map(verdict).collect::<Vec<_>>(),
         limits => case.limits.to_vec(),
         metrics => sheet(metrics),
@@ -165,7 +170,7 @@ fn run(case: &Case, study: &CaseStudy, r: &Record) -> Value {
 }
 
 /// Every check with its outcomes and the number of seeded faults that it sees: those that the case declares, then those that every case has.
-fn checks(case: &Case, study: &CaseStudy, faults: &Faults) -> Vec<Value> {
+fn checks(case: &Case, study: &CaseStudy, seeded: &[Fault]) -> Vec<Value> {
     let all = || {
         study
             .records
@@ -189,7 +194,8 @@ fn checks(case: &Case, study: &CaseStudy, faults: &Faults) -> Vec<Value> {
             Outcome::Failed,
         ];
         let counts = outcomes.map(count).to_vec();
-        context! { name, kind => kind(of), statement, counts, faults => faults.seen_by(name) }
+        let faults = faults::seen(seeded, case.name, name);
+        context! { name, kind => kind(of), statement, counts, faults }
     };
     declared.chain(undeclared).map(row).collect()
 }
