@@ -245,7 +245,7 @@ pub(super) fn error_label(quantity: &Quantity, signed: bool) -> String {
 }
 
 /// A triangle at the right end, below every curve that passes there.
-fn below_the_curves<'a>(
+pub(super) fn below_the_curves<'a>(
     slope: f64,
     curves: impl Iterator<Item = &'a [(f64, f64)]> + Clone,
 ) -> Option<SlopeTriangle> {

@@ -28,6 +28,7 @@ mod speed;
 mod summary;
 mod sweep;
 pub mod tables;
+mod together;
 mod values;
 mod words;
 
