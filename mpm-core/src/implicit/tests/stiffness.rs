@@ -190,3 +190,67 @@ fn stiffness_is_symmetric_where_there_is_a_potential() {
     let law = Hypoelastic::new(YOUNG, POISSON, JaumannUpdate::Split).unwrap();
     assert!(asymmetry::<2, Quadratics<2>, _>(law, none) > 1e-4);
 }
+
+/// Pressures of nodes that are eliminated from what preconditions, Eq. (13), resist a strain that is alike everywhere as
+/// the average does, but for the share of it that is kept where averages see nothing.
+fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D>>() {
+    let scene = full::<D, _>(
+        CELLS,
+        Places::Uniform,
+        NeoHookean::new(YOUNG, 0.49).unwrap(),
+    );
+    let wall = Wall {
+        axis: 0,
+        end: End::Lo,
+        kind: WallKind::Fixed,
+    };
+    let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
+    let solver = Solver::<D, I, _>::new(scene.constrain(wall), settings).unwrap();
+    let setting = solver.setting(1.0);
+    let step = setting.step(&solver.scene.body, 1.0);
+    let (nodes, unknowns) = (solver.functions.len(), &setting.unknowns);
+    let mut x = vec![0.0; unknowns.len()];
+    solver.functions.for_each_node(|node, place| {
+        if let Some(k) = unknowns.of(node) {
+            x[k * D] = place[0];
+        }
+    });
+    let trial = step.trial(&vec![0.0; x.len()], nodes).unwrap();
+    let tangents = step.tangents(&trial);
+    let energy = |product: &[f64]| product.iter().zip(&x).map(|(a, b)| a * b).sum::<f64>();
+    let exact = energy(&step.apply(&tangents, &x, nodes));
+
+    let (pattern, width) = (&setting.pattern, D + 1);
+    assert_eq!(pattern.width, width);
+    let values = step.stiffness(&tangents, pattern);
+    let count = unknowns.len() / D;
+    let with_pressures = |pressures: &[f64]| -> Vec<f64> {
+        (0..count * width)
+            .map(|i| match i % width {
+                a if a < D => x[i / width * D + a],
+                _ => pressures[i / width],
+            })
+            .collect()
+    };
+    let product = multiply(pattern, &values, &with_pressures(&vec![0.0; count]));
+    let pressures: Vec<f64> = (0..count)
+        .map(|k| {
+            let i = k * width + D;
+            -product[i] / values[pattern.place(i, i).unwrap()]
+        })
+        .collect();
+    let product = multiply(pattern, &values, &with_pressures(&pressures));
+    let forces: Vec<f64> = (0..x.len())
+        .map(|k| product[k / D * width + k % D])
+        .collect();
+    let excess = energy(&forces) / exact - 1.0;
+    let kept = average::UNSEEN.powi(2) * (1.0 + 1e-9);
+    assert!((-1e-9..=kept).contains(&excess), "{excess}");
+}
+
+#[test]
+fn what_preconditions_is_exact_of_a_uniform_strain() {
+    eliminated_pressures_resist_as_averages_do::<1, Hats<1>>();
+    eliminated_pressures_resist_as_averages_do::<2, Hats<2>>();
+    eliminated_pressures_resist_as_averages_do::<2, Means<2>>();
+}

@@ -81,9 +81,9 @@ fn water_at_rest_is_carried_through_the_cells() {
     }
 }
 
-/// A wave around a periodic axis is extrapolated to all nodes, those at its seam too.
+/// A wave around a periodic axis is extrapolated to all nodes, those at its seam too, each by the volumes around it.
 #[test]
-fn pressures_are_extrapolated_to_the_nearest_image() {
+fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     let grid = Grid::new(H, [Axis::periodic(0.0, HIGH)]).unwrap();
     let positions = (0..2 * HIGH)
         .map(|k| [0.5 * H * (k as f64 + 0.5)])
@@ -112,6 +112,30 @@ fn pressures_are_extrapolated_to_the_nearest_image() {
         }
     });
     assert_eq!(seen, HIGH / 2);
+
+    // Of particles that differ, hats of 2h, whose means over domains in a cell are their values.
+    let pressure: Vec<f64> = (0..places.len()).map(|p| (p * p) as f64).collect();
+    let volume: Vec<f64> = (0..places.len()).map(|p| H / (1 + p) as f64).collect();
+    solver.pores.pressure = pressure.clone();
+    solver.pores.slope = vec![[0.0]; places.len()];
+    solver.scene.body.particles.volume = volume.clone();
+    let setting = solver.setting(1.0, Vec::new()).unwrap();
+    let functions = &solver.water_space.functions;
+    let told = unknowns::extrapolated(&setting.water, functions, solver.particles(), &solver.pores);
+    crate::implicit::Interpolation::for_each_node(functions, |node, place| {
+        let hat = |x: &[f64; 1]| {
+            let apart = (place[0] - x[0]).rem_euclid(TOP);
+            (1.0 - apart.min(TOP - apart) / (2.0 * H)).max(0.0)
+        };
+        let sum = |of: &dyn Fn(usize) -> f64| -> f64 {
+            (0..places.len()).map(|p| hat(&places[p]) * of(p)).sum()
+        };
+        let mean = sum(&|p| volume[p] * pressure[p]) / sum(&|p| volume[p]);
+        if solver.water_space.originals[node] == node {
+            let error = told[node] / mean - 1.0;
+            assert!(error.abs() < 1e-12, "{place:?}: {error}");
+        }
+    });
 }
 
 /// What sources give is what the volume grows by, with no way out.
