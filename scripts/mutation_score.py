@@ -50,7 +50,7 @@ def row(name, fates):
     score = "–"
     if viable:
         low, high = wilson(caught, viable)
-        score = f"{100 * caught / viable:.0f} % ({100 * low:.0f}–{100 * high:.0f} %)"
+        score = f"{100 * caught / viable:.0f} % ({100 * max(low, 0):.0f}–{100 * high:.0f} %)"
     return f"| {name} | {len(fates)} | {unviable} | {caught} | {survive} | {score} |"
 
 
