@@ -120,6 +120,11 @@ fn without_comments(line: &str) -> String {
     before + &after.collect::<String>()
 }
 
+#[test]
+fn the_readme_is_read_in_one_go() {
+    assert!(read("README.md").lines().count() < 200);
+}
+
 /// Tables can't be broken. Not yet wrapped: the page named here.
 #[test]
 fn lines_of_the_documents_are_short() {
