@@ -270,11 +270,9 @@ impl Panel {
         };
         let curves = self.schemes.iter().map(curve);
         let mut curves = curves.collect::<Result<Vec<Series>, NameError>>()?;
-        let order = case
-            .quantities
-            .iter()
-            .find(|q| q.metric.name == self.metric);
-        let slope = order
+        let mut quantities = case.quantities.iter();
+        let quantity = quantities.find(|q| q.metric.name == self.metric);
+        let slope = quantity
             .and_then(|q| q.order)
             .filter(|_| matches!(self.over, CellSize));
         let triangle =
