@@ -225,7 +225,7 @@ impl Golden {
             if column.is_blunt() || column.points.iter().any(|p| p.response < 0.0) {
                 let scale = column.scale();
                 return Err(format!(
-                    "{name}: a golden responds by 0 to {BLUNT:e} of its scale, {scale:e}"
+                    "{name}: a golden responds by 0 to {BLUNT:.0e} of its scale, {scale:e}"
                 ));
             }
         }
@@ -304,3 +304,6 @@ fn written(number: f64) -> String {
     let text = format!("{number:?}");
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
+
+#[cfg(test)]
+mod tests;

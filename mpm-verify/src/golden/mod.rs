@@ -124,3 +124,6 @@ fn mismatch(metric: &str, why: &str) -> Verdict {
 fn bare(column: &str) -> &str {
     column.split(" (").next().unwrap_or(column)
 }
+
+#[cfg(test)]
+mod tests;

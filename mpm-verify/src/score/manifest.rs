@@ -230,3 +230,141 @@ impl Manifest {
         folder.join(&name.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn texts_are_lines() {
+        let longest = "é".repeat(LONGEST);
+        for fit in ["a", " a", &longest] {
+            assert_eq!(Line::try_from(fit.to_owned()), Ok(Line(fit.to_owned())));
+        }
+        for unfit in ["", " ", "a\nb", "a\u{1b}", &(longest.clone() + "e")] {
+            let said = Line::try_from(unfit.to_owned()).unwrap_err();
+            let count = unfit.chars().count();
+            assert!(
+                said.contains(&format!("a text of {count} characters")),
+                "{said}"
+            );
+        }
+    }
+
+    #[test]
+    fn files_stand_beside_the_manifest() {
+        let longest = "é".repeat(LONGEST);
+        for fit in ["a.csv", "a b", ".a", &longest] {
+            assert_eq!(
+                FileName::try_from(fit.to_owned()),
+                Ok(FileName(fit.to_owned()))
+            );
+        }
+        for unfit in [
+            "",
+            ".",
+            "..",
+            "/",
+            "/a",
+            "../a",
+            "a/b",
+            "a/",
+            "a\\b",
+            "a\nb",
+            &(longest.clone() + "e"),
+        ] {
+            let said = FileName::try_from(unfit.to_owned()).unwrap_err();
+            assert!(said.starts_with(&format!("file {unfit:?} where")), "{said}");
+        }
+        let path = Manifest::beside(Path::new("folder"), &FileName("a.csv".to_owned()));
+        assert_eq!(path, Path::new("folder/a.csv"));
+        let cause = Error::Input("wrong".to_owned());
+        let refused = Manifest::refuse(Path::new("folder"), "level", &cause).to_string();
+        assert!(
+            refused.contains("folder/score.json") && refused.contains("level: wrong"),
+            "{refused}"
+        );
+    }
+
+    #[test]
+    fn numbers_are_positive_and_finite() {
+        assert_eq!(Positive::try_from(1e-300), Ok(Positive(1e-300)));
+        for unfit in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+            let said = Positive::try_from(unfit).unwrap_err();
+            assert!(said.starts_with(&unfit.to_string()), "{said}");
+        }
+    }
+
+    #[test]
+    fn parameters_are_numbers_booleans_or_words() {
+        let read = |value: &Value| serde_json::from_str::<Changed>(&value.to_string());
+        let sound = json!({"b": 0.5, "a": true, "c": "word", "d": 3});
+        assert_eq!(
+            read(&sound).unwrap().0,
+            ["a=true", "b=0.5", "c=word", "d=3"]
+        );
+        let twice = serde_json::from_str::<Changed>("{\"b\": 1, \"b\": 2}").unwrap();
+        assert_eq!(twice.0, ["b=1", "b=2"]);
+        let many =
+            |count: usize| Value::Object((0..count).map(|k| (k.to_string(), json!(k))).collect());
+        assert_eq!(read(&many(MOST)).unwrap().0.len(), MOST);
+        for (unfit, named) in [
+            (many(MOST + 1), "more parameters than the 100"),
+            (json!({"a": [1]}), "a: a number, boolean or word"),
+            (json!({"a": null}), "a: a number, boolean or word"),
+            (json!({"a": ""}), "a: a text of 0 characters"),
+            (json!({"": 1}), "a text of 0 characters"),
+            (
+                json!([1]),
+                "names of parameters with numbers, booleans or words",
+            ),
+        ] {
+            let said = read(&unfit).unwrap_err().to_string();
+            assert!(said.contains(named), "{said}");
+        }
+    }
+
+    #[test]
+    fn a_manifest_is_of_this_version_and_form() {
+        let folder = tempfile::tempdir().unwrap();
+        let read = |text: &str| {
+            std::fs::write(folder.path().join(FILE), text).unwrap();
+            Manifest::read(folder.path())
+        };
+        let sound = json!({
+            "schema": 1, "code": {"name": "a"}, "scheme": "s", "case": "cook", "level": "h2",
+        });
+        let manifest = read(&sound.to_string()).unwrap();
+        assert_eq!(manifest.basis, Basis(BasisName::Bspline2));
+        assert_eq!(
+            (manifest.parameters, manifest.cost),
+            (Changed::default(), Cost::default())
+        );
+        let with = |key: &str, value: Value| {
+            let mut changed = sound.clone();
+            changed[key] = value;
+            read(&changed.to_string()).map_err(|e| e.to_string())
+        };
+        let linear = with("basis", json!("linear")).unwrap();
+        assert_eq!(linear.basis, Basis(BasisName::Linear));
+        let cost = json!({"cpu_s": 2.5, "wall_s": 3.5, "steps": 4, "threads": 5, "machine": "m"});
+        let costly = with("cost", cost).unwrap().cost;
+        assert_eq!(
+            (costly.cpu_s, costly.wall_s),
+            (Some(Positive(2.5)), Some(Positive(3.5)))
+        );
+        assert_eq!((costly.steps, costly.threads), (Some(4), Some(5)));
+        for (key, value, named) in [
+            ("schema", json!(2), "schema 2 where 1 is read"),
+            ("levle", json!("h2"), "is `level` meant?"),
+            ("level", json!(2), "expected a string"),
+        ] {
+            let said = with(key, value).unwrap_err();
+            assert!(said.contains(named) && said.contains(FILE), "{said}");
+        }
+        assert!(read("{").is_err() && read("{}").is_err());
+        std::fs::remove_file(folder.path().join(FILE)).unwrap();
+        assert!(Manifest::read(folder.path()).is_err());
+    }
+}

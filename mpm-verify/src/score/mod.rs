@@ -193,3 +193,6 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, record: &Record) -> Vec<
     });
     judged.collect()
 }
+
+#[cfg(test)]
+mod tests;

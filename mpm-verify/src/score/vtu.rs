@@ -74,7 +74,7 @@ fn table(bytes: &[u8]) -> Result<Table, String> {
     let end = bytes.windows(APPENDED.len()).position(|w| w == APPENDED);
     let (head, tail) = bytes.split_at(end.unwrap_or(bytes.len()));
     let head = std::str::from_utf8(head).map_err(|_| "not UTF-8")?;
-    let (mut layout, arrays) = described(head)?;
+    let (mut layout, arrays) = described(head, usize::from(end.is_some()))?;
     let tag = tail.iter().position(|b| *b == b'>').unwrap_or(tail.len());
     let (tag, data) = tail.split_at(tag);
     layout.appended_base64 = tag.windows(6).any(|w| w == b"base64");
@@ -120,55 +120,43 @@ fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
     Some(found.value.into_owned())
 }
 
-/// Points and scalar point data of a grid.
-fn described(head: &str) -> Result<(Layout, Vec<Array>), String> {
+/// Points and scalar point data of a grid. An array's numbers are its own text: elements inside it, as VTK's ranges of
+/// vectors are, have text of theirs. So many elements are open at its end, or it was cut.
+fn described(head: &str, open: usize) -> Result<(Layout, Vec<Array>), String> {
     let mut reader = Reader::from_str(head);
     let (mut layout, mut arrays) = (Layout::default(), Vec::<Array>::new());
-    let (mut section, mut open) = (String::new(), false);
+    // Names of the elements around, the innermost last, and whether the last array is read.
+    let (mut around, mut is_read) = (Vec::<String>::new(), false);
     loop {
         let event = reader.read_event().map_err(|e| e.to_string())?;
         let empty = matches!(event, Event::Empty(_));
+        let inside = around.last().map_or("", String::as_str);
         match event {
+            Event::Eof if around.len() != open => return Err(format!("cut in {inside:?}")),
             Event::Eof => return Ok((layout, arrays)),
-            Event::Start(e) | Event::Empty(e) => match e.name().as_ref() {
-                "VTKFile" => {
-                    let is =
-                        |name: &str, value: &str| attribute(&e, name).is_some_and(|v| v == value);
-                    if !is("type", "UnstructuredGrid") {
-                        return Err("no VTKFile of type UnstructuredGrid".to_owned());
+            Event::Start(e) | Event::Empty(e) => {
+                match e.name().as_ref() {
+                    "VTKFile" => layout.read_file(&e)?,
+                    "Piece" => layout.read_piece(&e)?,
+                    "DataArray" => {
+                        let array = Array::of(&e, inside == "Points");
+                        is_read = ["Points", "PointData"].contains(&inside) && array.is_read();
+                        if is_read {
+                            arrays.push(array);
+                        }
                     }
-                    layout.big_endian = is("byte_order", "BigEndian");
-                    layout.long_headers = is("header_type", "UInt64");
-                    let compressor = attribute(&e, "compressor").filter(|c| !c.is_empty());
-                    layout.compressed = compressor.is_some();
-                    if compressor.is_some_and(|c| c != "vtkZLibDataCompressor") {
-                        return Err("a compressor other than vtkZLibDataCompressor".to_owned());
-                    }
+                    _ => {}
                 }
-                "Piece" if layout.points.is_some() => return Err("more than one piece".to_owned()),
-                "Piece" => {
-                    let points =
-                        attribute(&e, "NumberOfPoints").and_then(|n| n.trim().parse().ok());
-                    layout.points = points.filter(|n| (1..=MOST).contains(n));
-                    if layout.points.is_none() {
-                        return Err(format!("NumberOfPoints: 1 to {MOST} are allowed"));
-                    }
+                if !empty {
+                    around.push(e.name().as_ref().to_owned());
                 }
-                "DataArray" => {
-                    let array = Array::of(&e, section == "Points");
-                    let wanted = section == "Points" || section == "PointData";
-                    open = wanted && !empty && array.is_read();
-                    if wanted && array.is_read() {
-                        arrays.push(array);
-                    }
-                }
-                name if !empty => name.clone_into(&mut section),
-                _ => {}
-            },
-            Event::End(e) if e.name().as_ref() == "DataArray" => open = false,
-            Event::Text(t) if open => {
+            }
+            Event::End(_) => {
+                around.pop();
+            }
+            Event::Text(text) if is_read && inside == "DataArray" => {
                 if let Some(array) = arrays.last_mut() {
-                    array.text.push_str(&t);
+                    array.text.push_str(&text);
                 }
             }
             _ => {}
@@ -251,7 +239,7 @@ impl Array {
                 .collect::<Result<Vec<_>, _>>()?;
             for size in sizes {
                 let mut packed = from.by_ref().take(size);
-                let left = whole + 1 - (bytes.len() as u64).min(whole);
+                let left = (whole + 1).saturating_sub(bytes.len() as u64);
                 let inflated = ZlibDecoder::new(&mut packed)
                     .take(left)
                     .read_to_end(&mut bytes);
@@ -277,6 +265,35 @@ impl Array {
 }
 
 impl Layout {
+    /// What the outermost element says.
+    fn read_file(&mut self, element: &BytesStart<'_>) -> Result<(), String> {
+        let is = |name: &str, value: &str| attribute(element, name).is_some_and(|v| v == value);
+        if !is("type", "UnstructuredGrid") {
+            return Err("no VTKFile of type UnstructuredGrid".to_owned());
+        }
+        self.big_endian = is("byte_order", "BigEndian");
+        self.long_headers = is("header_type", "UInt64");
+        let compressor = attribute(element, "compressor").filter(|c| !c.is_empty());
+        self.compressed = compressor.is_some();
+        match compressor.is_some_and(|c| c != "vtkZLibDataCompressor") {
+            true => Err("a compressor other than vtkZLibDataCompressor".to_owned()),
+            false => Ok(()),
+        }
+    }
+
+    /// What the one piece says.
+    fn read_piece(&mut self, element: &BytesStart<'_>) -> Result<(), String> {
+        if self.points.is_some() {
+            return Err("more than one piece".to_owned());
+        }
+        let points = attribute(element, "NumberOfPoints").and_then(|n| n.trim().parse().ok());
+        self.points = points.filter(|n| (1..=MOST).contains(n));
+        match self.points {
+            Some(_) => Ok(()),
+            None => Err(format!("NumberOfPoints: 1 to {MOST} are allowed")),
+        }
+    }
+
     /// Up to eight bytes, the lowest first.
     fn lowest_first(&self, bytes: &[u8]) -> [u8; 8] {
         let mut all = [0; 8];
@@ -357,3 +374,6 @@ impl Read for Base64<'_> {
         Ok(count)
     }
 }
+
+#[cfg(test)]
+mod tests;

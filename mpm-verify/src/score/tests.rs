@@ -1,0 +1,280 @@
+//! Results that were never computed: a reference told as a code's own, and what is wrong with it.
+
+use super::*;
+use crate::cases::find_scored;
+use crate::error::Error;
+use crate::run::vtu::write_vtu;
+use serde_json::{Value, json};
+use std::fs;
+
+/// A folder with what `export` writes of a case.
+struct Answer {
+    folder: tempfile::TempDir,
+    files: Vec<String>,
+}
+
+const CURVE: &str = "reference-curve.csv";
+const SETTLED: &str = "settlement (-)";
+
+impl Answer {
+    fn exported(case: &str, level: &str, set: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let (case, foreign) = find_scored(case).unwrap();
+        let spec = RunSpec {
+            scheme: (foreign.judged_as)(crate::scheme::BasisName::Bspline2),
+            level: find_level(case, level).unwrap(),
+            set: set.iter().map(|s| (*s).to_owned()).collect(),
+            perturbed: false,
+        };
+        let files = export::export(case, foreign, &spec, &folder.path().join("out")).unwrap();
+        Self { folder, files }
+    }
+
+    /// Of the column: the reference for the series.
+    fn of_column() -> Self {
+        let result = Self::exported("consolidation", "n8", &["load=0.3"]);
+        fs::copy(result.path(CURVE), result.path("series.csv")).unwrap();
+        result
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join("out").join(name)
+    }
+
+    fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    fn json(&self, name: &str) -> Value {
+        serde_json::from_str(&self.text(name)).unwrap()
+    }
+
+    fn say(&self, key: &str, value: Value) {
+        let mut manifest = self.json(FILE);
+        manifest[key] = value;
+        fs::write(self.path(FILE), manifest.to_string()).unwrap();
+    }
+
+    fn score(&self) -> Result<Scored, Error> {
+        Scored::read(&self.folder.path().join("out"))
+    }
+
+    /// Changes the numbers of a column of the series; without, it is taken away.
+    fn change(&self, column: &str, change: Option<fn(f64) -> f64>) {
+        let table = Table::read(&self.path("series.csv")).unwrap();
+        let columns = table.iter().filter_map(|(name, values)| {
+            let values = match (name == column, change) {
+                (false, _) => values.to_vec(),
+                (true, Some(change)) => values.iter().map(|v| change(*v)).collect(),
+                (true, None) => return None,
+            };
+            Some((name.to_owned(), values))
+        });
+        let changed = Table::of_columns(columns.collect());
+        changed.write(&self.path("series.csv")).unwrap();
+    }
+}
+
+fn outcomes(scored: &Scored) -> Vec<(&str, Outcome)> {
+    let verdicts = scored.record.verdicts.iter();
+    verdicts.map(|v| (&*v.check, v.outcome)).collect()
+}
+
+#[test]
+fn the_reference_told_as_a_result_is_right() {
+    let result = Answer::of_column();
+    result.say("cost", json!({"cpu_s": 2.5, "wall_s": 3.5, "steps": 4}));
+    result.say("time_step_s", json!(0.25));
+    let scored = result.score().unwrap();
+    let right = ["settlement", "base-pressure"].map(|check| (check, Outcome::Right));
+    assert_eq!(outcomes(&scored), right);
+    assert!(scored.missing.is_empty() && scored.unknown.is_empty());
+    let record = &scored.record;
+    for off in ["settlement_error", "base_pressure_error"] {
+        let measured = &record.metrics[off];
+        assert_eq!(measured.value, Some(0.0), "{off}");
+    }
+    assert_eq!((record.time.cpu_s, record.time.wall_s), (2.5, 3.5));
+    assert_eq!((record.work.steps, record.work.particles), (4, 0));
+    assert_eq!(
+        (record.discretisation.dt, record.discretisation.h),
+        (0.25, 0.125)
+    );
+    assert_eq!(record.set, ["load=0.3"]);
+    assert_eq!((&*record.case, &*record.level), ("consolidation", "n8"));
+    assert_eq!(scored.manifest.code.name.0, "my code");
+    // Of what is not said nothing is made up.
+    let silent = Answer::of_column().score().unwrap().record;
+    assert!(silent.time.cpu_s.is_nan() && silent.time.wall_s.is_nan());
+    assert!(silent.discretisation.dt.is_nan() && silent.work.steps == 0);
+}
+
+#[test]
+fn a_wrong_column_fails_and_without_it_nothing_is_judged() {
+    let result = Answer::of_column();
+    result.change(SETTLED, Some(|s| 1.3 * s));
+    let wrong = result.score().unwrap();
+    let of = |settlement| {
+        [
+            ("settlement", settlement),
+            ("base-pressure", Outcome::Right),
+        ]
+    };
+    assert_eq!(outcomes(&wrong), of(Outcome::Failed));
+    result.change(SETTLED, None);
+    let without = result.score().unwrap();
+    assert_eq!(outcomes(&without), of(Outcome::NotJudged));
+    let unjudged = &without.record.verdicts[0];
+    assert_eq!(unjudged.source, "missing: settlement (-) of the series");
+    assert_eq!(unjudged.value, None);
+    let missing: Vec<String> = without.missing.iter().map(Asked::header).collect();
+    assert_eq!(missing, [SETTLED]);
+    assert!(!without.record.metrics.contains_key("settlement_error"));
+}
+
+/// What can't be measured is no number, and doesn't pass.
+#[test]
+fn a_series_that_ends_early_fails() {
+    let result = Answer::of_column();
+    let text = result.text("series.csv");
+    let first: Vec<&str> = text.lines().take(3).collect();
+    fs::write(result.path("series.csv"), first.join("\n") + "\n").unwrap();
+    let scored = result.score().unwrap();
+    assert_eq!(scored.record.metrics["settlement_error"].value, None);
+    let failed = ["settlement", "base-pressure"].map(|check| (check, Outcome::Failed));
+    assert_eq!(outcomes(&scored), failed);
+}
+
+#[test]
+fn particles_may_be_a_grid_of_vtk_and_a_series_may_not() {
+    let result = Answer::exported("cook", "h2", &[]);
+    let asked = find_scored("cook").unwrap().1.columns();
+    let start = Table::read(&result.path("start.csv")).unwrap();
+    let of_particles = asked.iter().filter(|a| a.part == Part::Particles);
+    let columns = of_particles.map(|a| {
+        let zeros = || vec![0.0; start.rows()];
+        let values = start.get(&a.header()).map_or_else(zeros, <[f64]>::to_vec);
+        crate::job::Column {
+            name: a.name,
+            unit: a.unit,
+            values,
+        }
+    });
+    let columns: Vec<_> = columns.collect();
+    write_vtu(&result.path("particles.vtu"), &columns).unwrap();
+    result.say("particles", json!("particles.vtu"));
+    result.say("series", Value::Null);
+    let scored = result.score().map_err(|e| e.to_string()).unwrap();
+    assert_eq!(scored.record.work.particles, start.rows() as u64);
+    assert!(scored.missing.iter().all(|a| a.part == Part::Series) && !scored.missing.is_empty());
+    let refused = |key: &str, value: Value| {
+        result.say(key, value);
+        let refused = result.score().map(|_| ()).unwrap_err();
+        refused.to_string()
+    };
+    let said = refused("series", json!("particles.vtu"));
+    assert!(
+        said.contains("series \"particles.vtu\"; allowed: a .csv file"),
+        "{said}"
+    );
+    let said = refused("particles", json!("particles.txt"));
+    assert!(
+        said.contains("particles \"particles.txt\"; allowed: a .csv or .vtu file"),
+        "{said}"
+    );
+    refused("series", Value::Null);
+    let said = refused("particles", Value::Null);
+    assert!(
+        said.contains("no table; this case is scored by: particles, series"),
+        "{said}"
+    );
+}
+
+#[test]
+fn what_a_manifest_names_is_refused_by_its_key() {
+    for (key, value, named) in [
+        ("case", json!("cok"), "case: unknown case"),
+        ("level", json!("n9"), "level: unknown level"),
+        (
+            "parameters",
+            json!({"laod": 1}),
+            "parameters: unknown parameter",
+        ),
+        ("series", json!("none.csv"), "none.csv"),
+    ] {
+        let result = Answer::of_column();
+        result.say(key, value);
+        let said = result.score().map(|_| ()).unwrap_err().to_string();
+        assert!(said.contains(named), "{said}");
+    }
+    // A table that the case asks nothing of is none.
+    let result = Answer::of_column();
+    result.say("particles", json!("none.csv"));
+    assert!(result.score().is_ok());
+}
+
+#[test]
+fn what_is_exported_is_the_problem() {
+    let result = Answer::of_column();
+    let names = [
+        "start.csv",
+        "parameters.json",
+        "reference.csv",
+        CURVE,
+        FILE,
+        "README.md",
+    ];
+    assert_eq!(result.files, names);
+    let problem = result.json("parameters.json");
+    assert_eq!(
+        (&problem["case"], &problem["level"]),
+        (&json!("consolidation"), &json!("n8"))
+    );
+    assert_eq!(
+        (&problem["cell_size_m"], &problem["dimension"]),
+        (&json!(0.125), &json!(1))
+    );
+    let load = problem["parameters"].as_array().unwrap();
+    let load = load.iter().find(|p| p["name"] == "load").unwrap();
+    assert_eq!(load["value"], json!(0.3));
+    let manifest = result.json(FILE);
+    assert_eq!(manifest["parameters"], json!({"load": 0.3}));
+    assert_eq!(
+        (&manifest["series"], &manifest["particles"]),
+        (&json!("series.csv"), &Value::Null)
+    );
+    let reference = result.text("reference.csv");
+    let rows: Vec<&str> = reference.lines().collect();
+    assert_eq!(rows[0], "check,metric,unit,reference,tolerance,why");
+    for (row, begin) in rows[1..]
+        .iter()
+        .zip(["settlement,settlement_error,-,", "base-pressure,"])
+    {
+        assert!(row.starts_with(begin), "{row}");
+    }
+    assert_eq!(rows.len(), 3);
+    let readme = result.text("README.md");
+    for line in [
+        "Cells of 0.125 m.",
+        "| `load` | 0.3 |",
+        "- `start.csv`: the particles of our runs before anything moves",
+        "- `parameters.json`: parameters with values, units and meanings",
+        "- `reference.csv`: what the checks demand",
+        "- `reference-curve.csv`: the reference as a curve",
+        "- `score.json`: a form to fill in",
+        "## `series.csv`: a row a time",
+        "| `settlement (-)` | settlement of the top over H |",
+        "| settlement | settlement_error | `time_factor`, `settlement` |",
+        "`mpm-verify explain consolidation` says",
+    ] {
+        assert!(readme.contains(line), "{line}: {readme}");
+    }
+    assert!(!readme.contains("particles.csv"), "{readme}");
+    // Parameters that no line of the problem names are not among those that it shows.
+    assert!(!readme.contains("| `refine` |"), "{readme}");
+    let both = Answer::exported("cook", "h2", &[]).text("README.md");
+    assert!(
+        both.contains("## `particles.csv`: a row a particle, in any order"),
+        "{both}"
+    );
+}
