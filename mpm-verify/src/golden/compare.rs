@@ -192,7 +192,7 @@ impl<'a> Now<'a> {
         }
     }
 
-    /// The verdict on the point of a column that uses most of its tolerance.
+    /// The verdict on the point of a column that has moved most: all of a column have one tolerance.
     fn judge(&self, column: &Column, blessing: &str) -> Verdict {
         let label = match column.quantity.split_once('/') {
             Some(("series", name)) => format!("series {name}"),
@@ -212,12 +212,12 @@ impl<'a> Now<'a> {
                 return mismatch(&label, &format!("{place}the run has no such number"));
             };
             let tolerance = column.tolerance(point);
-            let excess = (value - point.value).abs() - tolerance;
+            let difference = (value - point.value).abs();
             // What is not a number exceeds everything.
-            if worst.0.total_cmp(&excess).is_lt() {
+            if worst.0.total_cmp(&difference).is_lt() {
                 let source = format!("{place}blessed {blessing}");
                 let close = Finding::within(&*label, value, point.value, tolerance, source);
-                worst = (excess, of_drift(close));
+                worst = (difference, of_drift(close));
             }
         }
         worst.1

@@ -277,4 +277,9 @@ fn what_is_exported_is_the_problem() {
         both.contains("## `particles.csv`: a row a particle, in any order"),
         "{both}"
     );
+    // The unit is that of the metric; of a load that has no reference nothing is demanded.
+    let cook = Answer::exported("cook", "h2", &[]).text("reference.csv");
+    assert!(cook.contains("\nmid-edge,mid_edge_uy,m,0.26"), "{cook}");
+    let none = Answer::exported("consolidation", "n8", &["load=0.2"]);
+    assert_eq!(none.text("reference.csv").lines().count(), 1);
 }

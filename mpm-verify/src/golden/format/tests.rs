@@ -151,12 +151,30 @@ fn what_is_no_file_of_goldens_is_refused() {
     assert_eq!(Golden::parse(&rows).unwrap_err(), "no line of a blessing");
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("case.csv");
-    std::fs::write(&path, with("1e-9", "0.000000001")).unwrap();
-    let said = Golden::read(&path).unwrap_err().to_string();
-    assert!(
-        said.contains("case.csv") && said.contains("not laid out"),
-        "{said}"
-    );
+    let said = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        Golden::read(&path).unwrap_err().to_string()
+    };
+    for (text, named) in [
+        (with("1e-9", "0.000000001"), "not laid out"),
+        (with("-2.5", "\"-2.5\""), "not laid out"),
+        (with("\n,series/tip", "\na/h2,series/tip"), "not laid out"),
+        (TEXT.to_owned() + "\n", "not laid out"),
+        (TEXT.replace('\n', "\r\n"), "control characters"),
+        (format!("\u{feff}{TEXT}"), "control characters"),
+        (
+            TEXT[..TEXT.len() - 9].to_owned(),
+            "found record with 2 fields",
+        ),
+        (String::new(), "no line \"# format"),
+    ] {
+        let said = said(text.as_bytes());
+        assert!(
+            said.contains("case.csv") && said.contains(named),
+            "{said}\n{text}"
+        );
+    }
+    assert!(said(b"run,\xff\n").contains("UTF-8"));
 }
 
 /// A number by the floor of its column's scale, a count by ten responses.
