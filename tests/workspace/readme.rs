@@ -23,6 +23,17 @@ fn the_commands_of_the_readme_are_run_by_continuous_integration() {
     }
 }
 
+/// What a newcomer types first is an alias of what builds the program.
+#[test]
+fn the_first_command_of_the_readme_is_an_alias() {
+    let (readme, config) = (read("README.md"), read(".cargo/config.toml"));
+    let aliases = config.split_once("[alias]").unwrap().1;
+    let first = readme.lines().find(|l| l.starts_with("cargo ")).unwrap();
+    let name = first.split(' ').nth(1).unwrap();
+    assert!(aliases.contains(&format!("\n{name} = [")), "{first}");
+    assert!(aliases.contains("\"run\", \"--release\""), "{aliases}");
+}
+
 /// What stands under "More": each command is run as it stands, in a folder of its own.
 #[test]
 fn every_command_of_the_readme_works() {

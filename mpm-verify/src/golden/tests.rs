@@ -69,7 +69,7 @@ impl Made {
     /// Four particles, the third of which is out of sight.
     fn particles() -> [(&'static str, Vec<f64>); 4] {
         [
-            ("x (m)", vec![10.0, 20.0, 50.0, 0.0]),
+            ("x (m)", vec![10.000_04, 20.0, 50.0, 0.0]),
             ("y (m)", vec![10.0, 30.0, 30.0, 60.0]),
             ("mass (kg)", vec![1.0; 4]),
             ("mean_stress (Pa)", vec![-1.0, 0.0, 0.5, 1.0]),
@@ -446,6 +446,25 @@ fn the_field_of_the_first_run_is_kept_and_compared() {
         particles[column].1[1] += moved;
         made.write("particles.csv", &particles);
         assert_eq!(differ(), Some(differing), "{column} {moved}");
+    }
+    // A pixel is a share of what is shown, wherever that begins.
+    let shown = [(8.0, 32.0), (6.0, 36.0)];
+    let view = crate::case::FieldView {
+        window: shown,
+        range: (-2.0, 1.0),
+        ..view
+    };
+    let files = ["part.csv", "part.png"].map(|name| made.folder.path().join(name));
+    made.write("particles.csv", &Made::particles());
+    field::bless(&files, &view, &made.record, made.folder.path()).unwrap();
+    for (column, step) in [(0, 30.0 / 240.0), (1, 30.0 / 240.0), (3, 3.0 / 16.0)] {
+        for (share, differing) in [(0.49, 0.0), (0.51, 1.0)] {
+            let mut particles = Made::particles();
+            particles[column].1[1] += share * step;
+            made.write("particles.csv", &particles);
+            let found = field::judge(&files, &view, &made.record, made.folder.path(), "").unwrap();
+            assert_eq!(found[0].value, Some(differing), "{column} {share}");
+        }
     }
     let mut particles = Made::particles();
     particles[3].1 = vec![0.0; 4];
