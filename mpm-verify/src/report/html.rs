@@ -3,6 +3,7 @@
 mod case;
 mod faults;
 
+use super::advice::advice;
 use super::map::{self, Cell, Line, Panel};
 use super::speed::Speed;
 use super::summary::programs;
@@ -154,9 +155,10 @@ fn index(
         counts => summary.counts.to_string().lines().map(str::to_owned).collect::<Vec<_>>(),
         map => panels.iter().map(panel).collect::<Vec<_>>(),
         legend => map::legend().map(|entry| entry.to_vec()).to_vec(),
-        advice => (!speed.is_empty()).then(|| speed.advice()),
+        advice => advice().map(sheet),
+        summed_up => (!speed.is_empty()).then(|| speed.advice()),
         speed => (!speed.is_empty()).then(|| sheet(speed.table())),
-        advised => on_server("HEAD", "README.md#which-scheme-to-take"),
+        readme => on_server("HEAD", "README.md#which-scheme-to-take"),
         picture,
         machines => distinct(machines),
         programs => sheet(programs(summary)),
@@ -207,6 +209,7 @@ fn overview(study: &CaseStudy, out: &Path) -> Result<Value, Error> {
     });
     Ok(context! {
         title => case.title,
+        name => case.name,
         page => file_of(study),
         docs => docs(case.name, study),
         picture => figures(study, out).first(),
@@ -218,9 +221,10 @@ fn overview(study: &CaseStudy, out: &Path) -> Result<Value, Error> {
 }
 
 /// The value that comes nearest to its reference, in tolerances, of the first error of a case that a check judges, or
-/// else of its first check.
+/// else of its first check; of runs that are right.
 fn best(case: &Case, study: &CaseStudy) -> Option<Value> {
-    let judged = study.records.iter().flat_map(|r| {
+    let right = |r: &&Record| outcome_of_run(r) == Outcome::Right;
+    let judged = study.records.iter().filter(right).flat_map(|r| {
         let share = |v: &Verdict| {
             let distance = (v.value? - v.reference.unwrap_or(0.0)).abs();
             let tolerance = v.tolerance.filter(|t| *t > 0.0)?;

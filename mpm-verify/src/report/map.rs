@@ -22,7 +22,7 @@ const STEPS: [(&[&str], &str); 3] = [
     (&[], "CFL, 2D"),
     (&["dimension=1", "layout=cut"], "CFL, cut"),
 ];
-const COST: &str = "cost";
+const COST: &str = "cost ÷ least";
 /// How the runs of a scheme in a case came out.
 pub(super) struct Cell {
     pub(super) case: &'static str,

@@ -2,6 +2,7 @@
 //!
 //! Everything here is made from records and CSV files on disk, never from a running simulation.
 
+mod advice;
 mod convergence;
 pub mod describe;
 pub mod diff;

@@ -3,10 +3,13 @@
 use super::words;
 use crate::cases;
 use crate::metric::Quantity;
+use crate::record::Record;
 use crate::scheme::{RemedyName, Scheme};
 use crate::study::convergence::{Convergence, Point, precision};
+use crate::study::judge::outcome_of_run;
 use crate::study::summary::CaseStudy;
 use crate::table::Sheet;
+use crate::verdict::Outcome;
 use std::collections::BTreeMap;
 
 /// By rising cost, the points whose error is less than `gain` times that of the point before: with a gain of one, those that
@@ -57,6 +60,8 @@ pub(super) struct Price {
     pub(super) cost: Option<Cost>,
     /// The time step and particles per cell with which it costs that, if they aren't the case's own.
     set: Vec<String>,
+    /// Whether one of those runs is wrong as known.
+    is_wrong: bool,
 }
 
 /// Between two levels, a cost is interpolated in logarithms.
@@ -81,7 +86,7 @@ impl Prices {
         curves.retain(|curve| curve.scheme.solver() == kind);
         let of_metric = |q: &Quantity| {
             let own = curves.iter().filter(|c| c.metric == q.metric.name);
-            Self::over(&own.collect::<Vec<_>>(), q)
+            Self::over(&own.collect::<Vec<_>>(), q, &study.records)
         };
         let priced = |of_stress| {
             let mut errors = case
@@ -98,8 +103,8 @@ impl Prices {
         priced.filter_map(of_metric).collect()
     }
 
-    /// Of curves of an error.
-    fn over(curves: &[&Convergence], quantity: &Quantity) -> Option<Self> {
+    /// Of curves of an error, and the runs that they are of.
+    fn over(curves: &[&Convergence], quantity: &Quantity, runs: &[Record]) -> Option<Self> {
         let mut schemes = BTreeMap::<Scheme, Vec<&Convergence>>::new();
         for &curve in curves {
             schemes.entry(curve.scheme).or_default().push(curve);
@@ -120,11 +125,17 @@ impl Prices {
                 .iter()
                 .filter_map(|c| Some((cost(&c.points, target)?, &c.set)));
             let cheapest = costs.min_by(|(a, _), (b, _)| a.pairs.total_cmp(&b.pairs));
+            let set = cheapest.map_or(Vec::new(), |(_, set)| set.clone());
+            let is_wrong = runs.iter().any(|run| {
+                let own = run.scheme() == *scheme && run.set == set;
+                own && outcome_of_run(run) == Outcome::WrongAsKnown
+            });
             Price {
                 scheme: *scheme,
                 least: least(own),
                 cost: cheapest.map(|(cost, _)| cost),
-                set: cheapest.map_or(Vec::new(), |(_, set)| set.clone()),
+                set,
+                is_wrong,
             }
         };
         let mut rows: Vec<Price> = schemes.iter().map(row).collect();
@@ -180,10 +191,13 @@ impl Prices {
 }
 
 impl Price {
-    /// The scheme, and what it was run with.
+    /// The scheme, what it was run with, and whether it is wrong there.
     pub(super) fn name(&self) -> String {
         let parts = std::iter::once(self.scheme.title()).chain(self.set.iter().cloned());
-        parts.collect::<Vec<_>>().join(" ")
+        let mark = self
+            .is_wrong
+            .then(|| words::symbol(Outcome::WrongAsKnown).to_owned());
+        parts.chain(mark).collect::<Vec<_>>().join(" ")
     }
 
     /// Pairs (10⁶) and CPU time (s) as shown.
@@ -270,7 +284,10 @@ fn is_of_stress(quantity: &Quantity) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::Finding;
+    use crate::record::fixture::record;
     use crate::scheme::{BasisName, TransferName};
+    use crate::verdict::Kind;
 
     fn point(value: f64, pairs: u64) -> Point {
         Point {
@@ -334,13 +351,25 @@ mod tests {
             curve(RemedyName::FbarTotal, &[], &[coarse]),
         ];
         let quantity = crate::metric::error(crate::metric::metric("e", "-", ""), "error");
-        let prices = Prices::over(&curves.each_ref(), &quantity).unwrap();
+        // A run of the first that is wrong as known; the next is of the curve that costs more.
+        let run = |remedy, set: &str| {
+            let limit = Finding::above("e", 1.0, 0.5, "locks").verdict("locked", Kind::KnownLimit);
+            let mut run = record("n8", vec![limit]);
+            run.scheme = Scheme::explicit(BasisName::Gimp, remedy, TransferName::Flip);
+            run.set = vec![set.to_owned()];
+            run
+        };
+        let runs = [
+            run(RemedyName::None, "cfl=0.6"),
+            run(RemedyName::FbarRate, "cfl=0.6"),
+        ];
+        let prices = Prices::over(&curves.each_ref(), &quantity, &runs).unwrap();
         let told = prices
             .rows
             .iter()
             .map(|row| format!("{} {}", row.name(), prices.relative(row)));
         let told: Vec<_> = told.collect();
-        assert_eq!(told, ["gimp none cfl=0.6 1.0", "gimp fbar-rate ≤ 1.0"]);
+        assert_eq!(told, ["gimp none cfl=0.6 ≈ 1.0", "gimp fbar-rate ≤ 1.0"]);
         assert_eq!(prices.target, 0.1);
     }
 
