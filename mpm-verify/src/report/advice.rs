@@ -87,7 +87,7 @@ mod tests {
     #[test]
     fn the_readme_names_schemes() {
         let sheet = advice().unwrap();
-        assert_eq!(sheet.head.len(), 4);
+        assert_eq!(sheet.head.len(), 5);
         assert!(sheet.rows.len() >= 8);
         for row in &sheet.rows {
             let scheme = row[1].trim_matches('`');
