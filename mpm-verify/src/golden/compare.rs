@@ -3,7 +3,7 @@
 use super::field;
 use super::format::{Column, Golden, Point, Run};
 use super::picture::{curves, pixels_of, write_small};
-use super::{file, mismatch, of_drift, picture_file, runs, why_none};
+use super::{file, mismatch, of_drift, picture_file, runs, shown, why_none};
 use crate::cases;
 use crate::check::Finding;
 use crate::error::Error;
@@ -62,22 +62,23 @@ impl Goldens {
             Some(Ok(golden)) => golden.clone(),
             _ => Golden::default(),
         };
-        let of_shown = new
+        let first_planned = new
             .iter()
             .find(|(run, ..)| planned.first() == Some(&run.name));
-        if let Some((run, record, folder)) = of_shown {
-            if run.has_series() {
-                let series = Table::read(&folder.join(series::FILE))?;
-                let drawn = curves(run, series.abscissa())?;
-                write_small(&drawn, &picture_file(&self.root, case.name))?;
-            }
-            if let Some(view) = case.field {
-                field::bless(&field::files(&self.root, case.name), &view, record, folder)?;
-            }
+        if let Some(((_, record, folder), view)) = first_planned.zip(case.field) {
+            field::bless(&field::files(&self.root, case.name), &view, record, folder)?;
         }
-        let record = *first;
+        let (record, drawn) = (*first, shown(case));
+        let of_drawn = new.iter().find(|(run, ..)| drawn.contains(&run.name));
+        let series = of_drawn.map(|(.., folder)| Table::read(&folder.join(series::FILE)));
+        let series = series.transpose()?;
         let blessed = new.into_iter().map(|(run, ..)| run).collect();
         golden.bless(blessed, &planned, record, reason);
+        let kept = of_names(&golden, &drawn);
+        if let Some(series) = series.filter(|_| kept.iter().any(Run::has_series)) {
+            let picture = curves(&kept, series.abscissa())?;
+            write_small(&picture, &picture_file(&self.root, case.name))?;
+        }
         golden.write(&file(&self.root, case.name))
     }
 
@@ -116,10 +117,11 @@ impl Goldens {
         let columns = golden.columns.iter();
         let mut verdicts: Vec<Verdict> = columns.map(|c| now.judge(c, blessing)).collect();
         let case = cases::find(&record.case)?;
+        let drawn = shown(case);
+        if drawn.first() == Some(&record.folder()) && golden.has_series() {
+            verdicts.push(self.judge_picture(&now, &drawn, blessing));
+        }
         if runs(case).first() == Some(&record.folder()) {
-            if golden.has_series() {
-                verdicts.push(self.judge_picture(&now, golden, blessing));
-            }
             if let Some(view) = case.field {
                 let files = field::files(&self.root, case.name);
                 verdicts.extend(field::judge(&files, &view, record, folder, blessing)?);
@@ -128,12 +130,21 @@ impl Goldens {
         Ok(verdicts)
     }
 
-    /// Whether the picture of the case's first run, drawn from numbers that have not drifted as they were blessed, is
-    /// that which is kept.
-    fn judge_picture(&self, now: &Now<'_>, golden: &Run, blessing: &str) -> Verdict {
+    /// Whether the picture of the case, drawn from what was blessed, and of this run from what has not drifted, is that
+    /// which is kept.
+    fn judge_picture(&self, now: &Now<'_>, names: &[String], blessing: &str) -> Verdict {
         let path = picture_file(&self.root, &now.record.case);
         let metric = "different pixels of the picture";
-        match now.drawn(golden).and_then(|drawn| pixels_of(&path, &drawn)) {
+        let golden = self.cases.get(&*now.record.case);
+        let golden = golden.and_then(|golden| golden.as_ref().ok());
+        let mut kept = golden.map_or(Vec::new(), |golden| of_names(golden, names));
+        for run in &mut kept {
+            if run.name == now.record.folder() {
+                *run = now.snapped(run);
+            }
+        }
+        let drawn = curves(&kept, now.series.abscissa());
+        match drawn.and_then(|drawn| pixels_of(&path, &drawn)) {
             Ok(different) => {
                 let different = different as f64;
                 of_drift(Finding::within(metric, different, 0.0, 0.0, blessing))
@@ -150,8 +161,16 @@ impl Goldens {
         let found = self.find(record);
         let (golden, _) = found.map_err(|why| Error::file(&self.root, why))?;
         let now = Now::read(record, folder)?;
-        Ok([curves(golden, now.series.abscissa())?, now.drawn(golden)?])
+        let drawn = [golden.clone(), now.snapped(golden)];
+        let [old, new] = drawn.map(|run| curves(&[run], now.series.abscissa()));
+        Ok([old?, new?])
     }
+}
+
+/// The runs of these names, as far as they are kept.
+fn of_names(golden: &Golden, names: &[String]) -> Vec<Run> {
+    let own = names.iter().filter_map(|name| golden.run(name));
+    own.cloned().collect()
 }
 
 /// What a run has now.
@@ -221,11 +240,6 @@ impl<'a> Now<'a> {
             }
         }
         worst.1
-    }
-
-    /// The picture of the run, from the numbers of its golden where they hold.
-    fn drawn(&self, golden: &Run) -> Result<RgbImage, Error> {
-        curves(&self.snapped(golden), self.series.abscissa())
     }
 
     /// The run as its golden has it, with the present number wherever it has drifted.

@@ -2,8 +2,8 @@
 //!
 //! `golden/<case>.csv` holds, run by run, the metrics, a few rows of the watched columns of the time series and the
 //! counts of work, each with its measured response to a last-bit perturbation of the starting positions, below the
-//! lines of the blessings. `golden/<case>.png` shows the watched columns of the first run, and
-//! `golden/<case>-field.csv` and `.png` of some cases its particles. A number may move by [`FLOOR`] of
+//! lines of the blessings. `golden/<case>.png` shows the watched columns of a run of each scheme, and
+//! `golden/<case>-field.csv` and `.png` of some cases the particles of the first run. A number may move by [`FLOOR`] of
 //! its column's scale, which leaves room for another order of the same sums; one that responds by more than
 //! [`BLUNT`] of it is no golden and is left out. A count may not move, unless the perturbation moves it.
 
@@ -33,6 +33,8 @@ pub const FLOOR: f64 = 1e-7;
 pub const BLUNT: f64 = FLOOR / 100.0;
 /// Tolerance of a count over its response.
 pub const MARGIN: f64 = 10.0;
+/// Most curves of a picture.
+const SHOWN: usize = 8;
 /// Name of the check.
 const CHECK: &str = "golden";
 /// The count that stands for the cost of a run, and that is told where none has changed.
@@ -55,7 +57,7 @@ pub fn place(asked: Option<PathBuf>) -> PathBuf {
     asked.unwrap_or_else(|| if here.is_dir() { here } else { built() })
 }
 
-/// Picture of the first run of a case.
+/// Picture of a case: of the runs that [`shown`] names.
 #[must_use]
 pub fn picture_file(root: &Path, case: &str) -> PathBuf {
     root.join(format!("{case}.png"))
@@ -65,6 +67,19 @@ pub fn picture_file(root: &Path, case: &str) -> PathBuf {
 #[must_use]
 pub fn runs(case: &Case) -> Vec<String> {
     case.runs(TIER).iter().map(RunSpec::folder).collect()
+}
+
+/// Those that the picture of a case shows: a run of each of the first schemes, with the level and parameters that most
+/// schemes have, in the order of the plan.
+#[must_use]
+pub fn shown(case: &Case) -> Vec<String> {
+    let all = runs(case);
+    let setting = |run: &String| run.split_once('/').map(|(_, setting)| setting.to_owned());
+    let count = |run: &&String| all.iter().filter(|r| setting(r) == setting(run)).count();
+    // Of as many, the first in the plan.
+    let most = all.iter().rev().max_by_key(count).and_then(setting);
+    let own = all.iter().filter(|run| setting(run) == most).cloned();
+    own.take(SHOWN).collect()
 }
 
 /// Why no golden is kept of a run, if none is.

@@ -1,10 +1,13 @@
-//! The picture of a run: the watched columns of its series.
+//! The picture of runs: the watched columns of their series.
 
 use super::format::{Column, Run, SERIES};
+use crate::distinct;
+use crate::draw::style::series;
 use crate::draw::triptych::different_pixels;
-use crate::draw::{Chart, Marker, PlotError, Series, draw_charts};
+use crate::draw::{Chart, PlotError, Series, draw_charts};
 use crate::error::Error;
 use crate::files::{DOCUMENT, OTHER_LAYOUT, read, read_picture, write_whole};
+use crate::scheme::Scheme;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{RgbImage, imageops};
 use std::path::Path;
@@ -17,17 +20,33 @@ const SHADE: u16 = 17;
 /// The last chunk of a PNG file.
 const END_OF_PNG: &[u8] = b"IEND\xaeB`\x82";
 
-/// Draws the watched columns of a run over the first column of its series, a chart each.
+/// Draws the watched columns of runs over the first column of their series, a chart each, with a curve a run.
 ///
 /// # Errors
-/// There are none, or the picture can't be drawn.
-pub(super) fn curves(run: &Run, abscissa: &str) -> Result<RgbImage, Error> {
-    let charts: Vec<Chart> = run
-        .columns
-        .iter()
-        .filter_map(|column| chart(column, abscissa))
+/// There are none, a run is of no scheme, or the picture can't be drawn.
+pub(super) fn curves(runs: &[Run], abscissa: &str) -> Result<RgbImage, Error> {
+    let columns = runs.iter().flat_map(|run| &run.columns);
+    let watched = columns.filter_map(|c| c.quantity.strip_prefix(SERIES));
+    let charts: Result<Vec<Chart>, Error> = distinct(watched)
+        .into_iter()
+        .map(|header| {
+            let curves = runs.iter().map(|run| curve(run, header));
+            let curves = curves.collect::<Result<Vec<Series>, Error>>()?;
+            Ok(Chart::new("", [abscissa, header], curves))
+        })
         .collect();
+    let charts = charts?;
     small(|path| draw_charts(path, &charts, charts.len().min(2)))
+}
+
+/// A column of a run, as its scheme looks everywhere.
+fn curve(run: &Run, header: &str) -> Result<Series, Error> {
+    let scheme = run.name.split('/').next().unwrap_or_default();
+    let scheme = Scheme::parse(scheme).map_err(|e| Error::Input(e.to_string()))?;
+    let own = |c: &&Column| c.quantity.strip_prefix(SERIES) == Some(header);
+    let points = run.columns.iter().filter(own).flat_map(|c| &c.points);
+    let points = points.filter_map(|p| Some((p.time?, p.value)));
+    Ok(series(scheme, points.collect()))
 }
 
 /// What `draw` writes, [`WIDTH`] wide and in few shades.
@@ -53,19 +72,6 @@ pub(super) fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
         return Err(Error::file(kept, OTHER_LAYOUT));
     }
     Ok(different_pixels(&read_picture(kept)?, drawn))
-}
-
-fn chart(column: &Column, abscissa: &str) -> Option<Chart> {
-    let header = column.quantity.strip_prefix(SERIES)?;
-    let points = column
-        .points
-        .iter()
-        .filter_map(|p| Some((p.time?, p.value)));
-    let curve = Series {
-        marker: Marker::Circle,
-        ..Series::line("", points.collect(), 0)
-    };
-    Some(Chart::new("", [abscissa, header], vec![curve]))
 }
 
 /// Writes a PNG file as small as it gets.

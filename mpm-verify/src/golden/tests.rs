@@ -291,7 +291,10 @@ fn the_picture_of_the_first_run_is_kept_and_compared() {
     let made = Made::of(0);
     let path = picture_file(&made.goldens(), "cook");
     assert_eq!(path, made.goldens().join("cook.png"));
-    assert!(!picture_file(&Made::of(1).goldens(), "cook").exists());
+    let case = cases::find("cook").unwrap();
+    let unseen = runs(case).iter().position(|run| !shown(case).contains(run));
+    let unseen = Made::of(unseen.unwrap());
+    assert!(!picture_file(&unseen.goldens(), "cook").exists());
     assert_eq!(made.drifting(), [""; 0]);
     let columns = made.run().columns.len();
     assert_eq!(
@@ -383,7 +386,7 @@ fn pictures_are_small() {
             column("series/c (m)"),
         ];
         Run {
-            name: "a/h2".to_owned(),
+            name: "gimp-fbar-consistent-flip/h2".to_owned(),
             columns,
         }
     };
@@ -391,7 +394,7 @@ fn pictures_are_small() {
         let coloured = |p: &&Rgb<u8>| p.0[0] != p.0[1] || p.0[1] != p.0[2];
         picture.pixels().filter(coloured).count()
     };
-    let [one, two] = [&[1.0][..], &[1.0, 1.5, 2.0]].map(|t| curves(&run(t), "time (s)").unwrap());
+    let [one, two] = [&[1.0][..], &[1.0, 1.5, 2.0]].map(|t| curves(&[run(t)], "time (s)").unwrap());
     assert!(
         ink(&one) > 0 && ink(&two) > ink(&one),
         "{} {}",
@@ -400,6 +403,18 @@ fn pictures_are_small() {
     );
     // Two charts side by side.
     assert!(one.height() < blank.height());
+    // A curve a run, as its scheme looks, with a legend.
+    let other = Run {
+        name: "bspline2-none-flip/h2".to_owned(),
+        columns: run(&[1.2, 1.4]).columns,
+    };
+    let both = curves(&[run(&[1.0]), other.clone()], "time (s)").unwrap();
+    assert!(both != curves(&[run(&[1.0]), run(&[1.2, 1.4])], "time (s)").unwrap());
+    let unknown = Run {
+        name: "a/h2".to_owned(),
+        ..other
+    };
+    assert!(curves(&[unknown], "time (s)").is_err() && curves(&[], "time (s)").is_err());
 }
 
 /// A particle of the field may move by half a pixel, its colour by half a step.
@@ -550,6 +565,24 @@ fn counts_are_summed_over_the_runs_of_a_case() {
         "{said}"
     );
     assert!(nonzeros(root.path(), "none").is_err());
+}
+
+/// A curve a scheme, at the setting that most of them have.
+#[test]
+fn pictures_show_schemes_beside_each_other() {
+    for case in cases::all() {
+        let (all, own) = (runs(case), shown(case));
+        let settings: Vec<&str> = own.iter().map(|r| r.split_once('/').unwrap().1).collect();
+        assert!((1..=SHOWN).contains(&own.len()), "{}", case.name);
+        assert!(settings.iter().all(|s| *s == settings[0]) && own.iter().all(|r| all.contains(r)));
+        let setting = |run: &String| run.split_once('/').unwrap().1.to_owned();
+        let count = |of: &str| all.iter().filter(|r| setting(r) == of).count();
+        let most = all.iter().map(|r| count(&setting(r))).max();
+        assert_eq!(most, Some(count(settings[0])), "{}", case.name);
+    }
+    let cook = cases::find("cook").unwrap();
+    assert_eq!(shown(cook)[0], runs(cook)[0]);
+    assert_eq!(shown(cook).len(), SHOWN);
 }
 
 #[test]
