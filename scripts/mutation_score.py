@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """The score of the mutants that were tried, with its interval, into docs/mutants.md.
 
-    scripts/mutation_score.py FOLDER...     folders that hold mutants.out of cargo-mutants, shards of one program
+    scripts/mutation_score.py TABLE FOLDER...     the table's name there, and folders that hold mutants.out of cargo-mutants
 
 Of viable mutants, those that build, a share is caught: a unit test or, of the core, a test of behaviour fails, or runs
-without end. The interval is Wilson's of 95 % for a sample of them all.
+without end. The interval is Wilson's of 95 %, for a sample of them all.
 """
 
 import json
@@ -13,7 +13,7 @@ import pathlib
 import sys
 
 PAGE = pathlib.Path(__file__).parent.parent / "docs/mutants.md"
-BEGIN, END = "<!--score-->", "<!--end of score-->"
+BEGIN, END = "<!--score {}-->", "<!--end of score-->"
 Z = 1.959964
 
 
@@ -54,17 +54,17 @@ def row(name, fates):
     return f"| {name} | {len(fates)} | {unviable} | {caught} | {survive} | {score} |"
 
 
-def main(folders):
-    tried = outcomes(folders)
+def main(table, *folders):
+    tried, begin = outcomes(folders), BEGIN.format(table)
     head = ["part", "tried", "don't build", "caught", "survive", "caught of viable (95 %)"]
     lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
     for name in sorted({name for name, _ in tried}):
         lines.append(row(name, [fate for part, fate in tried if part == name]))
     lines.append(row("**all**", [fate for _, fate in tried]))
     text = PAGE.read_text()
-    before, rest = text.split(BEGIN)
-    _, after = rest.split(END)
-    PAGE.write_text(f"{before}{BEGIN}\n\n" + "\n".join(lines) + f"\n\n{END}{after}")
+    before, rest = text.split(begin)
+    _, after = rest.split(END, 1)
+    PAGE.write_text(f"{before}{begin}\n\n" + "\n".join(lines) + f"\n\n{END}{after}")
 
 
-main(sys.argv[1:])
+main(*sys.argv[1:])

@@ -3,7 +3,7 @@
 use super::field;
 use super::format::{Column, Golden, Point, Run};
 use super::picture::{curves, pixels_of, write_small};
-use super::{file, mismatch, of_drift, picture_file, runs, shown, why_none};
+use super::{file, mismatch, of_drift, picture_file, runs, why_none};
 use crate::cases;
 use crate::check::Finding;
 use crate::error::Error;
@@ -68,15 +68,20 @@ impl Goldens {
         if let Some(((_, record, folder), view)) = first_planned.zip(case.field) {
             field::bless(&field::files(&self.root, case.name), &view, record, folder)?;
         }
-        let (record, drawn) = (*first, shown(case));
-        let of_drawn = new.iter().find(|(run, ..)| drawn.contains(&run.name));
-        let series = of_drawn.map(|(.., folder)| Table::read(&folder.join(series::FILE)));
-        let series = series.transpose()?;
+        let (names, folders): (Vec<String>, Vec<&Path>) = new
+            .iter()
+            .map(|(run, _, folder)| (run.name.clone(), *folder))
+            .unzip();
+        let record = *first;
         let blessed = new.into_iter().map(|(run, ..)| run).collect();
         golden.bless(blessed, &planned, record, reason);
-        let kept = of_names(&golden, &drawn);
-        if let Some(series) = series.filter(|_| kept.iter().any(Run::has_series)) {
-            let picture = curves(&kept, series.abscissa())?;
+        let shown = golden.shown();
+        let drawn_anew = names
+            .iter()
+            .position(|name| shown.iter().any(|run| run.name == *name));
+        if let Some(k) = drawn_anew {
+            let series = Table::read(&folders[k].join(series::FILE))?;
+            let picture = curves(&shown, series.abscissa())?;
             write_small(&picture, &picture_file(&self.root, case.name))?;
         }
         golden.write(&file(&self.root, case.name))
@@ -117,10 +122,7 @@ impl Goldens {
         let columns = golden.columns.iter();
         let mut verdicts: Vec<Verdict> = columns.map(|c| now.judge(c, blessing)).collect();
         let case = cases::find(&record.case)?;
-        let drawn = shown(case);
-        if drawn.first() == Some(&record.folder()) && golden.has_series() {
-            verdicts.push(self.judge_picture(&now, &drawn, blessing));
-        }
+        verdicts.extend(self.judge_picture(&now, blessing));
         if runs(case).first() == Some(&record.folder()) {
             if let Some(view) = case.field {
                 let files = field::files(&self.root, case.name);
@@ -130,27 +132,26 @@ impl Goldens {
         Ok(verdicts)
     }
 
-    /// Whether the picture of the case, drawn from what was blessed, and of this run from what has not drifted, is that
-    /// which is kept.
-    fn judge_picture(&self, now: &Now<'_>, names: &[String], blessing: &str) -> Verdict {
+    /// Of the first run that the picture of a case shows: whether that, drawn from what was blessed, and of this run from
+    /// what has not drifted, is the one that is kept.
+    fn judge_picture(&self, now: &Now<'_>, blessing: &str) -> Option<Verdict> {
+        let golden = self.cases.get(&*now.record.case)?.as_ref().ok()?;
+        let mut shown = golden.shown();
+        let first = shown.first_mut()?;
+        if first.name != now.record.folder() {
+            return None;
+        }
+        *first = now.snapped(first);
         let path = picture_file(&self.root, &now.record.case);
         let metric = "different pixels of the picture";
-        let golden = self.cases.get(&*now.record.case);
-        let golden = golden.and_then(|golden| golden.as_ref().ok());
-        let mut kept = golden.map_or(Vec::new(), |golden| of_names(golden, names));
-        for run in &mut kept {
-            if run.name == now.record.folder() {
-                *run = now.snapped(run);
-            }
-        }
-        let drawn = curves(&kept, now.series.abscissa());
-        match drawn.and_then(|drawn| pixels_of(&path, &drawn)) {
+        let drawn = curves(&shown, now.series.abscissa());
+        Some(match drawn.and_then(|drawn| pixels_of(&path, &drawn)) {
             Ok(different) => {
                 let different = different as f64;
                 of_drift(Finding::within(metric, different, 0.0, 0.0, blessing))
             }
             Err(error) => mismatch(metric, &error.to_string()),
-        }
+        })
     }
 
     /// The watched columns of a run as they were blessed, and as they are.
@@ -165,12 +166,6 @@ impl Goldens {
         let [old, new] = drawn.map(|run| curves(&[run], now.series.abscissa()));
         Ok([old?, new?])
     }
-}
-
-/// The runs of these names, as far as they are kept.
-fn of_names(golden: &Golden, names: &[String]) -> Vec<Run> {
-    let own = names.iter().filter_map(|name| golden.run(name));
-    own.cloned().collect()
 }
 
 /// What a run has now.

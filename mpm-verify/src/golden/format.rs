@@ -15,6 +15,8 @@ const BLESSINGS: usize = 5;
 /// Largest response of a count, and the same over the count: more than a few rows, sorts or iterations say nothing.
 const LOOSE: f64 = 10.0;
 const LOOSE_SHARE: f64 = 0.1;
+/// Most curves of a picture.
+const SHOWN: usize = 8;
 /// What stands before the name of a column of the series, and of a count of work.
 pub(super) const SERIES: &str = "series/";
 pub(super) const WORK: &str = "work/";
@@ -241,6 +243,23 @@ impl Golden {
     #[must_use]
     pub fn run(&self, name: &str) -> Option<&Run> {
         self.runs.iter().find(|run| run.name == name)
+    }
+
+    /// Those that the picture of the case shows: a run of each of the first schemes that have a series, with the level and
+    /// parameters that most of them have.
+    #[must_use]
+    pub fn shown(&self) -> Vec<Run> {
+        let all = || self.runs.iter().filter(|run| run.has_series());
+        let setting = |run: &Run| {
+            run.name
+                .split_once('/')
+                .map(|(_, setting)| setting.to_owned())
+        };
+        let count = |run: &&Run| all().filter(|r| setting(r) == setting(run)).count();
+        // Of as many, the first.
+        let most = all().rev().max_by_key(count).and_then(setting);
+        let own = all().filter(|run| setting(run) == most);
+        own.take(SHOWN).cloned().collect()
     }
 
     /// Puts runs in place of those of the same name and keeps the others that are among `planned`, in its order.

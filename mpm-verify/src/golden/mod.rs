@@ -33,8 +33,6 @@ pub const FLOOR: f64 = 1e-7;
 pub const BLUNT: f64 = FLOOR / 100.0;
 /// Tolerance of a count over its response.
 pub const MARGIN: f64 = 10.0;
-/// Most curves of a picture.
-const SHOWN: usize = 8;
 /// Name of the check.
 const CHECK: &str = "golden";
 /// The count that stands for the cost of a run, and that is told where none has changed.
@@ -57,7 +55,7 @@ pub fn place(asked: Option<PathBuf>) -> PathBuf {
     asked.unwrap_or_else(|| if here.is_dir() { here } else { built() })
 }
 
-/// Picture of a case: of the runs that [`shown`] names.
+/// Picture of a case: of the runs that [`Golden::shown`] names.
 #[must_use]
 pub fn picture_file(root: &Path, case: &str) -> PathBuf {
     root.join(format!("{case}.png"))
@@ -67,19 +65,6 @@ pub fn picture_file(root: &Path, case: &str) -> PathBuf {
 #[must_use]
 pub fn runs(case: &Case) -> Vec<String> {
     case.runs(TIER).iter().map(RunSpec::folder).collect()
-}
-
-/// Those that the picture of a case shows: a run of each of the first schemes, with the level and parameters that most
-/// schemes have, in the order of the plan.
-#[must_use]
-pub fn shown(case: &Case) -> Vec<String> {
-    let all = runs(case);
-    let setting = |run: &String| run.split_once('/').map(|(_, setting)| setting.to_owned());
-    let count = |run: &&String| all.iter().filter(|r| setting(r) == setting(run)).count();
-    // Of as many, the first in the plan.
-    let most = all.iter().rev().max_by_key(count).and_then(setting);
-    let own = all.iter().filter(|run| setting(run) == most).cloned();
-    own.take(SHOWN).collect()
 }
 
 /// Why no golden is kept of a run, if none is.

@@ -240,3 +240,31 @@ fn a_blessing_replaces_what_it_blesses() {
     let kept: Vec<&str> = golden.blessings.iter().map(|b| &b[12..14]).collect();
     assert_eq!(kept, ["it", "0 ", "1 ", "2 ", "3 "]);
 }
+
+/// A curve a scheme, at the setting that most of those with a series have.
+#[test]
+fn a_picture_shows_schemes_beside_each_other() {
+    let mut golden = golden();
+    let columns = golden.runs[0].columns.clone();
+    let names = |golden: &Golden| -> Vec<String> {
+        golden.shown().into_iter().map(|run| run.name).collect()
+    };
+    assert_eq!(names(&golden), ["a/h2", "b/h2"]);
+    // Of as many the first; of more, those.
+    golden.runs.push(run("a/h1", columns.clone()));
+    golden.runs.push(run("b/h1", columns.clone()));
+    assert_eq!(names(&golden), ["a/h2", "b/h2"]);
+    golden.runs.push(run("c/h1", columns.clone()));
+    assert_eq!(names(&golden), ["a/h1", "b/h1", "c/h1"]);
+    // Without a series there is nothing to show.
+    golden.runs[3].columns.truncate(1);
+    assert_eq!(names(&golden), ["a/h2", "b/h2"]);
+    let many = (0..SHOWN + 1).map(|k| run(&format!("{k}/h4"), columns.clone()));
+    golden.runs.extend(many);
+    assert_eq!(
+        (golden.shown().len(), &*golden.shown()[0].name),
+        (SHOWN, "0/h4")
+    );
+    golden.runs.clear();
+    assert!(golden.shown().is_empty());
+}
