@@ -1,7 +1,7 @@
 //! The particle field of a case's first run, kept as precisely as its picture shows it.
 
 use super::measure::rounded;
-use super::picture::{pixels_of, small, write_small};
+use super::picture::{WIDTH, pixels_of, small, write_small};
 use super::{mismatch, of_drift};
 use crate::case::FieldView;
 use crate::check::Finding;
@@ -126,5 +126,5 @@ fn draw(view: &FieldView, record: &Record, rows: &[[f64; 4]]) -> Result<RgbImage
         label: view.label.to_owned(),
         window: Some((view.window[0], view.window[1])),
     };
-    small(|path| draw_fields(path, &figure))
+    small(WIDTH, |path| draw_fields(path, &figure))
 }

@@ -16,7 +16,7 @@ const BLESSINGS: usize = 5;
 const LOOSE: f64 = 10.0;
 const LOOSE_SHARE: f64 = 0.1;
 /// Most curves of a picture.
-const SHOWN: usize = 8;
+const SHOWN: usize = 6;
 /// What stands before the name of a column of the series, and of a count of work.
 pub(super) const SERIES: &str = "series/";
 pub(super) const WORK: &str = "work/";

@@ -12,8 +12,9 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{RgbImage, imageops};
 use std::path::Path;
 
-/// Width of a picture, in pixels.
-const WIDTH: u32 = 480;
+/// Width of a picture, in pixels, and of one with a single chart, whose curves are longer.
+pub(super) const WIDTH: u32 = 480;
+const NARROW: u32 = 400;
 /// Step of a colour channel: with sixteen shades a field takes half of the bytes.
 const SHADE: u16 = 17;
 
@@ -36,7 +37,10 @@ pub(super) fn curves(runs: &[Run], abscissa: &str) -> Result<RgbImage, Error> {
         })
         .collect();
     let charts = charts?;
-    small(|path| draw_charts(path, &charts, charts.len().min(2)))
+    let width = if charts.len() == 1 { NARROW } else { WIDTH };
+    small(width, |path| {
+        draw_charts(path, &charts, charts.len().min(2))
+    })
 }
 
 /// A column of a run, as its scheme looks everywhere.
@@ -49,14 +53,17 @@ fn curve(run: &Run, header: &str) -> Result<Series, Error> {
     Ok(series(scheme, points.collect()))
 }
 
-/// What `draw` writes, [`WIDTH`] wide and in few shades.
-pub(super) fn small(draw: impl Fn(&Path) -> Result<(), PlotError>) -> Result<RgbImage, Error> {
+/// What `draw` writes, so wide and in few shades.
+pub(super) fn small(
+    width: u32,
+    draw: impl Fn(&Path) -> Result<(), PlotError>,
+) -> Result<RgbImage, Error> {
     let folder = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
     let path = folder.path().join("picture.png");
     draw(&path)?;
     let picture = read_picture(&path)?;
-    let height = picture.height() * WIDTH / picture.width();
-    let mut picture = imageops::thumbnail(&picture, WIDTH, height);
+    let height = picture.height() * width / picture.width();
+    let mut picture = imageops::thumbnail(&picture, width, height);
     for channel in picture.iter_mut() {
         *channel = ((u16::from(*channel) + SHADE / 2) / SHADE * SHADE) as u8;
     }

@@ -359,8 +359,9 @@ fn pictures_are_small() {
         let line = Series::line("", vec![(0.0, 0.0), (1.0, 1.0)], 0);
         draw_charts(path, &[Chart::new("", ["x", "y"], vec![line])], 1)
     };
-    let blank = small(draw).unwrap();
+    let blank = small(480, draw).unwrap();
     assert_eq!(blank.width(), 480);
+    assert_eq!(small(30, draw).unwrap().width(), 30);
     let whole = tempfile::tempdir().unwrap();
     let path = whole.path().join("whole.png");
     draw(&path).unwrap();
@@ -374,7 +375,7 @@ fn pictures_are_small() {
     );
     assert!(blank.pixels().any(|p| *p == Rgb([255; 3])));
     // Every shade is the nearest of sixteen.
-    let shades = small(|path| {
+    let shades = small(480, |path| {
         let ramp = RgbImage::from_fn(480, 256, |_, y| Rgb([y as u8; 3]));
         write_small(&ramp, path).unwrap();
         Ok(())
