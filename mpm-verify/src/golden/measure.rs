@@ -139,6 +139,24 @@ mod tests {
     }
 
     #[test]
+    fn rows_end_where_the_twin_parts_from_the_run() {
+        let kept = |times: [f64; 2], values: [f64; 2]| {
+            let (a, b) = ([0.0, 1.0, 2.0], [0.0, 1.0, 2.0]);
+            let (twin, of_twin) = ([0.0, times[0], times[1]], [0.0, values[0], values[1]]);
+            let column = rows("moved (m)", [&a, &twin], [&b, &of_twin]).unwrap();
+            column.points.iter().map(|p| p.value).collect::<Vec<_>>()
+        };
+        assert_eq!(kept([1.0, 2.0], [1.0, 2.0]), [0.0, 1.0, 2.0]);
+        assert_eq!(kept([1.5, 2.0], [1.0, 2.0]), [0.0]);
+        assert_eq!(kept([1.0, 2.0], [1.0, f64::NAN]), [0.0, 1.0]);
+        // A row that answers rounding strongly is left out, and what is behind it.
+        assert_eq!(kept([1.0, 2.0], [1.0 + 1e-7, 2.0]), [0.0]);
+        let shorter = rows("moved (m)", [&[0.0, 1.0], &[0.0]], [&[3.0, 4.0], &[3.0]]).unwrap();
+        assert_eq!(shorter.points.len(), 1);
+        assert!(rows("moved (m)", [&[0.0], &[1.0]], [&[3.0], &[3.0]]).is_none());
+    }
+
+    #[test]
     fn a_count_that_answers_rounding_strongly_is_no_golden() {
         let [mut run, mut twin] = [(); 2].map(|()| record("n8", Vec::new()));
         let known = |run: &Record, twin: &Record| -> Vec<String> {
