@@ -1,6 +1,6 @@
 //! The gate: drift and blessing. What a damaged golden says is tried beside its code.
 
-use super::scene::{RUN, SHOWN, Scene};
+use super::scene::{RUN, Scene};
 use super::{code, files, json, stderr, stdout};
 use serde_json::json;
 use std::fs;

@@ -123,11 +123,11 @@ impl Goldens {
         let mut verdicts: Vec<Verdict> = columns.map(|c| now.judge(c, blessing)).collect();
         let case = cases::find(&record.case)?;
         verdicts.extend(self.judge_picture(&now, blessing));
-        if runs(case).first() == Some(&record.folder()) {
-            if let Some(view) = case.field {
-                let files = field::files(&self.root, case.name);
-                verdicts.extend(field::judge(&files, &view, record, folder, blessing)?);
-            }
+        if let Some(view) = case.field
+            && runs(case).first() == Some(&record.folder())
+        {
+            let files = field::files(&self.root, case.name);
+            verdicts.extend(field::judge(&files, &view, record, folder, blessing)?);
         }
         Ok(verdicts)
     }
