@@ -424,6 +424,13 @@ fn pictures_are_small() {
     };
     let both = curves(&[run(&[1.0]), other.clone()], "time (s)").unwrap();
     assert!(both != curves(&[run(&[1.0]), run(&[1.2, 1.4])], "time (s)").unwrap());
+    // A chart has its own column, and what is no series has none.
+    let part = |count: usize| {
+        let mut part = run(&[1.0, 2.0]);
+        part.columns.truncate(count);
+        curves(&[part], "time (s)").unwrap()
+    };
+    assert!(part(1) == part(2) && part(1) != part(3));
     let unknown = Run {
         name: "a/h2".to_owned(),
         ..other
