@@ -280,6 +280,12 @@ fn what_is_exported_is_the_problem() {
     // The unit is that of the metric; of a load that has no reference nothing is demanded.
     let cook = Answer::exported("cook", "h2", &[]).text("reference.csv");
     assert!(cook.contains("\nmid-edge,mid_edge_uy,m,0.26"), "{cook}");
+    let metrics = &find_scored("cook").unwrap().0.metrics;
+    for row in cook.lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let metric = metrics.iter().find(|m| m.name == cells[1]).unwrap();
+        assert_eq!(cells[2], metric.unit, "{row}");
+    }
     let none = Answer::exported("consolidation", "n8", &["load=0.2"]);
     assert_eq!(none.text("reference.csv").lines().count(), 1);
 }
