@@ -175,7 +175,7 @@ fn the_pages_show_the_pictures_that_the_program_draws() {
         })
         .collect();
     // Pictures of goldens are drawn and compared by themselves.
-    let (golden, shown): (Vec<_>, std::collections::BTreeSet<_>) = shown
+    let (golden, shown): (std::collections::BTreeSet<_>, std::collections::BTreeSet<_>) = shown
         .into_iter()
         .partition(|file: &std::path::PathBuf| file.starts_with("docs/../golden"));
     assert!(
