@@ -139,6 +139,12 @@ mod tests {
     }
 
     #[test]
+    fn numbers_are_kept_to_so_many_digits() {
+        assert_eq!(rounded(1.234_56, 3), 1.23);
+        assert_eq!(rounded(-9.996e-9, 3), -1e-8);
+    }
+
+    #[test]
     fn rows_end_where_the_twin_parts_from_the_run() {
         let kept = |times: [f64; 2], values: [f64; 2]| {
             let (a, b) = ([0.0, 1.0, 2.0], [0.0, 1.0, 2.0]);

@@ -93,3 +93,97 @@ pub(super) fn write_small(picture: &RgbImage, path: &Path) -> Result<(), Error> 
     written.map_err(|e| Error::file(path, e))?;
     write_whole(path, &bytes)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::golden::Point;
+    use image::Rgb;
+
+    /// A picture is 480 pixels wide, of sixteen shades, and shows each row: a single one, too.
+    #[test]
+    fn pictures_are_small() {
+        let draw = |path: &Path| {
+            let line = Series::line("", vec![(0.0, 0.0), (1.0, 1.0)], 0);
+            draw_charts(path, &[Chart::new("", ["x", "y"], vec![line])], 1)
+        };
+        let blank = small(480, draw).unwrap();
+        assert_eq!(blank.width(), 480);
+        assert_eq!(small(30, draw).unwrap().width(), 30);
+        let whole = tempfile::tempdir().unwrap();
+        let path = whole.path().join("whole.png");
+        draw(&path).unwrap();
+        let whole = read_picture(&path).unwrap();
+        assert_eq!(blank.height(), whole.height() * 480 / whole.width());
+        assert!(
+            blank
+                .pixels()
+                .flat_map(|p| p.0)
+                .all(|channel| channel % 17 == 0)
+        );
+        assert!(blank.pixels().any(|p| *p == Rgb([255; 3])));
+        // Every shade is the nearest of sixteen.
+        let shades = small(480, |path| {
+            let ramp = RgbImage::from_fn(480, 256, |_, y| Rgb([y as u8; 3]));
+            write_small(&ramp, path).unwrap();
+            Ok(())
+        });
+        for (_, y, pixel) in shades.unwrap().enumerate_pixels() {
+            let nearest = 17 * ((f64::from(y) / 17.0).round() as u8);
+            assert_eq!(pixel.0, [nearest; 3], "{y}");
+        }
+        let run = |times: &[f64]| {
+            let points = times.iter().map(|t| Point {
+                time: Some(*t),
+                value: 2.0,
+                response: 0.0,
+            });
+            let column = |quantity: &str| Column {
+                quantity: quantity.to_owned(),
+                points: points.clone().collect(),
+            };
+            let columns = vec![
+                column("series/a (m)"),
+                column("metric/b (m)"),
+                column("series/c (m)"),
+            ];
+            Run {
+                name: "gimp-fbar-consistent-flip/h2".to_owned(),
+                columns,
+            }
+        };
+        let ink = |picture: &RgbImage| {
+            let coloured = |p: &&Rgb<u8>| p.0[0] != p.0[1] || p.0[1] != p.0[2];
+            picture.pixels().filter(coloured).count()
+        };
+        let [one, two] =
+            [&[1.0][..], &[1.0, 1.5, 2.0]].map(|t| curves(&[run(t)], "time (s)").unwrap());
+        assert!(
+            ink(&one) > 0 && ink(&two) > ink(&one),
+            "{} {}",
+            ink(&one),
+            ink(&two)
+        );
+        // Two charts side by side.
+        assert!(one.height() < blank.height());
+        // A curve a run, as its scheme looks, with a legend.
+        let other = Run {
+            name: "bspline2-none-flip/h2".to_owned(),
+            columns: run(&[1.2, 1.4]).columns,
+        };
+        let both = curves(&[run(&[1.0]), other.clone()], "time (s)").unwrap();
+        assert!(both != curves(&[run(&[1.0]), run(&[1.2, 1.4])], "time (s)").unwrap());
+        // A chart has its own column, and what is no series has none.
+        let part = |count: usize| {
+            let mut part = run(&[1.0, 2.0]);
+            part.columns.truncate(count);
+            curves(&[part], "time (s)").unwrap()
+        };
+        assert!(part(1) == part(2) && part(1) != part(3));
+        let unknown = Run {
+            name: "a/h2".to_owned(),
+            ..other
+        };
+        assert!(curves(&[unknown], "time (s)").is_err() && curves(&[], "time (s)").is_err());
+    }
+}

@@ -1,14 +1,14 @@
 //! Goldens of runs that were never computed.
 
-use super::measure::rounded;
-use super::picture::{curves, small, write_small};
+mod fields;
+
+use super::picture::write_small;
 use super::*;
-use crate::draw::{Chart, Series, draw_charts};
 use crate::files::read_picture;
 use crate::record::fixture::record;
 use crate::record::{Measured, Status};
 use crate::table::Table;
-use image::{Rgb, RgbImage};
+use image::Rgb;
 use std::fs;
 
 /// A run of Cook's membrane, its files, and the folder of its goldens.
@@ -352,200 +352,6 @@ fn the_picture_of_the_first_run_is_kept_and_compared() {
     assert!(made.drift()[0].2.contains("cook.png"));
 }
 
-/// A picture is 480 pixels wide, of sixteen shades, and shows each row: a single one, too.
-#[test]
-fn pictures_are_small() {
-    let draw = |path: &Path| {
-        let line = Series::line("", vec![(0.0, 0.0), (1.0, 1.0)], 0);
-        draw_charts(path, &[Chart::new("", ["x", "y"], vec![line])], 1)
-    };
-    let blank = small(480, draw).unwrap();
-    assert_eq!(blank.width(), 480);
-    assert_eq!(small(30, draw).unwrap().width(), 30);
-    let whole = tempfile::tempdir().unwrap();
-    let path = whole.path().join("whole.png");
-    draw(&path).unwrap();
-    let whole = read_picture(&path).unwrap();
-    assert_eq!(blank.height(), whole.height() * 480 / whole.width());
-    assert!(
-        blank
-            .pixels()
-            .flat_map(|p| p.0)
-            .all(|channel| channel % 17 == 0)
-    );
-    assert!(blank.pixels().any(|p| *p == Rgb([255; 3])));
-    // Every shade is the nearest of sixteen.
-    let shades = small(480, |path| {
-        let ramp = RgbImage::from_fn(480, 256, |_, y| Rgb([y as u8; 3]));
-        write_small(&ramp, path).unwrap();
-        Ok(())
-    });
-    for (_, y, pixel) in shades.unwrap().enumerate_pixels() {
-        let nearest = 17 * ((f64::from(y) / 17.0).round() as u8);
-        assert_eq!(pixel.0, [nearest; 3], "{y}");
-    }
-    let run = |times: &[f64]| {
-        let points = times.iter().map(|t| Point {
-            time: Some(*t),
-            value: 2.0,
-            response: 0.0,
-        });
-        let column = |quantity: &str| Column {
-            quantity: quantity.to_owned(),
-            points: points.clone().collect(),
-        };
-        let columns = vec![
-            column("series/a (m)"),
-            column("metric/b (m)"),
-            column("series/c (m)"),
-        ];
-        Run {
-            name: "gimp-fbar-consistent-flip/h2".to_owned(),
-            columns,
-        }
-    };
-    let ink = |picture: &RgbImage| {
-        let coloured = |p: &&Rgb<u8>| p.0[0] != p.0[1] || p.0[1] != p.0[2];
-        picture.pixels().filter(coloured).count()
-    };
-    let [one, two] = [&[1.0][..], &[1.0, 1.5, 2.0]].map(|t| curves(&[run(t)], "time (s)").unwrap());
-    assert!(
-        ink(&one) > 0 && ink(&two) > ink(&one),
-        "{} {}",
-        ink(&one),
-        ink(&two)
-    );
-    // Two charts side by side.
-    assert!(one.height() < blank.height());
-    // A curve a run, as its scheme looks, with a legend.
-    let other = Run {
-        name: "bspline2-none-flip/h2".to_owned(),
-        columns: run(&[1.2, 1.4]).columns,
-    };
-    let both = curves(&[run(&[1.0]), other.clone()], "time (s)").unwrap();
-    assert!(both != curves(&[run(&[1.0]), run(&[1.2, 1.4])], "time (s)").unwrap());
-    // A chart has its own column, and what is no series has none.
-    let part = |count: usize| {
-        let mut part = run(&[1.0, 2.0]);
-        part.columns.truncate(count);
-        curves(&[part], "time (s)").unwrap()
-    };
-    assert!(part(1) == part(2) && part(1) != part(3));
-    let unknown = Run {
-        name: "a/h2".to_owned(),
-        ..other
-    };
-    assert!(curves(&[unknown], "time (s)").is_err() && curves(&[], "time (s)").is_err());
-}
-
-/// A particle of the field may move by half a pixel, its colour by half a step.
-#[test]
-fn the_field_of_the_first_run_is_kept_and_compared() {
-    let made = Made::of(0);
-    let [file, picture] = field::files(&made.goldens(), "cook");
-    assert_eq!(
-        [&file, &picture],
-        [
-            &made.goldens().join("cook-field.csv"),
-            &made.goldens().join("cook-field.png")
-        ]
-    );
-    let text = fs::read_to_string(&file).unwrap();
-    let rows: Vec<&str> = text.lines().collect();
-    // That beside the window is not kept; those on its edge are.
-    assert_eq!(
-        rows,
-        [
-            "particle,x (m),y (m),value",
-            "0,10,10,-1",
-            "1,20,30,0",
-            "3,0,60,1"
-        ]
-    );
-    let (pixel, colour) = (60.0 / 240.0, 2.0 / 16.0);
-    let view = cases::find("cook").unwrap().field.unwrap();
-    let differ = || {
-        let files = [file.clone(), picture.clone()];
-        let found = field::judge(&files, &view, &made.record, made.folder.path(), "");
-        found.unwrap()[0].value
-    };
-    for (column, moved, differing) in [
-        (0, 0.49 * pixel, 0.0),
-        (0, -0.51 * pixel, 1.0),
-        (1, 0.51 * pixel, 1.0),
-        (1, -0.49 * pixel, 0.0),
-        (3, 0.51 * colour, 1.0),
-        (3, -0.49 * colour, 0.0),
-        (3, f64::NAN, 1.0),
-    ] {
-        let mut particles = Made::particles();
-        particles[column].1[1] += moved;
-        made.write("particles.csv", &particles);
-        assert_eq!(differ(), Some(differing), "{column} {moved}");
-    }
-    // A pixel is a share of what is shown, wherever that begins.
-    let shown = [(8.0, 32.0), (6.0, 36.0)];
-    let view = crate::case::FieldView {
-        window: shown,
-        range: (-2.0, 1.0),
-        ..view
-    };
-    let files = ["part.csv", "part.png"].map(|name| made.folder.path().join(name));
-    made.write("particles.csv", &Made::particles());
-    field::bless(&files, &view, &made.record, made.folder.path()).unwrap();
-    for (column, step) in [(0, 30.0 / 240.0), (1, 30.0 / 240.0), (3, 3.0 / 16.0)] {
-        for (share, differing) in [(0.49, 0.0), (0.51, 1.0)] {
-            let mut particles = Made::particles();
-            particles[column].1[1] += share * step;
-            made.write("particles.csv", &particles);
-            let found = field::judge(&files, &view, &made.record, made.folder.path(), "").unwrap();
-            assert_eq!(found[0].value, Some(differing), "{column} {share}");
-        }
-    }
-    let mut particles = Made::particles();
-    particles[3].1 = vec![0.0; 4];
-    made.write("particles.csv", &particles);
-    let drift = made.drift();
-    assert_eq!((drift.len(), drift[0].1), (2, Some(2.0)));
-    assert_eq!(drift[1].0, "different pixels of the field");
-    assert!(drift[1].1 > Some(0.0));
-    // Particles that are gone differ.
-    let fewer = Made::particles().map(|(name, values)| (name, values[..1].to_vec()));
-    made.write("particles.csv", &fewer);
-    assert_eq!(differ(), Some(2.0));
-    made.write("particles.csv", &Made::particles()[..3]);
-    let goldens = Goldens::open(&made.goldens()).unwrap();
-    let said = goldens
-        .compare(&made.record, made.folder.path())
-        .unwrap_err()
-        .to_string();
-    assert!(
-        said.contains("particles.csv") && said.contains("no column mean_stress"),
-        "{said}"
-    );
-
-    made.write("particles.csv", &Made::particles());
-    let mut other = read_picture(&picture).unwrap();
-    other.put_pixel(5, 5, Rgb([9; 3]));
-    write_small(&other, &picture).unwrap();
-    let drift = made.drift();
-    assert_eq!((drift.len(), drift[0].1), (1, Some(1.0)));
-    fs::remove_file(&picture).unwrap();
-    assert!(made.drift()[0].2.contains("cook-field.png"));
-    for damaged in [
-        rows[0].to_owned() + "\n",
-        text.replace("value", "stress"),
-        text[..40].to_owned(),
-    ] {
-        fs::write(&file, damaged).unwrap();
-        assert!(
-            made.drift()[0].2.contains("cook-field.csv"),
-            "{:?}",
-            made.drift()
-        );
-    }
-}
-
 #[test]
 fn counts_are_summed_over_the_runs_of_a_case() {
     let case = cases::find("cook").unwrap();
@@ -595,6 +401,4 @@ fn goldens_are_where_they_are_asked_for() {
     assert!(place(None).ends_with("golden") && place(None).is_dir());
     assert_eq!(bare("tip_uy (m)"), "tip_uy");
     assert_eq!(bare("tip_uy"), "tip_uy");
-    assert_eq!(rounded(1.234_56, 3), 1.23);
-    assert_eq!(rounded(-9.996e-9, 3), -1e-8);
 }
