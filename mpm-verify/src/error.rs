@@ -110,10 +110,12 @@ impl Error {
         given: &str,
         allowed: impl IntoIterator<Item = &'a str>,
     ) -> Self {
-        let allowed: Vec<&str> = allowed.into_iter().collect();
-        Self::Input(format!(
-            "unknown {kind} \"{given}\"; allowed: {}",
-            allowed.join(", ")
-        ))
+        mpm_exact::Error::unknown(kind, given, allowed).into()
+    }
+}
+
+impl From<mpm_exact::Error> for Error {
+    fn from(refusal: mpm_exact::Error) -> Self {
+        Self::Input(refusal.to_string())
     }
 }

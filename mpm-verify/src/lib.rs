@@ -16,7 +16,6 @@ mod crash;
 pub mod draw;
 pub mod drive;
 pub mod error;
-pub mod exact;
 pub mod files;
 pub mod foreign;
 pub mod gallery;
@@ -24,7 +23,6 @@ pub mod golden;
 pub mod job;
 pub mod metric;
 pub mod night;
-pub mod parameter;
 pub mod probe;
 pub mod record;
 pub mod report;
@@ -38,6 +36,7 @@ pub mod study;
 pub mod table;
 pub mod verdict;
 
+pub use mpm_exact::{self as exact, parameter};
 pub use mpm_solvers::scheme;
 
 /// Each value once, in order of appearance.

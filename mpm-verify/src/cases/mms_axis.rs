@@ -12,7 +12,7 @@ use super::manufactured::{CFL, Manufactured, PPC_PER_DIRECTION, all_parameters, 
 use super::parameters::{DYNAMIC, STEP_SCALING, WALL, WALL_LINE};
 use crate::case::{Case, Family, Tier};
 use crate::exact::axis_aligned::{ENTRY, HALF_WAVES};
-use crate::exact::parameters::{AMPLITUDE, DIMENSION};
+use crate::exact::common::{AMPLITUDE, DIMENSION};
 use crate::metric::{Metric, Sweep};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};

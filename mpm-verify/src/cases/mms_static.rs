@@ -12,11 +12,10 @@ use super::mms_vortex_box::{LOCKING_CURVE, WAVE};
 use super::parameters::{POISSON_RATIO, UNSEEN};
 use crate::case::{Case, Family, Tier};
 use crate::check::{Check, Finding, study};
-use crate::error::Error;
-use crate::exact::parameters::ANGULAR_FREQUENCY;
+use crate::exact::common::ANGULAR_FREQUENCY;
 use crate::exact::twist::ANGLE;
 use crate::exact::vortex_pressure::PRESSURE;
-use crate::exact::{Exact, swirl, vortex_pressure};
+use crate::exact::{self, Exact, swirl, vortex_pressure};
 use crate::metric::Metric;
 use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use crate::record::Record;
@@ -97,13 +96,13 @@ fn all_parameters() -> Vec<Parameter> {
     all
 }
 
-fn solution(p: &Parameters) -> Result<Box<dyn Exact>, Error> {
+fn solution(p: &Parameters) -> Result<Box<dyn Exact>, exact::Error> {
     if p.number(DIMENSION) == 2.0 {
         return (vortex_pressure::ENTRY.build)(p);
     }
     if p.number(PRESSURE) != 0.0 {
         let given = p.number(PRESSURE);
-        return Err(Error::Input(format!(
+        return Err(exact::Error(format!(
             "pressure = {given} with dimension = 3; allowed: 0"
         )));
     }

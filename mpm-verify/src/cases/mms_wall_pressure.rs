@@ -10,7 +10,7 @@ use super::manufactured::{Manufactured, all_parameters, levels};
 use super::mms_axis;
 use super::parameters::DYNAMIC;
 use crate::case::{Case, Family, Tier};
-use crate::exact::parameters::AMPLITUDE;
+use crate::exact::common::AMPLITUDE;
 use crate::exact::wall_pressure::ENTRY;
 use crate::metric::Metric;
 use crate::record::Record;

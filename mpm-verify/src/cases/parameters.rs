@@ -6,7 +6,7 @@ use crate::record::Record;
 use crate::spec::RunSpec;
 use std::ops::RangeInclusive;
 
-pub(super) use crate::exact::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
+pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 
 /// What `fbar-consistent` keeps of a strain that Π can't see: ε of `docs/remedy.md`, whose square is the share of the bulk
 /// modulus that resists it.

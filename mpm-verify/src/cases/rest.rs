@@ -12,8 +12,8 @@ use super::manufactured::{Boundary, CFL, Manufactured, all_parameters};
 use super::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::case::{Case, Family, Tier};
 use crate::check::{Check, judge, run};
+use crate::exact::common::GRAVITY;
 use crate::exact::incline::{ENTRY, INCLINATION, THICKNESS};
-use crate::exact::parameters::GRAVITY;
 use crate::record::Record;
 use crate::results::{Column, ResultTable, SCHEME, SHORT, fixed, headline};
 use crate::scheme::{BasisName, RemedyName};
@@ -47,7 +47,7 @@ pub(super) fn case() -> Case {
     let parameters = all_parameters(ENTRY.parameters, &[(CFL, "0.3")], "2", &[]);
     Case {
         references: vec![
-            "Exact state of rest at finite deformation, src/exact/incline.rs.".to_owned(),
+            "Exact state of rest at finite deformation, exact/src/incline.rs.".to_owned(),
             "What fbar-recursive tends to: J̄ that is the same everywhere, docs/rest.md.".to_owned(),
         ],
         limits: &[

@@ -15,11 +15,10 @@ use super::manufactured::{
 use super::parameters::{DENSITY, DYNAMIC, FLIP};
 use crate::case::{Case, Tier};
 use crate::check::{Check, Finding, judge, run};
-use crate::error::Error;
+use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::Hydrostatic;
-use crate::exact::parameters::GRAVITY;
 use crate::exact::standing_wave::{DEPTH, ENTRY, HALF_WAVES, StandingWave, WIDTH};
-use crate::exact::{Exact, Material};
+use crate::exact::{self, Exact, Material};
 use crate::metric::error;
 use crate::parameter::{Parameters, number, parameters};
 use crate::record::Record;
@@ -40,7 +39,7 @@ struct CompressibleWave {
 }
 
 impl CompressibleWave {
-    fn new(p: &Parameters) -> Result<Self, Error> {
+    fn new(p: &Parameters) -> Result<Self, exact::Error> {
         let wave = StandingWave::new(p)?;
         let rest = Hydrostatic {
             density: wave.density,

@@ -15,10 +15,9 @@ use super::mms_vortex_box::{NULL_SPACE, feeds_null_space};
 use super::parameters::{DYNAMIC, LUMPED};
 use crate::case::{Case, Tier};
 use crate::check::{Check, Finding, judge, run, study};
-use crate::error::Error;
-use crate::exact::Exact;
-use crate::exact::parameters::AMPLITUDE;
+use crate::exact::common::AMPLITUDE;
 use crate::exact::vibrating_bar::{ENDS, ENTRY, VibratingBar};
+use crate::exact::{self, Exact};
 use crate::metric::{Metric, error};
 use crate::parameter::Parameters;
 use crate::record::Record;
@@ -97,10 +96,10 @@ const HALF: f64 = 0.5;
 const GONE: f64 = 0.05;
 
 /// The wave of a bar whose ends are held.
-fn between_walls(p: &Parameters) -> Result<Box<dyn Exact>, Error> {
+fn between_walls(p: &Parameters) -> Result<Box<dyn Exact>, exact::Error> {
     match p.is(ENDS, "fixed-fixed") {
         true => (ENTRY.build)(p),
-        false => Err(Error::Input(format!(
+        false => Err(exact::Error(format!(
             "parameter ends: {} is that of the exact solution alone; allowed: fixed-fixed",
             p.text(ENDS)
         ))),

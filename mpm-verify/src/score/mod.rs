@@ -49,7 +49,8 @@ impl Scored {
         let (case, foreign) = find_scored(&manifest.case.0).map_err(refuse("case"))?;
         let level = find_level(case, &manifest.level.0).map_err(refuse("level"))?;
         let set = manifest.parameters.0.clone();
-        let parameters = Parameters::new(&case.parameters, &set).map_err(refuse("parameters"))?;
+        let parameters =
+            Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters")(e.into()))?;
         let spec = RunSpec {
             scheme: (foreign.judged_as)(manifest.basis.0),
             level,

@@ -234,9 +234,9 @@ impl Plan {
         let mut seen = BTreeSet::new();
         for run in &self.runs {
             let folder = run.folder();
-            let names = run
-                .resolve()
-                .and_then(|(case, spec)| Parameters::new(&case.parameters, &spec.set).map(drop));
+            let names = run.resolve().and_then(|(case, spec)| {
+                Ok(Parameters::new(&case.parameters, &spec.set).map(drop)?)
+            });
             names.map_err(|e| e.to_string())?;
             if !(1..=count).contains(&run.shard) {
                 return Err(format!(

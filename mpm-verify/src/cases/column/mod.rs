@@ -16,8 +16,8 @@ use super::manufactured::{
 use super::parameters::DENSITY;
 use crate::case::{Case, Family, Tier};
 use crate::check::{Check, Finding, judge, run};
+use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::{ENTRY, HEIGHT};
-use crate::exact::parameters::GRAVITY;
 use crate::record::Record;
 use crate::results::headline;
 use crate::scheme::{BasisName, RemedyName};

@@ -8,7 +8,7 @@ use super::metrics::{BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_SCALE, MASS, STRES
 use crate::accuracy::fit_order;
 use crate::cases::parameters::{DENSITY, POISSON_RATIO, UNSEEN, YOUNG_MODULUS};
 use crate::check::{Check, Finding, On, judge, run, study};
-use crate::exact::parameters::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
+use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::record::Record;

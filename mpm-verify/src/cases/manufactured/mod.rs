@@ -15,7 +15,7 @@ mod watch;
 use super::parameters;
 use crate::case::Case;
 use crate::error::Error;
-use crate::exact::Exact;
+use crate::exact::{self, Exact};
 use crate::job::Job;
 use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use crate::spec::{Level, RunSpec};
@@ -42,7 +42,7 @@ pub(super) enum Boundary {
 #[derive(Clone, Copy)]
 pub(super) struct Manufactured {
     /// Makes the exact solution.
-    pub(super) solution: fn(&Parameters) -> Result<Box<dyn Exact>, Error>,
+    pub(super) solution: fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>,
     pub(super) boundary: Boundary,
     /// Whether the body is a fluid.
     pub(super) fluid: bool,
@@ -54,7 +54,7 @@ pub(super) struct Manufactured {
 
 impl Manufactured {
     /// A solid between rollers.
-    pub(super) fn solid(solution: fn(&Parameters) -> Result<Box<dyn Exact>, Error>) -> Self {
+    pub(super) fn solid(solution: fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>) -> Self {
         Self {
             solution,
             boundary: Boundary::Walls(WallKind::Roller),

@@ -4,7 +4,7 @@ use super::{Boundary, DURATION, HOLD, Manufactured, RELAXATION, STEP_POISSON_RAT
 use crate::cases::observe::{implicit_settings, settings};
 use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS, cfl};
 use crate::error::Error;
-use crate::exact::parameters::ANGULAR_FREQUENCY;
+use crate::exact::common::ANGULAR_FREQUENCY;
 use crate::exact::{Exact, Material};
 use crate::parameter::{Parameter, Parameters};
 use crate::scheme::{RemedyName, Scheme};

@@ -1,7 +1,7 @@
 //! What may be changed of the motion.
 
 use crate::cases::parameters as common;
-use crate::exact::parameters as of_solutions;
+use crate::exact::common as of_solutions;
 use crate::parameter::{Domain, Parameter, number, parameters};
 
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("1e5");

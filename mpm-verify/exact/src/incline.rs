@@ -12,9 +12,9 @@
 //!
 //! The foot is fixed, the surface free, the sides are one.
 
-use super::parameters::{GRAVITY, POISSON_RATIO, YOUNG_MODULUS};
+use super::common::{GRAVITY, POISSON_RATIO, YOUNG_MODULUS};
 use super::{Entry, Exact, Material};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Vector3};
 
@@ -28,14 +28,15 @@ pub struct Incline {
     size: [f64; 2],
 }
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "incline",
     summary: "layer at rest on an incline under its weight, finite deformation",
     parameters: &PARAMETERS,
     build: |p| Ok(Box::new(Incline::new(p)?)),
 };
 
-parameters! { pub(crate) const:
+parameters! { pub const:
     INCLINATION = "inclination", "°", "30", number(0.0, 80.0, false), "angle θ of the layer from the horizontal";
     LENGTH = "length", "m", "1", number(1e-3, 1e3, false), "length of a period along the layer";
     THICKNESS = "thickness", "m", "2", number(1e-3, 1e3, false), "height H of the layer without gravity";
@@ -63,7 +64,7 @@ impl Incline {
         let (young, ratio) = (p.number(YOUNG_MODULUS), p.number(POISSON_RATIO));
         let weight = layer.weight(1, 0.0);
         if weight > 0.1 * young {
-            return Err(Error::Input(format!(
+            return Err(Error(format!(
                 "young_modulus = {young} with poisson_ratio = {ratio} bears {weight:e} Pa at the foot badly; allowed: at \
                  least ten times that"
             )));
@@ -145,7 +146,7 @@ impl Exact for Incline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     #[test]
     fn it_balances_gravity_at_any_angle() {

@@ -15,9 +15,9 @@
 //! 0.1; in deep water the true frequency is then lower by (ak)²/8 (Tadjbakhsh & Keller 1960, J. Fluid
 //! Mech. 8, 442–451), about 0.1 %. J = det F is 1 to first order.
 
-use super::parameters::{DENSITY, GRAVITY};
+use super::common::{DENSITY, GRAVITY};
 use super::{Entry, Exact, Material, require_below, sine};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
@@ -39,14 +39,15 @@ pub struct StandingWave {
     pub wave_number: f64,
 }
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "standing-wave",
     summary: "linear standing gravity wave in a box",
     parameters: &PARAMETERS,
     build: |p| Ok(Box::new(StandingWave::new(p)?)),
 };
 
-parameters! { pub(crate) const:
+parameters! { pub const:
     WIDTH = "width", "m", "1", number(1e-3, 1e3, false), "width L of the box";
     DEPTH = "depth", "m", "0.5", number(1e-3, 1e3, false), "depth H at rest";
     AMPLITUDE = "amplitude", "m", "0.01", number(0.0, 1e2, false), "amplitude a of the surface";
@@ -187,7 +188,7 @@ impl Exact for StandingWave {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     fn wave(set: &[&str]) -> StandingWave {
         let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();

@@ -11,9 +11,9 @@
 //! Kamojjala, Brannon, Sadeghirad & Guilkey 2015 (doi:10.1007/s00366-013-0342-x); h as a function of
 //! R² spares the division by R on the axis.
 
-use super::parameters::ANGULAR_FREQUENCY;
+use super::common::ANGULAR_FREQUENCY;
 use super::{Exact, Material, sine};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Parameters, number, parameters};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3, Vector4};
 use std::f64::consts::TAU;
@@ -130,7 +130,7 @@ impl Twist {
     }
 }
 
-parameters! { pub(crate) const:
+parameters! { pub const:
     ANGLE = "angle", "rad", "1", number(0.0, TAU, false), "largest angle α₀";
 }
 

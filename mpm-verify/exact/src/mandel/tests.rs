@@ -1,7 +1,7 @@
 //! The series against its equations, independent solutions of them, and limits.
 
 use super::*;
-use crate::exact::terzaghi;
+use crate::terzaghi;
 
 const RATIOS: [f64; 6] = [-0.5, 0.0, 0.25, 0.4, 0.49, 0.499];
 

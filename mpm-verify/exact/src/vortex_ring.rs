@@ -7,20 +7,21 @@
 //! material at rest, its sides are fixed. h″, and with it b, jumps at the circles. u, b and P do not
 //! depend on λ.
 
-use super::parameters::ANGULAR_FREQUENCY;
+use super::common::ANGULAR_FREQUENCY;
 use super::twist::{self, PLANE, Place, Shape, Vortex};
 use super::{Entry, Material};
 use crate::parameter::Parameter;
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "mms-vortex-ring",
     summary: "isochoric vortex in a ring, material at rest around it",
     parameters: &PARAMETERS,
     build: |p| Ok(Box::new(Vortex::new(p, RING)?)),
 };
 
-// π/4.
-pub(crate) const ANGLE: Parameter = twist::ANGLE.with_default("0.7853981633974483");
+/// Largest angle α₀, π/4 (rad).
+pub const ANGLE: Parameter = twist::ANGLE.with_default("0.7853981633974483");
 
 const PARAMETERS: [Parameter; 5] = Material::parameters(
     ["1e3", "0.3"],
@@ -53,7 +54,7 @@ const RING: Shape = Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
     use nalgebra::Vector3;
 
     #[test]

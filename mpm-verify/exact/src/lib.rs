@@ -5,29 +5,30 @@
 //! undeformed, so that a simulation needs no more than the initial velocity, but for the column at
 //! rest. [`slope`] is no motion but a limit load.
 
-pub(crate) mod axis_aligned;
+pub mod axis_aligned;
 #[cfg(test)]
 mod check;
-pub(crate) mod double_shear;
+pub mod common;
+pub mod double_shear;
 mod free_fall;
-pub(crate) mod hydrostatic;
-pub(crate) mod incline;
+pub mod hydrostatic;
+pub mod incline;
 pub mod mandel;
 mod material;
-pub(crate) mod parameters;
+pub mod parameter;
 mod patch;
 pub mod poro;
 mod rigid;
 pub mod slope;
-pub(crate) mod standing_wave;
-pub(crate) mod swirl;
+pub mod standing_wave;
+pub mod swirl;
 pub mod terzaghi;
-pub(crate) mod twist;
-pub(crate) mod vibrating_bar;
-pub(crate) mod vortex_box;
-pub(crate) mod vortex_pressure;
-pub(crate) mod vortex_ring;
-pub(crate) mod wall_pressure;
+pub mod twist;
+pub mod vibrating_bar;
+pub mod vortex_box;
+pub mod vortex_pressure;
+pub mod vortex_ring;
+pub mod wall_pressure;
 
 pub use axis_aligned::AxisAligned;
 pub use double_shear::DoubleShear;
@@ -44,11 +45,31 @@ pub use vibrating_bar::VibratingBar;
 pub use vortex_pressure::VortexPressure;
 pub use wall_pressure::WallPressure;
 
-use crate::error::Error;
-use crate::parameter::{Parameter, Parameters, Value, number, parameter};
 use nalgebra::{Matrix3, Vector3};
+use parameter::{Parameter, Parameters, Value, number, parameter};
 use serde::Serialize;
 use std::fmt;
+
+/// What was asked for is not allowed; the text names what is.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Error(pub String);
+
+impl Error {
+    /// "unknown {kind} "{given}"; allowed: …".
+    #[must_use]
+    pub fn unknown<'a>(
+        kind: &str,
+        given: &str,
+        allowed: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        let allowed: Vec<&str> = allowed.into_iter().collect();
+        Self(format!(
+            "unknown {kind} \"{given}\"; allowed: {}",
+            allowed.join(", ")
+        ))
+    }
+}
 
 /// An exact solution. Reference points have three components, of which those beyond
 /// [`Exact::dimension`] are ignored; a motion in fewer dimensions is one of uniaxial or plane strain.
@@ -206,7 +227,7 @@ impl State {
     pub fn json(&self) -> Result<String, Error> {
         match serde_json::to_string(self) {
             Ok(text) => Ok(text + "\n"),
-            Err(e) => Err(Error::Input(e.to_string())),
+            Err(e) => Err(Error(e.to_string())),
         }
     }
 }
@@ -216,7 +237,7 @@ fn reference_point(solution: &dyn Exact, at: &str) -> Result<Vector3<f64>, Error
     let names = &["--at x", "--at y", "--at z"][..solution.dimension()];
     let coordinates: Vec<&str> = at.split(',').collect();
     if coordinates.len() != names.len() {
-        return Err(Error::Input(format!(
+        return Err(Error(format!(
             "--at \"{at}\" has {} coordinates; allowed: {}, separated by commas",
             coordinates.len(),
             names.len()
@@ -234,7 +255,7 @@ fn reference_point(solution: &dyn Exact, at: &str) -> Result<Vector3<f64>, Error
 fn read(what: &Parameter, text: &str) -> Result<f64, Error> {
     match what.parse(text.trim())? {
         Value::Number(x) => Ok(x),
-        _ => Err(Error::Input(format!("{} is not a number", what.name))),
+        _ => Err(Error(format!("{} is not a number", what.name))),
     }
 }
 
@@ -243,7 +264,7 @@ fn require_below([name, unit, otherwise]: [&str; 3], value: f64, limit: f64) -> 
     if value.abs() < limit {
         return Ok(());
     }
-    Err(Error::Input(format!(
+    Err(Error(format!(
         "parameter {name}: {value} {otherwise}; allowed: a size below {limit} ({unit})"
     )))
 }

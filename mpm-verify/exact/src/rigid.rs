@@ -4,7 +4,7 @@
 //! x = c + Q(Ωt) (X − c), needs the centripetal b = −Ω² (x − c).
 
 use super::{Entry, Exact, Material};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Vector3};
 
@@ -145,7 +145,7 @@ impl Exact for Rotation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     #[test]
     fn they_solve_the_equations() {

@@ -56,7 +56,7 @@ mod sliding;
 
 pub use sliding::Sliding;
 
-use crate::error::Error;
+use crate::Error;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -460,7 +460,7 @@ fn within(what: [&str; 2], value: f64, [least, most]: [f64; 2]) -> Result<(), Er
 }
 
 fn refusal([name, unit]: [&str; 2], value: f64, allowed: &str) -> Error {
-    Error::Input(format!(
+    Error(format!(
         "{name}: {value} is out of range; allowed: {allowed} ({unit})"
     ))
 }

@@ -1,8 +1,8 @@
 //! Free fall from rest: u = −½ g t² along the last axis; no strain, no stress, whatever the law.
 
-use super::parameters::{DIMENSION, GRAVITY};
+use super::common::{DIMENSION, GRAVITY};
 use super::{Entry, Exact, Material};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
 
@@ -71,7 +71,7 @@ impl Exact for FreeFall {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     #[test]
     fn it_solves_the_equations_in_every_dimension() {
@@ -84,7 +84,7 @@ mod tests {
     #[test]
     fn a_second_of_fall_is_half_of_g() {
         let s = check::solution(&ENTRY, &["dimension=3", "gravity=10"]);
-        let state = crate::exact::State::of(s.as_ref(), &Vector3::zeros(), 1.0);
+        let state = crate::State::of(s.as_ref(), &Vector3::zeros(), 1.0);
         assert_eq!((state.u[2], state.v[2], state.b[2]), (-5.0, -10.0, -10.0));
         assert_eq!(state.p, [[0.0; 3]; 3]);
     }

@@ -4,9 +4,9 @@
 //! u_i = A sin(k X_i) T_i, T_i = sin(ωt + φ_i) − sin φ_i, φ = 0, 2π/3, 4π/3 on the cube \[0, 1\]^d. F is
 //! diagonal and so is P; u_i = 0 where X_i = 0 or 1: rollers on all sides are exact.
 
-use super::parameters::{AMPLITUDE, ANGULAR_FREQUENCY, DIMENSION};
+use super::common::{AMPLITUDE, ANGULAR_FREQUENCY, DIMENSION};
 use super::{Entry, Exact, INVERTS, Material, require_below};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Domain, Parameter, Parameters, parameters};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -26,14 +26,15 @@ pub struct AxisAligned {
     pub angular_frequency: f64,
 }
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "mms-axis",
     summary: "axis-aligned displacement, d = 1, 2, 3",
     parameters: &PARAMETERS,
     build: |p| Ok(Box::new(AxisAligned::new(p)?)),
 };
 
-parameters! { pub(crate) const:
+parameters! { pub const:
     HALF_WAVES = "half_waves", "-", "2", Domain::Integer { least: 1, most: 16 },
         "number of half waves m across the body, k = mπ";
 }
@@ -138,7 +139,7 @@ impl Exact for AxisAligned {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     #[test]
     fn it_solves_the_equations_between_rollers_in_every_dimension() {

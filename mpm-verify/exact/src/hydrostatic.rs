@@ -8,9 +8,9 @@
 //!
 //! Rollers on the floor and the sides, a free surface. J > 0 as long as ρ₀ g H < K.
 
-use super::parameters::{DENSITY, GRAVITY};
+use super::common::{DENSITY, GRAVITY};
 use super::{Entry, Exact, INVERTS, Material, require_below};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Vector3};
 
@@ -29,14 +29,15 @@ pub struct Hydrostatic {
     pub height: f64,
 }
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "hydrostatic",
     summary: "column of fluid at rest under its weight, finite compression",
     parameters: &PARAMETERS,
     build: |p| Ok(Box::new(Hydrostatic::new(p)?)),
 };
 
-parameters! { pub(crate) const:
+parameters! { pub const:
     BULK_MODULUS = "bulk_modulus", "Pa", "2e9", number(1e-3, 1e12, false), "bulk modulus K";
     WIDTH = "width", "m", "1", number(1e-3, 1e3, false), "width";
     HEIGHT = "height", "m", "2", number(1e-3, 1e3, false), "height H without gravity";
@@ -70,7 +71,7 @@ impl Hydrostatic {
     ///
     /// # Errors
     /// A height at which the floor would carry more than K.
-    pub(crate) fn upright(self, height: &str) -> Result<Self, Error> {
+    pub fn upright(self, height: &str) -> Result<Self, Error> {
         let limit = self.bulk_modulus / (self.density * self.gravity);
         require_below([height, "m", INVERTS], self.height, limit)?;
         Ok(self)
@@ -132,7 +133,7 @@ impl Exact for Hydrostatic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     #[test]
     fn it_balances_gravity_at_any_compression() {

@@ -9,11 +9,11 @@
 //!
 //! x,AB = Σ_ab x,ab X̂_a,A X̂_b,B + Σ_a x,a X̂_a,AB.
 
-use super::parameters::ANGULAR_FREQUENCY;
+use super::common::ANGULAR_FREQUENCY;
 use super::twist::{ANGLE, Vortex};
 use super::vortex_box::BOX;
 use super::{Entry, Exact, INVERTS, Material, require_below, sine};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3};
 use std::f64::consts::TAU;
@@ -27,14 +27,15 @@ pub struct VortexPressure {
     pub pressure: f64,
 }
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "mms-vortex-pressure",
     summary: "vortex in the unit square with a pressure that stays bounded as ν → ½",
     parameters: &PARAMETERS,
     build: |p| Ok(Box::new(VortexPressure::new(p)?)),
 };
 
-parameters! { pub(crate) const:
+parameters! { pub const:
     PRESSURE = "pressure", "Pa", "100", number(0.0, 1e12, false), "amplitude p₀ of λ ln J";
 }
 
@@ -151,7 +152,7 @@ impl Exact for VortexPressure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     #[test]
     fn it_solves_the_equations_between_rollers() {

@@ -9,9 +9,9 @@
 //! amount ε of the largest strain kA, which is held below 0.01; the deviation of the frequency, an
 //! even function of the amplitude, is of order (kA)².
 
-use super::parameters::AMPLITUDE;
+use super::common::AMPLITUDE;
 use super::{Entry, Exact, Material, require_below, sine};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
@@ -29,14 +29,15 @@ pub struct VibratingBar {
     pub wave_number: f64,
 }
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "vibrating-bar",
     summary: "standing wave of a linear elastic bar between fixed ends or with one free",
     parameters: &PARAMETERS,
     build: |p| Ok(Box::new(VibratingBar::new(p)?)),
 };
 
-parameters! { pub(crate) const:
+parameters! { pub const:
     LENGTH = "length", "m", "1", number(1e-3, 1e3, false), "length L";
     MODE = "mode", "-", "1", Domain::Integer { least: 1, most: 16 }, "number n of the mode";
     ENDS = "ends", "-", "fixed-fixed", Domain::Choice(&["fixed-fixed", "fixed-free"]),
@@ -143,7 +144,7 @@ impl Exact for VibratingBar {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     fn bar(ends: &str, amplitude: f64) -> VibratingBar {
         let set = [

@@ -2,7 +2,7 @@
 
 use crate::parameter::{Domain, number, parameters};
 
-parameters! { pub(crate) const:
+parameters! { pub const:
     DIMENSION = "dimension", "-", "2", Domain::Integer { least: 1, most: 3 },
         "dimension: 1 uniaxial strain, 2 plane strain, 3";
     ANGULAR_FREQUENCY = "angular_frequency", "rad/s", "1", number(1e-6, 1e6, false), "angular frequency ω";

@@ -5,14 +5,15 @@
 //! In cylindrical coordinates P = μ \[R α_R (e_r E_Θ + e_θ E_R) + R α_Z (e_θ E_Z + e_z E_Θ)\], and
 //! b_r = −R α_t² + (μ/ρ₀) R (α_R² + α_Z²), b_θ = R α_tt − (μ/ρ₀) (3 α_R + R α_RR + R α_ZZ), b_z = 0.
 
-use super::parameters::ANGULAR_FREQUENCY;
+use super::common::ANGULAR_FREQUENCY;
 use super::twist::{ANGLE, Place, Shape, Vortex};
 use super::vortex_box::profile;
 use super::{Entry, Material};
 use crate::parameter::Parameter;
 use std::f64::consts::{PI, TAU};
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "mms-swirl",
     summary: "isochoric swirl in the unit cube",
     parameters: &PARAMETERS,
@@ -46,7 +47,7 @@ const SWIRL: Shape = Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
     use crate::parameter::Parameters;
     use nalgebra::Vector3;
 

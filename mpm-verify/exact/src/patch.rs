@@ -4,9 +4,9 @@
 //! so Div P = 0 and b = a = −ω² u: any scheme that reproduces linear fields gets the stress right. The
 //! sides follow the motion. det F = 1 + s tr G + s² det G must stay positive for −1 ≤ s ≤ 1.
 
-use super::parameters::ANGULAR_FREQUENCY;
+use super::common::ANGULAR_FREQUENCY;
 use super::{Entry, Exact, INVERTS, Material, sine};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Parameter, Parameters, number, parameters};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
@@ -56,7 +56,7 @@ impl Patch {
         let gradient = Matrix2::new(xx, xy, yx, yy);
         let least = least_jacobian(gradient.trace(), gradient.determinant());
         if least <= 0.0 {
-            return Err(Error::Input(format!(
+            return Err(Error(format!(
                 "parameters g_xx, g_xy, g_yx, g_yy: {xx}, {xy}, {yx}, {yy} {INVERTS}, down to {least}; \
                  allowed: 1 + s (g_xx + g_yy) + s² (g_xx g_yy − g_xy g_yx) above 0 for s from −1 to 1"
             )));
@@ -109,7 +109,7 @@ impl Exact for Patch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     #[test]
     fn it_solves_the_equations() {

@@ -14,9 +14,9 @@
 //! u_i = 0 where X_i = 0 or 1, and no shear traction acts: rollers on all sides are exact. F_ii > 0
 //! as long as 4A < 1.
 
-use super::parameters::{AMPLITUDE, ANGULAR_FREQUENCY, DIMENSION};
+use super::common::{AMPLITUDE, ANGULAR_FREQUENCY, DIMENSION};
 use super::{Entry, Exact, INVERTS, Material, require_below, sine};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
 
@@ -33,7 +33,8 @@ pub struct WallPressure {
     pub angular_frequency: f64,
 }
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "mms-wall-pressure",
     summary: "axis-aligned displacement with a pressure gradient normal to the walls, d = 1, 2, 3",
     parameters: &PARAMETERS,
@@ -120,7 +121,7 @@ impl Exact for WallPressure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     #[test]
     fn it_solves_the_equations_between_rollers_in_every_dimension() {

@@ -5,8 +5,8 @@
 //! b = a − Div P/ρ₀ of a motion that is chosen (the method of manufactured solutions, Roache 2002,
 //! doi:10.1115/1.1436090).
 
-use super::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
-use crate::error::Error;
+use super::common::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
+use crate::Error;
 use crate::parameter::{Parameter, Parameters};
 use mpm_core::material::NeoHookean;
 use nalgebra::{Matrix3, Vector3};
@@ -31,7 +31,8 @@ impl Material {
         let law = NeoHookean::new(
             parameters.number(YOUNG_MODULUS),
             parameters.number(POISSON_RATIO),
-        )?;
+        )
+        .map_err(|refused| Error(refused.to_string()))?;
         Ok(Self {
             density: parameters.number(DENSITY),
             mu: law.mu,

@@ -8,9 +8,9 @@
 //!
 //! The cell is periodic in both directions; no amplitude inverts it.
 
-use super::parameters::{AMPLITUDE, ANGULAR_FREQUENCY};
+use super::common::{AMPLITUDE, ANGULAR_FREQUENCY};
 use super::{Entry, Exact, Material, sine};
-use crate::error::Error;
+use crate::Error;
 use crate::parameter::{Parameter, Parameters};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
@@ -26,7 +26,8 @@ pub struct DoubleShear {
     pub angular_frequency: f64,
 }
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "mms-double-shear",
     summary: "two isochoric shears of the periodic unit cell",
     parameters: &PARAMETERS,
@@ -123,7 +124,7 @@ impl Exact for DoubleShear {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
 
     #[test]
     fn it_solves_the_equations() {

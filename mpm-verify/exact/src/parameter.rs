@@ -1,6 +1,6 @@
 //! Typed parameters of a case, with their ranges.
 
-use crate::error::Error;
+use crate::Error;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -91,28 +91,33 @@ pub struct Parameter {
 
 impl Parameter {
     /// The same with another default.
-    pub(crate) const fn with_default(self, default: &'static str) -> Self {
+    #[must_use]
+    pub const fn with_default(self, default: &'static str) -> Self {
         Self { default, ..self }
     }
 
     /// The same with other allowed values.
-    pub(crate) const fn within(self, domain: Domain) -> Self {
+    #[must_use]
+    pub const fn within(self, domain: Domain) -> Self {
         Self { domain, ..self }
     }
 
     /// The same with another meaning.
-    pub(crate) const fn meaning(self, meaning: &'static str) -> Self {
+    #[must_use]
+    pub const fn meaning(self, meaning: &'static str) -> Self {
         Self { meaning, ..self }
     }
 }
 
 /// A number from `least` to `most`; with `below` the upper end is excluded.
-pub(crate) const fn number(least: f64, most: f64, below: bool) -> Domain {
+#[must_use]
+pub const fn number(least: f64, most: f64, below: bool) -> Domain {
     Domain::Number { least, most, below }
 }
 
 /// A parameter by name, unit, default, domain and meaning.
-pub(crate) const fn parameter(
+#[must_use]
+pub const fn parameter(
     name: &'static str,
     unit: &'static str,
     default: &'static str,
@@ -129,14 +134,16 @@ pub(crate) const fn parameter(
 }
 
 /// Parameters, a constant each by name, unit, default, domain and meaning.
+#[macro_export]
 macro_rules! parameters {
     ($seen:vis const: $($parameter:ident =
         $name:literal, $unit:literal, $default:expr, $domain:expr, $meaning:literal;)*) => {
-        $($seen const $parameter: $crate::parameter::Parameter =
+        $(#[doc = concat!("Parameter `", $name, "`: ", $meaning, ".")]
+        $seen const $parameter: $crate::parameter::Parameter =
             $crate::parameter::parameter($name, $unit, $default, $domain, $meaning);)*
     };
 }
-pub(crate) use parameters;
+pub use parameters;
 
 impl Parameter {
     /// Reads a value.
@@ -145,7 +152,7 @@ impl Parameter {
     /// A value that is malformed, not finite or out of range; the error names what is allowed.
     pub fn parse(&self, text: &str) -> Result<Value, Error> {
         let refuse = |why: &str| {
-            Err(Error::Input(format!(
+            Err(Error(format!(
                 "parameter {}: \"{text}\" {why}; allowed: {}{}",
                 self.name,
                 self.domain,
@@ -204,7 +211,7 @@ impl Parameters {
         let mut assigned = BTreeSet::new();
         for assignment in assignments {
             let Some((name, text)) = assignment.split_once('=') else {
-                return Err(Error::Input(format!(
+                return Err(Error(format!(
                     "\"{assignment}\" is not of the form name=value"
                 )));
             };
@@ -216,7 +223,7 @@ impl Parameters {
                 ));
             };
             if !assigned.insert(name) {
-                return Err(Error::Input(format!("parameter {name} is set twice")));
+                return Err(Error(format!("parameter {name} is set twice")));
             }
             values.insert(name.to_owned(), p.parse(text)?);
         }

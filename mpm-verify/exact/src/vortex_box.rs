@@ -6,12 +6,13 @@
 //! ν → ½ over that at ν = 0.3 is a direct measure of locking, and σ_m − μ (R α_R)²/3, zero in the exact
 //! solution, is another.
 
-use super::parameters::ANGULAR_FREQUENCY;
+use super::common::ANGULAR_FREQUENCY;
 use super::twist::{ANGLE, PLANE, Place, Shape, Vortex};
 use super::{Entry, Material};
 use crate::parameter::Parameter;
 
-pub(crate) const ENTRY: Entry = Entry {
+/// This solution by its name.
+pub const ENTRY: Entry = Entry {
     name: "mms-vortex-box",
     summary: "isochoric vortex in the unit square",
     parameters: &PARAMETERS,
@@ -56,7 +57,7 @@ pub(super) const BOX: Shape = Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::check;
+    use crate::check;
     use nalgebra::Vector3;
 
     #[test]
