@@ -19,6 +19,8 @@ pub const CHUNK: usize = 1024;
 pub const AT_ONCE: usize = 4;
 /// Nodes per chunk of what is done for nodes: so many that a small scene is one chunk, which wakes no other thread.
 pub const NODE_CHUNK: usize = 4096;
+/// Entries a piece of a [`map`] whose entries cost little each, such as particles; elements are a piece each.
+pub const LIGHT: usize = 64;
 /// Cells per slab, along the first axis.
 pub const SLAB: usize = 8;
 /// Planes kept before the first node, so that the runs of planes of the first slab begin in the array.
@@ -73,6 +75,17 @@ impl<T: Send> Front for PerPiece<'_, T> {
 /// `visit(first, piece)` for every piece of `size` entries of columns that have `n`; the piece begins at `first`.
 pub fn for_each_piece<P: Front>(all: P, n: usize, size: usize, visit: &(impl Fn(usize, P) + Sync)) {
     in_pieces(all, 0..n.div_ceil(size), size, visit);
+}
+
+/// `of(k)` of every `k` below `n`, in order; `size` of them are a piece.
+pub fn map<T: Send>(n: usize, size: usize, of: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+    let mut all: Vec<Option<T>> = (0..n).map(|_| None).collect();
+    for_each_piece(&mut all[..], n, size, &|first, piece: &mut [Option<T>]| {
+        for (k, place) in (first..).zip(piece) {
+            *place = Some(of(k));
+        }
+    });
+    all.into_iter().flatten().collect()
 }
 
 fn in_pieces<P: Front>(

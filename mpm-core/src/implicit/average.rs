@@ -3,7 +3,7 @@
 //! V A is symmetric, and so Aᵀ = V A V⁻¹ of the volumes V at the step's start.
 
 use super::elements::Elements;
-use rayon::prelude::*;
+use crate::parallel::{LIGHT, map};
 
 /// The share ε of a field that Π can't see which A keeps, as the explicit remedy does.
 pub(super) const UNSEEN: f64 = 0.01;
@@ -37,7 +37,7 @@ impl Average {
         field: &[f64],
     ) -> Vec<f64> {
         let mut of_nodes = vec![0.0; self.inverse.len()];
-        elements.scatter(0.0, &mut of_nodes, |p, sums| {
+        elements.scatter(0.0, &mut of_nodes, &|p, sums| {
             let weighted = self.volume[p] * field[p];
             for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
                 *sum += w * weighted;
@@ -54,7 +54,7 @@ impl Average {
                 .map(|(node, w)| w * of_nodes[*node])
                 .sum()
         };
-        (0..field.len()).into_par_iter().map(gather).collect()
+        map(field.len(), LIGHT, &gather)
     }
 
     /// A `field`.

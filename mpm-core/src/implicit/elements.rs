@@ -4,8 +4,8 @@ use super::domains::Domains;
 use super::extension::Shares;
 use super::interpolation::{Functions, Interpolation};
 use super::newton::dot;
+use crate::parallel::for_each_piece;
 use nalgebra::{SMatrix, SVector};
-use rayon::prelude::*;
 use std::mem::take;
 use std::ops::{AddAssign, Range};
 
@@ -162,7 +162,7 @@ impl<const D: usize> Elements<D> {
         for node in &self.node {
             sums[*node] = 0.0;
         }
-        self.scatter(0.0, &mut sums, |p, sums| {
+        self.scatter(0.0, &mut sums, &|p, sums| {
             for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
                 *sum += w * of[p];
             }
@@ -174,7 +174,7 @@ impl<const D: usize> Elements<D> {
     pub(crate) fn forces(&self, nodes: usize, of: &[[f64; D]]) -> Vec<SVector<f64, D>> {
         let mut forces = vec![SVector::zeros(); nodes];
         if !of.is_empty() {
-            self.scatter(SVector::zeros(), &mut forces, |p, sums| {
+            self.scatter(SVector::zeros(), &mut forces, &|p, sums| {
                 let force = SVector::from(of[p]);
                 for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
                     *sum += force * *w;
@@ -188,7 +188,7 @@ impl<const D: usize> Elements<D> {
     /// norm (N), of particles of these volumes (m³).
     pub(crate) fn rounding(&self, nodes: usize, volume: &[f64], modulus: f64) -> f64 {
         let mut reach = vec![0.0; nodes];
-        self.scatter(0.0, &mut reach, |p, sums| {
+        self.scatter(0.0, &mut reach, &|p, sums| {
             for (sum, dw) in sums.iter_mut().zip(self.gradients(p)) {
                 *sum += volume[p] * dot(dw, dw).sqrt();
             }
@@ -278,7 +278,7 @@ impl<const D: usize> Elements<D> {
         &self,
         zero: T,
         nodes: &mut [T],
-        of: impl Fn(usize, &mut [T]) + Sync,
+        of: &(dyn Fn(usize, &mut [T]) + Sync),
     ) {
         let mut sums = vec![zero; self.node.len()];
         let mut rest = &mut sums[..];
@@ -290,14 +290,17 @@ impl<const D: usize> Elements<D> {
             batches.push((first..last, own));
             rest = others;
         }
-        batches.into_par_iter().for_each(|(elements, mut rest)| {
-            for element in elements {
-                let count = self.nodes_of(element).len();
-                let (own, others) = take(&mut rest).split_at_mut(count);
-                for p in self.particles[element].clone() {
-                    of(p, own);
+        let count = batches.len();
+        for_each_piece(&mut batches[..], count, 1, &|_, batch: &mut [_]| {
+            for (elements, rest) in batch {
+                for element in elements.clone() {
+                    let count = self.nodes_of(element).len();
+                    let (own, others) = take(rest).split_at_mut(count);
+                    for p in self.particles[element].clone() {
+                        of(p, own);
+                    }
+                    *rest = others;
                 }
-                rest = others;
             }
         });
         for (node, sum) in self.node.iter().zip(sums) {

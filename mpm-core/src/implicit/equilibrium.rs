@@ -11,9 +11,9 @@ use super::unknowns::{Pattern, Unknowns};
 use crate::body::{Body, check_jacobian};
 use crate::error::Fault;
 use crate::material::Law;
+use crate::parallel::{LIGHT, map};
 use crate::space::{determinant, embed};
 use nalgebra::{DMatrix, SMatrix, SVector};
-use rayon::prelude::*;
 use std::array::from_fn;
 
 /// Share of the heaviest node's mass that the tangent gives to every node, and that none has in equilibrium: a function
@@ -82,10 +82,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         self.unknowns.spread(values, &mut u);
         let pushes = self.pushes(&u)?;
         let count = self.body.particles.len();
-        let f: Vec<SMatrix<f64, D, D>> = (0..count)
-            .into_par_iter()
-            .map(|p| elements.deformation(p, &u))
-            .collect();
+        let f = map(count, LIGHT, &|p| elements.deformation(p, &u));
         let check = |values: &[f64]| -> Result<(), (usize, Fault)> {
             let bad = |(p, j): (usize, &f64)| check_jacobian(*j).err().map(|fault| (p, fault));
             values.iter().enumerate().find_map(bad).map_or(Ok(()), Err)
@@ -95,13 +92,10 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let averaged = self.average.map(|a| a.apply(elements, &change));
         let averaged = averaged.unwrap_or_default();
         check(&averaged)?;
-        let answers: Vec<_> = (0..count)
-            .into_par_iter()
-            .map(|p| {
-                let averaged = averaged.get(p).copied();
-                self.particle(p).respond::<f64, D>(&embed(&f[p]), averaged)
-            })
-            .collect();
+        let answers = map(count, LIGHT, &|p| {
+            let averaged = averaged.get(p).copied();
+            self.particle(p).respond::<f64, D>(&embed(&f[p]), averaged)
+        });
         let finite = |(p, a): (usize, &super::response::Response<f64>)| {
             let value = a.stress.iter().copied().find(|s| !s.is_finite())?;
             let quantity = "stress";
@@ -116,7 +110,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         });
         let share = share.unwrap_or_default();
         let mut internal = vec![SVector::zeros(); nodes];
-        elements.scatter(SVector::zeros(), &mut internal, |p, sums| {
+        elements.scatter(SVector::zeros(), &mut internal, &|p, sums| {
             let (answer, share) = (&answers[p], share.get(p).copied().unwrap_or(0.0));
             let stress: Square<D> = from_fn(|i| {
                 from_fn(|j| answer.stress[D * i + j] + share * answer.cofactor[D * i + j])
@@ -185,14 +179,11 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
 
     /// The derivatives of every particle's answer at a trial.
     pub(super) fn tangents(&self, trial: &Trial<D>) -> Vec<Tangent<D>> {
-        let mut tangents: Vec<Tangent<D>> = (0..trial.f.len())
-            .into_par_iter()
-            .map(|p| {
-                let averaged = trial.averaged.get(p).copied();
-                let share = trial.share.get(p).copied().unwrap_or(0.0);
-                self.particle(p).tangent::<D>(&trial.f[p], averaged, share)
-            })
-            .collect();
+        let mut tangents = map(trial.f.len(), LIGHT, &|p| {
+            let averaged = trial.averaged.get(p).copied();
+            let share = trial.share.get(p).copied().unwrap_or(0.0);
+            self.particle(p).tangent::<D>(&trial.f[p], averaged, share)
+        });
         for push in &trial.pushes {
             tangents[push.particle].held += push.stiffness;
         }
@@ -233,11 +224,9 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         };
         for first in (0..elements.particles.len()).step_by(BATCH) {
             let batch = first..elements.particles.len().min(first + BATCH);
-            let matrices: Vec<DMatrix<f64>> = batch
-                .clone()
-                .into_par_iter()
-                .map(|element| self.of_element(element, tangents, width))
-                .collect();
+            let matrices = map(batch.len(), 1, &|k| {
+                self.of_element(batch.start + k, tangents, width)
+            });
             for (element, matrix) in batch.zip(&matrices) {
                 add(elements.nodes_of(element), matrix);
             }
@@ -341,23 +330,18 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let elements = self.elements;
         let mut u = vec![[0.0; D]; nodes];
         self.unknowns.spread(x, &mut u);
-        let change: Vec<SMatrix<f64, D, D>> = (0..tangents.len())
-            .into_par_iter()
-            .map(|p| elements.gradient(p, &u))
-            .collect();
-        let of_particles = |of: &(dyn Fn(usize) -> f64 + Sync)| -> Vec<f64> {
-            (0..tangents.len()).into_par_iter().map(of).collect()
-        };
+        let count = tangents.len();
+        let change = map(count, LIGHT, &|p| elements.gradient(p, &u));
         let averages = self.average.map(|average| {
-            let volume = of_particles(&|p| double(&tangents[p].cofactor, &change[p]));
+            let volume = map(count, LIGHT, &|p| double(&tangents[p].cofactor, &change[p]));
             let averaged = average.apply(elements, &volume);
-            let pull = of_particles(&|p| {
+            let pull = map(count, LIGHT, &|p| {
                 double(&tangents[p].pull_by_f, &change[p]) + tangents[p].pull_by_a * averaged[p]
             });
             (averaged, average.transposed(elements, &pull))
         });
         let mut forces = self.resistance(&u);
-        elements.scatter(SVector::zeros(), &mut forces, |p, sums| {
+        elements.scatter(SVector::zeros(), &mut forces, &|p, sums| {
             let t = &tangents[p];
             let averages = averages.as_ref();
             let (averaged, share) = averages.map_or((0.0, 0.0), |(a, s)| (a[p], s[p]));

@@ -11,9 +11,9 @@ use crate::implicit::elements::{Elements, LAST_BITS};
 use crate::implicit::newton::{dot, norm};
 use crate::implicit::unknowns::Pattern;
 use crate::material::Law;
+use crate::parallel::{LIGHT, map};
 use crate::space::{determinant, embed};
 use nalgebra::{DMatrix, SMatrix, SVector};
-use rayon::prelude::*;
 use std::array::from_fn;
 use std::ops::Range;
 
@@ -135,20 +135,17 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let (u, p) = setting.unknowns.spread(values);
         let particles = &self.body.particles;
         let count = particles.len();
-        let gathered: Vec<(SMatrix<f64, D, D>, f64, [f64; D])> = (0..count)
-            .into_par_iter()
-            .map(|k| {
-                let (nodes, w, dw) = setting.water.seen(k);
-                let (mut pressure, mut slope) = (0.0, [0.0; D]);
-                for ((node, w), dw) in nodes.iter().zip(w).zip(dw) {
-                    pressure += p[*node] * w;
-                    for (slope, dw) in slope.iter_mut().zip(dw) {
-                        *slope += p[*node] * dw;
-                    }
+        let gathered = map(count, LIGHT, &|k| {
+            let (nodes, w, dw) = setting.water.seen(k);
+            let (mut pressure, mut slope) = (0.0, [0.0; D]);
+            for ((node, w), dw) in nodes.iter().zip(w).zip(dw) {
+                pressure += p[*node] * w;
+                for (slope, dw) in slope.iter_mut().zip(dw) {
+                    *slope += p[*node] * dw;
                 }
-                (setting.solid.deformation(k, &u), pressure, slope)
-            })
-            .collect();
+            }
+            (setting.solid.deformation(k, &u), pressure, slope)
+        });
         let solid = 1.0 - self.water.porosity;
         let mut pores = Vec::with_capacity(count);
         for (k, (f, ..)) in gathered.iter().enumerate() {
@@ -160,13 +157,10 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             }
             pores.push(jacobian - solid);
         }
-        let answers: Vec<_> = (0..count)
-            .into_par_iter()
-            .map(|k| {
-                let (f, pressure, slope) = &gathered[k];
-                self.particle(k).respond(&embed(f), *pressure, slope)
-            })
-            .collect();
+        let answers = map(count, LIGHT, &|k| {
+            let (f, pressure, slope) = &gathered[k];
+            self.particle(k).respond(&embed(f), *pressure, slope)
+        });
         for (k, answer) in answers.iter().enumerate() {
             if let Some(value) = answer.stress.iter().copied().find(|s| !s.is_finite()) {
                 let quantity = "stress";
@@ -176,7 +170,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let mut internal = vec![SVector::zeros(); u.len()];
         setting
             .solid
-            .scatter(SVector::zeros(), &mut internal, |k, sums| {
+            .scatter(SVector::zeros(), &mut internal, &|k, sums| {
                 for (sum, dw) in sums.iter_mut().zip(setting.solid.gradients(k)) {
                     for i in 0..D {
                         sum[i] += dot(&answers[k].stress[D * i..D * (i + 1)], dw);
@@ -204,7 +198,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let projection = self.projection();
         setting
             .water
-            .scatter(SVector::zeros(), &mut water, |k, sums| {
+            .scatter(SVector::zeros(), &mut water, &|k, sums| {
                 let (nodes, w, dw) = setting.water.seen(k);
                 let answer = &answers[k];
                 let slopes = nodes.iter().zip(dw).map(|(n, dw)| p[*n].abs() * norm(dw));
@@ -299,10 +293,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         };
         let (of_runs, of_ghosts) = setting.groups.split_at(setting.runs.len());
         for (runs, groups) in setting.runs.chunks(BATCH).zip(of_runs.chunks(BATCH)) {
-            let matrices: Vec<DMatrix<f64>> = runs
-                .par_iter()
-                .map(|run| self.of_run(run.clone(), trial))
-                .collect();
+            let matrices = map(runs.len(), 1, &|k| self.of_run(runs[k].clone(), trial));
             for (group, matrix) in groups.iter().zip(&matrices) {
                 add(group, &|i, j| matrix[(i, j)]);
             }

@@ -316,6 +316,8 @@ fn pair(study: &CaseStudy, record: &Record) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::Finding;
+    use crate::record::fixture::record;
     use crate::report::fixture::{NASTY, summary};
     use quick_xml::escape::unescape;
     use quick_xml::events::Event;
@@ -387,6 +389,30 @@ mod tests {
         let sentence = "Of 3 runs, 1 right, 0 wrong as known, 0 not judged, 2 FAILED.";
         assert!(case.contains(sentence), "{case}");
         assert!(case.contains("broke down at 1 s"));
+    }
+
+    #[test]
+    fn the_best_error_is_of_a_run_that_is_right() {
+        let mid_edge = |distance: f64| {
+            Finding::within("mid_edge_uy", 1.0 + distance, 1.0, 1.0, "")
+                .verdict("mid-edge", Kind::Truth)
+        };
+        let wrong = Finding::within("at_rest", 0.0, 1.0, 0.0, "").verdict("at-rest", Kind::Truth);
+        let runs = vec![
+            record("h2", vec![mid_edge(0.5)]),
+            record("h1", vec![mid_edge(0.25)]),
+            record("h0.5", vec![mid_edge(0.125), wrong]),
+        ];
+        let case = cases::find("cook").unwrap();
+        let found = best(case, &CaseStudy::new("cook", runs)).unwrap();
+        assert!(found.get_attr("run").unwrap().to_string().contains("h1"));
+        assert!(
+            found
+                .get_attr("error")
+                .unwrap()
+                .to_string()
+                .contains("0.25")
+        );
     }
 
     /// As many runs as any tier has, each with as many words as any has, make no page too large.

@@ -277,6 +277,16 @@ mod tests {
     }
 
     #[test]
+    fn a_median_is_of_three_motions_at_least() {
+        let study = cook();
+        let ours = Scheme::flip(BasisName::Gimp, OURS);
+        let median = |motions: usize| Speed::of(vec![&study; motions]).median(ours);
+        assert_eq!(median(2), "");
+        // The target is what half of the schemes reach, the motion of F̄ at h2: alone in reaching it, it is the cheapest.
+        assert_eq!(median(3), "1.0 (3/3)");
+    }
+
+    #[test]
     fn the_advice_follows_from_the_prices() {
         let speed = Speed::of([&cook()]);
         let advice = speed.advice();
