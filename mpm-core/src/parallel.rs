@@ -78,14 +78,28 @@ pub fn for_each_piece<P: Front>(all: P, n: usize, size: usize, visit: &(impl Fn(
 }
 
 /// `of(k)` of every `k` below `n`, in order; `size` of them are a piece.
-pub fn map<T: Send>(n: usize, size: usize, of: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
-    let mut all: Vec<Option<T>> = (0..n).map(|_| None).collect();
-    for_each_piece(&mut all[..], n, size, &|first, piece: &mut [Option<T>]| {
-        for (k, place) in (first..).zip(piece) {
-            *place = Some(of(k));
+pub fn map<T: Send>(n: usize, size: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    of_pieces(n, size, &|piece| piece.map(&of).collect())
+}
+
+/// What `of` gives of every piece of `size` numbers below `n`, one after the other: one instance a type.
+fn of_pieces<T: Send>(
+    n: usize,
+    size: usize,
+    of: &(dyn Fn(Range<usize>) -> Vec<T> + Sync),
+) -> Vec<T> {
+    let pieces = n.div_ceil(size);
+    let mut found: Vec<Vec<T>> = (0..pieces).map(|_| Vec::new()).collect();
+    for_each_piece(&mut found[..], pieces, 1, &|k, found: &mut [Vec<T>]| {
+        for found in found {
+            *found = of(k * size..n.min((k + 1) * size));
         }
     });
-    all.into_iter().flatten().collect()
+    let mut all = Vec::with_capacity(n);
+    for found in found {
+        all.extend(found);
+    }
+    all
 }
 
 fn in_pieces<P: Front>(

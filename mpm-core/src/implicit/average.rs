@@ -37,7 +37,7 @@ impl Average {
         field: &[f64],
     ) -> Vec<f64> {
         let mut of_nodes = vec![0.0; self.inverse.len()];
-        elements.scatter(0.0, &mut of_nodes, &|p, sums| {
+        elements.scatter(0.0, &mut of_nodes, |p, sums| {
             let weighted = self.volume[p] * field[p];
             for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
                 *sum += w * weighted;
@@ -54,7 +54,7 @@ impl Average {
                 .map(|(node, w)| w * of_nodes[*node])
                 .sum()
         };
-        map(field.len(), LIGHT, &gather)
+        map(field.len(), LIGHT, gather)
     }
 
     /// A `field`.

@@ -162,7 +162,7 @@ impl<const D: usize> Elements<D> {
         for node in &self.node {
             sums[*node] = 0.0;
         }
-        self.scatter(0.0, &mut sums, &|p, sums| {
+        self.scatter(0.0, &mut sums, |p, sums| {
             for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
                 *sum += w * of[p];
             }
@@ -174,7 +174,7 @@ impl<const D: usize> Elements<D> {
     pub(crate) fn forces(&self, nodes: usize, of: &[[f64; D]]) -> Vec<SVector<f64, D>> {
         let mut forces = vec![SVector::zeros(); nodes];
         if !of.is_empty() {
-            self.scatter(SVector::zeros(), &mut forces, &|p, sums| {
+            self.scatter(SVector::zeros(), &mut forces, |p, sums| {
                 let force = SVector::from(of[p]);
                 for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
                     *sum += force * *w;
@@ -188,7 +188,7 @@ impl<const D: usize> Elements<D> {
     /// norm (N), of particles of these volumes (m³).
     pub(crate) fn rounding(&self, nodes: usize, volume: &[f64], modulus: f64) -> f64 {
         let mut reach = vec![0.0; nodes];
-        self.scatter(0.0, &mut reach, &|p, sums| {
+        self.scatter(0.0, &mut reach, |p, sums| {
             for (sum, dw) in sums.iter_mut().zip(self.gradients(p)) {
                 *sum += volume[p] * dot(dw, dw).sqrt();
             }
@@ -278,7 +278,21 @@ impl<const D: usize> Elements<D> {
         &self,
         zero: T,
         nodes: &mut [T],
-        of: &(dyn Fn(usize, &mut [T]) + Sync),
+        of: impl Fn(usize, &mut [T]) + Sync,
+    ) {
+        self.scatter_runs(zero, nodes, &|particles, sums| {
+            for p in particles {
+                of(p, sums);
+            }
+        });
+    }
+
+    /// [`Self::scatter`] by the runs of particles of elements: one instance a type.
+    fn scatter_runs<T: Copy + Send + Sync + AddAssign>(
+        &self,
+        zero: T,
+        nodes: &mut [T],
+        of: &(dyn Fn(Range<usize>, &mut [T]) + Sync),
     ) {
         let mut sums = vec![zero; self.node.len()];
         let mut rest = &mut sums[..];
@@ -296,9 +310,7 @@ impl<const D: usize> Elements<D> {
                 for element in elements.clone() {
                     let count = self.nodes_of(element).len();
                     let (own, others) = take(rest).split_at_mut(count);
-                    for p in self.particles[element].clone() {
-                        of(p, own);
-                    }
+                    of(self.particles[element].clone(), own);
                     *rest = others;
                 }
             }

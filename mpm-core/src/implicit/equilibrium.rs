@@ -82,7 +82,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         self.unknowns.spread(values, &mut u);
         let pushes = self.pushes(&u)?;
         let count = self.body.particles.len();
-        let f = map(count, LIGHT, &|p| elements.deformation(p, &u));
+        let f = map(count, LIGHT, |p| elements.deformation(p, &u));
         let check = |values: &[f64]| -> Result<(), (usize, Fault)> {
             let bad = |(p, j): (usize, &f64)| check_jacobian(*j).err().map(|fault| (p, fault));
             values.iter().enumerate().find_map(bad).map_or(Ok(()), Err)
@@ -92,7 +92,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let averaged = self.average.map(|a| a.apply(elements, &change));
         let averaged = averaged.unwrap_or_default();
         check(&averaged)?;
-        let answers = map(count, LIGHT, &|p| {
+        let answers = map(count, LIGHT, |p| {
             let averaged = averaged.get(p).copied();
             self.particle(p).respond::<f64, D>(&embed(&f[p]), averaged)
         });
@@ -110,7 +110,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         });
         let share = share.unwrap_or_default();
         let mut internal = vec![SVector::zeros(); nodes];
-        elements.scatter(SVector::zeros(), &mut internal, &|p, sums| {
+        elements.scatter(SVector::zeros(), &mut internal, |p, sums| {
             let (answer, share) = (&answers[p], share.get(p).copied().unwrap_or(0.0));
             let stress: Square<D> = from_fn(|i| {
                 from_fn(|j| answer.stress[D * i + j] + share * answer.cofactor[D * i + j])
@@ -179,7 +179,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
 
     /// The derivatives of every particle's answer at a trial.
     pub(super) fn tangents(&self, trial: &Trial<D>) -> Vec<Tangent<D>> {
-        let mut tangents = map(trial.f.len(), LIGHT, &|p| {
+        let mut tangents = map(trial.f.len(), LIGHT, |p| {
             let averaged = trial.averaged.get(p).copied();
             let share = trial.share.get(p).copied().unwrap_or(0.0);
             self.particle(p).tangent::<D>(&trial.f[p], averaged, share)
@@ -224,7 +224,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         };
         for first in (0..elements.particles.len()).step_by(BATCH) {
             let batch = first..elements.particles.len().min(first + BATCH);
-            let matrices = map(batch.len(), 1, &|k| {
+            let matrices = map(batch.len(), 1, |k| {
                 self.of_element(batch.start + k, tangents, width)
             });
             for (element, matrix) in batch.zip(&matrices) {
@@ -331,17 +331,17 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let mut u = vec![[0.0; D]; nodes];
         self.unknowns.spread(x, &mut u);
         let count = tangents.len();
-        let change = map(count, LIGHT, &|p| elements.gradient(p, &u));
+        let change = map(count, LIGHT, |p| elements.gradient(p, &u));
         let averages = self.average.map(|average| {
-            let volume = map(count, LIGHT, &|p| double(&tangents[p].cofactor, &change[p]));
+            let volume = map(count, LIGHT, |p| double(&tangents[p].cofactor, &change[p]));
             let averaged = average.apply(elements, &volume);
-            let pull = map(count, LIGHT, &|p| {
+            let pull = map(count, LIGHT, |p| {
                 double(&tangents[p].pull_by_f, &change[p]) + tangents[p].pull_by_a * averaged[p]
             });
             (averaged, average.transposed(elements, &pull))
         });
         let mut forces = self.resistance(&u);
-        elements.scatter(SVector::zeros(), &mut forces, &|p, sums| {
+        elements.scatter(SVector::zeros(), &mut forces, |p, sums| {
             let t = &tangents[p];
             let averages = averages.as_ref();
             let (averaged, share) = averages.map_or((0.0, 0.0), |(a, s)| (a[p], s[p]));

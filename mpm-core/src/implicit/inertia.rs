@@ -56,7 +56,7 @@ impl Mass {
         of: impl Fn(usize) -> SVector<f64, D> + Sync,
     ) -> Vec<SVector<f64, D>> {
         let mut nodes = vec![SVector::zeros(); self.node.len()];
-        elements.scatter(SVector::zeros(), &mut nodes, &|p, sums| {
+        elements.scatter(SVector::zeros(), &mut nodes, |p, sums| {
             let value = of(p) * self.particle[p];
             for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
                 *sum += value * *w;

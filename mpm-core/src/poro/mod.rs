@@ -371,7 +371,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let mut nodes = Vec::new();
         for source in &self.water.sources {
             nodes.resize(self.water_space.functions.len(), 0.0);
-            water.scatter(0.0, &mut nodes, &|p, sums| {
+            water.scatter(0.0, &mut nodes, |p, sums| {
                 let share = source(&particles.reference[p], span);
                 let volume = share * particles.reference_volume[p];
                 for (sum, w) in sums.iter_mut().zip(water.seen(p).1) {

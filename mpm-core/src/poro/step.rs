@@ -135,7 +135,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let (u, p) = setting.unknowns.spread(values);
         let particles = &self.body.particles;
         let count = particles.len();
-        let gathered = map(count, LIGHT, &|k| {
+        let gathered = map(count, LIGHT, |k| {
             let (nodes, w, dw) = setting.water.seen(k);
             let (mut pressure, mut slope) = (0.0, [0.0; D]);
             for ((node, w), dw) in nodes.iter().zip(w).zip(dw) {
@@ -157,7 +157,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             }
             pores.push(jacobian - solid);
         }
-        let answers = map(count, LIGHT, &|k| {
+        let answers = map(count, LIGHT, |k| {
             let (f, pressure, slope) = &gathered[k];
             self.particle(k).respond(&embed(f), *pressure, slope)
         });
@@ -170,7 +170,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let mut internal = vec![SVector::zeros(); u.len()];
         setting
             .solid
-            .scatter(SVector::zeros(), &mut internal, &|k, sums| {
+            .scatter(SVector::zeros(), &mut internal, |k, sums| {
                 for (sum, dw) in sums.iter_mut().zip(setting.solid.gradients(k)) {
                     for i in 0..D {
                         sum[i] += dot(&answers[k].stress[D * i..D * (i + 1)], dw);
@@ -198,7 +198,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let projection = self.projection();
         setting
             .water
-            .scatter(SVector::zeros(), &mut water, &|k, sums| {
+            .scatter(SVector::zeros(), &mut water, |k, sums| {
                 let (nodes, w, dw) = setting.water.seen(k);
                 let answer = &answers[k];
                 let slopes = nodes.iter().zip(dw).map(|(n, dw)| p[*n].abs() * norm(dw));
@@ -293,7 +293,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         };
         let (of_runs, of_ghosts) = setting.groups.split_at(setting.runs.len());
         for (runs, groups) in setting.runs.chunks(BATCH).zip(of_runs.chunks(BATCH)) {
-            let matrices = map(runs.len(), 1, &|k| self.of_run(runs[k].clone(), trial));
+            let matrices = map(runs.len(), 1, |k| self.of_run(runs[k].clone(), trial));
             for (group, matrix) in groups.iter().zip(&matrices) {
                 add(group, &|i, j| matrix[(i, j)]);
             }

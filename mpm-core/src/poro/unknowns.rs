@@ -155,7 +155,7 @@ pub(super) fn extrapolated<const D: usize, I: OfHats<D>>(
     let mut places = vec![[0.0; D]; functions.len()];
     functions.for_each_node(|node, place| places[node] = place);
     let mut sums = vec![SVector::<f64, 2>::zeros(); functions.len()];
-    elements.scatter(SVector::zeros(), &mut sums, &|p, sums| {
+    elements.scatter(SVector::zeros(), &mut sums, |p, sums| {
         let (nodes, w, _) = elements.seen(p);
         let x = &pores.place[p];
         for ((node, w), sum) in nodes.iter().zip(w).zip(sums) {
