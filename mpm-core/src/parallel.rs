@@ -88,6 +88,10 @@ fn of_pieces<T: Send>(
     size: usize,
     of: &(dyn Fn(Range<usize>) -> Vec<T> + Sync),
 ) -> Vec<T> {
+    // One thread has no one to share with, and nothing to put together.
+    if rayon::current_num_threads() == 1 {
+        return of(0..n);
+    }
     let pieces = n.div_ceil(size);
     let mut found: Vec<Vec<T>> = (0..pieces).map(|_| Vec::new()).collect();
     for_each_piece(&mut found[..], pieces, 1, &|k, found: &mut [Vec<T>]| {
