@@ -78,15 +78,15 @@ fn the_index_counts_outcomes_and_tells_what_failed() {
 
 #[test]
 fn the_best_error_is_of_a_run_that_is_right() {
-    let mid_edge = |distance: f64| {
-        Finding::within("mid_edge_uy", 1.0 + distance, 1.0, 1.0, "")
-            .verdict("mid-edge", Kind::Truth)
+    let edge = |distance: f64| {
+        Finding::within("fem_edge_mean_error", 1.0 + distance, 1.0, 0.1, "")
+            .verdict("edge", Kind::Truth)
     };
     let wrong = Finding::within("at_rest", 0.0, 1.0, 0.0, "").verdict("at-rest", Kind::Truth);
     let runs = vec![
-        record("h2", vec![mid_edge(0.5)]),
-        record("h1", vec![mid_edge(0.25)]),
-        record("h0.5", vec![mid_edge(0.125), wrong]),
+        record("h2", vec![edge(0.05)]),
+        record("h1", vec![edge(0.025)]),
+        record("h0.5", vec![edge(0.0125), wrong]),
     ];
     let case = cases::find("cook").unwrap();
     let found = best(case, &CaseStudy::new("cook", runs)).unwrap();
@@ -96,7 +96,7 @@ fn the_best_error_is_of_a_run_that_is_right() {
             .get_attr("error")
             .unwrap()
             .to_string()
-            .contains("0.25")
+            .contains("0.025")
     );
 }
 
