@@ -5,7 +5,8 @@ use crate::error::Error;
 use crate::gallery::Gallery;
 use crate::job::Job;
 use crate::metric::{Metric, Quantity, Sweep};
-use crate::parameter::{Parameter, Parameters};
+use crate::parameter::{Parameter, ParameterSet, Parameters};
+use crate::problem::Problem;
 use crate::record::Record;
 use crate::results::{Column, ResultTable};
 use crate::scheme::{BasisName, RemedyName, Scheme};
@@ -121,6 +122,39 @@ pub struct Case {
 }
 
 impl Case {
+    /// A case of the problem `P` in `D` dimensions, by name, title and metrics, with nothing else.
+    pub(crate) fn of<const D: usize, P: Problem<D> + 'static>(
+        name: &'static str,
+        title: &'static str,
+        metrics: &[Metric],
+    ) -> Self {
+        Self {
+            name,
+            title,
+            description: "",
+            references: Vec::new(),
+            limits: &[],
+            parameters: P::Parameters::list(),
+            levels: Vec::new(),
+            plan: Vec::new(),
+            metrics: metrics.to_vec(),
+            checks: Vec::new(),
+            headlines: Vec::new(),
+            quantities: Vec::new(),
+            sweeps: Vec::new(),
+            watched: &[],
+            field: None,
+            sketch: Sketch::default(),
+            cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-(D as i32) - 1)),
+            ladder: &[],
+            own_runs: crate::record::of_defaults,
+            begin: Box::new(crate::problem::begin::<D, P>),
+            pictures: |_| Ok(()),
+            tables: Vec::new(),
+            breaks_down: |_| None,
+        }
+    }
+
     /// Verdicts on a run that has come to its end.
     #[must_use]
     pub fn judge(&self, record: &Record) -> Vec<Verdict> {
@@ -176,7 +210,60 @@ pub struct Family {
     /// Schemes.
     pub schemes: Vec<Scheme>,
     /// Parameters changed from the defaults, as `name=value`.
-    pub set: &'static [&'static str],
+    pub set: Vec<String>,
+}
+
+/// The plan of a case, in words.
+pub(crate) struct Plan {
+    levels: Vec<Level>,
+    families: Vec<Family>,
+}
+
+impl Plan {
+    /// An empty plan over `levels`.
+    pub(crate) fn of(levels: &[Level]) -> Self {
+        Self {
+            levels: levels.to_vec(),
+            families: Vec::new(),
+        }
+    }
+
+    /// Adds runs of `schemes` at the levels of these names, apart by spaces, with the parameters `set`, as `name=value` apart by
+    /// spaces, from the tier `tier` on.
+    pub(crate) fn runs(mut self, tier: Tier, levels: &str, schemes: &[Scheme], set: &str) -> Self {
+        // The plan's test finds a level that the case does not have.
+        let unknown = Level {
+            name: "unknown",
+            h: f64::NAN,
+        };
+        let level = |name| self.levels.iter().find(|l| l.name == name);
+        let levels = levels.split_whitespace().map(level);
+        self.families.push(Family {
+            tier,
+            levels: levels.map(|l| l.copied().unwrap_or(unknown)).collect(),
+            schemes: schemes.to_vec(),
+            set: set.split_whitespace().map(str::to_owned).collect(),
+        });
+        self
+    }
+
+    /// Adds runs for each of `sets` by itself: see [`Plan::runs`].
+    pub(crate) fn each<S: AsRef<str>>(
+        self,
+        tier: Tier,
+        levels: &str,
+        schemes: &[Scheme],
+        sets: impl IntoIterator<Item = S>,
+    ) -> Self {
+        sets.into_iter().fold(self, |plan, set| {
+            plan.runs(tier, levels, schemes, set.as_ref())
+        })
+    }
+
+    /// The families of runs, in the order in which they were added.
+    pub(crate) fn done(self) -> Vec<Family> {
+        self.families
+    }
 }
 
 impl Family {
@@ -186,7 +273,7 @@ impl Family {
         pairs.map(|(level, scheme)| RunSpec {
             scheme,
             level,
-            set: self.set.iter().map(|s| (*s).to_owned()).collect(),
+            set: self.set.clone(),
             perturbed: false,
         })
     }

@@ -1,58 +1,13 @@
 //! The one job of every case: a simulation that goes from row to row, and what watches it.
 
-use crate::job::{Column, Job, Pulse, Snapshot};
+use crate::job::{Column, Job, Pulse, Row, Snapshot};
 use crate::metric::Metric;
+pub use crate::problem::Phase as Stage;
 use crate::record::{Discretisation, Measured, WorkDone};
 use mpm_core::{Error, Memory, MemoryError, Saved, Simulation, Spent};
 use serde::{Serialize, de::DeserializeOwned};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-
-/// The simulation of now. A run may be made of several, one after the other: a gravity stage, then the flow.
-pub struct Stage<const D: usize> {
-    /// The simulation.
-    pub run: Box<dyn Simulation<D>>,
-    /// Work of those before it.
-    before: WorkDone,
-    pulse: Arc<Pulse>,
-}
-
-impl<const D: usize> Stage<D> {
-    /// Advances by so many steps.
-    ///
-    /// # Errors
-    /// The computation broke down.
-    pub fn steps(&mut self, count: u64) -> Result<(), Error> {
-        (0..count).try_for_each(|_| {
-            self.run.step()?;
-            self.pulse.beat(self.run.time());
-            Ok(())
-        })
-    }
-
-    /// Goes on with another simulation: with its own body, or with that of an earlier one.
-    ///
-    /// # Errors
-    /// The body is not one of the same particles, basis, remedy, transfer and kind of law.
-    pub fn enter(
-        &mut self,
-        mut next: Box<dyn Simulation<D>>,
-        body: Option<&Saved>,
-    ) -> Result<(), Error> {
-        if let Some(body) = body {
-            next.take_over(body)?;
-        }
-        self.before = self.work();
-        self.run = next;
-        Ok(())
-    }
-
-    /// Work so far, of all simulations.
-    #[must_use]
-    pub fn work(&self) -> WorkDone {
-        WorkDone::from(self.run.work()).after(self.before)
-    }
-}
 
 /// What a case does with its simulation: which scene it is in, what a row is, what is measured. All that changes from
 /// row to row is in [`Watch::Seen`].
@@ -99,11 +54,7 @@ impl<const D: usize, W: Watch<D>> Drive<D, W> {
     /// # Errors
     /// As [`Watch::scene`].
     pub fn new(watch: W, seen: W::Seen) -> Result<Self, Error> {
-        let stage = Stage {
-            run: watch.scene(&seen)?,
-            before: WorkDone::default(),
-            pulse: Arc::default(),
-        };
+        let stage = Stage::new(watch.scene(&seen)?);
         Ok(Self { watch, seen, stage })
     }
 }
@@ -123,7 +74,7 @@ impl<const D: usize, W: Watch<D>> Drive<D, W> {
 
 impl<const D: usize, W: Watch<D>> Memory for Drive<D, W> {
     fn save(&self) -> Result<Saved, MemoryError> {
-        Saved::of(&(&self.seen, self.stage.before, self.stage.run.save()?))
+        Saved::of(&(&self.seen, self.stage.before(), self.stage.run.save()?))
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
@@ -131,7 +82,7 @@ impl<const D: usize, W: Watch<D>> Memory for Drive<D, W> {
         let scene = self.watch.scene(&seen);
         let mut scene = scene.map_err(|e| MemoryError::Scene(e.to_string()))?;
         scene.restore(&run)?;
-        (self.stage.run, self.stage.before) = (scene, before);
+        self.stage.reset(scene, before);
         self.seen = seen;
         Ok(())
     }
@@ -142,12 +93,9 @@ impl<const D: usize, W: Watch<D>> Job for Drive<D, W> {
         self.watch.discretisation()
     }
 
-    fn series_columns(&self) -> Vec<&'static str> {
-        self.watch.columns()
-    }
-
-    fn advance(&mut self) -> Result<Vec<f64>, Error> {
-        self.watch.row(&mut self.seen, &mut self.stage)
+    fn advance(&mut self) -> Result<Row, Error> {
+        let values = self.watch.row(&mut self.seen, &mut self.stage)?;
+        Ok(Row(self.watch.columns().into_iter().zip(values).collect()))
     }
 
     fn finished(&self) -> bool {
@@ -176,7 +124,7 @@ impl<const D: usize, W: Watch<D>> Job for Drive<D, W> {
     }
 
     fn pulse(&self) -> Arc<Pulse> {
-        Arc::clone(&self.stage.pulse)
+        self.stage.pulse()
     }
 
     fn spent(&self) -> Spent {
@@ -184,11 +132,4 @@ impl<const D: usize, W: Watch<D>> Job for Drive<D, W> {
     }
 }
 
-/// A metric as a record has it: what is not finite has no value.
-pub(crate) fn measured((metric, value): (Metric, f64)) -> (String, Measured) {
-    let measured = Measured {
-        value: value.is_finite().then_some(value),
-        unit: metric.unit.to_owned(),
-    };
-    (metric.name.to_owned(), measured)
-}
+pub(crate) use crate::problem::measured;

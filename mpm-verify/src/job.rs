@@ -17,6 +17,16 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+/// A row of the time series: name with unit, and value, of each column.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Row(pub Vec<(&'static str, f64)>);
+
+/// A [`Row`]: `row! { "time (s)": t, … }`.
+macro_rules! row {
+    ($($name:literal: $value:expr),* $(,)?) => { $crate::job::Row(vec![$(($name, $value)),*]) };
+}
+pub(crate) use row;
+
 /// The particles at one time, as columns in seeding order: positions first (x, y, …).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snapshot {
@@ -58,13 +68,11 @@ impl Pulse {
 pub trait Job: Memory + Send {
     /// The discretisation.
     fn discretisation(&self) -> Discretisation;
-    /// Names (with units) of the columns of the time series.
-    fn series_columns(&self) -> Vec<&'static str>;
     /// Runs to the next time of observation and returns that row of the series.
     ///
     /// # Errors
     /// The computation broke down.
-    fn advance(&mut self) -> Result<Vec<f64>, mpm_core::Error>;
+    fn advance(&mut self) -> Result<Row, mpm_core::Error>;
     /// Whether the run is complete.
     fn finished(&self) -> bool;
     /// Share of the longest possible run that is done, 0 to 1.

@@ -193,6 +193,39 @@ impl Column {
         }
     }
 
+    /// The observed order of a metric over the runs of the row.
+    pub(crate) fn order(metric: Metric) -> Self {
+        Self::row("order ± (between levels)", move |runs, _| {
+            let found = order(runs.iter().copied(), metric.name);
+            found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
+        })
+    }
+
+    /// A metric at each of `levels`, by name and title.
+    pub(crate) fn levels<T: Into<String>>(
+        levels: impl IntoIterator<Item = (&'static str, T)>,
+        metric: Metric,
+        format: Format,
+    ) -> Vec<Self> {
+        let column =
+            |(level, title)| Self::metric(title, metric, format).of(move |r| r.level == level);
+        levels.into_iter().map(column).collect()
+    }
+
+    /// A metric at each of `values` of what `key` reads from a run, by value and title.
+    pub(crate) fn over<T: Into<String>>(
+        values: impl IntoIterator<Item = (f64, T)>,
+        key: impl Fn(&Record) -> f64 + Clone + Send + Sync + 'static,
+        metric: Metric,
+        format: Format,
+    ) -> Vec<Self> {
+        let column = |(value, title): (f64, T)| {
+            let key = key.clone();
+            Self::metric(title, metric, format).of(move |r| (key(r) - value).abs() < 1e-9)
+        };
+        values.into_iter().map(column).collect()
+    }
+
     /// Processor time (s).
     pub(crate) fn cpu() -> Self {
         Self::value("CPU (s)", |r| r.time.cpu_s, fixed(0))

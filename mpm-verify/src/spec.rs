@@ -36,21 +36,29 @@ impl RunSpec {
         folder
     }
 
-    /// Where particles seeded at `positions` (m) start: there, or, in a twin, at the next floating-point
-    /// number above or below, in turn.
+    /// Initial positions (m) of particles seeded at `positions`: see [`start_at`].
     #[must_use]
-    pub fn start_at<const D: usize>(&self, mut positions: Vec<[f64; D]>) -> Vec<[f64; D]> {
-        if self.perturbed {
-            for (k, x) in positions.iter_mut().flatten().enumerate() {
-                *x = if k % 3 == 0 {
-                    x.next_up()
-                } else {
-                    x.next_down()
-                };
-            }
-        }
-        positions
+    pub fn start_at<const D: usize>(&self, positions: Vec<[f64; D]>) -> Vec<[f64; D]> {
+        start_at(positions, self.perturbed)
     }
+}
+
+/// Initial positions (m) of particles seeded at `positions`: these, or, if `perturbed`, the next floating-point numbers above
+/// and below in turn.
+pub(crate) fn start_at<const D: usize>(
+    mut positions: Vec<[f64; D]>,
+    perturbed: bool,
+) -> Vec<[f64; D]> {
+    if perturbed {
+        for (k, x) in positions.iter_mut().flatten().enumerate() {
+            *x = if k % 3 == 0 {
+                x.next_up()
+            } else {
+                x.next_down()
+            };
+        }
+    }
+    positions
 }
 
 /// Name of a run, which is also its folder below that of its case.

@@ -133,9 +133,27 @@ pub const fn parameter(
     }
 }
 
-/// Parameters, a constant each by name, unit, default, domain and meaning.
+/// Parameters: a constant each by name, unit, default, domain and meaning; or a struct with a field each, by type,
+/// parameter and meaning.
 #[macro_export]
 macro_rules! parameters {
+    ($(#[$doc:meta])* $seen:vis struct $name:ident {
+        $($field:ident: $kind:ty = $parameter:expr $(, $meaning:literal)?;)*
+    }) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone)]
+        $seen struct $name { $($seen $field: $kind),* }
+
+        impl $crate::parameter::ParameterSet for $name {
+            fn list() -> Vec<$crate::parameter::Parameter> {
+                vec![$($parameter$(.meaning($meaning))?.named(stringify!($field))),*]
+            }
+
+            fn read(values: &$crate::parameter::Parameters) -> Result<Self, $crate::Error> {
+                Ok(Self { $($field: values.read($parameter.named(stringify!($field)))?),* })
+            }
+        }
+    };
     ($seen:vis const: $($parameter:ident =
         $name:literal, $unit:literal, $default:expr, $domain:expr, $meaning:literal;)*) => {
         $(#[doc = concat!("Parameter `", $name, "`: ", $meaning, ".")]
@@ -144,6 +162,130 @@ macro_rules! parameters {
     };
 }
 pub use parameters;
+
+/// A number from `least` to `most` by unit and default; named by the field of [`parameters`] that it stands at.
+#[must_use]
+pub const fn real(unit: &'static str, default: &'static str, least: f64, most: f64) -> Parameter {
+    parameter("", unit, default, number(least, most, false), "")
+}
+
+/// A whole number from `least` to `most` by unit and default.
+#[must_use]
+pub const fn whole(unit: &'static str, default: &'static str, least: i32, most: i32) -> Parameter {
+    parameter("", unit, default, Domain::Integer { least, most }, "")
+}
+
+/// True or false, by default.
+#[must_use]
+pub const fn flag(default: bool) -> Parameter {
+    let default = if default { "true" } else { "false" };
+    parameter("", "-", default, Domain::Boolean, "")
+}
+
+impl Parameter {
+    /// The same with another name.
+    #[must_use]
+    pub const fn named(self, name: &'static str) -> Self {
+        Self { name, ..self }
+    }
+
+    /// The same without the upper end of its range.
+    #[must_use]
+    pub const fn below(self) -> Self {
+        match self.domain {
+            Domain::Number { least, most, .. } => self.within(number(least, most, true)),
+            _ => self,
+        }
+    }
+}
+
+/// The type of a parameter's value.
+pub trait Typed: Sized {
+    /// Reads a value; nothing if it is of another type.
+    fn typed(value: &Value) -> Option<Self>;
+}
+
+impl Typed for f64 {
+    fn typed(value: &Value) -> Option<Self> {
+        match value {
+            Value::Number(x) => Some(*x),
+            _ => None,
+        }
+    }
+}
+
+impl Typed for i32 {
+    fn typed(value: &Value) -> Option<Self> {
+        f64::typed(value).map(|x| x as Self)
+    }
+}
+
+impl Typed for usize {
+    fn typed(value: &Value) -> Option<Self> {
+        f64::typed(value).map(|x| x as Self)
+    }
+}
+
+impl Typed for bool {
+    fn typed(value: &Value) -> Option<Self> {
+        match value {
+            Value::Boolean(b) => Some(*b),
+            _ => None,
+        }
+    }
+}
+
+/// The parameters of a case as a struct.
+pub trait ParameterSet: Sized + Clone + Send + Sync + 'static {
+    /// The list of them, in the order of the fields.
+    fn list() -> Vec<Parameter>;
+
+    /// Reads their values; those that are missing have their defaults.
+    ///
+    /// # Errors
+    /// A value of another type.
+    fn read(values: &Parameters) -> Result<Self, Error>;
+}
+
+impl ParameterSet for () {
+    fn list() -> Vec<Parameter> {
+        Vec::new()
+    }
+
+    fn read(_: &Parameters) -> Result<Self, Error> {
+        Ok(())
+    }
+}
+
+/// An enumeration whose variants are the words of a parameter.
+#[macro_export]
+macro_rules! choices {
+    ($(#[$doc:meta])* $seen:vis enum $name:ident { $($variant:ident = $word:literal),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+        $seen enum $name { $(#[doc = concat!("`", $word, "`.")] $variant),+ }
+
+        impl $name {
+            /// A parameter that is this by default.
+            #[must_use]
+            $seen const fn by_default(self) -> $crate::parameter::Parameter {
+                const WORDS: &[&str] = &[$($word),+];
+                let domain = $crate::parameter::Domain::Choice(WORDS);
+                $crate::parameter::parameter("", "-", WORDS[self as usize], domain, "")
+            }
+        }
+
+        impl $crate::parameter::Typed for $name {
+            fn typed(value: &$crate::parameter::Value) -> Option<Self> {
+                match value {
+                    $($crate::parameter::Value::Choice(word) if word == $word => Some(Self::$variant),)+
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+pub use choices;
 
 impl Parameter {
     /// Reads a value.
@@ -228,6 +370,24 @@ impl Parameters {
             values.insert(name.to_owned(), p.parse(text)?);
         }
         Ok(Self(values))
+    }
+
+    /// The value of a parameter; its default if there is none.
+    ///
+    /// # Errors
+    /// The value is of another type.
+    pub fn read<T: Typed>(&self, of: Parameter) -> Result<T, Error> {
+        let value = match self.0.get(of.name) {
+            Some(value) => value.clone(),
+            None => of.parse(of.default)?,
+        };
+        let refused = || {
+            Error(format!(
+                "parameter {}: {value}; allowed: {}",
+                of.name, of.domain
+            ))
+        };
+        T::typed(&value).ok_or_else(refused)
     }
 
     /// Where these differ from `other`: the name and both values.

@@ -40,7 +40,7 @@ pub(super) fn family(
         tier,
         levels: levels.to_vec(),
         schemes: schemes.to_vec(),
-        set,
+        set: set.iter().map(|s| (*s).to_owned()).collect(),
     }
 }
 

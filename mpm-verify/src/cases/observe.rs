@@ -1,11 +1,14 @@
 //! What several problems set and observe in the same way.
 
-use super::parameters::{ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE};
+use super::parameters::{
+    self, ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE,
+};
 use crate::error::Error;
 use crate::job::Column;
-use crate::parameter::{Parameter, Parameters};
+use crate::parameter::{Parameter, ParameterSet, Parameters};
 use crate::record::Discretisation;
 use crate::scheme::{RuleName, Scheme};
+use crate::setup::Setup;
 use crate::spec::RunSpec;
 use crate::statistics::rms;
 use mpm_core::basis::WallTreatment;
@@ -13,6 +16,120 @@ use mpm_core::explicit::Settings;
 use mpm_core::implicit::{self, TimeRule};
 use mpm_core::stage::LocalDamping;
 use mpm_core::{Field, Particles, Simulation};
+
+impl<P: ParameterSet> Setup<P> {
+    /// How B-splines meet walls, by the parameter `wall`.
+    pub(super) fn wall_treatment(&self) -> WallTreatment {
+        if self.values.is(WALL, WALL_LINE) {
+            WallTreatment::WallLine
+        } else {
+            WallTreatment::OpenKnot
+        }
+    }
+
+    /// Wall treatment and remedy of an explicit run that takes steps of `dt` (s), and local damping if there is any.
+    ///
+    /// # Errors
+    /// A damping factor out of range.
+    pub(super) fn settings<const D: usize>(
+        &self,
+        dt: f64,
+        damping: f64,
+    ) -> Result<Settings<D>, mpm_core::Error> {
+        let settings = Settings::new(dt)
+            .wall(self.wall_treatment())
+            .remedy(self.remedy().build());
+        match damping > 0.0 {
+            true => Ok(settings.filter_forces(LocalDamping::new(damping)?)),
+            false => Ok(settings),
+        }
+    }
+
+    /// The discretisation in `dim` dimensions with `ppc` particles a cell and steps of `dt` (s).
+    pub(super) fn discretisation(&self, dim: usize, ppc: usize, dt: f64) -> Discretisation {
+        let wall = self.values.text(WALL);
+        Discretisation {
+            dim,
+            h: self.h,
+            ppc: ppc as u32,
+            dt,
+            wall: if wall.is_empty() {
+                "open-knot".to_owned()
+            } else {
+                wall
+            },
+        }
+    }
+
+    /// Requires the defaults of the parameters with these `names`, which only another kind of solver has.
+    ///
+    /// # Errors
+    /// One of them is changed.
+    pub(super) fn forbid(&self, names: &[&str]) -> Result<(), Error> {
+        let foreign = |p: &Parameter| names.contains(&p.name);
+        for p in P::list().into_iter().filter(foreign) {
+            let (value, default) = (self.values.text(p), p.parse(p.default)?.to_string());
+            if value != default {
+                return Err(Error::Input(format!(
+                    "{} = {value} has no meaning with the solver {}; allowed: {default}",
+                    p.name,
+                    self.scheme.solver()
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Requires a solver of bodies that move, and the defaults of all parameters that it does not use.
+    ///
+    /// # Errors
+    /// A parameter that has no meaning with it is changed; a static solver.
+    pub(super) fn check_rule(&self) -> Result<(), Error> {
+        let refused = |solver: &str| {
+            let solvers = ["explicit", "midpoint", "newmark"];
+            let kind = "solver of bodies that move";
+            Err(Error::unknown(kind, solver, solvers))
+        };
+        const OF_EXPLICIT: [&str; 5] = ["wall", "flip", "relaxation", "hold", "time_step"];
+        let foreign: Vec<&str> = match (self.scheme, self.rule()) {
+            (Scheme::Poro(_), _) | (_, Some(RuleName::QuasiStatic)) => {
+                return refused(self.scheme.solver());
+            }
+            (_, None) => vec!["step_factor", "lumped", "alpha", "delta", "tolerance"],
+            (_, Some(RuleName::Midpoint)) => [&["alpha", "delta"], &OF_EXPLICIT[..]].concat(),
+            (_, Some(RuleName::Newmark)) => [&["lumped"], &OF_EXPLICIT[..]].concat(),
+        };
+        self.forbid(&foreign)
+    }
+
+    /// Settings of an implicit run with steps of `dt` (s); nothing for another scheme.
+    pub(super) fn implicit_settings(&self, dt: f64) -> Option<implicit::Settings> {
+        let number = |p| self.values.number(p);
+        let rule = match self.rule()? {
+            RuleName::QuasiStatic => TimeRule::Static,
+            RuleName::Midpoint => TimeRule::Midpoint {
+                lumped: number(LUMPED),
+            },
+            RuleName::Newmark => TimeRule::Newmark {
+                alpha: number(ALPHA),
+                delta: number(DELTA),
+            },
+        };
+        Some(implicit::Settings {
+            tolerance: number(TOLERANCE),
+            ..implicit::Settings::new(dt).rule(rule)
+        })
+    }
+
+    /// The CFL number in `dimension` dimensions: the parameter, or, with `time_step=auto`, that of the step which is stable for
+    /// any positions of particles, the smallest of which have a half size of `half_size` cells.
+    ///
+    /// # Errors
+    /// No step is stable with these functions.
+    pub(super) fn cfl_number(&self, dimension: usize, half_size: f64) -> Result<f64, Error> {
+        parameters::cfl_number(self.basis(), &self.values, dimension, half_size)
+    }
+}
 
 /// How B-splines meet walls, by the parameter of that name.
 pub(super) fn wall_treatment(parameters: &Parameters) -> WallTreatment {

@@ -1,7 +1,7 @@
 //! Parameters that several problems have: each is asked for by itself, so that a slip does not compile.
 
 use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
+use crate::parameter::{Domain, Parameter, Parameters, choices, number, parameters};
 use crate::record::Record;
 use crate::spec::RunSpec;
 use std::ops::RangeInclusive;
@@ -16,6 +16,21 @@ pub(super) const UNSEEN: f64 = 0.01;
 pub(super) const WALL_LINE: &str = "wall-line";
 /// Word of [`TIME_STEP`].
 const AUTO: &str = "auto";
+
+choices! {
+    /// How B-splines meet walls.
+    pub(super) enum Wall { OpenKnot = "open-knot", WallLine = "wall-line" }
+}
+
+choices! {
+    /// How the time step follows from the cells.
+    pub(super) enum StepScaling { H = "h", H2 = "h2" }
+}
+
+choices! {
+    /// How the time step is found.
+    pub(super) enum TimeStep { Cfl = "cfl", Auto = "auto" }
+}
 
 parameters! { pub(super) const:
     CFL = "cfl", "-", "0.4", number(1e-3, 1.0, true), "CFL number c Δt / h of pressure waves";
@@ -59,10 +74,19 @@ pub(super) fn cfl(
     dimension: usize,
     half_size: f64,
 ) -> Result<f64, Error> {
+    cfl_number(spec.scheme.basis(), parameters, dimension, half_size)
+}
+
+/// See [`Setup::cfl_number`](crate::setup::Setup::cfl_number).
+pub(super) fn cfl_number(
+    basis: crate::scheme::BasisName,
+    parameters: &Parameters,
+    dimension: usize,
+    half_size: f64,
+) -> Result<f64, Error> {
     if !parameters.is(TIME_STEP, AUTO) {
         return Ok(parameters.number(CFL));
     }
-    let basis = spec.scheme.basis();
     let found = mpm_solvers::stable_cfl(basis, dimension, half_size);
     found.ok_or_else(|| {
         Error::Input(format!(

@@ -77,16 +77,14 @@ impl<L: Look> Job for Still<L> {
         self.look.discretisation()
     }
 
-    fn series_columns(&self) -> Vec<&'static str> {
-        self.look.columns()
-    }
-
-    fn advance(&mut self) -> Result<Vec<f64>, Error> {
+    fn advance(&mut self) -> Result<crate::job::Row, Error> {
         let k = self.found.len();
         let row = self.look.look(k)?;
         let numbers = self.look.numbers(k, &row);
         self.found.push(row);
-        Ok(numbers)
+        Ok(crate::job::Row(
+            self.look.columns().into_iter().zip(numbers).collect(),
+        ))
     }
 
     fn finished(&self) -> bool {

@@ -239,7 +239,7 @@ impl Journal {
             Some(resumed) => resumed,
             None => {
                 discard_run(folder)?;
-                let series = Series::begin(folder, &job.series_columns())?;
+                let series = Series::begin(folder)?;
                 (series, Timing::default())
             }
         };

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::files::{Mark, Output, discard};
+use crate::job::Row;
 use crc32fast::Hasher;
 use std::fs::File;
 use std::io::{self, Read, Write};
@@ -37,17 +38,15 @@ impl Write for Tallied {
 }
 
 impl Series {
-    /// Begins a series of these columns in `folder`, in place of what is there.
+    /// Begins a series in `folder`, in place of what is there.
     ///
     /// # Errors
     /// The file can't be written.
-    pub fn begin(folder: &Path, columns: &[&str]) -> Result<Self, Error> {
+    pub fn begin(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(FILE);
         discard(&path)?;
         let file = Output::create(&path).map_err(|e| Error::file(&path, e))?;
-        let mut series = Self::on(path, file, 0, Hasher::new());
-        series.write(|writer| writer.write_record(columns))?;
-        Ok(series)
+        Ok(Self::on(path, file, 0, Hasher::new()))
     }
 
     /// Goes on with the series in `folder` from `mark`, cutting off what comes after it; `None` if it does
@@ -98,12 +97,18 @@ impl Series {
             .map_err(|e| Error::file(&self.path, e))
     }
 
-    /// Adds a row.
+    /// Adds a row, below the names of its columns if it is the first.
     ///
     /// # Errors
     /// The file can't be written.
-    pub fn add(&mut self, row: &[f64]) -> Result<(), Error> {
-        self.write(|writer| writer.write_record(row.iter().map(f64::to_string)))
+    pub fn add(&mut self, Row(row): &Row) -> Result<(), Error> {
+        let begins = self.writer.get_ref().bytes == 0;
+        self.write(|writer| {
+            if begins {
+                writer.write_record(row.iter().map(|(name, _)| name))?;
+            }
+            writer.write_record(row.iter().map(|(_, value)| value.to_string()))
+        })
     }
 
     /// How far the series has come; what stands there stays even if the machine fails.
@@ -131,14 +136,15 @@ mod tests {
     fn a_series_goes_on_from_its_mark_and_from_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(FILE);
-        let mut series = Series::begin(folder.path(), &["a", "b"]).unwrap();
-        series.add(&[1.0, 2.5]).unwrap();
+        let row = |a, b| Row(vec![("a", a), ("b", b)]);
+        let mut series = Series::begin(folder.path()).unwrap();
+        series.add(&row(1.0, 2.5)).unwrap();
         let mark = series.secure().unwrap();
-        series.add(&[3.0, 4.0]).unwrap();
+        series.add(&row(3.0, 4.0)).unwrap();
         drop(series);
         std::fs::write(&path, "a,b\n1,2.5\n3,4\n5,").unwrap();
         let mut series = Series::resume(folder.path(), mark).unwrap().unwrap();
-        series.add(&[6.0, 7.0]).unwrap();
+        series.add(&row(6.0, 7.0)).unwrap();
         let further = series.secure().unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "a,b\n1,2.5\n6,7\n");
         assert!(Series::resume(folder.path(), further).unwrap().is_some());

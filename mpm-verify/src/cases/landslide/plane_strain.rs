@@ -4,7 +4,7 @@ use super::metrics as m;
 use super::watch::Slide;
 use crate::drive::{Drive, measured};
 use crate::error::Error;
-use crate::job::{Column, Job, Pulse, Snapshot};
+use crate::job::{Column, Job, Pulse, Row, Snapshot};
 use crate::parameter::Parameters;
 use crate::record::{Discretisation, Measured, WorkDone};
 use crate::spec::RunSpec;
@@ -52,17 +52,14 @@ impl Job for Beside {
         self.slide.discretisation()
     }
 
-    fn series_columns(&self) -> Vec<&'static str> {
-        let mut columns = self.slide.series_columns();
-        columns.extend(["plane_strain_toe (m)", "plane_strain_settlement (m)"]);
-        columns
-    }
-
-    fn advance(&mut self) -> Result<Vec<f64>, mpm_core::Error> {
-        let mut values = self.slide.advance()?;
-        let plane = self.plane.advance()?;
-        values.extend([plane[TOE], plane[SETTLEMENT]]);
-        Ok(values)
+    fn advance(&mut self) -> Result<Row, mpm_core::Error> {
+        let mut row = self.slide.advance()?;
+        let plane = self.plane.advance()?.0;
+        row.0.extend([
+            ("plane_strain_toe (m)", plane[TOE].1),
+            ("plane_strain_settlement (m)", plane[SETTLEMENT].1),
+        ]);
+        Ok(row)
     }
 
     fn finished(&self) -> bool {

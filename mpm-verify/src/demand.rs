@@ -1,0 +1,635 @@
+//! Checks as sentences: a quantity of a run or of several, its reference and tolerance, where it applies, and the source.
+
+use crate::accuracy::fit_order;
+use crate::check::{Check, Finding, On};
+use crate::metric::Metric;
+use crate::parameter::ParameterSet;
+use crate::record::Record;
+use crate::scheme::Scheme;
+use crate::setup::Setup;
+use crate::verdict::Kind;
+use std::collections::BTreeMap;
+use std::ops::Deref;
+
+/// Largest deficit of an observed order from the order that theory gives.
+pub(crate) const SLACK: f64 = 0.15;
+/// Number of finest levels or steps that decide an order.
+const DECIDING: usize = 3;
+
+/// A run that has come to its end: its [`Setup`], and its record.
+pub(crate) struct Run<'a, P> {
+    /// The record.
+    pub(crate) record: &'a Record,
+    setup: Setup<P>,
+}
+
+impl<P> Deref for Run<'_, P> {
+    type Target = Setup<P>;
+
+    fn deref(&self) -> &Setup<P> {
+        &self.setup
+    }
+}
+
+impl<'a, P: ParameterSet> Run<'a, P> {
+    /// The run of a record; nothing if the parameters of the record are of other types.
+    pub(crate) fn of(record: &'a Record) -> Option<Self> {
+        let setup = Setup::of_record(record).ok()?;
+        Some(Self { record, setup })
+    }
+}
+
+impl<P> Run<'_, P> {
+    /// The value of a metric; NaN where there is none.
+    pub(crate) fn metric(&self, of: Metric) -> f64 {
+        self.record.metric(of)
+    }
+
+    /// Time step (s).
+    pub(crate) fn dt(&self) -> f64 {
+        self.record.discretisation.dt
+    }
+}
+
+type Of<P, T> = Box<dyn Fn(&Run<P>) -> T + Send + Sync>;
+
+/// A quantity of a run: a metric, or a number computed from the run, by name.
+pub(crate) struct Quantity<P> {
+    name: String,
+    value: Of<P, f64>,
+}
+
+impl<P> Quantity<P> {
+    /// A number that follows from the run.
+    pub(crate) fn new(
+        name: impl Into<String>,
+        value: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            value: Box::new(value),
+        }
+    }
+
+    /// The absolute value of a metric.
+    pub(crate) fn abs(metric: Metric) -> Self {
+        Self::new(metric.name, move |r| r.metric(metric).abs())
+    }
+}
+
+impl<P> From<Metric> for Quantity<P> {
+    fn from(metric: Metric) -> Self {
+        Self::new(metric.name, move |r| r.metric(metric))
+    }
+}
+
+enum Bound<P> {
+    Within {
+        reference: Of<P, f64>,
+        tolerance: Of<P, f64>,
+    },
+    AtMost(Of<P, f64>),
+    Above(Of<P, f64>),
+}
+
+enum Gate<P> {
+    /// Nothing is said where it does not hold.
+    When(Of<P, bool>),
+    /// Not judged where there is a reason.
+    Unless(Of<P, Option<String>>),
+}
+
+impl<P> Gate<P> {
+    /// The reason to stop at this gate: an empty one says nothing.
+    fn stops(gates: &[Self], run: &Run<P>) -> Option<String> {
+        gates.iter().find_map(|gate| match gate {
+            Self::When(holds) => (!holds(run)).then(String::new),
+            Self::Unless(reason) => reason(run),
+        })
+    }
+}
+
+/// One quantity of a check with its bound.
+pub(crate) struct Demand<P> {
+    quantity: Quantity<P>,
+    bound: Bound<P>,
+    scale: Option<Of<P, f64>>,
+    gates: Vec<Gate<P>>,
+    why: Option<Of<P, String>>,
+}
+
+impl<P: ParameterSet> Demand<P> {
+    fn new(quantity: Quantity<P>, bound: Bound<P>) -> Self {
+        Self {
+            quantity,
+            bound,
+            scale: None,
+            gates: Vec::new(),
+            why: None,
+        }
+    }
+
+    /// |quantity − reference| ≤ tolerance.
+    pub(crate) fn within(
+        quantity: impl Into<Quantity<P>>,
+        reference: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+        tolerance: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        let (reference, tolerance) = (Box::new(reference), Box::new(tolerance));
+        Self::new(
+            quantity.into(),
+            Bound::Within {
+                reference,
+                tolerance,
+            },
+        )
+    }
+
+    /// quantity ≤ bound.
+    pub(crate) fn at_most(
+        quantity: impl Into<Quantity<P>>,
+        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self::new(quantity.into(), Bound::AtMost(Box::new(bound)))
+    }
+
+    /// quantity > bound.
+    pub(crate) fn above(
+        quantity: impl Into<Quantity<P>>,
+        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self::new(quantity.into(), Bound::Above(Box::new(bound)))
+    }
+
+    /// Says nothing of this quantity where `holds` is false.
+    pub(crate) fn when(mut self, holds: impl Fn(&Run<P>) -> bool + Send + Sync + 'static) -> Self {
+        self.gates.push(Gate::When(Box::new(holds)));
+        self
+    }
+
+    /// Does not judge this quantity where there is a reason.
+    pub(crate) fn unless(
+        mut self,
+        reason: impl Fn(&Run<P>) -> Option<String> + Send + Sync + 'static,
+    ) -> Self {
+        self.gates.push(Gate::Unless(Box::new(reason)));
+        self
+    }
+
+    /// The magnitude of a wrong value, where the reference is zero or a difference.
+    pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static) -> Self {
+        let scale: Of<P, f64> = Box::new(scale);
+        Self {
+            scale: Some(scale),
+            ..self
+        }
+    }
+
+    /// The source of reference and tolerance, where it differs from that of the check.
+    pub(crate) fn because_of(
+        self,
+        why: impl Fn(&Run<P>) -> String + Send + Sync + 'static,
+    ) -> Self {
+        let why: Of<P, String> = Box::new(why);
+        Self {
+            why: Some(why),
+            ..self
+        }
+    }
+
+    fn finding(&self, run: &Run<P>, why: &str) -> Option<Finding> {
+        let name = &*self.quantity.name;
+        match Gate::stops(&self.gates, run) {
+            Some(silent) if silent.is_empty() => return None,
+            Some(reason) => return Some(Finding::not_applicable(name, reason)),
+            None => {}
+        }
+        let own = self.why.as_ref().map(|why| why(run));
+        let why = own.unwrap_or_else(|| why.to_owned());
+        let value = (self.quantity.value)(run);
+        let found = match &self.bound {
+            Bound::Within {
+                reference,
+                tolerance,
+            } => Finding::within(name, value, reference(run), tolerance(run), why),
+            Bound::AtMost(bound) => Finding::at_most(name, value, bound(run), why),
+            Bound::Above(bound) => Finding::above(name, value, bound(run), why),
+        };
+        Some(match &self.scale {
+            Some(scale) => found.of_scale(scale(run)),
+            None => found,
+        })
+    }
+}
+
+/// What a set of runs depends on in a study of orders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Over {
+    /// The cell size h.
+    CellSize,
+    /// The time step Δt.
+    TimeStep,
+}
+
+type Names<P> = Box<dyn Fn(&Run<P>) -> String + Send + Sync>;
+
+enum Subject<P> {
+    /// Quantities of one run.
+    Run(Vec<Demand<P>>),
+    /// The observed order of a metric over the runs of each scheme: name, metric, and the formal order.
+    Order {
+        name: Names<P>,
+        metric: Metric,
+        over: Over,
+        formal: f64,
+    },
+    /// A number of two runs: the partner of the first, the number by name, and its demand on the first run.
+    Pair {
+        partner: PartnerOf<P>,
+        name: PairName<P>,
+        value: PairValue<P>,
+        bound: Bound<P>,
+    },
+    /// Findings of a function of its own.
+    Study(Box<dyn Fn(&[Record]) -> Vec<Finding> + Send + Sync>),
+    /// Findings of a function of its own, of one run.
+    Own(Box<dyn Fn(&Run<P>) -> Vec<Finding> + Send + Sync>),
+}
+
+type PartnerOf<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> bool + Send + Sync>;
+type PairName<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> String + Send + Sync>;
+type PairValue<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync>;
+
+/// A check of a case with the parameters `P`, under construction.
+pub(crate) struct CheckOf<P> {
+    kind: Kind,
+    name: &'static str,
+    statement: &'static str,
+    gates: Vec<Gate<P>>,
+    subject: Subject<P>,
+    scale: Option<Of<P, f64>>,
+    why: Of<P, String>,
+}
+
+impl<P: ParameterSet> CheckOf<P> {
+    fn new(kind: Kind, name: &'static str, statement: &'static str) -> Self {
+        Self {
+            kind,
+            name,
+            statement,
+            gates: Vec::new(),
+            subject: Subject::Run(Vec::new()),
+            scale: None,
+            why: Box::new(|_| String::new()),
+        }
+    }
+
+    /// Against an exact value, an independent reference or a law of physics.
+    pub(crate) fn truth(name: &'static str, statement: &'static str) -> Self {
+        Self::new(Kind::Truth, name, statement)
+    }
+
+    /// A known limit: the check fails if the limit vanishes.
+    pub(crate) fn known_limit(name: &'static str, statement: &'static str) -> Self {
+        Self::new(Kind::KnownLimit, name, statement)
+    }
+
+    /// A former observation, which no theory demands.
+    pub(crate) fn regression(name: &'static str, statement: &'static str) -> Self {
+        Self::new(Kind::Regression, name, statement)
+    }
+
+    /// A condition that a wrong solution fulfils as well, such as its mass: it makes no run judged.
+    pub(crate) fn bookkeeping(name: &'static str, statement: &'static str) -> Self {
+        Self::new(Kind::Bookkeeping, name, statement)
+    }
+
+    /// Says nothing of runs where `holds` is false.
+    pub(crate) fn when(mut self, holds: impl Fn(&Run<P>) -> bool + Send + Sync + 'static) -> Self {
+        self.gates.push(Gate::When(Box::new(holds)));
+        self
+    }
+
+    /// Does not judge a run where there is a reason.
+    pub(crate) fn unless(
+        mut self,
+        reason: impl Fn(&Run<P>) -> Option<String> + Send + Sync + 'static,
+    ) -> Self {
+        self.gates.push(Gate::Unless(Box::new(reason)));
+        self
+    }
+
+    /// |quantity − reference| ≤ tolerance.
+    pub(crate) fn within(
+        self,
+        quantity: impl Into<Quantity<P>>,
+        reference: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+        tolerance: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        self.each([Demand::within(quantity, reference, tolerance)])
+    }
+
+    /// quantity ≤ bound; of a pair of runs, the number of the two.
+    pub(crate) fn at_most(
+        self,
+        quantity: impl Into<Quantity<P>>,
+        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        self.each([Demand::at_most(quantity, bound)])
+    }
+
+    /// quantity > bound.
+    pub(crate) fn above(
+        self,
+        quantity: impl Into<Quantity<P>>,
+        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        self.each([Demand::above(quantity, bound)])
+    }
+
+    /// Several quantities.
+    pub(crate) fn each(mut self, demands: impl IntoIterator<Item = Demand<P>>) -> Self {
+        match &mut self.subject {
+            Subject::Run(all) => all.extend(demands),
+            _ => self.subject = Subject::Run(demands.into_iter().collect()),
+        }
+        self
+    }
+
+    /// The magnitude of a wrong value, where the reference is zero or a difference.
+    pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static) -> Self {
+        let scale: Of<P, f64> = Box::new(scale);
+        Self {
+            scale: Some(scale),
+            ..self
+        }
+    }
+
+    /// The order of `metric` is at least the `formal` one less [`SLACK`], over the three finest runs of each scheme among those
+    /// that pass `when`.
+    pub(crate) fn order(self, metric: Metric, over: Over, formal: f64) -> Self {
+        let of = match over {
+            Over::CellSize => format!("order of {}", metric.name),
+            Over::TimeStep => format!("order in Δt of {}", metric.name),
+        };
+        let name: Names<P> = Box::new(move |r| format!("{of} of {}", r.scheme));
+        let subject = Subject::Order {
+            name,
+            metric,
+            over,
+            formal,
+        };
+        Self { subject, ..self }
+    }
+
+    /// The same with another name of the quantity.
+    pub(crate) fn named(
+        mut self,
+        named: impl Fn(&Run<P>) -> String + Send + Sync + 'static,
+    ) -> Self {
+        if let Subject::Order { name, .. } = &mut self.subject {
+            *name = Box::new(named);
+        }
+        self
+    }
+
+    /// Each run that passes `when` beside the first other run that is its `partner`.
+    pub(crate) fn pairs(
+        self,
+        partner: impl Fn(&Run<P>, &Run<P>) -> bool + Send + Sync + 'static,
+    ) -> PairsOf<P> {
+        PairsOf {
+            check: self,
+            partner: Box::new(partner),
+        }
+    }
+
+    /// Findings of a function on one run.
+    pub(crate) fn own(
+        self,
+        found: impl Fn(&Run<P>) -> Vec<Finding> + Send + Sync + 'static,
+    ) -> Self {
+        let subject = Subject::Own(Box::new(found));
+        Self { subject, ..self }
+    }
+
+    /// Findings of a function on all runs of the case.
+    pub(crate) fn study(
+        self,
+        found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static,
+    ) -> Self {
+        let subject = Subject::Study(Box::new(found));
+        Self { subject, ..self }
+    }
+
+    /// The source of reference and tolerance.
+    pub(crate) fn because(self, why: &'static str) -> Check {
+        self.because_of(move |_| why.to_owned())
+    }
+
+    /// The source of reference and tolerance, by run.
+    pub(crate) fn because_of(
+        mut self,
+        why: impl Fn(&Run<P>) -> String + Send + Sync + 'static,
+    ) -> Check {
+        self.why = Box::new(why);
+        self.into()
+    }
+
+    fn of_run(&self, demands: &[Demand<P>], run: &Run<P>) -> Vec<Finding> {
+        match Gate::stops(&self.gates, run) {
+            Some(silent) if silent.is_empty() => return Vec::new(),
+            Some(reason) => {
+                let first = demands.first().map_or("", |d| &d.quantity.name);
+                return vec![Finding::not_applicable(first, reason)];
+            }
+            None => {}
+        }
+        let why = (self.why)(run);
+        let found = demands.iter().filter_map(|d| d.finding(run, &why));
+        found.map(|f| self.scaled(f, run)).collect()
+    }
+
+    fn scaled(&self, found: Finding, run: &Run<P>) -> Finding {
+        match &self.scale {
+            Some(scale) => found.of_scale(scale(run)),
+            None => found,
+        }
+    }
+
+    /// The runs that pass `when`.
+    fn runs<'a>(&self, records: &'a [Record]) -> Vec<Run<'a, P>> {
+        let runs = records.iter().filter_map(Run::of);
+        runs.filter(|r| Gate::stops(&self.gates, r).is_none())
+            .collect()
+    }
+
+    fn orders(
+        &self,
+        records: &[Record],
+        (name, metric): (&Names<P>, Metric),
+        (over, formal): (Over, f64),
+    ) -> Vec<Finding> {
+        let runs = self.runs(records);
+        let mut ladders: BTreeMap<Scheme, Vec<(f64, &Run<P>)>> = BTreeMap::new();
+        for run in &runs {
+            let at = match over {
+                Over::CellSize => run.h,
+                Over::TimeStep => run.dt(),
+            };
+            ladders.entry(run.scheme).or_default().push((at, run));
+        }
+        let found = ladders.into_values().filter_map(|mut ladder| {
+            ladder.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let finest = ladder.get(ladder.len().checked_sub(DECIDING)?..)?;
+            let points: Vec<_> = finest
+                .iter()
+                .map(|(at, r)| (*at, r.metric(metric)))
+                .collect();
+            let order = fit_order(&points).map_or(f64::NAN, |o| o.order);
+            let run = ladder[0].1;
+            Some(Finding::above(
+                name(run),
+                order,
+                formal - SLACK,
+                (self.why)(run),
+            ))
+        });
+        found.collect()
+    }
+
+    fn pair(
+        &self,
+        records: &[Record],
+        (partner, name): (&PartnerOf<P>, &PairName<P>),
+        (value, bound): (&PairValue<P>, &Bound<P>),
+    ) -> Vec<Finding> {
+        let all: Vec<Run<P>> = records.iter().filter_map(Run::of).collect();
+        let found = self.runs(records).into_iter().filter_map(|run| {
+            let other = all.iter().find(|other| partner(&run, other))?;
+            let (name, value, why) = (name(&run, other), value(&run, other), (self.why)(&run));
+            let found = match bound {
+                Bound::Within {
+                    reference,
+                    tolerance,
+                } => Finding::within(name, value, reference(&run), tolerance(&run), why),
+                Bound::AtMost(bound) => Finding::at_most(name, value, bound(&run), why),
+                Bound::Above(bound) => Finding::above(name, value, bound(&run), why),
+            };
+            Some(self.scaled(found, &run))
+        });
+        found.collect()
+    }
+}
+
+/// A check on pairs of runs, under construction.
+pub(crate) struct PairsOf<P> {
+    check: CheckOf<P>,
+    partner: PartnerOf<P>,
+}
+
+impl<P: ParameterSet> PairsOf<P> {
+    fn bound(
+        self,
+        name: impl Fn(&Run<P>, &Run<P>) -> String + Send + Sync + 'static,
+        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync + 'static,
+        bound: Bound<P>,
+    ) -> CheckOf<P> {
+        let (partner, name, value) = (self.partner, Box::new(name), Box::new(value));
+        let subject = Subject::Pair {
+            partner,
+            name,
+            value,
+            bound,
+        };
+        CheckOf {
+            subject,
+            ..self.check
+        }
+    }
+
+    /// value ≤ bound, by the name, the value of run and partner, and the bound of the run.
+    pub(crate) fn at_most(
+        self,
+        name: impl Fn(&Run<P>, &Run<P>) -> String + Send + Sync + 'static,
+        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync + 'static,
+        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> CheckOf<P> {
+        self.bound(name, value, Bound::AtMost(Box::new(bound)))
+    }
+
+    /// value > bound.
+    pub(crate) fn above(
+        self,
+        name: impl Fn(&Run<P>, &Run<P>) -> String + Send + Sync + 'static,
+        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync + 'static,
+        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> CheckOf<P> {
+        self.bound(name, value, Bound::Above(Box::new(bound)))
+    }
+
+    /// |value − reference| ≤ tolerance.
+    pub(crate) fn within(
+        self,
+        name: impl Fn(&Run<P>, &Run<P>) -> String + Send + Sync + 'static,
+        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync + 'static,
+        reference: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+        tolerance: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+    ) -> CheckOf<P> {
+        let (reference, tolerance) = (Box::new(reference), Box::new(tolerance));
+        self.bound(
+            name,
+            value,
+            Bound::Within {
+                reference,
+                tolerance,
+            },
+        )
+    }
+}
+
+impl<P: ParameterSet> From<CheckOf<P>> for Check {
+    fn from(check: CheckOf<P>) -> Self {
+        let (kind, name, statement) = (check.kind, check.name, check.statement);
+        let on = match check.subject {
+            Subject::Run(_) | Subject::Own(_) => On::Run(Box::new(move |record| {
+                let Some(run) = Run::of(record) else {
+                    return Vec::new();
+                };
+                match &check.subject {
+                    Subject::Own(_) if Gate::stops(&check.gates, &run).is_some() => Vec::new(),
+                    Subject::Own(found) => found(&run),
+                    Subject::Run(demands) => check.of_run(demands, &run),
+                    _ => Vec::new(),
+                }
+            })),
+            _ => On::Study(Box::new(move |records| match &check.subject {
+                Subject::Order {
+                    name,
+                    metric,
+                    over,
+                    formal,
+                } => check.orders(records, (name, *metric), (*over, *formal)),
+                Subject::Pair {
+                    partner,
+                    name,
+                    value,
+                    bound,
+                } => check.pair(records, (partner, name), (value, bound)),
+                Subject::Study(found) => found(records),
+                _ => Vec::new(),
+            })),
+        };
+        Self {
+            name,
+            kind,
+            statement,
+            on,
+        }
+    }
+}
+
+/// Whether two runs differ in their schemes only.
+pub(crate) fn same_but_scheme<P>(run: &Run<P>, other: &Run<P>) -> bool {
+    run.level == other.level && run.set == other.set
+}

@@ -1,0 +1,363 @@
+//! The problem of a case: what it simulates, observes and measures; and its one driver.
+
+use crate::error::Error;
+use crate::job::{Column, Job, Pulse, Row, Snapshot};
+use crate::metric::Metric;
+use crate::parameter::{ParameterSet, Parameters};
+use crate::record::{Discretisation, Measured, WorkDone};
+use crate::setup::Setup;
+use crate::spec::RunSpec;
+use mpm_core::{Field, Memory, MemoryError, Particles, Saved, Simulation, Spent};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The current simulation of a run, which may consist of several in sequence: a gravity phase, then the flow.
+pub struct Phase<const D: usize> {
+    /// The simulation.
+    pub run: Box<dyn Simulation<D>>,
+    /// Work of those before it.
+    before: WorkDone,
+    pulse: Arc<Pulse>,
+}
+
+impl<const D: usize> Phase<D> {
+    pub(crate) fn new(run: Box<dyn Simulation<D>>) -> Self {
+        Self {
+            run,
+            before: WorkDone::default(),
+            pulse: Arc::default(),
+        }
+    }
+
+    pub(crate) fn before(&self) -> WorkDone {
+        self.before
+    }
+
+    pub(crate) fn pulse(&self) -> Arc<Pulse> {
+        Arc::clone(&self.pulse)
+    }
+
+    pub(crate) fn reset(&mut self, run: Box<dyn Simulation<D>>, before: WorkDone) {
+        (self.run, self.before) = (run, before);
+    }
+
+    /// Advances by `count` steps.
+    ///
+    /// # Errors
+    /// The computation broke down.
+    pub fn steps(&mut self, count: u64) -> Result<(), mpm_core::Error> {
+        (0..count).try_for_each(|_| {
+            self.run.step()?;
+            self.pulse.beat(self.run.time());
+            Ok(())
+        })
+    }
+
+    /// Continues with another simulation: with its own body, or with that of an earlier one.
+    ///
+    /// # Errors
+    /// The body is not one of the same particles, basis, remedy, transfer and kind of law.
+    pub fn enter(
+        &mut self,
+        mut next: Box<dyn Simulation<D>>,
+        body: Option<&Saved>,
+    ) -> Result<(), mpm_core::Error> {
+        if let Some(body) = body {
+            next.take_over(body)?;
+        }
+        self.before = self.work();
+        self.run = next;
+        Ok(())
+    }
+
+    /// Work so far, of all simulations.
+    #[must_use]
+    pub fn work(&self) -> WorkDone {
+        WorkDone::from(self.run.work()).after(self.before)
+    }
+
+    /// Share of `steps` steps that the current simulation has done.
+    #[must_use]
+    pub fn share_of(&self, steps: u64) -> f64 {
+        self.run.work().steps as f64 / steps as f64
+    }
+}
+
+/// What a case simulates, observes and measures. All that changes from row to row is in [`Problem::Seen`].
+pub trait Problem<const D: usize>: Sized + Send {
+    /// Its parameters.
+    type Parameters: ParameterSet;
+    /// Observations of the rows so far. They go into checkpoints.
+    type Seen: Default + Serialize + DeserializeOwned + Send;
+
+    /// The problem of a setup.
+    ///
+    /// # Errors
+    /// Parameters that make no scene.
+    fn new(setup: Setup<Self::Parameters>) -> Result<Self, Error>;
+    /// Observations before the first row.
+    fn unseen(&self) -> Self::Seen {
+        Self::Seen::default()
+    }
+    /// The discretisation.
+    fn discretisation(&self) -> Discretisation;
+    /// Initial simulation of the phase that `seen` records.
+    ///
+    /// # Errors
+    /// Parameters that make no scene.
+    fn begin(&self, seen: &Self::Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>;
+    /// Runs to the next time of observation, enters the next simulation if one is due, and returns the row of the series.
+    ///
+    /// # Errors
+    /// The computation broke down.
+    fn row(&self, seen: &mut Self::Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error>;
+    /// Share of the longest possible run that is done; at 1 the run is complete.
+    fn progress(&self, seen: &Self::Seen, phase: &Phase<D>) -> f64;
+    /// Snapshot to write after the last row, if one is due.
+    fn snapshot(&self, _seen: &Self::Seen, _phase: &mut Phase<D>) -> Option<Snapshot> {
+        None
+    }
+    /// The particles as columns in seeding order, positions first.
+    fn particles(&self, seen: &Self::Seen, phase: &mut Phase<D>) -> Vec<Column>;
+    /// The metrics at the end.
+    fn metrics(&self, seen: &Self::Seen, phase: &mut Phase<D>) -> Vec<(Metric, f64)>;
+}
+
+/// Begins a run of the problem `P` in `D` dimensions.
+///
+/// # Errors
+/// Parameters that make no scene.
+pub fn begin<const D: usize, P: Problem<D> + 'static>(
+    spec: &RunSpec,
+    parameters: &Parameters,
+) -> Result<Box<dyn Job>, Error> {
+    let problem = P::new(Setup::of_spec(spec, parameters)?)?;
+    Ok(Box::new(Driver::new(problem)?))
+}
+
+/// A run of a [`Problem`].
+pub struct Driver<const D: usize, P: Problem<D>> {
+    problem: P,
+    seen: P::Seen,
+    phase: Phase<D>,
+}
+
+impl<const D: usize, P: Problem<D>> Driver<D, P> {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// As [`Problem::begin`].
+    pub fn new(problem: P) -> Result<Self, Error> {
+        let seen = problem.unseen();
+        let phase = Phase::new(problem.begin(&seen)?);
+        Ok(Self {
+            problem,
+            seen,
+            phase,
+        })
+    }
+
+    /// Observations so far.
+    pub(crate) fn seen(&self) -> &P::Seen {
+        &self.seen
+    }
+
+    /// The parts, for tests.
+    #[cfg(test)]
+    pub(crate) fn parts(&mut self) -> (&P, &mut P::Seen, &mut Phase<D>) {
+        (&self.problem, &mut self.seen, &mut self.phase)
+    }
+}
+
+impl<const D: usize, P: Problem<D>> Memory for Driver<D, P> {
+    fn save(&self) -> Result<Saved, MemoryError> {
+        Saved::of(&(&self.seen, self.phase.before, self.phase.run.save()?))
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
+        let (seen, before, run): (P::Seen, WorkDone, Saved) = saved.read("a run")?;
+        let scene = self.problem.begin(&seen);
+        let mut scene = scene.map_err(|e| MemoryError::Scene(e.to_string()))?;
+        scene.restore(&run)?;
+        (self.phase.run, self.phase.before) = (scene, before);
+        self.seen = seen;
+        Ok(())
+    }
+}
+
+impl<const D: usize, P: Problem<D>> Job for Driver<D, P> {
+    fn discretisation(&self) -> Discretisation {
+        self.problem.discretisation()
+    }
+
+    fn advance(&mut self) -> Result<Row, mpm_core::Error> {
+        self.problem.row(&mut self.seen, &mut self.phase)
+    }
+
+    fn finished(&self) -> bool {
+        self.progress() >= 1.0
+    }
+
+    fn progress(&self) -> f64 {
+        self.problem.progress(&self.seen, &self.phase)
+    }
+
+    fn snapshot(&mut self) -> Option<Snapshot> {
+        self.problem.snapshot(&self.seen, &mut self.phase)
+    }
+
+    fn particles(&mut self) -> Vec<Column> {
+        self.problem.particles(&self.seen, &mut self.phase)
+    }
+
+    fn metrics(&mut self) -> BTreeMap<String, Measured> {
+        let values = self.problem.metrics(&self.seen, &mut self.phase);
+        values.into_iter().map(measured).collect()
+    }
+
+    fn work(&self) -> WorkDone {
+        self.phase.work()
+    }
+
+    fn pulse(&self) -> Arc<Pulse> {
+        Arc::clone(&self.phase.pulse)
+    }
+
+    fn spent(&self) -> Spent {
+        self.phase.run.spent()
+    }
+}
+
+/// A metric as a record has it: a value that is not finite is missing.
+pub(crate) fn measured((metric, value): (Metric, f64)) -> (String, Measured) {
+    let measured = Measured {
+        value: value.is_finite().then_some(value),
+        unit: metric.unit.to_owned(),
+    };
+    (metric.name.to_owned(), measured)
+}
+
+/// All rows of a run so far, that of the start first: the observations of a problem that is sampled at equal intervals.
+#[derive(Default, Serialize, Deserialize)]
+pub(crate) struct Rows {
+    names: Vec<String>,
+    values: Vec<Vec<f64>>,
+}
+
+impl Rows {
+    /// Runs to the next of `rows` equal intervals of `steps` steps, and observes.
+    ///
+    /// # Errors
+    /// The computation broke down.
+    pub(crate) fn sample<const D: usize>(
+        &mut self,
+        phase: &mut Phase<D>,
+        [steps, rows]: [u64; 2],
+        observe: impl Fn(&mut dyn Simulation<D>) -> Row,
+    ) -> Result<Row, mpm_core::Error> {
+        if self.values.is_empty() {
+            let Row(first) = observe(phase.run.as_mut());
+            self.names = first.iter().map(|(name, _)| (*name).to_owned()).collect();
+            self.values
+                .push(first.into_iter().map(|(_, value)| value).collect());
+        }
+        let to = (self.values.len() as u64 * steps).div_ceil(rows);
+        phase.steps(to - phase.run.work().steps)?;
+        let row = observe(phase.run.as_mut());
+        self.values
+            .push(row.0.iter().map(|(_, value)| *value).collect());
+        Ok(row)
+    }
+
+    /// Values of the column whose name, before its unit, is `name`, that of the start first; NaN if there is none.
+    pub(crate) fn column(&self, name: &str) -> Vec<f64> {
+        let own = |full: &String| full.split(" (").next() == Some(name);
+        let place = self.names.iter().position(own).unwrap_or(usize::MAX);
+        let value = |row: &Vec<f64>| row.get(place).copied().unwrap_or(f64::NAN);
+        self.values.iter().map(value).collect()
+    }
+
+    /// Two columns as points.
+    pub(crate) fn points(&self, [x, y]: [&str; 2]) -> Vec<(f64, f64)> {
+        self.column(x).into_iter().zip(self.column(y)).collect()
+    }
+}
+
+/// The particles of a run as columns in seeding order.
+pub(crate) struct Columns<'a, const D: usize> {
+    run: &'a mut dyn Simulation<D>,
+    columns: Vec<Column>,
+}
+
+impl<'a, const D: usize> Columns<'a, D> {
+    /// Positions x, y, z (m).
+    pub(crate) fn positions(run: &'a mut dyn Simulation<D>) -> Self {
+        let columns = Vec::new();
+        Self { run, columns }.axes(["x", "y", "z"], "m", |p, k| p.position[k])
+    }
+
+    /// Positions in the reference configuration (m).
+    pub(crate) fn references(self) -> Self {
+        let names = ["reference_x", "reference_y", "reference_z"];
+        self.axes(names, "m", |p, k| p.reference[k])
+    }
+
+    /// Velocities (m/s).
+    pub(crate) fn velocities(self) -> Self {
+        self.axes(["vx", "vy", "vz"], "m/s", |p, k| p.velocity[k])
+    }
+
+    /// A vector, a column an axis.
+    pub(crate) fn axes(
+        mut self,
+        names: [&'static str; 3],
+        unit: &'static str,
+        of: impl Fn(&Particles<D>, usize) -> [f64; D],
+    ) -> Self {
+        for (axis, name) in names.into_iter().take(D).enumerate() {
+            self = self.each(name, unit, |p, k| of(p, k)[axis]);
+        }
+        self
+    }
+
+    /// A number of each particle.
+    pub(crate) fn each(
+        mut self,
+        name: &'static str,
+        unit: &'static str,
+        of: impl Fn(&Particles<D>, usize) -> f64,
+    ) -> Self {
+        let p = self.run.particles();
+        let values = p.seeded(|k| of(p, k));
+        self.columns.push(Column { name, unit, values });
+        self
+    }
+
+    /// A field of the simulation.
+    pub(crate) fn field(self, name: &'static str, unit: &'static str, field: Field) -> Self {
+        let values = self.run.field(field);
+        self.each(name, unit, |_, k| values[k])
+    }
+
+    /// The volume ratio J.
+    pub(crate) fn jacobian(self) -> Self {
+        self.each("jacobian", "-", |p, k| p.jacobian[k])
+    }
+
+    /// A column whose `values` are in seeding order.
+    pub(crate) fn seeded(
+        mut self,
+        name: &'static str,
+        unit: &'static str,
+        values: Vec<f64>,
+    ) -> Self {
+        self.columns.push(Column { name, unit, values });
+        self
+    }
+
+    /// The columns.
+    pub(crate) fn done(self) -> Vec<Column> {
+        self.columns
+    }
+}

@@ -1,0 +1,138 @@
+//! A run as its case sees it: parameters, scheme and cells, read once from a plan or from a record. Quantities that follow from
+//! these are methods of a case's `Setup`, for scene, observation, checks, tables and figures alike.
+
+use crate::error::Error;
+use crate::parameter::{ParameterSet, Parameters};
+use crate::record::Record;
+use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, SpaceName, TransferName};
+use crate::spec::RunSpec;
+use std::ops::Deref;
+
+/// The parameters `P` of a case, its scheme and its cells.
+#[derive(Debug, Clone)]
+pub struct Setup<P> {
+    /// Scheme.
+    pub scheme: Scheme,
+    /// Cell size (m).
+    pub h: f64,
+    /// Name of the level.
+    pub level: String,
+    /// Parameters changed from their defaults, as `name=value`.
+    pub set: Vec<String>,
+    /// Whether every particle starts a last bit beside its place.
+    pub perturbed: bool,
+    /// All parameters by name.
+    pub values: Parameters,
+    own: P,
+}
+
+impl<P> Deref for Setup<P> {
+    type Target = P;
+
+    fn deref(&self) -> &P {
+        &self.own
+    }
+}
+
+impl<P: ParameterSet> Setup<P> {
+    /// The setup of a run to be made.
+    ///
+    /// # Errors
+    /// A parameter of another type.
+    pub fn of_spec(spec: &RunSpec, values: &Parameters) -> Result<Self, Error> {
+        Ok(Self {
+            scheme: spec.scheme,
+            h: spec.level.h,
+            level: spec.level.name.to_owned(),
+            set: spec.set.clone(),
+            perturbed: spec.perturbed,
+            values: values.clone(),
+            own: P::read(values)?,
+        })
+    }
+
+    /// The setup of a run that was made.
+    ///
+    /// # Errors
+    /// A parameter of another type.
+    pub fn of_record(record: &Record) -> Result<Self, Error> {
+        Ok(Self {
+            scheme: record.scheme(),
+            h: record.discretisation.h,
+            level: record.level.clone(),
+            set: record.set.clone(),
+            perturbed: record.perturbed,
+            values: record.parameters.clone(),
+            own: P::read(&record.parameters)?,
+        })
+    }
+
+    /// A number that follows from the setup of a record; NaN if the record's parameters are of another type.
+    pub(crate) fn number_of(record: &Record, number: impl FnOnce(&Self) -> f64) -> f64 {
+        Self::of_record(record).map_or(f64::NAN, |setup| number(&setup))
+    }
+}
+
+impl<P> Setup<P> {
+    /// The basis functions.
+    pub fn basis(&self) -> BasisName {
+        self.scheme.basis()
+    }
+
+    /// The locking remedy.
+    pub fn remedy(&self) -> RemedyName {
+        self.scheme.remedy()
+    }
+
+    /// The transfer.
+    pub fn transfer(&self) -> TransferName {
+        self.scheme.transfer()
+    }
+
+    /// The time rule of an implicit scheme.
+    pub fn rule(&self) -> Option<RuleName> {
+        self.scheme.rule()
+    }
+
+    /// The pressure space of a scheme of solid and water.
+    pub fn space(&self) -> Option<SpaceName> {
+        match self.scheme {
+            Scheme::Poro(parts) => Some(parts.space),
+            _ => None,
+        }
+    }
+
+    /// Whether the scheme is explicit.
+    pub fn is_explicit(&self) -> bool {
+        matches!(self.scheme, Scheme::Explicit(_))
+    }
+
+    /// Whether the scheme is implicit, static or not.
+    pub fn is_implicit(&self) -> bool {
+        self.rule().is_some()
+    }
+
+    /// Whether the case's own parameters were changed in nothing.
+    pub fn is_default(&self) -> bool {
+        self.set.is_empty()
+    }
+
+    /// Whether `name` is the only parameter that was changed.
+    pub fn changes_only(&self, name: &str) -> bool {
+        !self.set.is_empty() && self.changes_none_but(&[name])
+    }
+
+    /// Whether no other parameters than those of these names were changed.
+    pub fn changes_none_but(&self, names: &[&str]) -> bool {
+        let mut changed = self.set.iter().filter_map(|set| set.split('=').next());
+        changed.all(|name| names.contains(&name))
+    }
+
+    /// Initial positions (m) of particles seeded at `positions`: these, or, in a perturbed run, the next floating-point numbers.
+    pub fn start_at<const D: usize>(
+        &self,
+        positions: impl IntoIterator<Item = [f64; D]>,
+    ) -> Vec<[f64; D]> {
+        crate::spec::start_at(positions.into_iter().collect(), self.perturbed)
+    }
+}
