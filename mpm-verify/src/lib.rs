@@ -17,6 +17,7 @@ pub mod demand;
 pub mod draw;
 pub mod drive;
 pub mod error;
+pub(crate) mod figure;
 pub mod files;
 pub mod foreign;
 pub mod gallery;
