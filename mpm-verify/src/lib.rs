@@ -25,6 +25,7 @@ pub mod golden;
 pub mod job;
 pub mod metric;
 pub mod night;
+pub(crate) mod prelude;
 pub mod probe;
 pub mod problem;
 pub mod record;

@@ -118,8 +118,10 @@ pub trait Problem<const D: usize>: Sized + Send {
     fn snapshot(&self, _seen: &Self::Seen, _phase: &mut Phase<D>) -> Option<Snapshot> {
         None
     }
-    /// The particles as columns in seeding order, positions first.
-    fn particles(&self, seen: &Self::Seen, phase: &mut Phase<D>) -> Vec<Column>;
+    /// Adds what is kept of the particles at the end to the `columns` with their positions.
+    fn particles<'a>(&self, _seen: &Self::Seen, columns: Columns<'a, D>) -> Columns<'a, D> {
+        columns
+    }
     /// The metrics at the end.
     fn metrics(&self, seen: &Self::Seen, phase: &mut Phase<D>) -> Vec<(Metric, f64)>;
 }
@@ -208,7 +210,8 @@ impl<const D: usize, P: Problem<D>> Job for Driver<D, P> {
     }
 
     fn particles(&mut self) -> Vec<Column> {
-        self.problem.particles(&self.seen, &mut self.phase)
+        let columns = Columns::positions(self.phase.run.as_mut());
+        self.problem.particles(&self.seen, columns).columns
     }
 
     fn metrics(&mut self) -> BTreeMap<String, Measured> {
@@ -285,7 +288,7 @@ impl Rows {
 }
 
 /// The particles of a run as columns in seeding order.
-pub(crate) struct Columns<'a, const D: usize> {
+pub struct Columns<'a, const D: usize> {
     run: &'a mut dyn Simulation<D>,
     columns: Vec<Column>,
 }
@@ -295,6 +298,11 @@ impl<'a, const D: usize> Columns<'a, D> {
     pub(crate) fn positions(run: &'a mut dyn Simulation<D>) -> Self {
         let columns = Vec::new();
         Self { run, columns }.axes(["x", "y", "z"], "m", |p, k| p.position[k])
+    }
+
+    /// The simulation.
+    pub(crate) fn run(&mut self) -> &mut dyn Simulation<D> {
+        self.run
     }
 
     /// Positions in the reference configuration (m).
@@ -354,10 +362,5 @@ impl<'a, const D: usize> Columns<'a, D> {
     ) -> Self {
         self.columns.push(Column { name, unit, values });
         self
-    }
-
-    /// The columns.
-    pub(crate) fn done(self) -> Vec<Column> {
-        self.columns
     }
 }

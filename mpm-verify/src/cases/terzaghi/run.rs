@@ -1,0 +1,267 @@
+//! Derived quantities, scene and observations of the column.
+
+use super::*;
+use crate::cases::growth;
+use crate::cases::parameters::{least_strain, require_quotient};
+use crate::exact::terzaghi::FirstStep;
+use crate::statistics::rms;
+use mpm_core::material::Hencky;
+use mpm_core::poro::{Conductivity, Face, PressureSpace, Settings, Water};
+
+/// Height of the column (m).
+pub(super) const HEIGHT: f64 = 1.0;
+/// Particles a cell.
+const PER_CELL: usize = 2;
+/// Empty cells above it.
+const ROOM: usize = 2;
+/// Weight of water (N/m³).
+const WATER_WEIGHT: f64 = 9810.0;
+/// Largest q/M: the finite part of the strain changes a distance by ten times as much.
+const SMALL: f64 = 1e-6;
+/// Largest change of an overshoot or a settlement by finite strain and Newton's tolerance.
+pub(super) const FINITE: f64 = 10.0 * SMALL;
+/// Smaller values are rounding.
+const ROUNDING: f64 = 1e-9;
+
+impl Setup<Terzaghi> {
+    /// Shear modulus G (Pa).
+    fn shear_modulus(&self) -> f64 {
+        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
+    }
+
+    /// Oedometric modulus M (Pa).
+    fn modulus(&self) -> f64 {
+        2.0 * self.shear_modulus() * (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
+    }
+
+    /// κ (m²/(Pa s)).
+    fn kappa(&self) -> f64 {
+        self.conductivity / WATER_WEIGHT
+    }
+
+    /// H²/c_v (s).
+    fn time_scale(&self) -> f64 {
+        HEIGHT * HEIGHT / (self.kappa() * self.modulus())
+    }
+
+    /// q/M.
+    pub(super) fn strain(&self) -> f64 {
+        self.load / self.modulus()
+    }
+
+    /// τ M of the projection; zero without one.
+    fn strength(&self) -> f64 {
+        match self.space() {
+            Some(Ppp) => self.projection * self.modulus() / (2.0 * self.shear_modulus()),
+            _ => 0.0,
+        }
+    }
+
+    /// Duration of the first step over H²/c_v, and ratio of each step to the one before.
+    pub(super) fn first_and_growth(&self) -> (f64, f64) {
+        let first = self.first_step * (self.h / HEIGHT).powi(2);
+        match (first, self.steps) {
+            (0.0, count) => (self.time_end / f64::from(count), 1.0),
+            (_, 1) => (first, 1.0),
+            (_, count) => (first, growth::factor(first, count, self.time_end)),
+        }
+    }
+
+    /// Durations of all steps over H²/c_v.
+    fn durations(&self) -> Vec<f64> {
+        let (first, growth) = self.first_and_growth();
+        (0..self.steps).map(|k| first * growth.powi(k)).collect()
+    }
+
+    /// Time factor T at the end.
+    pub(super) fn end(&self) -> f64 {
+        self.durations().iter().sum()
+    }
+
+    /// c_v Δt/h² of the first step.
+    pub(super) fn share(&self) -> f64 {
+        self.first_and_growth().0 * (HEIGHT / self.h).powi(2)
+    }
+
+    /// Cells of the pressure.
+    pub(super) fn cells(&self) -> u32 {
+        let cells = (HEIGHT / self.h).round() as u32;
+        if self.space() == Some(TwoGrid) {
+            cells / 2
+        } else {
+            cells
+        }
+    }
+
+    /// The discrete equations of a step with c_v Δt/h² = `share`.
+    pub(super) fn equations(&self, share: f64) -> FirstStep {
+        match self.space() {
+            Some(TwoGrid) => FirstStep::two_grid(share),
+            _ => FirstStep::same_cells(share, self.strength()),
+        }
+    }
+
+    /// Difference at the end between Terzaghi's settlement and that of the discrete equations.
+    pub(super) fn settlement_distance(&self) -> f64 {
+        let shares: Vec<f64> = self
+            .durations()
+            .iter()
+            .map(|t| t * (HEIGHT / self.h).powi(2))
+            .collect();
+        let settled =
+            exact::settlement_of_equations(|r| self.equations(r), self.cells() as usize, &shares);
+        (settled - exact::settlement(self.end())).abs()
+    }
+
+    /// Largest nodal pressure over the load, minus one; zero where that is rounding.
+    fn overshoot(&self, run: &dyn Simulation<1>) -> f64 {
+        let nodes = run.pressure_nodes();
+        let most = nodes.iter().fold(0.0, |most: f64, (_, p)| most.max(*p));
+        let over = most / self.load - 1.0;
+        if over > ROUNDING { over } else { 0.0 }
+    }
+
+    /// Settlement over the final one.
+    fn settlement(&self, run: &dyn Simulation<1>) -> f64 {
+        let p = run.particles();
+        let volume = |of: &[f64]| of.iter().sum::<f64>();
+        (volume(&p.reference_volume) - volume(&p.volume)) * self.modulus() / (self.load * HEIGHT)
+    }
+
+    /// Pressure at the lowest node over the load.
+    fn base_pressure(&self, run: &dyn Simulation<1>) -> f64 {
+        let nodes = run.pressure_nodes();
+        let lowest = nodes.iter().min_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        lowest.map_or(f64::NAN, |(_, p)| p / self.load)
+    }
+}
+
+/// Observations of the column: the overshoot of the first step.
+#[derive(Default, Serialize, Deserialize)]
+pub(super) struct Seen {
+    overshoot_first_step: f64,
+}
+
+impl Problem<1> for Setup<Terzaghi> {
+    type Parameters = Terzaghi;
+    type Seen = Seen;
+
+    fn new(setup: Self) -> Result<Self, Error> {
+        let why = "below which rounding hides the answer and above which the strain is not small";
+        let allowed = least_strain(f64::from(setup.steps))..=SMALL;
+        require_quotient("load / M of young_modulus", setup.strain(), allowed, why)?;
+        Ok(setup)
+    }
+
+    fn discretisation(&self) -> Discretisation {
+        self.discretisation(1, PER_CELL, self.first_and_growth().0 * self.time_scale())
+    }
+
+    fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
+        let cells = (HEIGHT / self.h).round() as usize;
+        let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
+        let spacing = self.h / PER_CELL as f64;
+        let places = (0..cells * PER_CELL).map(|k| [(k as f64 + 0.5) * spacing]);
+        // Nothing moves by its weight: any density will do.
+        let particles = Particles::new(self.start_at(places), spacing, 1000.0, [0.5 * spacing])?;
+        let law = Hencky::new(self.young_modulus, self.poisson_ratio)?;
+        let floor = Wall {
+            axis: 0,
+            end: End::Lo,
+            kind: WallKind::Roller,
+        };
+        let scene =
+            Scene::new(Grid::new(self.h, [axis])?, Body::new(law, particles)?).constrain(floor);
+        let (load, h) = (self.load, self.h);
+        let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
+        let top = Face::loaded(&scene.body.particles, topmost, (0, End::Hi), move |_| {
+            [-load]
+        });
+        let water = Water::new(self.porosity, Conductivity::Constant(self.kappa()))
+            .drained(move |x| x[0] > HEIGHT - 0.25 * h)
+            .face(top);
+        let (first, growth) = self.first_and_growth();
+        let pressure_space = match self.space() {
+            Some(TwoGrid) => PressureSpace::TwoGrid,
+            Some(Ppp) => PressureSpace::Projected {
+                strength: self.strength() / self.modulus(),
+            },
+            // No other kind of scheme has a solver.
+            _ => PressureSpace::Equal,
+        };
+        let settings = Settings {
+            growth,
+            pressure_space,
+            tolerance: self.tolerance,
+            ..Settings::new(first * self.time_scale())
+        };
+        mpm_solvers::poro(self.scheme, scene, water, settings)
+    }
+
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<1>) -> Result<Row, mpm_core::Error> {
+        let before = phase.run.work().newton_iterations;
+        phase.steps(1)?;
+        let run = phase.run.as_ref();
+        if run.work().steps == 1 {
+            seen.overshoot_first_step = self.overshoot(run);
+        }
+        let t = run.time() / self.time_scale();
+        Ok(row! {
+            "time (s)": run.time(),
+            "time_factor (-)": t,
+            "settlement (-)": self.settlement(run),
+            "settlement_exact (-)": exact::settlement(t),
+            "base_pressure (-)": self.base_pressure(run),
+            "base_pressure_exact (-)": exact::pressure(1.0, t),
+            "overshoot (-)": self.overshoot(run),
+            "outflow (m)": run.water().map_or(f64::NAN, |w| w.outflow),
+            "newton_iterations (-)": (run.work().newton_iterations - before) as f64,
+        })
+    }
+
+    fn progress(&self, _: &Seen, phase: &Phase<1>) -> f64 {
+        phase.share_of(self.steps as u64)
+    }
+
+    fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 1>) -> Columns<'a, 1> {
+        columns
+            .references()
+            .field("pore_pressure", "Pa", Field::PorePressure)
+            .field("porosity", "-", Field::Porosity)
+            .each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
+            .jacobian()
+    }
+
+    fn metrics(&self, seen: &Seen, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {
+        let (steps, t) = (self.durations(), phase.run.time() / self.time_scale());
+        let pressure = phase.run.field(Field::PorePressure);
+        let run = phase.run.as_ref();
+        let error = |exact: &dyn Fn(f64) -> f64| {
+            let pairs = pressure.iter().zip(&run.particles().reference);
+            rms(pairs.map(|(p, x)| p / self.load - exact(1.0 - x[0] / HEIGHT)))
+        };
+        let lost = run
+            .water()
+            .map_or(f64::NAN, |w| (w.imbalance / w.outflow).abs());
+        let work = run.work();
+        vec![
+            (PRESSURE_L2, error(&|z| exact::pressure(z, t))),
+            (
+                PRESSURE_L2_STEPS,
+                error(&|z| exact::pressure_of_steps(z, &steps)),
+            ),
+            (OVERSHOOT_FIRST_STEP, seen.overshoot_first_step),
+            (
+                SETTLEMENT_ERROR,
+                (self.settlement(run) - exact::settlement(t)).abs(),
+            ),
+            // NaN stays NaN.
+            (MASS_ERROR, if lost < ROUNDING { ROUNDING } else { lost }),
+            (NEWTON_ITERATIONS, work.newton_iterations as f64),
+            (
+                ENTRIES,
+                work.nonzeros as f64 / work.factorisations.max(1) as f64,
+            ),
+        ]
+    }
+}
