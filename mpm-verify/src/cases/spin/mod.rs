@@ -1,137 +1,131 @@
-//! A free disc that turns, beside the exact one: what transfers take of angular momentum and energy.
+//! A free disc that turns, against the exact one: losses of angular momentum and energy by each transfer.
 //!
 //! Set-up, choices and tolerances: `docs/spin.md`.
 
-mod checks;
-mod metrics;
-mod parameters;
-mod scene;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::{BASES, family, other_transfers, pairs};
-use crate::case::{Case, Family, Tier};
+use super::family::{BASES, other_transfers, pairs};
+use super::parameters::{self as common, TimeStep, Wall as WallTreatment};
 use crate::parameter::Parameters;
-use crate::record::Record;
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::{Level, RunSpec};
-use metrics as m;
-use scene::{Disc, RADIUS};
-use watch::Spin;
+use crate::prelude::*;
+use run::{RADIUS, Spin};
 
-use BasisName::{Bspline2, Gimp, Linear};
-use Tier::{Nightly, Pr, Quick};
+const LEVELS: [Level; 2] = [Level { name: "r4", h: 0.25 }, Level { name: "r8", h: 0.125 }];
+/// Rounding that a sum over the particles gathers in many steps.
+const ROUNDING: f64 = 1e-9;
+/// Turns up to which a disc is judged by the exact one; beyond them by the losses of its transfer.
+const FEW: f64 = 2.0;
+/// Order of the losses of FLIP.
+const ORDER: f64 = 2.0;
+/// Half of the angular momentum at the start.
+const HALF: f64 = 0.5;
 
-const LEVELS: [Level; 2] = [
-    Level {
-        name: "r4",
-        h: 0.25,
-    },
-    Level {
-        name: "r8",
-        h: 0.125,
-    },
-];
-const TWO: &[&str] = &["turns=2"];
-const HUNDRED: &[&str] = &["turns=100"];
-/// Two, with the step that is stable however particles lie.
-const BY_RULE: &[&str] = &["time_step=auto", "turns=2"];
-/// Shares of PIC: a hundredth, and all.
-const BLENDS: [&[&str]; 2] = [&["flip=0.99"], &["flip=0"]];
+parameters! {
+    /// Parameters of the disc.
+    struct Disc {
+        turns: f64 = real("-", "10", 0.1, 1e4), "turns";
+        rim_speed: f64 = real("-", "0.1", 1e-3, 0.3), "speed of the rim over that of waves";
+        cfl: f64 = common::CFL;
+        time_step: TimeStep = common::TIME_STEP;
+        flip: f64 = common::FLIP;
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
+        wall: WallTreatment = common::WALL;
+    }
+}
+
+metrics! { ALL:
+    ANGULAR_MOMENTUM_ERROR = "angular_momentum_error", "-",
+        "largest change of the angular momentum, that of affine parts with it, over its start; 10⁻¹² if it is less";
+    ANGULAR_MOMENTUM_END = "angular_momentum_end", "-", "angular momentum at the end over its start";
+    MOMENTUM_ERROR = "momentum_error", "-",
+        "largest linear momentum over the mass times the speed of the rim; 10⁻¹² if it is less";
+    ENERGY_GAIN = "energy_gain", "-", "largest rise of kinetic and stored energy, over their start";
+    ENERGY_LOSS = "energy_loss", "-", "largest fall, likewise";
+    ENERGY_END = "energy_end", "-", "change at the end, likewise";
+    STRETCH_ERROR = "stretch_error", "-",
+        "largest distance of the rms radius from that of the exact disc that turns as fast as the particles do by their angular momentum, over what the turning adds to it at the start";
+    STRETCH_MEAN_ERROR = "stretch_mean_error", "-", "mean of that distance over the last half of the run, with its sign";
+    PHASE_ERROR = "phase_error", "-", "angle that the disc has turned by over the exact one, less one";
+    STORED_SHARE = "stored_share", "-", "stored energy over kinetic and stored energy at the start";
+    MASS = "mass", "kg/m", "mass of the disc";
+}
 
 pub(super) fn case() -> Case {
     Case {
-        name: "spin",
-        title: "A disc that turns",
         description: "A free elastic disc starts in the exact state of one that turns, and turns ten or a hundred times: angular momentum, \
                       energy and radius of every basis and transfer.",
         references: vec![
-            "The rotating disc in plane strain at small strain (Timoshenko & Goodier 1951, §32)."
-                .to_owned(),
+            "The rotating disc in plane strain at small strain (Timoshenko & Goodier 1951, §32).".to_owned(),
             "Conservation of momentum, angular momentum and energy.".to_owned(),
         ],
         limits: &[
             "The exact disc is that of small strains: its stretch is off by the strain, a hundredth of it.",
             "What FLIP takes of the angular momentum follows from no theory here: it is in the table.",
         ],
-        parameters: parameters::ALL.to_vec(),
         plan: plan(),
         levels: LEVELS.to_vec(),
-        metrics: m::ALL.to_vec(),
-        checks: checks::checks(),
+        checks: checks(),
         headlines: vec![
-            headline(
-                m::ANGULAR_MOMENTUM_ERROR,
-                "angular momentum off by (–)",
-                1.0,
-                6,
-            ),
-            headline(m::ENERGY_END, "energy at the end (%)", 100.0, 2),
-            headline(m::ENERGY_GAIN, "gain (%)", 100.0, 3),
-            headline(m::STRETCH_MEAN_ERROR, "stretch off by (%)", 100.0, 1),
-            headline(m::PHASE_ERROR, "angle off by (%)", 100.0, 2),
+            headline(ANGULAR_MOMENTUM_ERROR, "angular momentum off by (–)", 1.0, 6),
+            headline(ENERGY_END, "energy at the end (%)", 100.0, 2),
+            headline(ENERGY_GAIN, "gain (%)", 100.0, 3),
+            headline(STRETCH_MEAN_ERROR, "stretch off by (%)", 100.0, 1),
+            headline(PHASE_ERROR, "angle off by (%)", 100.0, 2),
         ],
-        quantities: Vec::new(),
-        sweeps: Vec::new(),
         watched: &["angular_momentum", "rms_radius"],
-        field: None,
         sketch: sketch(),
         cost: Box::new(cost),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Spin::drive(spec, parameters)?))),
-        pictures: |_| Ok(()),
-        tables: tables::all(),
-        breaks_down: known_breakdown,
+        tables: tables(),
+        breaks_down,
+        ..Case::of::<2, Spin>("spin", "A disc that turns", ALL)
     }
 }
 
-/// Why a disc is known to break down.
-fn known_breakdown(r: &Record) -> Option<&'static str> {
-    const SWELLS: &str =
-        "the disc swells until it leaves the grid: see musl-swells and gimp-swells";
-    let hundred = r.parameters.number(parameters::TURNS) >= 100.0;
+/// The reason why a disc is known to break down.
+fn breaks_down(r: &Record) -> Option<&'static str> {
+    const SWELLS: &str = "the disc swells until it leaves the grid: see musl-swells and gimp-swells";
+    let hundred = Setup::<Disc>::number_of(r, |d| d.turns) >= 100.0;
     match (r.transfer(), r.basis(), r.remedy()) {
         (TransferName::Flip, Linear, _) => Some(
             "a rim that reaches over a grid line by a little has nodes of hardly any mass: docs/critical-step.md",
         ),
         (TransferName::Musl, _, _) if hundred => Some(SWELLS),
         (TransferName::Musl, Linear, _) if r.is_default() && r.level == "r8" => Some(SWELLS),
-        (TransferName::Apic, Gimp, RemedyName::FbarConsistent) if hundred => Some(SWELLS),
+        (TransferName::Apic, Gimp, FbarConsistent) if hundred => Some(SWELLS),
         _ => None,
     }
 }
 
 fn cost(spec: &RunSpec) -> f64 {
-    let disc = Parameters::new(&parameters::ALL, &spec.set).map(|p| Disc::new(spec, &p));
-    let steps = disc.map_or(0, |disc| disc.map_or(0, |disc| disc.steps));
+    let values = Parameters::new(&<Disc as crate::parameter::ParameterSet>::list(), &spec.set).map_err(Error::from);
+    let disc = values.and_then(|values| Spin::new(Setup::of_spec(spec, &values)?));
+    let steps = disc.map_or(0, |disc| disc.steps);
     1e-6 * steps as f64 * (RADIUS / spec.level.h).powi(2)
 }
 
 fn plan() -> Vec<Family> {
-    let mut all = pairs(&BASES, &[RemedyName::None]);
-    all.extend(pairs(&[Gimp, Bspline2], &[RemedyName::FbarConsistent]));
+    let none = RemedyName::None;
+    let mut all = pairs(&BASES, &[none]);
+    all.extend(pairs(&[Gimp, Bspline2], &[FbarConsistent]));
     all.extend(other_transfers());
-    all.extend([Linear, Gimp].map(|b| Scheme::explicit(b, RemedyName::None, TransferName::Musl)));
-    let blended = pairs(&[Gimp, Bspline2], &[RemedyName::None]);
-    // What breaks down at once is left to the night.
-    let lives = |scheme: &&Scheme| **scheme != Scheme::flip(Linear, RemedyName::None);
+    all.extend([Linear, Gimp].map(|b| Scheme::explicit(b, none, TransferName::Musl)));
+    let blended = pairs(&[Gimp, Bspline2], &[none]);
+    // The scheme that breaks down at once is left to the night.
+    let lives = |scheme: &&Scheme| **scheme != Scheme::flip(Linear, none);
     let alive: Vec<Scheme> = all.iter().filter(lives).copied().collect();
-    let smooth = all.iter().filter(|scheme| scheme.basis() != Linear);
-    let smooth: Vec<Scheme> = smooth.copied().collect();
-    let mut plan = vec![
-        family(Quick, &LEVELS[..1], &blended[..1], &[]),
-        family(Pr, &LEVELS[..1], &alive, &[]),
-        family(Pr, &LEVELS, &alive, TWO),
-        family(Nightly, &LEVELS, &all, TWO),
-        family(Nightly, &LEVELS, &all, &[]),
-        family(Nightly, &LEVELS[..1], &all, HUNDRED),
-        family(Nightly, &LEVELS, &smooth, BY_RULE),
-    ];
-    plan.extend(BLENDS.map(|set| family(Pr, &LEVELS[..1], &blended, set)));
-    plan
+    let smooth: Vec<Scheme> = all.iter().filter(|s| s.basis() != Linear).copied().collect();
+    Plan::of(&LEVELS)
+        .runs(Quick, "r4", &blended[..1], "")
+        .runs(Pr, "r4", &alive, "")
+        .runs(Pr, "r4 r8", &alive, "turns=2")
+        .runs(Nightly, "r4 r8", &all, "turns=2")
+        .runs(Nightly, "r4 r8", &all, "")
+        .runs(Nightly, "r4", &all, "turns=100")
+        .runs(Nightly, "r4 r8", &smooth, "time_step=auto turns=2")
+        .runs(Pr, "r4", &blended, "flip=0.99")
+        .runs(Pr, "r4", &blended, "flip=0")
+        .done()
 }
 
 fn sketch() -> Sketch {
@@ -149,4 +143,99 @@ fn sketch() -> Sketch {
         ],
         description: "A disc of 2 m in diameter that turns about its centre and touches nothing.",
     }
+}
+
+impl Setup<Disc> {
+    fn is_long(&self) -> bool {
+        self.turns > FEW
+    }
+
+    fn is_of(&self, transfer: TransferName) -> bool {
+        self.transfer() == transfer
+    }
+
+    /// Share of the angular momentum that affine parts take: 4D/R², with D the mean second moment of the functions.
+    fn affine_share(&self) -> f64 {
+        // Hats averaged over places, and over a domain of half the spacing; quadratic splines everywhere.
+        let half = 0.5 / self.ppc_per_direction as f64;
+        let moment = match self.basis() {
+            Gimp => 1.0 / 6.0 + half * half / 3.0,
+            _ => 0.25,
+        };
+        let share = 4.0 * moment * (self.h / RADIUS).powi(2);
+        share / (1.0 + share)
+    }
+}
+
+fn checks() -> Vec<Check> {
+    use TransferName::{Apic, Flip, Musl, Xpic2};
+    type Check = CheckOf<Disc>;
+    vec![
+        Check::truth("momentum", "linear momentum stays zero, to rounding")
+            .at_most(MOMENTUM_ERROR, |_| ROUNDING)
+            .because("weights sum to one and their gradients to zero"),
+        Check::truth("affine-keeps-angular-momentum", "apic: angular momentum, that of the affine parts with it, is kept to rounding")
+            .when(|d| d.is_of(Apic))
+            .at_most(ANGULAR_MOMENTUM_ERROR, |_| ROUNDING)
+            .because("the affine part carries what a node's arm has (Jiang et al. 2015), and stresses are symmetric"),
+        Check::truth("affine-parts-take-their-share", "apic, up to two turns: the disc turns slower by what its affine parts, which start at rest, take of the angular momentum: by 4D/R² over one and that, D the mean second moment of the functions, within h/R of it")
+            .when(|d| d.is_of(Apic) && !d.is_long())
+            .within(PHASE_ERROR, |d| -d.affine_share(), |d| d.h / RADIUS * d.affine_share())
+            .because("angular momentum is kept, and I ω is then (M R²/2 + 2 M D) ω"),
+        Check::truth("no-energy-gain", "none and fbar-consistent, not musl: kinetic and stored energy never above their start by more than what is stored at the start")
+            .when(|d| matches!(d.remedy(), RemedyName::None | FbarConsistent) && !d.is_of(Musl))
+            .at_most(ENERGY_GAIN, |d| d.metric(STORED_SHARE))
+            .because("velocities live half a step before places: what the disc stores and its motion can exchange, and no more"),
+        Check::truth("stretch", "splines with flip and apic and no remedy, up to two turns: the mean stretch of their last half is that of the exact disc, within h/R of it and the strain's square")
+            .when(|d| d.is_of(Flip) || d.is_of(Apic))
+            .when(|d| d.remedy() == RemedyName::None && d.flip == 1.0)
+            .when(|d| d.basis().degree() > 1 && d.basis() != Gimp && !d.is_long())
+            .within(STRETCH_MEAN_ERROR, |_| 0.0, |d| d.h / RADIUS + d.rim_speed.powi(2))
+            .of_scale(|_| 1.0)
+            .because("the rim lies within a cell, and the exact disc is that of small strains"),
+        Check::truth("loss-falls-with-cells", "flip, two turns: the loss of angular momentum falls with h² from 4 to 8 cells in the radius, to within 0.15 of the order")
+            .when(|d| d.is_of(Flip) && d.set == ["turns=2"] && d.metric(ANGULAR_MOMENTUM_ERROR).is_finite())
+            .pairs(|coarse, fine| {
+                let same = coarse.scheme == fine.scheme && coarse.set == fine.set;
+                same && coarse.h == 2.0 * fine.h && fine.metric(ANGULAR_MOMENTUM_ERROR).is_finite()
+            })
+            .above(
+                |d, _| format!("order of angular_momentum_error of {}", d.scheme),
+                |coarse, fine| (coarse.metric(ANGULAR_MOMENTUM_ERROR) / fine.metric(ANGULAR_MOMENTUM_ERROR)).log2(),
+                |_| ORDER - 0.15,
+            )
+            .because("what a node's mass is off the node, times the layer in which it is"),
+        Check::known_limit("flip-spins-down", "flip with η = 1, ten turns and more, four cells in the radius: a tenth of the angular momentum is gone")
+            .when(|d| d.is_of(Flip) && d.flip == 1.0 && d.h >= 0.25 * RADIUS && d.is_long())
+            .at_most(ANGULAR_MOMENTUM_END, |_| 0.9)
+            .because("a lumped mass beside the rim lies off its node: FLIP keeps the nodes' angular momentum, not the particles'"),
+        Check::known_limit("filters-spin-down", "PIC and xpic2, ten turns and more: half of the angular momentum is gone")
+            .when(|d| (d.flip < 1.0 || d.is_of(Xpic2)) && d.is_long())
+            .at_most(ANGULAR_MOMENTUM_END, |_| HALF)
+            .because("a node beside the rim turns as fast as the mass that it sees, which lies further in; a filter hands that to the particles in every step"),
+        Check::known_limit("gimp-swells", "gimp with apic, ten turns and more: the mean stretch of the last half is above the exact one by more than h/R of it")
+            .when(|d| d.basis() == Gimp && d.is_of(Apic) && d.is_long())
+            .above(STRETCH_MEAN_ERROR, |d| d.h / RADIUS)
+            .because("domains keep to the axes of the grid while their lattice turns: they no longer tile it, and crossing makes noise"),
+        Check::known_limit("musl-swells", "musl, ten turns and more: the radius leaves that of the exact disc by more than all that turning adds to it")
+            .when(|d| d.is_of(Musl) && d.is_long())
+            .above(STRETCH_ERROR, |_| 1.0)
+            .because("strains are those of velocities mapped again, places are not: the rim moves off what its stress knows"),
+    ]
+}
+
+fn tables() -> Vec<ResultTable> {
+    const BLEND: Label = ("η", |r| Setup::<Disc>::number_of(r, |d| d.flip).to_string());
+    const TURNED: Label = ("turns", |r| Setup::<Disc>::number_of(r, |d| d.turns).to_string());
+    const CELLS: Label = ("level", |r| r.level.clone());
+    let columns = [
+        Column::metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT),
+        Column::metric("energy at the end", ENERGY_END, percent(2)),
+        Column::metric("gain", ENERGY_GAIN, percent(3)),
+        Column::metric("stretch, mean", STRETCH_MEAN_ERROR, percent(1)),
+        Column::metric("largest", STRETCH_ERROR, percent(1)),
+        Column::metric("angle", PHASE_ERROR, percent(2)),
+    ];
+    let shows = |r: &Record| r.changes_none_but(&["flip", "turns"]) && Setup::<Disc>::number_of(r, |d| d.turns) >= 10.0;
+    vec![ResultTable::new("spin", shows, &[SCHEME, BLEND, TURNED, CELLS], columns)]
 }
