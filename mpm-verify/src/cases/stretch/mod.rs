@@ -1,44 +1,63 @@
-//! A body that is stretched and crushed alike everywhere: where it tears, where its step becomes too long, and what says so.
+//! A homogeneously stretched and crushed body: where it tears, where its step becomes too long, and what reports it.
 //!
 //! Set-up, choices and tolerances: `docs/stretch.md`.
 
-mod checks;
-mod metrics;
-mod parameters;
-mod tables;
+mod run;
 mod theory;
-mod watch;
 
-use super::family::{BASES, REMEDIES, family, implicit, other_transfers, pairs};
-use crate::case::{Case, Family, Tier};
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::Level;
-use metrics as m;
+use super::family::{BASES, REMEDIES, implicit, other_transfers, pairs};
+use super::parameters as common;
+use crate::prelude::*;
+use run::{SWING, Stretching};
 use theory::FREE;
-use watch::Stretching;
-
-use Tier::{Nightly, Pr, Quick};
 
 const LEVELS: [Level; 1] = [Level {
     name: "n8",
     h: 0.5 / FREE as f64,
 }];
-const CRUSHED: &[&str] = &["end=0.05"];
-/// Steps that the waves of the deformed body outrun.
-const LONG_STEP: &[&str] = &["cfl=0.4"];
-const LONG_STEP_CRUSHED: &[&str] = &["cfl=0.55", "end=0.05"];
-/// The same J in the plane.
-const PLANE: &[&str] = &["dimension=2", "end=0.2236"];
-const PLANE_LONG_STEP: &[&str] = &["cfl=0.7", "dimension=2", "end=0.2236"];
-const MORE: &[&str] = &["ppc_per_direction=4"];
-const SLOWER: &[&str] = &["speed=0.005"];
+/// The plane, crushed to the same J.
+const PLANE: &str = "dimension=2 end=0.2236";
+/// Relative resolution of the stretch of a stop, and effect of the free part's noise on the speed of waves.
+const SEEN: f64 = 0.02;
+/// Noise of the stress over the stress where slopes jump.
+const JUMPS: f64 = 0.3;
+
+parameters! {
+    /// Parameters of the body.
+    struct Stretch {
+        end: f64 = real("-", "8", 0.02, 20.0),
+            "stretch of each axis at the end: above 1 the body is pulled, below it is crushed";
+        dimension: usize = whole("-", "1", 1, 2), "1: uniaxial strain; 2: plane strain, alike along both axes";
+        speed: f64 = real("-", "0.02", 1e-3, 0.2),
+            "speed of the ends of the free part at the start over that of waves in the undeformed body";
+        rows: i32 = whole("-", "140", 10, 10_000), "rows of the series; quasi-static: equal load steps";
+        cfl: f64 = common::CFL.with_default("0.1"), "CFL number c Δt / h of pressure waves in the undeformed body";
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
+    }
+}
+
+metrics! { ALL:
+    TEAR_STRETCH = "tear_stretch", "-",
+        "first stretch at which the mean stress of the free part is less than half of the exact one, if it comes to that";
+    PARTED_STRETCH = "parted_stretch", "-",
+        "first stretch at which neighbours have no common node, if it comes to that";
+    PREDICTED_TEAR_STRETCH = "predicted_tear_stretch", "-",
+        "the same of particles at their exact places: where gap and support of the functions tear the body at the latest";
+    UNSTABLE_STRETCH = "unstable_stretch", "-",
+        "first stretch at which some motion of the free nodes, in the exact state without a remedy, has a negative stiffness, less the share by which the noise that is foretold may stretch some place more; none of linear functions";
+    STOPPED_STRETCH = "stopped_stretch", "-", "stretch at which the program says that it can't go on, if it does";
+    PREDICTED_STOP_STRETCH = "predicted_stop_stretch", "-",
+        "explicit: stretch at which the fastest particle and waves of the exact state pass a cell in a step";
+    STRESS_NOISE = "stress_noise", "-",
+        "largest rms over the free part of what the stress differs from the exact one by, over it, up to unstable_stretch; of linear functions to predicted_tear_stretch";
+    PREDICTED_NOISE = "predicted_noise", "-",
+        "largest rms of the stress that answers the forces of a uniform stress on the lattice, likewise";
+    STRESS_KEPT = "stress_kept", "-", "mean stress of the free part at the end, over the exact one";
+}
 
 pub(super) fn case() -> Case {
     Case {
-        name: "stretch",
-        title: "A body that is stretched eightfold",
         description: "The ends of a body move as if it were stretched alike everywhere, to eight times its length or a twentieth of it; \
                       the part between them is free. Where does it tear, where is its step too long, and what says so?",
         references: vec![
@@ -46,80 +65,178 @@ pub(super) fn case() -> Case {
             "Eigenvalues of the stiffness of the exact state, forces of its lattice: docs/stretch.md.".to_owned(),
         ],
         limits: &["One law, undeformed domains, one lattice of particles; in the plane crushed only."],
-        parameters: parameters::ALL.to_vec(),
         plan: plan(),
         levels: LEVELS.to_vec(),
-        metrics: m::ALL.to_vec(),
-        checks: checks::checks(),
+        checks: checks(),
         headlines: vec![
-            headline(m::TEAR_STRETCH, "tears at (–)", 1.0, 2),
-            headline(m::UNSTABLE_STRETCH, "holds at least to (–)", 1.0, 2),
-            headline(m::PREDICTED_TEAR_STRETCH, "neighbours part at (–)", 1.0, 2),
-            headline(m::STOPPED_STRETCH, "stops at (–)", 1.0, 2),
-            headline(m::PREDICTED_STOP_STRETCH, "predicted to stop at (–)", 1.0, 2),
-            headline(m::STRESS_NOISE, "noise of the stress (%)", 100.0, 1),
-            headline(m::PREDICTED_NOISE, "predicted (%)", 100.0, 1),
-            headline(m::STRESS_KEPT, "mean stress kept (%)", 100.0, 1),
+            headline(TEAR_STRETCH, "tears at (–)", 1.0, 2),
+            headline(UNSTABLE_STRETCH, "holds at least to (–)", 1.0, 2),
+            headline(PREDICTED_TEAR_STRETCH, "neighbours part at (–)", 1.0, 2),
+            headline(STOPPED_STRETCH, "stops at (–)", 1.0, 2),
+            headline(PREDICTED_STOP_STRETCH, "predicted to stop at (–)", 1.0, 2),
+            headline(STRESS_NOISE, "noise of the stress (%)", 100.0, 1),
+            headline(PREDICTED_NOISE, "predicted (%)", 100.0, 1),
+            headline(STRESS_KEPT, "mean stress kept (%)", 100.0, 1),
         ],
-        quantities: Vec::new(),
-        sweeps: Vec::new(),
         watched: &["stress_kept", "stress_error"],
-        field: None,
         sketch: sketch(),
-        cost: Box::new(|spec| if spec.set == PLANE { 1.0 } else { 0.1 }),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(Stretching::begin),
-        pictures: |_| Ok(()),
-        tables: tables::all(),
-        breaks_down: |_| None,
+        cost: Box::new(|spec| if spec.set.join(" ") == PLANE { 1.0 } else { 0.1 }),
+        begin: Box::new(|spec, values| match Setup::<Stretch>::of_spec(spec, values)?.dimension {
+            1 => crate::problem::begin::<1, Stretching>(spec, values),
+            _ => crate::problem::begin::<2, Stretching>(spec, values),
+        }),
+        tables: tables(),
+        ..Case::of::<1, Stretching>("stretch", "A body that is stretched eightfold", ALL)
     }
 }
 
 fn plan() -> Vec<Family> {
+    let none = RemedyName::None;
     let all = pairs(&BASES, &REMEDIES);
-    let remedies = [RemedyName::None, RemedyName::FbarConsistent];
-    let slow = implicit(&[RuleName::QuasiStatic], &BASES[..3], &remedies);
+    let slow = implicit(
+        &[RuleName::QuasiStatic],
+        &BASES[..3],
+        &[none, FbarConsistent],
+    );
     // Torn pieces answer rounding.
-    let sure = implicit(&[RuleName::QuasiStatic], &BASES[..3], &remedies[..1]);
-    let plain = pairs(&BASES, &[RemedyName::None]);
-    let consistent = pairs(&BASES[1..2], &[RemedyName::FbarConsistent]);
-    // What the plane has beside FLIP.
+    let sure = implicit(&[RuleName::QuasiStatic], &BASES[..3], &[none]);
+    let plain = pairs(&BASES, &[none]);
+    let consistent = pairs(&BASES[1..2], &[FbarConsistent]);
+    // Transfers of the plane beside FLIP.
     let mut transfers = other_transfers();
-    let musl = |basis| Scheme::explicit(basis, RemedyName::None, TransferName::Musl);
-    transfers.extend([BasisName::Linear, BasisName::Gimp].map(musl));
-    vec![
-        family(Quick, &LEVELS, &consistent, &[]),
-        family(Pr, &LEVELS, &all, &[]),
-        family(Pr, &LEVELS, &sure, &[]),
-        family(Pr, &LEVELS, &all, CRUSHED),
-        family(Pr, &LEVELS, &slow, CRUSHED),
-        family(Pr, &LEVELS, &plain, LONG_STEP),
-        family(Pr, &LEVELS, &plain, LONG_STEP_CRUSHED),
-        family(Nightly, &LEVELS, &slow, &[]),
-        family(Pr, &LEVELS, &plain[1..2], PLANE),
-        family(Nightly, &LEVELS, &all, PLANE),
-        family(Nightly, &LEVELS, &transfers, PLANE),
-        family(Nightly, &LEVELS, &plain, PLANE_LONG_STEP),
-        family(Nightly, &LEVELS, &plain, MORE),
-        family(Nightly, &LEVELS, &plain, SLOWER),
-    ]
+    transfers.extend([Linear, Gimp].map(|basis| Scheme::explicit(basis, none, TransferName::Musl)));
+    Plan::of(&LEVELS)
+        .runs(Quick, "n8", &consistent, "")
+        .runs(Pr, "n8", &all, "")
+        .runs(Pr, "n8", &sure, "")
+        .runs(Pr, "n8", &all, "end=0.05")
+        .runs(Pr, "n8", &slow, "end=0.05")
+        // Steps that the waves of the deformed body outrun.
+        .runs(Pr, "n8", &plain, "cfl=0.4")
+        .runs(Pr, "n8", &plain, "cfl=0.55 end=0.05")
+        .runs(Nightly, "n8", &slow, "")
+        .runs(Pr, "n8", &plain[1..2], PLANE)
+        .runs(Nightly, "n8", &all, PLANE)
+        .runs(Nightly, "n8", &transfers, PLANE)
+        .runs(Nightly, "n8", &plain, "cfl=0.7 dimension=2 end=0.2236")
+        .runs(Nightly, "n8", &plain, "ppc_per_direction=4")
+        .runs(Nightly, "n8", &plain, "speed=0.005")
+        .done()
 }
 
 fn sketch() -> Sketch {
-    let (long, high) = (1.0, 0.12);
+    let high = 0.12;
     let body =
         |from: f64, to: f64| Shape::Body(vec![[from, 0.0], [to, 0.0], [to, high], [from, high]]);
     Sketch {
         shapes: vec![
-            body(0.0, long),
+            body(0.0, 1.0),
             body(-0.5, 0.0),
-            body(long, long + 0.5),
-            Shape::Load([long + 0.1, 0.5 * high], [long + 0.4, 0.5 * high]),
+            body(1.0, 1.5),
+            Shape::Load([1.0 + 0.1, 0.5 * high], [1.0 + 0.4, 0.5 * high]),
             Shape::Load([-0.1, 0.5 * high], [-0.4, 0.5 * high]),
-            Shape::note([0.5 * long, 0.5 * high], "free"),
-            Shape::length([0.0, -0.08], [long, -0.08], "8 h"),
+            Shape::note([0.5, 0.5 * high], "free"),
+            Shape::length([0.0, -0.08], [1.0, -0.08], "8 h"),
         ],
         description: "A body that is longer than eight cells; beside these its nodes move as all would.",
     }
+}
+
+impl Run<'_, Stretch> {
+    fn is_pulled(&self) -> bool {
+        self.end > 1.0
+    }
+
+    fn is_plain(&self) -> bool {
+        self.remedy() == RemedyName::None
+    }
+
+    fn is_continuous(&self) -> bool {
+        self.basis() != Linear
+    }
+
+    fn jumps_in_the_plane(&self) -> bool {
+        self.record.discretisation.dim > 1 && !self.is_continuous()
+    }
+
+    fn has(&self, metric: Metric) -> bool {
+        self.metric(metric).is_finite()
+    }
+}
+
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Stretch>;
+    type Demand = crate::demand::Demand<Stretch>;
+    let (tears, stops) = (PREDICTED_TEAR_STRETCH, PREDICTED_STOP_STRETCH);
+    vec![
+        Check::truth("stress-noise", "no remedy, all but linear functions: as long as the exact state is stable the stress is the exact one within twice what answers the forces of the lattice")
+            .when(|b| b.is_plain() && b.is_continuous())
+            .at_most(STRESS_NOISE, |b| SWING * b.metric(PREDICTED_NOISE))
+            .because("forces of a wave that the lattice makes, over the stiffness that it meets; twice of what begins at once"),
+        Check::truth("tears-no-earlier", "pulled, no remedy, all but linear functions: the body holds as long as every motion of its free nodes has a positive stiffness, wherever the noise that is foretold may stretch it more")
+            .when(|b| b.is_pulled() && b.is_plain() && b.is_continuous() && b.has(TEAR_STRETCH))
+            .above(TEAR_STRETCH, |b| b.metric(UNSTABLE_STRETCH))
+            .because("a positive stiffness restores; a stress that moves with the particles takes from it"),
+        Check::truth("crushed-whole", "crushed, no remedy: the body doesn't tear, its mean stress is the exact one within the noise that is foretold")
+            .when(move |b| !b.is_pulled() && b.is_plain() && b.is_continuous() && !b.has(stops))
+            .within(STRESS_KEPT, |_| 1.0, |b| SWING * b.metric(PREDICTED_NOISE))
+            .because("neighbours come closer, and no stiffness is negative under pressure"),
+        Check::truth("stops", "explicit, where the waves of the exact state outrun the step: the program says so at that stretch, within 2 %, or, where the body tears before or in the plane linear functions jump, no later")
+            .when(move |b| b.has(stops))
+            .each([
+                Demand::at_most(STOPPED_STRETCH, move |b| b.metric(stops) * (1.0 + SEEN)).when(|b| b.is_pulled()),
+                Demand::above(STOPPED_STRETCH, move |b| b.metric(stops) * (1.0 - SEEN)).when(|b| !b.is_pulled() && b.jumps_in_the_plane()),
+                Demand::within(STOPPED_STRETCH, move |b| b.metric(stops), move |b| SEEN * b.metric(stops))
+                    .when(|b| !b.is_pulled() && !b.jumps_in_the_plane()),
+            ])
+            .because("(c + |v|) Δt ≤ h of the deformed state, asked in every step"),
+        Check::known_limit("jumps", "linear functions without a remedy, two particles a cell: three tenths of the stress and more are noise")
+            .when(|b| b.ppc_per_direction == 2 && b.is_plain() && !b.is_continuous())
+            .above(STRESS_NOISE, |_| JUMPS)
+            .because("the stress of a particle pushes another node as soon as it crosses a grid line"),
+        Check::known_limit("tears-early", "explicit, pulled: the body tears, and says nothing, before its particles, at their exact places, would lose their last common node")
+            .when(move |b| b.is_pulled() && !b.is_implicit() && !b.has(stops))
+            .at_most(TEAR_STRETCH, move |b| b.metric(tears).min(b.end))
+            .because("a stress that moves with the particles gives motions a negative stiffness that the grid sees badly"),
+        Check::known_limit("recursion-loses", "fbar-recursive, one dimension, crushed to a tenth and less, all but cubic splines: nine tenths of the stress are lost")
+            .when(|b| b.end <= 0.1 && b.dimension == 1 && b.remedy() == FbarRecursive && b.basis() != Bspline3)
+            .at_most(STRESS_KEPT, |_| 0.1)
+            .because("under a pressure, what an average can't see grows: docs/critical-step.md"),
+    ]
+}
+
+fn tables() -> Vec<ResultTable> {
+    let pulled = [
+        Column::metric("tears at", TEAR_STRETCH, fixed(2)),
+        Column::metric("stops at", STOPPED_STRETCH, fixed(2)),
+        Column::metric("holds at least to", UNSTABLE_STRETCH, fixed(2)),
+        Column::metric("neighbours part at", PREDICTED_TEAR_STRETCH, fixed(2)),
+        Column::metric("noise before", STRESS_NOISE, share(1)),
+        Column::metric("predicted", PREDICTED_NOISE, share(1)),
+    ];
+    let crushed = || {
+        [
+            Column::metric("mean stress kept", STRESS_KEPT, share(1)),
+            Column::metric("noise of the stress, most", STRESS_NOISE, share(1)),
+            Column::metric("predicted", PREDICTED_NOISE, share(1)),
+            Column::metric("stops at", STOPPED_STRETCH, fixed(2)),
+        ]
+    };
+    let stops = [
+        Column::metric("stops at", STOPPED_STRETCH, fixed(3)),
+        Column::metric("predicted", PREDICTED_STOP_STRETCH, fixed(3)),
+    ];
+    let long = |r: &Record| Setup::<Stretch>::number_of(r, |b| b.cfl) > 0.1;
+    let set: Label = ("set", |r| r.set.join(", "));
+    vec![
+        ResultTable::new("stretch", Record::is_default, &[SCHEME], pulled),
+        ResultTable::new("crush", |r| r.set == ["end=0.05"], &[SCHEME], crushed()),
+        ResultTable::new(
+            "crush-plane",
+            |r| r.set.join(" ") == PLANE,
+            &[SCHEME],
+            crushed(),
+        ),
+        ResultTable::new("stretch-steps", long, &[set, SCHEME], stops),
+    ]
 }

@@ -9,7 +9,10 @@ use super::parameters::{self as common, TimeStep, Wall as WallTreatment};
 use crate::prelude::*;
 use run::{PERIOD, Translation};
 
-const LEVELS: [Level; 1] = [Level { name: "n8", h: 1.0 / PERIOD as f64 }];
+const LEVELS: [Level; 1] = [Level {
+    name: "n8",
+    h: 1.0 / PERIOD as f64,
+}];
 /// Rounding of a stress over many steps.
 const ROUNDING: f64 = 1e-9;
 /// Ratio of the swing of an oscillator to its static answer, for a force that acts at once.
@@ -113,7 +116,9 @@ impl Setup<Translate> {
     }
 
     fn is_plain(&self) -> bool {
-        self.remedy() == RemedyName::None && self.transfer() == TransferName::Flip && self.flip == 1.0
+        self.remedy() == RemedyName::None
+            && self.transfer() == TransferName::Flip
+            && self.flip == 1.0
     }
 
     fn is_musl(&self) -> bool {
@@ -170,5 +175,10 @@ fn tables() -> Vec<ResultTable> {
         Column::metric("noise of the velocity", VELOCITY_NOISE, share(3)),
         Column::metric("energy gain", ENERGY_GAIN, SHORT),
     ];
-    vec![ResultTable::new("translate", Record::is_default, &[SCHEME], columns)]
+    vec![ResultTable::new(
+        "translate",
+        Record::is_default,
+        &[SCHEME],
+        columns,
+    )]
 }

@@ -1,28 +1,14 @@
-//! A body whose ends move as one that is stretched alike everywhere, and what its free part does.
+//! Scene, observations and predictions of the body.
 
-use super::metrics as m;
-use super::parameters::{CFL, DIMENSION, END, POISSON_RATIO, PPC_PER_DIRECTION, ROWS, SPEED};
-use super::theory::{FREE, Lattice};
-use crate::cases::observe::{column, position_columns};
-use crate::drive::{Drive, Stage, Watch};
-use crate::error::Error;
-use crate::job::{Column, Job};
-use crate::metric::Metric;
-use crate::parameter::Parameters;
-use crate::record::Discretisation;
-use crate::scheme::{BasisName, Scheme};
-use crate::spec::RunSpec;
+use super::theory::Lattice;
+use super::*;
 use crate::statistics::rms;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::NeoHookean;
 use mpm_core::stage::Constraint;
-use mpm_core::{
-    Axis, Body, Error as Fault, Frame, Grid, Law, Memoryless, Particles, Scene, Simulation,
-    implicit,
-};
+use mpm_core::{Error as Fault, Frame, Law, Memoryless, implicit};
 use mpm_solvers::{Solvable, Solved};
 use nalgebra::Matrix3;
-use serde::{Deserialize, Serialize};
 
 /// Cells of the body beside the free part, always.
 const HELD: usize = 2;
@@ -31,7 +17,7 @@ const YOUNG_MODULUS: f64 = 1e6;
 const DENSITY: f64 = 1000.0;
 /// The share of its exact value below which the mean stress of the free part says that it has torn.
 const TORN: f64 = 0.5;
-/// An oscillation that a force sets off at once swings to twice its answer to it.
+/// Ratio of the swing of an oscillator to its static answer, for a force that acts at once.
 pub(super) const SWING: f64 = 2.0;
 /// Steps of the stretch in which a prediction is looked for.
 const SCAN: f64 = 1e-3;
@@ -39,10 +25,9 @@ const LOOK: f64 = 0.01;
 /// Relative step of a derivative.
 const STEP: f64 = 1e-5;
 
-/// What has been seen: the stretch now, where the free part tore, where neighbours lost their last common node, and where
-/// and how the program stopped.
+/// Observations: stretches at which the free part tore, neighbours lost their last common node, and the program stopped.
 #[derive(Default, Clone, Serialize, Deserialize)]
-pub(super) struct Seen {
+pub(super) struct Observed {
     rows: u64,
     /// Stretch and error of the stress, row by row.
     errors: Vec<[f64; 2]>,
@@ -55,8 +40,7 @@ pub(super) struct Seen {
 
 /// A body that is stretched.
 pub(super) struct Stretching {
-    spec: RunSpec,
-    parameters: Parameters,
+    setup: Setup<Stretch>,
     law: NeoHookean,
     /// Rate of the stretch (1/s), time step (s), steps.
     rate: f64,
@@ -96,42 +80,9 @@ impl<const D: usize> Constraint<D> for Held<D> {
 }
 
 impl Stretching {
-    /// A run at its start.
-    ///
-    /// # Errors
-    /// The parameters don't make a scene.
-    pub(super) fn begin(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
-        let number = |p| parameters.number(p);
-        let law = NeoHookean::new(YOUNG_MODULUS, number(POISSON_RATIO))?;
-        let waves = law.wave_speed(DENSITY);
-        let (h, stretch) = (spec.level.h, number(END) - 1.0);
-        let rate = (number(SPEED) * waves / (FREE as f64 * h)).copysign(stretch);
-        let duration = stretch / rate;
-        let steps = match spec.scheme {
-            Scheme::Explicit(_) => duration / courant_time_step(number(CFL), h, waves),
-            Scheme::Implicit(_) | Scheme::Poro(_) => number(ROWS),
-        };
-        let stretching = Self {
-            spec: spec.clone(),
-            parameters: parameters.clone(),
-            law,
-            rate,
-            dt: duration / steps.ceil(),
-            steps: steps.ceil() as u64,
-        };
-        Ok(match stretching.dimension() {
-            1 => Box::new(Drive::<1, Self>::new(stretching, Seen::default())?),
-            _ => Box::new(Drive::<2, Self>::new(stretching, Seen::default())?),
-        })
-    }
-
-    fn dimension(&self) -> usize {
-        self.parameters.number(DIMENSION) as usize
-    }
-
     /// Cells of the undeformed body on each side of the middle.
     fn half_length(&self) -> f64 {
-        let covers = (FREE + HELD) as f64 / self.parameters.number(END).min(1.0);
+        let covers = (FREE + HELD) as f64 / self.setup.end.min(1.0);
         covers.ceil()
     }
 
@@ -146,32 +97,32 @@ impl Stretching {
     /// The exact stress (Pa), and the speed of waves (m/s).
     fn state(&self, stretch: f64) -> [f64; 2] {
         let mut f = Matrix3::identity();
-        for a in 0..self.dimension() {
+        for a in 0..self.setup.dimension {
             f[(a, a)] = stretch;
         }
         let (stress, state) = self.law.at_rest(&f);
-        let j = stretch.powi(self.dimension() as i32);
+        let j = stretch.powi(self.setup.dimension as i32);
         let modulus = self.law.wave_modulus(j, &stress, &state);
         [stress.get(0, 0), (modulus / DENSITY).sqrt()]
     }
 
     fn lattice(&self) -> Lattice {
         Lattice {
-            basis: self.spec.scheme.basis(),
-            half_size: 0.5 / self.parameters.number(PPC_PER_DIRECTION),
+            basis: self.setup.basis(),
+            half_size: 0.5 / self.setup.ppc_per_direction as f64,
         }
     }
 
     /// Places in cells of the particles of the undeformed body.
     fn places(&self) -> Vec<f64> {
-        let n = self.parameters.number(PPC_PER_DIRECTION);
+        let n = self.setup.ppc_per_direction as f64;
         let count = (self.half_length() * n) as i64;
         (-count..count).map(|k| (k as f64 + 0.5) / n).collect()
     }
 
     /// The stretches between one and the last, in their order.
     fn stretches(&self, step: f64) -> impl Iterator<Item = f64> {
-        let whole = self.parameters.number(END) - 1.0;
+        let whole = self.setup.end - 1.0;
         let count = (whole.abs() / step).ceil();
         (0..=count as u64).map(move |k| 1.0 + whole * k as f64 / count)
     }
@@ -191,7 +142,7 @@ impl Stretching {
     /// The first stretch at which a wave of the free nodes has a negative stiffness in the exact state.
     fn unstable(&self) -> Option<f64> {
         // Slopes that jump have a curvature somewhere, and none elsewhere; in the plane nothing is foretold.
-        if self.spec.scheme.basis() == BasisName::Linear || self.dimension() > 1 {
+        if self.setup.basis() == Linear || self.setup.dimension > 1 {
             return None;
         }
         let lattice = self.lattice();
@@ -207,16 +158,16 @@ impl Stretching {
     /// stress across is no more than that along.
     fn predicted_noise(&self, end: f64) -> f64 {
         let lattice = self.lattice();
-        let per_cell = self.parameters.number(PPC_PER_DIRECTION);
+        let per_cell = self.setup.ppc_per_direction as f64;
         let within = |s: &f64| (s - 1.0).abs() <= (end - 1.0).abs();
         let each = self.stretches(LOOK).take_while(within);
         let along = each.map(|s| lattice.noise(per_cell / s));
-        along.fold(0.0, f64::max) * (self.dimension() as f64).sqrt()
+        along.fold(0.0, f64::max) * (self.setup.dimension as f64).sqrt()
     }
 
     /// The first stretch at which the fastest particle and the waves of the exact state pass a cell in a step.
     fn predicted_stop(&self) -> Option<f64> {
-        let h = self.spec.level.h;
+        let h = self.setup.h;
         let ends = self.places().last().map_or(0.0, |x| x * h) * self.rate.abs();
         self.stretches(SCAN)
             .find(|stretch| (self.state(*stretch)[1] + ends) * self.dt > h)
@@ -227,7 +178,7 @@ impl Stretching {
     fn stresses<const D: usize>(&self, run: &mut dyn Simulation<D>) -> [f64; 2] {
         let exact = self.state(Self::stretch::<D>(run))[0];
         let stress = run.force_stress();
-        let end = FREE as f64 * self.spec.level.h;
+        let end = FREE as f64 * self.setup.h;
         let places = run.particles().position.iter().zip(&stress);
         let free = places.filter(|(x, _)| x.iter().all(|x| x.abs() < end));
         let axes = free.flat_map(|(_, s)| (0..D).map(move |a| s.get(a, a) / exact));
@@ -240,36 +191,55 @@ impl Stretching {
     }
 }
 
-impl<const D: usize> Watch<D> for Stretching
+impl<const D: usize> Problem<D> for Stretching
 where
     NeoHookean: Solvable<D> + Solved<D>,
 {
-    type Seen = Seen;
+    type Parameters = Stretch;
+    type Seen = Observed;
+
+    fn new(setup: Setup<Stretch>) -> Result<Self, Error> {
+        let law = NeoHookean::new(YOUNG_MODULUS, setup.poisson_ratio)?;
+        let waves = law.wave_speed(DENSITY);
+        let stretch = setup.end - 1.0;
+        let rate = (setup.speed * waves / (FREE as f64 * setup.h)).copysign(stretch);
+        let duration = stretch / rate;
+        let steps = match setup.is_explicit() {
+            true => duration / courant_time_step(setup.cfl, setup.h, waves),
+            false => f64::from(setup.rows),
+        };
+        let (dt, steps) = (duration / steps.ceil(), steps.ceil() as u64);
+        Ok(Self {
+            setup,
+            law,
+            rate,
+            dt,
+            steps,
+        })
+    }
 
     fn discretisation(&self) -> Discretisation {
+        let ppc = self.setup.ppc_per_direction.pow(D as u32);
         Discretisation {
-            dim: D,
-            h: self.spec.level.h,
-            ppc: self.parameters.number(PPC_PER_DIRECTION).powi(D as i32) as u32,
-            dt: self.dt,
             wall: "none".to_owned(),
+            ..self.setup.discretisation(D, ppc, self.dt)
         }
     }
 
-    fn scene(&self, _: &Seen) -> Result<Box<dyn Simulation<D>>, Fault> {
-        let h = self.spec.level.h;
-        let size = h / self.parameters.number(PPC_PER_DIRECTION);
+    fn begin(&self, _: &Observed) -> Result<Box<dyn Simulation<D>>, Fault> {
+        let h = self.setup.h;
+        let size = h / self.setup.ppc_per_direction as f64;
         let along = self.places();
         let place = |k: usize, a: usize| along[k / along.len().pow(a as u32) % along.len()] * h;
         let count = along.len().pow(D as u32);
         let places = (0..count).map(|k| std::array::from_fn(|a| place(k, a)));
-        let places = self.spec.start_at(places.collect());
+        let places = self.setup.start_at(places);
         let volume = size.powi(D as i32);
         let mut particles = Particles::new(places, volume, DENSITY, [0.5 * size; D])?;
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             *v = x.map(|x| self.rate * x);
         }
-        let longest = self.half_length() * self.parameters.number(END).max(1.0);
+        let longest = self.half_length() * self.setup.end.max(1.0);
         let room = longest as usize + HELD;
         let grid = Grid::new(h, [Axis::open(-(room as f64) * h, 2 * room); D])?;
         let held = Held {
@@ -278,45 +248,35 @@ where
             rate: self.rate,
         };
         let scene = Scene::new(grid, Body::new(self.law, particles)?).constrain(held);
-        match self.spec.scheme {
+        match self.setup.scheme {
             Scheme::Explicit(e) => {
                 let settings = Settings::new(self.dt).remedy(e.remedy.build());
-                mpm_solvers::solver(self.spec.scheme, scene, settings)
+                mpm_solvers::solver(self.setup.scheme, scene, settings)
             }
             Scheme::Implicit(_) | Scheme::Poro(_) => {
                 let settings = implicit::Settings::new(self.dt);
-                mpm_solvers::implicit(self.spec.scheme, scene, settings)
+                mpm_solvers::implicit(self.setup.scheme, scene, settings)
             }
         }
     }
 
-    fn columns(&self) -> Vec<&'static str> {
-        vec![
-            "time (s)",
-            "stretch (-)",
-            "stress_kept (-)",
-            "stress_error (-)",
-            "parted (-)",
-        ]
-    }
-
-    fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, Fault> {
-        let rows = self.parameters.number(ROWS) as u64;
+    fn row(&self, seen: &mut Observed, phase: &mut Phase<D>) -> Result<Row, Fault> {
+        let rows = self.setup.rows as u64;
         seen.rows += 1;
         let to = (seen.rows * self.steps).div_ceil(rows);
-        let done = stage.steps(to - stage.run.work().steps);
-        let stretch = Self::stretch::<D>(stage.run.as_ref());
+        let done = phase.steps(to - phase.run.work().steps);
+        let stretch = Self::stretch::<D>(phase.run.as_ref());
         match done {
             Ok(()) => {}
-            // A run that stops has told what it should.
+            // A run that stops is complete.
             Err(Fault::Breakdown { .. } | Fault::NoConvergence { .. } | Fault::Singular { .. }) => {
                 seen.stopped = Some(stretch);
             }
             Err(other) => return Err(other),
         }
-        let [mean, error] = self.stresses(stage.run.as_mut());
-        let h = self.spec.level.h;
-        let places = stage.run.particles().position.iter();
+        let [mean, error] = self.stresses(phase.run.as_mut());
+        let h = self.setup.h;
+        let places = phase.run.particles().position.iter();
         let apart = self.lattice().parted(places.map(|x| x[0] / h).collect());
         seen.kept = mean;
         seen.errors.push([stretch, error]);
@@ -328,57 +288,54 @@ where
         }
         // A step that was not taken is a row of its end.
         let ahead = seen.stopped.map_or(0.0, |_| self.dt);
-        Ok(vec![
-            stage.run.time() + ahead,
-            stretch,
-            mean,
-            error,
-            f64::from(u8::from(apart)),
-        ])
+        Ok(row! {
+            "time (s)": phase.run.time() + ahead,
+            "stretch (-)": stretch,
+            "stress_kept (-)": mean,
+            "stress_error (-)": error,
+            "parted (-)": f64::from(u8::from(apart)),
+        })
     }
 
-    fn progress(&self, seen: &Seen, _: &Stage<D>) -> f64 {
+    fn progress(&self, seen: &Observed, _: &Phase<D>) -> f64 {
         match seen.stopped {
             Some(_) => 1.0,
-            None => seen.rows as f64 / self.parameters.number(ROWS),
+            None => seen.rows as f64 / f64::from(self.setup.rows),
         }
     }
 
-    fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {
-        let stress = stage.run.force_stress();
-        let p = stage.run.particles();
-        let mut columns = position_columns(p);
-        columns.push(column("stress_xx", "Pa", p.seeded(|k| stress[k].get(0, 0))));
-        columns
+    fn particles<'a>(&self, _: &Observed, mut columns: Columns<'a, D>) -> Columns<'a, D> {
+        let stress = columns.run().force_stress();
+        columns.each("stress_xx", "Pa", |_, k| stress[k].get(0, 0))
     }
 
-    fn metrics(&self, seen: &Seen, _: &mut Stage<D>) -> Vec<(Metric, f64)> {
+    fn metrics(&self, seen: &Observed, _: &mut Phase<D>) -> Vec<(Metric, f64)> {
         let unstable = self.unstable();
         let parting = self.predicted_parting();
         let end = unstable.or(parting);
-        let end = end.unwrap_or(self.parameters.number(END));
+        let end = end.unwrap_or(self.setup.end);
         let predicted = self.predicted_noise(end);
         let unstable = unstable.map(|s| s * (1.0 - SWING * predicted));
         let end = unstable.unwrap_or(end);
         let sound = |s: f64| (s - 1.0).abs() < (end - 1.0).abs();
         let errors = seen.errors.iter().filter(|[s, _]| sound(*s));
-        let stops = matches!(self.spec.scheme, Scheme::Explicit(_));
+        let stops = self.setup.is_explicit();
         let optional = [
-            (m::TEAR_STRETCH, seen.torn),
-            (m::PARTED_STRETCH, seen.parted),
-            (m::UNSTABLE_STRETCH, unstable),
-            (m::PREDICTED_TEAR_STRETCH, parting),
-            (m::STOPPED_STRETCH, seen.stopped),
+            (TEAR_STRETCH, seen.torn),
+            (PARTED_STRETCH, seen.parted),
+            (UNSTABLE_STRETCH, unstable),
+            (PREDICTED_TEAR_STRETCH, parting),
+            (STOPPED_STRETCH, seen.stopped),
             (
-                m::PREDICTED_STOP_STRETCH,
+                PREDICTED_STOP_STRETCH,
                 self.predicted_stop().filter(|_| stops),
             ),
             (
-                m::STRESS_NOISE,
+                STRESS_NOISE,
                 Some(errors.map(|[_, e]| *e).fold(0.0, f64::max)),
             ),
-            (m::PREDICTED_NOISE, Some(predicted)),
-            (m::STRESS_KEPT, Some(seen.kept)),
+            (PREDICTED_NOISE, Some(predicted)),
+            (STRESS_KEPT, Some(seen.kept)),
         ];
         let values = optional.into_iter();
         values.filter_map(|(m, v)| Some((m, v?))).collect()
