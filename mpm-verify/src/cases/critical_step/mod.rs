@@ -1,55 +1,59 @@
-//! The largest stable step of every explicit scheme, by bisection, beside linear analysis.
+//! The largest stable step of every explicit scheme, by bisection, against linear analysis.
 //!
 //! Set-up, theory and tolerances: `docs/critical-step.md`.
 
-mod checks;
-mod metrics;
-mod parameters;
-mod tables;
+mod run;
 mod theory;
-mod watch;
 
-use super::family::{BASES, REMEDIES, family, other_transfers, pairs};
-use crate::case::{Case, Family, Tier};
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::Level;
-use metrics::{CRITICAL_CFL, FED_CFL, OFFERED_CFL, PREDICTED_CFL};
-use mpm_core::material::Viscous;
-use parameters::LINEAR_VISCOSITY;
-use watch::{DENSITY, PERIOD, Trials};
-
-use BasisName::{Bspline2, Gimp, Linear};
-use Tier::{Nightly, Pr, Quick};
+use super::family::{BASES, REMEDIES, other_transfers, pairs};
+use super::parameters as common;
+use crate::prelude::*;
+use crate::problem::begin;
+use mpm_core::material::{NeoHookean, Viscous};
+use run::{PERIOD, Trials};
 
 const LEVELS: [Level; 1] = [Level {
     name: "n6",
     h: 1.0 / PERIOD as f64,
 }];
-/// One dimension: as it is, jittered, cut, and compressed and stretched.
-const ALONG: &[&str] = &["dimension=1"];
-const JITTERED: &[&str] = &["dimension=1", "layout=jittered"];
-const CUT: &[&str] = &["dimension=1", "layout=cut"];
-const SMALLER_CUT: &[&str] = &["cut=0.001", "dimension=1", "layout=cut"];
-const COMPRESSED: &[&str] = &["dimension=1", "stretch=0.7"];
-const STRETCHED: &[&str] = &["dimension=1", "stretch=1.4"];
-const NUMBERS: [&[&str]; 3] = [
-    &["dimension=1", "ppc_per_direction=1"],
-    &["dimension=1", "ppc_per_direction=3"],
-    &["dimension=1", "ppc_per_direction=4"],
-];
-const SPACE: &[&str] = &["dimension=3"];
-/// With an artificial viscosity.
-const VISCOUS: [&[&str]; 2] = [
-    &["dimension=1", "linear_viscosity=0.5"],
-    &["dimension=1", "linear_viscosity=1"],
-];
+/// Relative resolution of a critical CFL number, by bisection and by the growth that noise needs to be seen.
+const SEEN: f64 = 0.02;
+
+choices! {
+    /// Arrangement of the particles.
+    enum Layout { Aligned = "aligned", Jittered = "jittered", Cut = "cut" }
+}
+
+parameters! {
+    /// Parameters of the lattice.
+    struct Step {
+        dimension: usize = whole("-", "2", 1, 3), "dimensions of the lattice";
+        layout: Layout = Layout::Aligned.by_default(),
+            "particles in the middle of their shares; off it by up to a quarter of them, in every cell alike; or aligned, with a free end that reaches over a grid line by `cut`";
+        cut: f64 = real("-", "0.01", 1e-6, 0.2),
+            "of the layout cut: how far, in cells, the outermost functions see the first particle";
+        stretch: f64 = real("-", "1", 0.3, 3.0),
+            "J of the body at the start, by a stretch along the axis; other than 1 in one dimension alone";
+        linear_viscosity: f64 = common::LINEAR_VISCOSITY;
+        steps: i32 = whole("-", "400", 100, 1_000_000), "steps of a trial";
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
+    }
+}
+
+metrics! { ALL:
+    CRITICAL_CFL = "critical_cfl", "-",
+        "largest CFL number c Δt/h, c of the state of the start, at which noise does not grow a hundredfold within the steps; below one, which the program refuses to exceed";
+    PREDICTED_CFL = "predicted_cfl", "-",
+        "the same by linear analysis; zero where a mean stress feeds a wave whatever the step";
+    FED_CFL = "fed_cfl", "-",
+        "where a mean stress feeds a wave: the CFL number at which the fastest grows from a fiftieth of its share of the noise to a hundred times the noise within the steps";
+    OFFERED_CFL = "offered_cfl", "-",
+        "CFL number of the step that time_step=auto takes of a case that offers it";
+}
 
 pub(super) fn case() -> Case {
     Case {
-        name: "critical-step",
-        title: "Largest stable step",
         description: "A lattice of particles at rest with a little noise: ten halvings find the largest CFL number at which the noise \
                       does not grow, for every explicit scheme, in one to three dimensions, aligned, off the lattice, cut by the \
                       grid, compressed and stretched, and with an artificial viscosity.",
@@ -61,88 +65,141 @@ pub(super) fn case() -> Case {
             "Particles at rest, which cross no cell; a wave that grows by less than a hundredfold within the steps counts as stable.",
             "CFL numbers of one and more are refused by the program and not tried.",
         ],
-        parameters: parameters::ALL.to_vec(),
         levels: LEVELS.to_vec(),
         plan: plan(),
-        metrics: metrics::ALL.to_vec(),
-        checks: checks::checks(),
+        checks: checks(),
         headlines: vec![
             headline(CRITICAL_CFL, "critical CFL (–)", 1.0, 3),
             headline(PREDICTED_CFL, "predicted (–)", 1.0, 3),
             headline(OFFERED_CFL, "offered (–)", 1.0, 3),
             headline(FED_CFL, "fed by a mean stress (–)", 1.0, 3),
         ],
-        quantities: Vec::new(),
-        sweeps: Vec::new(),
         watched: &["growth", "cfl"],
-        field: None,
         sketch: sketch(),
         cost: Box::new(|_| 0.1),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, p| {
-            Ok(match p.number(parameters::DIMENSION) as u32 {
-                1 if p.number(LINEAR_VISCOSITY) > 0.0 => {
-                    let viscous = |law| {
-                        let coefficients = [p.number(LINEAR_VISCOSITY), 0.0];
-                        Viscous::new(law, DENSITY, spec.level.h, coefficients)
-                    };
-                    Box::new(Trials::<1, _>::drive(spec, p, viscous)?)
-                }
-                1 => Box::new(Trials::<1, _>::drive(spec, p, Ok)?),
-                2 => Box::new(Trials::<2, _>::drive(spec, p, Ok)?),
-                _ => Box::new(Trials::<3, _>::drive(spec, p, Ok)?),
-            })
+        begin: Box::new(|spec, values| {
+            let setup = Setup::<Step>::of_spec(spec, values)?;
+            match setup.dimension {
+                1 if setup.linear_viscosity > 0.0 => begin::<1, Trials<1, Viscous<NeoHookean>>>(spec, values),
+                1 => begin::<1, Trials<1, NeoHookean>>(spec, values),
+                2 => begin::<2, Trials<2, NeoHookean>>(spec, values),
+                _ => begin::<3, Trials<3, NeoHookean>>(spec, values),
+            }
         }),
-        pictures: |_| Ok(()),
-        tables: tables::all(),
-        breaks_down: |_| None,
+        tables: tables(),
+        ..Case::of::<1, Trials<1, NeoHookean>>("critical-step", "Largest stable step", ALL)
     }
 }
 
 fn plan() -> Vec<Family> {
+    let none = RemedyName::None;
     let flip = pairs(&BASES, &REMEDIES);
     let mut all = flip.clone();
     all.extend(other_transfers());
-    all.extend([Linear, Gimp].map(|b| Scheme::explicit(b, RemedyName::None, TransferName::Musl)));
-    let plain = pairs(&BASES, &[RemedyName::None]);
+    all.extend([Linear, Gimp].map(|b| Scheme::explicit(b, none, TransferName::Musl)));
+    let plain = pairs(&BASES, &[none]);
     let space = pairs(&[Gimp, Bspline2], &REMEDIES);
-    let mut plan = vec![
-        family(Quick, &LEVELS, &flip[..1], ALONG),
-        family(Quick, &LEVELS, &plain[..1], CUT),
-        family(Pr, &LEVELS, &all, &[]),
-        family(Pr, &LEVELS, &flip, ALONG),
-        family(Pr, &LEVELS, &flip, JITTERED),
-        family(Pr, &LEVELS, &plain, CUT),
-        family(Pr, &LEVELS, &plain, SMALLER_CUT),
-        family(Pr, &LEVELS, &flip, COMPRESSED),
-        family(Pr, &LEVELS, &flip, STRETCHED),
-        family(Nightly, &LEVELS, &all, &["layout=jittered"]),
-        family(Nightly, &LEVELS, &plain, &["layout=cut"]),
-        family(Nightly, &LEVELS, &space, SPACE),
-    ];
-    plan.extend(VISCOUS.map(|set| family(Pr, &LEVELS, &plain, set)));
-    plan.extend(NUMBERS.map(|set| family(Nightly, &LEVELS, &flip, set)));
-    plan
+    Plan::of(&LEVELS)
+        .runs(Quick, "n6", &flip[..1], "dimension=1")
+        .runs(Quick, "n6", &plain[..1], "dimension=1 layout=cut")
+        .runs(Pr, "n6", &all, "")
+        .runs(Pr, "n6", &flip, "dimension=1")
+        .runs(Pr, "n6", &flip, "dimension=1 layout=jittered")
+        .runs(Pr, "n6", &plain, "dimension=1 layout=cut")
+        .runs(Pr, "n6", &plain, "cut=0.001 dimension=1 layout=cut")
+        .runs(Pr, "n6", &flip, "dimension=1 stretch=0.7")
+        .runs(Pr, "n6", &flip, "dimension=1 stretch=1.4")
+        .runs(Nightly, "n6", &all, "layout=jittered")
+        .runs(Nightly, "n6", &plain, "layout=cut")
+        .runs(Nightly, "n6", &space, "dimension=3")
+        .each(
+            Pr,
+            "n6",
+            &plain,
+            ["0.5", "1"].map(|c| format!("dimension=1 linear_viscosity={c}")),
+        )
+        .each(
+            Nightly,
+            "n6",
+            &flip,
+            [1, 3, 4].map(|n| format!("dimension=1 ppc_per_direction={n}")),
+        )
+        .done()
 }
 
 fn sketch() -> Sketch {
-    let side = 1.0;
-    let dots = (0..4).map(|k| Shape::Probe {
-        at: [0.125 + 0.25 * f64::from(k), 0.5],
+    let dot = |x| Shape::Probe {
+        at: [x, 0.5],
         label: String::new(),
-    });
+    };
     let mut shapes = vec![Shape::Body(vec![
         [0.0, 0.0],
-        [side, 0.0],
-        [side, side],
-        [0.0, side],
+        [1.0, 0.0],
+        [1.0, 1.0],
+        [0.0, 1.0],
     ])];
-    shapes.extend(dots);
+    shapes.extend([0.125, 0.375, 0.625, 0.875].map(dot));
     shapes.push(Shape::note([0.5, 0.8], "noise"));
-    shapes.push(Shape::length([0.0, -0.1], [side, -0.1], "6 h, periodic"));
+    shapes.push(Shape::length([0.0, -0.1], [1.0, -0.1], "6 h, periodic"));
     Sketch {
         shapes,
         description: "A periodic lattice of particles, six cells in a period, at rest but for noise.",
     }
+}
+
+impl Setup<Step> {
+    fn is_small_cut(&self) -> bool {
+        self.basis() == Linear && self.layout == Layout::Cut
+    }
+}
+
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Step>;
+    type Demand = crate::demand::Demand<Step>;
+    vec![
+        Check::truth("largest-step", "the largest stable step is that of linear analysis within 2 %, what ten halvings and the growth of noise over the steps leave open; above 0.98 where that is beyond what the program takes")
+            .when(|s| s.metric(PREDICTED_CFL) > 0.0 && !s.is_small_cut())
+            .each([
+                Demand::above(CRITICAL_CFL, |_| 1.0 - SEEN).when(|s| s.metric(PREDICTED_CFL) > 1.0),
+                Demand::within(CRITICAL_CFL, |s| s.metric(PREDICTED_CFL), |s| SEEN * s.metric(PREDICTED_CFL))
+                    .when(|s| s.metric(PREDICTED_CFL) <= 1.0),
+            ])
+            .because("Jury's conditions of the matrices of docs/modes.md, over the waves of the lattice"),
+        Check::truth("offered-step", "aligned, jittered and cut, without a stretch and a viscosity, all but linear functions: the step that time_step=auto takes is stable")
+            .when(|s| s.stretch == 1.0 && s.linear_viscosity == 0.0 && s.metric(OFFERED_CFL).is_finite())
+            .above(CRITICAL_CFL, |s| s.metric(OFFERED_CFL) * (1.0 - 0.5 * SEEN))
+            .because("the stiffness of a particle over its share of the nodes' masses bounds that of all"),
+        Check::known_limit("small-cut", "linear functions with FLIP and no remedy, cut: the largest step is that of a node of its own, √(4ε/(2 − ε)), within 2 % and ε, and vanishes with ε")
+            .when(|s| s.is_small_cut() && s.transfer() == TransferName::Flip && s.remedy() == RemedyName::None)
+            .within(CRITICAL_CFL, |s| s.metric(PREDICTED_CFL), |s| (SEEN + s.cut) * s.metric(PREDICTED_CFL))
+            .because("the force on a node falls with the slope of its function, its mass with the function"),
+        Check::known_limit("fed-by-mean-stress", "where a mean stress gives a wave a negative stiffness it grows whatever the step, as fast as linear analysis says or faster")
+            .when(|s| s.metric(FED_CFL).is_finite())
+            .at_most(CRITICAL_CFL, |s| s.metric(FED_CFL) * (1.0 + SEEN))
+            .because("docs/modes.md: where Π sees no change of volume, a mean stress is all the stiffness there is"),
+    ]
+}
+
+fn tables() -> Vec<ResultTable> {
+    /// Title of a column, and the parameters changed.
+    const SETTINGS: [(&str, &str); 9] = [
+        ("1D", "dimension=1"),
+        ("1D, jittered", "dimension=1 layout=jittered"),
+        ("1D, cut", "dimension=1 layout=cut"),
+        ("1D, J = 0.7", "dimension=1 stretch=0.7"),
+        ("1D, J = 1.4", "dimension=1 stretch=1.4"),
+        ("1D, c₁ = 0.5", "dimension=1 linear_viscosity=0.5"),
+        ("1D, c₁ = 1", "dimension=1 linear_viscosity=1"),
+        ("2D", ""),
+        ("3D", "dimension=3"),
+    ];
+    let columns = SETTINGS.into_iter().flat_map(|(title, set)| {
+        let at = move |r: &Record| r.set.join(" ") == set;
+        [
+            Column::metric(title, CRITICAL_CFL, fixed(3)).of(at),
+            Column::metric("predicted", PREDICTED_CFL, fixed(3)).of(at),
+        ]
+    });
+    let shows = |r: &Record| SETTINGS.iter().any(|(_, set)| r.set.join(" ") == *set);
+    vec![ResultTable::new("critical-step", shows, &[SCHEME], columns)]
 }

@@ -1,43 +1,30 @@
-//! A run: a row for every step that is tried.
+//! Scene and observations of the lattice: a row for every step that is tried.
 
-use super::metrics as m;
-use super::parameters::{
-    CUT, CUT_WORD, JITTERED, LAYOUT, LINEAR_VISCOSITY, POISSON_RATIO, PPC_PER_DIRECTION, STEPS,
-    STRETCH,
-};
 use super::theory::Setting;
+use super::*;
 use crate::cases::noise::noise;
-use crate::cases::observe::{discretisation, position_columns};
-use crate::drive::{Drive, Stage, Watch};
-use crate::error::Error;
-use crate::job::Column;
-use crate::metric::Metric;
-use crate::parameter::Parameters;
-use crate::record::Discretisation;
-use crate::scheme::{BasisName, Explicit, Scheme};
-use crate::spec::RunSpec;
+use crate::scheme::Explicit;
 use mpm_core::explicit::{Settings, courant_time_step};
-use mpm_core::material::NeoHookean;
-use mpm_core::{Axis, Body, Error as Fault, Grid, Law, Particles, Scene, Simulation};
+use mpm_core::material::Viscous;
+use mpm_core::{Error as Fault, Law};
 use mpm_solvers::{Solvable, solver};
 use nalgebra::SMatrix;
-use serde::{Deserialize, Serialize};
 
 /// Cells of a period, or of the body where it has a free end; cells beside it there.
 pub(super) const PERIOD: usize = 6;
 const ROOM: usize = 3;
 /// Young's modulus (Pa) and density (kg/m³).
 const YOUNG_MODULUS: f64 = 1e6;
-pub(super) const DENSITY: f64 = 1000.0;
+const DENSITY: f64 = 1000.0;
 /// Least and greatest CFL number of a trial, and how many there are: each halves the range of the logarithm.
 const LEAST: f64 = 1e-3;
 const MOST: f64 = 1.0;
-pub(super) const TRIALS: usize = 10;
+const TRIALS: usize = 10;
 /// Speed of the noise over that of waves; its strain, for waves of the nodes that no particle's velocity feeds, but less
 /// than a pressure that an average can't see may drive within a run; and growth of what is unstable.
 const NOISE: f64 = 1e-6;
 const STRAIN: f64 = 1e-8;
-pub(super) const GROWN: f64 = 100.0;
+const GROWN: f64 = 100.0;
 /// The share of its part of the noise that a single wave has at least, but for three chances in a hundred.
 const SHARE: f64 = 0.02;
 /// Relative step of a derivative.
@@ -45,11 +32,11 @@ const STEP: f64 = 1e-5;
 /// Jitter in shares of a particle.
 const JITTER: f64 = 0.25;
 
-/// What has been seen: whether noise grew, trial by trial.
+/// Observations: whether noise grew, trial by trial.
 #[derive(Default, Clone, Serialize, Deserialize)]
-pub(super) struct Seen(Vec<bool>);
+pub(super) struct Grown(Vec<bool>);
 
-impl Seen {
+impl Grown {
     /// The logarithms of the CFL numbers between which the critical one is.
     fn range(&self) -> [f64; 2] {
         let whole = [LEAST.ln(), MOST.ln()];
@@ -68,77 +55,29 @@ impl Seen {
 
 /// A lattice of particles of the law `M` with noise.
 pub(super) struct Trials<const D: usize, M> {
-    spec: RunSpec,
-    parameters: Parameters,
+    setup: Setup<Step>,
     scheme: Explicit,
     /// The law without a viscosity, and as the particles have it.
     law: NeoHookean,
     material: M,
     /// Speed of waves (m/s) of the state of the start along the axis.
     speed: f64,
-    discretisation: Discretisation,
 }
 
-impl<const D: usize, M: Solvable<D> + Copy> Trials<D, M> {
-    /// A run at its start, of particles of what `material` makes of their law.
-    ///
-    /// # Errors
-    /// The parameters don't make a scene.
-    pub(super) fn drive(
-        spec: &RunSpec,
-        parameters: &Parameters,
-        material: impl FnOnce(NeoHookean) -> Result<M, Fault>,
-    ) -> Result<Drive<D, Self>, Error> {
-        let Scheme::Explicit(scheme) = spec.scheme else {
-            let solver = spec.scheme.solver();
-            return Err(Error::unknown(
-                "solver with a largest step",
-                solver,
-                ["explicit"],
-            ));
-        };
-        let stretch = parameters.number(STRETCH);
-        let viscosity = parameters.number(LINEAR_VISCOSITY);
-        let out_of_range = |name: &str, value: f64, place: &str, allowed: f64| {
-            let why = format!("{name} = {value} is out of range {place}; allowed: {allowed}");
-            Err(Error::Input(why))
-        };
-        if D > 1 && stretch != 1.0 {
-            return out_of_range("stretch", stretch, "in two and three dimensions", 1.0);
-        }
-        if viscosity > 0.0 && (D > 1 || stretch != 1.0) {
-            let place = "but in one dimension without a stretch";
-            return out_of_range("linear_viscosity", viscosity, place, 0.0);
-        }
-        let law = NeoHookean::new(YOUNG_MODULUS, parameters.number(POISSON_RATIO))?;
-        let (stress, state) = law.at_rest(&stretched::<3>(stretch));
-        let speed = (law.wave_modulus(stretch, &stress, &state) / DENSITY).sqrt();
-        let longest = courant_time_step(MOST, spec.level.h, speed);
-        let trials = Self {
-            spec: spec.clone(),
-            parameters: parameters.clone(),
-            scheme,
-            law,
-            material: material(law)?,
-            speed,
-            discretisation: discretisation(D, spec, parameters, longest),
-        };
-        Ok(Drive::new(trials, Seen::default())?)
-    }
-
+impl<const D: usize, M: Solvable<D> + Material> Trials<D, M> {
     fn is_cut(&self) -> bool {
-        self.parameters.is(LAYOUT, CUT_WORD)
+        self.setup.layout == Layout::Cut
     }
 
     /// Half the size of a particle, in cells.
     fn half_size(&self) -> f64 {
-        0.5 / self.parameters.number(PPC_PER_DIRECTION)
+        0.5 / self.setup.ppc_per_direction as f64
     }
 
     /// Places of the particles of a cell along an axis, in cells.
     fn places(&self, axis: usize) -> Vec<f64> {
-        let n = self.parameters.number(PPC_PER_DIRECTION) as usize;
-        let jitter = if self.parameters.is(LAYOUT, JITTERED) {
+        let n = self.setup.ppc_per_direction;
+        let jitter = if self.setup.layout == Layout::Jittered {
             JITTER
         } else {
             0.0
@@ -151,17 +90,17 @@ impl<const D: usize, M: Solvable<D> + Copy> Trials<D, M> {
     fn shift(&self) -> f64 {
         // The functions of a point begin at a grid line, those of GIMP half a particle beside it.
         let first = self.half_size();
-        let edge = if self.scheme.basis == BasisName::Gimp {
+        let edge = if self.scheme.basis == Gimp {
             0.0
         } else {
             first
         };
-        ROOM as f64 - edge - self.parameters.number(CUT)
+        ROOM as f64 - edge - self.setup.cut
     }
 
     fn trial(&self, cfl: f64) -> Result<Box<dyn Simulation<D>>, Fault> {
-        let h = self.spec.level.h;
-        let stretch = self.parameters.number(STRETCH);
+        let h = self.setup.h;
+        let stretch = self.setup.stretch;
         let axes: Vec<Vec<f64>> = (0..D)
             .map(|axis| {
                 let shift = if axis == 0 && self.is_cut() {
@@ -185,7 +124,7 @@ impl<const D: usize, M: Solvable<D> + Copy> Trials<D, M> {
         });
         let size = 2.0 * self.half_size() * h;
         let volume = size.powi(D as i32) / stretch;
-        let places = self.spec.start_at(places.collect());
+        let places = self.setup.start_at(places);
         let mut particles = Particles::new(places, volume, DENSITY, [0.5 * size; D])?
             .deformed(|x| (*x, stretched(stretch)));
         for (k, v) in particles.velocity.iter_mut().flatten().enumerate() {
@@ -202,15 +141,15 @@ impl<const D: usize, M: Solvable<D> + Copy> Trials<D, M> {
         let scene = Scene::new(grid, Body::new(self.material, particles)?);
         let settings = Settings::new(courant_time_step(cfl, h, self.speed));
         solver(
-            self.spec.scheme,
+            self.setup.scheme,
             scene,
             settings.remedy(self.scheme.remedy.build()),
         )
     }
 
-    /// What linear analysis says.
+    /// The lattice as linear analysis sees it.
     fn setting(&self) -> Setting {
-        let (law, stretch) = (self.law, self.parameters.number(STRETCH));
+        let (law, stretch) = (self.law, self.setup.stretch);
         let modulus = DENSITY * self.speed * self.speed;
         // P = σ in uniaxial strain; the stiffness of what is deformed, F² dP/dF, is at most the law's modulus.
         let nominal = |stretch: f64| law.at_rest(&stretched::<3>(stretch)).0.get(0, 0);
@@ -223,7 +162,7 @@ impl<const D: usize, M: Solvable<D> + Copy> Trials<D, M> {
             axial: stretch * rise / (2.0 * STEP) / modulus,
             shear: law.mu / modulus,
             mean_stress: stretch * nominal(stretch) / modulus,
-            viscosity: self.parameters.number(LINEAR_VISCOSITY),
+            viscosity: self.setup.linear_viscosity,
         }
     }
 }
@@ -235,38 +174,88 @@ fn stretched<const D: usize>(stretch: f64) -> SMatrix<f64, D, D> {
     f
 }
 
-impl<const D: usize, M: Solvable<D> + Copy> Watch<D> for Trials<D, M> {
-    type Seen = Seen;
+/// A law of the particles.
+pub(super) trait Material: Copy {
+    /// The law of a setup, from that without a viscosity.
+    fn of(law: NeoHookean, setup: &Setup<Step>) -> Result<Self, Fault>;
+}
 
-    fn discretisation(&self) -> Discretisation {
-        self.discretisation.clone()
+impl Material for NeoHookean {
+    fn of(law: NeoHookean, _: &Setup<Step>) -> Result<Self, Fault> {
+        Ok(law)
+    }
+}
+
+impl Material for Viscous<NeoHookean> {
+    fn of(law: NeoHookean, setup: &Setup<Step>) -> Result<Self, Fault> {
+        Viscous::new(law, DENSITY, setup.h, [setup.linear_viscosity, 0.0])
+    }
+}
+
+impl<const D: usize, M: Solvable<D> + Material> Problem<D> for Trials<D, M> {
+    type Parameters = Step;
+    type Seen = Grown;
+
+    fn new(setup: Setup<Step>) -> Result<Self, Error> {
+        let Scheme::Explicit(scheme) = setup.scheme else {
+            let solver = setup.scheme.solver();
+            return Err(Error::unknown(
+                "solver with a largest step",
+                solver,
+                ["explicit"],
+            ));
+        };
+        let (stretch, viscosity) = (setup.stretch, setup.linear_viscosity);
+        let out_of_range = |name: &str, value: f64, place: &str, allowed: f64| {
+            let why = format!("{name} = {value} is out of range {place}; allowed: {allowed}");
+            Err(Error::Input(why))
+        };
+        if D > 1 && stretch != 1.0 {
+            return out_of_range("stretch", stretch, "in two and three dimensions", 1.0);
+        }
+        if viscosity > 0.0 && (D > 1 || stretch != 1.0) {
+            let place = "but in one dimension without a stretch";
+            return out_of_range("linear_viscosity", viscosity, place, 0.0);
+        }
+        let law = NeoHookean::new(YOUNG_MODULUS, setup.poisson_ratio)?;
+        let (stress, state) = law.at_rest(&stretched::<3>(stretch));
+        let speed = (law.wave_modulus(stretch, &stress, &state) / DENSITY).sqrt();
+        Ok(Self {
+            scheme,
+            law,
+            material: M::of(law, &setup)?,
+            speed,
+            setup,
+        })
     }
 
-    fn scene(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, Fault> {
+    fn discretisation(&self) -> Discretisation {
+        let longest = courant_time_step(MOST, self.setup.h, self.speed);
+        self.setup
+            .discretisation(D, self.setup.ppc_per_direction.pow(D as u32), longest)
+    }
+
+    fn begin(&self, seen: &Grown) -> Result<Box<dyn Simulation<D>>, Fault> {
         self.trial(seen.cfl())
     }
 
-    fn columns(&self) -> Vec<&'static str> {
-        vec!["trial (-)", "cfl (-)", "growth (-)", "steps (-)"]
-    }
-
-    fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, Fault> {
+    fn row(&self, seen: &mut Grown, phase: &mut Phase<D>) -> Result<Row, Fault> {
         let cfl = seen.cfl();
         if !seen.0.is_empty() {
-            stage.enter(self.trial(cfl)?, None)?;
+            phase.enter(self.trial(cfl)?, None)?;
         }
-        // That of the nodes too: a wave that changes sign from node to node may leave the particles between alone.
-        let energy = |stage: &Stage<D>| {
-            stage.run.totals().kinetic_energy + stage.run.residual().kinetic_energy
+        // Nodes count too: a wave that changes sign from node to node may leave the particles between alone.
+        let energy = |phase: &Phase<D>| {
+            phase.run.totals().kinetic_energy + phase.run.residual().kinetic_energy
         };
-        let (start, begun) = (energy(stage), stage.work().steps);
-        let steps = self.parameters.number(STEPS) as u64;
+        let (start, begun) = (energy(phase), phase.work().steps);
+        let steps = self.setup.steps as u64;
         let mut growth = 1.0;
         for _ in 0..steps {
-            match stage.steps(1) {
-                // Of no number `min` gives the other: it is infinite.
-                Ok(()) => growth = (energy(stage) / start).sqrt().min(f64::INFINITY),
-                // A trial that breaks down has told what it should: the step is too long.
+            match phase.steps(1) {
+                // `min` turns NaN into infinity.
+                Ok(()) => growth = (energy(phase) / start).sqrt().min(f64::INFINITY),
+                // A trial that breaks down has a step that is too long.
                 Err(Fault::Breakdown { .. }) => growth = f64::INFINITY,
                 Err(other) => return Err(other),
             }
@@ -276,42 +265,38 @@ impl<const D: usize, M: Solvable<D> + Copy> Watch<D> for Trials<D, M> {
         }
         let grew = growth >= GROWN;
         seen.0.push(grew);
-        Ok(vec![
-            seen.0.len() as f64,
-            cfl,
-            growth.min(GROWN),
-            (stage.work().steps - begun) as f64,
-        ])
+        Ok(row! {
+            "trial (-)": seen.0.len() as f64,
+            "cfl (-)": cfl,
+            "growth (-)": growth.min(GROWN),
+            "steps (-)": (phase.work().steps - begun) as f64,
+        })
     }
 
-    fn progress(&self, seen: &Seen, _: &Stage<D>) -> f64 {
+    fn progress(&self, seen: &Grown, _: &Phase<D>) -> f64 {
         seen.0.len() as f64 / TRIALS as f64
     }
 
-    fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {
-        position_columns(stage.run.particles())
-    }
-
-    fn metrics(&self, seen: &Seen, _: &mut Stage<D>) -> Vec<(Metric, f64)> {
+    fn metrics(&self, seen: &Grown, _: &mut Phase<D>) -> Vec<(Metric, f64)> {
         let [stable, _] = seen.range();
-        let mut values = vec![(m::CRITICAL_CFL, stable.exp())];
+        let mut values = vec![(CRITICAL_CFL, stable.exp())];
         let setting = self.setting();
         if self.is_cut() {
             // A node of its own: one function sees one particle with the weight ε, so that g = τ²/ε and Π̂ = ε.
-            let cut = self.parameters.number(CUT);
-            if self.scheme.basis == BasisName::Linear {
-                values.push((m::PREDICTED_CFL, (4.0 * cut / (2.0 - cut)).sqrt()));
+            let cut = self.setup.cut;
+            if self.scheme.basis == Linear {
+                values.push((PREDICTED_CFL, (4.0 * cut / (2.0 - cut)).sqrt()));
             }
         } else if let Some([cfl, fed]) = setting.predicted() {
-            values.push((m::PREDICTED_CFL, cfl));
+            values.push((PREDICTED_CFL, cfl));
             if fed > 0.0 {
                 let modes = (PERIOD as f64 / (2.0 * self.half_size())).powi(D as i32) * D as f64;
                 let growth = (GROWN * modes.sqrt() / SHARE).ln();
-                values.push((m::FED_CFL, growth / (fed * self.parameters.number(STEPS))));
+                values.push((FED_CFL, growth / (fed * f64::from(self.setup.steps))));
             }
         }
         let offered = mpm_solvers::stable_cfl(self.scheme.basis, D, self.half_size());
-        values.extend(offered.map(|cfl| (m::OFFERED_CFL, cfl)));
+        values.extend(offered.map(|cfl| (OFFERED_CFL, cfl)));
         values
     }
 }
