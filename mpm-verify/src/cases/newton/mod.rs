@@ -1,125 +1,132 @@
 //! Load steps far too large, a softening body, a floor that is hardly touched: the implicit solver finds the exact
-//! equilibrium, or says that it finds none.
+//! equilibrium, or reports that it finds none.
 //!
 //! Set-up, choices and tolerances: `docs/newton.md`.
 
-mod checks;
 mod exact;
-mod metrics;
-mod parameters;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::{family, implicit, levels};
-use crate::case::{Case, Family, Tier};
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, RuleName, Scheme};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::Level;
-use metrics as m;
-use watch::Loaded;
+use super::family::{implicit, levels};
+use super::parameters as common;
+use crate::prelude::*;
 
-use Tier::{Nightly, Pr, Quick};
+/// The tolerance of Newton's method, with a share for rounding.
+const CONVERGED: f64 = 1e-7;
+/// Relative excess of the load that a column of cells may bear over that of the exact column.
+const STIFFER: f64 = 0.02;
+/// Least error of an equilibrium of moved particles, in bounds.
+const MOVED: f64 = 3.0;
+
+choices! {
+    /// The support of the column.
+    enum Support { Hangs = "hangs", Stands = "stands" }
+}
+
+parameters! {
+    /// Parameters of the column.
+    struct Newton {
+        support: Support = Support::Hangs.by_default(),
+            "the column hangs from its upper end and softens, or stands on a barrier";
+        load: f64 = real("-", "0.7", 0.01, 100.0),
+            "weight of the column over the greatest that it bears hanging, M/e of its area";
+        load_steps: i32 = common::LOAD_STEPS.with_default("1");
+        gap: f64 = real("-", "0.9", 0.01, 3.0),
+            "standing: gap of the lowest particles at the start over the distance at which the barrier begins";
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+    }
+}
+
+metrics! { ALL:
+    CARRIED = "carried", "-", "share of the load at the last equilibrium that was found";
+    BEARABLE = "bearable", "-", "share of the load up to which there is one";
+    EQUILIBRIUM_ERROR = "equilibrium_error", "-",
+        "rms error of the displacements at the last equilibrium over the height; none if there was none";
+    BOUND = "equilibrium_bound", "-", "bound of it: what cells of this size leave";
+    REACTION_ERROR = "reaction_error", "-",
+        "force on the floor, or on what holds the upper end, over the weight that is carried, less one";
+    GAP_ERROR = "gap_error", "-",
+        "standing: mean gap of the lowest particles less the exact one, over the distance at which the barrier begins";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps that were taken";
+    PARTS = "parts", "-", "most parts that a load step was cut into";
+}
 
 pub(super) fn case() -> Case {
     let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0)]);
     Case {
-        name: "newton",
-        title: "Load steps that are far too large",
         description: "A column under its own weight, which softens where it hangs and touches a barrier where it stands, in a thousand \
                       load steps or in one: the implicit solver finds the exact equilibrium, cuts the step, or says that it finds none.",
         references: vec![
-            "Exact: uniaxial strain of a Hencky body under its own weight, src/cases/newton/exact.rs."
-                .to_owned(),
+            "Exact: uniaxial strain of a Hencky body under its own weight, src/cases/newton/exact.rs.".to_owned(),
         ],
         limits: &["Uniaxial strain, one law, no stabilisation of cut cells."],
-        parameters: parameters::ALL.to_vec(),
         plan: plan(&levels),
         levels,
-        metrics: m::ALL.to_vec(),
-        checks: checks::checks(),
+        checks: checks(),
         headlines: vec![
-            headline(m::CARRIED, "load carried (%)", 100.0, 1),
-            headline(m::BEARABLE, "that there is (%)", 100.0, 1),
-            headline(m::EQUILIBRIUM_ERROR, "error (–)", 1.0, 5),
-            headline(m::BOUND, "bound (–)", 1.0, 5),
-            headline(m::NEWTON_ITERATIONS, "iterations", 1.0, 0),
-            headline(m::PARTS, "most parts of a step", 1.0, 0),
+            headline(CARRIED, "load carried (%)", 100.0, 1),
+            headline(BEARABLE, "that there is (%)", 100.0, 1),
+            headline(EQUILIBRIUM_ERROR, "error (–)", 1.0, 5),
+            headline(BOUND, "bound (–)", 1.0, 5),
+            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
+            headline(PARTS, "most parts of a step", 1.0, 0),
         ],
-        quantities: Vec::new(),
-        sweeps: Vec::new(),
         watched: &["equilibrium_error", "newton_iterations"],
-        field: None,
         sketch: sketch(),
         cost: Box::new(|_| 0.05),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Loaded::drive(spec, parameters)?))),
-        pictures: |_| Ok(()),
-        tables: tables::all(),
-        breaks_down: |_| None,
+        tables: tables(),
+        ..Case::of::<2, run::Loaded>("newton", "Load steps that are far too large", ALL)
     }
 }
 
-fn schemes() -> Vec<Scheme> {
-    use BasisName::{Bspline2, Gimp, Linear};
-    let remedies = [RemedyName::None, RemedyName::FbarConsistent];
-    implicit(
+fn plan(levels: &[Level]) -> Vec<Family> {
+    let all = implicit(
         &[RuleName::QuasiStatic],
         &[Gimp, Linear, Bspline2],
-        &remedies,
-    )
-}
-
-/// Loads in one step, and what stands: iterations that rounding hardly changes.
-const SURE: [&[&str]; 4] = [
-    &["load=0.97"],
-    &["support=stands"],
-    &["load=2", "support=stands"],
-    &["load=2", "poisson_ratio=0.4999", "support=stands"],
-];
-/// Numbers of load steps, loads beyond the greatest, a floor that is not touched: steps that are cut.
-const CUT: [&[&str]; 8] = [
-    &["load_steps=10"],
-    &["load=0.97", "load_steps=10"],
-    &["load=1.1"],
-    &["load=1.1", "load_steps=10"],
-    &["load=10"],
-    &["load_steps=10", "support=stands"],
-    &["gap=1", "support=stands"],
-    &["gap=1.5", "support=stands"],
-];
-const SMALL: [&[&str]; 7] = [
-    &["load_steps=100"],
-    &["load_steps=1000"],
-    &["load=1.1", "load_steps=100"],
-    &["load_steps=100", "support=stands"],
-    &["load_steps=1000", "support=stands"],
-    &["load=20", "support=stands"],
-    &["gap=0.99", "support=stands"],
-];
-
-fn plan(levels: &[Level]) -> Vec<Family> {
-    let all = schemes();
-    let coarse = &levels[..1];
+        &[RemedyName::None, FbarConsistent],
+    );
     let splines: Vec<Scheme> = all
         .iter()
         .copied()
-        .filter(|s| s.basis() == BasisName::Bspline2)
+        .filter(|s| s.basis() == Bspline2)
         .collect();
-    let mut plan = vec![
-        family(Quick, coarse, &all[..1], &[]),
-        family(Pr, coarse, &all, &[]),
+    // Loads in one step, and standing columns: iterations that rounding hardly changes.
+    let sure = [
+        "load=0.97",
+        "support=stands",
+        "load=2 support=stands",
+        "load=2 poisson_ratio=0.4999 support=stands",
     ];
-    plan.extend(SURE.map(|set| family(Pr, coarse, &all, set)));
-    plan.push(family(Pr, coarse, &splines, CUT[0]));
-    plan.push(family(Pr, coarse, &splines, CUT[2]));
-    plan.push(family(Pr, coarse, &splines, CUT[5]));
-    plan.extend(CUT.map(|set| family(Nightly, levels, &all, set)));
-    plan.extend(SMALL.map(|set| family(Nightly, coarse, &all, set)));
-    plan.push(family(Nightly, &levels[1..], &all, &[]));
-    plan.extend(SURE.map(|set| family(Nightly, &levels[1..], &all, set)));
-    plan
+    // Numbers of load steps, loads beyond the greatest, a floor that is not touched: steps that are cut.
+    let cut = [
+        "load_steps=10",
+        "load=0.97 load_steps=10",
+        "load=1.1",
+        "load=1.1 load_steps=10",
+        "load=10",
+        "load_steps=10 support=stands",
+        "gap=1 support=stands",
+        "gap=1.5 support=stands",
+    ];
+    let small = [
+        "load_steps=100",
+        "load_steps=1000",
+        "load=1.1 load_steps=100",
+        "load_steps=100 support=stands",
+        "load_steps=1000 support=stands",
+        "load=20 support=stands",
+        "gap=0.99 support=stands",
+    ];
+    Plan::of(levels)
+        .runs(Quick, "n8", &all[..1], "")
+        .runs(Pr, "n8", &all, "")
+        .each(Pr, "n8", &all, sure)
+        .each(Pr, "n8", &splines, [cut[0], cut[2], cut[5]])
+        .each(Nightly, "n8 n16", &all, cut)
+        .each(Nightly, "n8", &all, small)
+        .runs(Nightly, "n16", &all, "")
+        .each(Nightly, "n16", &all, sure)
+        .done()
 }
 
 fn sketch() -> Sketch {
@@ -137,4 +144,84 @@ fn sketch() -> Sketch {
         ],
         description: "A column of 1 m that hangs under its weight, and one that stands on a floor; rollers at the sides.",
     }
+}
+
+impl Run<'_, Newton> {
+    /// Whether the load came in one step that was not cut, on functions that have not moved.
+    fn is_whole(&self) -> bool {
+        self.load_steps == 1 && self.metric(PARTS) == 1.0
+    }
+
+    fn has(&self, metric: Metric) -> bool {
+        self.metric(metric).is_finite()
+    }
+}
+
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Newton>;
+    vec![
+        Check::truth("never-wrong", "in one step that was not cut, and standing without a remedy but with linear functions: the last equilibrium that was found is the exact one, within h² times the greatest slope of the stretch")
+            .when(|c| {
+                let smooth = c.basis() != Linear && c.remedy() == RemedyName::None;
+                (c.is_whole() || c.stands() && smooth) && c.has(EQUILIBRIUM_ERROR)
+            })
+            .at_most(EQUILIBRIUM_ERROR, |c| c.metric(BOUND))
+            .because("there is one below the greatest load that the law goes on from; another is far away"),
+        Check::truth("no-more-than-there-is", "hanging beyond what can be borne: no equilibrium is found beyond it, within a fiftieth for the cells")
+            .when(|c| c.metric(BEARABLE) < 1.0)
+            .at_most(CARRIED, |c| c.metric(BEARABLE) * (1.0 + STIFFER))
+            .because("ln λ/λ is at most 1/e"),
+        Check::truth("weight", "what holds the column carries its weight, to what Newton's method leaves")
+            .when(|c| c.has(REACTION_ERROR))
+            .within(REACTION_ERROR, |_| 0.0, |_| CONVERGED)
+            .of_scale(|_| 1.0)
+            .because("equilibrium of the whole body"),
+        Check::truth("gap", "standing: the lowest particles are at the gap at which the barrier carries the weight, to what Newton's method leaves")
+            .when(|c| c.has(GAP_ERROR))
+            .within(GAP_ERROR, |_| 0.0, |_| CONVERGED)
+            .of_scale(|_| 1.0)
+            .because("every column of particles is alike, and the barrier's force has one gap"),
+        Check::known_limit("moved-quadrature", "linear functions, hanging, in more than one part: the equilibrium is one of the moved particles, off by more than three times the bound")
+            .when(|c| !c.stands() && !c.is_whole() && c.basis() == Linear && c.has(EQUILIBRIUM_ERROR))
+            .above(EQUILIBRIUM_ERROR, |c| MOVED * c.metric(BOUND))
+            .because("slopes that jump where particles cross grid lines: whole cells lose their stress, and tear"),
+        Check::known_limit("hair-cut", "GIMP, hanging, a hundred steps and more: no equilibrium is found beyond half of the load")
+            .when(|c| c.load_steps >= 100 && !c.stands() && c.basis() == Gimp)
+            .at_most(CARRIED, |_| 0.5)
+            .because("a node that sees a hair of the free end makes the stiffness singular; nothing is stabilised"),
+    ]
+}
+
+fn tables() -> Vec<ResultTable> {
+    const SET: Label = ("changed", |r| r.set.join(", "));
+    let columns = || {
+        [
+            Column::metric("load carried", CARRIED, share(1)),
+            Column::metric("that there is", BEARABLE, share(1)),
+            Column::metric("error", EQUILIBRIUM_ERROR, SHORT),
+            Column::metric("bound", BOUND, SHORT),
+            Column::metric("iterations", NEWTON_ITERATIONS, fixed(0)),
+            Column::metric("most parts of a step", PARTS, fixed(0)),
+        ]
+    };
+    let plain = |r: &Record, stands: bool| {
+        let setup = Setup::<Newton>::of_record(r);
+        r.level == "n8"
+            && r.remedy() == RemedyName::None
+            && setup.is_ok_and(|c| c.stands() == stands)
+    };
+    vec![
+        ResultTable::new(
+            "newton-hangs",
+            move |r| plain(r, false),
+            &[SCHEME, SET],
+            columns(),
+        ),
+        ResultTable::new(
+            "newton-stands",
+            move |r| plain(r, true),
+            &[SCHEME, SET],
+            columns(),
+        ),
+    ]
 }

@@ -1,0 +1,234 @@
+//! Scene and observations of the column, step by step; the time is the share of the load.
+
+use super::exact::Column as Exact;
+use super::*;
+use crate::cases::observe::finds_equilibrium;
+use crate::statistics::rms;
+use mpm_core::contact::{Barrier, RigidContact, RigidFace};
+use mpm_core::material::Hencky;
+use mpm_core::stage::Gravity;
+use mpm_core::{Error as Fault, Law, Part, implicit};
+use std::f64::consts::E;
+
+/// Height of the column (m), and cells across it.
+const HEIGHT: f64 = 1.0;
+const ACROSS: usize = 4;
+/// Young's modulus (Pa) and density (kg/m³).
+const YOUNG_MODULUS: f64 = 1e6;
+const DENSITY: f64 = 1000.0;
+/// Place among the constraints of what holds the upper end.
+const UPPER_END: usize = 2;
+/// Distance at which the barrier begins, in cells, and the share of it at which it carries the weight.
+const REACH: f64 = 0.25;
+const CARRIES: f64 = 0.5;
+
+/// Observations: whether a step found no equilibrium, and the most parts of a step.
+#[derive(Default, Clone, Serialize, Deserialize)]
+pub(super) struct Found {
+    stopped: bool,
+    parts: u32,
+}
+
+impl Setup<Newton> {
+    pub(super) fn stands(&self) -> bool {
+        self.support == Support::Stands
+    }
+}
+
+/// A column.
+pub(super) struct Loaded {
+    setup: Setup<Newton>,
+    law: Hencky,
+    /// M (Pa), and the weight per area (Pa).
+    modulus: f64,
+    weight: f64,
+}
+
+impl Loaded {
+    fn spacing(&self) -> f64 {
+        self.setup.h / self.setup.ppc_per_direction as f64
+    }
+
+    /// The exact column at a share of the load, if there is one.
+    fn exact(&self, share: f64) -> Option<Exact> {
+        let sign = if self.setup.stands() { -1.0 } else { 1.0 };
+        Exact::new(sign * share * self.weight / self.modulus)
+    }
+
+    /// The barrier that carries the weight of a column of particles at a part of its distance.
+    fn barrier(&self) -> Result<Barrier, Fault> {
+        let reach = REACH * self.setup.h;
+        Barrier::carrying_at(self.weight * self.spacing(), CARRIES * reach, reach)
+    }
+
+    /// Gaps of the lowest particles (m): their mean, and the exact one at a share of the load.
+    fn gaps(&self, run: &dyn Simulation<2>, share: f64) -> Result<[f64; 2], Fault> {
+        let (p, floor) = (run.particles(), self.floor());
+        let lowest = p.reference.iter().zip(&p.position);
+        let lowest = lowest.filter(|([_, y], _)| *y < self.spacing());
+        let gaps: Vec<f64> = lowest.map(|(_, [_, y])| y - floor).collect();
+        let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+        let exact = self.barrier()?.gap(share * self.weight * self.spacing());
+        Ok([mean, exact])
+    }
+
+    /// Height of the floor (m).
+    fn floor(&self) -> f64 {
+        0.5 * self.spacing() - self.setup.gap * REACH * self.setup.h
+    }
+
+    /// Rms error of the displacements over the height; nothing if there is no exact equilibrium.
+    fn error(&self, run: &dyn Simulation<2>, share: f64) -> Option<f64> {
+        let exact = self.exact(share)?;
+        let p = run.particles();
+        let each = p.reference.iter().zip(&p.position);
+        let moved: Vec<[f64; 2]> = each
+            .map(|([_, from], [_, to])| {
+                let distance = if self.setup.stands() {
+                    HEIGHT - from
+                } else {
+                    *from
+                };
+                let away = exact.at(distance / HEIGHT) * HEIGHT;
+                let along = if self.setup.stands() { away } else { -away };
+                [to - from, along]
+            })
+            .collect();
+        // A standing column moves with the gap as well, which is judged by itself.
+        let count = moved.len() as f64;
+        let shift = if self.setup.stands() {
+            moved.iter().map(|[u, exact]| u - exact).sum::<f64>() / count
+        } else {
+            0.0
+        };
+        Some(rms(moved
+            .iter()
+            .map(|[u, exact]| (u - exact - shift) / HEIGHT)))
+    }
+}
+
+impl Problem<2> for Loaded {
+    type Parameters = Newton;
+    type Seen = Found;
+
+    fn new(setup: Setup<Newton>) -> Result<Self, Error> {
+        let law = Hencky::new(YOUNG_MODULUS, setup.poisson_ratio)?;
+        let modulus = DENSITY * law.wave_speed(DENSITY).powi(2);
+        let weight = setup.load * modulus / E;
+        Ok(Self {
+            setup,
+            law,
+            modulus,
+            weight,
+        })
+    }
+
+    fn discretisation(&self) -> Discretisation {
+        let ppc = self.setup.ppc_per_direction.pow(2);
+        self.setup
+            .discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
+    }
+
+    fn begin(&self, _: &Found) -> Result<Box<dyn Simulation<2>>, Fault> {
+        let (h, spacing) = (self.setup.h, self.spacing());
+        let cells = (HEIGHT / h).round() as usize;
+        let upward = if self.setup.stands() {
+            Axis::open(-HEIGHT, 3 * cells)
+        } else {
+            // Room for a column that has been stretched to e times its height.
+            Axis::bounded(-2.0 * HEIGHT, 3 * cells, (Side::Open, Side::Wall))
+        };
+        let grid = Grid::new(h, [Axis::walls(0.0, ACROSS), upward])?;
+        let counts = [ACROSS as f64 * h, HEIGHT].map(|l| (l / spacing).round() as usize);
+        let place = |k: usize| [k % counts[0], k / counts[0]].map(|k| (k as f64 + 0.5) * spacing);
+        let places = self.setup.start_at((0..counts[0] * counts[1]).map(place));
+        let particles = Particles::new(places, spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
+        let gravity = self.weight / (DENSITY * HEIGHT);
+        let roller = |axis, end| Wall {
+            axis,
+            end,
+            kind: WallKind::Roller,
+        };
+        let mut scene = Scene::new(grid, Body::new(self.law, particles)?)
+            .load(Gravity(Box::new(move |share| [0.0, -share * gravity])))
+            .constrain(roller(0, End::Lo))
+            .constrain(roller(0, End::Hi));
+        if self.setup.stands() {
+            let face = RigidFace::half_space(1, End::Lo, self.floor())?;
+            scene = scene.contact(RigidContact::new(face, self.barrier()?));
+        } else {
+            scene = scene.constrain(roller(1, End::Hi));
+        }
+        let settings = implicit::Settings::new(1.0 / f64::from(self.setup.load_steps));
+        mpm_solvers::implicit(self.setup.scheme, scene, settings)
+    }
+
+    fn row(&self, seen: &mut Found, phase: &mut Phase<2>) -> Result<Row, Fault> {
+        let before = phase.work().newton_iterations;
+        // Without an equilibrium the run stays at the last one found.
+        seen.stopped = !finds_equilibrium(phase.steps(1))?;
+        let run = phase.run.as_ref();
+        let parts = run.convergence().map_or(0, |c| c.parts);
+        seen.parts = seen.parts.max(parts);
+        // A step that was not taken is a row of its end.
+        let step = 1.0 / f64::from(self.setup.load_steps);
+        let ahead = if seen.stopped { step } else { 0.0 };
+        Ok(row! {
+            "load (-)": run.time() + ahead,
+            "equilibrium_error (-)": self.error(run, run.time()).unwrap_or(f64::NAN),
+            "newton_iterations (-)": (phase.work().newton_iterations - before) as f64,
+            "parts (-)": f64::from(parts),
+        })
+    }
+
+    fn progress(&self, seen: &Found, phase: &Phase<2>) -> f64 {
+        if seen.stopped {
+            return 1.0;
+        }
+        phase.share_of(self.setup.load_steps as u64)
+    }
+
+    fn particles<'a>(&self, _: &Found, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
+        let stress = columns.run().force_stress();
+        columns.each("stress_yy", "Pa", |_, k| stress[k].get(1, 1))
+    }
+
+    fn metrics(&self, seen: &Found, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
+        let run = phase.run.as_ref();
+        let carried = run.time();
+        let bearable = if self.setup.stands() {
+            1.0
+        } else {
+            (1.0 / self.setup.load).min(1.0)
+        };
+        let cells = (self.setup.h / HEIGHT).powi(2);
+        let mut values = vec![
+            (CARRIED, carried),
+            (BEARABLE, bearable),
+            (NEWTON_ITERATIONS, phase.work().newton_iterations as f64),
+            (PARTS, f64::from(seen.parts)),
+        ];
+        if carried > 0.0 {
+            let error = self.error(run, carried);
+            let exact = self.exact(carried);
+            values.extend(error.map(|e| (EQUILIBRIUM_ERROR, e)));
+            values.extend(exact.map(|e| (BOUND, cells * e.curvature)));
+            let held = if self.setup.stands() {
+                Part::Contact(0)
+            } else {
+                Part::Constraint(UPPER_END)
+            };
+            let area = ACROSS as f64 * self.setup.h;
+            let weight = carried * self.weight * area;
+            let force = run.on(held).force[1].abs();
+            values.push((REACTION_ERROR, force / weight - 1.0));
+            if self.setup.stands()
+                && let Ok([mean, exact]) = self.gaps(run, carried)
+            {
+                let reach = REACH * self.setup.h;
+                values.push((GAP_ERROR, (mean - exact) / reach));
+            }
+        }
+        values
+    }
+}
