@@ -1,31 +1,62 @@
-//! A beam one, two, four cells thick: what cells and particles make of its bending.
+//! A beam one, two, four cells thick: the effect of cells and particles on its bending.
 //!
 //! Set-up, choices and tolerances: `docs/thin.md`.
 
-mod checks;
-mod metrics;
-mod parameters;
-mod tables;
+mod run;
 mod theory;
-mod watch;
 
-use super::family::{BASES, family, implicit, levels, pairs};
-use crate::case::{Case, Family, Tier};
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, RuleName};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::Level;
-use metrics as m;
-use theory::{DEPTH, HALF};
-use watch::Swing;
+use super::family::{BASES, implicit, levels, pairs};
+use super::parameters as common;
+use crate::accuracy::fit_order;
+use crate::parameter::{Parameter, number};
+use crate::prelude::*;
+use theory::{DEPTH, HALF, SLENDER};
 
-use Tier::{Nightly, Pr, Quick};
+/// Relative difference of a beam's frequency by how its sections shear.
+const SECTIONS: f64 = 2e-3;
+/// Formal order of the error.
+const FORMAL: f64 = 2.0;
+/// Rounding of a frequency that is read from zeros of a series.
+const READ: f64 = 1e-3;
+/// Least frequency over the exact one of a locked beam, and greatest of one that is too soft.
+const LOCKED: f64 = 1.5;
+const SOFT: f64 = 0.9;
+/// Three zeros in five periods of the exact frequency.
+const SLOWEST: f64 = 0.3;
+/// Poisson's ratio from which on a body is nearly incompressible.
+const STIFF: f64 = 0.49;
+
+const CFL: Parameter = common::CFL
+    .with_default("0.3")
+    .within(number(1e-3, 100.0, false));
+
+parameters! {
+    /// Parameters of the beam.
+    struct Thin {
+        shift: f64 = real("h", "0", 0.0, 1.0).below(),
+            "how far the faces of the beam lie above the nearest grid lines, in cells";
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0");
+        cfl: f64 = CFL, "CFL number c Δt / h of pressure waves; explicit: below 1";
+        lumped: f64 = common::LUMPED;
+        alpha: f64 = common::ALPHA;
+        delta: f64 = common::DELTA;
+        tolerance: f64 = common::TOLERANCE;
+    }
+}
+
+metrics! { ALL:
+    FREQUENCY_RATIO = "frequency_ratio", "-", "first frequency over that of Timoshenko's beam";
+    FREQUENCY_ERROR = "frequency_error", "-", "how far it is off one";
+    PREDICTED_RATIO = "predicted_ratio", "-",
+        "likewise, of a beam whose bending stiffness is what its functions and particles make of it, an upper bound with gimp and fbar-consistent; none where that is not known";
+    STIFFNESS_RATIO = "stiffness_ratio", "-", "that bending stiffness over the exact one; likewise";
+    AMPLITUDE_RATIO = "amplitude_ratio", "-", "largest deflection in the last period over that in the first";
+}
 
 pub(super) fn case() -> Case {
     let levels = levels(DEPTH, [("t1", 1.0), ("t2", 2.0), ("t4", 4.0)]);
     Case {
-        name: "thin",
-        title: "A beam of few cells",
         description: "A free beam, twenty times as long as it is deep, swings in its first mode, one, two or four cells over its depth: \
                       its frequency against Timoshenko's, and against that of the stiffness that cells and particles leave.",
         references: vec![
@@ -36,41 +67,26 @@ pub(super) fn case() -> Case {
             "One slenderness, small deflection, no clamp: that of cantilever is a singular place of its own.",
             "What F̄ leaves of the bending stiffness of linear functions is not foretold.",
         ],
-        parameters: parameters::ALL.to_vec(),
         plan: plan(&levels),
         levels,
-        metrics: m::ALL.to_vec(),
-        checks: checks::checks(),
+        checks: checks(),
         headlines: vec![
-            headline(m::FREQUENCY_RATIO, "frequency over exact (–)", 1.0, 4),
-            headline(m::PREDICTED_RATIO, "predicted (–)", 1.0, 4),
-            headline(m::STIFFNESS_RATIO, "bending stiffness over exact (–)", 1.0, 3),
-            headline(m::AMPLITUDE_RATIO, "amplitude kept (–)", 1.0, 3),
+            headline(FREQUENCY_RATIO, "frequency over exact (–)", 1.0, 4),
+            headline(PREDICTED_RATIO, "predicted (–)", 1.0, 4),
+            headline(STIFFNESS_RATIO, "bending stiffness over exact (–)", 1.0, 3),
+            headline(AMPLITUDE_RATIO, "amplitude kept (–)", 1.0, 3),
         ],
-        quantities: Vec::new(),
-        sweeps: Vec::new(),
         watched: &["deflection"],
-        field: None,
         sketch: sketch(),
         cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-3)),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Swing::drive(spec, parameters)?))),
-        pictures: |_| Ok(()),
-        tables: tables::all(),
-        breaks_down: |_| None,
+        tables: tables(),
+        ..Case::of::<2, run::Swing>("thin", "A beam of few cells", ALL)
     }
 }
 
-const CONSISTENT: &[&str] = &["cfl=5", "lumped=0"];
-const NEARLY: &[&str] = &["poisson_ratio=0.49"];
-const FOUR: &[&str] = &["ppc_per_direction=4"];
-const SHIFTED: &[&str] = &["shift=0.5"];
-
 fn plan(levels: &[Level]) -> Vec<Family> {
-    use BasisName::{Bspline2, Gimp, Linear};
-    let both = [RemedyName::None, RemedyName::FbarConsistent];
     let plain = [RemedyName::None];
+    let both = [RemedyName::None, FbarConsistent];
     let of = |rule, bases: &[BasisName]| implicit(&[rule], bases, &plain);
     let (few, all) = (
         pairs(&[Linear, Gimp, Bspline2], &both),
@@ -78,36 +94,41 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     );
     let linear = of(RuleName::Midpoint, &[Linear]);
     let splines = of(RuleName::Midpoint, &[Bspline2]);
-    let two = &levels[..2];
-    vec![
-        family(Quick, &levels[..1], &few[2..3], &[]),
-        family(Pr, two, &few, &[]),
-        family(Pr, &levels[..1], &few, NEARLY),
-        family(Pr, &levels[1..2], &pairs(&[Linear], &both), NEARLY),
-        family(Pr, levels, &pairs(&[Bspline2], &plain), &[]),
-        family(Pr, two, &linear, CONSISTENT),
+    let consistent = "cfl=5 lumped=0";
+    Plan::of(levels)
+        .runs(Quick, "t1", &few[2..3], "")
+        .runs(Pr, "t1 t2", &few, "")
+        .runs(Pr, "t1", &few, "poisson_ratio=0.49")
+        .runs(Pr, "t2", &pairs(&[Linear], &both), "poisson_ratio=0.49")
+        .runs(Pr, "t1 t2 t4", &pairs(&[Bspline2], &plain), "")
+        .runs(Pr, "t1 t2", &linear, consistent)
         // One cell of quadratic splines, and any of cubic ones, has more functions than particles to give them a mass.
-        family(Pr, &levels[1..2], &splines, CONSISTENT),
-        family(Pr, two, &pairs(&[Linear, Gimp, Bspline2], &plain), SHIFTED),
-        family(Nightly, levels, &all, &[]),
-        family(Nightly, levels, &all, NEARLY),
-        family(Nightly, two, &all, FOUR),
-        family(Nightly, two, &all, SHIFTED),
-        family(Nightly, levels, &linear, CONSISTENT),
-        family(Nightly, &levels[1..], &splines, CONSISTENT),
-        family(
+        .runs(Pr, "t2", &splines, consistent)
+        .runs(
+            Pr,
+            "t1 t2",
+            &pairs(&[Linear, Gimp, Bspline2], &plain),
+            "shift=0.5",
+        )
+        .runs(Nightly, "t1 t2 t4", &all, "")
+        .runs(Nightly, "t1 t2 t4", &all, "poisson_ratio=0.49")
+        .runs(Nightly, "t1 t2", &all, "ppc_per_direction=4")
+        .runs(Nightly, "t1 t2", &all, "shift=0.5")
+        .runs(Nightly, "t1 t2 t4", &linear, consistent)
+        .runs(Nightly, "t2 t4", &splines, consistent)
+        .runs(
             Nightly,
-            levels,
+            "t1 t2 t4",
             &of(RuleName::Midpoint, &[Linear, Gimp, Bspline2]),
-            &["cfl=5"],
-        ),
-        family(
+            "cfl=5",
+        )
+        .runs(
             Nightly,
-            levels,
+            "t1 t2 t4",
             &of(RuleName::Newmark, &[Linear, Gimp, Bspline2]),
-            &["cfl=5"],
-        ),
-    ]
+            "cfl=5",
+        )
+        .done()
 }
 
 fn sketch() -> Sketch {
@@ -123,4 +144,129 @@ fn sketch() -> Sketch {
         ],
         description: "Half of a beam of 2 m by 0.1 m that is free but for the symmetry in its middle.",
     }
+}
+
+type Beam<'a> = Run<'a, Thin>;
+
+impl Beam<'_> {
+    /// Frequency over the exact one; of an average that leaves fewer than three zeros in five periods, the greatest that it may
+    /// be.
+    fn frequency(&self) -> f64 {
+        let ratio = self.metric(FREQUENCY_RATIO);
+        let slow = ratio.is_nan() && self.remedy() == FbarConsistent;
+        if slow { SLOWEST } else { ratio }
+    }
+
+    /// Relative distance of a frequency from the predicted one.
+    fn slack(&self) -> f64 {
+        let angle = SLENDER * self.h;
+        angle * angle / 6.0 + SECTIONS
+    }
+
+    fn is_predicted(&self) -> bool {
+        self.metric(PREDICTED_RATIO).is_finite()
+    }
+
+    fn is_plain(&self) -> bool {
+        self.remedy() == RemedyName::None
+    }
+
+    fn is_spline(&self) -> bool {
+        matches!(self.basis(), Bspline2 | Bspline3)
+    }
+}
+
+fn about(what: &str, run: &Beam) -> String {
+    let set = run.set.join(" ");
+    let text = format!(
+        "{} {what} of {} {} {set}",
+        FREQUENCY_RATIO.name, run.scheme, run.level
+    );
+    text.trim_end().to_owned()
+}
+
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Thin>;
+    // Each run with the average beside that without.
+    let averaged = |check: Check| {
+        check
+            .when(|b| b.remedy() == FbarConsistent)
+            .pairs(|b, plain| {
+                same_but_scheme(b, plain)
+                    && plain.scheme == Scheme::flip(b.basis(), RemedyName::None)
+            })
+    };
+    let over_plain = |averaged: &Beam, plain: &Beam| averaged.frequency() / plain.frequency();
+    vec![
+        Check::truth("as-predicted", "linear functions and splines without a remedy, midpoint with lumped=0: the frequency is that of the bending stiffness that cells and particles leave, within (βh)²/6 + 0.002, β the wave number of the mode")
+            .when(|b| b.rule() == Some(RuleName::Midpoint) && b.lumped == 0.0 && b.basis() != Gimp && b.is_predicted())
+            .within(FREQUENCY_RATIO, |b| b.metric(PREDICTED_RATIO), |b| b.slack() * b.metric(PREDICTED_RATIO))
+            .because("mass of the particles, stiffness by docs/thin.md; along the beam cells err by (βh)²/12, sections shear by Cowper's coefficient or evenly"),
+        Check::truth("no-stiffer", "the frequency is at most the predicted one, within as much")
+            .when(|b| b.is_predicted())
+            .at_most(Quantity::new(FREQUENCY_RATIO.name, |b: &Beam| b.frequency()), |b| (1.0 + b.slack()) * b.metric(PREDICTED_RATIO))
+            .because("lumping adds inertia; functions that see a hair of the beam and averages of the volume change take stiffness"),
+        Check::truth("order", "splines without a remedy, faces on grid lines: the error of the frequency falls from one cell to four at an order of at least 2 − 0.15")
+            .study(orders)
+            .because(""),
+        averaged(Check::truth("average-no-stiffer", "fbar-consistent: the frequency is at most that of no remedy with the same cells, to what reading it leaves"))
+            .at_most(|b, _| about("over none", b), over_plain, |_| 1.0 + READ)
+            .because("an average of the volume change stores no more energy than the volume change"),
+        Check::known_limit("locks", "linear functions without a remedy at ν ≥ 0.49, one and two cells: above 1.5 times the exact frequency")
+            .when(|b| b.basis() == Linear && b.is_plain() && b.level != "t4" && b.poisson_ratio >= STIFF)
+            .above(FREQUENCY_RATIO, |_| LOCKED)
+            .because("within a cell the depth can't change as it bends, at the price of M and not of E′"),
+        Check::known_limit("two-particles", "splines without a remedy, one cell with two particles over the depth: below 0.9 of the exact frequency")
+            .when(|b| b.is_spline() && b.ppc_per_direction == 2 && b.level == "t1" && b.is_plain())
+            .at_most(FREQUENCY_RATIO, |_| SOFT)
+            .because("two particles have three quarters of the second moment of the section"),
+        averaged(
+            Check::known_limit("average-hollows", "fbar-consistent at ν = 0, one cell: below 0.9 of the frequency without a remedy")
+                .when(|b| b.level == "t1" && b.poisson_ratio == 0.0),
+        )
+        .at_most(|b, _| about("over none", b), over_plain, |_| SOFT)
+        .because("over one cell the average of what is stretched above and pressed below is nothing"),
+    ]
+}
+
+/// The order of each spline without a remedy whose faces lie on grid lines, over all levels.
+fn orders(records: &[Record]) -> Vec<Finding> {
+    let runs: Vec<Beam> = records.iter().filter_map(Run::of).collect();
+    let judged = |b: &&Beam| b.is_spline() && b.is_plain() && b.shift == 0.0;
+    let found = runs.iter().filter(judged).filter(|b| b.level == "t1").filter_map(|first| {
+        let ladder = runs.iter().filter(|b| b.scheme == first.scheme && b.set == first.set);
+        let points: Vec<_> = ladder.map(|b| (b.h, b.metric(FREQUENCY_ERROR))).collect();
+        let order = (points.len() >= 3).then(|| fit_order(&points))??.order;
+        let why = "the second moment of the particles and the turning of the nodes' mass both err by h²";
+        Some(Finding::above(about("order", first), order, FORMAL - SLACK, why))
+    });
+    found.collect()
+}
+
+fn tables() -> Vec<ResultTable> {
+    const LEVELS: [(&str, &str); 3] = [("t1", "one cell"), ("t2", "two"), ("t4", "four")];
+    const RATIO: Label = ("ν", |r| {
+        Setup::<Thin>::number_of(r, |b| b.poisson_ratio).to_string()
+    });
+    const SET: Label = ("changed", |r| r.set.join(", "));
+    let of = |metric, title: &str| {
+        Column::levels(
+            LEVELS.map(|(level, cells)| (level, format!("{title}, {cells}"))),
+            metric,
+            fixed(3),
+        )
+    };
+    let columns = || {
+        [
+            of(FREQUENCY_RATIO, "frequency"),
+            of(PREDICTED_RATIO, "predicted"),
+        ]
+        .into_iter()
+        .flatten()
+    };
+    let shows = |r: &Record| r.scheme().rule().is_none() && r.changes_none_but(&["poisson_ratio"]);
+    vec![
+        ResultTable::new("thin", shows, &[SCHEME, RATIO], columns()),
+        ResultTable::new("thin-others", move |r| !shows(r), &[SCHEME, SET], columns()),
+    ]
 }

@@ -1,0 +1,184 @@
+//! Scene and observations of a free beam that swings in its first mode, half of it by symmetry.
+
+use super::theory::{Beam, Mode, stiffness};
+use super::*;
+use crate::statistics::fit_line;
+use mpm_core::explicit::{Settings, courant_time_step};
+use mpm_core::material::{Law, NeoHookean};
+use std::f64::consts::TAU;
+
+/// Young's modulus (Pa) and density (kg/m³).
+const YOUNG_MODULUS: f64 = 1e6;
+const DENSITY: f64 = 1000.0;
+/// Deflection of the middle (m), small enough for the linear beam.
+const DEFLECTION: f64 = 1e-5;
+/// Periods of a run, and rows in one of them.
+const PERIODS: f64 = 5.0;
+const ROWS: f64 = 40.0;
+/// Cells of room beside the beam.
+const ROOM: usize = 3;
+
+/// A beam that swings.
+pub(super) struct Swing {
+    setup: Setup<Thin>,
+    law: NeoHookean,
+    /// The exact mode; the bending stiffness over the exact one, and the frequency with it, where known.
+    mode: Mode,
+    stiffness: Option<f64>,
+    predicted: Option<f64>,
+    dt: f64,
+    steps: u64,
+}
+
+impl Swing {
+    /// The deflection as a share of the mode.
+    fn share(&self, run: &dyn Simulation<2>) -> f64 {
+        let p = run.particles();
+        let (mut along, mut squares) = (0.0, 0.0);
+        for k in 0..p.len() {
+            let shape = self.mode.deflection(p.reference[k][0]);
+            along += shape * (p.position[k][1] - p.reference[k][1]);
+            squares += shape * shape;
+        }
+        along / squares / DEFLECTION
+    }
+}
+
+impl Problem<2> for Swing {
+    type Parameters = Thin;
+    type Seen = Rows;
+
+    fn new(setup: Setup<Thin>) -> Result<Self, Error> {
+        setup.check_rule()?;
+        let (ratio, cfl) = (setup.poisson_ratio, setup.cfl);
+        if setup.is_explicit() && cfl >= 1.0 {
+            return Err(Error::Input(format!(
+                "cfl = {cfl} is out of range for the solver explicit; allowed: below 1"
+            )));
+        }
+        let law = NeoHookean::new(YOUNG_MODULUS, ratio)?;
+        let first = |factor| Beam::new(YOUNG_MODULUS, ratio, DENSITY, factor).first();
+        let (cells, per_direction) = (DEPTH / setup.h, setup.ppc_per_direction as f64);
+        let stiffness = stiffness(
+            setup.basis(),
+            ratio,
+            cells,
+            per_direction,
+            setup.shift > 0.0,
+        );
+        let mode = first(1.0);
+        let predicted = stiffness.map(|factor| first(factor).frequency);
+        // With GIMP and with an average it is a bound.
+        let bounds = setup.basis() == Gimp || setup.remedy() != RemedyName::None;
+        let period = TAU / predicted.filter(|_| !bounds).unwrap_or(mode.frequency);
+        let longest = courant_time_step(cfl, setup.h, law.wave_speed(DENSITY));
+        let steps = (PERIODS * period / longest).ceil();
+        let dt = PERIODS * period / steps;
+        Ok(Self {
+            setup,
+            law,
+            mode,
+            stiffness,
+            predicted,
+            dt,
+            steps: steps as u64,
+        })
+    }
+
+    fn discretisation(&self) -> Discretisation {
+        self.setup
+            .discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
+    }
+
+    fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        let h = self.setup.h;
+        let cells = |length: f64| (length / h).round() as usize;
+        let grid = Grid::new(
+            h,
+            [
+                Axis::bounded(0.0, cells(HALF) + ROOM, (Side::Wall, Side::Open)),
+                Axis::open(-h * ROOM as f64, cells(DEPTH) + 2 * ROOM),
+            ],
+        )?;
+        let spacing = h / self.setup.ppc_per_direction as f64;
+        let [along, across] = [HALF, DEPTH].map(|l| (l / spacing).round() as usize);
+        let foot = h * self.setup.shift;
+        let place = |k: usize| {
+            let at = [k % along, k / along].map(|i| (i as f64 + 0.5) * spacing);
+            [at[0], foot + at[1]]
+        };
+        let places = (0..along * across).map(place);
+        let mut particles = Particles::new(
+            self.setup.start_at(places),
+            spacing * spacing,
+            DENSITY,
+            [0.5 * spacing; 2],
+        )?;
+        let speed = DEFLECTION * self.mode.frequency;
+        for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
+            let above = x[1] - foot - 0.5 * DEPTH;
+            *v = [
+                -speed * above * self.mode.turn(x[0]),
+                speed * self.mode.deflection(x[0]),
+            ];
+        }
+        let scene = Scene::new(grid, Body::new(self.law, particles)?).constrain(Wall {
+            axis: 0,
+            end: End::Lo,
+            kind: WallKind::Roller,
+        });
+        if let Some(settings) = self.setup.implicit_settings(self.dt) {
+            return mpm_solvers::implicit(self.setup.scheme, scene, settings);
+        }
+        let settings = Settings::new(self.dt).remedy(self.setup.scheme.remedy().build());
+        mpm_solvers::solver(self.setup.scheme, scene, settings)
+    }
+
+    fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+        seen.sample(phase, [self.steps, (PERIODS * ROWS) as u64], |run| {
+            let totals = run.totals();
+            row! {
+                "time (s)": run.time(),
+                "deflection (-)": self.share(run),
+                "kinetic_energy (J/m)": totals.kinetic_energy,
+                "stored_energy (J/m)": totals.stored_energy,
+            }
+        })
+    }
+
+    fn progress(&self, _: &Rows, phase: &Phase<2>) -> f64 {
+        phase.share_of(self.steps)
+    }
+
+    fn particles<'a>(&self, _: &Rows, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
+        let stress = columns.run().force_stress();
+        columns
+            .references()
+            .each("stress_xx", "Pa", |_, k| stress[k].get(0, 0))
+    }
+
+    fn metrics(&self, seen: &Rows, _: &mut Phase<2>) -> Vec<(Metric, f64)> {
+        let points = seen.points(["time", "deflection"]);
+        // The deflection at the start is zero.
+        let zeros = points[1..].windows(2).filter_map(|pair| {
+            let [(t, u), (after, then)] = [pair[0], pair[1]];
+            (u * then < 0.0).then(|| t + (after - t) * u / (u - then))
+        });
+        let zeros: Vec<(f64, f64)> = zeros.enumerate().map(|(k, t)| (k as f64, t)).collect();
+        let half_period = fit_line(&zeros).map_or(f64::NAN, |line| line.slope);
+        let ratio = 0.5 * TAU / half_period / self.mode.frequency;
+        let period = ROWS as usize;
+        let largest =
+            |points: &[(f64, f64)]| points.iter().map(|(_, u)| u.abs()).fold(0.0, f64::max);
+        let kept = largest(&points[points.len() - period..]) / largest(&points[..period]);
+        let mut values = vec![
+            (FREQUENCY_RATIO, ratio),
+            (FREQUENCY_ERROR, (ratio - 1.0).abs()),
+            (AMPLITUDE_RATIO, kept),
+        ];
+        let predicted = self.predicted.map(|f| f / self.mode.frequency);
+        values.extend(predicted.map(|f| (PREDICTED_RATIO, f)));
+        values.extend(self.stiffness.map(|s| (STIFFNESS_RATIO, s)));
+        values
+    }
+}
