@@ -1,15 +1,13 @@
-//! How long the discs fly before a function sees both.
+//! Duration of the free flight, until a function sees both discs.
 
-use super::parameters::{PPC_PER_DIRECTION, SPEED};
-use super::scene::seed;
+use super::Discs;
 use crate::cases::lattice_waves::nodes;
-use crate::parameter::Parameters;
-use crate::spec::RunSpec;
+use crate::setup::Setup;
 
 /// Way in cells, along each axis, between two looks.
 const LOOK: f64 = 0.005;
 
-/// Columns of particles of a disc: where they stand, and their ends (cells).
+/// Columns of particles of a disc: positions and ends (cells).
 fn columns(disc: &[[f64; 2]], h: f64) -> Vec<[[f64; 2]; 2]> {
     let alike = |[a, _]: &[f64; 2], [b, _]: &[f64; 2]| a == b;
     let ends = disc.chunk_by(alike).map(|column| {
@@ -25,10 +23,10 @@ fn columns(disc: &[[f64; 2]], h: f64) -> Vec<[[f64; 2]; 2]> {
 }
 
 /// The last look (s) before a node sees both discs, if one does within `duration` (s).
-pub(super) fn until_met(spec: &RunSpec, parameters: &Parameters, duration: f64) -> Option<f64> {
-    let (h, basis) = (spec.level.h, spec.scheme.basis());
-    let half_size = 0.5 / parameters.number(PPC_PER_DIRECTION);
-    let places = seed(h, parameters);
+pub(super) fn until_met(setup: &Setup<Discs>, duration: f64) -> Option<f64> {
+    let (h, basis) = (setup.h, setup.basis());
+    let half_size = 0.5 / setup.ppc_per_direction as f64;
+    let places = setup.seed();
     let (first, second) = places.split_at(places.len() / 2);
     let [first, second] = [first, second].map(|disc| columns(disc, h));
     // Particles of a column stand so close that it sees all nodes between those that its ends see.
@@ -38,7 +36,7 @@ pub(super) fn until_met(spec: &RunSpec, parameters: &Parameters, duration: f64) 
             [from[0], to[1]]
         })
     };
-    let look = LOOK * h / parameters.number(SPEED);
+    let look = LOOK * h / setup.speed;
     let meet = |k: &u64| {
         let way = LOOK * *k as f64;
         let others: Vec<_> = second.iter().map(|column| seen(column, -way)).collect();
@@ -57,12 +55,13 @@ pub(super) fn until_met(spec: &RunSpec, parameters: &Parameters, duration: f64) 
 
 #[cfg(test)]
 mod tests {
-    use super::super::parameters::ALL;
-    use super::super::scene::RADIUS;
+    use super::super::run::RADIUS;
     use super::*;
     use crate::cases::lattice_waves::support;
+    use crate::parameter::{ParameterSet, Parameters};
     use crate::scheme::{BasisName, RemedyName, Scheme};
     use crate::spec::Level;
+    use crate::spec::RunSpec;
 
     fn met(basis: BasisName, h: f64, offset: f64) -> Option<f64> {
         let spec = RunSpec {
@@ -71,8 +70,8 @@ mod tests {
             set: Vec::new(),
             perturbed: false,
         };
-        let parameters = Parameters::new(&ALL, &[format!("offset={offset}")]).unwrap();
-        until_met(&spec, &parameters, 95.0)
+        let values = Parameters::new(&Discs::list(), &[format!("offset={offset}")]).unwrap();
+        until_met(&Setup::of_spec(&spec, &values).unwrap(), 95.0)
     }
 
     /// A function that sees both has a support of each within √2 of it, along the diagonal.

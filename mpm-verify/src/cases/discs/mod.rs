@@ -2,39 +2,103 @@
 //!
 //! Section 3.2 of Wang, Vardon, Hicks & Chen (2016). Set-up, choices and tolerances: `docs/discs.md`.
 
-mod checks;
 mod flight;
-mod metrics;
-mod parameters;
-mod pictures;
-mod scene;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::{family, implicit};
-use crate::case::{Case, Family, Tier};
-use crate::parameter::Parameters;
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::{Level, RunSpec};
-use metrics::{
-    ANGULAR_MOMENTUM_ERROR, DEFLECTION, ENERGY_END, ENERGY_ERROR_ACCUMULATED, ENERGY_GAIN,
-    ENERGY_LOSS, FREE_UNTIL, LUMPING_LOSS, MOMENTUM_ERROR, RESTITUTION,
-};
-use scene::{CENTRES, RADIUS};
-use watch::Collision;
+use super::family::implicit;
+use super::parameters::{self as common, Wall as WallTreatment};
+use crate::draw::{FieldFigure, FieldPanel, draw_fields};
+use crate::parameter::{ParameterSet, Parameters};
+use crate::prelude::*;
+use run::{CENTRES, IN_CONTACT, RADIUS};
 
-use BasisName::{Bspline2, Gimp, Linear};
 use RuleName::{Midpoint, Newmark};
-use Tier::{Nightly, Pr, Quick};
 use TransferName::{Apic, Flip, Musl, Xpic2};
+
+/// Roundings of a step's sum of forces, in shares of the discs' momentum.
+const ROUNDINGS: f64 = 16.0;
+/// Largest gain of a rule that conserves energy, and least of one that does not.
+const NO_GAIN: f64 = 1e-4;
+const GAINED: f64 = 1e-3;
+/// Rounding after its growth in the collision.
+const MIRRORED: f64 = 1e-6;
+/// Half of the exchange of a step.
+const HALF: f64 = 0.5;
+/// Range of the mean stress that is drawn (Pa).
+const STRESS_RANGE: f64 = 100.0;
+
+choices! {
+    /// Time step over the paper's.
+    enum StepFactor { One = "1", Ten = "10", Hundred = "100" }
+}
+
+impl StepFactor {
+    fn value(self) -> f64 {
+        match self {
+            Self::One => 1.0,
+            Self::Ten => 10.0,
+            Self::Hundred => 100.0,
+        }
+    }
+}
+
+parameters! {
+    /// Parameters of the discs.
+    struct Discs {
+        young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e5");
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
+        speed: f64 = real("m/s", "0.005", 1e-4, 1.0),
+            "each component of the velocities, of opposite signs; the run lasts 37.5 s at 0.005 m/s, and less in proportion";
+        offset: f64 = real("m", "0", 0.0, 0.8),
+            "distance of the lines on which the discs' centres fly; beyond 0.4 the discs don't touch";
+        step_factor: StepFactor = StepFactor::One.by_default(),
+            "time step over 2.5 ms at h = 0.05 m, and in proportion to h; explicit: 1";
+        flip: f64 = common::FLIP;
+        lumped: f64 = common::LUMPED;
+        alpha: f64 = common::ALPHA;
+        delta: f64 = common::DELTA;
+        tolerance: f64 = common::TOLERANCE;
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        wall: WallTreatment = common::WALL;
+    }
+}
+
+metrics! { ALL:
+    ENERGY_GAIN = "energy_gain", "-",
+        "largest rise of kinetic and stored energy over their start, relative to it";
+    ENERGY_LOSS = "energy_loss", "-", "largest fall, likewise";
+    ENERGY_END = "energy_end", "-", "rise at the end, likewise";
+    ENERGY_ERROR_ACCUMULATED = "energy_error_accumulated", "-",
+        "largest distance from the start of kinetic energy and accumulated stress work, the paper's Eqs. (34) to (36), relative to it";
+    LUMPING_LOSS = "lumping_loss", "-",
+        "midpoint: what particles don't take of the nodes' kinetic energy as part of the mass is lumped, over the energy at the start";
+    NODE_ENERGY_GAP = "node_energy_gap", "-",
+        "largest kinetic energy that particles have beyond their nodes, over the energy at the start";
+    MOMENTUM_ERROR = "momentum_error", "-",
+        "largest change of the linear momentum, over the sum of its magnitudes at the start; 10⁻¹² if it is less, which no golden should hold";
+    ANGULAR_MOMENTUM_ERROR = "angular_momentum_error", "-",
+        "largest change of the angular momentum about the centre, that of affine parts with it, over that sum times 0.4 m; likewise";
+    ENERGY_EXCHANGED = "energy_exchanged", "-",
+        "largest change of the stored energy in a step, over the energy at the start";
+    RESTITUTION = "restitution", "-",
+        "speed at which the discs' centres of mass move against each other at the end, over that at the start";
+    DEFLECTION = "deflection", "-",
+        "change of the velocity at which they do, over its start: 2 of discs that bounce back, 0 of discs that miss each other";
+    FREE_UNTIL = "free_until", "s",
+        "last time at which no node would see both discs if they flew freely, if one comes to";
+    FLIGHT_ERROR = "flight_error", "-",
+        "until then, or to the end, the largest change of a particle's velocity, over its speed; 10⁻¹² if it is less";
+    FLIGHT_STRAIN = "flight_strain", "-", "likewise the largest |J − 1|";
+    ASYMMETRY = "asymmetry", "-",
+        "largest distance at the end of a particle from where its mirror image about the centre is, over the radius; 10⁻⁹ if it is less";
+    CLOSEST = "closest", "m", "least distance of the discs' centres of mass";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
+    MASS = "mass", "kg/m", "mass of both discs";
+}
 
 pub(super) fn case() -> Case {
     let levels = [("h0.05", 0.05), ("h0.025", 0.025)].map(|(name, h)| Level { name, h });
     Case {
-        name: "discs",
-        title: "Two discs that collide",
         description: "Two elastic discs meet in the middle of a square, touch through the grid and fly apart: the case by which the \
                       implicit paper shows its dynamics. The midpoint rule keeps energy at a hundred times the explicit step; \
                       the paper's Newmark rule gains it. Explicit steps with every transfer, head on, oblique, grazing, and past each other.",
@@ -46,11 +110,9 @@ pub(super) fn case() -> Case {
             "Bodies touch through the grid, cells before their rims do: they stick, and part when their functions do.",
             "No exact solution of the collision: energy and momentum are judged, not the motion.",
         ],
-        parameters: parameters::ALL.to_vec(),
-        plan: plan(levels),
+        plan: plan(&levels),
         levels: levels.to_vec(),
-        metrics: metrics::ALL.to_vec(),
-        checks: checks::checks(),
+        checks: checks(),
         headlines: vec![
             headline(ENERGY_GAIN, "energy gain (%)", 100.0, 4),
             headline(ENERGY_LOSS, "loss (%)", 100.0, 4),
@@ -63,117 +125,102 @@ pub(super) fn case() -> Case {
             headline(DEFLECTION, "velocity changed by (–)", 1.0, 3),
             headline(FREE_UNTIL, "free until (s)", 1.0, 1),
         ],
-        quantities: Vec::new(),
-        sweeps: Vec::new(),
         watched: &["energy_change", "distance"],
-        field: None,
         sketch: sketch(),
         cost: Box::new(cost),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Collision::drive(spec, parameters)?))),
-        pictures: pictures::draw,
-        tables: tables::all(),
+        pictures,
+        tables: tables(),
         breaks_down: |r| match r.scheme() {
             Scheme::Explicit(e) if e.basis == Linear && e.transfer == Flip => Some(
                 "a particle that enters a cell meets nodes with hardly any mass, which its stress throws ahead",
             ),
-            Scheme::Implicit(_) if r.parameters.number(parameters::LUMPED) == 0.0 => {
+            Scheme::Implicit(_) if number(r, |d| d.lumped) == 0.0 => {
                 Some("a consistent mass is singular where a function sees few particles")
             }
             _ => None,
         },
+        ..Case::of::<2, run::Collision>("discs", "Two discs that collide", ALL)
     }
 }
 
+fn number(r: &Record, of: fn(&Setup<Discs>) -> f64) -> f64 {
+    Setup::number_of(r, of)
+}
+
 fn cost(spec: &RunSpec) -> f64 {
-    let steps = Parameters::new(&parameters::ALL, &spec.set)
-        .map_or(0, |p| scene::timing(spec.level.h, &p).1);
-    let a_step = match spec.scheme {
-        Scheme::Explicit(_) => 1e-5,
-        Scheme::Implicit(_) | Scheme::Poro(_) => 1e-3,
+    let values = Parameters::new(&Discs::list(), &spec.set).map_err(Error::from);
+    let setup = values.and_then(|values| Setup::<Discs>::of_spec(spec, &values));
+    let steps = setup.map_or(0, |setup| setup.timing().1);
+    let a_step = if matches!(spec.scheme, Scheme::Explicit(_)) {
+        1e-5
+    } else {
+        1e-3
     };
     a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
 }
 
-const OBLIQUE: &[&str] = &["offset=0.1"];
-/// Rims that would just touch.
-const GRAZING: &[&str] = &["offset=0.4"];
-/// Beyond the reach of all functions.
-const MISSING: &[&str] = &["offset=0.65"];
-const ASIDE: [&[&str]; 4] = [OBLIQUE, &["offset=0.2"], &["offset=0.5"], MISSING];
-/// Shares of PIC: a hundredth, and all.
-const BLENDS: [&[&str]; 6] = [
-    &["flip=0.99"],
-    &["flip=0"],
-    &["flip=0.99", "offset=0.1"],
-    &["flip=0", "offset=0.1"],
-    &["flip=0.99", "offset=0.4"],
-    &["flip=0", "offset=0.4"],
-];
-const LONG_STEP: &[&str] = &["step_factor=100"];
-const STEPS: &[&str] = &["step_factor=10"];
-const OFFSET_LONG: &[&str] = &["offset=0.1", "step_factor=100"];
-const OFFSET_STEPS: &[&str] = &["offset=0.1", "step_factor=10"];
-
-fn schemes(rules: &[RuleName]) -> Vec<Scheme> {
-    implicit(rules, &[Gimp, Linear, Bspline2], &[RemedyName::None])
-}
-
-fn plan([h1, h2]: [Level; 2]) -> Vec<Family> {
-    let explicit = [Gimp, Bspline2].map(|b| Scheme::flip(b, RemedyName::None));
-    let plain = |basis, transfer| Scheme::explicit(basis, RemedyName::None, transfer);
-    let affine = [plain(Gimp, Apic)];
-    let musl = [plain(Linear, Musl)];
-    // What breaks down at once is left to the night.
+fn plan(levels: &[Level]) -> Vec<Family> {
+    let none = RemedyName::None;
+    let plain = |basis, transfer| Scheme::explicit(basis, none, transfer);
+    let explicit = [Gimp, Bspline2].map(|b| Scheme::flip(b, none));
+    // Linear functions with FLIP break down at once and are left to the night.
     let all: Vec<Scheme> = [
         [Flip, Musl].map(|t| plain(Linear, t)).to_vec(),
         [Flip, Apic, Xpic2, Musl].map(|t| plain(Gimp, t)).to_vec(),
         [Flip, Apic, Xpic2].map(|t| plain(Bspline2, t)).to_vec(),
-        vec![Scheme::flip(Gimp, RemedyName::FbarConsistent)],
+        vec![Scheme::flip(Gimp, FbarConsistent)],
     ]
     .concat();
-    let blended = [Linear, Gimp, Bspline2].map(|b| Scheme::flip(b, RemedyName::None));
-    let both = schemes(&[Midpoint, Newmark]);
-    let midpoint = schemes(&[Midpoint]);
-    let mut plan = vec![
-        family(Pr, &[h1], &explicit, &[]),
-        family(Quick, &[h1], &both[..1], LONG_STEP),
-        family(Pr, &[h1], &both, LONG_STEP),
-        family(Pr, &[h1], &affine, OBLIQUE),
-        family(Pr, &[h1], &explicit[1..], GRAZING),
-        family(Pr, &[h1], &musl, MISSING),
-        family(Nightly, &[h1, h2], &all, &[]),
-        family(Nightly, &[h1, h2], &all, GRAZING),
-        family(Nightly, &[h1], &both, OFFSET_LONG),
-        family(Nightly, &[h1], &both, STEPS),
-        family(Nightly, &[h1], &both, OFFSET_STEPS),
-        family(Nightly, &[h1], &both, &[]),
-        family(Nightly, &[h2], &both, LONG_STEP),
-        family(Nightly, &[h1], &midpoint, &["lumped=1", "step_factor=100"]),
-        family(
+    let blended = [Linear, Gimp, Bspline2].map(|b| Scheme::flip(b, none));
+    let slow = |rules: &[RuleName]| implicit(rules, &[Gimp, Linear, Bspline2], &[none]);
+    let (both, midpoint) = (slow(&[Midpoint, Newmark]), slow(&[Midpoint]));
+    // Offsets: oblique 0.1 m; grazing 0.4 m, where rims would just touch; missing 0.65 m, beyond the reach of all functions.
+    Plan::of(levels)
+        .runs(Pr, "h0.05", &explicit, "")
+        .runs(Quick, "h0.05", &both[..1], "step_factor=100")
+        .runs(Pr, "h0.05", &both, "step_factor=100")
+        .runs(Pr, "h0.05", &[plain(Gimp, Apic)], "offset=0.1")
+        .runs(Pr, "h0.05", &explicit[1..], "offset=0.4")
+        .runs(Pr, "h0.05", &[plain(Linear, Musl)], "offset=0.65")
+        .runs(Nightly, "h0.05 h0.025", &all, "")
+        .runs(Nightly, "h0.05 h0.025", &all, "offset=0.4")
+        .runs(Nightly, "h0.05", &both, "offset=0.1 step_factor=100")
+        .runs(Nightly, "h0.05", &both, "step_factor=10")
+        .runs(Nightly, "h0.05", &both, "offset=0.1 step_factor=10")
+        .runs(Nightly, "h0.05", &both, "")
+        .runs(Nightly, "h0.025", &both, "step_factor=100")
+        .each(
             Nightly,
-            &[h1],
+            "h0.05",
             &midpoint,
-            &["lumped=0.03", "step_factor=100"],
-        ),
-        family(Nightly, &[h1], &midpoint, &["lumped=0", "step_factor=100"]),
-        family(
+            ["1", "0.03", "0"].map(|b| format!("lumped={b} step_factor=100")),
+        )
+        .each(
             Nightly,
-            &[h1],
+            "h0.05",
             &midpoint,
-            &["lumped=1", "offset=0.1", "step_factor=100"],
-        ),
-        family(
+            ["1", "0.03"].map(|b| format!("lumped={b} offset=0.1 step_factor=100")),
+        )
+        .each(
             Nightly,
-            &[h1],
-            &midpoint,
-            &["lumped=0.03", "offset=0.1", "step_factor=100"],
-        ),
-    ];
-    plan.extend(ASIDE.map(|set| family(Nightly, &[h1], &all, set)));
-    plan.extend(BLENDS.map(|set| family(Nightly, &[h1], &blended, set)));
-    plan
+            "h0.05",
+            &all,
+            ["offset=0.1", "offset=0.2", "offset=0.5", "offset=0.65"],
+        )
+        .each(Nightly, "h0.05", &blended, ["flip=0.99", "flip=0"])
+        .each(
+            Nightly,
+            "h0.05",
+            &blended,
+            ["flip=0.99 offset=0.1", "flip=0 offset=0.1"],
+        )
+        .each(
+            Nightly,
+            "h0.05",
+            &blended,
+            ["flip=0.99 offset=0.4", "flip=0 offset=0.4"],
+        )
+        .done()
 }
 
 fn sketch() -> Sketch {
@@ -197,4 +244,269 @@ fn sketch() -> Sketch {
         ],
         description: "Two discs of 0.4 m in diameter on a diagonal of a square of 1 m fly towards each other.",
     }
+}
+
+impl Run<'_, Discs> {
+    /// Rounding of an explicit run.
+    fn rounding(&self) -> f64 {
+        (self.steps() * ROUNDINGS * f64::EPSILON).max(1e-12)
+    }
+
+    fn steps(&self) -> f64 {
+        self.record.work.steps as f64
+    }
+
+    /// Bound on an exchange of energy within a step.
+    fn exchanged(&self) -> f64 {
+        HALF * self.metric(ENERGY_EXCHANGED) + self.rounding()
+    }
+}
+
+impl Setup<Discs> {
+    fn is_head_on(&self) -> bool {
+        self.offset == 0.0
+    }
+
+    /// Whether linear functions go through fine cells: each face that a particle crosses is a jump.
+    fn jumps(&self) -> bool {
+        self.basis() == Linear && self.level == "h0.025"
+    }
+
+    fn is_of(&self, rule: RuleName) -> bool {
+        self.rule() == Some(rule)
+    }
+}
+
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Discs>;
+    type Demand = crate::demand::Demand<Discs>;
+    vec![
+        Check::bookkeeping("mass", "the particles have the mass of their share of a cell, to rounding")
+            .within(MASS, |d| d.mass_of(d.record.work.particles, d.record.discretisation.ppc), |d| d.record.work.particles as f64 * f64::EPSILON * d.mass_of(d.record.work.particles, d.record.discretisation.ppc))
+            .because("density times the volume that is seeded; each of n sums rounds once"),
+        Check::truth("momentum", "all: linear momentum changes by no more than rounding in every step, and with newmark by what Newton's method leaves")
+            .at_most(MOMENTUM_ERROR, |d| {
+                let left = if d.is_of(Newmark) { d.tolerance } else { 0.0 };
+                (d.steps() * (ROUNDINGS * f64::EPSILON + left)).max(1e-12)
+            })
+            .because("internal forces sum to zero, as the functions sum to one"),
+        Check::truth("no-energy-gain", "midpoint, β above 0, head on, but for linear functions at h = 0.025 m: kinetic and stored energy never above their start by more than 10⁻⁴")
+            .when(|d| d.is_of(Midpoint) && d.is_head_on() && d.lumped > 0.0 && !d.jumps())
+            .at_most(ENERGY_GAIN, |_| NO_GAIN)
+            .because("a lumped share takes energy, the rule gives none: docs/implicit.md"),
+        Check::known_limit("linear-gains", "midpoint with linear functions at h = 0.025 m and 100 times the explicit step, head on: energy rises above its start by more than 10⁻⁴")
+            .when(|d| d.is_of(Midpoint) && d.step_factor == StepFactor::Hundred && d.is_head_on() && d.jumps())
+            .above(ENERGY_GAIN, |_| NO_GAIN)
+            .because("gradients that jump at faces, where a step ends by chance"),
+        Check::known_limit("newmark-gains", "newmark at 100 times the explicit step, but for linear functions at h = 0.025 m, and linear functions and GIMP at 10 times, head on: energy rises above its start by more than 10⁻³")
+            .when(|d| {
+                let long = match d.step_factor {
+                    StepFactor::One => false,
+                    StepFactor::Ten => d.basis() != Bspline2,
+                    StepFactor::Hundred => true,
+                };
+                d.is_of(Newmark) && !d.jumps() && long && d.is_head_on()
+            })
+            .above(ENERGY_GAIN, |_| GAINED)
+            .because("equilibrium at the end of the step with velocities of another place"),
+        Check::truth("mirror", "all but linear functions, whose gradients jump where rounding decides: particles stay mirror images about the centre")
+            .when(|d| d.basis() != Linear)
+            .at_most(ASYMMETRY, |_| MIRRORED)
+            .because("the scene and the lattice are; rounding grows in the collision"),
+        Check::truth("free-flight", "explicit: until a function sees both discs every particle keeps its velocity, to rounding, and its volume; for ever if none does")
+            .when(|d| d.is_explicit())
+            .each([FLIGHT_ERROR, FLIGHT_STRAIN].map(|metric| Demand::at_most(metric, |d| d.rounding())))
+            .because("functions sum to one and their slopes to zero: a uniform motion has no strain and no force"),
+        Check::truth("exchange", "explicit, not musl: kinetic and stored energy never above their start by more than half of what a step changes the stored one by")
+            .when(|d| d.is_explicit() && d.transfer() != Musl)
+            .at_most(ENERGY_GAIN, |d| d.exchanged())
+            .because("velocities live half a step before places, and transfers only take"),
+        Check::truth("restitution", "explicit: the discs part no faster than they met, but for what a step exchanges")
+            .when(|d| d.is_explicit())
+            .at_most(RESTITUTION, |d| 1.0 + HALF * d.metric(ENERGY_EXCHANGED) + d.rounding())
+            .because("the motion of the centres of mass is part of the energy"),
+        Check::truth("affine-keeps-angular-momentum", "apic: angular momentum, that of the affine parts with it, is kept to rounding")
+            .when(|d| d.transfer() == Apic)
+            .at_most(ANGULAR_MOMENTUM_ERROR, |d| d.rounding())
+            .because("the affine part carries what a node's arm has, and stresses are symmetric: docs/spin.md"),
+        Check::truth("no-spin", "explicit, head on, all but linear functions: the angular momentum stays zero")
+            .when(|d| d.is_explicit() && d.is_head_on() && d.basis() != Linear)
+            .at_most(ANGULAR_MOMENTUM_ERROR, |_| MIRRORED)
+            .because("the scene is its own image in the line of motion, which turns angular momentum round"),
+        Check::known_limit("touches-through-the-grid", "explicit, discs that pass each other within reach of the functions: a hundredth of their velocity and more is turned or lost, though they don't touch")
+            .when(|d| d.is_explicit() && d.offset >= 2.0 * RADIUS && d.metric(FREE_UNTIL).is_finite())
+            .above(DEFLECTION, |_| 0.01)
+            .because("nodes that see both have one velocity"),
+        Check::truth("newton", "implicit: at most seven Newton iterations a step, as four squarings lead from a tenth to the tolerance, and three more lead there")
+            .when(|d| d.is_implicit())
+            .at_most(NEWTON_ITERATIONS, |d| 7.0 * d.steps())
+            .because("quadratic convergence with the exact tangent"),
+    ]
+}
+
+fn tables() -> Vec<ResultTable> {
+    const SHARE: Label = ("η", |r| number(r, |d| d.flip).to_string());
+    const OFFSET: Label = ("offset (m)", |r| number(r, |d| d.offset).to_string());
+    const LUMPED: Label = ("β", |r| number(r, |d| d.lumped).to_string());
+    const LEVEL: Label = ("level", |r| r.level.clone());
+    let at = |offset: f64| move |r: &Record| number(r, |d| d.offset) == offset;
+    let is_explicit = |r: &Record| {
+        matches!(r.scheme(), Scheme::Explicit(_)) && r.changes_none_but(&["offset", "flip"])
+    };
+    // Energy over the time step.
+    let over_steps = |name: &str, offset: f64| {
+        let columns = [1.0, 10.0, 100.0].into_iter().flat_map(|factor| {
+            let of = move |r: &Record| number(r, |d| d.step_factor.value()) == factor;
+            [
+                Column::metric(format!("gain, {factor} Δt"), ENERGY_GAIN, percent(3)).of(of),
+                Column::metric("loss", ENERGY_LOSS, percent(3)).of(of),
+            ]
+        });
+        let shows =
+            move |r: &Record| at(offset)(r) && r.changes_none_but(&["step_factor", "offset"]);
+        ResultTable::new(name, shows, &[SCHEME], columns)
+    };
+    let balance = [
+        Column::metric("energy at the end", ENERGY_END, percent(3)),
+        Column::metric("lumped mass took", LUMPING_LOSS, percent(3)),
+        Column::metric(
+            "accumulated energy off by",
+            ENERGY_ERROR_ACCUMULATED,
+            percent(3),
+        ),
+        Column::metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT),
+        Column::metric("linear momentum off by", MOMENTUM_ERROR, SHORT),
+    ];
+    let long = |r: &Record| {
+        number(r, |d| d.step_factor.value()) == 100.0
+            && r.changes_none_but(&["step_factor", "offset", "lumped"])
+    };
+    let explicit = [0.0, 0.1, 0.2].into_iter().flat_map(|offset| {
+        [
+            Column::metric(format!("energy, {offset} m"), ENERGY_END, percent(2)).of(at(offset)),
+            Column::metric("speed", RESTITUTION, fixed(3)).of(at(offset)),
+        ]
+    });
+    let turning = Column::metric(
+        "angular momentum off by, 0.1 m",
+        ANGULAR_MOMENTUM_ERROR,
+        SHORT,
+    )
+    .of(at(0.1));
+    let passing = [0.4, 0.5, 0.65].into_iter().flat_map(|offset| {
+        [
+            Column::metric(format!("free until, {offset} m"), FREE_UNTIL, fixed(1)).of(at(offset)),
+            Column::metric("velocity changed by", DEFLECTION, SHORT).of(at(offset)),
+        ]
+    });
+    vec![
+        over_steps("discs-head-on", 0.0),
+        over_steps("discs-offset", 0.1),
+        ResultTable::new("discs-balance", long, &[SCHEME, OFFSET, LUMPED], balance),
+        ResultTable::new(
+            "discs-explicit",
+            move |r| is_explicit(r) && r.level == "h0.05",
+            &[SCHEME, SHARE],
+            explicit.chain([turning]),
+        ),
+        ResultTable::new(
+            "discs-passing",
+            move |r| is_explicit(r) && number(r, |d| d.offset) >= 0.4,
+            &[SCHEME, SHARE, LEVEL],
+            passing,
+        ),
+    ]
+}
+
+fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
+    energies(gallery)?;
+    contact(gallery)
+}
+
+/// Energy over time: the paper's Figure 6, a panel a time step.
+fn energies(gallery: &mut Gallery) -> Result<(), Error> {
+    // Explicit runs are drawn with FLIP, and with MUSL where that breaks down.
+    let is_drawn = |r: &Record| match r.transfer() {
+        Flip | TransferName::None => true,
+        Musl => r.basis() == Linear,
+        Apic | Xpic2 => false,
+    };
+    let panel = |factor: f64| {
+        let own = move |r: &&Record| {
+            let plain =
+                r.status == Status::Ok && r.level == "h0.05" && r.remedy() == RemedyName::None;
+            let steps = number(r, |d| d.step_factor.value()) == factor
+                && r.changes_none_but(&["step_factor"]);
+            plain && steps && is_drawn(r)
+        };
+        let panel = Panel::new(
+            format!("{factor} × 2.5 ms"),
+            ["time (s)", "change of the energy (%)"],
+        )
+        .x_range(20.0, 37.5);
+        let panel = panel.histories(gallery, gallery.records.iter().filter(own), |_, t| {
+            t.pairs(["time", "energy_change"], |t, e| (t, 100.0 * e))
+        })?;
+        Ok(panel.by_run(|r, curve| Series {
+            name: format!("{} {}", r.scheme().solver(), r.basis()),
+            colour: r.basis() as usize,
+            dash: match r.scheme().solver() {
+                "midpoint" => Dash::Solid,
+                "newmark" => Dash::Dashed,
+                _ => Dash::Dotted,
+            },
+            ..curve
+        }))
+    };
+    let panels = [1.0, 10.0, 100.0]
+        .map(panel)
+        .into_iter()
+        .collect::<Result<Vec<_>, Error>>()?;
+    Figure::new(
+        "energy",
+        "Kinetic and stored energy over the start; the paper's Figure 6 shows its accumulated one. Newmark's rule gains while the discs touch.",
+        panels,
+    )
+    .draw(gallery)
+}
+
+/// The discs pressed together: the paper's Figure 5.
+fn contact(gallery: &mut Gallery) -> Result<(), Error> {
+    /// Time between rows at the paper's speed (s).
+    const ROW: f64 = 0.25;
+    let mut panels = Vec::new();
+    for basis in [Linear, Gimp, Bspline2] {
+        let own = |r: &&Record| {
+            r.basis() == basis && r.scheme().solver() == "midpoint" && r.status == Status::Ok
+        };
+        let Some(record) = gallery.records.iter().find(own) else {
+            continue;
+        };
+        let Some(table) = gallery.snapshot(record, IN_CONTACT as f64 * ROW)? else {
+            continue;
+        };
+        panels.push(FieldPanel {
+            title: basis.to_string(),
+            points: table.points("x", "y"),
+            values: table.column("mean_stress").to_vec(),
+            size: record.discretisation.h / f64::from(record.discretisation.ppc).sqrt(),
+            outline: Vec::new(),
+        });
+    }
+    if panels.is_empty() {
+        return Ok(());
+    }
+    let [[lo, _], [hi, _]] = CENTRES;
+    let window = (lo - 1.05 * RADIUS, hi + 1.05 * RADIUS);
+    let figure = FieldFigure {
+        title: String::new(),
+        columns: panels.len(),
+        panels,
+        range: (-STRESS_RANGE, STRESS_RANGE),
+        label: "mean stress (Pa)".to_owned(),
+        window: Some((window, window)),
+    };
+    draw_fields(&gallery.place("contact.png"), &figure)?;
+    gallery.hang("contact.png", "The discs at 23.75 s, when they have come to rest against each other, with the midpoint rule; the paper's Figure 5.");
+    Ok(())
 }
