@@ -1,15 +1,10 @@
-//! What is measured of the beam's free end and of its stresses, whoever computed them.
+//! Metrics of the beam's free end and of its stresses, for our runs and for other codes.
 
-use super::metrics as m;
-use super::parameters::POINTS_PER_DIRECTION;
-use super::reference::{solution, stresses};
-use super::scene::{LENGTH, counts, seed};
-use crate::metric::Metric;
-use crate::parameter::Parameters;
+use super::reference::stresses;
+use super::*;
 use crate::probe::PointProbe;
-use crate::spec::RunSpec;
 
-/// The particles, column by column, where the beam is looked at.
+/// Particles, column by column, and probes of the stress.
 pub(super) struct Edge {
     pub(super) references: Vec<[f64; 2]>,
     /// Particles along the length and the depth.
@@ -18,23 +13,15 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// Of a run.
-    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Self {
-        let h = spec.level.h;
-        let references = spec.start_at(seed(h, parameters));
-        let probes = m::STRESSES
-            .iter()
-            .filter_map(|&(metric, at)| Some((metric, at, PointProbe::new(&references, at, h)?)));
+    pub(super) fn new(setup: &Setup<Cantilever>) -> Self {
+        let references = setup.seed();
+        let probe = |&(metric, at)| Some((metric, at, PointProbe::new(&references, at, setup.h)?));
+        let stress = STRESSES.iter().filter_map(probe).collect();
         Self {
-            stress: probes.collect(),
             references,
-            counts: counts(h, parameters),
+            counts: setup.counts(),
+            stress,
         }
-    }
-
-    /// The distance (m) of particles that are equally far apart.
-    pub(super) fn spacing(spec: &RunSpec, parameters: &Parameters) -> f64 {
-        spec.level.h / parameters.number(POINTS_PER_DIRECTION)
     }
 
     /// A field, in seeding order, extrapolated to the right side at every row of particles, from below.
@@ -49,7 +36,7 @@ impl Edge {
             .collect()
     }
 
-    /// Of a displacement (m) that of the corner, and the mean over the right side.
+    /// Value at the corner of a displacement (m), and mean over the right side.
     pub(super) fn tip(&self, displacement: &[f64]) -> [f64; 2] {
         let edge = self.at_edge(displacement);
         let [y0, y1] = [0, 1].map(|row| self.references[row][1]);
@@ -57,36 +44,35 @@ impl Edge {
         [corner, edge.iter().sum::<f64>() / edge.len() as f64]
     }
 
-    /// What is measured of displacements along x and y (m).
+    /// Metrics of the displacements along x and y (m).
     pub(super) fn of_displacement(
         &self,
         [ux, uy]: [&[f64]; 2],
-        parameters: &Parameters,
+        setup: &Setup<Cantilever>,
     ) -> Vec<(Metric, f64)> {
         let ([corner_x, mean_x], [corner_y, mean_y]) = (self.tip(ux), self.tip(uy));
         let mut values = vec![
-            (m::CORNER_UX, corner_x),
-            (m::CORNER_UY, corner_y),
-            (m::EDGE_MEAN_UX, mean_x),
-            (m::EDGE_MEAN_UY, mean_y),
+            (CORNER_UX, corner_x),
+            (CORNER_UY, corner_y),
+            (EDGE_MEAN_UX, mean_x),
+            (EDGE_MEAN_UY, mean_y),
         ];
-        if let Ok(truth) = solution(parameters) {
+        if let Ok(truth) = solution(setup) {
             let [_, corner] = truth.bottom_right;
-            values.push((m::CORNER_ERROR, (corner_y / corner - 1.0).abs()));
+            values.push((CORNER_ERROR, (corner_y / corner - 1.0).abs()));
             if let Some([_, mean]) = truth.right_edge_mean {
-                values.push((m::EDGE_MEAN_ERROR, (mean_y / mean - 1.0).abs()));
+                values.push((EDGE_MEAN_ERROR, (mean_y / mean - 1.0).abs()));
             }
         }
         values
     }
 
-    /// What is measured of σ_xx (Pa): its extremes, its values at the points of the reference, and their distance from
-    /// there, as far as it is known.
-    pub(super) fn of_stress(&self, field: &[f64], parameters: &Parameters) -> Vec<(Metric, f64)> {
+    /// Metrics of σ_xx (Pa): extremes, values at the points of the reference, and their error where it is known.
+    pub(super) fn of_stress(&self, field: &[f64], setup: &Setup<Cantilever>) -> Vec<(Metric, f64)> {
         let [least, greatest] = extremes(field);
-        let mut values = vec![(m::STRESS_MIN, least), (m::STRESS_MAX, greatest)];
+        let mut values = vec![(STRESS_MIN, least), (STRESS_MAX, greatest)];
         let mut squares = [0.0; 2];
-        let known = stresses(parameters);
+        let known = stresses(setup);
         for (metric, at, probe) in &self.stress {
             let value = probe.value(field);
             values.push((*metric, value));
@@ -96,7 +82,7 @@ impl Edge {
             }
         }
         if squares[1] > 0.0 {
-            values.push((m::STRESS_ERROR, (squares[0] / squares[1]).sqrt()));
+            values.push((STRESS_ERROR, (squares[0] / squares[1]).sqrt()));
         }
         values
     }

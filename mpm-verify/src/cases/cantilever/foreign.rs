@@ -1,13 +1,9 @@
-//! What another code gives of the cantilever.
+//! Columns that another code supplies, and the metrics computed from them.
 
 use super::edge::Edge;
-use super::metrics::{self as m, STRESSES};
-use super::parameters::{LOAD_STEPS, POINTS_PER_DIRECTION};
-use super::scene::begin;
+use super::*;
 use crate::cases::observe::start_columns;
-use crate::foreign::{Asked, Foreign, Group};
-use crate::record::Discretisation;
-use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::foreign::{Asked, Foreign, Given, Group};
 
 const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
 const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
@@ -19,54 +15,74 @@ const STRESS: Asked = Asked::particle(
     "Cauchy stress σ_xx under the whole weight, tension positive",
 );
 
+/// The edge of a given result, its setup, and `columns` in the order of our particles.
+fn given_edge<const N: usize>(
+    given: &Given,
+    columns: [&Asked; N],
+) -> Result<(Edge, Setup<Cantilever>, [Vec<f64>; N]), Error> {
+    let setup = Setup::<Cantilever>::of_spec(&given.spec, &given.parameters)?;
+    let edge = Edge::new(&setup);
+    let order = given.in_order([&START_X, &START_Y], &edge.references, setup.spacing())?;
+    let ordered = columns.map(|column| {
+        let values = given.column(column);
+        order.iter().map(|k| values[*k]).collect()
+    });
+    Ok((edge, setup, ordered))
+}
+
 pub(in crate::cases) fn foreign() -> Foreign {
     let stresses = STRESSES.iter().map(|(metric, _)| *metric);
-    let of_all = [m::STRESS_MIN, m::STRESS_MAX, m::STRESS_ERROR];
+    let of_all = [STRESS_MIN, STRESS_MAX, STRESS_ERROR];
     Foreign {
-        judged_as: |_| Scheme::quasi_static(BasisName::Bspline2, RemedyName::None),
-        discretisation: |spec, parameters, _| Discretisation {
-            dim: 2,
-            h: spec.level.h,
-            ppc: parameters.number(POINTS_PER_DIRECTION).powi(2) as u32,
-            dt: 1.0 / parameters.number(LOAD_STEPS),
-            wall: "open-knot".to_owned(),
+        judged_as: |_| Scheme::quasi_static(Bspline2, RemedyName::None),
+        discretisation: |spec, parameters, _| {
+            let setup = Setup::<Cantilever>::of_spec(spec, parameters);
+            let [ppc, steps] = setup.map_or([0.0; 2], |c| {
+                [
+                    (c.points_per_direction as f64).powi(2),
+                    f64::from(c.load_steps),
+                ]
+            });
+            Discretisation {
+                dim: 2,
+                h: spec.level.h,
+                ppc: ppc as u32,
+                dt: 1.0 / steps,
+                wall: "open-knot".to_owned(),
+            }
         },
         groups: vec![
             Group {
                 columns: &[START_X, START_Y, MOVED_X, MOVED_Y],
                 metrics: vec![
-                    m::CORNER_UX,
-                    m::CORNER_UY,
-                    m::EDGE_MEAN_UX,
-                    m::EDGE_MEAN_UY,
-                    m::CORNER_ERROR,
-                    m::EDGE_MEAN_ERROR,
+                    CORNER_UX,
+                    CORNER_UY,
+                    EDGE_MEAN_UX,
+                    EDGE_MEAN_UY,
+                    CORNER_ERROR,
+                    EDGE_MEAN_ERROR,
                 ],
                 measure: |given| {
-                    let edge = Edge::new(&given.spec, &given.parameters);
-                    let spacing = Edge::spacing(&given.spec, &given.parameters);
-                    let order = given.in_order([&START_X, &START_Y], &edge.references, spacing)?;
-                    let [ux, uy] = [&MOVED_X, &MOVED_Y].map(|u| {
-                        let moved = given.column(u);
-                        order.iter().map(|k| moved[*k]).collect::<Vec<f64>>()
-                    });
-                    Ok(edge.of_displacement([&ux, &uy], &given.parameters))
+                    let (edge, setup, [ux, uy]) = given_edge(given, [&MOVED_X, &MOVED_Y])?;
+                    Ok(edge.of_displacement([&ux, &uy], &setup))
                 },
             },
             Group {
                 columns: &[START_X, START_Y, STRESS],
                 metrics: of_all.into_iter().chain(stresses).collect(),
                 measure: |given| {
-                    let edge = Edge::new(&given.spec, &given.parameters);
-                    let spacing = Edge::spacing(&given.spec, &given.parameters);
-                    let order = given.in_order([&START_X, &START_Y], &edge.references, spacing)?;
-                    let stress = given.column(&STRESS);
-                    let stress: Vec<f64> = order.iter().map(|k| stress[*k]).collect();
-                    Ok(edge.of_stress(&stress, &given.parameters))
+                    let (edge, setup, [stress]) = given_edge(given, [&STRESS])?;
+                    Ok(edge.of_stress(&stress, &setup))
                 },
             },
         ],
-        start: |spec, parameters| Ok(start_columns(begin(spec, parameters)?.particles())),
+        start: |spec, parameters| {
+            Ok(start_columns(
+                Setup::<Cantilever>::of_spec(spec, parameters)?
+                    .scene()?
+                    .particles(),
+            ))
+        },
         setup: &[
             "Plane strain, 0 ≤ x ≤ 1 m, 0 ≤ y ≤ 0.3 m; the side x = 0 is clamped, all others are free.",
             "The elastic law that `law` names, with `young_modulus` and `poisson_ratio`; hencky: W = μ ‖h‖² + λ/2 (tr h)², h = ½ ln b; neo-hookean: W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 ln² J.",

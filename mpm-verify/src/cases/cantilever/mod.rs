@@ -4,32 +4,105 @@
 
 mod checks;
 mod edge;
+mod figures;
 pub(super) mod foreign;
-mod metrics;
-mod parameters;
-mod pictures;
 mod reference;
-mod scene;
-mod sketch;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::family;
-use crate::case::{Case, Family, FieldView, Tier};
-use crate::metric::error;
-use crate::record::Record;
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, Scheme};
-use crate::spec::{Level, RunSpec};
-use metrics::{
-    CORNER_ERROR, CORNER_UX, CORNER_UY, EDGE_MEAN_UY, LOG10_CONDITION, NEWTON_ITERATIONS,
-    STRESS_ERROR, STRESS_MAX, STRESS_MIN,
-};
-use parameters::{LOAD_STEPS, NONE, STABILISATION};
-use watch::Bending;
+use super::parameters as common;
+use crate::prelude::*;
+use crate::results::BASIS;
+use BasisName::Q8;
+use reference::solution;
+use run::{DEPTH, LENGTH};
 
-use BasisName::{Bspline2, Bspline3, Gimp, Linear, Q8};
-use Tier::{Long, Nightly, Pr, Quick};
+/// Levels with their titles.
+const LEVELS: [(&str, &str); 4] = [
+    ("h0.1", "h = 0.1 m"),
+    ("h0.05", "0.05"),
+    ("h0.025", "0.025"),
+    ("h0.0125", "0.0125"),
+];
+/// The paper's choices.
+const PAPER: [&str; 3] = ["law=jaumann-linear", "points=gauss", "stabilisation=soft"];
+
+choices! {
+    /// Elastic law.
+    pub(super) enum LawName {
+        Hencky = "hencky", NeoHookean = "neo-hookean", Jaumann = "jaumann", JaumannLinear = "jaumann-linear",
+    }
+}
+
+choices! {
+    /// Initial positions of the particles in a cell.
+    pub(super) enum Points { Uniform = "uniform", Gauss = "gauss" }
+}
+
+choices! {
+    /// Stabilisation of functions that see hardly any material.
+    pub(super) enum Stabilised { None = "none", Soft = "soft", Ghost = "ghost", Extension = "extension" }
+}
+
+parameters! {
+    /// Parameters of the cantilever.
+    pub(super) struct Cantilever {
+        law: LawName = LawName::Hencky.by_default(),
+            "elastic law; jaumann is integrated to second order, jaumann-linear as the paper does";
+        young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e5");
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0");
+        weight: f64 = real("N/m³", "4000", 1.0, 1e6), "weight of the initial volume at the end";
+        load_steps: i32 = common::LOAD_STEPS.with_default("20"), "equal steps of the weight";
+        points_per_direction: usize = whole("-", "4", 2, 8),
+            "particles per cell and direction; of one, in the middle, what alternates from node to node has no strain";
+        points: Points = Points::Uniform.by_default(),
+            "where particles start: in the middle of equal parts of a cell, or, the paper's subdivision, two Gauss points in each half of their number";
+        stabilisation: Stabilised = Stabilised::Ghost.by_default(), "what holds functions that see hardly any material";
+        stabilisation_factor: f64 = real("-", "0.01", 1e-8, 1.0),
+            "of ghost its share of Young's modulus, of soft that of the stiffness of the mesh";
+        tolerance: f64 = real("-", "1e-9", 1e-13, 1e-2), "residual of a converged step over the loads";
+    }
+}
+
+metrics! { OWN:
+    CORNER_UX = "corner_ux", "m",
+        "u_x of the lower right corner, (1, 0) m, extrapolated linearly from the nearest particles";
+    CORNER_UY = "corner_uy", "m", "u_y of that corner, likewise";
+    EDGE_MEAN_UX = "edge_mean_ux", "m",
+        "u_x averaged over the right side, extrapolated from the last two columns of particles";
+    EDGE_MEAN_UY = "edge_mean_uy", "m", "u_y, likewise";
+    CORNER_ERROR = "corner_error", "-",
+        "distance of corner_uy from the reference over the reference";
+    EDGE_MEAN_ERROR = "edge_mean_error", "-", "of edge_mean_uy, likewise";
+    STRESS_MIN = "stress_min", "Pa", "least σ_xx at a particle: compression";
+    STRESS_MAX = "stress_max", "Pa", "greatest σ_xx at a particle: tension";
+    STRESS_ERROR = "stress_error", "-",
+        "rms distance of σ_xx from the reference at six points near the clamp, over the rms of the reference";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
+    CUTS = "cut_steps", "-", "load steps that were taken in parts";
+    LOG10_CONDITION = "log10_condition", "-",
+        "log₁₀ of the estimated condition, in the 1-norm, of the stiffness at the end, scaled to a diagonal of ones";
+    FORCE_RATIO = "force_ratio", "-",
+        "largest out-of-balance force ratio of a step, the paper's Eq. (37); the tolerance, if it is less";
+    FORCE_ROUNDING = "force_rounding", "-",
+        "largest such ratio that rounding of the stresses by four last bits may leave: Newton's method asks for no less";
+    ENERGY_RATIO = "energy_ratio", "-",
+        "largest work of a step's residual on its last correction over that of the loads, for the paper's Eq. (38); the tolerance, if it is less";
+    REACTION_ERROR = "reaction_error", "-",
+        "distance of the clamp's reaction from the weight over the weight; likewise";
+    MASS = "mass", "kg/m", "mass of the beam";
+}
+
+metrics! {
+    /// σ_xx at material points (m).
+    STRESSES at [f64; 2]:
+    [0.1, 0.05] => "stress_xx_0.1_0.05", "Pa",
+        "σ_xx at the material point (0.1, 0.05) m, by a linear fit over the particles within h";
+    [0.1, 0.15] => "stress_xx_0.1_0.15", "Pa", "likewise at (0.1, 0.15) m";
+    [0.1, 0.25] => "stress_xx_0.1_0.25", "Pa", "likewise at (0.1, 0.25) m";
+    [0.2, 0.05] => "stress_xx_0.2_0.05", "Pa", "likewise at (0.2, 0.05) m";
+    [0.2, 0.15] => "stress_xx_0.2_0.15", "Pa", "likewise at (0.2, 0.15) m";
+    [0.2, 0.25] => "stress_xx_0.2_0.25", "Pa", "likewise at (0.2, 0.25) m";
+}
 
 pub(super) fn case() -> Case {
     let sizes = [
@@ -39,9 +112,12 @@ pub(super) fn case() -> Case {
         ("h0.0125", 0.0125),
     ];
     let levels = sizes.map(|(name, h)| Level { name, h });
+    let metrics: Vec<Metric> = OWN
+        .iter()
+        .copied()
+        .chain(STRESSES.iter().map(|(metric, _)| *metric))
+        .collect();
     Case {
-        name: "cantilever",
-        title: "Cantilever under its weight",
         description: "An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \
                       the case by which the implicit paper shows its method. Quadratic splines with a ghost penalty converge to the \
                       finite elements; the paper's serendipity elements don't converge.",
@@ -50,10 +126,8 @@ pub(super) fn case() -> Case {
             "The corners of the clamp are singular points: the greatest stresses grow without bound under refinement.",
             "Serendipity elements are the paper's, for this case alone.",
         ],
-        parameters: parameters::ALL.to_vec(),
-        plan: plan(levels),
+        plan: plan(&levels),
         levels: levels.to_vec(),
-        metrics: metrics::all(),
         checks: checks::checks(),
         headlines: vec![
             headline(CORNER_UX, "corner u_x (m)", 1.0, 4),
@@ -68,7 +142,6 @@ pub(super) fn case() -> Case {
             error(CORNER_ERROR, "relative error of the corner's u_y"),
             error(STRESS_ERROR, "relative error of σ_xx near the clamp"),
         ],
-        sweeps: Vec::new(),
         watched: &["corner_uy", "newton_iterations"],
         field: Some(FieldView {
             time: None,
@@ -77,143 +150,299 @@ pub(super) fn case() -> Case {
             range: (-4e4, 4e4),
             window: [(-0.05, 1.05), (-0.65, 0.35)],
         }),
-        sketch: sketch::sketch(),
-        cost: Box::new(cost),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Bending::drive(spec, parameters)?))),
-        pictures: pictures::draw,
-        tables: tables::all(),
-        breaks_down: known_breakdown,
+        sketch: sketch(),
+        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-3)),
+        pictures: figures::draw,
+        tables: tables(),
+        breaks_down,
+        ..Case::of::<2, run::Bending>("cantilever", "Cantilever under its weight", &metrics)
     }
 }
 
-/// Steps times unknowns to the power of their elimination.
-fn cost(spec: &RunSpec) -> f64 {
-    1e-3 * spec.level.h.powi(-3)
-}
-
-fn schemes(bases: &[BasisName]) -> Vec<Scheme> {
-    let of = |basis: &BasisName| Scheme::quasi_static(*basis, RemedyName::None);
-    bases.iter().map(of).collect()
-}
-
-fn plan([h1, h2, h3, h4]: [Level; 4]) -> Vec<Family> {
-    let splines = schemes(&[Bspline2]);
-    let soft: &'static [&'static str] = &["stabilisation=soft"];
-    let mut all = vec![
-        family(Quick, &[h1], &splines, &[]),
-        family(Pr, &[h1, h2, h3], &splines, &[]),
-        family(Pr, &[h1, h2], &schemes(&[Linear, Gimp]), &[]),
-        family(Pr, &[h1], &schemes(&[Q8]), soft),
-        family(Pr, &[h2], &splines, &["law=neo-hookean"]),
-        family(Pr, &[h2], &splines, &["law=jaumann"]),
-        family(Pr, &[h1, h2], &splines, EXTENDED),
-        family(Nightly, &[h3], &splines, EXTENDED),
-        family(Nightly, &[h1, h2, h3], &schemes(&[Gimp]), EXTENDED),
-        family(Nightly, &[h4], &splines, &[]),
-        family(Nightly, &[h3, h4], &schemes(&[Linear, Gimp]), &[]),
-        family(Nightly, &[h1, h2], &schemes(&[Bspline3]), &[]),
-        family(Nightly, &[h2, h3], &schemes(&[Q8]), soft),
-        family(Long, &[h4], &schemes(&[Q8]), soft),
-        family(Long, &[h3, h4], &schemes(&[Bspline3]), &[]),
-        family(
-            Nightly,
-            &[h1],
-            &schemes(&[Linear, Gimp, Bspline2, Bspline3, Q8]),
-            &["stabilisation=none"],
-        ),
-    ];
-    let sets: [&'static [&'static str]; 22] = [
-        &["load_steps=5"],
-        &["load_steps=10"],
-        &["load_steps=40"],
-        &["load_steps=80"],
-        &["load_steps=160"],
-        &["law=jaumann", "load_steps=10"],
-        &["law=jaumann", "load_steps=40"],
-        &["law=jaumann-linear", "load_steps=10"],
-        &["law=jaumann-linear", "load_steps=20"],
-        &["law=jaumann-linear", "load_steps=40"],
-        &["law=jaumann-linear", "load_steps=80"],
-        &["points=gauss"],
-        &["points_per_direction=2"],
-        &["points_per_direction=3"],
-        &["points_per_direction=6"],
-        &["stabilisation_factor=0.1"],
-        &["stabilisation_factor=0.001"],
-        &["stabilisation=soft", "stabilisation_factor=0.1"],
-        &["stabilisation=soft"],
-        &["stabilisation=soft", "stabilisation_factor=0.001"],
-        &["stabilisation=soft", "stabilisation_factor=0.0001"],
-        &["law=neo-hookean", "load_steps=10"],
-    ];
-    all.extend(sets.map(|set| family(Nightly, &[h2], &splines, set)));
-    let gimp: [&'static [&'static str]; 3] = [
-        &["points_per_direction=2"],
-        &["load_steps=5"],
-        &["load_steps=80"],
-    ];
-    all.extend(gimp.map(|set| family(Nightly, &[h2], &schemes(&[Gimp]), set)));
-    all.extend(STRENGTHS.map(|set| family(Nightly, &[h1, h2, h3], &schemes(&[Gimp]), set)));
-    // The paper's elements, points, law and stabilisation: Figures 2 to 4.
-    let papers: [&'static [&'static str]; 7] = [
-        &PAPER,
-        &["law=jaumann-linear", "points=gauss", "stabilisation=none"],
-        &[
-            "law=jaumann-linear",
-            "points=gauss",
-            "stabilisation=soft",
-            "stabilisation_factor=0.1",
-        ],
-        &[
-            "law=jaumann-linear",
-            "points=gauss",
-            "stabilisation=soft",
-            "stabilisation_factor=0.001",
-        ],
-        &[
-            "law=jaumann-linear",
-            "points=gauss",
-            "stabilisation=soft",
-            "stabilisation_factor=0.0001",
-        ],
-        &[
-            "law=jaumann-linear",
-            "points=gauss",
-            "points_per_direction=2",
-            "stabilisation=soft",
-        ],
-        &[
-            "law=jaumann-linear",
-            "points=gauss",
-            "points_per_direction=6",
-            "stabilisation=soft",
-        ],
-    ];
-    all.extend(papers.map(|set| family(Nightly, &[h1], &schemes(&[Q8]), set)));
-    all
-}
-
-/// Ghost penalties of GIMP, beside its own.
-const STRENGTHS: [&[&str]; 5] = [
-    &["stabilisation_factor=0.0005"],
-    &["stabilisation_factor=0.005"],
-    &["stabilisation_factor=0.05"],
-    &["stabilisation_factor=0.5"],
-    &["stabilisation_factor=1"],
-];
-const EXTENDED: &[&str] = &["stabilisation=extension"];
-/// The paper's choices.
-const PAPER: [&str; 3] = ["law=jaumann-linear", "points=gauss", "stabilisation=soft"];
-
-/// Without stabilisation, or with the paper's elements.
-fn known_breakdown(r: &Record) -> Option<&'static str> {
-    if r.parameters.is(STABILISATION, NONE) {
+/// The reason why a run without stabilisation, or with the paper's elements, is known to break down.
+fn breaks_down(r: &Record) -> Option<&'static str> {
+    let c = Setup::<Cantilever>::of_record(r).ok()?;
+    if c.stabilisation == Stabilised::None {
         return Some(
             "without stabilisation functions at the rim see fewer strains than they have unknowns",
         );
     }
-    let many = r.parameters.number(LOAD_STEPS) > 20.0;
-    (r.basis() == Q8 && many).then_some("particles of serendipity elements leave the body")
+    (c.basis() == Q8 && c.load_steps > 20)
+        .then_some("particles of serendipity elements leave the body")
+}
+
+fn plan(levels: &[Level]) -> Vec<Family> {
+    let schemes = |bases: &[BasisName]| -> Vec<Scheme> {
+        bases
+            .iter()
+            .map(|basis| Scheme::quasi_static(*basis, RemedyName::None))
+            .collect()
+    };
+    let (splines, cubic, gimp, q8) = (
+        schemes(&[Bspline2]),
+        schemes(&[Bspline3]),
+        schemes(&[Gimp]),
+        schemes(&[Q8]),
+    );
+    let low = schemes(&[Linear, Gimp]);
+    let paper = PAPER.join(" ");
+    let linear_gauss = "law=jaumann-linear points=gauss";
+    Plan::of(levels)
+        .runs(Quick, "h0.1", &splines, "")
+        .runs(Pr, "h0.1 h0.05 h0.025", &splines, "")
+        .runs(Pr, "h0.1 h0.05", &low, "")
+        .runs(Pr, "h0.1", &q8, "stabilisation=soft")
+        .runs(Pr, "h0.05", &splines, "law=neo-hookean")
+        .runs(Pr, "h0.05", &splines, "law=jaumann")
+        .runs(Pr, "h0.1 h0.05", &splines, "stabilisation=extension")
+        .runs(Nightly, "h0.025", &splines, "stabilisation=extension")
+        .runs(
+            Nightly,
+            "h0.1 h0.05 h0.025",
+            &gimp,
+            "stabilisation=extension",
+        )
+        .runs(Nightly, "h0.0125", &splines, "")
+        .runs(Nightly, "h0.025 h0.0125", &low, "")
+        .runs(Nightly, "h0.1 h0.05", &cubic, "")
+        .runs(Nightly, "h0.05 h0.025", &q8, "stabilisation=soft")
+        .runs(Long, "h0.0125", &q8, "stabilisation=soft")
+        .runs(Long, "h0.025 h0.0125", &cubic, "")
+        .runs(
+            Nightly,
+            "h0.1",
+            &schemes(&[Linear, Gimp, Bspline2, Bspline3, Q8]),
+            "stabilisation=none",
+        )
+        .each(
+            Nightly,
+            "h0.05",
+            &splines,
+            [5, 10, 40, 80, 160].map(|n| format!("load_steps={n}")),
+        )
+        .each(
+            Nightly,
+            "h0.05",
+            &splines,
+            [10, 40].map(|n| format!("law=jaumann load_steps={n}")),
+        )
+        .each(
+            Nightly,
+            "h0.05",
+            &splines,
+            [10, 20, 40, 80].map(|n| format!("law=jaumann-linear load_steps={n}")),
+        )
+        .runs(Nightly, "h0.05", &splines, "points=gauss")
+        .each(
+            Nightly,
+            "h0.05",
+            &splines,
+            [2, 3, 6].map(|n| format!("points_per_direction={n}")),
+        )
+        .each(
+            Nightly,
+            "h0.05",
+            &splines,
+            ["0.1", "0.001"].map(|f| format!("stabilisation_factor={f}")),
+        )
+        .runs(
+            Nightly,
+            "h0.05",
+            &splines,
+            "stabilisation=soft stabilisation_factor=0.1",
+        )
+        .runs(Nightly, "h0.05", &splines, "stabilisation=soft")
+        .runs(
+            Nightly,
+            "h0.05",
+            &splines,
+            "stabilisation=soft stabilisation_factor=0.001",
+        )
+        .runs(
+            Nightly,
+            "h0.05",
+            &splines,
+            "stabilisation=soft stabilisation_factor=0.0001",
+        )
+        .runs(Nightly, "h0.05", &splines, "law=neo-hookean load_steps=10")
+        .each(
+            Nightly,
+            "h0.05",
+            &gimp,
+            ["points_per_direction=2", "load_steps=5", "load_steps=80"],
+        )
+        // Ghost penalties of GIMP, beside its own.
+        .each(
+            Nightly,
+            "h0.1 h0.05 h0.025",
+            &gimp,
+            ["0.0005", "0.005", "0.05", "0.5", "1"].map(|f| format!("stabilisation_factor={f}")),
+        )
+        // The paper's elements, points, law and stabilisation: Figures 2 to 4.
+        .runs(Nightly, "h0.1", &q8, &paper)
+        .runs(
+            Nightly,
+            "h0.1",
+            &q8,
+            &format!("{linear_gauss} stabilisation=none"),
+        )
+        .each(
+            Nightly,
+            "h0.1",
+            &q8,
+            ["0.1", "0.001", "0.0001"].map(|f| format!("{paper} stabilisation_factor={f}")),
+        )
+        .each(
+            Nightly,
+            "h0.1",
+            &q8,
+            [2, 6].map(|n| format!("{linear_gauss} points_per_direction={n} stabilisation=soft")),
+        )
+        .done()
+}
+
+fn sketch() -> Sketch {
+    let mut shapes = vec![
+        Shape::Body(vec![
+            [0.0, 0.0],
+            [LENGTH, 0.0],
+            [LENGTH, DEPTH],
+            [0.0, DEPTH],
+        ]),
+        Shape::Held([0.0, 0.0], [0.0, DEPTH]),
+        Shape::length([0.0, -0.1], [LENGTH, -0.1], "1 m"),
+        Shape::length([1.12, 0.0], [1.12, DEPTH], "0.3 m"),
+        Shape::note([0.5, 0.24], "4 kN/m³"),
+        Shape::Probe {
+            at: [LENGTH, 0.0],
+            label: "corner".to_owned(),
+        },
+    ];
+    for k in 0..4 {
+        let x = 0.2 + 0.2 * f64::from(k);
+        shapes.push(Shape::Load([x, 0.19], [x, 0.07]));
+    }
+    Sketch {
+        shapes,
+        description: "A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight.",
+    }
+}
+
+fn tables() -> Vec<ResultTable> {
+    let number = |r: &Record, of: fn(&Setup<Cantilever>) -> f64| Setup::number_of(r, of);
+    /// The error of the corner's u_y; of a run that broke down, that it did.
+    fn error(r: &Record) -> String {
+        if r.status == Status::Failed {
+            return "breaks down".to_owned();
+        }
+        let setup = Setup::<Cantilever>::of_record(r).map_err(|e| e.to_string());
+        let exact = setup
+            .and_then(|c| solution(&c))
+            .map_or(f64::NAN, |s| s.bottom_right[1]);
+        percent(2).text(r.metric(CORNER_UY) / exact - 1.0)
+    }
+    fn or_dash(changed: &[&str]) -> String {
+        if changed.is_empty() {
+            "–".to_owned()
+        } else {
+            changed.join(", ")
+        }
+    }
+    fn word(r: &Record, name: &str, default: &str) -> String {
+        let own = r
+            .set
+            .iter()
+            .find_map(|set| set.strip_prefix(name)?.strip_prefix('='));
+        own.unwrap_or(default).to_owned()
+    }
+    const STABILISATION: Label = ("stabilisation", |r| word(r, "stabilisation", "ghost"));
+    const LAW: Label = ("law", |r| word(r, "law", "hencky"));
+    const CHANGED: Label = ("changed", |r| {
+        or_dash(&r.set.iter().map(String::as_str).collect::<Vec<_>>())
+    });
+    const BESIDE_PAPER: Label = ("changed", |r| {
+        let more = r
+            .set
+            .iter()
+            .map(String::as_str)
+            .filter(|set| !PAPER.contains(set));
+        or_dash(&more.collect::<Vec<_>>())
+    });
+    // The penalty as a share of G = E/2.
+    const ALPHA: Label = ("α_u", |r| {
+        format!(
+            "{}",
+            2.0 * Setup::<Cantilever>::number_of(r, |c| c.stabilisation_factor)
+        )
+    });
+    let errors =
+        |title: fn(&str) -> String, levels: &[(&'static str, &'static str)]| -> Vec<Column> {
+            let column = |&(level, name): &(&'static str, &'static str)| {
+                Column::text(title(name), error).of(move |r| r.level == level)
+            };
+            levels.iter().map(column).collect()
+        };
+    let steps = [5.0, 10.0, 20.0, 40.0, 80.0, 160.0].map(|steps| {
+        Column::text(format!("{steps} steps"), error)
+            .of(move |r| number(r, |c| f64::from(c.load_steps)) == steps)
+    });
+    let columns = || {
+        let kilo = fixed(1).times(1e-3);
+        [
+            Column::text("error of u_y", error),
+            Column::metric("σ_xx from (kPa)", STRESS_MIN, kilo),
+            Column::metric("to (kPa)", STRESS_MAX, kilo),
+            Column::metric("iterations", NEWTON_ITERATIONS, fixed(0)),
+            Column::metric("log₁₀ condition", LOG10_CONDITION, fixed(1)),
+        ]
+    };
+    let mut ghosts = errors(|name| format!("error of u_y, {name}"), &LEVELS[..3]);
+    ghosts.extend(Column::levels(
+        [("h0.05", "log₁₀ condition, 0.05")],
+        LOG10_CONDITION,
+        fixed(1),
+    ));
+    let of_paper = [
+        Column::metric("corner u_x (m)", CORNER_UX, fixed(3)),
+        Column::metric("corner u_y (m)", CORNER_UY, fixed(3)),
+        Column::metric("edge mean u_y (m)", EDGE_MEAN_UY, fixed(3)),
+    ];
+    let splines = |r: &Record| r.basis() == Bspline2 && r.level == "h0.05";
+    let keeps_law_and_load = |r: &Record| {
+        r.set
+            .iter()
+            .all(|s| !s.starts_with("law") && !s.starts_with("load"))
+    };
+    vec![
+        ResultTable::new(
+            "cantilever-cells",
+            |r| r.changes_none_but(&["stabilisation"]),
+            &[BASIS, STABILISATION],
+            errors(str::to_owned, &LEVELS),
+        ),
+        ResultTable::new(
+            "cantilever-steps",
+            move |r| splines(r) && r.changes_none_but(&["load_steps", "law"]),
+            &[LAW],
+            steps,
+        ),
+        ResultTable::new(
+            "cantilever-choices",
+            move |r| splines(r) && keeps_law_and_load(r),
+            &[CHANGED],
+            columns(),
+        ),
+        ResultTable::new(
+            "cantilever-ghosts",
+            |r| r.basis() == Gimp && r.changes_none_but(&["stabilisation_factor"]),
+            &[ALPHA],
+            ghosts,
+        ),
+        ResultTable::new(
+            "cantilever-paper",
+            |r| r.basis() == Q8 && r.level == "h0.1" && r.set.len() > 2,
+            &[BESIDE_PAPER],
+            of_paper.into_iter().chain(columns()),
+        ),
+    ]
 }

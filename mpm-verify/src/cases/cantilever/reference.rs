@@ -1,7 +1,7 @@
-//! The truth: finite elements of high order, at one load and three laws.
+//! References: finite elements of high order, at one load and three laws.
 
-use super::parameters::{HENCKY, LAW, NEO_HOOKEAN, POISSON_RATIO, WEIGHT, YOUNG_MODULUS};
-use crate::parameter::Parameters;
+use super::{Cantilever, LawName};
+use crate::setup::Setup;
 use serde::Deserialize;
 use std::sync::OnceLock;
 
@@ -57,8 +57,8 @@ impl Stresses {
     }
 }
 
-/// The stresses for `parameters`, of which those of rates are not known.
-pub(super) fn stresses(parameters: &Parameters) -> Result<&'static Stresses, String> {
+/// The stresses of a setup; those of rate laws are not known.
+pub(super) fn stresses(setup: &Setup<Cantilever>) -> Result<&'static Stresses, String> {
     #[derive(Debug, Deserialize)]
     struct Document {
         hencky: Stresses,
@@ -67,16 +67,14 @@ pub(super) fn stresses(parameters: &Parameters) -> Result<&'static Stresses, Str
     static DOCUMENT: OnceLock<Option<Document>> = OnceLock::new();
     let stored = DOCUMENT.get_or_init(|| serde_json::from_str(STRESSES).ok());
     let stored = stored.as_ref().ok_or("the stored stresses can't be read")?;
-    solution(parameters)?;
-    if parameters.number(YOUNG_MODULUS) != 1e5 {
+    solution(setup)?;
+    if setup.young_modulus != 1e5 {
         return Err("the reference is for E = 100 kPa".to_owned());
     }
-    if parameters.is(LAW, HENCKY) {
-        Ok(&stored.hencky)
-    } else if parameters.is(LAW, NEO_HOOKEAN) {
-        Ok(&stored.neo_hookean)
-    } else {
-        Err("no reference stresses of Jaumann's law".to_owned())
+    match setup.law {
+        LawName::Hencky => Ok(&stored.hencky),
+        LawName::NeoHookean => Ok(&stored.neo_hookean),
+        _ => Err("no reference stresses of Jaumann's law".to_owned()),
     }
 }
 
@@ -87,21 +85,19 @@ fn document() -> Option<&'static Document> {
         .as_ref()
 }
 
-/// The solution for `parameters`: displacements depend on ν and weight over E alone.
-pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, String> {
+/// The solution of a setup: displacements depend on ν and weight over E alone.
+pub(super) fn solution(setup: &Setup<Cantilever>) -> Result<&'static Solution, String> {
     let stored = &document()
         .ok_or("the stored reference can't be read")?
         .solutions;
-    let load = parameters.number(WEIGHT) / parameters.number(YOUNG_MODULUS);
-    if (load - 0.04).abs() > 1e-12 || parameters.number(POISSON_RATIO) != 0.0 {
+    let load = setup.weight / setup.young_modulus;
+    if (load - 0.04).abs() > 1e-12 || setup.poisson_ratio != 0.0 {
         return Err("the reference is for ν = 0 and weight/E = 0.04/m".to_owned());
     }
-    Ok(if parameters.is(LAW, HENCKY) {
-        &stored.hencky
-    } else if parameters.is(LAW, NEO_HOOKEAN) {
-        &stored.neo_hookean
-    } else {
-        &stored.jaumann
+    Ok(match setup.law {
+        LawName::Hencky => &stored.hencky,
+        LawName::NeoHookean => &stored.neo_hookean,
+        _ => &stored.jaumann,
     })
 }
 

@@ -1,0 +1,245 @@
+//! Scene and observations of the cantilever, load step by load step; the time is the share of the weight.
+
+use super::edge::{Edge, extremes};
+use super::*;
+use crate::cases::parameters::require_quotient;
+use mpm_core::implicit::{Settings, Stabilisation};
+use mpm_core::material::{Hencky, Hypoelastic, JaumannUpdate, Law, NeoHookean};
+use mpm_core::simulation::Part;
+use mpm_core::stage::BodyForce;
+use mpm_solvers::{Solved, implicit};
+use std::ops::RangeInclusive;
+
+/// Length and depth (m).
+pub(super) const LENGTH: f64 = 1.0;
+pub(super) const DEPTH: f64 = 0.3;
+/// Room of the grid (m): beyond the tip, below and above.
+const ROOM: (f64, f64, f64) = (0.2, 0.9, 0.2);
+/// Allowed weight over Young's modulus (1/m) in units of 1/(1 + ν): at the greatest the shear w L²/(2 G) of the beam alone
+/// moves the tip by the room below, and at the least the rounding of stresses is a percent of the loads.
+const WEIGHT_OVER_MODULUS: RangeInclusive<f64> = 1e-9..=ROOM.1 / (LENGTH * LENGTH);
+/// Density (kg/m³) of the weight; nothing moves.
+const DENSITY: f64 = 1000.0;
+
+/// Coordinates (m) of the particles along an axis of `cells` cells of size `h` (m).
+fn along(cells: usize, h: f64, per_cell: usize, gauss: bool) -> Vec<f64> {
+    let offset = 0.5 - 0.5 / 3.0_f64.sqrt();
+    let spacing = h / per_cell as f64;
+    let place = |k: usize| match (gauss, k % 2) {
+        (false, _) => spacing * (k as f64 + 0.5),
+        (true, 0) => spacing * (k as f64 + 2.0 * offset),
+        (true, _) => spacing * (k as f64 + 1.0 - 2.0 * offset),
+    };
+    (0..cells * per_cell).map(place).collect()
+}
+
+/// Number of cells of size `h` (m) along a length (m).
+fn cells(length: f64, h: f64) -> usize {
+    (length / h - 1e-9).ceil() as usize
+}
+
+/// The volume that is seeded (m³ per metre of depth).
+pub(super) const VOLUME: f64 = LENGTH * DEPTH;
+
+impl Setup<Cantilever> {
+    /// Distance (m) of particles that are equally far apart.
+    pub(super) fn spacing(&self) -> f64 {
+        self.h / self.points_per_direction as f64
+    }
+
+    /// Particles along the length and the depth.
+    pub(super) fn counts(&self) -> [usize; 2] {
+        [LENGTH, DEPTH].map(|length| cells(length, self.h) * self.points_per_direction)
+    }
+
+    /// Initial positions (m) of the particles, column by column.
+    pub(super) fn seed(&self) -> Vec<[f64; 2]> {
+        let (h, per_cell) = (self.h, self.points_per_direction);
+        // One of an odd number stands in the middle either way.
+        let gauss = self.points == Points::Gauss && per_cell.is_multiple_of(2);
+        let [xs, ys] = [LENGTH, DEPTH].map(|l| along(cells(l, h), h, per_cell, gauss));
+        let column = |x: &f64| ys.iter().map(|y| [*x, *y]).collect::<Vec<_>>();
+        self.start_at(xs.iter().flat_map(column))
+    }
+
+    /// The simulation at its start.
+    ///
+    /// # Errors
+    /// Parameters that make no scene.
+    pub(super) fn scene(&self) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        let (young, ratio) = (self.young_modulus, self.poisson_ratio);
+        match self.law {
+            LawName::Hencky => self.with(Hencky::new(young, ratio)?),
+            LawName::NeoHookean => self.with(NeoHookean::new(young, ratio)?),
+            LawName::Jaumann => self.with(Hypoelastic::new(young, ratio, JaumannUpdate::Split)?),
+            LawName::JaumannLinear => {
+                self.with(Hypoelastic::new(young, ratio, JaumannUpdate::Linear)?)
+            }
+        }
+    }
+
+    fn with<M: Law + Solved<2>>(&self, law: M) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        let (h, spacing) = (self.h, self.spacing());
+        let (beyond, below, above) = ROOM;
+        let lower = cells(below, h);
+        let along = Axis::bounded(0.0, cells(LENGTH + beyond, h), (Side::Wall, Side::Open));
+        let up = Axis::open(-h * lower as f64, lower + cells(DEPTH + above, h));
+        let particles =
+            Particles::new(self.seed(), spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
+        let weight = self.weight / DENSITY;
+        let scene = Scene::new(Grid::new(h, [along, up])?, Body::new(law, particles)?)
+            .constrain(Wall {
+                axis: 0,
+                end: End::Lo,
+                kind: WallKind::Fixed,
+            })
+            .load(BodyForce(Box::new(move |_, share| [0.0, -weight * share])));
+        let stabilisation = match self.stabilisation {
+            Stabilised::None => Stabilisation::None,
+            Stabilised::Soft => Stabilisation::Soft(self.stabilisation_factor),
+            Stabilised::Ghost => Stabilisation::Ghost(self.stabilisation_factor),
+            Stabilised::Extension => Stabilisation::Extension,
+        };
+        let settings = Settings {
+            tolerance: self.tolerance,
+            ..Settings::new(1.0 / f64::from(self.load_steps)).stabilised(stabilisation)
+        };
+        implicit(self.scheme, scene, settings)
+    }
+}
+
+/// A beam under its growing weight.
+pub(super) struct Bending {
+    setup: Setup<Cantilever>,
+    edge: Edge,
+}
+
+/// Observations of all steps so far: how many were cut, and the largest ratios.
+#[derive(Default, Serialize, Deserialize)]
+pub(super) struct Steps {
+    cut: u64,
+    force_ratio: f64,
+    force_rounding: f64,
+    energy_ratio: f64,
+}
+
+/// Displacement (m) along an axis, in seeding order.
+fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
+    let p = run.particles();
+    p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
+}
+
+/// σ_xx (Pa), in seeding order.
+fn stress_xx(run: &dyn Simulation<2>) -> Vec<f64> {
+    let p = run.particles();
+    p.seeded(|k| p.stress[k].xx)
+}
+
+impl Problem<2> for Bending {
+    type Parameters = Cantilever;
+    type Seen = Steps;
+
+    fn new(setup: Setup<Cantilever>) -> Result<Self, Error> {
+        let strain = setup.weight * (1.0 + setup.poisson_ratio) / setup.young_modulus;
+        let why = "1/m: below, rounding hides the answer, and above, shear alone takes the tip off the grid";
+        let what = "weight (1 + poisson_ratio) / young_modulus";
+        require_quotient(what, strain, WEIGHT_OVER_MODULUS, why)?;
+        Ok(Self {
+            edge: Edge::new(&setup),
+            setup,
+        })
+    }
+
+    fn discretisation(&self) -> Discretisation {
+        let ppc = self.setup.points_per_direction.pow(2);
+        self.setup
+            .discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
+    }
+
+    fn begin(&self, _: &Steps) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        self.setup.scene()
+    }
+
+    fn row(&self, seen: &mut Steps, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+        let before = phase.run.work().newton_iterations;
+        phase.steps(1)?;
+        let run = phase.run.as_ref();
+        let convergence = run.convergence().cloned().unwrap_or_default();
+        seen.cut += u64::from(convergence.parts > 1);
+        seen.force_ratio = seen.force_ratio.max(convergence.force_ratio);
+        seen.force_rounding = seen.force_rounding.max(convergence.force_rounding);
+        seen.energy_ratio = seen.energy_ratio.max(convergence.energy_ratio);
+        let last = |k: usize| {
+            convergence
+                .residuals
+                .iter()
+                .rev()
+                .nth(k)
+                .copied()
+                .unwrap_or(0.0)
+        };
+        let [[corner_x, mean_x], [corner_y, mean_y]] =
+            [0, 1].map(|axis| self.edge.tip(&displacement(run, axis)));
+        let [least, greatest] = extremes(&stress_xx(run));
+        let totals = run.totals();
+        Ok(row! {
+            "time (-)": run.time(),
+            "weight (N/m³)": self.setup.weight * run.time(),
+            "corner_ux (m)": corner_x,
+            "corner_uy (m)": corner_y,
+            "edge_mean_ux (m)": mean_x,
+            "edge_mean_uy (m)": mean_y,
+            "stress_min (Pa)": least,
+            "stress_max (Pa)": greatest,
+            "newton_iterations (-)": (run.work().newton_iterations - before) as f64,
+            "residual (-)": last(0),
+            "residual_before (-)": last(1),
+            "force_ratio (-)": convergence.force_ratio,
+            "energy_ratio (-)": convergence.energy_ratio,
+            "parts (-)": f64::from(convergence.parts),
+            "stored_energy (J/m)": totals.stored_energy,
+            "load_work (J/m)": totals.accumulated.load_work,
+        })
+    }
+
+    fn progress(&self, _: &Steps, phase: &Phase<2>) -> f64 {
+        phase.share_of(self.setup.load_steps as u64)
+    }
+
+    fn particles<'a>(&self, _: &Steps, columns: Columns<'a, 2>) -> Columns<'a, 2> {
+        let moved =
+            |p: &Particles<2>, k: usize, axis: usize| p.position[k][axis] - p.reference[k][axis];
+        columns
+            .references()
+            .each("ux", "m", |p, k| moved(p, k, 0))
+            .each("uy", "m", |p, k| moved(p, k, 1))
+            .each("stress_xx", "Pa", |p, k| p.stress[k].xx)
+            .each("stress_yy", "Pa", |p, k| p.stress[k].yy)
+            .each("stress_xy", "Pa", |p, k| p.stress[k].xy)
+            .jacobian()
+    }
+
+    fn metrics(&self, seen: &Steps, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
+        let run = phase.run.as_ref();
+        let [ux, uy] = [0, 1].map(|axis| displacement(run, axis));
+        let mut values = self.edge.of_displacement([&ux, &uy], &self.setup);
+        values.extend(self.edge.of_stress(&stress_xx(run), &self.setup));
+        // The clamp's reaction over the share of the weight that acts, less one.
+        let volume: f64 = run.particles().reference_volume.iter().sum();
+        let weight = self.setup.weight * run.time() * volume;
+        let reaction = (-run.on(Part::Constraint(0)).force[1] / weight - 1.0).abs();
+        // Smaller values are rounding, which no golden should hold.
+        let tolerance = self.setup.tolerance;
+        values.extend([
+            (NEWTON_ITERATIONS, run.work().newton_iterations as f64),
+            (CUTS, seen.cut as f64),
+            (LOG10_CONDITION, run.condition().log10()),
+            (FORCE_RATIO, seen.force_ratio.max(tolerance)),
+            (FORCE_ROUNDING, seen.force_rounding),
+            (ENERGY_RATIO, seen.energy_ratio.max(tolerance)),
+            (REACTION_ERROR, reaction.max(tolerance)),
+            (MASS, run.totals().mass),
+        ]);
+        values
+    }
+}
