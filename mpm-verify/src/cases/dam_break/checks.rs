@@ -1,16 +1,8 @@
 //! Checks of the dam break. The tolerances are derived in `docs/dam-break.md`.
 
-mod study;
-
-use super::metrics as m;
-use super::parameters::{BULK_MODULUS, CFL, DENSITY, DURATION, EXACT, PIC_RATE, START};
-use super::reference::{
-    DEPTH, GRAVITY, LENGTH, TANK, elastic_energy, energies, greatest_speed, passage, uncertainty,
-};
+use super::reference::{elastic_energy, energies, greatest_speed, passage, uncertainty};
+use super::*;
 use crate::cases::parameters::is_of_own_problem;
-use crate::check::{Check, Finding, checks, judge, run};
-use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName, TransferName};
 
 /// Relative tolerance of the forces at rest: of the exact start, and after the gravity stage.
 const AT_REST: (f64, f64) = (1e-3, 5e-3);
@@ -29,322 +21,384 @@ const WHOLE: f64 = 2.0;
 const MAKES_ENERGY: &str = "force and rate of volume average differently, so that the stress gives work for nothing: docs/remedy.md";
 const DRIFTS: &str = "averages of averages let the true volumes drift until particles turn inside out: docs/dam-break.md";
 
-/// All checks: on single runs, then on runs together.
-pub(super) fn checks() -> Vec<Check> {
-    let mut checks = checks! {
-        bookkeeping "particle-count":
-            "L H / (h/n)² particles at n per direction: the paper's 3,200 at h = 0.25 m and five"
-            => run(particle_count);
-        bookkeeping "mass":
-            "all: the mass at the end is ρ L H to rounding"
-            => run(mass);
-        truth "base-reaction":
-            "none, fbar-rate, fbar-consistent: the force on the floor, mean over three of the water's longest periods behind the gate, is its weight within 0.1 %, within 0.5 % after a gravity stage"
-            => run(base_reaction);
-        truth "gate-force":
-            "none, fbar-rate, fbar-consistent: the force on the gate, likewise, is ½ ρ g H² within 0.1 %, within 0.5 % after a gravity stage"
-            => run(gate_force);
-        known_limit "creeps":
-            "fbar-recursive from the exact start, CFL below 0.1: the force on the floor is short of the weight by more than 0.1 %, because the water starts to sink"
-            => run(creeps);
-        truth "pressure-profile":
-            "none, fbar-rate, fbar-consistent: the pressure behind the gate is hydrostatic, rms, within 1 % of that at the floor at h = 0.25 m, elsewhere as h^(3/2)"
-            => run(pressure_profile);
-        known_limit "smoothed-start":
-            "fbar-recursive, fbar-total from the exact start: the pressure is off by more than that after one step: Π(J) ≠ J at floor and surface"
-            => run(smoothed_start);
-        truth "front":
-            "F̄ with FLIP: the front is within a cell of the inviscid one, rms over t √(g/H) from 0.2 to 0.9"
-            => run(front);
-        truth "arrival":
-            "F̄ with FLIP: the front passes x = 6 m − 2h within the time in which the inviscid one crosses a cell"
-            => run(arrival);
-        truth "front-speed":
-            "all: the front is slower than 2 √(g H)"
-            => run(front_speed);
-        truth "energy-not-gained":
-            "all: kinetic and potential energy and stress work never exceed their start; without APIC, whose affine motion the kinetic energy leaves out, they never grow"
-            => run(energy_not_gained);
-        truth "motion-not-gained":
-            "all, but fbar-total and fbar-rate where makes-energy is found: kinetic and potential energy never exceed their start by more than what is stored elastically then"
-            => run(motion_not_gained);
-        known_limit "makes-energy":
-            "fbar-total, fbar-rate: wherever they exceed it, because the stress works on a volume that the law does not see. They have to over the 2 s of the case's own flow: with FLIP (but quadratic splines with fbar-rate at h = 0.5 m and CFL 0.3), and with APIC at h = 0.125 m and below"
-            => run(energy_made);
-        truth "dissipation":
-            "all that make no energy: no more kinetic and potential energy is lost than until the water is at rest in the tank"
-            => run(dissipation);
-        truth "volume":
-            "all: at 0.4 s the particles cover L H within what strips two particles wide resolve"
-            => run(volume);
-        known_limit "locked":
-            "none with GIMP: the front is more than a cell behind the inviscid one, rms"
-            => run(locked);
-    };
-    checks.extend(study::checks());
-    checks
-}
-
-/// Why a run is known to break down before its end, if it is.
-pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
-    if record.parameters.number(DURATION) < WHOLE {
-        return None;
-    }
-    let gimp = record.basis() == BasisName::Gimp;
-    // On coarse cells quadratic splines, and on the coarsest fbar-rate with small steps, make energy too, but keep the
-    // water in the tank.
-    let coarsest = record.discretisation.h > COARSE;
-    let keeps_it = record.remedy() == RemedyName::FbarRate && coarsest && has_small_steps(record);
-    let leaves_it = gimp && !keeps_it || is_flip(record) && is_fine(record);
-    if has_to_make_energy(record) && leaves_it {
-        return Some(MAKES_ENERGY);
-    }
-    let printed = record.remedy() == RemedyName::FbarRecursive;
-    (printed && gimp && is_flip(record) && is_fine(record)).then_some(DRIFTS)
-}
-
-fn is_fine(record: &Record) -> bool {
-    record.discretisation.h <= FINE
-}
-
-/// Whether a run has the case's own time step, not a larger one.
-fn has_small_steps(record: &Record) -> bool {
-    record.parameters.number(CFL) < 0.1
-}
-
-fn is_flip(record: &Record) -> bool {
-    record.transfer() == TransferName::Flip && record.parameters.number(PIC_RATE) == 0.0
-}
-
-fn is_averaged(record: &Record) -> bool {
-    record.remedy() != RemedyName::None
-}
-
-/// Whether the first step replaces the exact J by its average.
-fn smooths(record: &Record) -> bool {
-    matches!(
-        record.remedy(),
-        RemedyName::FbarRecursive | RemedyName::FbarTotal
-    )
-}
-
-/// Whether force and rate of volume are from different averages.
-fn averages_differ(record: &Record) -> bool {
-    matches!(
-        record.remedy(),
-        RemedyName::FbarTotal | RemedyName::FbarRate
-    )
-}
-
-/// Whether averages differ and nothing dissipates enough.
-fn has_to_make_energy(record: &Record) -> bool {
-    // What a step takes, ½ Σ m |Δv|², grows with it: large ones take more than little that is made.
-    let little = record.remedy() == RemedyName::FbarRate
-        && record.basis() == BasisName::Bspline2
-        && record.discretisation.h > COARSE;
-    let outweighed = little && !has_small_steps(record);
-    averages_differ(record) && !outweighed && (is_flip(record) || is_fine(record))
-}
-
-/// Whether a run makes energy, as is known of its remedy: it has exceeded the bound, or it has to and is judged for it.
-fn makes_energy(record: &Record) -> bool {
-    let known = is_of_own_problem(record) && has_to_make_energy(record);
-    let made = record.metric(m::MOTION_EXCESS) > stored(record);
-    averages_differ(record) && (known || made)
-}
-
-fn particle_count(r: &Record) -> Vec<Finding> {
-    let cells = LENGTH * DEPTH / r.discretisation.h.powi(2);
-    vec![Finding::within(
-        "particles",
-        r.work.particles as f64,
-        f64::from(r.discretisation.ppc) * cells,
-        0.0,
-        "Zhao et al. 2023, section 4.3: 3,200 at h = 0.25 m",
-    )]
-}
-
-fn mass(r: &Record) -> Vec<Finding> {
-    let mass = r.parameters.number(DENSITY) * LENGTH * DEPTH;
-    vec![judge(r, m::MASS).within(mass, ROUNDING * mass, "conservation of mass")]
-}
-
-fn volume(r: &Record) -> Vec<Finding> {
-    let covered = r.metric(m::COVERED_EARLY);
-    if covered.is_nan() {
-        let why = "the run ends before 0.4 s";
-        return vec![Finding::not_applicable(m::COVERED_EARLY, why)];
-    }
-    vec![Finding::within(
-        m::COVERED_EARLY,
-        covered,
-        LENGTH * DEPTH,
-        resolved_area(r),
-        "conservation of mass of a body that hardly compresses",
-    )]
-}
-
-/// How well (m²) strips two particles wide measure the area of the water: they end at its highest particle where the
-/// surface drops by H in all, and its edge is known to half a particle.
-fn resolved_area(record: &Record) -> f64 {
-    let spacing = record.discretisation.h / f64::from(record.discretisation.ppc).sqrt();
-    0.5 * 2.0 * spacing * DEPTH + 0.5 * spacing * TANK
-}
-
-/// Tolerance of forces at rest.
-fn at_rest(record: &Record) -> f64 {
-    if record.parameters.is(START, EXACT) {
-        AT_REST.0
-    } else {
-        AT_REST.1
-    }
-}
-
+/// Share of the front's error, a cell, that the time step may add to it.
+const TIME_STEP: f64 = 0.1;
+/// Relative difference of the front's advance between the two starts, whose pressures differ by twice that.
+const STARTS: f64 = 2.5e-3;
+/// Largest pressure and checkerboard of F̄ over those of standard MPM.
+const SMOOTHER: f64 = 0.5;
 const NOT_AT_REST: &str = "the water is not at rest: its J is replaced by an average";
 
-fn base_reaction(r: &Record) -> Vec<Finding> {
-    let metric = m::BASE_REACTION_RATIO;
-    vec![if smooths(r) {
-        Finding::not_applicable(metric, NOT_AT_REST)
-    } else {
-        let weight = "weight of the water";
-        judge(r, metric).within(1.0, at_rest(r), weight)
-    }]
-}
+type Water<'a> = Run<'a, DamBreak>;
 
-fn gate_force(r: &Record) -> Vec<Finding> {
-    let metric = m::GATE_FORCE;
-    let force = 0.5 * r.parameters.number(DENSITY) * GRAVITY * DEPTH * DEPTH;
-    vec![if smooths(r) {
-        Finding::not_applicable(metric, NOT_AT_REST)
-    } else {
-        let tolerance = at_rest(r) * force;
-        judge(r, metric).within(force, tolerance, "hydrostatics")
-    }]
-}
-
-/// Averages of averages diffuse the volume by h²/Δt: it takes an exact start and the case's own time step to see it.
-fn creeps(r: &Record) -> Vec<Finding> {
-    let sees = r.parameters.is(START, EXACT) && has_small_steps(r);
-    if r.remedy() != RemedyName::FbarRecursive || !sees {
-        return Vec::new();
+/// The reason why a run is known to break down before its end.
+pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
+    let run: Water = Run::of(record)?;
+    if run.duration < WHOLE {
+        return None;
     }
-    let short = 1.0 - r.metric(m::BASE_REACTION_RATIO);
-    let source = "averages of averages diffuse the volume: docs/column.md";
-    let metric = m::BASE_REACTION_RATIO;
-    vec![Finding::above(metric, short, at_rest(r), source)]
+    let gimp = run.basis() == Gimp;
+    // On coarse cells quadratic splines, and on the coarsest fbar-rate with small steps, make energy too, but keep the
+    // water in the tank.
+    let keeps_it = run.remedy() == FbarRate && run.h > COARSE && run.has_small_steps();
+    let leaves_it = gimp && !keeps_it || run.is_flip() && run.is_fine();
+    if run.has_to_make_energy() && leaves_it {
+        return Some(MAKES_ENERGY);
+    }
+    let printed = run.remedy() == FbarRecursive;
+    (printed && gimp && run.is_flip() && run.is_fine()).then_some(DRIFTS)
 }
 
-/// What is off by h in layers as thick as h is off by h^(3/2) in the mean.
-fn profile_bound(record: &Record) -> f64 {
-    PROFILE * (record.discretisation.h / PROFILE_CELL).powf(1.5)
-}
+impl Water<'_> {
+    fn is_fine(&self) -> bool {
+        self.h <= FINE
+    }
 
-fn pressure_profile(r: &Record) -> Option<Finding> {
-    let metric = m::PRESSURE_PROFILE_ERROR;
-    let found = || judge(r, metric).at_most(profile_bound(r), "hydrostatics");
-    (!smooths(r)).then(found)
-}
+    /// Whether the time step is the case's own, not a larger one.
+    fn has_small_steps(&self) -> bool {
+        self.cfl < 0.1
+    }
 
-fn smoothed_start(r: &Record) -> Option<Finding> {
-    let metric = m::PRESSURE_PROFILE_ERROR;
-    let source =
-        "Π takes the mean of J over what is there: at floor and surface that lies to one side";
-    let found = || judge(r, metric).above(profile_bound(r), source);
-    let seen = smooths(r) && r.parameters.is(START, EXACT);
-    seen.then(found)
-}
+    fn is_flip(&self) -> bool {
+        self.transfer() == TransferName::Flip && self.pic_rate == 0.0
+    }
 
-fn energy_not_gained(r: &Record) -> Vec<Finding> {
-    let source = "explicit steps with lumped masses take energy from the motion, never give it";
-    let metrics: &[_] = match r.transfer() {
-        TransferName::Apic => &[m::ENERGY_EXCESS],
-        _ => &[m::ENERGY_EXCESS, m::ENERGY_GAIN],
-    };
-    let found = |&metric: &_| judge(r, metric).at_most(ROUNDING, source);
-    metrics.iter().map(found).collect()
-}
+    fn is_averaged(&self) -> bool {
+        self.remedy() != RemedyName::None
+    }
 
-/// Elastic energy of the water at rest behind the gate over all its energy: what the stress can give back.
-fn stored(record: &Record) -> f64 {
-    let density = record.parameters.number(DENSITY);
-    let (at_start, _) = energies(density);
-    elastic_energy(density, record.parameters.number(BULK_MODULUS)) / at_start
-}
+    /// Whether the first step replaces the exact J by its average.
+    fn smooths(&self) -> bool {
+        matches!(self.remedy(), FbarRecursive | FbarTotal)
+    }
 
-fn motion_not_gained(r: &Record) -> Option<Finding> {
-    let metric = m::MOTION_EXCESS;
-    let source = "the elastic energy of the water at rest";
-    let found = || judge(r, metric).at_most(stored(r), source);
-    (!makes_energy(r)).then(found)
-}
+    /// Whether force and rate of volume are from different averages.
+    fn averages_differ(&self) -> bool {
+        matches!(self.remedy(), FbarTotal | FbarRate)
+    }
 
-fn energy_made(r: &Record) -> Option<Finding> {
-    let metric = m::MOTION_EXCESS;
-    let found = || judge(r, metric).above(stored(r), MAKES_ENERGY);
-    makes_energy(r).then(found)
-}
+    /// Whether averages differ and nothing dissipates enough.
+    fn has_to_make_energy(&self) -> bool {
+        // The loss of a step, ½ Σ m |Δv|², grows with it: large ones take more than little that is made.
+        let little = self.remedy() == FbarRate && self.basis() == Bspline2 && self.h > COARSE;
+        let outweighed = little && !self.has_small_steps();
+        self.averages_differ() && !outweighed && (self.is_flip() || self.is_fine())
+    }
 
-fn dissipation(r: &Record) -> Option<Finding> {
-    let (at_start, at_rest) = energies(r.parameters.number(DENSITY));
-    let metric = m::MOTION_LOSS;
-    let source = "water at rest in the tank has two thirds of its energy";
-    let bound = 1.0 - at_rest / at_start;
-    let found = || judge(r, metric).at_most(bound, source);
-    (!makes_energy(r)).then(found)
-}
+    /// Whether a run makes energy, as is known of its remedy: it has exceeded the bound, or it has to and is judged for it.
+    fn makes_energy(&self) -> bool {
+        let known = is_of_own_problem(self.record) && self.has_to_make_energy();
+        let made = self.metric(MOTION_EXCESS) > self.stored();
+        self.averages_differ() && (known || made)
+    }
 
-fn front_speed(r: &Record) -> Vec<Finding> {
-    let metric = m::FRONT_SPEED_MAX;
-    let bound = greatest_speed();
-    vec![judge(r, metric).at_most(bound, "Ritter 1892")]
-}
+    /// Elastic energy of the water at rest behind the gate over all its energy: what the stress can give back.
+    fn stored(&self) -> f64 {
+        let (at_start, _) = energies(self.density);
+        elastic_energy(self.density, self.bulk_modulus) / at_start
+    }
 
-/// Distance (m) from the inviscid front that a grid may leave.
-fn front_bound(record: &Record) -> f64 {
-    record.discretisation.h + uncertainty()
-}
+    fn is_exact(&self) -> bool {
+        self.start == Rest::Exact
+    }
 
-/// Why the front of a run is not judged, if it is not.
-fn front_is_open(record: &Record) -> Option<&'static str> {
-    if record.metric(m::FRONT_RMS_ERROR).is_nan() {
-        Some("the run ends before the front is near the wall")
-    } else if !is_flip(record) {
-        Some("this transfer is viscous: see docs/dam-break.md")
-    } else {
-        None
+    /// Relative tolerance of forces at rest.
+    fn at_rest(&self) -> f64 {
+        if self.is_exact() {
+            AT_REST.0
+        } else {
+            AT_REST.1
+        }
+    }
+
+    /// Bound on the error of the pressure at rest: off by h in layers as thick as h, it is off by h^(3/2) in the mean.
+    fn profile_bound(&self) -> f64 {
+        PROFILE * (self.h / PROFILE_CELL).powf(1.5)
+    }
+
+    /// Resolution (m²) of the area of the water in strips two particles wide: they end at its highest particle where the
+    /// surface drops by H in all, and its edge is known to half a particle.
+    fn resolved_area(&self) -> f64 {
+        let spacing = self.h / f64::from(self.record.discretisation.ppc).sqrt();
+        0.5 * 2.0 * spacing * DEPTH + 0.5 * spacing * TANK
+    }
+
+    /// Distance (m) from the inviscid front that a grid may leave.
+    fn front_bound(&self) -> f64 {
+        self.h + uncertainty()
+    }
+
+    /// The reason why the front is not judged.
+    fn front_is_open(&self) -> Option<String> {
+        if self.metric(FRONT_RMS_ERROR).is_nan() {
+            Some("the run ends before the front is near the wall".to_owned())
+        } else if !self.is_flip() {
+            Some("this transfer is viscous: see docs/dam-break.md".to_owned())
+        } else {
+            None
+        }
+    }
+
+    /// Force (N/m) on the gate at rest.
+    fn gate_at_rest(&self) -> f64 {
+        0.5 * self.density * GRAVITY * DEPTH * DEPTH
+    }
+
+    fn particles(&self) -> f64 {
+        let cells = LENGTH * DEPTH / self.h.powi(2);
+        f64::from(self.record.discretisation.ppc) * cells
+    }
+
+    /// Scheme and changed parameters.
+    fn name(&self) -> String {
+        format!("{} {}", self.scheme, self.set.join(" "))
+            .trim_end()
+            .to_owned()
     }
 }
 
-fn front(r: &Record) -> Option<Finding> {
-    let metric = m::FRONT_RMS_ERROR;
-    let source = "inviscid front; a grid resolves no tongue thinner than a cell";
-    let found = match front_is_open(r) {
-        Some(why) => Finding::not_applicable(metric, why),
-        None => judge(r, metric).at_most(front_bound(r), source),
+pub(super) fn checks() -> Vec<Check> {
+    type Check = CheckOf<DamBreak>;
+    type Demand = crate::demand::Demand<DamBreak>;
+    let at_rest = |check: Check| check.unless(|w| w.smooths().then(|| NOT_AT_REST.to_owned()));
+    vec![
+        Check::bookkeeping("particle-count", "L H / (h/n)² particles at n per direction: the paper's 3,200 at h = 0.25 m and five")
+            .within(Quantity::new("particles", |w: &Water| w.record.work.particles as f64), |w| w.particles(), |_| 0.0)
+            .because("Zhao et al. 2023, section 4.3: 3,200 at h = 0.25 m"),
+        Check::bookkeeping("mass", "all: the mass at the end is ρ L H to rounding")
+            .within(MASS, |w| w.density * LENGTH * DEPTH, |w| ROUNDING * (w.density * LENGTH * DEPTH))
+            .because("conservation of mass"),
+        at_rest(Check::truth("base-reaction", "none, fbar-rate, fbar-consistent: the force on the floor, mean over three of the water's longest periods behind the gate, is its weight within 0.1 %, within 0.5 % after a gravity stage"))
+            .within(BASE_REACTION_RATIO, |_| 1.0, |w| w.at_rest())
+            .because("weight of the water"),
+        at_rest(Check::truth("gate-force", "none, fbar-rate, fbar-consistent: the force on the gate, likewise, is ½ ρ g H² within 0.1 %, within 0.5 % after a gravity stage"))
+            .within(GATE_FORCE, |w| w.gate_at_rest(), |w| w.at_rest() * w.gate_at_rest())
+            .because("hydrostatics"),
+        // Averages of averages diffuse the volume by h²/Δt: it takes an exact start and the case's own time step to see it.
+        Check::known_limit("creeps", "fbar-recursive from the exact start, CFL below 0.1: the force on the floor is short of the weight by more than 0.1 %, because the water starts to sink")
+            .when(|w| w.remedy() == FbarRecursive && w.is_exact() && w.has_small_steps())
+            .above(Quantity::new(BASE_REACTION_RATIO.name, |w: &Water| 1.0 - w.metric(BASE_REACTION_RATIO)), |w| w.at_rest())
+            .because("averages of averages diffuse the volume: docs/column.md"),
+        Check::truth("pressure-profile", "none, fbar-rate, fbar-consistent: the pressure behind the gate is hydrostatic, rms, within 1 % of that at the floor at h = 0.25 m, elsewhere as h^(3/2)")
+            .when(|w| !w.smooths())
+            .at_most(PRESSURE_PROFILE_ERROR, |w| w.profile_bound())
+            .because("hydrostatics"),
+        Check::known_limit("smoothed-start", "fbar-recursive, fbar-total from the exact start: the pressure is off by more than that after one step: Π(J) ≠ J at floor and surface")
+            .when(|w| w.smooths() && w.is_exact())
+            .above(PRESSURE_PROFILE_ERROR, |w| w.profile_bound())
+            .because("Π takes the mean of J over what is there: at floor and surface that lies to one side"),
+        Check::truth("front", "F̄ with FLIP: the front is within a cell of the inviscid one, rms over t √(g/H) from 0.2 to 0.9")
+            .when(|w| w.is_averaged())
+            .unless(|w| w.front_is_open())
+            .at_most(FRONT_RMS_ERROR, |w| w.front_bound())
+            .because("inviscid front; a grid resolves no tongue thinner than a cell"),
+        Check::truth("arrival", "F̄ with FLIP: the front passes x = 6 m − 2h within the time in which the inviscid one crosses a cell")
+            .when(|w| w.is_averaged())
+            .unless(|w| w.front_is_open())
+            .at_most(ARRIVAL_ERROR, |w| {
+                let passes = passage(TANK - 2.0 * w.h);
+                w.front_bound() / passes.map_or(f64::NAN, |(_, speed)| speed)
+            })
+            .because("inviscid front, likewise"),
+        Check::truth("front-speed", "all: the front is slower than 2 √(g H)")
+            .at_most(FRONT_SPEED_MAX, |_| greatest_speed())
+            .because("Ritter 1892"),
+        Check::truth("energy-not-gained", "all: kinetic and potential energy and stress work never exceed their start; without APIC, whose affine motion the kinetic energy leaves out, they never grow")
+            .each([
+                Demand::at_most(ENERGY_EXCESS, |_| ROUNDING),
+                Demand::at_most(ENERGY_GAIN, |_| ROUNDING).when(|w| w.transfer() != TransferName::Apic),
+            ])
+            .because("explicit steps with lumped masses take energy from the motion, never give it"),
+        Check::truth("motion-not-gained", "all, but fbar-total and fbar-rate where makes-energy is found: kinetic and potential energy never exceed their start by more than what is stored elastically then")
+            .when(|w| !w.makes_energy())
+            .at_most(MOTION_EXCESS, |w| w.stored())
+            .because("the elastic energy of the water at rest"),
+        Check::known_limit("makes-energy", "fbar-total, fbar-rate: wherever they exceed it, because the stress works on a volume that the law does not see. They have to over the 2 s of the case's own flow: with FLIP (but quadratic splines with fbar-rate at h = 0.5 m and CFL 0.3), and with APIC at h = 0.125 m and below")
+            .when(|w| w.makes_energy())
+            .above(MOTION_EXCESS, |w| w.stored())
+            .because(MAKES_ENERGY),
+        Check::truth("dissipation", "all that make no energy: no more kinetic and potential energy is lost than until the water is at rest in the tank")
+            .when(|w| !w.makes_energy())
+            .at_most(MOTION_LOSS, |w| {
+                let (at_start, at_rest) = energies(w.density);
+                1.0 - at_rest / at_start
+            })
+            .because("water at rest in the tank has two thirds of its energy"),
+        Check::truth("volume", "all: at 0.4 s the particles cover L H within what strips two particles wide resolve")
+            .unless(|w| w.metric(COVERED_EARLY).is_nan().then(|| "the run ends before 0.4 s".to_owned()))
+            .within(COVERED_EARLY, |_| LENGTH * DEPTH, |w| w.resolved_area())
+            .because("conservation of mass of a body that hardly compresses"),
+        Check::known_limit("locked", "none with GIMP: the front is more than a cell behind the inviscid one, rms")
+            .when(|w| !w.is_averaged() && w.basis() == Gimp && w.front_is_open().is_none())
+            .above(FRONT_RMS_ERROR, |w| w.front_bound())
+            .because("standard MPM locks: Zhao et al. 2023, Figure 12"),
+        Check::truth("front-converges", "F̄ with FLIP: the rms error of the front falls from level to level, with one CFL number")
+            .study(|records| falls(&finished(records), FRONT_RMS_ERROR))
+            .because(""),
+        Check::truth("start-converges", "F̄ with FLIP: the rms error of the pressure behind the gate falls from level to level, with one CFL number")
+            .study(|records| falls(&finished(records), PRESSURE_PROFILE_ERROR))
+            .because(""),
+        Check::truth("late-converges", "fbar-consistent with FLIP: from level to level, with one CFL number, impulse on the wall and mean centre of mass over 2 s change less, or by less than an ensemble spreads").study(|records| late(&finished(records))).because(""),
+        Check::truth("smoother", "F̄: rms and checkerboard of the pressure at 0.4 s are less than half of standard MPM's").study(|records| against_standard(&finished(records))).because(""),
+        Check::truth("starts-agree", "all: after a gravity stage the front advances as from the exact start within 0.25 %").study(|records| starts(&finished(records))).because(""),
+        Check::truth("time-step", "fbar-consistent with FLIP: a CFL number up to 0.3 moves the front at 0.4 s by less than a tenth of a cell").study(|records| time_steps(&finished(records))).because(""),
+    ]
+}
+
+/// The runs that have come to their end.
+fn finished(records: &[Record]) -> Vec<Water<'_>> {
+    records
+        .iter()
+        .filter(|r| r.status == Status::Ok)
+        .filter_map(Run::of)
+        .collect()
+}
+
+/// Whether an assignment `name=value` is of the parameter `name`.
+fn sets(assignment: &str, name: &str) -> bool {
+    assignment.split('=').next() == Some(name)
+}
+
+/// The runs of each scheme of F̄ with FLIP that are divided in time in one way, coarsest first.
+fn ladders<'a, 'r>(runs: &'a [Water<'r>]) -> Vec<Vec<&'a Water<'r>>> {
+    let judged =
+        |w: &&Water| w.changes_none_but(&["cfl", "duration"]) && w.is_averaged() && w.is_flip();
+    let mut own: Vec<&Water> = runs.iter().filter(judged).collect();
+    own.sort_by(|a, b| b.h.total_cmp(&a.h));
+    let kinds = crate::distinct(own.iter().map(|w| (w.scheme, &w.set)));
+    let of_kind = |kind| {
+        own.iter()
+            .filter(|w| (w.scheme, &w.set) == kind)
+            .copied()
+            .collect()
     };
-    is_averaged(r).then_some(found)
+    kinds.into_iter().map(of_kind).collect()
 }
 
-fn arrival(r: &Record) -> Option<Finding> {
-    let metric = m::ARRIVAL_ERROR;
-    let passes = passage(TANK - 2.0 * r.discretisation.h);
-    let speed = passes.map_or(f64::NAN, |(_, speed)| speed);
-    let source = "inviscid front, likewise";
-    let found = match front_is_open(r) {
-        Some(why) => Finding::not_applicable(metric, why),
-        None => judge(r, metric).at_most(front_bound(r) / speed, source),
+/// Whether an error falls from level to level.
+fn falls(runs: &[Water], metric: Metric) -> Vec<Finding> {
+    let ladders = ladders(runs);
+    let fall = |pair: &[&Water]| {
+        let (coarse, fine) = (pair[0].metric(metric), pair[1].metric(metric));
+        let source = format!(
+            "{}: {} against {}",
+            pair[0].name(),
+            pair[1].level,
+            pair[0].level
+        );
+        Finding::at_most(metric, fine, coarse, source)
     };
-    is_averaged(r).then_some(found)
+    ladders
+        .iter()
+        .flat_map(|ladder| ladder.windows(2).map(fall))
+        .collect()
 }
 
-fn locked(r: &Record) -> Option<Finding> {
-    let metric = m::FRONT_RMS_ERROR;
-    let source = "standard MPM locks: Zhao et al. 2023, Figure 12";
-    let found = || judge(r, metric).above(front_bound(r), source);
-    let judged = !is_averaged(r) && r.basis() == BasisName::Gimp && front_is_open(r).is_none();
-    judged.then(found)
+/// Whether sums over the whole flow converge.
+fn late(runs: &[Water]) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for ladder in ladders(runs) {
+        let whole = ladder.iter().all(|w| !w.metric(WALL_IMPULSE).is_nan());
+        if ladder[0].remedy() != FbarConsistent || !whole {
+            continue;
+        }
+        for metric in [WALL_IMPULSE, CENTRE_X_MEAN] {
+            for three in ladder.windows(3) {
+                let [a, b, c] = [0, 1, 2].map(|k: usize| three[k].metric(metric));
+                let [coarse, middle, fine] = [0, 1, 2].map(|k: usize| &three[k].level);
+                let source = format!(
+                    "{}: from {middle} to {fine}, against from {coarse} to {middle}",
+                    three[0].name()
+                );
+                let bound = (b - a).abs() + spread(runs, three[0], metric);
+                found.push(Finding::at_most(metric, (c - b).abs(), bound, source));
+            }
+        }
+    }
+    found
 }
 
-#[cfg(test)]
-mod tests;
+/// The range of a metric over an ensemble of the scheme, of the level and the time step that have one.
+fn spread(runs: &[Water], like: &Water, metric: Metric) -> f64 {
+    let members = |w: &&Water| w.scheme == like.scheme && w.changes_only("seed");
+    let values = || runs.iter().filter(members).map(|w| w.metric(metric));
+    let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
+    range.max(0.0)
+}
+
+/// Pressure and checkerboard of F̄ over those of standard MPM.
+fn against_standard(runs: &[Water]) -> Vec<Finding> {
+    let found = runs.iter().filter(|w| w.is_averaged()).filter_map(|run| {
+        let standard = runs.iter().find(|w| {
+            let same = (w.basis(), w.transfer()) == (run.basis(), run.transfer());
+            !w.is_averaged() && same && same_but_scheme(w, run)
+        })?;
+        let source = format!(
+            "{} {} against standard MPM",
+            run.scheme,
+            run.record.folder()
+        );
+        Some([PRESSURE_RMS, CHECKERBOARD_RMS].map(|metric| {
+            Finding::at_most(
+                metric,
+                run.metric(metric),
+                SMOOTHER * standard.metric(metric),
+                source.clone(),
+            )
+        }))
+    });
+    found.flatten().collect()
+}
+
+/// Effect of the start on the front.
+fn starts(runs: &[Water]) -> Vec<Finding> {
+    let found = changed(runs, |w| w.start == Rest::GravityStage, "start").map(|(run, own)| {
+        let exact = own.metric(FRONT_X_EARLY);
+        let source = format!("{} {}: the exact start", run.scheme, run.level);
+        Finding::within(
+            FRONT_X_EARLY,
+            run.metric(FRONT_X_EARLY),
+            exact,
+            STARTS * (exact - LENGTH),
+            source,
+        )
+    });
+    found.collect()
+}
+
+/// Effect of the time step on the front.
+fn time_steps(runs: &[Water]) -> Vec<Finding> {
+    let ours = |w: &Water| w.remedy() == FbarConsistent && w.is_flip();
+    let found = changed(runs, ours, "cfl").map(|(run, own)| {
+        let (value, exact) = (run.metric(FRONT_X_EARLY), own.metric(FRONT_X_EARLY));
+        let source = format!(
+            "{} {}: CFL number {} against {}",
+            run.scheme, run.level, run.cfl, own.cfl
+        );
+        Finding::within(FRONT_X_EARLY, value, exact, TIME_STEP * run.h, source)
+    });
+    found.collect()
+}
+
+/// Runs with a value of their own of the parameter `name`, each with the run that differs from it in that alone; the latter is
+/// of the case's own parameters except for its duration.
+fn changed<'a, 'r>(
+    runs: &'a [Water<'r>],
+    which: impl Fn(&Water) -> bool,
+    name: &str,
+) -> impl Iterator<Item = (&'a Water<'r>, &'a Water<'r>)> {
+    let own = runs
+        .iter()
+        .filter(move |w| which(w) && w.set.iter().any(|set| sets(set, name)));
+    own.filter_map(move |run| {
+        let rest = || run.set.iter().filter(|set| !sets(set, name));
+        let same = |w: &&Water| {
+            (w.scheme, &w.level) == (run.scheme, &run.level) && w.set.iter().eq(rest())
+        };
+        let own = runs.iter().find(same)?;
+        own.set
+            .iter()
+            .all(|set| sets(set, "duration"))
+            .then_some((run, own))
+    })
+}

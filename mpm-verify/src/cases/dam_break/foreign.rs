@@ -1,13 +1,11 @@
-//! What another code gives of the dam break.
+//! Columns that another code supplies, and the metrics computed from them.
 
-use super::flow::{Flow, Row};
-use super::metrics as m;
-use super::parameters::DENSITY;
+use super::flow::{Flow, State};
 use super::reference::front_curve;
-use super::scene::Dam;
-use crate::cases::observe::{column, discretisation, start_columns};
+use super::run::Dam;
+use super::*;
+use crate::cases::observe::{column, start_columns};
 use crate::foreign::{Asked, Foreign, Given, Group, Measured};
-use crate::scheme::{BasisName, RemedyName, Scheme};
 
 const TIME: Asked = Asked::series(
     "time",
@@ -34,38 +32,40 @@ const COVERED: Asked = Asked::series(
 
 pub(in crate::cases) fn foreign() -> Foreign {
     Foreign {
-        judged_as: |_| Scheme::flip(BasisName::Bspline2, RemedyName::FbarConsistent),
-        discretisation: |spec, parameters, dt| discretisation(2, spec, parameters, dt),
+        judged_as: |_| Scheme::flip(Bspline2, FbarConsistent),
+        discretisation: |spec, parameters, dt| {
+            crate::cases::observe::discretisation(2, spec, parameters, dt)
+        },
         groups: vec![
             Group {
                 columns: &[TIME, FRONT],
                 metrics: vec![
-                    m::FRONT_X_EARLY,
-                    m::FRONT_RMS_ERROR,
-                    m::FRONT_SPEED_MAX,
-                    m::ARRIVAL_TIME,
-                    m::ARRIVAL_ERROR,
+                    FRONT_X_EARLY,
+                    FRONT_RMS_ERROR,
+                    FRONT_SPEED_MAX,
+                    ARRIVAL_TIME,
+                    ARRIVAL_ERROR,
                 ],
                 measure: of_flow,
             },
             Group {
                 columns: &[TIME, KINETIC, POTENTIAL],
-                metrics: vec![m::MOTION_RATIO_2S, m::MOTION_EXCESS, m::MOTION_LOSS],
+                metrics: vec![MOTION_RATIO_2S, MOTION_EXCESS, MOTION_LOSS],
                 measure: of_flow,
             },
             Group {
                 columns: &[TIME, KINETIC, POTENTIAL, STRESS_WORK],
-                metrics: vec![m::ENERGY_RATIO, m::ENERGY_RATIO_2S, m::ENERGY_EXCESS],
+                metrics: vec![ENERGY_RATIO, ENERGY_RATIO_2S, ENERGY_EXCESS],
                 measure: of_flow,
             },
             Group {
                 columns: &[TIME, COVERED],
-                metrics: vec![m::COVERED_EARLY],
+                metrics: vec![COVERED_EARLY],
                 measure: of_flow,
             },
         ],
         start: |spec, parameters| {
-            let run = Dam::new(spec, parameters)?.released()?;
+            let run = Dam::new(Setup::of_spec(spec, parameters)?)?.released()?;
             let p = run.particles();
             let mut columns = start_columns(p);
             columns.push(column("jacobian", "-", p.seeded(|k| p.jacobian[k])));
@@ -89,19 +89,19 @@ pub(in crate::cases) fn foreign() -> Foreign {
     }
 }
 
-/// What is measured of a flow; what a column is missing for is measured of zeros, which no group takes.
+/// Metrics of a flow; missing columns are zeros, whose metrics no group takes.
 fn of_flow(given: &Given) -> Measured {
     let at = |asked: &Asked, k: usize| given.column(asked).get(k).copied().unwrap_or_default();
-    let row = |k: usize| Row {
+    let row = |k: usize| State {
         time: at(&TIME, k),
         front: at(&FRONT, k),
         kinetic: at(&KINETIC, k),
         potential: at(&POTENTIAL, k),
         stress_work: at(&STRESS_WORK, k),
         covered: at(&COVERED, k),
-        ..Row::default()
+        ..State::default()
     };
     let rows = (0..given.column(&TIME).len()).map(row).collect();
-    let density = given.parameters.number(DENSITY);
+    let density = Setup::<DamBreak>::of_spec(&given.spec, &given.parameters)?.density;
     Ok(Flow { rows }.metrics(density, given.spec.level.h))
 }

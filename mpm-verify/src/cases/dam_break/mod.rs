@@ -3,72 +3,132 @@
 //! Section 4.3 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/dam-break.md`.
 
 mod checks;
+mod figures;
 mod flow;
 pub(super) mod foreign;
-mod metrics;
-mod parameters;
-mod pictures;
 mod reference;
-mod scene;
-mod sketch;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::{family, pairs};
-use crate::case::{Case, Family, FieldView, Tier};
-use crate::drive::Drive;
-use crate::metric::{Quantity, Sweep, error, value};
-use crate::results::{Column, headline};
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use crate::spec::{Level, RunSpec};
-use metrics as m;
-use parameters::{CFL, PIC_RATE};
-use scene::Dam;
-use watch::Seen;
+use super::family::pairs;
+use super::parameters::{self as common, Wall as WallTreatment};
+use crate::metric::Quantity as Studied;
+use crate::parameter::Parameter;
+use crate::prelude::*;
+use crate::results::BASIS;
+use reference::{DEPTH, GRAVITY, LENGTH, TANK};
 
-use BasisName::{Bspline2, Bspline3, Gimp};
-use RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal};
-
-const LEVELS: [Level; 4] = [
-    level("h0.5", 0.5),
-    level("h0.25", 0.25),
-    level("h0.125", 0.125),
-    level("h0.0625", 0.0625),
+const LEVELS: [(&str, f64); 4] = [
+    ("h0.5", 0.5),
+    ("h0.25", 0.25),
+    ("h0.125", 0.125),
+    ("h0.0625", 0.0625),
 ];
+const BASES: [BasisName; 2] = [Gimp, Bspline2];
+/// Runs over the levels take larger steps than the case's own.
+const LADDER: &str = "cfl=0.3";
+/// Until the front has met the wall.
+const SHORT: &str = "cfl=0.3 duration=0.6";
 
-const fn level(name: &'static str, h: f64) -> Level {
-    Level { name, h }
+choices! {
+    /// How the water comes to rest behind the gate.
+    pub(super) enum Rest { Exact = "exact", GravityStage = "gravity-stage" }
 }
 
-const BASES: [BasisName; 2] = [Gimp, Bspline2];
+choices! {
+    /// Contact of the water with the walls.
+    pub(super) enum Contact { Separable = "separable", Sticky = "sticky" }
+}
 
-/// Runs over the levels take larger steps than the case's own.
-const LADDER: &[&str] = &["cfl=0.3"];
-/// Until the front has met the wall.
-const SHORT: &[&str] = &["cfl=0.3", "duration=0.6"];
+const CFL: Parameter = common::CFL.with_default("0.0567").named("cfl");
+const PIC_RATE: Parameter = real("1/s", "0", 0.0, 1e6).named("pic_rate");
+
+parameters! {
+    /// Parameters of the dam break.
+    pub(super) struct DamBreak {
+        bulk_modulus: f64 = real("Pa", "2e9", 1e5, 1e12), "bulk modulus K";
+        density: f64 = real("kg/m³", "997.5", 1e-3, 1e5), "density ρ without pressure";
+        viscosity: f64 = real("Pa s", "0.001", 0.0, 1e6), "dynamic viscosity μ";
+        duration: f64 = real("s", "2", 0.01, 10.0), "time after the removal of the gate";
+        start: Rest = Rest::Exact.by_default(),
+            "how the water comes to rest behind the gate: exactly, or by gravity that rises from zero, with damping";
+        wall_contact: Contact = Contact::Separable.by_default(),
+            "whether water comes off the walls freely or they bear tension; it slides freely along either";
+        cfl: f64 = CFL,
+            "largest CFL number c Δt / h of pressure waves; Δt is a whole fraction of 0.005 s, 10⁻⁵ s at h = 0.25 m";
+        pic_rate: f64 = PIC_RATE, "share of PIC per unit of time, r: η = exp(−r Δt); 0 is FLIP";
+        wall: WallTreatment = common::WALL, "how B-splines meet floor and walls";
+        ppc_per_direction: usize = whole("-", "5", 1, 8), "particles per cell and direction";
+        seed: i32 = whole("-", "0", 0, 1000),
+            "which member of an ensemble whose starts differ in last bits; 0 is the undisturbed one";
+    }
+}
+
+metrics! { ALL:
+    BASE_REACTION_RATIO = "base_reaction_ratio", "-",
+        "force on the floor over the weight of the water, behind the gate: mean over three of the water's longest periods from the exact start, over 0.005 s after a gravity stage";
+    GATE_FORCE = "gate_force", "N/m", "force on the gate, likewise";
+    BACK_FORCE = "back_force", "N/m", "force on the back wall, likewise";
+    BASE_PRESSURE = "base_pressure", "Pa",
+        "pressure at the floor behind the gate, one step from the exact start or after the gravity stage, by a line through the particles of the lower half";
+    PRESSURE_PROFILE_ERROR = "pressure_profile_error", "-",
+        "rms over the particles of the pressure less the hydrostatic one, over that at the floor, then";
+    START_KINETIC_ENERGY = "start_kinetic_energy", "J/m",
+        "kinetic energy behind the gate when the forces have been measured";
+    FRONT_X_EARLY = "front_x_0.4s", "m", "outermost particle and half its spacing, 0.4 s after the removal";
+    FRONT_RMS_ERROR = "front_rms_error", "m",
+        "rms distance of the front from the inviscid one, t √(g/H) from 0.2 to 0.9";
+    FRONT_SPEED_MAX = "front_speed_max", "m/s",
+        "largest speed of the front until it is two cells off the wall";
+    ARRIVAL_TIME = "arrival_time", "s", "when the front is two cells off the wall";
+    ARRIVAL_ERROR = "arrival_error", "s", "distance of that time from the inviscid one";
+    BACK_LEVEL_EARLY = "back_level_0.4s", "m",
+        "highest particle within a cell of the back wall and half its spacing, at 0.4 s";
+    ENERGY_RATIO = "energy_ratio", "-",
+        "kinetic and potential energy and stress work at 0.4 s over those at the start";
+    ENERGY_RATIO_2S = "energy_ratio_2s", "-", "likewise at 2 s";
+    ENERGY_GAIN = "energy_gain", "-", "largest growth of that energy in 0.005 s, over its start";
+    ENERGY_EXCESS = "energy_excess", "-", "largest excess of it over its start, relative";
+    MOTION_RATIO_2S = "motion_ratio_2s", "-", "kinetic and potential energy at 2 s over those at the start";
+    MOTION_EXCESS = "motion_excess", "-",
+        "largest excess of kinetic and potential energy over their start, relative";
+    MOTION_LOSS = "motion_loss", "-", "largest loss of them, over their start";
+    PRESSURE_RMS = "pressure_rms", "Pa", "rms over the particles of the pressure at 0.4 s";
+    CHECKERBOARD_RMS = "checkerboard_rms", "Pa", "rms over the particles of p − Πp at 0.4 s";
+    TENSION_SHARE = "tension_share", "-", "share of the particles in tension at 0.4 s";
+    COVERED_EARLY = "covered_0.4s", "m²",
+        "area under the highest particles at 0.4 s, in strips two particles wide";
+    CENTRE_X_EARLY = "centre_x_0.4s", "m", "centre of mass at 0.4 s";
+    CENTRE_X_MEAN = "centre_x_mean", "m", "centre of mass, mean over 2 s";
+    CENTRE_Y_MEAN = "centre_y_mean", "m", "its height, likewise";
+    WALL_IMPULSE = "wall_impulse", "N s/m", "impulse on the front wall in 2 s";
+    JACOBIAN_MIN = "jacobian_min", "-", "least J of a particle at any time";
+    JACOBIAN_MAX = "jacobian_max", "-", "greatest J of a particle at any time";
+    LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at 0.4 s";
+    MASS = "mass", "kg/m", "mass of the water at the end";
+}
 
 fn headlines() -> Vec<Column> {
     vec![
-        headline(m::FRONT_X_EARLY, "front at 0.4 s (m)", 1.0, 3),
-        headline(m::FRONT_RMS_ERROR, "front, rms error (m)", 1.0, 3),
-        headline(m::ARRIVAL_ERROR, "arrival, error (ms)", 1e3, 1),
-        headline(m::ENERGY_RATIO, "energy at 0.4 s (–)", 1.0, 4),
-        headline(m::ENERGY_RATIO_2S, "energy at 2 s (–)", 1.0, 3),
-        headline(m::MOTION_RATIO_2S, "without stress work (–)", 1.0, 3),
-        headline(m::PRESSURE_RMS, "p rms at 0.4 s (kPa)", 1e-3, 1),
-        headline(m::CHECKERBOARD_RMS, "p − Πp rms (kPa)", 1e-3, 2),
-        headline(m::TENSION_SHARE, "in tension (%)", 100.0, 1),
-        headline(m::COVERED_EARLY, "covered at 0.4 s (m²)", 1.0, 2),
-        headline(m::WALL_IMPULSE, "wall impulse (kN s/m)", 1e-3, 2),
-        headline(m::LOG_JACOBIAN_GAP, "ln(J/J̄) at 0.4 s (–)", 1.0, 4),
+        headline(FRONT_X_EARLY, "front at 0.4 s (m)", 1.0, 3),
+        headline(FRONT_RMS_ERROR, "front, rms error (m)", 1.0, 3),
+        headline(ARRIVAL_ERROR, "arrival, error (ms)", 1e3, 1),
+        headline(ENERGY_RATIO, "energy at 0.4 s (–)", 1.0, 4),
+        headline(ENERGY_RATIO_2S, "energy at 2 s (–)", 1.0, 3),
+        headline(MOTION_RATIO_2S, "without stress work (–)", 1.0, 3),
+        headline(PRESSURE_RMS, "p rms at 0.4 s (kPa)", 1e-3, 1),
+        headline(CHECKERBOARD_RMS, "p − Πp rms (kPa)", 1e-3, 2),
+        headline(TENSION_SHARE, "in tension (%)", 100.0, 1),
+        headline(COVERED_EARLY, "covered at 0.4 s (m²)", 1.0, 2),
+        headline(WALL_IMPULSE, "wall impulse (kN s/m)", 1e-3, 2),
+        headline(LOG_JACOBIAN_GAP, "ln(J/J̄) at 0.4 s (–)", 1.0, 4),
     ]
 }
 
-const QUANTITIES: &[Quantity] = &[
-    error(m::FRONT_RMS_ERROR, "rms error of the front (m)"),
-    error(m::ARRIVAL_ERROR, "error of the arrival (s)"),
-    value(m::WALL_IMPULSE, "impulse on the wall (N s/m)"),
-    value(m::CENTRE_X_MEAN, "mean centre of mass (m)"),
+const QUANTITIES: &[Studied] = &[
+    error(FRONT_RMS_ERROR, "rms error of the front (m)"),
+    error(ARRIVAL_ERROR, "error of the arrival (s)"),
+    value(WALL_IMPULSE, "impulse on the wall (N s/m)"),
+    value(CENTRE_X_MEAN, "mean centre of mass (m)"),
 ];
 
 const SWEEPS: &[Sweep] = &[
@@ -86,11 +146,9 @@ const SWEEPS: &[Sweep] = &[
     },
 ];
 
-/// The dam break.
 pub(super) fn case() -> Case {
+    let levels = LEVELS.map(|(name, h)| Level { name, h });
     Case {
-        name: "dam-break",
-        title: "Dam break",
         description: "Water, nearly incompressible, 4 m × 2 m behind a gate that is removed at once; it runs along the floor of a \
          tank 6 m long and climbs the wall. The front is known from inviscid flow, energy may only be lost. \
          Standard MPM locks: it flows too slowly, with a pressure that is noise.",
@@ -101,10 +159,8 @@ pub(super) fn case() -> Case {
             "There is no air and no surface tension: jets are not those of water.",
             "Nothing damps sound: the pressure of fbar-consistent is noisier than that of fbar-recursive.",
         ],
-        parameters: parameters::ALL.to_vec(),
-        levels: LEVELS.to_vec(),
-        plan: plan(),
-        metrics: m::ALL.to_vec(),
+        plan: plan(&levels),
+        levels: levels.to_vec(),
         checks: checks::checks(),
         headlines: headlines(),
         quantities: QUANTITIES.to_vec(),
@@ -117,17 +173,13 @@ pub(super) fn case() -> Case {
             range: (-1e5, 1e5),
             window: [(0.0, 5.0), (0.0, 2.0)],
         }),
-        sketch: sketch::sketch(),
+        sketch: sketch(),
         cost: Box::new(cost),
-        ladder: LADDER,
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| {
-            let dam = Dam::new(spec, parameters)?;
-            Ok(Box::new(Drive::new(dam, Seen::default())?))
-        }),
-        pictures: pictures::draw,
-        tables: tables::all(),
+        ladder: &[LADDER],
+        pictures: figures::draw,
+        tables: tables(),
         breaks_down: checks::breaks_down,
+        ..Case::of::<2, run::Dam>("dam-break", "Dam break", ALL)
     }
 }
 
@@ -140,13 +192,11 @@ fn cost(spec: &RunSpec) -> f64 {
     sweep / spec.level.h.powi(3)
 }
 
-fn plan() -> Vec<Family> {
-    use Tier::{Long, Nightly, Pr};
-    let [h50, h25, h12, h06] = LEVELS;
+fn plan(levels: &[Level]) -> Vec<Family> {
     let flip = |remedies: &[RemedyName]| pairs(&BASES, remedies);
-    let remedies = [RemedyName::None, FbarRecursive, FbarTotal, FbarConsistent];
+    let none = RemedyName::None;
+    let mut all = flip(&[none, FbarRecursive, FbarTotal, FbarConsistent]);
     let apic = |s: &Scheme| Scheme::explicit(s.basis(), s.remedy(), TransferName::Apic);
-    let mut all = flip(&remedies);
     all.extend(all.clone().iter().map(apic));
     all.extend(flip(&[FbarRate]));
     all.push(Scheme::flip(Bspline3, FbarConsistent));
@@ -157,31 +207,203 @@ fn plan() -> Vec<Family> {
         .filter(|s| !finest.contains(s))
         .copied()
         .collect();
-    let three = flip(&[RemedyName::None, FbarRecursive, FbarConsistent]);
+    let three = flip(&[none, FbarRecursive, FbarConsistent]);
     let make_energy = pairs(&[Gimp], &[FbarTotal, FbarRate]);
-    let fewer = &["cfl=0.3", "ppc_per_direction=3"];
-    let studies: [&'static [&'static str]; 10] = [
-        &["cfl=0.15"],
-        &["start=gravity-stage"],
-        &["pic_rate=0.1"],
-        &["pic_rate=1"],
-        &["pic_rate=10"],
-        &["pic_rate=100"],
-        &["wall_contact=sticky"],
-        &["seed=1"],
-        &["seed=2"],
-        &["seed=3"],
+    let studies = [
+        "cfl=0.15",
+        "start=gravity-stage",
+        "pic_rate=0.1",
+        "pic_rate=1",
+        "pic_rate=10",
+        "pic_rate=100",
+        "wall_contact=sticky",
+        "seed=1",
+        "seed=2",
+        "seed=3",
     ];
-    let mut plan = vec![
-        family(Pr, &[h50, h25], &three, SHORT),
-        family(Pr, &[h50], &make_energy, SHORT),
-        family(Pr, &[h50], &finest[..2], &["duration=0.6"]),
-        family(Nightly, &[h50, h25], &all, &[]),
-        family(Nightly, &[h50, h25, h12], &all, LADDER),
-        family(Nightly, &[h06], &finest, LADDER),
-        family(Nightly, &[h50, h25, h12], &ours, fewer),
+    Plan::of(levels)
+        .runs(Pr, "h0.5 h0.25", &three, SHORT)
+        .runs(Pr, "h0.5", &make_energy, SHORT)
+        .runs(Pr, "h0.5", &finest[..2], "duration=0.6")
+        .runs(Nightly, "h0.5 h0.25", &all, "")
+        .runs(Nightly, "h0.5 h0.25 h0.125", &all, LADDER)
+        .runs(Nightly, "h0.0625", &finest, LADDER)
+        .runs(
+            Nightly,
+            "h0.5 h0.25 h0.125",
+            &ours,
+            "cfl=0.3 ppc_per_direction=3",
+        )
+        .each(Nightly, "h0.25", &ours, studies)
+        .runs(Long, "h0.0625", &others, LADDER)
+        .done()
+}
+
+fn sketch() -> Sketch {
+    let shapes = vec![
+        Shape::Body(vec![
+            [0.0, 0.0],
+            [LENGTH, 0.0],
+            [LENGTH, DEPTH],
+            [0.0, DEPTH],
+        ]),
+        Shape::Held([TANK, 0.0], [0.0, 0.0]),
+        Shape::Held([0.0, 0.0], [0.0, 3.0]),
+        Shape::Held([TANK, 3.0], [TANK, 0.0]),
+        Shape::length([0.0, -0.5], [LENGTH, -0.5], "4 m"),
+        Shape::length([0.0, -1.0], [TANK, -1.0], "6 m"),
+        Shape::length([-0.5, 0.0], [-0.5, DEPTH], "2 m"),
+        Shape::note([0.5 * LENGTH, 0.5 * DEPTH], "water"),
+        Shape::note([LENGTH + 0.4, DEPTH + 0.2], "gate"),
     ];
-    plan.extend(studies.map(|set| family(Nightly, &[h25], &ours, set)));
-    plan.push(family(Long, &[h06], &others, LADDER));
-    plan
+    Sketch {
+        shapes,
+        description: "Water four metres long and two metres deep stands between the left wall of a tank and a gate; the tank is six metres long, open above, its floor and walls smooth. The gate is removed at once.",
+    }
+}
+
+const CHANGED: Label = ("changed", |r| r.set.join(", ").replace('_', " "));
+/// Parameters of the runs whose state behind the gate is shown.
+const AT_REST: [&str; 3] = ["", "start=gravity-stage", LADDER];
+
+fn tables() -> Vec<ResultTable> {
+    vec![overview(), of_flow(), at_rest(), studies(), sums()]
+}
+
+/// The front's error, and the kinetic and potential energy that is left.
+fn overview() -> ResultTable {
+    const RUNS: [(RemedyName, &str); 6] = [
+        (RemedyName::None, "h0.125"),
+        (FbarRecursive, "h0.125"),
+        (FbarConsistent, "h0.5"),
+        (FbarConsistent, "h0.25"),
+        (FbarConsistent, "h0.125"),
+        (FbarConsistent, "h0.0625"),
+    ];
+    let text = |r: &Record| {
+        let front = fixed(2).unit(" m").text(r.metric(FRONT_RMS_ERROR));
+        format!("{front}, {}", share(0).text(r.metric(MOTION_RATIO_2S)))
+    };
+    let column = |(remedy, level): (RemedyName, &'static str)| {
+        Column::text(format!("{remedy}, {} m", &level[1..]), text)
+            .of(move |r| r.remedy() == remedy && r.level == level)
+    };
+    ResultTable::new(
+        "dam-break",
+        |r| BASES.contains(&r.basis()) && is_flip(r) && r.set == [LADDER],
+        &[BASIS],
+        RUNS.map(column),
+    )
+}
+
+fn of_flow() -> ResultTable {
+    let range = |r: &Record| {
+        let [least, most] = [JACOBIAN_MIN, JACOBIAN_MAX].map(|j| fixed(2).text(r.metric(j)));
+        format!("{least} … {most}")
+    };
+    ResultTable::new(
+        "dam-break-flow",
+        |r| r.set == [LADDER],
+        &[SCHEME, CELLS],
+        [
+            Column::metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(2)),
+            Column::metric("rms error (m)", FRONT_RMS_ERROR, fixed(2)),
+            Column::metric("arrival off by (ms)", ARRIVAL_ERROR, fixed(0).times(1e3)),
+            Column::metric("p rms (kPa)", PRESSURE_RMS, fixed(1).times(1e-3)),
+            Column::metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3)),
+            Column::metric("in tension", TENSION_SHARE, share(0)),
+            Column::metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3)),
+            Column::metric("with stress work", ENERGY_RATIO_2S, fixed(3)),
+            Column::text("J", range),
+            Column::cpu(),
+        ],
+    )
+}
+
+/// The value of a parameter as it was set, or its default.
+fn word(r: &Record, name: &str, default: &str) -> String {
+    let own = r
+        .set
+        .iter()
+        .find_map(|set| set.strip_prefix(name)?.strip_prefix('='));
+    own.unwrap_or(default).to_owned()
+}
+
+fn at_rest() -> ResultTable {
+    /// ρ g H (Pa); on the gate ½ H times that.
+    fn pressure(r: &Record) -> f64 {
+        Setup::<DamBreak>::number_of(r, |d| d.density) * GRAVITY * DEPTH
+    }
+    let gate = |r: &Record| r.metric(GATE_FORCE) / (0.5 * DEPTH * pressure(r)) - 1.0;
+    let floor = |r: &Record| r.metric(BASE_PRESSURE) / pressure(r) - 1.0;
+    let force = |r: &Record| r.metric(BASE_REACTION_RATIO) - 1.0;
+    ResultTable::new(
+        "dam-break-start",
+        |r| {
+            r.status == Status::Ok
+                && is_flip(r)
+                && AT_REST.iter().any(|set| r.set.join(" ") == *set)
+        },
+        &[
+            SCHEME,
+            CELLS,
+            ("start", |r| word(r, "start", "exact").replace('-', " ")),
+            ("CFL", |r| word(r, "cfl", "0.0567")),
+        ],
+        [
+            Column::value("force on the floor", force, percent(2)),
+            Column::value("on the gate", gate, percent(2)),
+            Column::value("pressure at the floor", floor, percent(2)),
+            Column::metric("profile rms", PRESSURE_PROFILE_ERROR, percent(2)),
+        ],
+    )
+}
+
+/// Shares of PIC, walls, start, last bits: at h = 0.25 m.
+fn studies() -> ResultTable {
+    ResultTable::new(
+        "dam-break-studies",
+        |r| {
+            let ours = r.remedy() == FbarConsistent && BASES.contains(&r.basis());
+            let flow = r
+                .set
+                .iter()
+                .all(|set| !set.starts_with("cfl=") && !set.starts_with("duration="));
+            ours && flow && is_flip(r) && r.level == "h0.25"
+        },
+        &[SCHEME, CHANGED],
+        [
+            Column::metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(3)),
+            Column::metric("rms error (m)", FRONT_RMS_ERROR, fixed(3)),
+            Column::metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3)),
+            Column::metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3)),
+            Column::metric(
+                "impulse on the wall (kN s/m)",
+                WALL_IMPULSE,
+                fixed(2).times(1e-3),
+            ),
+        ],
+    )
+}
+
+fn sums() -> ResultTable {
+    ResultTable::new(
+        "dam-break-sums",
+        |r| {
+            let shown = !r.is_default() || r.remedy() == FbarConsistent;
+            let short = [SHORT, "duration=0.6"].contains(&&*r.set.join(" "));
+            r.status == Status::Ok && shown && !short
+        },
+        &[SCHEME, CELLS, CHANGED],
+        [
+            Column::metric(
+                "impulse on the wall (kN s/m)",
+                WALL_IMPULSE,
+                fixed(2).times(1e-3),
+            ),
+            Column::metric("mean x (m)", CENTRE_X_MEAN, fixed(3)),
+            Column::metric("mean y (m)", CENTRE_Y_MEAN, fixed(3)),
+            Column::metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3)),
+        ],
+    )
 }

@@ -1,31 +1,13 @@
-//! The pictures of the dam break: the paper's Figure 12, the flow against time, an animation.
+//! Figures: the paper's Figure 12, the flow against time, an animation.
 
-use super::LADDER;
-use super::parameters::{CFL, DURATION};
-use super::reference::{TANK, front_curve, time_scale, uncertainty};
+use super::reference::{front_curve, time_scale, uncertainty};
+use super::*;
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
-use crate::draw::{
-    Chart, Dash, FieldFigure, FieldPanel, Marker, Series, animate_fields, share_ranges_of_columns,
-    signed,
-};
-use crate::error::Error;
-use crate::gallery::Gallery;
-use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName};
+use crate::draw::{FieldFigure, FieldPanel, animate_fields, share_ranges_of_columns, signed};
 
-const BASES: [BasisName; 2] = [BasisName::Gimp, BasisName::Bspline2];
 /// From above: standard, the paper's, ours.
-const SHOWN: [RemedyName; 3] = [
-    RemedyName::None,
-    RemedyName::FbarRecursive,
-    RemedyName::FbarConsistent,
-];
-const REMEDIES: [RemedyName; 4] = [
-    RemedyName::None,
-    RemedyName::FbarRecursive,
-    RemedyName::FbarTotal,
-    RemedyName::FbarConsistent,
-];
+const SHOWN: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];
+const REMEDIES: [RemedyName; 4] = [RemedyName::None, FbarRecursive, FbarTotal, FbarConsistent];
 /// The paper's level, or else the one that a short tier has.
 const PREFERRED: [&str; 2] = ["h0.25", "h0.5"];
 /// The paper's times (s).
@@ -39,13 +21,12 @@ const OUTLINE: [(f64, f64); 4] = [(0.0, HEIGHT), (0.0, 0.0), (TANK, 0.0), (TANK,
 const WINDOW: ((f64, f64), (f64, f64)) = ((0.0, TANK), (0.0, HEIGHT));
 /// Greatest pressure (kPa) of the colour scale.
 const MOST_PRESSURE: f64 = 20.0;
-const LEVELS: [&str; 4] = ["h0.0625", "h0.125", "h0.25", "h0.5"];
+const FINEST_FIRST: [&str; 4] = ["h0.0625", "h0.125", "h0.25", "h0.5"];
 
-/// Draws everything there are runs for.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
-    let own = |r: &&Record| r.changes_none_but(&[CFL.name, DURATION.name]);
+    let own = |r: &&Record| r.changes_none_but(&["cfl", "duration"]);
     let mut records: Vec<&Record> = gallery.records.iter().filter(own).collect();
-    // Of several the one that changes least.
+    // The run that changes least comes first.
     records.sort_by_key(|r| r.set.len());
     let mut runs = Exhibit::new(gallery, records);
     for basis in BASES {
@@ -57,9 +38,9 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
 
 /// Our run among those that are compared over the levels.
 fn on_the_ladder<'g>(runs: &Exhibit<'_, 'g>, basis: BasisName, level: &str) -> Option<&'g Record> {
-    let ours = |r: &&&Record| (r.basis(), r.remedy()) == (basis, RemedyName::FbarConsistent);
+    let ours = |r: &&&Record| (r.basis(), r.remedy()) == (basis, FbarConsistent);
     let mut own = runs.records.iter().filter(ours).copied();
-    own.find(|r| r.level == level && LADDER.iter().all(|set| r.set.iter().any(|s| s == set)))
+    own.find(|r| r.level == level && r.set.iter().any(|s| s == LADDER))
 }
 
 /// "h = 0.25 m" of the level "h0.25".
@@ -146,12 +127,12 @@ fn snapshots(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
 }
 
 fn animation(runs: &mut Exhibit) -> Result<(), Error> {
-    let Some(level) = runs.level(BasisName::Gimp, &SHOWN, &PREFERRED) else {
+    let Some(level) = runs.level(Gimp, &SHOWN, &PREFERRED) else {
         return Ok(());
     };
     let mut frames = Vec::new();
     for k in 1.. {
-        let column = column(runs, (BasisName::Gimp, level), f64::from(k) * FRAME)?;
+        let column = column(runs, (Gimp, level), f64::from(k) * FRAME)?;
         if column.is_empty() {
             break;
         }
@@ -188,12 +169,12 @@ fn flow(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
         let curves = runs.by_remedy((basis, shared), &REMEDIES, history)?;
         by_remedy.push(chart(level_title(shared), label, column, curves));
         let mut curves = Vec::new();
-        for (colour, level) in LEVELS.into_iter().enumerate() {
+        for (colour, level) in FINEST_FIRST.into_iter().enumerate() {
             if let Some(record) = on_the_ladder(runs, basis, level) {
                 curves.push(Series::line(level_title(level), history(record)?, colour));
             }
         }
-        let title = format!("fbar-consistent, {}", LADDER.join(" "));
+        let title = format!("fbar-consistent, {}", LADDER);
         by_level.push(chart(title, label, column, curves));
     }
     let mut charts = [by_remedy, by_level].concat();
