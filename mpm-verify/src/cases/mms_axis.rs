@@ -3,13 +3,7 @@
 //! Set-up, choices and tolerances: `docs/mms-axis.md`.
 
 use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
-use super::manufactured::checks::{
-    Claims, Wave, between_rollers, of_motion, order_in_time, stress_order,
-};
-use super::manufactured::metrics::DISPLACEMENT_L2;
-use super::manufactured::{
-    CFL, Known, PPC_PER_DIRECTION, Solution, all_parameters, begin, case as of, tables,
-};
+use super::manufactured::*;
 use super::parameters::DYNAMIC;
 use crate::exact::axis_aligned::{ENTRY, HALF_WAVES};
 use crate::exact::common::AMPLITUDE;
@@ -29,21 +23,16 @@ impl Known for Axes {
 }
 
 /// The motion: half waves across the body, a wave by default.
-const WAVE: Wave = Wave {
-    number: |p| PI * p.number(HALF_WAVES),
-    shear: false,
-};
-
-const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, between_rollers)];
+const WAVE: Wave = Wave::pressure(|p| PI * p.number(HALF_WAVES));
 
 pub(super) fn case() -> Case {
-    let case = of::<2, Axes>([
+    let case = known_case::<2, Axes>([
         "mms-axis",
         "Axis-aligned displacement",
         "A neo-Hookean body between rollers is stretched and compressed along its axes by a body force that makes the motion known. Orders of accuracy in space and time for every basis, remedy and transfer; small displacements and forced crossing of cells.",
     ]);
-    let mut checks = of_motion(ORDERS, WAVE);
-    checks.push(stress_order(ORDERS));
+    let mut checks = of_motion(between_rollers, WAVE);
+    checks.push(stress_order(between_rollers));
     checks.extend(order_in_time());
     Case {
         references: vec![
@@ -78,53 +67,48 @@ pub(super) fn case() -> Case {
 
 fn plan(levels: &[Level]) -> Vec<Family> {
     let none = RemedyName::None;
-    let main = pairs(
-        &[Gimp, Bspline2],
-        &[none, FbarRecursive, FbarRate, FbarConsistent],
-    );
+    let main = pairs(&SMOOTH, &[none, FbarRecursive, FbarRate, FbarConsistent]);
     let sound = |bases: &[BasisName]| pairs(bases, &[none, FbarRate, FbarConsistent]);
     let compared = pairs(&[Gimp], &[FbarRecursive, FbarConsistent]);
     let all = pairs(&BASES, &REMEDIES);
-    let pair = pairs(&[Gimp, Bspline2], &REMEDIES);
+    let pair = pairs(&SMOOTH, &REMEDIES);
     // The step that the program offers: stable, and right.
     let offered = pairs(&BASES[1..], &[none, FbarConsistent]);
-    let large = pairs(&[Gimp, Bspline2], &[none]);
+    let large = pairs(&SMOOTH, &[none]);
     let musl = [Scheme::explicit(Gimp, none, TransferName::Musl)];
     let rules = [RuleName::Midpoint, RuleName::Newmark];
     let moved = implicit(&rules, &BASES[..3], &[none]);
-    let smooth = implicit(&rules[..1], &[Gimp, Bspline2], &[none]);
-    let (three, four, five) = ("n8 n16 n32", "n8 n16 n32 n64", "n8 n16 n32 n64 n128");
-    let more = ["ppc_per_direction=3", "ppc_per_direction=4"];
+    let smooth = implicit(&rules[..1], &SMOOTH, &[none]);
     let shorter = ["cfl=0.15", "cfl=0.075", "cfl=0.0375"];
-    let densities = ["ppc_per_direction=1", more[0], more[1]];
+    let densities = ["ppc_per_direction=1", MORE[0], MORE[1]];
     Plan::of(levels)
         .runs(Quick, "n8", &large[..1], "")
-        .runs(Pr, three, &main, "")
-        .runs(Pr, three, &compared, "step_scaling=h2")
+        .runs(Pr, THREE, &main, "")
+        .runs(Pr, THREE, &compared, "step_scaling=h2")
         // Only so large a motion tells where a body force is evaluated; no particle crosses yet.
-        .runs(Pr, three, &large, "amplitude=0.005")
-        .runs(Nightly, five, &all, "")
+        .runs(Pr, THREE, &large, "amplitude=0.005")
+        .runs(Nightly, FIVE, &all, "")
         .runs(Pr, "n8", &offered, "time_step=auto")
-        .runs(Nightly, five, &other_transfers(), "")
-        .runs(Nightly, five, &musl, "")
-        .runs(Nightly, four, &pair, "step_scaling=h2")
-        .runs(Nightly, four, &sound(&BASES), "amplitude=0.02")
+        .runs(Nightly, FIVE, &other_transfers(), "")
+        .runs(Nightly, FIVE, &musl, "")
+        .runs(Nightly, FOUR, &pair, "step_scaling=h2")
+        .runs(Nightly, FOUR, &sound(&BASES), "amplitude=0.02")
         .runs(
             Nightly,
-            four,
+            FOUR,
             &sound(&BASES[1..]),
             "amplitude=0.02 ppc_per_direction=4",
         )
-        .runs(Nightly, four, &all, "dimension=1")
-        .runs(Nightly, three, &sound(&[Gimp, Bspline2]), "dimension=3")
-        .runs(Pr, three, &smooth[1..], "cfl=2")
-        .runs(Nightly, four, &moved, "cfl=2")
-        .runs(Nightly, three, &moved[..3], "amplitude=0.02 cfl=2")
+        .runs(Nightly, FOUR, &all, "dimension=1")
+        .runs(Nightly, THREE, &sound(&SMOOTH), "dimension=3")
+        .runs(Pr, THREE, &smooth[1..], "cfl=2")
+        .runs(Nightly, FOUR, &moved, "cfl=2")
+        .runs(Nightly, THREE, &moved[..3], "amplitude=0.02 cfl=2")
         .runs(Nightly, "n16 n32", &smooth, "cfl=0.5")
         .runs(Nightly, "n16 n32 n64", &smooth, "cfl=5")
         .runs(Nightly, "n64", &smooth, "cfl=50")
         .runs(Long, "n128", &moved, "cfl=2")
-        .each(Nightly, three, &main_pairs(), more)
+        .each(Nightly, THREE, &main_pairs(), MORE)
         .each(Nightly, "n16", &pair, shorter)
         .each(Nightly, "n32", &sound(&BASES), densities)
         .done()

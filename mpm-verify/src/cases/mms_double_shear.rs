@@ -3,15 +3,7 @@
 //! Set-up, choices and tolerances: `docs/mms-double-shear.md`.
 
 use super::family::{BASES, REMEDIES, main_pairs, other_transfers, pairs};
-use super::manufactured::checks::{
-    Claim, Claims, JUMPS, LOCKING_CURVE, NULL_SPACE, TRANSFER, Wave, feeds_null_space, locking,
-    of_isochoric, of_motion,
-};
-use super::manufactured::metrics::DISPLACEMENT_L2;
-use super::manufactured::pictures::mean_stress;
-use super::manufactured::{
-    Boundary, Known, STEP_POISSON_RATIO, Solution, all_parameters, case as of, levels, tables,
-};
+use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
 use crate::exact::double_shear::ENTRY;
 use crate::parameter::Parameter;
@@ -32,16 +24,11 @@ impl Known for DoubleShear {
 }
 
 /// The motion: one wave across the body.
-const WAVE: Wave = Wave {
-    number: |_| TAU,
-    shear: true,
-};
-
-const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
+const WAVE: Wave = Wave::shear(|_| TAU);
 
 pub(super) fn case() -> Case {
     let levels = levels()[..4].to_vec();
-    let mut checks = of_motion(ORDERS, WAVE);
+    let mut checks = of_motion(claim, WAVE);
     checks.extend(locking());
     Case {
         references: vec![
@@ -72,7 +59,7 @@ pub(super) fn case() -> Case {
             ),
             tables::pressure("mms-double-shear-pressure", ["n8", "n16", "n32", "n64"]),
         ],
-        ..of::<2, DoubleShear>([
+        ..known_case::<2, DoubleShear>([
             "mms-double-shear",
             "Double shear",
             "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
@@ -81,19 +68,15 @@ pub(super) fn case() -> Case {
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let few = pairs(
-        &[Gimp, Bspline2],
-        &[RemedyName::None, FbarRate, FbarConsistent],
-    );
+    let few = pairs(&SMOOTH, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
-    let more = ["ppc_per_direction=3", "ppc_per_direction=4"];
     Plan::of(levels)
         .runs(Quick, "n8", &few[2..3], "")
-        .runs(Pr, "n8 n16 n32", &[few[1], few[2], few[5]], "")
-        .runs(Nightly, "n8 n16 n32 n64", &all, "")
-        .runs(Nightly, "n8 n16 n32 n64", &other_transfers(), "")
-        .each(Nightly, "n8 n16 n32", &main_pairs(), more)
-        .runs(Nightly, "n8 n16 n32", &all, "poisson_ratio=0.3")
+        .runs(Pr, THREE, &[few[1], few[2], few[5]], "")
+        .runs(Nightly, FOUR, &all, "")
+        .runs(Nightly, FOUR, &other_transfers(), "")
+        .each(Nightly, THREE, &main_pairs(), MORE)
+        .runs(Nightly, THREE, &all, "poisson_ratio=0.3")
         .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.49")
         .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.499")
         .done()

@@ -3,10 +3,7 @@
 //! Set-up, choices and tolerances: `docs/mms-swirl.md`.
 
 use super::family::{main_pairs, pairs};
-use super::manufactured::checks::{OF_VORTEX, VORTEX, locking, of_motion};
-use super::manufactured::{
-    Boundary, Known, STEP_POISSON_RATIO, Solution, all_parameters, case as of, levels, tables,
-};
+use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
 use crate::exact::swirl::ENTRY;
 use crate::parameter::Parameter;
@@ -27,12 +24,8 @@ impl Known for Swirl {
 
 pub(super) fn case() -> Case {
     let levels = levels()[..3].to_vec();
-    let few = pairs(
-        &[Gimp, Bspline2],
-        &[RemedyName::None, FbarRate, FbarConsistent],
-    );
-    let more = ["ppc_per_direction=3", "ppc_per_direction=4"];
-    let mut checks = of_motion(OF_VORTEX, VORTEX);
+    let few = pairs(&SMOOTH, &COMPARED);
+    let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
     Case {
         references: vec![
@@ -45,9 +38,9 @@ pub(super) fn case() -> Case {
         plan: Plan::of(&levels)
             .runs(Quick, "n8", &few[2..3], "")
             .runs(Pr, "n8", &few, "")
-            .runs(Nightly, "n8 n16 n32", &few, "")
+            .runs(Nightly, THREE, &few, "")
             .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.3")
-            .each(Nightly, "n8 n16", &main_pairs(), more)
+            .each(Nightly, "n8 n16", &main_pairs(), MORE)
             .done(),
         levels,
         checks,
@@ -56,7 +49,7 @@ pub(super) fn case() -> Case {
             tables::locking("mms-swirl-locking", [("n8", "n8", ""), ("n16", "n16", "")]),
             tables::pressure("mms-swirl-pressure", ["n8", "n16", "n32"]),
         ],
-        ..of::<3, Swirl>([
+        ..known_case::<3, Swirl>([
             "mms-swirl",
             "Swirl in three dimensions",
             "The middle of a cube turns about the vertical by an angle that is largest in the centre and vanishes on all sides: isochoric, in three dimensions.",

@@ -3,13 +3,7 @@
 //! Set-up, choices and tolerances: `docs/mms-vortex-box.md`.
 
 use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
-use super::manufactured::checks::{
-    LOCKING_CURVE, NULL_SPACE, OF_VORTEX, VORTEX, locking, of_motion,
-};
-use super::manufactured::pictures::mean_stress;
-use super::manufactured::{
-    CFL, Known, STEP_POISSON_RATIO, Solution, all_parameters, case as of, tables,
-};
+use super::manufactured::*;
 use super::parameters::{DYNAMIC, POISSON_RATIO};
 use crate::exact::vortex_box::ENTRY;
 use crate::parameter::Parameter;
@@ -28,12 +22,12 @@ impl Known for Vortex {
 }
 
 pub(super) fn case() -> Case {
-    let case = of::<2, Vortex>([
+    let case = known_case::<2, Vortex>([
         "mms-vortex-box",
         "Vortex in a box",
         "The middle of a square turns by a radian while its sides stay: no volume changes, so the exact motion doesn't depend on Poisson's ratio, and the error at ν = 0.4999 over that at 0.3 is locking and nothing else.",
     ]);
-    let mut checks = of_motion(OF_VORTEX, VORTEX);
+    let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
     Case {
         references: vec![
@@ -64,13 +58,11 @@ pub(super) fn case() -> Case {
 
 fn plan(levels: &[Level]) -> Vec<Family> {
     let two = [Gimp, Bspline2];
-    let few = pairs(&two, &[RemedyName::None, FbarRate, FbarConsistent]);
+    let few = pairs(&two, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
     let limit = pairs(&two, &[RemedyName::None, FbarRecursive, FbarConsistent]);
     let [midpoint, newmark] = [RuleName::Midpoint, RuleName::Newmark]
         .map(|rule| implicit(&[rule], &two, &[RemedyName::None, FbarConsistent]));
-    let (three, four) = ("n8 n16 n32", "n8 n16 n32 n64");
-    let more = ["ppc_per_direction=3", "ppc_per_direction=4"];
     let near = ["0.49999", "0.499999", "0.4999999"];
     let explicit = near.map(|nu| format!("poisson_ratio={nu} step_poisson_ratio={nu}"));
     let implicit = near.map(|nu| format!("cfl=50 poisson_ratio={nu}"));
@@ -81,24 +73,24 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     ];
     Plan::of(levels)
         .runs(Quick, "n8", &few[2..3], "")
-        .runs(Pr, three, &few, "")
+        .runs(Pr, THREE, &few, "")
         .runs(Pr, "n8 n16", &few, "poisson_ratio=0.3")
-        .runs(Nightly, four, &all, "")
-        .runs(Nightly, four, &other_transfers(), "")
+        .runs(Nightly, FOUR, &all, "")
+        .runs(Nightly, FOUR, &other_transfers(), "")
         .runs(Nightly, "n128", &few[3..], "")
         .runs(Pr, "n8 n16", &midpoint[..2], "cfl=50")
         .runs(Pr, "n8 n16", &midpoint[..2], "cfl=50 poisson_ratio=0.3")
-        .runs(Nightly, four, &midpoint, "cfl=50")
+        .runs(Nightly, FOUR, &midpoint, "cfl=50")
         .runs(Nightly, "n8 n16", &midpoint, "cfl=50 poisson_ratio=0.3")
-        .runs(Nightly, three, &midpoint, "cfl=50 poisson_ratio=0.499")
-        .runs(Nightly, four, &newmark, "cfl=10")
+        .runs(Nightly, THREE, &midpoint, "cfl=50 poisson_ratio=0.499")
+        .runs(Nightly, FOUR, &newmark, "cfl=10")
         .runs(Nightly, "n8 n16", &newmark, "cfl=10 poisson_ratio=0.3")
         .runs(Long, "n128", &midpoint, "cfl=50")
         .runs(Long, "n128", &newmark, "cfl=10")
-        .each(Nightly, three, &main_pairs(), more)
+        .each(Nightly, THREE, &main_pairs(), MORE)
         .each(Nightly, "n8 n16", &limit, explicit)
         .each(Nightly, "n8 n16", &midpoint, implicit)
-        .each(Nightly, three, &all, soft)
+        .each(Nightly, THREE, &all, soft)
         .runs(Long, "n128", &all, "")
         .runs(Long, "n128", &other_transfers(), "")
         .done()

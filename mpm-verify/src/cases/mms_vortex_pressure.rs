@@ -3,10 +3,7 @@
 //! Set-up, choices and tolerances: `docs/mms-vortex-pressure.md`.
 
 use super::family::{REMEDIES, main_pairs, other_transfers, pairs};
-use super::manufactured::checks::{LOCKING_CURVE, OF_VORTEX, VORTEX, locking, of_motion};
-use super::manufactured::{
-    Known, STEP_POISSON_RATIO, Solution, all_parameters, case as of, levels, tables,
-};
+use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
 use crate::exact::vortex_pressure::ENTRY;
 use crate::parameter::Parameter;
@@ -26,7 +23,7 @@ impl Known for PressedVortex {
 
 pub(super) fn case() -> Case {
     let levels = levels()[..4].to_vec();
-    let mut checks = of_motion(OF_VORTEX, VORTEX);
+    let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
     Case {
         references: vec![
@@ -55,7 +52,7 @@ pub(super) fn case() -> Case {
             ),
             tables::pressure("mms-vortex-pressure-pressure", ["n8", "n16", "n32", "n64"]),
         ],
-        ..of::<2, PressedVortex>([
+        ..known_case::<2, PressedVortex>([
             "mms-vortex-pressure",
             "Vortex with a bounded pressure",
             "The vortex in a box, with a pressure that stays bounded as the body becomes incompressible: a remedy must not only remove the spurious pressure but leave the true one.",
@@ -64,9 +61,8 @@ pub(super) fn case() -> Case {
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let all = pairs(&[Gimp, Bspline2], &REMEDIES);
-    let sound = pairs(&[Gimp, Bspline2], &[FbarRate, FbarConsistent]);
-    let more = ["ppc_per_direction=3", "ppc_per_direction=4"];
+    let all = pairs(&SMOOTH, &REMEDIES);
+    let sound = pairs(&SMOOTH, &[FbarRate, FbarConsistent]);
     let ratios = [
         "poisson_ratio=0.3",
         "poisson_ratio=0.49",
@@ -75,9 +71,9 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     Plan::of(levels)
         .runs(Quick, "n8", &sound[1..2], "")
         .runs(Pr, "n8 n16", &sound, "")
-        .runs(Nightly, "n8 n16 n32 n64", &all, "")
-        .runs(Nightly, "n8 n16 n32 n64", &other_transfers(), "")
-        .each(Nightly, "n8 n16 n32", &main_pairs(), more)
+        .runs(Nightly, FOUR, &all, "")
+        .runs(Nightly, FOUR, &other_transfers(), "")
+        .each(Nightly, THREE, &main_pairs(), MORE)
         .each(Nightly, "n8 n16", &all, ratios)
         .done()
 }

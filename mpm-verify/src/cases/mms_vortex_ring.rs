@@ -3,12 +3,7 @@
 //! Set-up, choices and tolerances: `docs/mms-vortex-ring.md`.
 
 use super::family::{main_pairs, other_transfers, pairs};
-use super::manufactured::checks::{Claim, Claims, TRANSFER, Wave, of_motion};
-use super::manufactured::metrics::DISPLACEMENT_L2;
-use super::manufactured::{
-    Boundary, Known, PPC_PER_DIRECTION, STEP_POISSON_RATIO, Solution, all_parameters, case as of,
-    levels, tables,
-};
+use super::manufactured::*;
 use crate::exact::vortex_ring::{ANGLE, ENTRY};
 use crate::parameter::Parameter;
 use crate::prelude::*;
@@ -37,22 +32,13 @@ const LARGE: f64 = 0.1;
 const EIGHTH: &str = "angle=0.7853981633974483";
 
 /// The motion: half a wave across the ring.
-const WAVE: Wave = Wave {
-    number: |_| TAU,
-    shear: true,
-};
-
-const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
+const WAVE: Wave = Wave::shear(|_| TAU);
 
 pub(super) fn case() -> Case {
     let levels = levels()[..4].to_vec();
     let few = main_pairs();
-    let all = pairs(
-        &[Gimp, Bspline2, Bspline3],
-        &[RemedyName::None, FbarRate, FbarConsistent],
-    );
+    let all = pairs(&[Gimp, Bspline2, Bspline3], &COMPARED);
     let all = [all, other_transfers()].concat();
-    let more = ["ppc_per_direction=3", "ppc_per_direction=4"];
     Case {
         references: vec![
             "Exact solution: Kamojjala et al. 2015, doi:10.1007/s00366-013-0342-x; material at rest fills the square around the ring.".to_owned(),
@@ -64,17 +50,17 @@ pub(super) fn case() -> Case {
         plan: Plan::of(&levels)
             .runs(Quick, "n8", &few[..1], "")
             .runs(Pr, "n8 n16", &few, "")
-            .runs(Nightly, "n8 n16 n32 n64", &all, "")
-            .each(Nightly, "n8 n16 n32", &few, more)
-            .runs(Nightly, "n8 n16 n32", &few, EIGHTH)
+            .runs(Nightly, FOUR, &all, "")
+            .each(Nightly, THREE, &few, MORE)
+            .runs(Nightly, THREE, &few, EIGHTH)
             .done(),
         levels,
-        checks: of_motion(ORDERS, WAVE),
+        checks: of_motion(claim, WAVE),
         tables: vec![
             tables::own_orders("mms-vortex-ring"),
             tables::errors("mms-vortex-ring-large", ["n8", "n16", "n32"].map(|n| (n, n, EIGHTH))),
         ],
-        ..of::<2, Ring>([
+        ..known_case::<2, Ring>([
             "mms-vortex-ring",
             "Vortex in a ring",
             "A ring of a square block turns about its middle, most at half its thickness and not at all at its edges. Rotation, shear and a body force that jumps.",

@@ -4,11 +4,7 @@
 //! Set-up, choices and tolerances: `docs/mms-wall-pressure.md`.
 
 use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
-use super::manufactured::checks::{
-    Claim, Claims, HATS, Wave, between_rollers, of_motion, order_in_time, stress_order,
-};
-use super::manufactured::metrics::DISPLACEMENT_L2;
-use super::manufactured::{Known, Solution, all_parameters, begin, case as of, tables};
+use super::manufactured::*;
 use super::parameters::DYNAMIC;
 use crate::exact::common::AMPLITUDE;
 use crate::exact::wall_pressure::ENTRY;
@@ -28,12 +24,8 @@ impl Known for WallPressure {
 }
 
 /// The motion: half a wave across the body.
-const WAVE: Wave = Wave {
-    number: |_| PI,
-    shear: false,
-};
+const WAVE: Wave = Wave::pressure(|_| PI);
 
-const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
 const LARGE: &str = "amplitude=0.05 ppc_per_direction=4";
 
 /// As without a pressure gradient at the walls, but that the floor of hats is half as high.
@@ -45,13 +37,13 @@ fn claim(r: &Setup<()>) -> Claim {
 }
 
 pub(super) fn case() -> Case {
-    let case = of::<2, WallPressure>([
+    let case = known_case::<2, WallPressure>([
         "mms-wall-pressure",
         "Pressure gradient at walls",
         "A neo-Hookean body between rollers is squeezed along its axes so that the pressure is steepest at the walls. Whether bases and averages keep their order there, with both treatments of splines at a wall.",
     ]);
-    let mut checks = of_motion(ORDERS, WAVE);
-    checks.push(stress_order(ORDERS));
+    let mut checks = of_motion(claim, WAVE);
+    checks.push(stress_order(claim));
     checks.extend(order_in_time());
     Case {
         references: vec![
@@ -90,25 +82,23 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let splines = pairs(&[Bspline2, Bspline3], &few);
     let pair = pairs(&two, &REMEDIES);
     let solid = pairs(&two, &[FbarRecursive, FbarConsistent]);
-    let (three, four, five) = ("n8 n16 n32", "n8 n16 n32 n64", "n8 n16 n32 n64 n128");
-    let more = ["ppc_per_direction=3", "ppc_per_direction=4"];
     // Steps, each half as long as the one before; the same with a consistent and a lumped mass.
     let halved = ["cfl=0.4375", "cfl=0.21875", "cfl=0.109375"];
     let consistent = halved.map(|cfl| format!("{cfl} lumped=0"));
     let lumped = halved.map(|cfl| format!("{cfl} lumped=1"));
     Plan::of(levels)
         .runs(Quick, "n8", &own[..1], "")
-        .runs(Pr, three, &own, "")
-        .runs(Pr, three, &splines[..1], "wall=wall-line")
-        .runs(Nightly, five, &pairs(&BASES, &REMEDIES), "")
-        .runs(Nightly, five, &other_transfers(), "")
-        .runs(Nightly, four, &moved, "cfl=2")
+        .runs(Pr, THREE, &own, "")
+        .runs(Pr, THREE, &splines[..1], "wall=wall-line")
+        .runs(Nightly, FIVE, &pairs(&BASES, &REMEDIES), "")
+        .runs(Nightly, FIVE, &other_transfers(), "")
+        .runs(Nightly, FOUR, &moved, "cfl=2")
         .runs(Long, "n128", &moved, "cfl=2")
-        .each(Nightly, three, &main_pairs(), more)
-        .runs(Nightly, four, &pair, "step_scaling=h2")
-        .runs(Nightly, four, &splines, "wall=wall-line")
-        .runs(Nightly, four, &pairs(&BASES, &few), LARGE)
-        .runs(Nightly, three, &solid, "dimension=3")
+        .each(Nightly, THREE, &main_pairs(), MORE)
+        .runs(Nightly, FOUR, &pair, "step_scaling=h2")
+        .runs(Nightly, FOUR, &splines, "wall=wall-line")
+        .runs(Nightly, FOUR, &pairs(&BASES, &few), LARGE)
+        .runs(Nightly, THREE, &solid, "dimension=3")
         .each(Pr, "n8", &definite[1..], &consistent)
         .each(Nightly, "n16", &definite, &consistent)
         .each(Nightly, "n16", &moved, halved)

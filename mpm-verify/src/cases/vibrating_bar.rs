@@ -3,15 +3,7 @@
 //! Set-up, choices and tolerances: `docs/vibrating-bar.md`.
 
 use super::family::{BASES, REMEDIES, implicit, pairs};
-use super::manufactured::checks::{
-    Claim, Claims, Gate, NULL_SPACE, OFF_NODE, feeds_null_space, is_sound, mass, motion_lost,
-    moves, orders, rests, slowed,
-};
-use super::manufactured::metrics::{
-    AMPLITUDE_RATIO, DAMPING, ENERGY_END, ENERGY_GAIN, ENERGY_LOSS, FREQUENCY_ERROR,
-    FREQUENCY_RATIO, LUMPING_LOSS,
-};
-use super::manufactured::{CFL, DURATION, Known, Solution, all_parameters, case as of, levels};
+use super::manufactured::*;
 use super::parameters::{DYNAMIC, LUMPED};
 use crate::exact::common::AMPLITUDE;
 use crate::exact::vibrating_bar::{ENDS, ENTRY, VibratingBar};
@@ -96,7 +88,6 @@ pub(super) fn case() -> Case {
     let all = pairs(&BASES, &REMEDIES);
     let rules = [RuleName::Midpoint, RuleName::Newmark];
     let moved = implicit(&rules, &BASES[..3], &[RemedyName::None]);
-    let four = "n8 n16 n32 n64";
     Case {
         references: vec![
             "Exact frequency: ω = k c of uniaxial strain (Achenbach 1973); of the amplitude kA = 3·10⁻⁴ the frequency of the neo-Hookean bar depends by 10⁻⁷.".to_owned(),
@@ -108,10 +99,10 @@ pub(super) fn case() -> Case {
         ],
         plan: Plan::of(&levels)
             .runs(Quick, "n8", &all[..1], "")
-            .runs(Pr, "n8 n16 n32", &all, "")
-            .runs(Nightly, four, &all, "")
+            .runs(Pr, THREE, &all, "")
+            .runs(Nightly, FOUR, &all, "")
             .each(Pr, "n8 n16", &moved, ["cfl=4", "cfl=16"])
-            .each(Nightly, four, &moved, ["cfl=1", "cfl=4"])
+            .each(Nightly, FOUR, &moved, ["cfl=1", "cfl=4"])
             .each(Nightly, "n8", &moved[..3], ["cfl=4 lumped=0", "cfl=4 lumped=1"])
             .done(),
         levels,
@@ -128,7 +119,7 @@ pub(super) fn case() -> Case {
             error(DAMPING, "−ln of the amplitude's ratio"),
         ],
         tables: vec![results(), softenings(), over_rules()],
-        ..of::<1, Bar>([
+        ..known_case::<1, Bar>([
             "vibrating-bar",
             "Vibrating bar",
             "A bar between rigid ends vibrates in its first mode over a hundred periods without any load: the frequency tells the stiffness that a basis and an average leave, the amplitude what a transfer takes.",

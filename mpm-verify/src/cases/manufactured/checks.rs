@@ -5,8 +5,8 @@ mod locking;
 mod time;
 
 pub(in crate::cases) use claims::{
-    Claim, Claims, HATS, JUMPS, LOCKS, NULL_SPACE, OF_VORTEX, OFF_NODE, TRANSFER, VORTEX,
-    between_rollers, feeds_null_space, is_beyond_unseen, is_sound, of_isochoric,
+    Claim, Claims, HATS, JUMPS, LOCKS, NULL_SPACE, OFF_NODE, TRANSFER, VORTEX, between_rollers,
+    feeds_null_space, is_beyond_unseen, is_sound, of_isochoric, of_vortex,
 };
 pub(in crate::cases) use locking::{LOCKING_CURVE, locking};
 pub(in crate::cases) use time::{order_in_time, slowed};
@@ -40,10 +40,22 @@ pub(in crate::cases) struct Wave {
     /// Wave number k (1/m) by the parameters.
     pub(in crate::cases) number: fn(&Parameters) -> f64,
     /// Whether it travels by shear, or by pressure.
-    pub(in crate::cases) shear: bool,
+    shear: bool,
 }
 
 impl Wave {
+    /// A wave of shear of this wave number.
+    pub(in crate::cases) const fn shear(number: fn(&Parameters) -> f64) -> Self {
+        let shear = true;
+        Self { number, shear }
+    }
+
+    /// A wave of pressure of this wave number.
+    pub(in crate::cases) const fn pressure(number: fn(&Parameters) -> f64) -> Self {
+        let shear = false;
+        Self { number, shear }
+    }
+
     /// kh.
     fn resolution(&self, r: &Run<()>) -> f64 {
         (self.number)(&r.values) * r.h
@@ -122,18 +134,16 @@ fn phase(r: &Run<()>) -> f64 {
 }
 
 /// The checks of a motion that is a wave: mass, the bound on its error, and the order of its displacement.
-pub(in crate::cases) fn of_motion(of: &'static [(Metric, Claims)], wave: Wave) -> Vec<Check> {
-    let mut checks = vec![mass()];
-    for &(_, claims) in of {
-        checks.push(
-            Gate::truth("error-bound", "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of the largest rms of the exact u, k the wave number of the motion and c the speed of its waves: the largest dispersion among bases and remedies, and what a forced vibration makes of it; of implicit steps 2θ² (⅛ + ⅙ r²/|1 − r²|) more, θ = ωΔt and r that of ω and the free vibration; never more than the motion; left out where known limits are judged instead")
-                .unless(move |r| wave.unbounded(r, &claims(r)).map(str::to_owned))
-                .at_most(DISPLACEMENT_L2, move |r| wave.bound(r) * r.metric(DISPLACEMENT_SCALE))
-                .because_of(move |r| format!("{:.3} times displacement_scale", wave.bound(r))),
-        );
-        checks.push(motion_lost(move |r| wave.unbounded(r, &claims(r))));
-    }
-    checks.extend(orders(of));
+pub(in crate::cases) fn of_motion(claims: Claims, wave: Wave) -> Vec<Check> {
+    let mut checks = vec![
+        mass(),
+        Gate::truth("error-bound", "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of the largest rms of the exact u, k the wave number of the motion and c the speed of its waves: the largest dispersion among bases and remedies, and what a forced vibration makes of it; of implicit steps 2θ² (⅛ + ⅙ r²/|1 − r²|) more, θ = ωΔt and r that of ω and the free vibration; never more than the motion; left out where known limits are judged instead")
+            .unless(move |r| wave.unbounded(r, &claims(r)).map(str::to_owned))
+            .at_most(DISPLACEMENT_L2, move |r| wave.bound(r) * r.metric(DISPLACEMENT_SCALE))
+            .because_of(move |r| format!("{:.3} times displacement_scale", wave.bound(r))),
+        motion_lost(move |r| wave.unbounded(r, &claims(r))),
+    ];
+    checks.extend(orders(&[(DISPLACEMENT_L2, claims)]));
     checks
 }
 
@@ -167,19 +177,14 @@ pub(in crate::cases) fn rests(
 
 /// The particles have the mass of the body.
 pub(in crate::cases) fn mass() -> Check {
-    Gate::bookkeeping(
-        "mass",
-        "the particles have the mass of the body, to rounding",
-    )
-    .within(
-        MASS,
-        |r| r.metric(BODY_MASS),
-        |r| {
-            let particles = r.record.work.particles as f64;
-            (particles + ROUNDINGS) * f64::EPSILON * r.metric(BODY_MASS)
-        },
-    )
-    .because("ρ₀ times the volume of the body; each of n sums rounds once")
+    let statement = "the particles have the mass of the body, to rounding";
+    let rounding = |r: &Run<()>| {
+        let sums = r.record.work.particles as f64 + ROUNDINGS;
+        sums * f64::EPSILON * r.metric(BODY_MASS)
+    };
+    Gate::bookkeeping("mass", statement)
+        .within(MASS, |r| r.metric(BODY_MASS), rounding)
+        .because("ρ₀ times the volume of the body; each of n sums rounds once")
 }
 
 /// The records of each scheme with the same parameters, coarsest first.
@@ -196,77 +201,62 @@ pub(in crate::cases) fn ladders(records: &[Record]) -> Vec<(Scheme, Vec<&Record>
     sorted.collect()
 }
 
-/// A ladder that decides an order, and what is claimed of it.
-struct Ladder<'a> {
-    metric: Metric,
+/// A ladder of at least three levels that decides an order, and what is claimed of it.
+struct Ladder {
     claim: Claim,
-    scheme: Scheme,
-    runs: Vec<&'a Record>,
-}
-
-impl Ladder<'_> {
+    /// The metric, the scheme and the levels.
+    about: String,
     /// Observed order over the finest levels; NaN where there is none.
-    fn order(&self, metric: Metric) -> f64 {
-        let finest = &self.runs[self.runs.len() - DECIDING..];
-        let point = |r: &&Record| (r.discretisation.h, r.metric(metric));
-        let points: Vec<(f64, f64)> = finest.iter().map(point).collect();
-        fit_order(&points).map_or(f64::NAN, |o| o.order)
-    }
-
-    /// The quantity that a verdict is about.
-    fn about(&self, quantity: &str, metric: Metric) -> String {
-        let [first, .., last] = self.runs[..] else {
-            return String::new();
-        };
-        let (ends, set) = ([&first.level, &last.level], first.set.join(" "));
-        let (metric, scheme) = (metric.name, self.scheme);
-        format!(
-            "{quantity}{metric} of {scheme} {} to {} {set}",
-            ends[0], ends[1]
-        )
-        .trim_end()
-        .to_owned()
-    }
-
+    order: f64,
     /// Largest ratio of the error at a level to that at the one before; NaN if a run has none: one that broke down
     /// must not be lost among the others.
-    fn worst_ratio(&self) -> f64 {
-        let errors: Vec<f64> = self.runs.iter().map(|r| r.metric(self.metric)).collect();
-        if errors.iter().any(|e| e.is_nan()) {
-            return f64::NAN;
-        }
+    worst_ratio: f64,
+}
+
+impl Ladder {
+    fn new((metric, claims): (Metric, Claims), scheme: Scheme, runs: &[&Record]) -> Option<Self> {
+        let finest = &runs[runs.len().checked_sub(DECIDING)?..];
+        let (first, last) = (runs.first()?, runs.last()?);
+        let (name, set) = (metric.name, first.set.join(" "));
+        let about = format!("{name} of {scheme} {} to {} {set}", first.level, last.level);
+        let point = |r: &&Record| (r.discretisation.h, r.metric(metric));
+        let points: Vec<(f64, f64)> = finest.iter().map(point).collect();
+        let errors: Vec<f64> = runs.iter().map(|r| r.metric(metric)).collect();
         let ratios = errors.windows(2).map(|pair| pair[1] / pair[0]);
-        ratios.fold(0.0, f64::max)
+        Some(Self {
+            claim: claims(&Setup::of_record(last).ok()?),
+            about: about.trim_end().to_owned(),
+            order: fit_order(&points).map_or(f64::NAN, |o| o.order),
+            worst_ratio: match errors.iter().any(|e| e.is_nan()) {
+                true => f64::NAN,
+                false => ratios.fold(0.0, f64::max),
+            },
+        })
     }
 }
 
-/// Findings on every ladder of at least three levels of some metrics, each with its claims.
+/// Findings on every ladder of some metrics, each with its claims.
 fn on_ladders(
     check: Gate,
-    of: &'static [(Metric, Claims)],
-    found: fn(&Ladder) -> Option<Finding>,
+    of: &[(Metric, Claims)],
+    found: fn(&str, &Ladder) -> Option<Finding>,
 ) -> Check {
+    let of = of.to_vec();
     let study = move |records: &[Record]| {
-        let ladders = of.iter().flat_map(|&(metric, claims)| {
+        let of_metric = |claimed: &_| {
             let all = ladders(records).into_iter();
-            let deciding = all.filter(|(_, runs)| runs.len() >= DECIDING);
-            deciding.filter_map(move |(scheme, runs)| {
-                let finest = Setup::of_record(runs[runs.len() - 1]).ok()?;
-                Some(Ladder {
-                    metric,
-                    claim: claims(&finest),
-                    scheme,
-                    runs,
-                })
-            })
-        });
-        ladders.filter_map(|l| found(&l)).collect()
+            let deciding = all.filter_map(|(scheme, runs)| Ladder::new(*claimed, scheme, &runs));
+            let found = deciding.filter_map(|l| found(&format!("order_{}", l.about), &l));
+            found.collect::<Vec<_>>()
+        };
+        of.iter().flat_map(of_metric).collect()
     };
     check.study(study).because("")
 }
 
 /// The checks on the order of errors.
-pub(in crate::cases) fn orders(of: &'static [(Metric, Claims)]) -> [Check; 4] {
+pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
+    let falls = "the rms error of u falls from level to level, where the order is judged";
     [
         on_ladders(
             Gate::truth(
@@ -274,47 +264,34 @@ pub(in crate::cases) fn orders(of: &'static [(Metric, Claims)]) -> [Check; 4] {
                 "order of the rms error of u over the three finest levels at least 2 − 0.15, where theory gives 2",
             ),
             of,
-            |l| match l.claim {
-                Claim::Second => Some(Finding::above(
-                    l.about("order_", l.metric),
-                    l.order(l.metric),
-                    FORMAL - SLACK,
-                    "second order: linear fields are reproduced, the lumped mass has its centre at the node",
-                )),
-                Claim::Open(why) => Some(Finding::not_applicable(l.about("order_", l.metric), why)),
+            |about, l| match l.claim {
+                Claim::Second => {
+                    let why = "second order: linear fields are reproduced, the lumped mass has its centre at the node";
+                    Some(Finding::above(about, l.order, FORMAL - SLACK, why))
+                }
+                Claim::Open(why) => Some(Finding::not_applicable(about, why)),
                 _ => None,
             },
         ),
-        on_ladders(
-            Gate::truth(
-                "error-falls",
-                "the rms error of u falls from level to level, where the order is judged",
-            ),
-            of,
-            |l| match l.claim {
-                Claim::Second => Some(Finding::at_most(
-                    l.about("largest ratio of ", l.metric),
-                    l.worst_ratio(),
-                    1.0,
-                    "a consistent scheme converges",
-                )),
-                _ => None,
-            },
-        ),
+        on_ladders(Gate::truth("error-falls", falls), of, |_, l| {
+            let (about, why) = (
+                format!("largest ratio of {}", l.about),
+                "a consistent scheme converges",
+            );
+            let found = Finding::at_most(about, l.worst_ratio, 1.0, why);
+            matches!(l.claim, Claim::Second).then_some(found)
+        }),
         on_ladders(
             Gate::regression(
                 "observed-order",
                 "where no theory gives the order: it lies in the band stated with the verdict",
             ),
             of,
-            |l| match l.claim {
-                Claim::Observed([least, most], why) => Some(Finding::within(
-                    l.about("order_", l.metric),
-                    l.order(l.metric),
-                    0.5 * (least + most),
-                    0.5 * (most - least),
-                    why,
-                )),
+            |about, l| match l.claim {
+                Claim::Observed([least, most], why) => {
+                    let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
+                    Some(Finding::within(about, l.order, middle, half, why))
+                }
                 _ => None,
             },
         ),
@@ -324,13 +301,8 @@ pub(in crate::cases) fn orders(of: &'static [(Metric, Claims)]) -> [Check; 4] {
                 "order of the rms error of u below 2 − 0.15, or the one stated with the verdict, for the reason given there",
             ),
             of,
-            |l| match l.claim {
-                Claim::Stalls(below, why) => Some(Finding::at_most(
-                    l.about("order_", l.metric),
-                    l.order(l.metric),
-                    below,
-                    why,
-                )),
+            |about, l| match l.claim {
+                Claim::Stalls(below, why) => Some(Finding::at_most(about, l.order, below, why)),
                 _ => None,
             },
         ),
@@ -338,21 +310,15 @@ pub(in crate::cases) fn orders(of: &'static [(Metric, Claims)]) -> [Check; 4] {
 }
 
 /// The order of the stress where that of the displacement is claimed.
-pub(in crate::cases) fn stress_order(of: &'static [(Metric, Claims)]) -> Check {
+pub(in crate::cases) fn stress_order(claims: Claims) -> Check {
+    let statement = "order of the rms error of σ at least 1 − 0.15, one less than that of u";
     on_ladders(
-        Gate::truth(
-            "order-stress",
-            "order of the rms error of σ at least 1 − 0.15, one less than that of u",
-        ),
-        of,
-        |l| match l.claim {
-            Claim::Second => Some(Finding::above(
-                l.about("order_", STRESS_L2),
-                l.order(STRESS_L2),
-                FORMAL - 1.0 - SLACK,
-                "gradients of a second-order displacement",
-            )),
-            _ => None,
+        Gate::truth("order-stress", statement),
+        &[(STRESS_L2, claims)],
+        |about, l| {
+            let why = "gradients of a second-order displacement";
+            let found = Finding::above(about, l.order, FORMAL - 1.0 - SLACK, why);
+            matches!(l.claim, Claim::Second).then_some(found)
         },
     )
 }

@@ -4,9 +4,9 @@
 
 pub(super) mod checks;
 pub(super) mod errors;
-pub(super) mod metrics;
+mod metrics;
 mod motion;
-pub(super) mod pictures;
+mod pictures;
 mod scenario;
 mod sketch;
 pub(super) mod tables;
@@ -17,13 +17,27 @@ use crate::job::Job;
 use crate::parameter::{Domain, Parameter, ParameterSet, Parameters, number, parameters};
 use crate::prelude::*;
 use crate::problem;
+pub(super) use checks::*;
+pub(super) use metrics::*;
 pub(super) use motion::Motion;
+pub(super) use pictures::mean_stress;
 pub(super) use scenario::{Scenario, forcing, vector};
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
 /// Makes an exact solution.
 pub(super) type Solution = fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>;
+
+/// Bases whose functions are smooth enough for particles that cross cells.
+pub(super) const SMOOTH: [BasisName; 2] = [Gimp, Bspline2];
+/// Remedies that are compared: without, by rates, and ours.
+pub(super) const COMPARED: [RemedyName; 3] = [RemedyName::None, FbarRate, FbarConsistent];
+/// More particles than the cases' own two per direction.
+pub(super) const MORE: [&str; 2] = ["ppc_per_direction=3", "ppc_per_direction=4"];
+/// Levels of plans.
+pub(super) const THREE: &str = "n8 n16 n32";
+pub(super) const FOUR: &str = "n8 n16 n32 n64";
+pub(super) const FIVE: &str = "n8 n16 n32 n64 n128";
 
 /// The boundary of a body.
 #[derive(Debug, Clone, Copy)]
@@ -69,19 +83,21 @@ impl<K: Known> ParameterSet for Own<K> {
 }
 
 /// A case of this motion in `D` dimensions, by name, title and description, with the levels, errors and headlines that serve most.
-pub(super) fn case<const D: usize, K: Known>([name, title, description]: [&'static str; 3]) -> Case
+pub(super) fn known_case<const D: usize, K: Known>(
+    [name, title, description]: [&'static str; 3],
+) -> Case
 where
     Motion<D, K>: Problem<D, Parameters = Own<K>>,
 {
     Case {
         description,
         levels: levels(),
-        headlines: metrics::headlines(),
-        quantities: metrics::ERRORS.to_vec(),
+        headlines: headlines(),
+        quantities: ERRORS.to_vec(),
         watched: &["displacement_l2", "log_jacobian_gap_rms"],
         sketch: sketch::sketch::<K>(),
         cost: Box::new(scenario::cost::<K>),
-        ..Case::of::<D, Motion<D, K>>(name, title, metrics::METRICS)
+        ..Case::of::<D, Motion<D, K>>(name, title, METRICS)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The simulation of a motion that is known in closed form, in any dimension and of any law.
 
 use super::checks::moves;
-use super::metrics as m;
+use super::metrics::*;
 use super::scenario::Timing;
 use super::{Known, Own, Scenario, errors, vector};
 use crate::prelude::*;
@@ -196,10 +196,10 @@ impl<const D: usize, K: Known> Motion<D, K> {
             .collect();
         let base = fit_line(&profile).map_or(f64::NAN, |line| line.intercept);
         vec![
-            (m::J_DRIFT_PER_1E5_STEPS, drift(0)),
-            (m::TRUE_J_DRIFT_PER_1E5_STEPS, drift(1)),
-            (m::KINETIC_GROWTH, growth),
-            (m::BASE_PRESSURE, base),
+            (J_DRIFT_PER_1E5_STEPS, drift(0)),
+            (TRUE_J_DRIFT_PER_1E5_STEPS, drift(1)),
+            (KINETIC_GROWTH, growth),
+            (BASE_PRESSURE, base),
         ]
     }
 }
@@ -285,33 +285,33 @@ where
         let share = |gain: f64| if gain == 0.0 { 0.0 } else { gain / peak };
         let gains = || seen.rows.iter().map(|r| share(r.energy - start));
         let mut values = vec![
-            (m::DISPLACEMENT_SCALE, self.displacement_scale(run)),
-            (m::DISPLACEMENT_RATIO, displacement_ratio),
-            (m::VELOCITY_RATIO, velocity_ratio),
-            (m::ENERGY_GAIN, gains().fold(0.0, f64::max)),
-            (m::ENERGY_LOSS, gains().map(|g| -g).fold(0.0, f64::max)),
-            (m::ENERGY_END, gains().next_back().unwrap_or(f64::NAN)),
-            (m::LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
-            (m::KINETIC_ENERGY_PEAK, peak),
-            (m::MASS, totals.mass),
-            (m::BODY_MASS, errors::mass::<D>(solution)),
+            (DISPLACEMENT_SCALE, self.displacement_scale(run)),
+            (DISPLACEMENT_RATIO, displacement_ratio),
+            (VELOCITY_RATIO, velocity_ratio),
+            (ENERGY_GAIN, gains().fold(0.0, f64::max)),
+            (ENERGY_LOSS, gains().map(|g| -g).fold(0.0, f64::max)),
+            (ENERGY_END, gains().next_back().unwrap_or(f64::NAN)),
+            (LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
+            (KINETIC_ENERGY_PEAK, peak),
+            (MASS, totals.mass),
+            (BODY_MASS, errors::mass::<D>(solution)),
         ];
         let norms = [
-            ([m::DISPLACEMENT_L2, m::DISPLACEMENT_LINF], displacement),
-            ([m::VELOCITY_L2, m::VELOCITY_LINF], velocity),
-            ([m::STRESS_L2, m::STRESS_LINF], stress),
-            ([m::MEAN_STRESS_L2, m::MEAN_STRESS_LINF], mean_stress),
+            ([DISPLACEMENT_L2, DISPLACEMENT_LINF], displacement),
+            ([VELOCITY_L2, VELOCITY_LINF], velocity),
+            ([STRESS_L2, STRESS_LINF], stress),
+            ([MEAN_STRESS_L2, MEAN_STRESS_LINF], mean_stress),
         ];
         values.extend(norms.iter().flat_map(|(of, e)| errors::norms(*of, e)));
         if self.scenario.setup.rule() == Some(RuleName::Midpoint) {
-            values.push((m::LUMPING_LOSS, share(totals.accumulated.lumping_loss)));
+            values.push((LUMPING_LOSS, share(totals.accumulated.lumping_loss)));
         }
         if let Some([frequency, amplitude]) = self.vibration(seen, run.time()) {
             values.extend([
-                (m::FREQUENCY_RATIO, frequency),
-                (m::FREQUENCY_ERROR, (frequency - 1.0).abs()),
-                (m::AMPLITUDE_RATIO, amplitude),
-                (m::DAMPING, -amplitude.ln()),
+                (FREQUENCY_RATIO, frequency),
+                (FREQUENCY_ERROR, (frequency - 1.0).abs()),
+                (AMPLITUDE_RATIO, amplitude),
+                (DAMPING, -amplitude.ln()),
             ]);
         }
         values.extend(self.rest(seen, run));

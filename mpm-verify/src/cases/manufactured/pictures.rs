@@ -1,7 +1,7 @@
-//! Pictures of motions: the mean stress of one that locks, the energy of one that lasts.
+//! The picture of motions that lock.
 
-use super::tables::changes;
-use crate::cases::family::REMEDIES;
+use super::{COMPARED, SMOOTH};
+use crate::cases::family::pairs;
 use crate::draw::{FieldFigure, FieldPanel, draw_fields};
 use crate::prelude::*;
 
@@ -12,10 +12,7 @@ pub(in crate::cases) fn mean_stress(
     most: f64,
 ) -> Result<(), Error> {
     let mut panels = Vec::new();
-    for scheme in [Gimp, Bspline2]
-        .into_iter()
-        .flat_map(|b| [RemedyName::None, FbarRate, FbarConsistent].map(|r| Scheme::flip(b, r)))
-    {
+    for scheme in pairs(&SMOOTH, &COMPARED) {
         let run = gallery.records.iter().find(|r| {
             r.level == level && r.is_default() && r.scheme() == scheme && r.status == Status::Ok
         });
@@ -48,47 +45,4 @@ pub(in crate::cases) fn mean_stress(
         format!("Mean stress of the particles at the end, at level {level}."),
     );
     Ok(())
-}
-
-/// Kinetic energy over time of the runs at the two coarsest levels in which `set` was changed, with FLIP: a panel per
-/// basis and level. A cross marks a breakdown.
-pub(in crate::cases) fn kinetic_energy(gallery: &mut Gallery, set: &str) -> Result<(), Error> {
-    let mut panels = Vec::new();
-    for basis in [Gimp, Bspline2] {
-        for level in ["n8", "n16"] {
-            let schemes = REMEDIES.map(|remedy| Scheme::flip(basis, remedy));
-            let run = |scheme: Scheme| {
-                let is_of =
-                    |r: &&Record| r.level == level && changes(r, set) && r.scheme() == scheme;
-                gallery.records.iter().find(is_of)
-            };
-            let runs: Vec<&Record> = schemes.into_iter().filter_map(run).collect();
-            let broken = runs.iter().copied().filter(|r| r.status == Status::Failed);
-            let energy = |t: &Table| t.points("time", "kinetic_energy");
-            let labels = ["time (s)", "kinetic energy (J/m)"];
-            let panel = Panel::new(format!("{basis}, {level}"), labels)
-                .log_y()
-                .histories(gallery, runs.iter().copied(), |_, t| energy(t))?
-                .by_run(|r, curve| Series {
-                    name: r.remedy().to_string(),
-                    ..curve
-                })
-                .histories(gallery, broken, |_, t| {
-                    energy(t).last().copied().into_iter().collect()
-                })?
-                .styled(|_, cross| Series {
-                    name: String::new(),
-                    marker: Marker::Cross,
-                    dash: Dash::None,
-                    ..cross
-                });
-            panels.push(panel);
-        }
-    }
-    let changed = set.replace(' ', ", ");
-    let caption = format!("Kinetic energy with {changed}; a cross marks a breakdown.");
-    Figure::new("energy", caption, panels)
-        .columns(2)
-        .share_axes()
-        .draw(gallery)
 }

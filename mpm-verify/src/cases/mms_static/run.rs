@@ -155,17 +155,17 @@ where
         let displacement = errors::of_displacements(solution, run);
         let (totals, work) = (run.totals(), run.work());
         let mut values = vec![
-            (m::DISPLACEMENT_SCALE, self.scale(run)),
-            (m::LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
-            (m::MASS, totals.mass),
-            (m::BODY_MASS, errors::mass::<D>(solution)),
+            (DISPLACEMENT_SCALE, self.scale(run)),
+            (LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
+            (MASS, totals.mass),
+            (BODY_MASS, errors::mass::<D>(solution)),
             (NEWTON_ITERATIONS, work.newton_iterations as f64),
             (LINEAR_ITERATIONS, work.linear_iterations as f64),
         ];
         let norms = [
-            ([m::DISPLACEMENT_L2, m::DISPLACEMENT_LINF], displacement),
-            ([m::STRESS_L2, m::STRESS_LINF], stress),
-            ([m::MEAN_STRESS_L2, m::MEAN_STRESS_LINF], mean_stress),
+            ([DISPLACEMENT_L2, DISPLACEMENT_LINF], displacement),
+            ([STRESS_L2, STRESS_LINF], stress),
+            ([MEAN_STRESS_L2, MEAN_STRESS_LINF], mean_stress),
         ];
         values.extend(norms.iter().flat_map(|(of, e)| errors::norms(*of, e)));
         values

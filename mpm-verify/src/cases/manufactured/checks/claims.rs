@@ -1,7 +1,6 @@
 //! Claims on convergence that several motions share, and the known reasons why an order is lost.
 
 use super::Wave;
-use crate::cases::manufactured::metrics::DISPLACEMENT_L2;
 use crate::cases::parameters::{
     POISSON_RATIO, PPC_PER_DIRECTION, STEP_SCALING, UNSEEN, WALL, WALL_LINE,
 };
@@ -126,15 +125,10 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
 }
 
 /// The vortex in a box: its profile falls from one to a half over 0.16 m, a sixth of a wave.
-pub(in crate::cases) const VORTEX: Wave = Wave {
-    number: |_| 6.5,
-    shear: true,
-};
+pub(in crate::cases) const VORTEX: Wave = Wave::shear(|_| 6.5);
 
-/// Its orders.
-pub(in crate::cases) const OF_VORTEX: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, of_vortex)];
-
-fn of_vortex(r: &Setup<()>) -> Claim {
+/// Convergence of the vortex in a box.
+pub(in crate::cases) fn of_vortex(r: &Setup<()>) -> Claim {
     if r.basis() == Linear {
         return Claim::Open(JUMPS);
     }
