@@ -2,7 +2,7 @@
 //!
 //! Set-up, choices and tolerances: `docs/column.md`.
 
-use super::family::{REMEDIES, pairs};
+use super::family::{self, REMEDIES, pairs};
 use super::manufactured::*;
 use super::parameters::DENSITY;
 use crate::exact::common::GRAVITY;
@@ -10,16 +10,6 @@ use crate::exact::hydrostatic::{ENTRY, HEIGHT};
 use crate::parameter::Parameter;
 use crate::prelude::*;
 
-const LEVELS: [Level; 2] = [
-    Level {
-        name: "h0.25",
-        h: 0.25,
-    },
-    Level {
-        name: "h0.125",
-        h: 0.125,
-    },
-];
 /// Half a million steps at h = 0.25 m.
 const HALF_A_MILLION: &str = "duration=5.04";
 /// Largest drift of a cell's mean J̄ per 10⁵ steps.
@@ -48,6 +38,7 @@ impl Known for WaterColumn {
 }
 
 pub(super) fn case() -> Case {
+    let levels = family::levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
     let few = pairs(&SMOOTH, &REMEDIES);
     let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
     let mut pr = pairs(&[Gimp], &[RemedyName::None, FbarRecursive, FbarConsistent]);
@@ -61,12 +52,12 @@ pub(super) fn case() -> Case {
             "Nothing mixes here: what moving particles bring about shows in standing-wave.",
             "Cubic splines on this lattice are not in balance with the exact pressure to 10⁻³ of the weight; the column circulates slowly with every remedy and is judged no further.",
         ],
-        plan: Plan::of(&LEVELS)
+        plan: Plan::of(&levels)
             .runs(Pr, "h0.25", &pr, "")
             .runs(Nightly, "h0.25 h0.125", &all, "")
             .runs(Nightly, "h0.25", &few, HALF_A_MILLION)
             .done(),
-        levels: LEVELS.to_vec(),
+        levels,
         checks: checks(),
         headlines: vec![
             headline(

@@ -2,7 +2,7 @@
 //!
 //! Set-up, choices and tolerances: `docs/rest.md`.
 
-use super::family::{REMEDIES, pairs};
+use super::family::{self, REMEDIES, pairs};
 use super::manufactured::*;
 use super::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::exact::common::GRAVITY;
@@ -10,16 +10,6 @@ use crate::exact::incline::{ENTRY, INCLINATION, THICKNESS};
 use crate::parameter::Parameter;
 use crate::prelude::*;
 
-const LEVELS: [Level; 2] = [
-    Level {
-        name: "h0.25",
-        h: 0.25,
-    },
-    Level {
-        name: "h0.125",
-        h: 0.125,
-    },
-];
 const HUNDRED_THOUSAND: &str = "duration=20";
 const MILLION: &str = "duration=200";
 /// Largest drift of a cell's mean J per 10⁵ steps, and least steps from which it is judged.
@@ -45,6 +35,7 @@ impl Known for Incline {
 }
 
 pub(super) fn case() -> Case {
+    let levels = family::levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
     let few = [RemedyName::None, FbarRecursive, FbarConsistent];
     let few = pairs(&SMOOTH, &few);
     let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
@@ -56,13 +47,13 @@ pub(super) fn case() -> Case {
         limits: &[
             "The layer is endless: no toe, no crest. Elastic: what a yielding slope creeps by is not here.",
         ],
-        plan: Plan::of(&LEVELS)
+        plan: Plan::of(&levels)
             .runs(Pr, "h0.25", &few, "")
             .runs(Nightly, "h0.25 h0.125", &all, "")
             .runs(Nightly, "h0.25", &all, HUNDRED_THOUSAND)
             .runs(Nightly, "h0.25", &few, MILLION)
             .done(),
-        levels: LEVELS.to_vec(),
+        levels,
         checks: checks(),
         headlines: vec![
             headline(DISPLACEMENT_L2, "rms distance from rest (m)", 1.0, 6),

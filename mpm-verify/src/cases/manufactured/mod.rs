@@ -102,9 +102,6 @@ where
 }
 
 /// Begins a run in as many dimensions as the exact solution of its parameters has.
-///
-/// # Errors
-/// Parameters that make no scene.
 pub(super) fn begin<K: Known>(spec: &RunSpec, p: &Parameters) -> Result<Box<dyn Job>, Error> {
     match (K::SOLUTION)(p)?.dimension() {
         1 => problem::begin::<1, Motion<1, K>>(spec, p),

@@ -43,8 +43,6 @@ pub(in crate::cases) struct Scenario<K> {
 }
 
 impl<K: Known> Scenario<K> {
-    /// # Errors
-    /// Parameters that make no solution.
     pub(in crate::cases) fn new(setup: Setup<Own<K>>) -> Result<Self, Error> {
         let solution = (K::SOLUTION)(&setup.values)?.into();
         Ok(Self { setup, solution })
@@ -56,9 +54,6 @@ impl<K: Known> Scenario<K> {
 
     /// Steps by the CFL number and the speed of the body's waves, or that at `step_poisson_ratio` if it is larger, so that runs at
     /// several ratios can take the same steps.
-    ///
-    /// # Errors
-    /// A CFL number or a frequency out of range.
     pub(super) fn timing(&self) -> Result<Timing, Error> {
         let is_explicit = self.setup.is_explicit();
         if is_explicit && self.number(CFL) >= EXPLICIT_CFL {
@@ -126,9 +121,6 @@ impl<K: Known> Scenario<K> {
     }
 
     /// The simulation at its start, with steps of `dt` (s).
-    ///
-    /// # Errors
-    /// A parameter out of range, or a scene that the solver refuses.
     pub(super) fn begin<const D: usize>(
         &self,
         dt: f64,
@@ -144,9 +136,6 @@ impl<K: Known> Scenario<K> {
     }
 
     /// The body at its start, with what holds and drives it.
-    ///
-    /// # Errors
-    /// A body that does not fill its cells, or has no state at its start.
     pub(in crate::cases) fn scene<const D: usize, M: Law>(
         &self,
         law: M,
