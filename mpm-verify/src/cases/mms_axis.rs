@@ -22,16 +22,17 @@ impl Known for Axes {
     }
 }
 
-/// The motion: half waves across the body, a wave by default.
-const WAVE: Wave = Wave::pressure(|p| PI * p.number(HALF_WAVES));
-
 pub(super) fn case() -> Case {
     let case = known_case::<2, Axes>([
         "mms-axis",
         "Axis-aligned displacement",
         "A neo-Hookean body between rollers is stretched and compressed along its axes by a body force that makes the motion known. Orders of accuracy in space and time for every basis, remedy and transfer; small displacements and forced crossing of cells.",
     ]);
-    let mut checks = of_motion(between_rollers, WAVE);
+    // Half waves across the body, a wave by default.
+    let mut checks = of_motion(
+        between_rollers,
+        Wave::pressure(|p| PI * p.number(HALF_WAVES)),
+    );
     checks.push(stress_order(between_rollers));
     checks.extend(order_in_time());
     Case {

@@ -23,12 +23,10 @@ impl Known for DoubleShear {
     }
 }
 
-/// The motion: one wave across the body.
-const WAVE: Wave = Wave::shear(|_| TAU);
-
 pub(super) fn case() -> Case {
     let levels = levels()[..4].to_vec();
-    let mut checks = of_motion(claim, WAVE);
+    // One wave across the body.
+    let mut checks = of_motion(claim, Wave::shear(|_| TAU));
     checks.extend(locking());
     Case {
         references: vec![

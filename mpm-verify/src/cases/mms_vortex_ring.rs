@@ -31,9 +31,6 @@ const LARGE: f64 = 0.1;
 /// The angle of 45° of the literature.
 const EIGHTH: &str = "angle=0.7853981633974483";
 
-/// The motion: half a wave across the ring.
-const WAVE: Wave = Wave::shear(|_| TAU);
-
 pub(super) fn case() -> Case {
     let levels = levels()[..4].to_vec();
     let few = main_pairs();
@@ -55,7 +52,8 @@ pub(super) fn case() -> Case {
             .runs(Nightly, THREE, &few, EIGHTH)
             .done(),
         levels,
-        checks: of_motion(claim, WAVE),
+        // Half a wave across the ring.
+        checks: of_motion(claim, Wave::shear(|_| TAU)),
         tables: vec![
             tables::own_orders("mms-vortex-ring"),
             tables::errors("mms-vortex-ring-large", ["n8", "n16", "n32"].map(|n| (n, n, EIGHTH))),

@@ -23,9 +23,6 @@ impl Known for WallPressure {
     }
 }
 
-/// The motion: half a wave across the body.
-const WAVE: Wave = Wave::pressure(|_| PI);
-
 const LARGE: &str = "amplitude=0.05 ppc_per_direction=4";
 
 /// As without a pressure gradient at the walls, but that the floor of hats is half as high.
@@ -42,7 +39,8 @@ pub(super) fn case() -> Case {
         "Pressure gradient at walls",
         "A neo-Hookean body between rollers is squeezed along its axes so that the pressure is steepest at the walls. Whether bases and averages keep their order there, with both treatments of splines at a wall.",
     ]);
-    let mut checks = of_motion(claim, WAVE);
+    // Half a wave across the body.
+    let mut checks = of_motion(claim, Wave::pressure(|_| PI));
     checks.push(stress_order(claim));
     checks.extend(order_in_time());
     Case {

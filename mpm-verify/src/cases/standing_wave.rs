@@ -253,37 +253,33 @@ fn checks() -> Vec<Check> {
 /// Kinetic energy over twenty periods with FLIP: a panel per basis and level. A cross marks a breakdown.
 fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     let mut panels = Vec::new();
-    for basis in SMOOTH {
-        for level in ["n8", "n16"] {
-            let schemes = REMEDIES.map(|remedy| Scheme::flip(basis, remedy));
-            let run = |scheme: Scheme| {
-                let is_of = |r: &&Record| {
-                    r.level == level && tables::changes(r, TWENTY_PERIODS) && r.scheme() == scheme
-                };
-                gallery.records.iter().find(is_of)
-            };
-            let runs: Vec<&Record> = schemes.into_iter().filter_map(run).collect();
-            let broken = runs.iter().copied().filter(|r| r.status == Status::Failed);
-            let energy = |t: &Table| t.points("time", "kinetic_energy");
-            let labels = ["time (s)", "kinetic energy (J/m)"];
-            let panel = Panel::new(format!("{basis}, {level}"), labels)
-                .log_y()
-                .histories(gallery, runs.iter().copied(), |_, t| energy(t))?
-                .by_run(|r, curve| Series {
-                    name: r.remedy().to_string(),
-                    ..curve
-                })
-                .histories(gallery, broken, |_, t| {
-                    energy(t).last().copied().into_iter().collect()
-                })?
-                .styled(|_, cross| Series {
-                    name: String::new(),
-                    marker: Marker::Cross,
-                    dash: Dash::None,
-                    ..cross
-                });
-            panels.push(panel);
-        }
+    for (basis, level) in SMOOTH.into_iter().flat_map(|b| [(b, "n8"), (b, "n16")]) {
+        let own = |r: &&Record| {
+            let here = r.level == level && r.basis() == basis && is_flip(r);
+            here && tables::changes(r, TWENTY_PERIODS)
+        };
+        let runs = || gallery.records.iter().filter(own);
+        let broken = runs().filter(|r| r.status == Status::Failed);
+        let energy = |t: &Table| t.points("time", "kinetic_energy");
+        let last = |t: &Table| energy(t).last().copied().into_iter().collect();
+        let panel = Panel::new(
+            format!("{basis}, {level}"),
+            ["time (s)", "kinetic energy (J/m)"],
+        )
+        .log_y()
+        .histories(gallery, runs(), |_, t| energy(t))?
+        .by_run(|r, curve| Series {
+            name: r.remedy().to_string(),
+            ..curve
+        })
+        .histories(gallery, broken, |_, t| last(t))?
+        .styled(|_, cross| Series {
+            name: String::new(),
+            marker: Marker::Cross,
+            dash: Dash::None,
+            ..cross
+        });
+        panels.push(panel);
     }
     let caption = format!("Kinetic energy with {TWENTY_PERIODS}; a cross marks a breakdown.");
     Figure::new("energy", caption, panels)
