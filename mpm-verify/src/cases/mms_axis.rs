@@ -2,48 +2,38 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-axis.md`.
 
-use super::family::{BASES, REMEDIES, family, implicit, more_particles, other_transfers, pairs};
-use super::manufactured::checks::{
-    Claim, Claims, STALLED, TRANSFER, Wave, is_other_transfer, is_sound, of_motion, order_in_time,
-    stress_order,
-};
-use super::manufactured::metrics::DISPLACEMENT_L2;
-use super::manufactured::{CFL, Manufactured, PPC_PER_DIRECTION, all_parameters, levels};
-use super::parameters::{DYNAMIC, STEP_SCALING, WALL, WALL_LINE};
-use crate::case::{Case, Family, Tier};
+use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
+use super::manufactured::*;
+use super::parameters::DYNAMIC;
 use crate::exact::axis_aligned::{ENTRY, HALF_WAVES};
-use crate::exact::common::{AMPLITUDE, DIMENSION};
-use crate::metric::{Metric, Sweep};
-use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
-use crate::spec::Level;
+use crate::exact::common::AMPLITUDE;
+use crate::parameter::Parameter;
+use crate::prelude::*;
 use std::f64::consts::PI;
 
-use BasisName::{Bspline2, Bspline3, Gimp, Linear};
-use RemedyName::{FbarConsistent, FbarRate, FbarRecursive};
-use Tier::{Long, Nightly, Pr, Quick};
+#[derive(Debug, Clone)]
+struct Axes;
 
-/// Displacements (m) beyond this cross cells that the levels have.
-const CROSSING: f64 = 0.01;
+impl Known for Axes {
+    const SOLUTION: Solution = ENTRY.build;
 
-/// The motion: half waves across the body, a wave by default.
-const WAVE: Wave = Wave {
-    number: |p| PI * p.number(HALF_WAVES),
-    shear: false,
-};
-
-const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
+    fn parameters() -> Vec<Parameter> {
+        all_parameters(ENTRY.parameters, &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC)
+    }
+}
 
 pub(super) fn case() -> Case {
-    let levels = levels();
-    let names = [
+    let case = known_case::<2, Axes>([
         "mms-axis",
         "Axis-aligned displacement",
         "A neo-Hookean body between rollers is stretched and compressed along its axes by a body force that makes the motion known. Orders of accuracy in space and time for every basis, remedy and transfer; small displacements and forced crossing of cells.",
-    ];
-    let parameters = all_parameters(ENTRY.parameters, &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC);
-    let mut checks = of_motion(ORDERS, WAVE);
-    checks.push(stress_order(ORDERS));
+    ]);
+    // Half waves across the body, a wave by default.
+    let mut checks = of_motion(
+        between_rollers,
+        Wave::pressure(|p| PI * p.number(HALF_WAVES)),
+    );
+    checks.push(stress_order(between_rollers));
     checks.extend(order_in_time());
     Case {
         references: vec![
@@ -54,8 +44,7 @@ pub(super) fn case() -> Case {
             "At ν = 0.3 nothing locks; what averaging costs shows, what it is for doesn't.",
             "Two particles per direction leave a floor once they cross cells, and cubic splines with F̄ and two per direction break the pattern at large strain.",
         ],
-        plan: plan(&levels),
-        levels,
+        plan: plan(&case.levels),
         checks,
         sweeps: vec![
             Sweep {
@@ -71,168 +60,94 @@ pub(super) fn case() -> Case {
                 logarithmic: true,
             },
         ],
-        ..Manufactured::solid(ENTRY.build).case(names, parameters)
+        begin: Box::new(begin::<Axes>),
+        tables: tables(),
+        ..case
     }
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
     let none = RemedyName::None;
-    let main = pairs(
-        &[Gimp, Bspline2],
-        &[none, FbarRecursive, FbarRate, FbarConsistent],
-    );
+    let main = pairs(&SMOOTH, &[none, FbarRecursive, FbarRate, FbarConsistent]);
     let sound = |bases: &[BasisName]| pairs(bases, &[none, FbarRate, FbarConsistent]);
+    let compared = pairs(&[Gimp], &[FbarRecursive, FbarConsistent]);
     let all = pairs(&BASES, &REMEDIES);
-    let pair = pairs(&[Gimp, Bspline2], &REMEDIES);
+    let pair = pairs(&SMOOTH, &REMEDIES);
     // The step that the program offers: stable, and right.
     let offered = pairs(&BASES[1..], &[none, FbarConsistent]);
-    let large = pairs(&[Gimp, Bspline2], &[none]);
+    let large = pairs(&SMOOTH, &[none]);
+    let musl = [Scheme::explicit(Gimp, none, TransferName::Musl)];
     let rules = [RuleName::Midpoint, RuleName::Newmark];
     let moved = implicit(&rules, &BASES[..3], &[none]);
-    let smooth = implicit(&rules[..1], &[Gimp, Bspline2], &[none]);
-    let [three, four] = more_particles(Nightly, &levels[..3]);
-    vec![
-        family(Quick, &levels[..1], &pairs(&[Gimp], &[none]), &[]),
-        family(Pr, &levels[..3], &main, &[]),
-        family(
-            Pr,
-            &levels[..3],
-            &pairs(&[Gimp], &[FbarRecursive, FbarConsistent]),
-            &["step_scaling=h2"],
-        ),
+    let smooth = implicit(&rules[..1], &SMOOTH, &[none]);
+    let shorter = ["cfl=0.15", "cfl=0.075", "cfl=0.0375"];
+    let densities = ["ppc_per_direction=1", MORE[0], MORE[1]];
+    Plan::of(levels)
+        .runs(Quick, "n8", &large[..1], "")
+        .runs(Pr, THREE, &main, "")
+        .runs(Pr, THREE, &compared, "step_scaling=h2")
         // Only so large a motion tells where a body force is evaluated; no particle crosses yet.
-        family(Pr, &levels[..3], &large, &["amplitude=0.005"]),
-        family(Nightly, levels, &all, &[]),
-        family(Pr, &levels[..1], &offered, &["time_step=auto"]),
-        family(Nightly, levels, &other_transfers(), &[]),
-        family(
+        .runs(Pr, THREE, &large, "amplitude=0.005")
+        .runs(Nightly, FIVE, &all, "")
+        .runs(Pr, "n8", &offered, "time_step=auto")
+        .runs(Nightly, FIVE, &other_transfers(), "")
+        .runs(Nightly, FIVE, &musl, "")
+        .runs(Nightly, FOUR, &pair, "step_scaling=h2")
+        .runs(Nightly, FOUR, &sound(&BASES), "amplitude=0.02")
+        .runs(
             Nightly,
-            levels,
-            &[Scheme::explicit(Gimp, none, TransferName::Musl)],
-            &[],
-        ),
-        family(Nightly, &levels[..4], &pair, &["step_scaling=h2"]),
-        family(Nightly, &levels[..4], &sound(&BASES), &["amplitude=0.02"]),
-        family(
-            Nightly,
-            &levels[..4],
+            FOUR,
             &sound(&BASES[1..]),
-            &["amplitude=0.02", "ppc_per_direction=4"],
-        ),
-        family(Nightly, &levels[..4], &all, &["dimension=1"]),
-        family(
-            Nightly,
-            &levels[..3],
-            &sound(&[Gimp, Bspline2]),
-            &["dimension=3"],
-        ),
-        family(Pr, &levels[..3], &smooth[1..], &["cfl=2"]),
-        family(Nightly, &levels[..4], &moved, &["cfl=2"]),
-        family(
-            Nightly,
-            &levels[..3],
-            &moved[..3],
-            &["amplitude=0.02", "cfl=2"],
-        ),
-        family(Nightly, &levels[1..3], &smooth, &["cfl=0.5"]),
-        family(Nightly, &levels[1..4], &smooth, &["cfl=5"]),
-        family(Nightly, &levels[3..4], &smooth, &["cfl=50"]),
-        family(Long, &levels[4..], &moved, &["cfl=2"]),
-        three,
-        four,
-        family(Nightly, &levels[1..2], &pair, &["cfl=0.15"]),
-        family(Nightly, &levels[1..2], &pair, &["cfl=0.075"]),
-        family(Nightly, &levels[1..2], &pair, &["cfl=0.0375"]),
-        family(
-            Nightly,
-            &levels[2..3],
-            &sound(&BASES),
-            &["ppc_per_direction=1"],
-        ),
-        family(
-            Nightly,
-            &levels[2..3],
-            &sound(&BASES),
-            &["ppc_per_direction=3"],
-        ),
-        family(
-            Nightly,
-            &levels[2..3],
-            &sound(&BASES),
-            &["ppc_per_direction=4"],
-        ),
-    ]
+            "amplitude=0.02 ppc_per_direction=4",
+        )
+        .runs(Nightly, FOUR, &all, "dimension=1")
+        .runs(Nightly, THREE, &sound(&SMOOTH), "dimension=3")
+        .runs(Pr, THREE, &smooth[1..], "cfl=2")
+        .runs(Nightly, FOUR, &moved, "cfl=2")
+        .runs(Nightly, THREE, &moved[..3], "amplitude=0.02 cfl=2")
+        .runs(Nightly, "n16 n32", &smooth, "cfl=0.5")
+        .runs(Nightly, "n16 n32 n64", &smooth, "cfl=5")
+        .runs(Nightly, "n64", &smooth, "cfl=50")
+        .runs(Long, "n128", &moved, "cfl=2")
+        .each(Nightly, THREE, &main_pairs(), MORE)
+        .each(Nightly, "n16", &pair, shorter)
+        .each(Nightly, "n32", &sound(&BASES), densities)
+        .done()
 }
 
-/// Why hats have a floor.
-pub(super) const HATS: &str = "displaced particles shift a linear basis's quadrature of mass and body force by u, a floor of about A² k";
-
-/// What is known of convergence between rollers, with or without a pressure gradient at the walls.
-pub(super) fn claim(r: &Record) -> Claim {
-    let amplitude = r.parameters.number(AMPLITUDE);
-    let ppc = r.parameters.number(PPC_PER_DIRECTION);
-    if ppc == 1.0 {
-        return Claim::Open("one particle per cell doesn't integrate what the basis can represent");
-    }
-    if r.parameters.is(WALL, WALL_LINE) {
-        return Claim::Stalls(
-            STALLED,
-            "splines that are not interpolatory at a wall meet it with first order",
-        );
-    }
-    if r.remedy() == FbarRecursive {
-        return if r.parameters.is(STEP_SCALING, "h2") {
-            Claim::Stalls(
-                0.5,
-                "Eq. (26) diffuses J with D = ½ s² h²/Δt, which Δt ∝ h² keeps constant",
-            )
-        } else if amplitude >= CROSSING {
-            Claim::Open("crossing of cells adds to the diffusion of Eq. (26)")
-        } else {
-            Claim::Observed(
-                [0.6, 1.15],
-                "Eq. (26) diffuses J with D = ½ s² h²/Δt ∝ h: first order",
-            )
-        };
-    }
-    if amplitude >= CROSSING {
-        return if r.basis() == Linear {
-            Claim::Stalls(
-                0.5,
-                "the gradient of a linear basis jumps where particles cross cells",
-            )
-        } else {
-            Claim::Open(
-                "the quadrature error of particles that left their lattice is a floor; see the page",
-            )
-        };
-    }
-    if is_other_transfer(r) {
-        return Claim::Open(TRANSFER);
-    }
-    if r.parameters.number(DIMENSION) == 1.0 {
-        match (r.basis(), r.remedy()) {
-            (Gimp, RemedyName::None) => {
-                return Claim::Observed(
-                    [1.4, 2.6],
-                    "within a cell GIMP's weights are hats: displaced particles shift its quadrature, a floor of about A² k",
-                );
-            }
-            (Bspline3, remedy) if is_sound(remedy) => {
-                return Claim::Open(
-                    "in one dimension F̄ averages all of the stress, next to walls where cubics lack an order",
-                );
-            }
-            _ => {}
-        }
-    }
-    match r.basis() {
-        Linear if r.scheme().rule().is_some() => Claim::Stalls(STALLED, HATS),
-        Linear => Claim::Open(HATS),
-        Bspline3 => Claim::Observed(
-            [0.85, 2.3],
-            "the lumped mass of cubics next to a wall has its centre off the node: between first and second order",
+fn tables() -> Vec<ResultTable> {
+    const TWO: &str = "amplitude=0.02";
+    const FOUR: &str = "amplitude=0.02 ppc_per_direction=4";
+    vec![
+        tables::own_orders("mms-axis"),
+        tables::orders("mms-axis-rules", tables::is_of_rule),
+        tables::cost("mms-axis-cost", ["n16", "n32", "n64"], |r| {
+            let own = r.changes_none_but(&[CFL.name]);
+            r.remedy() == RemedyName::None && tables::is_smooth(r) && own
+        }),
+        tables::orders("mms-axis-transfers", |r| r.is_default() && !is_flip(r)),
+        tables::price("mms-axis-price", ["n8", "n16", "n32", "n64", "n128"], ""),
+        tables::errors(
+            "mms-axis-crossing",
+            [
+                ("n8, 2 per direction", "n8", TWO),
+                ("n16", "n16", TWO),
+                ("n32", "n32", TWO),
+                ("n64", "n64", TWO),
+                ("n8, 4 per direction", "n8", FOUR),
+                ("n16", "n16", FOUR),
+                ("n32", "n32", FOUR),
+                ("n64", "n64", FOUR),
+            ],
         ),
-        _ => Claim::Second,
-    }
+        tables::errors(
+            "mms-axis-particles",
+            [
+                ("1 per direction", "n32", "ppc_per_direction=1"),
+                ("2", "n32", ""),
+                ("3", "n32", "ppc_per_direction=3"),
+                ("4", "n32", "ppc_per_direction=4"),
+            ],
+        ),
+    ]
 }

@@ -2,51 +2,31 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-double-shear.md`.
 
-use super::family::{BASES, REMEDIES, family, levels, more_particles, other_transfers, pairs};
-use super::manufactured::checks::{Claim, Claims, TRANSFER, Wave, is_sound, locking, of_motion};
-use super::manufactured::metrics::DISPLACEMENT_L2;
-use super::manufactured::pictures::mean_stress;
-use super::manufactured::{Boundary, Manufactured, STEP_POISSON_RATIO, all_parameters};
-use super::mms_vortex_box::{LOCKING_CURVE, NULL_SPACE, feeds_null_space};
+use super::family::{BASES, REMEDIES, main_pairs, other_transfers, pairs};
+use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
-use crate::case::{Case, Family, Tier};
 use crate::exact::double_shear::ENTRY;
-use crate::metric::Metric;
-use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName, TransferName};
-use crate::spec::Level;
+use crate::parameter::Parameter;
+use crate::prelude::*;
 use std::f64::consts::TAU;
 
-use BasisName::{Bspline2, Gimp, Linear};
-use RemedyName::{FbarConsistent, FbarRate};
-use Tier::{Nightly, Pr, Quick};
+#[derive(Debug, Clone)]
+struct DoubleShear;
 
-/// The motion: one wave across the body.
-const WAVE: Wave = Wave {
-    number: |_| TAU,
-    shear: true,
-};
+impl Known for DoubleShear {
+    const SOLUTION: Solution = ENTRY.build;
+    const BOUNDARY: Boundary = Boundary::Periodic;
 
-const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
+    fn parameters() -> Vec<Parameter> {
+        let own = [STEP_POISSON_RATIO.with_default("0.4999")];
+        all_parameters(ENTRY.parameters, &[(POISSON_RATIO, "0.4999")], "0.5", &own)
+    }
+}
 
 pub(super) fn case() -> Case {
-    let levels = levels(
-        1.0,
-        [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)],
-    );
-    let names = [
-        "mms-double-shear",
-        "Double shear",
-        "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
-    ];
-    let motion = Manufactured {
-        boundary: Boundary::Periodic,
-        ..Manufactured::solid(ENTRY.build)
-    };
-    let own = [STEP_POISSON_RATIO.with_default("0.4999")];
-    let defaults = [(POISSON_RATIO, "0.4999")];
-    let parameters = all_parameters(ENTRY.parameters, &defaults, "0.5", &own);
-    let mut checks = of_motion(ORDERS, WAVE);
+    let levels = levels()[..4].to_vec();
+    // One wave across the body.
+    let mut checks = of_motion(claim, Wave::shear(|_| TAU));
     checks.extend(locking());
     Case {
         references: vec![
@@ -61,54 +41,51 @@ pub(super) fn case() -> Case {
         checks,
         sweeps: vec![LOCKING_CURVE],
         breaks_down: |r| {
-            let scheme = (r.basis(), r.remedy()) == (Gimp, RemedyName::FbarTotal);
+            let scheme = (r.basis(), r.remedy()) == (Gimp, FbarTotal);
             (r.is_default() && scheme && r.level == "n64").then_some(NULL_SPACE)
         },
         pictures: |gallery| mean_stress(gallery, "n64", 100.0),
-        ..motion.case(names, parameters)
+        tables: vec![
+            tables::own_orders("mms-double-shear"),
+            tables::locking(
+                "mms-double-shear-locking",
+                [
+                    ("n8, 0.4999", "n8", ""),
+                    ("n16, 0.4999", "n16", ""),
+                    ("n32, 0.4999", "n32", ""),
+                ],
+            ),
+            tables::pressure("mms-double-shear-pressure", ["n8", "n16", "n32", "n64"]),
+        ],
+        ..known_case::<2, DoubleShear>([
+            "mms-double-shear",
+            "Double shear",
+            "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
+        ])
     }
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let none = RemedyName::None;
-    let few = pairs(&[Gimp, Bspline2], &[none, FbarRate, FbarConsistent]);
+    let few = pairs(&SMOOTH, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
-    let [three, four] = more_particles(Nightly, &levels[..3]);
-    vec![
-        family(Quick, &levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
-        family(Pr, &levels[..3], &[few[1], few[2], few[5]], &[]),
-        family(Nightly, levels, &all, &[]),
-        family(Nightly, levels, &other_transfers(), &[]),
-        three,
-        four,
-        family(Nightly, &levels[..3], &all, &["poisson_ratio=0.3"]),
-        family(Nightly, &levels[..2], &few, &["poisson_ratio=0.49"]),
-        family(Nightly, &levels[..2], &few, &["poisson_ratio=0.499"]),
-    ]
+    Plan::of(levels)
+        .runs(Quick, "n8", &few[2..3], "")
+        .runs(Pr, THREE, &[few[1], few[2], few[5]], "")
+        .runs(Nightly, FOUR, &all, "")
+        .runs(Nightly, FOUR, &other_transfers(), "")
+        .each(Nightly, THREE, &main_pairs(), MORE)
+        .runs(Nightly, THREE, &all, "poisson_ratio=0.3")
+        .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.49")
+        .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.499")
+        .done()
 }
 
-fn claim(r: &Record) -> Claim {
-    if r.basis() == Linear {
-        return Claim::Open("the gradient of a linear basis jumps where particles cross cells");
-    }
-    if r.transfer() != TransferName::Flip {
-        return Claim::Open(TRANSFER);
-    }
-    if feeds_null_space(r) {
-        return if r.basis() == Gimp {
-            Claim::Stalls(1.0, NULL_SPACE)
-        } else {
-            Claim::Open(NULL_SPACE)
-        };
-    }
-    if is_sound(r.remedy()) {
-        Claim::Observed(
-            [1.4, 2.6],
-            "second order until the quadrature error of sheared particles shows",
-        )
-    } else if r.remedy() == RemedyName::None {
-        Claim::Open("without a remedy the error is that of locking until the cells resolve it")
-    } else {
-        Claim::Open("Eq. (26) diffuses J; of an isochoric motion it has little to diffuse")
+fn claim(r: &Setup<()>) -> Claim {
+    match r.basis() {
+        Linear => Claim::Open(JUMPS),
+        _ if r.transfer() != TransferName::Flip => Claim::Open(TRANSFER),
+        Gimp if feeds_null_space(r) => Claim::Stalls(1.0, NULL_SPACE),
+        _ if feeds_null_space(r) => Claim::Open(NULL_SPACE),
+        _ => of_isochoric(r, [1.4, 2.6]),
     }
 }

@@ -2,38 +2,30 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-swirl.md`.
 
-use super::family::{family, levels, more_particles, pairs};
-use super::manufactured::checks::{locking, of_motion};
-use super::manufactured::{Boundary, Manufactured, STEP_POISSON_RATIO, all_parameters};
-use super::mms_vortex_box::{ORDERS, WAVE};
+use super::family::{main_pairs, pairs};
+use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
-use crate::case::{Case, Tier};
 use crate::exact::swirl::ENTRY;
-use crate::scheme::{BasisName, RemedyName};
-use mpm_core::stage::WallKind;
+use crate::parameter::Parameter;
+use crate::prelude::*;
 
-use BasisName::{Bspline2, Gimp};
-use RemedyName::{FbarConsistent, FbarRate};
-use Tier::{Nightly, Pr, Quick};
+#[derive(Debug, Clone)]
+struct Swirl;
+
+impl Known for Swirl {
+    const SOLUTION: Solution = ENTRY.build;
+    const BOUNDARY: Boundary = Boundary::Walls(WallKind::Fixed);
+
+    fn parameters() -> Vec<Parameter> {
+        let own = [STEP_POISSON_RATIO.with_default("0.499")];
+        all_parameters(ENTRY.parameters, &[(POISSON_RATIO, "0.499")], "0.5", &own)
+    }
+}
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)]);
-    let names = [
-        "mms-swirl",
-        "Swirl in three dimensions",
-        "The middle of a cube turns about the vertical by an angle that is largest in the centre and vanishes on all sides: isochoric, in three dimensions.",
-    ];
-    let motion = Manufactured {
-        boundary: Boundary::Walls(WallKind::Fixed),
-        ..Manufactured::solid(ENTRY.build)
-    };
-    let own = [STEP_POISSON_RATIO.with_default("0.499")];
-    let defaults = [(POISSON_RATIO, "0.499")];
-    let parameters = all_parameters(ENTRY.parameters, &defaults, "0.5", &own);
-    let none = RemedyName::None;
-    let few = pairs(&[Gimp, Bspline2], &[none, FbarRate, FbarConsistent]);
-    let [three, four] = more_particles(Nightly, &levels[..2]);
-    let mut checks = of_motion(ORDERS, WAVE);
+    let levels = levels()[..3].to_vec();
+    let few = pairs(&SMOOTH, &COMPARED);
+    let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
     Case {
         references: vec![
@@ -43,16 +35,24 @@ pub(super) fn case() -> Case {
             "Three levels, the coarsest with three cells across the radius of the vortex.",
             "The steps are those of ν = 0.499.",
         ],
-        plan: vec![
-            family(Quick, &levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
-            family(Pr, &levels[..1], &few, &[]),
-            family(Nightly, &levels, &few, &[]),
-            family(Nightly, &levels[..2], &few, &["poisson_ratio=0.3"]),
-            three,
-            four,
-        ],
+        plan: Plan::of(&levels)
+            .runs(Quick, "n8", &few[2..3], "")
+            .runs(Pr, "n8", &few, "")
+            .runs(Nightly, THREE, &few, "")
+            .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.3")
+            .each(Nightly, "n8 n16", &main_pairs(), MORE)
+            .done(),
         levels,
         checks,
-        ..motion.case(names, parameters)
+        tables: vec![
+            tables::own_orders("mms-swirl"),
+            tables::locking("mms-swirl-locking", [("n8", "n8", ""), ("n16", "n16", "")]),
+            tables::pressure("mms-swirl-pressure", ["n8", "n16", "n32"]),
+        ],
+        ..known_case::<3, Swirl>([
+            "mms-swirl",
+            "Swirl in three dimensions",
+            "The middle of a cube turns about the vertical by an angle that is largest in the centre and vanishes on all sides: isochoric, in three dimensions.",
+        ])
     }
 }

@@ -2,57 +2,32 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-vortex-box.md`.
 
-use super::family::{BASES, REMEDIES, family, implicit, more_particles, other_transfers, pairs};
-use super::manufactured::checks::{
-    Claim, Claims, TRANSFER, Wave, is_other_transfer, is_sound, locking, of_motion,
-};
-use super::manufactured::metrics::DISPLACEMENT_L2;
-use super::manufactured::pictures::mean_stress;
-use super::manufactured::{Manufactured, STEP_POISSON_RATIO, all_parameters, levels};
+use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
+use super::manufactured::*;
 use super::parameters::{DYNAMIC, POISSON_RATIO};
-use crate::case::{Case, Family, Tier};
 use crate::exact::vortex_box::ENTRY;
-use crate::exact::vortex_pressure::PRESSURE;
-use crate::metric::{Metric, Sweep};
-use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName, RuleName};
-use crate::spec::Level;
+use crate::parameter::Parameter;
+use crate::prelude::*;
 
-use BasisName::{Bspline2, Gimp, Linear};
-use RemedyName::{FbarConsistent, FbarRate, FbarTotal};
-use Tier::{Long, Nightly, Pr, Quick};
+#[derive(Debug, Clone)]
+struct Vortex;
 
-/// The vortex: its profile falls from one to a half over 0.16 m, a sixth of a wave.
-pub(super) const WAVE: Wave = Wave {
-    number: |_| 6.5,
-    shear: true,
-};
-/// Below this cell size (m) the motion crosses so many cells that errors have a floor.
-const FLOOR: f64 = 0.01;
-/// Below this one (m) fbar-total and fbar-rate take enough steps to feed the null space.
-const FED: f64 = 0.02;
+impl Known for Vortex {
+    const SOLUTION: Solution = ENTRY.build;
 
-pub(super) const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
-
-/// Errors over the distance from incompressibility.
-pub(super) const LOCKING_CURVE: Sweep = Sweep {
-    parameter: POISSON_RATIO,
-    label: "0.5 − ν",
-    abscissa: |nu| 0.5 - nu,
-    logarithmic: true,
-};
+    fn parameters() -> Vec<Parameter> {
+        let own = [&[STEP_POISSON_RATIO.with_default("0.4999")], &DYNAMIC[..]].concat();
+        all_parameters(ENTRY.parameters, &[(POISSON_RATIO, "0.4999")], "0.5", &own)
+    }
+}
 
 pub(super) fn case() -> Case {
-    let levels = levels();
-    let names = [
+    let case = known_case::<2, Vortex>([
         "mms-vortex-box",
         "Vortex in a box",
         "The middle of a square turns by a radian while its sides stay: no volume changes, so the exact motion doesn't depend on Poisson's ratio, and the error at ν = 0.4999 over that at 0.3 is locking and nothing else.",
-    ];
-    let own = [&[STEP_POISSON_RATIO.with_default("0.4999")], &DYNAMIC[..]].concat();
-    let defaults = [(POISSON_RATIO, "0.4999")];
-    let parameters = all_parameters(ENTRY.parameters, &defaults, "0.5", &own);
-    let mut checks = of_motion(ORDERS, WAVE);
+    ]);
+    let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
     Case {
         references: vec![
@@ -63,8 +38,7 @@ pub(super) fn case() -> Case {
             "fbar-total and fbar-rate lose convergence, and some runs their life, at n64 and beyond.",
             "The spurious pressure at ν = 0.4999 is λ ln J of errors in J of 10⁻⁴ and doesn't fall over these levels.",
         ],
-        plan: plan(&levels),
-        levels,
+        plan: plan(&case.levels),
         checks,
         sweeps: vec![LOCKING_CURVE],
         breaks_down: |r| {
@@ -77,153 +51,107 @@ pub(super) fn case() -> Case {
             (r.is_default() && known.iter().any(this)).then_some(NULL_SPACE)
         },
         pictures: |gallery| mean_stress(gallery, "n32", 600.0),
-        ..Manufactured::solid(ENTRY.build).case(names, parameters)
+        tables: tables(),
+        ..case
     }
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let few = pairs(
-        &[Gimp, Bspline2],
-        &[RemedyName::None, FbarRate, FbarConsistent],
-    );
+    let two = [Gimp, Bspline2];
+    let few = pairs(&two, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
-    let [midpoint, newmark] = [RuleName::Midpoint, RuleName::Newmark].map(|rule| {
-        implicit(
-            &[rule],
-            &[Gimp, Bspline2],
-            &[RemedyName::None, FbarConsistent],
-        )
-    });
-    let [three, four] = more_particles(Nightly, &levels[..3]);
-    let two = &levels[..2];
-    let near = [RemedyName::None, RemedyName::FbarRecursive, FbarConsistent];
-    let limit = pairs(&[Gimp, Bspline2], &near);
+    let limit = pairs(&two, &[RemedyName::None, FbarRecursive, FbarConsistent]);
+    let [midpoint, newmark] = [RuleName::Midpoint, RuleName::Newmark]
+        .map(|rule| implicit(&[rule], &two, &[RemedyName::None, FbarConsistent]));
+    let near = ["0.49999", "0.499999", "0.4999999"];
+    let explicit = near.map(|nu| format!("poisson_ratio={nu} step_poisson_ratio={nu}"));
+    let implicit = near.map(|nu| format!("cfl=50 poisson_ratio={nu}"));
+    let soft = [
+        "poisson_ratio=0.3",
+        "poisson_ratio=0.49",
+        "poisson_ratio=0.499",
+    ];
+    Plan::of(levels)
+        .runs(Quick, "n8", &few[2..3], "")
+        .runs(Pr, THREE, &few, "")
+        .runs(Pr, "n8 n16", &few, "poisson_ratio=0.3")
+        .runs(Nightly, FOUR, &all, "")
+        .runs(Nightly, FOUR, &other_transfers(), "")
+        .runs(Nightly, "n128", &few[3..], "")
+        .runs(Pr, "n8 n16", &midpoint[..2], "cfl=50")
+        .runs(Pr, "n8 n16", &midpoint[..2], "cfl=50 poisson_ratio=0.3")
+        .runs(Nightly, FOUR, &midpoint, "cfl=50")
+        .runs(Nightly, "n8 n16", &midpoint, "cfl=50 poisson_ratio=0.3")
+        .runs(Nightly, THREE, &midpoint, "cfl=50 poisson_ratio=0.499")
+        .runs(Nightly, FOUR, &newmark, "cfl=10")
+        .runs(Nightly, "n8 n16", &newmark, "cfl=10 poisson_ratio=0.3")
+        .runs(Long, "n128", &midpoint, "cfl=50")
+        .runs(Long, "n128", &newmark, "cfl=10")
+        .each(Nightly, THREE, &main_pairs(), MORE)
+        .each(Nightly, "n8 n16", &limit, explicit)
+        .each(Nightly, "n8 n16", &midpoint, implicit)
+        .each(Nightly, THREE, &all, soft)
+        .runs(Long, "n128", &all, "")
+        .runs(Long, "n128", &other_transfers(), "")
+        .done()
+}
+
+fn tables() -> Vec<ResultTable> {
     vec![
-        family(Quick, &levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
-        family(Pr, &levels[..3], &few, &[]),
-        family(Pr, &levels[..2], &few, &["poisson_ratio=0.3"]),
-        family(Nightly, &levels[..4], &all, &[]),
-        family(Nightly, &levels[..4], &other_transfers(), &[]),
-        family(Nightly, &levels[4..], &few[3..], &[]),
-        family(Pr, &levels[..2], &midpoint[..2], &["cfl=50"]),
-        family(
-            Pr,
-            &levels[..2],
-            &midpoint[..2],
-            &["cfl=50", "poisson_ratio=0.3"],
+        tables::own_orders("mms-vortex-box"),
+        tables::locking(
+            "mms-vortex-box-locking",
+            [
+                ("n8, ν = 0.499", "n8", "poisson_ratio=0.499"),
+                ("n8, 0.4999", "n8", ""),
+                ("n16, 0.499", "n16", "poisson_ratio=0.499"),
+                ("n16, 0.4999", "n16", ""),
+                ("n32, 0.499", "n32", "poisson_ratio=0.499"),
+                ("n32, 0.4999", "n32", ""),
+            ],
         ),
-        family(Nightly, &levels[..4], &midpoint, &["cfl=50"]),
-        family(
-            Nightly,
-            &levels[..2],
-            &midpoint,
-            &["cfl=50", "poisson_ratio=0.3"],
+        tables::price(
+            "mms-vortex-box-price",
+            ["n8", "n16", "n32"],
+            "poisson_ratio=0.3",
         ),
-        family(
-            Nightly,
-            &levels[..3],
-            &midpoint,
-            &["cfl=50", "poisson_ratio=0.499"],
+        tables::pressure(
+            "mms-vortex-box-pressure",
+            ["n8", "n16", "n32", "n64", "n128"],
         ),
-        family(Nightly, &levels[..4], &newmark, &["cfl=10"]),
-        family(
-            Nightly,
-            &levels[..2],
-            &newmark,
-            &["cfl=10", "poisson_ratio=0.3"],
-        ),
-        family(Long, &levels[4..], &midpoint, &["cfl=50"]),
-        family(Long, &levels[4..], &newmark, &["cfl=10"]),
-        three,
-        four,
-        family(
-            Nightly,
-            two,
-            &limit,
-            &["poisson_ratio=0.49999", "step_poisson_ratio=0.49999"],
-        ),
-        family(
-            Nightly,
-            two,
-            &limit,
-            &["poisson_ratio=0.499999", "step_poisson_ratio=0.499999"],
-        ),
-        family(
-            Nightly,
-            two,
-            &limit,
-            &["poisson_ratio=0.4999999", "step_poisson_ratio=0.4999999"],
-        ),
-        family(
-            Nightly,
-            two,
-            &midpoint,
-            &["cfl=50", "poisson_ratio=0.49999"],
-        ),
-        family(
-            Nightly,
-            two,
-            &midpoint,
-            &["cfl=50", "poisson_ratio=0.499999"],
-        ),
-        family(
-            Nightly,
-            two,
-            &midpoint,
-            &["cfl=50", "poisson_ratio=0.4999999"],
-        ),
-        family(Nightly, &levels[..3], &all, &["poisson_ratio=0.3"]),
-        family(Nightly, &levels[..3], &all, &["poisson_ratio=0.49"]),
-        family(Nightly, &levels[..3], &all, &["poisson_ratio=0.499"]),
-        family(Long, &levels[4..], &all, &[]),
-        family(Long, &levels[4..], &other_transfers(), &[]),
+        limit("mms-vortex-box-limit"),
+        tables::cost("mms-vortex-box-cost", ["n8", "n16", "n32"], |r| {
+            let compared = [RemedyName::None, FbarConsistent].contains(&r.remedy());
+            compared && tables::is_smooth(r) && r.changes_none_but(&[CFL.name])
+        }),
     ]
 }
 
-/// Why fbar-total and fbar-rate stop converging.
-pub(super) const NULL_SPACE: &str =
-    "a pressure that Π can't see feeds the null space as particles pass each other (docs/modes.md)";
-
-/// Whether a scheme feeds the null space for so many steps that it shows.
-pub(super) fn feeds_null_space(r: &Record) -> bool {
-    matches!(r.remedy(), FbarTotal | FbarRate) && r.discretisation.h < FED
-}
-
-/// What is known of convergence of an isochoric motion.
-pub(super) fn claim(r: &Record) -> Claim {
-    if r.basis() == Linear {
-        return Claim::Open("the gradient of a linear basis jumps where particles cross cells");
-    }
-    if is_other_transfer(r) {
-        return Claim::Open(TRANSFER);
-    }
-    if r.discretisation.h < FLOOR {
-        return Claim::Open(
-            "particles cross ten cells: the quadrature error of two per direction is a floor",
-        );
-    }
-    if feeds_null_space(r) {
-        let shears_only = r.parameters.number(PRESSURE).is_nan();
-        let clear = shears_only && r.remedy() == FbarRate && matches!(r.basis(), Gimp | Bspline2);
-        return if clear {
-            Claim::Stalls(1.0, NULL_SPACE)
-        } else {
-            Claim::Open(NULL_SPACE)
-        };
-    }
-    if r.scheme().rule().is_some() && is_sound(r.remedy()) && r.discretisation.h < FED {
-        return Claim::Open(
-            "without relaxation ln(J/J̄) no longer falls, and the error has a floor of a hundredth of the motion",
-        );
-    }
-    if is_sound(r.remedy()) {
-        Claim::Observed(
-            [0.8, 2.6],
-            "second order until the quadrature error of sheared particles shows",
-        )
-    } else if r.remedy() == RemedyName::None {
-        Claim::Open("without a remedy the error is that of locking until the cells resolve it")
-    } else {
-        Claim::Open("Eq. (26) diffuses J; of an isochoric motion it has little to diffuse")
-    }
+/// Error over the motion, steps and cost at n16 towards incompressibility, at the CFL numbers of the case.
+fn limit(name: &str) -> ResultTable {
+    let of_ratio = |ratio: f64| {
+        let at = move |r: &Record| r.parameters.number(POISSON_RATIO) == ratio;
+        [
+            Column::value(format!("ν = {ratio}"), tables::relative_error, share(1)).of(at),
+            Column::value("steps", |r| r.work.steps as f64, fixed(0)).of(at),
+            Column::value("CPU (s)", |r| r.time.cpu_s, fixed(1)).of(at),
+        ]
+    };
+    let shows = |r: &Record| {
+        let set = [POISSON_RATIO.name, STEP_POISSON_RATIO.name, CFL.name];
+        let remedies = [RemedyName::None, FbarRecursive, FbarConsistent];
+        let own = is_flip(r) || r.set.iter().any(|s| s == "cfl=50");
+        r.level == "n16"
+            && r.changes_none_but(&set)
+            && own
+            && tables::is_smooth(r)
+            && remedies.contains(&r.remedy())
+    };
+    let ratios = [0.4999, 0.49999, 0.499999, 0.4999999];
+    ResultTable::new(
+        name,
+        shows,
+        &[SCHEME],
+        ratios.into_iter().flat_map(of_ratio),
+    )
 }

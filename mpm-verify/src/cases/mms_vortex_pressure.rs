@@ -2,34 +2,28 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-vortex-pressure.md`.
 
-use super::family::{REMEDIES, family, levels, more_particles, other_transfers, pairs};
-use super::manufactured::checks::{locking, of_motion};
-use super::manufactured::{Manufactured, STEP_POISSON_RATIO, all_parameters};
-use super::mms_vortex_box::{LOCKING_CURVE, ORDERS, WAVE};
+use super::family::{REMEDIES, main_pairs, other_transfers, pairs};
+use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
-use crate::case::{Case, Family, Tier};
 use crate::exact::vortex_pressure::ENTRY;
-use crate::scheme::{BasisName, RemedyName};
-use crate::spec::Level;
+use crate::parameter::Parameter;
+use crate::prelude::*;
 
-use BasisName::{Bspline2, Gimp};
-use RemedyName::{FbarConsistent, FbarRate};
-use Tier::{Nightly, Pr, Quick};
+#[derive(Debug, Clone)]
+struct PressedVortex;
+
+impl Known for PressedVortex {
+    const SOLUTION: Solution = ENTRY.build;
+
+    fn parameters() -> Vec<Parameter> {
+        let own = [STEP_POISSON_RATIO.with_default("0.4999")];
+        all_parameters(ENTRY.parameters, &[(POISSON_RATIO, "0.499")], "0.5", &own)
+    }
+}
 
 pub(super) fn case() -> Case {
-    let levels = levels(
-        1.0,
-        [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)],
-    );
-    let names = [
-        "mms-vortex-pressure",
-        "Vortex with a bounded pressure",
-        "The vortex in a box, with a pressure that stays bounded as the body becomes incompressible: a remedy must not only remove the spurious pressure but leave the true one.",
-    ];
-    let own = [STEP_POISSON_RATIO.with_default("0.4999")];
-    let defaults = [(POISSON_RATIO, "0.499")];
-    let parameters = all_parameters(ENTRY.parameters, &defaults, "0.5", &own);
-    let mut checks = of_motion(ORDERS, WAVE);
+    let levels = levels()[..4].to_vec();
+    let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
     Case {
         references: vec![
@@ -43,28 +37,43 @@ pub(super) fn case() -> Case {
         levels,
         checks,
         sweeps: vec![LOCKING_CURVE],
-        ..Manufactured::solid(ENTRY.build).case(names, parameters)
+        tables: vec![
+            tables::own_orders("mms-vortex-pressure"),
+            tables::locking(
+                "mms-vortex-pressure-locking",
+                [
+                    ("n8, ν = 0.49", "n8", "poisson_ratio=0.49"),
+                    ("n8, 0.499", "n8", ""),
+                    ("n8, 0.4999", "n8", "poisson_ratio=0.4999"),
+                    ("n16, 0.49", "n16", "poisson_ratio=0.49"),
+                    ("n16, 0.499", "n16", ""),
+                    ("n16, 0.4999", "n16", "poisson_ratio=0.4999"),
+                ],
+            ),
+            tables::pressure("mms-vortex-pressure-pressure", ["n8", "n16", "n32", "n64"]),
+        ],
+        ..known_case::<2, PressedVortex>([
+            "mms-vortex-pressure",
+            "Vortex with a bounded pressure",
+            "The vortex in a box, with a pressure that stays bounded as the body becomes incompressible: a remedy must not only remove the spurious pressure but leave the true one.",
+        ])
     }
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let two = [Gimp, Bspline2];
-    let all = pairs(&two, &REMEDIES);
-    let [three, four] = more_particles(Nightly, &levels[..3]);
-    vec![
-        family(Quick, &levels[..1], &pairs(&[Gimp], &[FbarConsistent]), &[]),
-        family(
-            Pr,
-            &levels[..2],
-            &pairs(&two, &[FbarRate, FbarConsistent]),
-            &[],
-        ),
-        family(Nightly, levels, &all, &[]),
-        family(Nightly, levels, &other_transfers(), &[]),
-        three,
-        four,
-        family(Nightly, &levels[..2], &all, &["poisson_ratio=0.3"]),
-        family(Nightly, &levels[..2], &all, &["poisson_ratio=0.49"]),
-        family(Nightly, &levels[..2], &all, &["poisson_ratio=0.4999"]),
-    ]
+    let all = pairs(&SMOOTH, &REMEDIES);
+    let sound = pairs(&SMOOTH, &[FbarRate, FbarConsistent]);
+    let ratios = [
+        "poisson_ratio=0.3",
+        "poisson_ratio=0.49",
+        "poisson_ratio=0.4999",
+    ];
+    Plan::of(levels)
+        .runs(Quick, "n8", &sound[1..2], "")
+        .runs(Pr, "n8 n16", &sound, "")
+        .runs(Nightly, FOUR, &all, "")
+        .runs(Nightly, FOUR, &other_transfers(), "")
+        .each(Nightly, THREE, &main_pairs(), MORE)
+        .each(Nightly, "n8 n16", &all, ratios)
+        .done()
 }

@@ -3,51 +3,45 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-wall-pressure.md`.
 
-use super::family::{BASES, REMEDIES, family, implicit, more_particles, other_transfers, pairs};
-use super::manufactured::checks::{Claim, Claims, Wave, of_motion, order_in_time, stress_order};
-use super::manufactured::metrics::DISPLACEMENT_L2;
-use super::manufactured::{Manufactured, all_parameters, levels};
-use super::mms_axis;
+use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
+use super::manufactured::*;
 use super::parameters::DYNAMIC;
-use crate::case::{Case, Family, Tier};
 use crate::exact::common::AMPLITUDE;
 use crate::exact::wall_pressure::ENTRY;
-use crate::metric::Metric;
-use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName, RuleName};
-use crate::spec::Level;
+use crate::parameter::Parameter;
+use crate::prelude::*;
 use std::f64::consts::PI;
 
-use BasisName::{Bspline2, Bspline3, Gimp};
-use RemedyName::{FbarConsistent, FbarRate, FbarRecursive};
-use Tier::{Long, Nightly, Pr, Quick};
+#[derive(Debug, Clone)]
+struct WallPressure;
 
-/// The motion: half a wave across the body.
-const WAVE: Wave = Wave {
-    number: |_| PI,
-    shear: false,
-};
+impl Known for WallPressure {
+    const SOLUTION: Solution = ENTRY.build;
 
-const ORDERS: &[(Metric, Claims)] = &[(DISPLACEMENT_L2, claim)];
+    fn parameters() -> Vec<Parameter> {
+        all_parameters(ENTRY.parameters, &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC)
+    }
+}
+
+const LARGE: &str = "amplitude=0.05 ppc_per_direction=4";
 
 /// As without a pressure gradient at the walls, but that the floor of hats is half as high.
-fn claim(r: &Record) -> Claim {
-    if r.scheme().rule().is_some() && r.basis() == BasisName::Linear {
-        return Claim::Open(mms_axis::HATS);
+fn claim(r: &Setup<()>) -> Claim {
+    if r.is_implicit() && r.basis() == Linear {
+        return Claim::Open(HATS);
     }
-    mms_axis::claim(r)
+    between_rollers(r)
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels();
-    let names = [
+    let case = known_case::<2, WallPressure>([
         "mms-wall-pressure",
         "Pressure gradient at walls",
         "A neo-Hookean body between rollers is squeezed along its axes so that the pressure is steepest at the walls. Whether bases and averages keep their order there, with both treatments of splines at a wall.",
-    ];
-    let parameters = all_parameters(ENTRY.parameters, &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC);
-    let mut checks = of_motion(ORDERS, WAVE);
-    checks.push(stress_order(ORDERS));
+    ]);
+    // Half a wave across the body.
+    let mut checks = of_motion(claim, Wave::pressure(|_| PI));
+    checks.push(stress_order(claim));
     checks.extend(order_in_time());
     Case {
         references: vec![
@@ -57,81 +51,55 @@ pub(super) fn case() -> Case {
             "Compression and extension without shear: mms-vortex-box has the shear.",
             "At ν = 0.3 nothing locks.",
         ],
-        plan: plan(&levels),
-        levels,
+        plan: plan(&case.levels),
         checks,
-        ..Manufactured::solid(ENTRY.build).case(names, parameters)
+        begin: Box::new(begin::<WallPressure>),
+        tables: vec![
+            tables::own_orders("mms-wall-pressure"),
+            tables::orders("mms-wall-pressure-rules", tables::is_of_rule),
+            tables::orders("mms-wall-pressure-wall-line", |r| {
+                tables::changes(r, "wall=wall-line") && is_flip(r)
+            }),
+            tables::errors(
+                "mms-wall-pressure-large",
+                ["n8", "n16", "n32", "n64"].map(|n| (n, n, LARGE)),
+            ),
+        ],
+        ..case
     }
 }
-
-/// Steps, each half as long as the one before.
-const HALVED: [&[&str]; 3] = [&["cfl=0.4375"], &["cfl=0.21875"], &["cfl=0.109375"]];
-/// The same with a consistent and a lumped mass.
-const CONSISTENT: [&[&str]; 3] = [
-    &["cfl=0.4375", "lumped=0"],
-    &["cfl=0.21875", "lumped=0"],
-    &["cfl=0.109375", "lumped=0"],
-];
-const LUMPED: [&[&str]; 3] = [
-    &["cfl=0.4375", "lumped=1"],
-    &["cfl=0.21875", "lumped=1"],
-    &["cfl=0.109375", "lumped=1"],
-];
 
 fn plan(levels: &[Level]) -> Vec<Family> {
     let few = [RemedyName::None, FbarRate, FbarConsistent];
     let two = [Gimp, Bspline2];
     let rules = [RuleName::Midpoint, RuleName::Newmark];
     let moved = implicit(&rules, &BASES[..3], &few[..1]);
-    let [three, four] = more_particles(Nightly, &levels[..3]);
     // GIMP's consistent mass is singular once particles have moved.
     let definite = [moved[0], moved[2]];
-    let in_time = [
-        CONSISTENT.map(|set| family(Pr, &levels[..1], &definite[1..], set)),
-        CONSISTENT.map(|set| family(Nightly, &levels[1..2], &definite, set)),
-        HALVED.map(|set| family(Nightly, &levels[1..2], &moved, set)),
-        LUMPED.map(|set| family(Nightly, &levels[1..2], &moved[..3], set)),
-    ];
-    let in_space = [
-        family(Quick, &levels[..1], &pairs(&[Gimp], &few[..1]), &[]),
-        family(Pr, &levels[..3], &pairs(&two, &few), &[]),
-        family(
-            Pr,
-            &levels[..3],
-            &pairs(&[Bspline2], &few[..1]),
-            &["wall=wall-line"],
-        ),
-        family(Nightly, levels, &pairs(&BASES, &REMEDIES), &[]),
-        family(Nightly, levels, &other_transfers(), &[]),
-        family(Nightly, &levels[..4], &moved, &["cfl=2"]),
-        family(Long, &levels[4..], &moved, &["cfl=2"]),
-        three,
-        four,
-        family(
-            Nightly,
-            &levels[..4],
-            &pairs(&two, &REMEDIES),
-            &["step_scaling=h2"],
-        ),
-        family(
-            Nightly,
-            &levels[..4],
-            &pairs(&[Bspline2, Bspline3], &few),
-            &["wall=wall-line"],
-        ),
-        family(
-            Nightly,
-            &levels[..4],
-            &pairs(&BASES, &few),
-            &["amplitude=0.05", "ppc_per_direction=4"],
-        ),
-        family(
-            Nightly,
-            &levels[..3],
-            &pairs(&two, &[FbarRecursive, FbarConsistent]),
-            &["dimension=3"],
-        ),
-    ];
-    let in_time = in_time.into_iter().flatten();
-    in_space.into_iter().chain(in_time).collect()
+    let own = pairs(&two, &few);
+    let splines = pairs(&[Bspline2, Bspline3], &few);
+    let pair = pairs(&two, &REMEDIES);
+    let solid = pairs(&two, &[FbarRecursive, FbarConsistent]);
+    // Steps, each half as long as the one before; the same with a consistent and a lumped mass.
+    let halved = ["cfl=0.4375", "cfl=0.21875", "cfl=0.109375"];
+    let consistent = halved.map(|cfl| format!("{cfl} lumped=0"));
+    let lumped = halved.map(|cfl| format!("{cfl} lumped=1"));
+    Plan::of(levels)
+        .runs(Quick, "n8", &own[..1], "")
+        .runs(Pr, THREE, &own, "")
+        .runs(Pr, THREE, &splines[..1], "wall=wall-line")
+        .runs(Nightly, FIVE, &pairs(&BASES, &REMEDIES), "")
+        .runs(Nightly, FIVE, &other_transfers(), "")
+        .runs(Nightly, FOUR, &moved, "cfl=2")
+        .runs(Long, "n128", &moved, "cfl=2")
+        .each(Nightly, THREE, &main_pairs(), MORE)
+        .runs(Nightly, FOUR, &pair, "step_scaling=h2")
+        .runs(Nightly, FOUR, &splines, "wall=wall-line")
+        .runs(Nightly, FOUR, &pairs(&BASES, &few), LARGE)
+        .runs(Nightly, THREE, &solid, "dimension=3")
+        .each(Pr, "n8", &definite[1..], &consistent)
+        .each(Nightly, "n16", &definite, &consistent)
+        .each(Nightly, "n16", &moved, halved)
+        .each(Nightly, "n16", &moved[..3], &lumped)
+        .done()
 }

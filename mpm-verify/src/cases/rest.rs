@@ -2,27 +2,16 @@
 //!
 //! Set-up, choices and tolerances: `docs/rest.md`.
 
-use super::family::{REMEDIES, family, levels, pairs};
-use super::manufactured::checks::mass;
-use super::manufactured::metrics::{
-    BASE_PRESSURE, DISPLACEMENT_L2, DISPLACEMENT_LINF, J_DRIFT_PER_1E5_STEPS, KINETIC_ENERGY_PEAK,
-    KINETIC_GROWTH, TRUE_J_DRIFT_PER_1E5_STEPS,
-};
-use super::manufactured::{Boundary, CFL, Manufactured, all_parameters};
+use super::family::{self, REMEDIES, pairs};
+use super::manufactured::*;
 use super::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
-use crate::case::{Case, Family, Tier};
-use crate::check::{Check, judge, run};
 use crate::exact::common::GRAVITY;
 use crate::exact::incline::{ENTRY, INCLINATION, THICKNESS};
-use crate::record::Record;
-use crate::results::{Column, ResultTable, SCHEME, SHORT, fixed, headline};
-use crate::scheme::{BasisName, RemedyName};
-use crate::spec::Level;
+use crate::parameter::Parameter;
+use crate::prelude::*;
 
-use BasisName::{Bspline2, Bspline3, Gimp};
-use RemedyName::{FbarConsistent, FbarRecursive};
-use Tier::{Nightly, Pr};
-
+const HUNDRED_THOUSAND: &str = "duration=20";
+const MILLION: &str = "duration=200";
 /// Largest drift of a cell's mean J per 10⁵ steps, and least steps from which it is judged.
 const DRIFT: f64 = 1e-5;
 const ENOUGH: u64 = 100_000;
@@ -32,19 +21,24 @@ const BEATS: f64 = 2.0;
 /// ½ m (ε L/Δt)² times the number of steps.
 const ROUNDING: f64 = 1e-14;
 
+#[derive(Debug, Clone)]
+struct Incline;
+
+impl Known for Incline {
+    const SOLUTION: Solution = ENTRY.build;
+    const BOUNDARY: Boundary = Boundary::Slope;
+    const RESTS: bool = true;
+
+    fn parameters() -> Vec<Parameter> {
+        all_parameters(ENTRY.parameters, &[(CFL, "0.3")], "2", &[])
+    }
+}
+
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
-    let names = [
-        "rest",
-        "Slope at rest",
-        "A layer two metres thick on a rough incline starts in its exact state of rest and has nothing to do, for up to a million steps: no energy grows, nothing creeps, but what the printed F̄ is known to.",
-    ];
-    let motion = Manufactured {
-        boundary: Boundary::Slope,
-        rests: true,
-        ..Manufactured::solid(ENTRY.build)
-    };
-    let parameters = all_parameters(ENTRY.parameters, &[(CFL, "0.3")], "2", &[]);
+    let levels = family::levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
+    let few = [RemedyName::None, FbarRecursive, FbarConsistent];
+    let few = pairs(&SMOOTH, &few);
+    let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
     Case {
         references: vec![
             "Exact state of rest at finite deformation, exact/src/incline.rs.".to_owned(),
@@ -53,7 +47,12 @@ pub(super) fn case() -> Case {
         limits: &[
             "The layer is endless: no toe, no crest. Elastic: what a yielding slope creeps by is not here.",
         ],
-        plan: plan(&levels),
+        plan: Plan::of(&levels)
+            .runs(Pr, "h0.25", &few, "")
+            .runs(Nightly, "h0.25 h0.125", &all, "")
+            .runs(Nightly, "h0.25", &all, HUNDRED_THOUSAND)
+            .runs(Nightly, "h0.25", &few, MILLION)
+            .done(),
         levels,
         checks: checks(),
         headlines: vec![
@@ -78,131 +77,77 @@ pub(super) fn case() -> Case {
             table("rest", HUNDRED_THOUSAND),
             table("rest-million", MILLION),
         ],
-        ..motion.case(names, parameters)
+        ..known_case::<2, Incline>([
+            "rest",
+            "Slope at rest",
+            "A layer two metres thick on a rough incline starts in its exact state of rest and has nothing to do, for up to a million steps: no energy grows, nothing creeps, but what the printed F̄ is known to.",
+        ])
     }
 }
 
-const HUNDRED_THOUSAND: &[&str] = &["duration=20"];
-const MILLION: &[&str] = &["duration=200"];
-
-fn plan(levels: &[Level]) -> Vec<Family> {
-    let few = pairs(
-        &[Gimp, Bspline2],
-        &[RemedyName::None, FbarRecursive, FbarConsistent],
-    );
-    let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
-    vec![
-        family(Pr, &levels[..1], &few, &[]),
-        family(Nightly, levels, &all, &[]),
-        family(Nightly, &levels[..1], &all, HUNDRED_THOUSAND),
-        family(Nightly, &levels[..1], &few, MILLION),
-    ]
+fn table(name: &str, set: &'static str) -> ResultTable {
+    let columns = [
+        ("rms distance from rest (m)", DISPLACEMENT_L2, SHORT),
+        ("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT),
+        ("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT),
+        ("pressure at the foot (Pa)", BASE_PRESSURE, fixed(0)),
+        ("last/middle third", KINETIC_GROWTH, SHORT),
+        ("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK, SHORT),
+    ];
+    tables::metrics(name, set, columns)
 }
 
 fn checks() -> Vec<Check> {
     vec![
         mass(),
-        Check::truth(
-            "stays",
-            "GIMP and quadratic splines, all but fbar-recursive: no particle is farther from its place of rest than h² u″/8, u″ = ρ g sin θ/μ",
-            run(|r: &Record| {
-                let why = "what piecewise linear functions leave of a displacement that is quadratic in depth";
-                is_sound(r).then(|| judge(r, DISPLACEMENT_LINF).at_most(interpolation(r), why))
-            }),
-        ),
-        Check::truth(
-            "base-pressure",
-            "likewise: the mean pressure at the foot is (1 + ν)/(3 (1 − ν)) ρ g cos θ H within a quarter of a cell's weight",
-            run(|r| {
-                let why = "uniaxial strain under the weight; a quarter of a cell, by which an average moves the pressure at a wall";
-                let exact = base_pressure(r);
-                let share = 0.25 * r.discretisation.h / r.parameters.number(THICKNESS);
-                is_sound(r).then(|| judge(r, BASE_PRESSURE).within(exact, share * exact, why))
-            }),
-        ),
-        Check::truth(
-            "no-growth",
-            "likewise: the largest kinetic energy of the last third of the run is at most twice that of the middle third, but for what last bits can walk to",
-            run(|r| {
-                let bound = BEATS + ROUNDING / r.metric(KINETIC_ENERGY_PEAK);
-                let why = "nothing feeds a motion; two hundred samples of a ringing that nothing damps don't meet its peaks";
-                is_sound(r).then(|| judge(r, KINETIC_GROWTH).at_most(bound, why))
-            }),
-        ),
-        Check::truth(
-            "no-creep",
-            "likewise, from 10⁵ steps on: the mean J of no cell drifts by more than 10⁻⁵ per 10⁵ steps",
-            run(|r| {
-                let metric = TRUE_J_DRIFT_PER_1E5_STEPS;
-                let why = "the state of rest is one of the equations; a hundredth of the compression at the foot";
-                (is_sound(r) && r.work.steps >= ENOUGH)
-                    .then(|| judge(r, metric).at_most(DRIFT, why))
-            }),
-        ),
-        Check::known_limit(
-            "cubic-out-of-balance",
-            "cubic splines: a particle is farther from its place than that",
-            run(|r| {
-                let why = "two particles a direction don't integrate cubic splines at a foot that a stress acts on";
-                (r.basis() == Bspline3)
-                    .then(|| judge(r, DISPLACEMENT_LINF).above(interpolation(r), why))
-            }),
-        ),
-        Check::known_limit(
-            "pressure-relaxes",
-            "fbar-recursive: the pressure at the foot is its mean over the height, half of what it should be, within a twentieth",
-            run(|r| {
-                let why = "Eq. (26) diffuses J̄ until it is the same everywhere, in 10⁴ steps here; shear takes over what it leaves";
-                let exact = base_pressure(r);
-                (r.remedy() == FbarRecursive)
-                    .then(|| judge(r, BASE_PRESSURE).within(0.5 * exact, 0.05 * exact, why))
-            }),
-        ),
+        Gate::truth("stays", "GIMP and quadratic splines, all but fbar-recursive: no particle is farther from its place of rest than h² u″/8, u″ = ρ g sin θ/μ")
+            .when(is_sound)
+            .at_most(DISPLACEMENT_LINF, interpolation)
+            .because("what piecewise linear functions leave of a displacement that is quadratic in depth"),
+        Gate::truth("base-pressure", "likewise: the mean pressure at the foot is (1 + ν)/(3 (1 − ν)) ρ g cos θ H within a quarter of a cell's weight")
+            .when(is_sound)
+            .within(BASE_PRESSURE, base_pressure, |r| {
+                let share = 0.25 * r.h / r.values.number(THICKNESS);
+                share * base_pressure(r)
+            })
+            .because("uniaxial strain under the weight; a quarter of a cell, by which an average moves the pressure at a wall"),
+        Gate::truth("no-growth", "likewise: the largest kinetic energy of the last third of the run is at most twice that of the middle third, but for what last bits can walk to")
+            .when(is_sound)
+            .at_most(KINETIC_GROWTH, |r| BEATS + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
+            .because("nothing feeds a motion; two hundred samples of a ringing that nothing damps don't meet its peaks"),
+        Gate::truth("no-creep", "likewise, from 10⁵ steps on: the mean J of no cell drifts by more than 10⁻⁵ per 10⁵ steps")
+            .when(|r| is_sound(r) && r.record.work.steps >= ENOUGH)
+            .at_most(TRUE_J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
+            .because("the state of rest is one of the equations; a hundredth of the compression at the foot"),
+        Gate::known_limit("cubic-out-of-balance", "cubic splines: a particle is farther from its place than that")
+            .when(|r| r.basis() == Bspline3)
+            .above(DISPLACEMENT_LINF, interpolation)
+            .because("two particles a direction don't integrate cubic splines at a foot that a stress acts on"),
+        Gate::known_limit("pressure-relaxes", "fbar-recursive: the pressure at the foot is its mean over the height, half of what it should be, within a twentieth")
+            .when(|r| r.remedy() == FbarRecursive)
+            .within(BASE_PRESSURE, |r| 0.5 * base_pressure(r), |r| 0.05 * base_pressure(r))
+            .because("Eq. (26) diffuses J̄ until it is the same everywhere, in 10⁴ steps here; shear takes over what it leaves"),
     ]
 }
 
 /// Whether a scheme has no known reason to leave the state of rest.
-fn is_sound(r: &Record) -> bool {
+fn is_sound(r: &Run<()>) -> bool {
     r.remedy() != FbarRecursive && r.basis() != Bspline3
 }
 
-/// What piecewise linear functions leave of the displacement (m).
-fn interpolation(r: &Record) -> f64 {
-    r.discretisation.h.powi(2) * curvature(r) / 8.0
-}
-
-/// ρ g sin θ/μ (1/m).
-fn curvature(r: &Record) -> f64 {
-    let number = |p| r.parameters.number(p);
+/// What piecewise linear functions leave of the displacement (m), whose curvature is ρ g sin θ/μ (1/m).
+fn interpolation(r: &Run<()>) -> f64 {
+    let number = |p| r.values.number(p);
     let shear = 0.5 * number(YOUNG_MODULUS) / (1.0 + number(POISSON_RATIO));
-    number(DENSITY) * number(GRAVITY) * number(INCLINATION).to_radians().sin() / shear
+    let force = number(DENSITY) * number(GRAVITY) * number(INCLINATION).to_radians().sin();
+    r.h.powi(2) * (force / shear) / 8.0
 }
 
 /// Mean pressure at the foot (Pa).
-fn base_pressure(r: &Record) -> f64 {
-    let number = |p| r.parameters.number(p);
+fn base_pressure(r: &Run<()>) -> f64 {
+    let number = |p| r.values.number(p);
     let ratio = number(POISSON_RATIO);
     let weight = number(DENSITY) * number(GRAVITY) * number(THICKNESS);
     let across = weight * number(INCLINATION).to_radians().cos();
     (1.0 + ratio) / (3.0 * (1.0 - ratio)) * across
-}
-
-fn table(name: &'static str, set: &'static [&'static str]) -> ResultTable {
-    let columns = [
-        ("rms distance from rest (m)", DISPLACEMENT_L2),
-        ("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS),
-        ("of J", TRUE_J_DRIFT_PER_1E5_STEPS),
-        ("pressure at the foot (Pa)", BASE_PRESSURE),
-        ("last/middle third", KINETIC_GROWTH),
-        ("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK),
-    ];
-    let columns = columns.map(|(title, metric)| {
-        let format = if metric == BASE_PRESSURE {
-            fixed(0)
-        } else {
-            SHORT
-        };
-        Column::metric(title, metric, format)
-    });
-    ResultTable::new(name, move |r| r.set == set, &[SCHEME], columns)
 }

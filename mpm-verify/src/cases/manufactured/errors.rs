@@ -1,7 +1,9 @@
-//! How far a run is from the exact motion.
+//! Errors of a run against the exact motion.
 
-use super::scene::vector;
+use super::vector;
 use crate::exact::Exact;
+use crate::metric::Metric;
+use crate::statistics::rms;
 use mpm_core::{Particles, Simulation};
 use nalgebra::{Matrix3, Vector3};
 
@@ -23,6 +25,16 @@ pub(in crate::cases) fn of_displacement<const D: usize>(
     error
 }
 
+/// Magnitudes of the displacement errors of all particles (m).
+pub(in crate::cases) fn of_displacements<const D: usize>(
+    solution: &dyn Exact,
+    run: &dyn Simulation<D>,
+) -> Vec<f64> {
+    let (p, t) = (run.particles(), run.time());
+    let error = |k| of_displacement(solution, p, k, t).norm();
+    (0..p.len()).map(error).collect()
+}
+
 /// Cauchy stress of a run, as it enters the forces, minus that of the exact motion (Pa), in the particles' order.
 pub(in crate::cases) fn of_stress<const D: usize>(
     solution: &dyn Exact,
@@ -40,8 +52,24 @@ pub(in crate::cases) fn of_stress<const D: usize>(
     pairs.collect()
 }
 
+/// Magnitudes of the errors of stress and mean stress of all particles (Pa).
+pub(in crate::cases) fn of_stresses<const D: usize>(
+    solution: &dyn Exact,
+    run: &mut dyn Simulation<D>,
+) -> [Vec<f64>; 2] {
+    let errors = of_stress(solution, run);
+    let mean = errors.iter().map(|s| (s.trace() / 3.0).abs()).collect();
+    [errors.iter().map(|s| s.norm()).collect(), mean]
+}
+
+/// Rms and largest of the errors of all particles, as two metrics.
+pub(in crate::cases) fn norms([l2, linf]: [Metric; 2], errors: &[f64]) -> [(Metric, f64); 2] {
+    let largest = errors.iter().copied().fold(0.0, f64::max);
+    [(l2, rms(errors.iter().copied())), (linf, largest)]
+}
+
 /// Mass of the body (kg).
-pub(super) fn mass<const D: usize>(solution: &dyn Exact) -> f64 {
+pub(in crate::cases) fn mass<const D: usize>(solution: &dyn Exact) -> f64 {
     let extent = solution.extent();
     let volume: f64 = extent[..D].iter().map(|[lo, hi]| hi - lo).product();
     volume * solution.material().density

@@ -1,6 +1,6 @@
-//! What is measured of a motion that is known in closed form.
+//! Metrics of a motion that is known in closed form.
 
-use crate::metric::{Metric, Quantity, error, metrics};
+use crate::metric::{Quantity, error, metrics};
 use crate::results::{Column, headline};
 
 metrics! { pub(in crate::cases) METRICS:
@@ -46,27 +46,7 @@ metrics! { pub(in crate::cases) METRICS:
     BASE_PRESSURE = "base_pressure", "Pa", "pressure at the floor, by a straight line through the lower half";
 }
 
-metrics! { pub(in crate::cases) STATIC:
-    NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
-    LINEAR_ITERATIONS = "linear_iterations", "-",
-        "solutions by factors, with F̄ iterations of conjugate gradients";
-}
-
-/// What a quasi-static run is measured by besides.
-pub(super) const OF_SLOW: [Metric; 10] = [
-    DISPLACEMENT_L2,
-    DISPLACEMENT_LINF,
-    STRESS_L2,
-    STRESS_LINF,
-    MEAN_STRESS_L2,
-    MEAN_STRESS_LINF,
-    DISPLACEMENT_SCALE,
-    LOG_JACOBIAN_GAP,
-    MASS,
-    BODY_MASS,
-];
-
-/// What the table of results shows.
+/// Columns of the table of results.
 pub(super) fn headlines() -> Vec<Column> {
     vec![
         headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 8),
@@ -84,25 +64,6 @@ pub(super) const ERRORS: &[Quantity] = &[
     error(DISPLACEMENT_L2, "rms error of u (m)").of_order(2.0),
     error(DISPLACEMENT_LINF, "largest error of u (m)").of_order(2.0),
     error(VELOCITY_L2, "rms error of v (m/s)").of_order(2.0),
-    error(STRESS_L2, "rms error of σ (Pa)").of_order(1.0),
-    error(MEAN_STRESS_L2, "rms error of σ_m (Pa)").of_order(1.0),
-];
-
-/// The table's columns of a quasi-static run.
-pub(super) fn slow_headlines() -> Vec<Column> {
-    vec![
-        headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 8),
-        headline(STRESS_L2, "σ rms error (Pa)", 1.0, 2),
-        headline(MEAN_STRESS_L2, "σ_m rms error (Pa)", 1.0, 2),
-        headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 6),
-        headline(DISPLACEMENT_SCALE, "u rms (m)", 1.0, 6),
-        headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-    ]
-}
-
-/// The errors of a quasi-static run whose convergence is studied.
-pub(super) const SLOW_ERRORS: &[Quantity] = &[
-    error(DISPLACEMENT_L2, "rms error of u (m)").of_order(2.0),
     error(STRESS_L2, "rms error of σ (Pa)").of_order(1.0),
     error(MEAN_STRESS_L2, "rms error of σ_m (Pa)").of_order(1.0),
 ];

@@ -1,31 +1,45 @@
-//! Problems whose exact solution is known: one description per problem, one simulation for all.
+//! Problems whose exact solution is known: what each of them says of its motion, and one simulation for all.
 //!
 //! Choices, gates and tolerances: `docs/manufactured.md`.
 
 pub(super) mod checks;
 pub(super) mod errors;
-pub(super) mod metrics;
-pub(super) mod pictures;
-mod scene;
+mod metrics;
+mod motion;
+mod pictures;
+mod scenario;
 mod sketch;
-mod slow;
-mod tables;
-mod watch;
+pub(super) mod tables;
 
 use super::parameters;
-use crate::case::Case;
-use crate::error::Error;
 use crate::exact::{self, Exact};
 use crate::job::Job;
-use crate::parameter::{Domain, Parameter, Parameters, number, parameters};
-use crate::spec::{Level, RunSpec};
-use metrics::{ERRORS, METRICS, headlines};
-use mpm_core::stage::WallKind;
-pub(super) use scene::{forcing, vector};
-use slow::Slow;
-use watch::Motion;
+use crate::parameter::{Domain, Parameter, ParameterSet, Parameters, number, parameters};
+use crate::prelude::*;
+use crate::problem;
+pub(super) use checks::*;
+pub(super) use metrics::*;
+pub(super) use motion::Motion;
+pub(super) use pictures::mean_stress;
+pub(super) use scenario::{Scenario, forcing, vector};
+use std::fmt::Debug;
+use std::marker::PhantomData;
 
-/// What holds the body.
+/// Makes an exact solution.
+pub(super) type Solution = fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>;
+
+/// Bases whose functions are smooth enough for particles that cross cells.
+pub(super) const SMOOTH: [BasisName; 2] = [Gimp, Bspline2];
+/// Remedies that are compared: without, by rates, and ours.
+pub(super) const COMPARED: [RemedyName; 3] = [RemedyName::None, FbarRate, FbarConsistent];
+/// More particles than the cases' own two per direction.
+pub(super) const MORE: [&str; 2] = ["ppc_per_direction=3", "ppc_per_direction=4"];
+/// Levels of plans.
+pub(super) const THREE: &str = "n8 n16 n32";
+pub(super) const FOUR: &str = "n8 n16 n32 n64";
+pub(super) const FIVE: &str = "n8 n16 n32 n64 n128";
+
+/// The boundary of a body.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Boundary {
     /// Walls on all sides.
@@ -38,117 +52,73 @@ pub(super) enum Boundary {
     Slope,
 }
 
-/// A motion that is known in closed form, and what holds the body.
-#[derive(Clone, Copy)]
-pub(super) struct Manufactured {
+/// A motion that is known in closed form, and its boundary: a solid between rollers unless said.
+pub(super) trait Known: Debug + Clone + Send + Sync + 'static {
     /// Makes the exact solution.
-    pub(super) solution: fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>,
-    pub(super) boundary: Boundary,
+    const SOLUTION: Solution;
+    const BOUNDARY: Boundary = Boundary::Walls(WallKind::Roller);
     /// Whether the body is a fluid.
-    pub(super) fluid: bool,
+    const FLUID: bool = false;
     /// Whether the body is to stay at rest.
-    pub(super) rests: bool,
+    const RESTS: bool = false;
     /// Angular frequency (rad/s) of a solution that is one standing wave.
-    pub(super) frequency: Option<fn(&Parameters) -> f64>,
+    const FREQUENCY: Option<fn(&Parameters) -> f64> = None;
+
+    /// All parameters: see [`all_parameters`].
+    fn parameters() -> Vec<Parameter>;
 }
 
-impl Manufactured {
-    /// A solid between rollers.
-    pub(super) fn solid(solution: fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>) -> Self {
-        Self {
-            solution,
-            boundary: Boundary::Walls(WallKind::Roller),
-            fluid: false,
-            rests: false,
-            frequency: None,
-        }
+/// The parameters of a motion, which are read by name: each case composes its own list.
+#[derive(Debug, Clone)]
+pub(super) struct Own<K>(PhantomData<K>);
+
+impl<K: Known> ParameterSet for Own<K> {
+    fn list() -> Vec<Parameter> {
+        K::parameters()
     }
 
-    /// A case of this motion, with the levels, errors and headlines that serve most; plan and checks are the
-    /// problem's own.
-    pub(super) fn case(
-        self,
-        [name, title, description]: [&'static str; 3],
-        parameters: Vec<Parameter>,
-    ) -> Case {
-        let (known, of_begin) = (parameters.clone(), parameters.clone());
-        Case {
-            name,
-            title,
-            description,
-            references: Vec::new(),
-            limits: &[],
-            levels: levels(),
-            plan: Vec::new(),
-            metrics: METRICS.to_vec(),
-            checks: Vec::new(),
-            headlines: headlines(),
-            quantities: ERRORS.to_vec(),
-            sweeps: Vec::new(),
-            watched: &["displacement_l2", "log_jacobian_gap_rms"],
-            field: None,
-            sketch: sketch::sketch(&self, &parameters),
-            cost: Box::new(move |spec| scene::cost(&self, &known, spec)),
-            ladder: &[],
-            own_runs: crate::record::of_defaults,
-            begin: Box::new(move |spec, p| self.begin(spec, p, &of_begin)),
-            pictures: |_| Ok(()),
-            tables: tables::of(name),
-            breaks_down: |_| None,
-            parameters,
-        }
+    fn read(_: &Parameters) -> Result<Self, exact::Error> {
+        Ok(Self(PhantomData))
     }
+}
 
-    /// A case of this motion, so slow that it is always in equilibrium.
-    pub(super) fn slow_case(self, names: [&'static str; 3], parameters: Vec<Parameter>) -> Case {
-        Case {
-            metrics: [&metrics::OF_SLOW, metrics::STATIC].concat(),
-            headlines: metrics::slow_headlines(),
-            quantities: metrics::SLOW_ERRORS.to_vec(),
-            watched: &["displacement_l2", "newton_iterations"],
-            cost: Box::new(|spec| 1e-4 * spec.level.h.powi(-3)),
-            begin: Box::new(move |spec, p| {
-                Ok(match (self.solution)(p)?.dimension() {
-                    3 => Box::new(Slow::<3>::drive(self, spec, p)?),
-                    _ => Box::new(Slow::<2>::drive(self, spec, p)?),
-                })
-            }),
-            ..self.case(names, parameters)
-        }
+/// A case of this motion in `D` dimensions, by name, title and description, with the levels, errors and headlines that serve most.
+pub(super) fn known_case<const D: usize, K: Known>(
+    [name, title, description]: [&'static str; 3],
+) -> Case
+where
+    Motion<D, K>: Problem<D, Parameters = Own<K>>,
+{
+    Case {
+        description,
+        levels: levels(),
+        headlines: headlines(),
+        quantities: ERRORS.to_vec(),
+        watched: &["displacement_l2", "log_jacobian_gap_rms"],
+        sketch: sketch::sketch::<K>(),
+        cost: Box::new(scenario::cost::<K>),
+        ..Case::of::<D, Motion<D, K>>(name, title, METRICS)
     }
+}
 
-    fn begin(
-        self,
-        spec: &RunSpec,
-        p: &Parameters,
-        known: &[Parameter],
-    ) -> Result<Box<dyn Job>, Error> {
-        Ok(match (self.solution)(p)?.dimension() {
-            1 => Box::new(Motion::<1>::drive(self, spec, p, known)?),
-            2 => Box::new(Motion::<2>::drive(self, spec, p, known)?),
-            _ => Box::new(Motion::<3>::drive(self, spec, p, known)?),
-        })
+/// Begins a run in as many dimensions as the exact solution of its parameters has.
+pub(super) fn begin<K: Known>(spec: &RunSpec, p: &Parameters) -> Result<Box<dyn Job>, Error> {
+    match (K::SOLUTION)(p)?.dimension() {
+        1 => problem::begin::<1, Motion<1, K>>(spec, p),
+        2 => problem::begin::<2, Motion<2, K>>(spec, p),
+        _ => problem::begin::<3, Motion<3, K>>(spec, p),
     }
 }
 
 /// 8 to 128 cells per metre.
 pub(super) fn levels() -> Vec<Level> {
-    super::family::levels(
-        1.0,
-        [
-            ("n8", 8.0),
-            ("n16", 16.0),
-            ("n32", 32.0),
-            ("n64", 64.0),
-            ("n128", 128.0),
-        ],
-    )
+    let names = ["n8", "n16", "n32", "n64", "n128"];
+    let levels = names.into_iter().zip([8.0, 16.0, 32.0, 64.0, 128.0]);
+    levels.map(|(name, n)| Level { name, h: 1.0 / n }).collect()
 }
 
 parameters! { pub(super) const:
     DURATION = "duration", "s", "1", number(1e-9, 1e6, false), "time to run";
-    LOAD_STEPS = "load_steps", "-", "4", Domain::Integer { least: 1, most: 10_000 },
-        "quasi-static: equal steps of time";
     RELAXATION = "relaxation", "-", "10", number(0.0, 1e9, false),
         "relaxation β of the remedy fbar-consistent";
     HOLD = "hold", "-", "0", number(0.0, 1e9, false),
@@ -156,16 +126,14 @@ parameters! { pub(super) const:
     STEP_POISSON_RATIO = "step_poisson_ratio", "-", "0.49", number(0.0, 0.5, true),
         "the time step is that of a body with this Poisson's ratio, if the body's own is lower: runs at several ratios then differ in nothing else";
 }
-pub(super) const CFL: Parameter = Parameter {
-    domain: number(1e-4, 100.0, false),
-    ..parameters::CFL.with_default("0.3").meaning(
+pub(super) const CFL: Parameter = parameters::CFL
+    .with_default("0.3")
+    .within(number(1e-4, 100.0, false))
+    .meaning(
         "CFL number c Δt / h of pressure waves, rounded down so that steps fill the duration; explicit: below 1",
-    )
-};
-pub(super) const PPC_PER_DIRECTION: Parameter = Parameter {
-    domain: Domain::Integer { least: 1, most: 5 },
-    ..parameters::PPC_PER_DIRECTION
-};
+    );
+pub(super) const PPC_PER_DIRECTION: Parameter =
+    parameters::PPC_PER_DIRECTION.within(Domain::Integer { least: 1, most: 5 });
 const FLIP: Parameter =
     parameters::FLIP.meaning("PIC/FLIP blend η of the transfer flip: 1 is FLIP");
 
@@ -189,10 +157,15 @@ pub(super) fn all_parameters(
         HOLD,
     ];
     let mut all = [of_solution, &numerical, own].concat();
-    for p in &mut all {
+    set_defaults(&mut all, defaults);
+    all
+}
+
+/// Sets the defaults of some of the parameters.
+pub(super) fn set_defaults(all: &mut [Parameter], defaults: &[(Parameter, &'static str)]) {
+    for p in all {
         if let Some((_, default)) = defaults.iter().find(|(known, _)| known.name == p.name) {
             p.default = default;
         }
     }
-    all
 }

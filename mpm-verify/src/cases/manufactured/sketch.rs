@@ -1,12 +1,13 @@
-//! The body and what holds it, drawn.
+//! Sketch of the body with its supports.
 
-use super::{Boundary, Manufactured};
-use crate::parameter::{Parameter, Parameters};
-use crate::sketch::{Point, Shape, Sketch};
+use super::{Boundary, Known};
+use crate::parameter::Parameters;
+use crate::prelude::*;
+use crate::sketch::Point;
 
 /// The body at rest, seen along the third axis; a bar is drawn with a thickness.
-pub(super) fn sketch(case: &Manufactured, known: &[Parameter]) -> Sketch {
-    let solution = Parameters::new(known, &[]).and_then(|p| (case.solution)(&p));
+pub(super) fn sketch<K: Known>() -> Sketch {
+    let solution = Parameters::new(&K::parameters(), &[]).and_then(|p| (K::SOLUTION)(&p));
     let Ok(solution) = solution else {
         return Sketch::default();
     };
@@ -16,23 +17,33 @@ pub(super) fn sketch(case: &Manufactured, known: &[Parameter]) -> Sketch {
         (y0, y1) = (0.0, 0.1 * width);
     }
     let [a, b, c, d]: [Point; 4] = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
-    let mut shapes = vec![Shape::Body(vec![a, b, c, d])];
     // Hatched on the left, seen from the first point to the second: outside, going clockwise.
-    let held: &[(Point, Point)] = match (case.boundary, solution.dimension()) {
-        (Boundary::Periodic, _) => &[],
-        (Boundary::Walls(_), 1) => &[(a, d), (c, b)],
-        (Boundary::Walls(_), _) => &[(b, a), (a, d), (d, c), (c, b)],
-        (Boundary::Slope, _) => &[(b, a)],
-        (Boundary::Vessel, _) => &[(b, a), (a, d), (c, b)],
+    let (held, description): (&[(Point, Point)], _) = match K::BOUNDARY {
+        Boundary::Periodic => (&[], "One cell of a periodic body at rest."),
+        Boundary::Slope => (
+            &[(b, a)],
+            "A period of the layer at rest, fixed at its foot, free above.",
+        ),
+        Boundary::Vessel => (
+            &[(b, a), (a, d), (c, b)],
+            "The liquid at rest in a vessel with slippery walls, open above.",
+        ),
+        Boundary::Walls(kind) => (
+            match solution.dimension() {
+                1 => &[(a, d), (c, b)],
+                _ => &[(b, a), (a, d), (d, c), (c, b)],
+            },
+            match kind {
+                WallKind::Fixed => "The body at rest; all its sides are fixed.",
+                _ => "The body at rest; material slides along its sides but doesn't leave them.",
+            },
+        ),
     };
+    let mut shapes = vec![Shape::Body(vec![a, b, c, d])];
     shapes.extend(held.iter().map(|(from, to)| Shape::Held(*from, *to)));
     let beside = 0.15 * width;
-    let mut length = |from: Point, to: Point, metres: f64| {
-        shapes.push(Shape::Length {
-            from,
-            to,
-            label: format!("{metres} m"),
-        });
+    let mut length = |from, to, metres: f64| {
+        shapes.push(Shape::length(from, to, &format!("{metres} m")));
     };
     length([x0, y0 - beside], [x1, y0 - beside], width);
     if solution.dimension() > 1 {
@@ -40,16 +51,6 @@ pub(super) fn sketch(case: &Manufactured, known: &[Parameter]) -> Sketch {
     }
     Sketch {
         shapes,
-        description: match case.boundary {
-            Boundary::Walls(mpm_core::stage::WallKind::Fixed) => {
-                "The body at rest; all its sides are fixed."
-            }
-            Boundary::Walls(_) => {
-                "The body at rest; material slides along its sides but doesn't leave them."
-            }
-            Boundary::Periodic => "One cell of a periodic body at rest.",
-            Boundary::Slope => "A period of the layer at rest, fixed at its foot, free above.",
-            Boundary::Vessel => "The liquid at rest in a vessel with slippery walls, open above.",
-        },
+        description,
     }
 }

@@ -5,7 +5,7 @@ use super::parameters::{
     HOLES, JITTERED, LATTICE, LAYOUT, POISSON_RATIO, PPC_PER_DIRECTION, RANDOM,
 };
 use crate::accuracy::fit_order;
-use crate::cases::mms_vortex_box::WAVE;
+use crate::cases::manufactured::checks::VORTEX;
 use crate::check::{Check, Finding, judge, run, study};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, RuleName};
@@ -127,7 +127,7 @@ pub(super) fn checks() -> Vec<Check> {
 
 /// What the dispersion of functions leaves of the motion.
 fn bound(r: &Record) -> f64 {
-    let number = (WAVE.number)(&r.parameters);
+    let number = (VORTEX.number)(&r.parameters);
     let of_cells = DISPERSION * (number * r.discretisation.h).powi(2);
     // E/ρ is 1 m²/s².
     let speed = (0.5 / (1.0 + r.parameters.number(POISSON_RATIO))).sqrt();

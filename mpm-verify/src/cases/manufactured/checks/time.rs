@@ -1,12 +1,10 @@
 //! The order in time: runs of a scheme at a level that differ in the CFL number alone, each half of the one before.
 
-use super::super::metrics::DISPLACEMENT_RATIO;
-use super::{SLACK, STALLED};
+use super::{Gate, STALLED};
 use crate::accuracy::richardson;
+use crate::cases::manufactured::metrics::DISPLACEMENT_RATIO;
 use crate::cases::parameters::{CFL, LUMPED};
-use crate::check::{Check, Finding, study};
-use crate::record::Record;
-use crate::scheme::{RemedyName, RuleName, Scheme};
+use crate::prelude::*;
 use std::collections::BTreeMap;
 
 /// Order in time of symplectic Euler with F updated by I + Δt ∇v.
@@ -18,41 +16,30 @@ const OFF: f64 = 0.054;
 /// The orders in time, and where a lumped mass takes one.
 pub(in crate::cases) fn order_in_time() -> [Check; 2] {
     [
-        Check::truth(
-            "order-time",
-            "order in Δt at fixed h, from successive differences of the displacement's share of the exact one: explicit at least 1 − 0.15; midpoint with a consistent mass 2 ± 0.054, a ratio of 4 ± 0.15",
-            study(|records| orders(records, of_truth)),
-        ),
-        Check::known_limit(
-            "order-time-lost",
-            "midpoint with a lumped mass, and newmark: such an order of the three shortest steps below 2 − 0.15",
-            study(|records| orders(records, of_limit)),
-        ),
+        Gate::truth("order-time", "order in Δt at fixed h, from successive differences of the displacement's share of the exact one: explicit at least 1 − 0.15; midpoint with a consistent mass 2 ± 0.054, a ratio of 4 ± 0.15")
+            .study(|records| orders(records, of_truth))
+            .because(""),
+        Gate::known_limit("order-time-lost", "midpoint with a lumped mass, and newmark: such an order of the three shortest steps below 2 − 0.15")
+            .study(|records| orders(records, of_limit))
+            .because(""),
     ]
 }
 
 fn of_truth(about: String, last: &Record, order: f64) -> Option<Finding> {
+    let lumped = last.parameters.number(LUMPED);
     match last.scheme().rule() {
-        None => Some(Finding::above(
+        None => {
+            let why = "symplectic Euler, F updated by I + Δt ∇v: first order";
+            Some(Finding::above(about, order, EXPLICIT - SLACK, why))
+        }
+        Some(RuleName::Midpoint) if lumped == 0.0 => {
+            let why = "the midpoint rule is symmetric in time";
+            Some(Finding::within(about, order, SYMMETRIC, OFF, why))
+        }
+        Some(RuleName::Midpoint) if lumped != 1.0 => Some(Finding::not_applicable(
             about,
-            order,
-            EXPLICIT - SLACK,
-            "symplectic Euler, F updated by I + Δt ∇v: first order",
+            "a lumped share takes energy in proportion to Δt: between first and second order",
         )),
-        Some(RuleName::Midpoint) => match last.parameters.number(LUMPED) {
-            0.0 => Some(Finding::within(
-                about,
-                order,
-                SYMMETRIC,
-                OFF,
-                "the midpoint rule is symmetric in time",
-            )),
-            1.0 => None,
-            _ => Some(Finding::not_applicable(
-                about,
-                "a lumped share takes energy in proportion to Δt: between first and second order",
-            )),
-        },
         Some(_) => None,
     }
 }
@@ -66,20 +53,18 @@ fn of_limit(about: String, last: &Record, order: f64) -> Option<Finding> {
     lumped.then(|| Finding::at_most(about, order, STALLED, why))
 }
 
-/// What a run's steps make of the frequency of a vibration of ω (rad/s), over ω: tan ½ω̃Δt = ½ωΔt with the implicit rules.
+/// Frequency of a vibration of ω (rad/s) with the run's steps, over ω: tan ½ω̃Δt = ½ωΔt with the implicit rules.
 /// Explicit steps are shorter than a cell's crossing, and what they do is part of the error of cells.
-pub(in crate::cases) fn slowed(r: &Record, omega: f64) -> f64 {
-    let phase = omega * r.discretisation.dt;
-    r.scheme()
-        .rule()
-        .map_or(1.0, |_| 2.0 * (0.5 * phase).atan() / phase)
+pub(in crate::cases) fn slowed(r: &Run<()>, omega: f64) -> f64 {
+    let phase = omega * r.dt();
+    r.rule().map_or(1.0, |_| 2.0 * (0.5 * phase).atan() / phase)
 }
 
-/// What is found of the order of the three shortest steps of each family of runs, whose last is given.
+/// Findings on the order of the three shortest steps of each family of runs, whose last is given.
 fn orders(records: &[Record], found: fn(String, &Record, f64) -> Option<Finding>) -> Vec<Finding> {
     let mut families: BTreeMap<(&str, Scheme, Vec<&String>), Vec<&Record>> = BTreeMap::new();
     for r in records {
-        let converges = r.remedy() != RemedyName::FbarRecursive;
+        let converges = r.remedy() != FbarRecursive;
         if converges && r.changes_none_but(&[CFL.name, LUMPED.name]) {
             let others = r.set.iter().filter(|set| !set.starts_with("cfl="));
             let key = (r.level.as_str(), r.scheme(), others.collect());
@@ -97,11 +82,8 @@ fn orders(records: &[Record], found: fn(String, &Record, f64) -> Option<Finding>
             let order = richardson(points).map_or(f64::NAN, |r| r.order);
             let set: String = others.iter().map(|set| format!(" {set}")).collect();
             let metric = DISPLACEMENT_RATIO.name;
-            found(
-                format!("order in Δt of {metric} of {scheme} {level}{set}"),
-                c,
-                order,
-            )
+            let about = format!("order in Δt of {metric} of {scheme} {level}{set}");
+            found(about, c, order)
         });
     judged.collect()
 }

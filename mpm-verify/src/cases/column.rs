@@ -1,0 +1,184 @@
+//! A column of water at rest: what creeps, creeps here; what grows by itself, grows here.
+//!
+//! Set-up, choices and tolerances: `docs/column.md`.
+
+use super::family::{self, REMEDIES, pairs};
+use super::manufactured::*;
+use super::parameters::DENSITY;
+use crate::exact::common::GRAVITY;
+use crate::exact::hydrostatic::{ENTRY, HEIGHT};
+use crate::parameter::Parameter;
+use crate::prelude::*;
+
+/// Half a million steps at h = 0.25 m.
+const HALF_A_MILLION: &str = "duration=5.04";
+/// Largest drift of a cell's mean J̄ per 10⁵ steps.
+const DRIFT: f64 = 1e-6;
+/// Least steps from which a drift per 10⁵ steps is judged.
+const ENOUGH: u64 = 100_000;
+/// Growth of the kinetic energy over thirds of a run that is no ringing.
+const GROWN: f64 = 100.0;
+/// Kinetic energy (J/m) that the last bits of 2 t of particles on 2 m can walk to in 5·10⁵ steps of 10 µs:
+/// ½ m (ε L/Δt)² times the number of steps.
+const ROUNDING: f64 = 1e-12;
+
+#[derive(Debug, Clone)]
+struct WaterColumn;
+
+impl Known for WaterColumn {
+    const SOLUTION: Solution = ENTRY.build;
+    const BOUNDARY: Boundary = Boundary::Vessel;
+    const FLUID: bool = true;
+    const RESTS: bool = true;
+
+    fn parameters() -> Vec<Parameter> {
+        let defaults = [(CFL, "0.057"), (PPC_PER_DIRECTION, "5")];
+        all_parameters(ENTRY.parameters, &defaults, "0.2", &[])
+    }
+}
+
+pub(super) fn case() -> Case {
+    let levels = family::levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
+    let few = pairs(&SMOOTH, &REMEDIES);
+    let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
+    let mut pr = pairs(&[Gimp], &[RemedyName::None, FbarRecursive, FbarConsistent]);
+    pr.extend(pairs(&[Bspline2], &[FbarConsistent]));
+    Case {
+        references: vec![
+            "Exact state of rest at finite compression, docs/exact.md.".to_owned(),
+            "Creep of fbar-recursive: (D/K) ∂p/∂z with D = ½ s² h²/Δt, docs/method.md.".to_owned(),
+        ],
+        limits: &[
+            "Nothing mixes here: what moving particles bring about shows in standing-wave.",
+            "Cubic splines on this lattice are not in balance with the exact pressure to 10⁻³ of the weight; the column circulates slowly with every remedy and is judged no further.",
+        ],
+        plan: Plan::of(&levels)
+            .runs(Pr, "h0.25", &pr, "")
+            .runs(Nightly, "h0.25 h0.125", &all, "")
+            .runs(Nightly, "h0.25", &few, HALF_A_MILLION)
+            .done(),
+        levels,
+        checks: checks(),
+        headlines: vec![
+            headline(
+                J_DRIFT_PER_1E5_STEPS,
+                "drift of J̄ per 10⁵ steps (10⁻⁶)",
+                1e6,
+                4,
+            ),
+            headline(
+                TRUE_J_DRIFT_PER_1E5_STEPS,
+                "drift of J per 10⁵ steps (10⁻⁶)",
+                1e6,
+                3,
+            ),
+            headline(
+                KINETIC_GROWTH,
+                "kinetic energy, last / middle third (–)",
+                1.0,
+                3,
+            ),
+            headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (µJ/m)", 1e6, 4),
+            headline(BASE_PRESSURE, "pressure at the floor (Pa)", 1.0, 1),
+        ],
+        quantities: Vec::new(),
+        pictures,
+        tables: vec![tables::metrics(
+            "column",
+            HALF_A_MILLION,
+            [
+                ("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT),
+                ("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT),
+                ("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK, SHORT),
+                ("last/middle third", KINETIC_GROWTH, SHORT),
+                (
+                    "pressure at the floor (kPa; exact 19.57)",
+                    BASE_PRESSURE,
+                    fixed(2).times(1e-3),
+                ),
+                ("rms error of u (m)", DISPLACEMENT_L2, SHORT),
+            ],
+        )],
+        ..known_case::<2, WaterColumn>([
+            "column",
+            "Hydrostatic column",
+            "Two metres of water at rest in the exact state of equilibrium, without damping. The printed F̄ creeps at a speed that is known in closed form; a sound remedy neither creeps nor grows anything over half a million steps.",
+        ])
+    }
+}
+
+/// Whether a mode that the average can't see grows with this scheme until it rules the motion.
+fn grows(r: &Run<()>) -> bool {
+    r.basis() == Gimp && matches!(r.remedy(), FbarTotal | FbarRate)
+}
+
+/// Whether a run is long enough that a drift can be told from the ringing of the start.
+fn is_long(r: &Run<()>) -> bool {
+    r.record.work.steps >= ENOUGH
+}
+
+/// Whether the column rests with this scheme: GIMP and quadratic splines, but for the remedy that creeps.
+fn rests(r: &Run<()>) -> bool {
+    r.basis() != Bspline3 && r.remedy() != FbarRecursive
+}
+
+/// ρ g (Pa/m).
+fn weight(r: &Run<()>) -> f64 {
+    r.values.number(DENSITY) * r.values.number(GRAVITY)
+}
+
+fn checks() -> Vec<Check> {
+    vec![
+        mass(),
+        Gate::truth("base-pressure", "pressure at the floor ρ g H within a quarter of a cell's head, by which an average moves the pressure at a wall")
+            .unless(|r| {
+                let creeps = is_long(r) && (grows(r) || r.remedy() == FbarRecursive);
+                creeps.then(|| "the column no longer rests: see creep and null-mode-grows".to_owned())
+            })
+            .within(BASE_PRESSURE, |r| weight(r) * r.values.number(HEIGHT), |r| 0.25 * r.h * weight(r))
+            .because("ρ g H; a quarter of a cell's head, by which an average moves the pressure at a wall"),
+        Gate::known_limit("creep", "fbar-recursive: mean J of some cell drifts by more than 10⁻³ per 10⁵ steps")
+            .when(|r| r.basis() != Bspline3 && r.remedy() == FbarRecursive)
+            .above(TRUE_J_DRIFT_PER_1E5_STEPS, |_| 1e-3)
+            .because("Eq. (26) diffuses J with D = ½ s² h²/Δt"),
+        Gate::truth("no-creep", "GIMP and quadratic splines but fbar-recursive, at least 10⁵ steps: the mean J̄ of no cell drifts by more than 10⁻⁶ per 10⁵ steps")
+            .when(rests)
+            .unless(|r| (!is_long(r)).then(|| "the ringing of the start is not a drift".to_owned()))
+            .at_most(J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
+            .because("the state of rest is one of the equations"),
+        Gate::known_limit("null-mode-grows", "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: the kinetic energy of the last third is more than 100 times that of the middle third")
+            .when(|r| rests(r) && is_long(r) && grows(r))
+            .above(KINETIC_GROWTH, |_| GROWN)
+            .because("what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/modes.md)"),
+        Gate::truth("no-growth", "likewise, but where null-mode-grows: the largest kinetic energy of the last third of the run does not exceed that of the middle third, when the start has rung down, but for what last bits can walk to")
+            .when(|r| rests(r) && is_long(r) && !grows(r))
+            .at_most(KINETIC_GROWTH, |r| 1.0 + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
+            .because("nothing feeds a motion; a random walk of last bits excepted"),
+    ]
+}
+
+/// A panel per basis of the longest runs at the coarsest level: how far particles are from rest, over the steps.
+fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
+    let panels = [Gimp, Bspline2].map(|basis| {
+        let of_basis = |r: &&Record| r.basis() == basis && r.status == Status::Ok && is_flip(r);
+        let runs = || gallery.records.iter().filter(of_basis);
+        let longest = runs().map(|r| r.work.steps).max().unwrap_or(0);
+        let labels = ["steps (10⁵)", "rms distance from rest (m)"];
+        let longest = runs().filter(move |r| r.work.steps == longest);
+        Panel::new("", labels)
+            .log_y()
+            .histories(gallery, longest, |record, t| {
+                let all = t.points("time", "displacement_l2").into_iter();
+                let moved = all.filter(|(t, _)| *t > 0.0);
+                let steps = |t: f64| t / record.discretisation.dt / 1e5;
+                moved.map(|(t, u)| (steps(t), u)).collect()
+            })
+    });
+    let caption = format!(
+        "Distance of the particles from their places at rest: {FbarRecursive} creeps; with GIMP a mode that no average sees grows from rounding with every F̄."
+    );
+    let [gimp, splines] = panels;
+    Figure::new("creep", caption, [gimp?, splines?])
+        .columns(2)
+        .draw(gallery)
+}

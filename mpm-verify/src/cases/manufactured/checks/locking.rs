@@ -1,0 +1,78 @@
+//! Locking: runs that differ in Poisson's ratio alone.
+
+use super::{Gate, is_beyond_unseen, is_sound};
+use crate::cases::manufactured::metrics::DISPLACEMENT_L2;
+use crate::cases::parameters::POISSON_RATIO;
+use crate::prelude::*;
+
+/// Largest error at a Poisson's ratio over that at 0.3 that counts as free of locking, and the least
+/// that counts as locked.
+const LOCKING_FREE: f64 = 1.2;
+const LOCKED: f64 = 1.5;
+/// Poisson's ratio that locking is measured against.
+const COMPRESSIBLE: f64 = 0.3;
+
+/// Errors over the distance from incompressibility.
+pub(in crate::cases) const LOCKING_CURVE: Sweep = Sweep {
+    parameter: POISSON_RATIO,
+    label: "0.5 − ν",
+    abscissa: |nu| 0.5 - nu,
+    logarithmic: true,
+};
+
+/// The checks of locking.
+pub(in crate::cases) fn locking() -> [Check; 2] {
+    [
+        Gate::truth("no-locking", "fbar-total, fbar-rate, fbar-consistent up to 1 − 2ν = ε², all but linear functions: rms error of u at any Poisson's ratio at most 1.2 times that at 0.3, same steps")
+            .when(|r| ratio(r) != COMPRESSIBLE)
+            .when(|r| is_sound(r.remedy()) && r.basis() != Linear && !is_beyond_unseen(r))
+            .pairs(is_soft_twin)
+            .at_most(|r, _| about(r), factor, |_| LOCKING_FREE)
+            .because("the exact motion does not depend on ν; both runs take the same steps"),
+        Gate::known_limit("locks", "none with linear functions and GIMP at ν ≥ 0.499: rms error of u above 1.5 times that at ν = 0.3 at the coarsest level")
+            .study(|records| {
+                let runs: Vec<Run<()>> = records.iter().filter_map(Run::of).collect();
+                let coarsest = runs.iter().map(|r| r.h).fold(0.0, f64::max);
+                let locks = |r: &&Run<()>| {
+                    r.remedy() == RemedyName::None
+                        && matches!(r.basis(), Linear | Gimp)
+                        && ratio(r) >= 0.499
+                        && r.h == coarsest
+                };
+                let found = runs.iter().filter(locks).filter_map(|r| {
+                    let soft = runs.iter().find(|soft| is_soft_twin(r, soft))?;
+                    let why = "more constraints on the volume than nodes to meet them";
+                    Some(Finding::above(about(r), factor(r, soft), LOCKED, why))
+                });
+                found.collect()
+            })
+            .because(""),
+    ]
+}
+
+fn ratio(r: &Run<()>) -> f64 {
+    r.values.number(POISSON_RATIO)
+}
+
+/// Whether two runs differ in Poisson's ratio alone, the second at [`COMPRESSIBLE`].
+fn is_soft_twin(stiff: &Run<()>, soft: &Run<()>) -> bool {
+    fn others<'a>(r: &'a Run<()>) -> impl Iterator<Item = &'a String> {
+        r.set.iter().filter(|s| !s.starts_with("poisson_ratio="))
+    }
+    ratio(soft) == COMPRESSIBLE
+        && soft.scheme == stiff.scheme
+        && soft.level == stiff.level
+        && others(soft).eq(others(stiff))
+}
+
+fn factor(stiff: &Run<()>, soft: &Run<()>) -> f64 {
+    stiff.metric(DISPLACEMENT_L2) / soft.metric(DISPLACEMENT_L2)
+}
+
+fn about(r: &Run<()>) -> String {
+    let (metric, scheme, level) = (DISPLACEMENT_L2.name, r.scheme, &r.level);
+    format!(
+        "{metric} of {scheme} {level} at ν = {} over ν = 0.3",
+        ratio(r)
+    )
+}

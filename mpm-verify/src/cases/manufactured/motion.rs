@@ -1,0 +1,320 @@
+//! The simulation of a motion that is known in closed form, in any dimension and of any law.
+
+use super::checks::moves;
+use super::metrics::*;
+use super::scenario::Timing;
+use super::{Known, Own, Scenario, errors, vector};
+use crate::prelude::*;
+use crate::statistics::{fit_line, rms};
+use mpm_core::material::{NeoHookean, NewtonianFluid};
+use mpm_solvers::{Solvable, Solved};
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+
+/// Rows of the time series, and rows per period of a standing wave.
+const ROWS: f64 = 200.0;
+const ROWS_PER_PERIOD: f64 = 40.0;
+/// Most steps between rows: checkpoints come with rows.
+const MOST_STEPS: u64 = 100_000;
+/// Times at which the exact displacement is measured for its scale.
+const SCALE_TIMES: u32 = 20;
+
+/// A motion beside its exact solution.
+pub(in crate::cases) struct Motion<const D: usize, K> {
+    scenario: Scenario<K>,
+    timing: Timing,
+    steps_per_row: u64,
+    /// Angular frequency (rad/s) of a solution that is one standing wave.
+    frequency: Option<f64>,
+}
+
+/// Observations of a motion.
+#[derive(Default, Serialize, Deserialize)]
+pub(in crate::cases) struct Seen {
+    /// Means of J̄ and J over each cell at the start, of a body that is to stay at rest.
+    at_start: Option<Vec<[f64; 2]>>,
+    rows: Vec<Sample>,
+}
+
+/// Values of a row of the series that metrics need.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+struct Sample {
+    time: f64,
+    kinetic: f64,
+    /// Kinetic + stored energy − work of the loads.
+    energy: f64,
+    /// Displacement in the shape of the standing wave, relative to its amplitude.
+    mode: f64,
+}
+
+impl<const D: usize, K: Known> Motion<D, K> {
+    /// Means of J̄ and J over each cell, by the particles' reference positions.
+    fn cell_means(&self, run: &dyn Simulation<D>) -> Vec<[f64; 2]> {
+        let (p, h) = (run.particles(), self.scenario.setup.h);
+        let extent = self.scenario.solution.extent();
+        let mut sums: BTreeMap<Vec<usize>, ([f64; 2], f64)> = BTreeMap::new();
+        for k in 0..p.len() {
+            let cell = |a: usize| ((p.reference[k][a] - extent[a][0]) / h) as usize;
+            let (sum, count) = sums.entry((0..D).map(cell).collect()).or_default();
+            sum[0] += p.j_bar.get(k).unwrap_or(&p.jacobian[k]);
+            sum[1] += p.jacobian[k];
+            *count += 1.0;
+        }
+        sums.values().map(|(s, n)| s.map(|s| s / n)).collect()
+    }
+
+    /// The share of the displacement since the start that has the shape of the standing wave.
+    fn mode(&self, run: &dyn Simulation<D>) -> f64 {
+        let Some(omega) = self.frequency else {
+            return f64::NAN;
+        };
+        let (p, solution) = (run.particles(), &self.scenario.solution);
+        let quarter = 0.5 * PI / omega;
+        let (mut along, mut squares) = (0.0, 0.0);
+        for k in 0..p.len() {
+            let x = vector(&p.reference[k]);
+            let rest = solution.displacement(&x, 0.0);
+            let shape = solution.displacement(&x, quarter) - rest;
+            along += (vector(&p.position[k]) - x - rest).dot(&shape);
+            squares += shape.norm_squared();
+        }
+        along / squares
+    }
+
+    fn observe(&self, seen: &mut Seen, run: &dyn Simulation<D>) -> Row {
+        let totals = run.totals();
+        let work = totals.accumulated;
+        let sample = Sample {
+            time: run.time(),
+            kinetic: totals.kinetic_energy,
+            energy: totals.kinetic_energy + totals.stored_energy - work.load_work,
+            mode: self.mode(run),
+        };
+        seen.rows.push(sample);
+        let errors = errors::of_displacements(self.scenario.solution.as_ref(), run);
+        let mut row = row! {
+            "time (s)": sample.time,
+            "displacement_l2 (m)": rms(errors.into_iter()),
+            "kinetic_energy (J)": sample.kinetic,
+            "nodal_kinetic_energy (J)": run.residual().kinetic_energy,
+            "stored_energy (J)": totals.stored_energy,
+            "stress_work (J)": work.stress_work,
+            "load_work (J)": work.load_work,
+            "energy (J)": sample.energy,
+            "jacobian_min (-)": totals.jacobian.0,
+            "jacobian_max (-)": totals.jacobian.1,
+            "log_jacobian_gap_rms (-)": totals.log_jacobian_gap_rms,
+        };
+        if self.frequency.is_some() {
+            row.0.push(("mode (-)", sample.mode));
+        }
+        row
+    }
+
+    /// The largest rms over the particles of the exact displacement since the start, over the duration.
+    fn displacement_scale(&self, run: &dyn Simulation<D>) -> f64 {
+        let (references, solution) = (&run.particles().reference, &self.scenario.solution);
+        let scale = |t: f64| {
+            rms(references.iter().map(|x| {
+                let x = vector(x);
+                (solution.displacement(&x, t) - solution.displacement(&x, 0.0)).norm()
+            }))
+        };
+        let times = (0..=SCALE_TIMES).map(|k| f64::from(k) / f64::from(SCALE_TIMES));
+        times.map(|s| scale(s * run.time())).fold(0.0, f64::max)
+    }
+
+    /// Velocity errors of all particles (m/s), and projections of displacement and velocity on the exact ones, over these.
+    fn velocities(&self, run: &dyn Simulation<D>) -> (Vec<f64>, [f64; 2]) {
+        let solution = self.scenario.solution.as_ref();
+        let (p, t, lag) = (
+            run.particles(),
+            run.time(),
+            self.scenario.lag(self.timing.dt),
+        );
+        let mut errors = Vec::with_capacity(p.len());
+        let mut projections = [(0.0, 0.0); 2];
+        for k in 0..p.len() {
+            let x = vector(&p.reference[k]);
+            let exact = [solution.displacement(&x, t), solution.velocity(&x, t - lag)];
+            let off = [
+                errors::of_displacement(solution, p, k, t),
+                vector(&p.velocity[k]) - exact[1],
+            ];
+            for (sums, (exact, off)) in projections.iter_mut().zip(exact.iter().zip(&off)) {
+                sums.0 += (exact + off).dot(exact);
+                sums.1 += exact.norm_squared();
+            }
+            errors.push(off[1].norm());
+        }
+        (errors, projections.map(|(along, squares)| along / squares))
+    }
+
+    /// Frequency over the exact one from the zeros of the mode, and its amplitude in the last period over that in the first.
+    fn vibration(&self, seen: &Seen, end: f64) -> Option<[f64; 2]> {
+        let omega = self.frequency?;
+        let zeros = seen.rows.windows(2).filter_map(|pair| {
+            let ([a, b], crosses) = ([pair[0], pair[1]], pair[0].mode * pair[1].mode < 0.0);
+            crosses.then(|| a.time + (b.time - a.time) * a.mode / (a.mode - b.mode))
+        });
+        let zeros: Vec<(f64, f64)> = zeros.enumerate().map(|(k, t)| (k as f64, t)).collect();
+        let half_period = fit_line(&zeros)?.slope;
+        let period = TAU / omega;
+        let largest = |from: f64, to: f64| {
+            let inside = seen.rows.iter().filter(|r| (from..=to).contains(&r.time));
+            inside.map(|r| r.mode.abs()).fold(0.0, f64::max)
+        };
+        Some([
+            PI / half_period / omega,
+            largest(end - period, end) / largest(0.0, period),
+        ])
+    }
+
+    /// Metrics of a body at rest: drifts of the cells' means, growth of the kinetic energy, and the pressure at the base.
+    fn rest(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Vec<(Metric, f64)> {
+        let Some(start) = &seen.at_start else {
+            return Vec::new();
+        };
+        let per = 1e5 / self.timing.steps;
+        let now = self.cell_means(run);
+        let drift = |which: usize| {
+            let pairs = start.iter().zip(&now);
+            let moved = pairs.map(|(a, b)| (b[which] - a[which]).abs());
+            moved.fold(0.0, f64::max) * per
+        };
+        let third = seen.rows.len() / 3;
+        let peak = |rows: &[Sample]| rows.iter().map(|r| r.kinetic).fold(0.0, f64::max);
+        let (earlier, last) = seen.rows.split_at(seen.rows.len() - third);
+        let growth = peak(last) / peak(&earlier[earlier.len() - third..]);
+        let stress = run.force_stress();
+        let height = self.scenario.solution.extent()[D - 1];
+        let below = |y: f64| y < 0.5 * (height[0] + height[1]);
+        let lower = run.particles().reference.iter().zip(&stress);
+        let profile: Vec<(f64, f64)> = lower
+            .filter(|(x, _)| below(x[D - 1]))
+            .map(|(x, s)| (x[D - 1] - height[0], -s.mean()))
+            .collect();
+        let base = fit_line(&profile).map_or(f64::NAN, |line| line.intercept);
+        vec![
+            (J_DRIFT_PER_1E5_STEPS, drift(0)),
+            (TRUE_J_DRIFT_PER_1E5_STEPS, drift(1)),
+            (KINETIC_GROWTH, growth),
+            (BASE_PRESSURE, base),
+        ]
+    }
+}
+
+impl<const D: usize, K: Known> Problem<D> for Motion<D, K>
+where
+    NeoHookean: Solvable<D> + Solved<D>,
+    NewtonianFluid: Solvable<D> + Solved<D>,
+{
+    type Parameters = Own<K>;
+    type Seen = Seen;
+
+    fn new(setup: Setup<Own<K>>) -> Result<Self, Error> {
+        let scenario = Scenario::new(setup)?;
+        let setup = &scenario.setup;
+        setup.check_rule()?;
+        let timing = scenario.timing()?;
+        let frequency = K::FREQUENCY.map(|of| of(&setup.values));
+        let frequency = frequency.filter(|_| moves(&setup.values));
+        let row = match frequency {
+            Some(omega) => TAU / omega / ROWS_PER_PERIOD / timing.dt,
+            None => timing.steps / ROWS,
+        };
+        Ok(Self {
+            scenario,
+            timing,
+            steps_per_row: (row as u64).clamp(1, MOST_STEPS),
+            frequency,
+        })
+    }
+
+    fn discretisation(&self) -> Discretisation {
+        self.scenario.discretisation::<D>(self.timing.dt)
+    }
+
+    fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+        self.scenario.begin(self.timing.dt)
+    }
+
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
+        if seen.rows.is_empty() {
+            let start = phase.run.as_ref();
+            seen.at_start = K::RESTS.then(|| self.cell_means(start));
+            self.observe(seen, start);
+        }
+        let left = self.timing.steps as u64 - phase.run.work().steps;
+        phase.steps(self.steps_per_row.min(left))?;
+        Ok(self.observe(seen, phase.run.as_ref()))
+    }
+
+    fn progress(&self, _: &Seen, phase: &Phase<D>) -> f64 {
+        phase.share_of(self.timing.steps as u64)
+    }
+
+    fn particles<'a>(&self, _: &Seen, mut columns: Columns<'a, D>) -> Columns<'a, D> {
+        let (run, solution) = (columns.run(), self.scenario.solution.as_ref());
+        let [stress, mean_stress] = errors::of_stresses(solution, run);
+        let displacement = errors::of_displacements(solution, run);
+        let (velocity, _) = self.velocities(run);
+        let force_stress = run.force_stress();
+        columns
+            .references()
+            .each("displacement_error", "m", |_, k| displacement[k])
+            .each("velocity_error", "m/s", |_, k| velocity[k])
+            .each("stress_error", "Pa", |_, k| stress[k])
+            .each("mean_stress", "Pa", |_, k| force_stress[k].mean())
+            .each("mean_stress_error", "Pa", |_, k| mean_stress[k])
+            .jacobian()
+            .each("averaged_jacobian", "-", |p, k| {
+                p.j_bar.get(k).copied().unwrap_or(p.jacobian[k])
+            })
+    }
+
+    fn metrics(&self, seen: &Seen, phase: &mut Phase<D>) -> Vec<(Metric, f64)> {
+        let (run, solution) = (phase.run.as_mut(), self.scenario.solution.as_ref());
+        let [stress, mean_stress] = errors::of_stresses(solution, run);
+        let displacement = errors::of_displacements(solution, run);
+        let (velocity, [displacement_ratio, velocity_ratio]) = self.velocities(run);
+        let totals = run.totals();
+        let peak = seen.rows.iter().map(|r| r.kinetic).fold(0.0, f64::max);
+        let start = seen.rows.first().map_or(f64::NAN, |r| r.energy);
+        // Where nothing moves nothing is gained.
+        let share = |gain: f64| if gain == 0.0 { 0.0 } else { gain / peak };
+        let gains = || seen.rows.iter().map(|r| share(r.energy - start));
+        let mut values = vec![
+            (DISPLACEMENT_SCALE, self.displacement_scale(run)),
+            (DISPLACEMENT_RATIO, displacement_ratio),
+            (VELOCITY_RATIO, velocity_ratio),
+            (ENERGY_GAIN, gains().fold(0.0, f64::max)),
+            (ENERGY_LOSS, gains().map(|g| -g).fold(0.0, f64::max)),
+            (ENERGY_END, gains().next_back().unwrap_or(f64::NAN)),
+            (LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
+            (KINETIC_ENERGY_PEAK, peak),
+            (MASS, totals.mass),
+            (BODY_MASS, errors::mass::<D>(solution)),
+        ];
+        let norms = [
+            ([DISPLACEMENT_L2, DISPLACEMENT_LINF], displacement),
+            ([VELOCITY_L2, VELOCITY_LINF], velocity),
+            ([STRESS_L2, STRESS_LINF], stress),
+            ([MEAN_STRESS_L2, MEAN_STRESS_LINF], mean_stress),
+        ];
+        values.extend(norms.iter().flat_map(|(of, e)| errors::norms(*of, e)));
+        if self.scenario.setup.rule() == Some(RuleName::Midpoint) {
+            values.push((LUMPING_LOSS, share(totals.accumulated.lumping_loss)));
+        }
+        if let Some([frequency, amplitude]) = self.vibration(seen, run.time()) {
+            values.extend([
+                (FREQUENCY_RATIO, frequency),
+                (FREQUENCY_ERROR, (frequency - 1.0).abs()),
+                (AMPLITUDE_RATIO, amplitude),
+                (DAMPING, -amplitude.ln()),
+            ]);
+        }
+        values.extend(self.rest(seen, run));
+        values
+    }
+}

@@ -1,0 +1,308 @@
+//! The scene of a motion that is known in closed form: grid, walls, law, particles and time step.
+
+use super::{Boundary, DURATION, HOLD, Known, Own, RELAXATION, STEP_POISSON_RATIO};
+use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS};
+use crate::exact::common::ANGULAR_FREQUENCY;
+use crate::exact::{Exact, Material};
+use crate::parameter::{Parameter, ParameterSet, Parameters};
+use crate::prelude::*;
+use mpm_core::explicit::remedy::FbarConsistent as Consistent;
+use mpm_core::explicit::transfer::Flip;
+use mpm_core::explicit::{Remedy, courant_time_step};
+use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
+use mpm_core::stage::BodyForce;
+use mpm_solvers::{Solvable, Solved};
+use nalgebra::Vector3;
+use std::sync::Arc;
+
+/// Cells per side at which Δt ∝ h and Δt ∝ h² coincide.
+const COARSEST: f64 = 8.0;
+/// The explicit solver's steps are shorter.
+const EXPLICIT_CFL: f64 = 1.0;
+/// Phase ωΔt (rad) of a motion in a step that an explicit run follows, at most.
+const MOST_PHASE: f64 = 1.0;
+/// Cells above a free surface.
+const HEADROOM: usize = 4;
+/// Particle steps per unit of cost, without a remedy.
+const STEPS_PER_COST: f64 = 5e7;
+/// Cost of a step of Newton's method over that of an explicit one.
+const NEWTON: f64 = 500.0;
+
+/// Division of the duration into steps.
+pub(super) struct Timing {
+    /// Number of steps, a whole one.
+    pub(super) steps: f64,
+    /// Time step (s).
+    pub(super) dt: f64,
+}
+
+/// A run with its exact solution.
+pub(in crate::cases) struct Scenario<K> {
+    pub(in crate::cases) setup: Setup<Own<K>>,
+    pub(in crate::cases) solution: Arc<dyn Exact>,
+}
+
+impl<K: Known> Scenario<K> {
+    pub(in crate::cases) fn new(setup: Setup<Own<K>>) -> Result<Self, Error> {
+        let solution = (K::SOLUTION)(&setup.values)?.into();
+        Ok(Self { setup, solution })
+    }
+
+    pub(in crate::cases) fn number(&self, of: Parameter) -> f64 {
+        self.setup.values.number(of)
+    }
+
+    /// Steps by the CFL number and the speed of the body's waves, or that at `step_poisson_ratio` if it is larger, so that runs at
+    /// several ratios can take the same steps.
+    pub(super) fn timing(&self) -> Result<Timing, Error> {
+        let is_explicit = self.setup.is_explicit();
+        if is_explicit && self.number(CFL) >= EXPLICIT_CFL {
+            return Err(Error::Input(format!(
+                "cfl = {} is out of range for the solver explicit; allowed: below {EXPLICIT_CFL}",
+                self.number(CFL)
+            )));
+        }
+        let density = self.solution.material().density;
+        let mut speed = self.medium().wave_speed(density);
+        let ratio = self.number(STEP_POISSON_RATIO);
+        if !ratio.is_nan() {
+            let stiff = NeoHookean::new(self.number(YOUNG_MODULUS), ratio)?;
+            speed = speed.max(stiff.wave_speed(density));
+        }
+        let side = self.solution.extent()[0][1] - self.solution.extent()[0][0];
+        let finer = if self.setup.values.is(STEP_SCALING, "h2") {
+            COARSEST * self.setup.h / side
+        } else {
+            1.0
+        };
+        let half_size = 0.5 / self.number(PPC_PER_DIRECTION);
+        let cfl = self
+            .setup
+            .cfl_number(self.solution.dimension(), half_size)?;
+        let longest = courant_time_step(cfl * finer, self.setup.h, speed);
+        let steps = (self.number(DURATION) / longest).ceil();
+        let dt = self.number(DURATION) / steps;
+        let omega = self.number(ANGULAR_FREQUENCY);
+        if is_explicit && omega * dt > MOST_PHASE {
+            return Err(Error::Input(format!(
+                "angular_frequency = {omega} rad/s is too high to be followed by steps of {dt:e} s, which cfl = {cfl} and \
+                 the body's waves of {speed:e} m/s make; allowed: at most {:e}",
+                MOST_PHASE / dt
+            )));
+        }
+        Ok(Timing { steps, dt })
+    }
+
+    /// Time (s) by which velocities live before positions.
+    pub(super) fn lag(&self, dt: f64) -> f64 {
+        if self.setup.is_explicit() {
+            0.5 * dt
+        } else {
+            0.0
+        }
+    }
+
+    /// The discretisation in `D` dimensions with steps of `dt` (s).
+    pub(in crate::cases) fn discretisation<const D: usize>(&self, dt: f64) -> Discretisation {
+        let ppc = self.number(PPC_PER_DIRECTION).powi(D as i32);
+        self.setup.discretisation(D, ppc as usize, dt)
+    }
+
+    fn medium(&self) -> Medium {
+        let Material { mu, lambda, .. } = self.solution.material();
+        if K::FLUID {
+            Medium::Fluid(NewtonianFluid {
+                bulk_modulus: lambda,
+                viscosity: mu,
+            })
+        } else {
+            Medium::Solid(NeoHookean { mu, lambda })
+        }
+    }
+
+    /// The simulation at its start, with steps of `dt` (s).
+    pub(super) fn begin<const D: usize>(
+        &self,
+        dt: f64,
+    ) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
+    where
+        NeoHookean: Solvable<D> + Solved<D>,
+        NewtonianFluid: Solvable<D> + Solved<D>,
+    {
+        match self.medium() {
+            Medium::Solid(law) => solved(&self.setup, self.scene(law, dt)?, dt),
+            Medium::Fluid(law) => solved(&self.setup, self.scene(law, dt)?, dt),
+        }
+    }
+
+    /// The body at its start, with what holds and drives it.
+    pub(in crate::cases) fn scene<const D: usize, M: Law>(
+        &self,
+        law: M,
+        dt: f64,
+    ) -> Result<Scene<D, M>, mpm_core::Error> {
+        let (grid, walls) = self.surroundings()?;
+        let body = Body::new(law, self.seed(dt)?)?;
+        let forcing = forcing(&self.solution);
+        Ok(Scene::new(grid, body).load(forcing).constrain_all(walls))
+    }
+
+    /// The grid and what holds the body, which must fill its cells: particles of the whole cells would be another body.
+    fn surroundings<const D: usize>(&self) -> Result<(Grid<D>, Vec<Wall>), mpm_core::Error> {
+        let (extent, h) = (self.solution.extent(), self.setup.h);
+        for [lo, hi] in &extent[..self.solution.dimension()] {
+            let value = (hi - lo) / h;
+            if value < 0.5 || (value - value.round()).abs() > 1e-9 * value {
+                return Err(mpm_core::Error::Input {
+                    what: "length of the body over that of a cell",
+                    value,
+                    allowed: "a whole number",
+                });
+            }
+        }
+        let mut walls = Vec::new();
+        let mut hold = |axis, end, kind| walls.push(Wall { axis, end, kind });
+        let axes = std::array::from_fn(|axis| {
+            let (lo, n) = (extent[axis][0], cells(extent[axis], h));
+            let (sides, floor) = match K::BOUNDARY {
+                Boundary::Walls(kind) => (Some(kind), None),
+                Boundary::Periodic => (None, None),
+                Boundary::Vessel => (Some(WallKind::Roller), Some(WallKind::Roller)),
+                Boundary::Slope => (None, Some(WallKind::Fixed)),
+            };
+            match (sides, floor) {
+                (_, Some(kind)) if axis + 1 == D => {
+                    hold(axis, End::Lo, kind);
+                    Axis::bounded(lo, n + HEADROOM, (Side::Wall, Side::Open))
+                }
+                (Some(kind), _) => {
+                    hold(axis, End::Lo, kind);
+                    hold(axis, End::Hi, kind);
+                    Axis::walls(lo, n)
+                }
+                (None, _) => Axis::periodic(lo, n),
+            }
+        });
+        Ok((Grid::new(h, axes)?, walls))
+    }
+
+    /// Particles on a lattice over the whole body, in the state of time zero; velocities are those of when they live.
+    fn seed<const D: usize>(&self, dt: f64) -> Result<Particles<D>, mpm_core::Error> {
+        let solution = self.solution.as_ref();
+        let spacing = self.setup.h / self.number(PPC_PER_DIRECTION);
+        let extent = solution.extent();
+        let counts: [usize; D] = std::array::from_fn(|a| cells(extent[a], spacing));
+        let positions = (0..counts.iter().product()).map(|mut k: usize| {
+            let mut x = [0.0; D];
+            for a in (0..D).rev() {
+                x[a] = extent[a][0] + ((k % counts[a]) as f64 + 0.5) * spacing;
+                k /= counts[a];
+            }
+            x
+        });
+        let mut particles = Particles::new(
+            self.setup.start_at(positions),
+            spacing.powi(D as i32),
+            solution.material().density,
+            [0.5 * spacing; D],
+        )?
+        .deformed(|x| {
+            let x = vector(x);
+            let f = solution.deformation_gradient(&x, 0.0);
+            (
+                components(&(x + solution.displacement(&x, 0.0))),
+                f.fixed_view::<D, D>(0, 0).into_owned(),
+            )
+        });
+        for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
+            *v = components(&solution.velocity(&vector(x), -self.lag(dt)));
+        }
+        Ok(particles)
+    }
+}
+
+/// Cost of a run, by its particle steps.
+pub(super) fn cost<K: Known>(spec: &RunSpec) -> f64 {
+    let particle_steps = || {
+        let values = Parameters::new(&K::parameters(), &spec.set).ok()?;
+        let scenario = Scenario::<K>::new(Setup::of_spec(spec, &values).ok()?).ok()?;
+        let steps = scenario.timing().ok()?.steps;
+        let (solution, per_cell) = (&scenario.solution, scenario.number(PPC_PER_DIRECTION));
+        let extent = solution.extent();
+        let along = |a: usize| (extent[a][1] - extent[a][0]) / spec.level.h * per_cell;
+        let particles: f64 = (0..solution.dimension()).map(along).product();
+        Some(particles * steps)
+    };
+    let remedy = match spec.scheme.remedy() {
+        RemedyName::None => 1.0,
+        FbarConsistent => 3.0,
+        _ => 1.5,
+    };
+    let remedy = match spec.scheme {
+        Scheme::Explicit(_) => remedy,
+        Scheme::Implicit(_) | Scheme::Poro(_) => remedy * NEWTON,
+    };
+    particle_steps().unwrap_or(0.0) * remedy / STEPS_PER_COST
+}
+
+/// The solver of a scene, of steps `dt` (s).
+fn solved<const D: usize, M: Solvable<D> + Solved<D>, P: ParameterSet>(
+    setup: &Setup<P>,
+    scene: Scene<D, M>,
+    dt: f64,
+) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    if let Some(settings) = setup.implicit_settings(dt) {
+        return mpm_solvers::implicit(setup.scheme, scene, settings);
+    }
+    let number = |p| setup.values.number(p);
+    let remedy: Box<dyn Remedy<D>> = match setup.remedy() {
+        FbarConsistent => {
+            let remedy = Consistent::new(number(RELAXATION));
+            Box::new(remedy.holding(number(HOLD), scene.body.wave_modulus())?)
+        }
+        other => other.build(),
+    };
+    let settings = setup.settings(dt, 0.0)?;
+    let settings = settings.transfer(Flip::new(number(FLIP))?).remedy(remedy);
+    mpm_solvers::solver(setup.scheme, scene, settings)
+}
+
+/// The body force that the motion needs.
+pub(in crate::cases) fn forcing<const D: usize>(solution: &Arc<dyn Exact>) -> BodyForce<D> {
+    let exact = Arc::clone(solution);
+    BodyForce(Box::new(move |x: &[f64; D], t| {
+        components(&exact.body_force(&vector(x), t))
+    }))
+}
+
+/// Components in three dimensions; those that are missing are zero.
+pub(in crate::cases) fn vector<const D: usize>(x: &[f64; D]) -> Vector3<f64> {
+    let mut v = Vector3::zeros();
+    v.as_mut_slice()[..D].copy_from_slice(x);
+    v
+}
+
+/// The first components.
+fn components<const D: usize>(v: &Vector3<f64>) -> [f64; D] {
+    std::array::from_fn(|a| v[a])
+}
+
+/// Cells of size `h` over a length, which they fill.
+fn cells([lo, hi]: [f64; 2], h: f64) -> usize {
+    ((hi - lo) / h).round() as usize
+}
+
+/// The law of the body.
+enum Medium {
+    Solid(NeoHookean),
+    Fluid(NewtonianFluid),
+}
+
+impl Medium {
+    fn wave_speed(&self, density: f64) -> f64 {
+        match self {
+            Self::Solid(law) => law.wave_speed(density),
+            Self::Fluid(law) => law.wave_speed(density),
+        }
+    }
+}

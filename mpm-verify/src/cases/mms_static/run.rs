@@ -1,0 +1,173 @@
+//! Solution and simulation of the slow vortex, load step by load step.
+
+use super::*;
+use crate::cases::manufactured::{
+    DURATION, Known, Own, PPC_PER_DIRECTION, Scenario, Solution, errors, set_defaults, vector,
+};
+use crate::exact::common::ANGULAR_FREQUENCY;
+use crate::exact::twist::ANGLE;
+use crate::exact::{self, Exact, Material, swirl, vortex_pressure};
+use crate::job::Job;
+use crate::parameter::{Domain, Parameters, number, parameters};
+use crate::problem;
+use crate::statistics::rms;
+use mpm_core::implicit::Settings;
+use mpm_core::material::NeoHookean;
+use mpm_solvers::Solved;
+
+parameters! { const:
+    DIMENSION = "dimension", "-", "2", Domain::Integer { least: 2, most: 3 },
+        "2: plane strain; 3: the swirl in a cube, whose pressure is zero";
+}
+
+/// The motion, whose angle grows to its amplitude over a quarter of the period.
+#[derive(Debug, Clone)]
+pub(super) struct SlowVortex;
+
+impl Known for SlowVortex {
+    const SOLUTION: Solution = solution;
+
+    fn parameters() -> Vec<Parameter> {
+        let mut all = vortex_pressure::ENTRY.parameters.to_vec();
+        let defaults = [
+            (POISSON_RATIO, "0.4999"),
+            (ANGLE, "0.1"),
+            (PRESSURE, "0"),
+            (ANGULAR_FREQUENCY, "1.570796326794897e-6"),
+        ];
+        set_defaults(&mut all, &defaults);
+        for p in all.iter_mut().filter(|p| p.name == ANGULAR_FREQUENCY.name) {
+            *p = p.within(number(1e-6, 1e-5, false)).meaning(
+                "angular frequency ω: so low that inertia, which the solver doesn't have, is nothing",
+            );
+        }
+        all.extend([
+            DIMENSION,
+            DURATION.with_default("1e6"),
+            LOAD_STEPS,
+            // In the middle of a cell what alternates from node to node has no strain, and nothing holds it in equilibrium.
+            PPC_PER_DIRECTION.within(Domain::Integer { least: 2, most: 4 }),
+        ]);
+        all
+    }
+}
+
+fn solution(p: &Parameters) -> Result<Box<dyn Exact>, exact::Error> {
+    if p.number(DIMENSION) == 2.0 {
+        return (vortex_pressure::ENTRY.build)(p);
+    }
+    if p.number(PRESSURE) != 0.0 {
+        let given = p.number(PRESSURE);
+        return Err(exact::Error(format!(
+            "pressure = {given} with dimension = 3; allowed: 0"
+        )));
+    }
+    (swirl::ENTRY.build)(p)
+}
+
+/// A slow motion beside its exact solution.
+struct Slow<const D: usize>(Scenario<SlowVortex>);
+
+/// Begins a run in as many dimensions as asked for.
+pub(super) fn begin(spec: &RunSpec, p: &Parameters) -> Result<Box<dyn Job>, Error> {
+    match solution(p)?.dimension() {
+        3 => problem::begin::<3, Slow<3>>(spec, p),
+        _ => problem::begin::<2, Slow<2>>(spec, p),
+    }
+}
+
+impl<const D: usize> Slow<D> {
+    /// Duration of a load step (s).
+    fn dt(&self) -> f64 {
+        self.0.number(DURATION) / self.0.number(LOAD_STEPS)
+    }
+
+    /// Rms over the particles of the exact displacement (m).
+    fn scale(&self, run: &dyn Simulation<D>) -> f64 {
+        let references = run.particles().reference.iter().map(vector);
+        rms(references.map(|x| self.0.solution.displacement(&x, run.time()).norm()))
+    }
+}
+
+impl<const D: usize> Problem<D> for Slow<D>
+where
+    NeoHookean: Solved<D>,
+{
+    type Parameters = Own<SlowVortex>;
+    type Seen = u64;
+
+    fn new(setup: Setup<Own<SlowVortex>>) -> Result<Self, Error> {
+        Ok(Self(Scenario::new(setup)?))
+    }
+
+    fn discretisation(&self) -> Discretisation {
+        self.0.discretisation::<D>(self.dt())
+    }
+
+    fn begin(&self, _: &u64) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+        let Material { mu, lambda, .. } = self.0.solution.material();
+        let scene = self.0.scene(NeoHookean { mu, lambda }, self.dt())?;
+        mpm_solvers::implicit(self.0.setup.scheme, scene, Settings::new(self.dt()))
+    }
+
+    fn row(&self, steps: &mut u64, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
+        let before = phase.run.work().newton_iterations;
+        phase.steps(1)?;
+        *steps += 1;
+        let run = phase.run.as_ref();
+        let errors = errors::of_displacements(self.0.solution.as_ref(), run);
+        let (totals, work) = (run.totals(), run.work());
+        Ok(row! {
+            "time (s)": run.time(),
+            "displacement_l2 (m)": rms(errors.into_iter()),
+            "stored_energy (J)": totals.stored_energy,
+            "stress_work (J)": totals.accumulated.stress_work,
+            "load_work (J)": totals.accumulated.load_work,
+            "jacobian_min (-)": totals.jacobian.0,
+            "jacobian_max (-)": totals.jacobian.1,
+            "log_jacobian_gap_rms (-)": totals.log_jacobian_gap_rms,
+            "newton_iterations (-)": (work.newton_iterations - before) as f64,
+            "parts (-)": f64::from(run.convergence().map_or(0, |c| c.parts)),
+        })
+    }
+
+    fn progress(&self, steps: &u64, _: &Phase<D>) -> f64 {
+        *steps as f64 / self.0.number(LOAD_STEPS)
+    }
+
+    fn particles<'a>(&self, _: &u64, mut columns: Columns<'a, D>) -> Columns<'a, D> {
+        let (run, solution) = (columns.run(), self.0.solution.as_ref());
+        let [stress, mean_stress] = errors::of_stresses(solution, run);
+        let displacement = errors::of_displacements(solution, run);
+        let force_stress = run.force_stress();
+        columns
+            .references()
+            .each("displacement_error", "m", |_, k| displacement[k])
+            .each("stress_error", "Pa", |_, k| stress[k])
+            .each("mean_stress", "Pa", |_, k| force_stress[k].mean())
+            .each("mean_stress_error", "Pa", |_, k| mean_stress[k])
+            .jacobian()
+    }
+
+    fn metrics(&self, _: &u64, phase: &mut Phase<D>) -> Vec<(Metric, f64)> {
+        let (run, solution) = (phase.run.as_mut(), self.0.solution.as_ref());
+        let [stress, mean_stress] = errors::of_stresses(solution, run);
+        let displacement = errors::of_displacements(solution, run);
+        let (totals, work) = (run.totals(), run.work());
+        let mut values = vec![
+            (DISPLACEMENT_SCALE, self.scale(run)),
+            (LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
+            (MASS, totals.mass),
+            (BODY_MASS, errors::mass::<D>(solution)),
+            (NEWTON_ITERATIONS, work.newton_iterations as f64),
+            (LINEAR_ITERATIONS, work.linear_iterations as f64),
+        ];
+        let norms = [
+            ([DISPLACEMENT_L2, DISPLACEMENT_LINF], displacement),
+            ([STRESS_L2, STRESS_LINF], stress),
+            ([MEAN_STRESS_L2, MEAN_STRESS_LINF], mean_stress),
+        ];
+        values.extend(norms.iter().flat_map(|(of, e)| errors::norms(*of, e)));
+        values
+    }
+}
