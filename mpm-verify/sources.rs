@@ -31,8 +31,9 @@ const CASES: &str = "src/cases";
 
 /// Files and folders of a case that judge, plan, say or draw. `mod` has its parameters, which a record keeps; every other
 /// name determines numbers.
-const WORDING: [&str; 9] = [
-    "checks", "family", "foreign", "metrics", "mod", "pictures", "sketch", "tables", "tests",
+const WORDING: [&str; 10] = [
+    "checks", "family", "figures", "foreign", "metrics", "mod", "pictures", "sketch", "tables",
+    "tests",
 ];
 
 /// Whether a source determines numbers, by where it lies and the names of its file and folders.

@@ -38,6 +38,7 @@ mod noise;
 mod observe;
 pub(crate) mod parameters;
 mod pictures;
+mod poro;
 mod rest;
 pub mod scene;
 mod shock;
