@@ -6,6 +6,7 @@ use crate::foreign::Foreign;
 use std::sync::LazyLock;
 
 mod cantilever;
+mod checks;
 mod column;
 mod conditioning;
 mod consolidation;
