@@ -211,7 +211,7 @@ impl<const D: usize, P: Problem<D>> Job for Driver<D, P> {
 
     fn particles(&mut self) -> Vec<Column> {
         let columns = Columns::positions(self.phase.run.as_mut());
-        self.problem.particles(&self.seen, columns).columns
+        self.problem.particles(&self.seen, columns).done()
     }
 
     fn metrics(&mut self) -> BTreeMap<String, Measured> {
@@ -362,5 +362,10 @@ impl<'a, const D: usize> Columns<'a, D> {
     ) -> Self {
         self.columns.push(Column { name, unit, values });
         self
+    }
+
+    /// The columns.
+    pub(crate) fn done(self) -> Vec<Column> {
+        self.columns
     }
 }
