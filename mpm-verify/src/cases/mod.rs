@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::foreign::Foreign;
 use std::sync::LazyLock;
 
+mod analysis;
 mod cantilever;
 mod checks;
 mod column;
@@ -47,7 +48,6 @@ mod slope_stability;
 mod sparse;
 mod spin;
 mod standing_wave;
-mod still;
 mod stretch;
 mod strip;
 mod terzaghi;
