@@ -128,13 +128,28 @@ impl Case {
         title: &'static str,
         metrics: &[Metric],
     ) -> Self {
+        let begin = Box::new(crate::problem::begin::<D, P>);
+        Self {
+            cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-(D as i32) - 1)),
+            ..Self::begun_by(name, title, metrics, P::Parameters::list(), begin)
+        }
+    }
+
+    /// A case by name, title, metrics, parameters and the beginning of a run, with nothing else.
+    pub(crate) fn begun_by(
+        name: &'static str,
+        title: &'static str,
+        metrics: &[Metric],
+        parameters: Vec<Parameter>,
+        begin: Begin,
+    ) -> Self {
         Self {
             name,
             title,
             description: "",
             references: Vec::new(),
             limits: &[],
-            parameters: P::Parameters::list(),
+            parameters,
             levels: Vec::new(),
             plan: Vec::new(),
             metrics: metrics.to_vec(),
@@ -145,10 +160,10 @@ impl Case {
             watched: &[],
             field: None,
             sketch: Sketch::default(),
-            cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-(D as i32) - 1)),
+            cost: Box::new(|_| 1.0),
             ladder: &[],
             own_runs: crate::record::of_defaults,
-            begin: Box::new(crate::problem::begin::<D, P>),
+            begin,
             pictures: |_| Ok(()),
             tables: Vec::new(),
             breaks_down: |_| None,

@@ -201,6 +201,14 @@ impl Column {
         })
     }
 
+    /// The same with another title.
+    pub(crate) fn titled(self, title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            ..self
+        }
+    }
+
     /// A metric at each of `levels`, by name and title.
     pub(crate) fn levels<T: Into<String>>(
         levels: impl IntoIterator<Item = (&'static str, T)>,

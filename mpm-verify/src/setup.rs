@@ -71,6 +71,11 @@ impl<P: ParameterSet> Setup<P> {
     pub(crate) fn number_of(record: &Record, number: impl FnOnce(&Self) -> f64) -> f64 {
         Self::of_record(record).map_or(f64::NAN, |setup| number(&setup))
     }
+
+    /// Whether the setup of a record meets a condition; false if the record's parameters are of another type.
+    pub(crate) fn holds(record: &Record, condition: impl FnOnce(&Self) -> bool) -> bool {
+        Self::of_record(record).is_ok_and(|setup| condition(&setup))
+    }
 }
 
 impl<P> Setup<P> {

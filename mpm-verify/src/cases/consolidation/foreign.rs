@@ -1,14 +1,10 @@
-//! What another code gives of the column.
+//! Results of other codes.
 
-use super::errors::{of_base_pressure, of_settlement};
-use super::metrics as m;
-use super::parameters::LOAD;
-use super::reference::{At, solution};
-use super::scene::{PER_CELL, begin};
+use super::run::{PER_CELL, Seen};
+use super::*;
 use crate::cases::observe::start_columns;
 use crate::foreign::{Asked, Foreign, Given, Group};
-use crate::record::Discretisation;
-use crate::scheme::{BasisName, Scheme, SpaceName};
+use crate::parameter::ParameterSet;
 
 const TIME: Asked = Asked::series(
     "time_factor",
@@ -24,7 +20,7 @@ const BASE: Asked = Asked::series(
 
 pub(in crate::cases) fn foreign() -> Foreign {
     Foreign {
-        judged_as: |_| Scheme::poro(BasisName::Gimp, SpaceName::TwoGrid),
+        judged_as: |_| Scheme::poro(Gimp, TwoGrid),
         discretisation: |spec, _, dt| Discretisation {
             dim: 1,
             h: spec.level.h,
@@ -36,20 +32,23 @@ pub(in crate::cases) fn foreign() -> Foreign {
             Group {
                 columns: &[TIME, SETTLEMENT],
                 metrics: vec![
-                    m::SETTLEMENT_ERROR,
-                    m::SETTLEMENT_ERROR_STEPS,
-                    m::SETTLEMENT_EARLY,
-                    m::SETTLEMENT_END,
+                    SETTLEMENT_ERROR,
+                    SETTLEMENT_ERROR_STEPS,
+                    SETTLEMENT_EARLY,
+                    SETTLEMENT_END,
                 ],
-                measure: |given| Ok(of_settlement(&rows(given), &given.parameters)),
+                measure: |given| Ok(setup(given)?.settlement_metrics(&rows(given))),
             },
             Group {
                 columns: &[TIME, BASE],
-                metrics: vec![m::BASE_PRESSURE_ERROR, m::BASE_PRESSURE_ERROR_STEPS],
-                measure: |given| Ok(of_base_pressure(&rows(given), &given.parameters)),
+                metrics: vec![BASE_PRESSURE_ERROR, BASE_PRESSURE_ERROR_STEPS],
+                measure: |given| Ok(setup(given)?.base_pressure_metrics(&rows(given))),
             },
         ],
-        start: |spec, parameters| Ok(start_columns(begin(spec, parameters)?.particles())),
+        start: |spec, parameters| {
+            let setup = Setup::<Consolidation>::of_spec(spec, parameters)?;
+            Ok(start_columns(setup.begin(&Seen::default())?.particles()))
+        },
         setup: &[
             "One dimension, H = 1 m, the floor at x = 0 rigid and sealed, the top drained and loaded. No gravity, no inertia.",
             "Solid: improved Hencky law, W = G ‖dev h‖² + K v²/(2n), h = ½ ln b, v = ln J, n = 1 − (1 − n₀)/J, with K = 50 kPa, G = 300 kPa, n₀ = 0.5: M₀ = K/n₀ + 4G/3 = 500 kPa.",
@@ -57,7 +56,8 @@ pub(in crate::cases) fn foreign() -> Foreign {
             "The load is `load` M₀: from zero at T = 0 in a straight line to its whole at T = 0.05, then constant; the end is T = 2.",
         ],
         curves: |parameters| {
-            let exact = solution(parameters.number(LOAD), None);
+            let exact = Consolidation::read(parameters).map(|column| solution(column.load, None));
+            let exact = exact.unwrap_or_default();
             let column = |of: fn(&At) -> f64| exact.iter().map(of).collect();
             let columns = vec![
                 (TIME.header(), column(|at| at.t)),
@@ -69,7 +69,11 @@ pub(in crate::cases) fn foreign() -> Foreign {
     }
 }
 
-/// The rows that a code gives; what it does not give is zero, which no group takes.
+fn setup(given: &Given) -> Result<Setup<Consolidation>, Error> {
+    Setup::of_spec(&given.spec, &given.parameters)
+}
+
+/// The rows that a code gives; missing values are zero, which no group takes.
 fn rows(given: &Given) -> Vec<At> {
     let at = |asked: &Asked, k: usize| given.column(asked).get(k).copied().unwrap_or_default();
     let row = |(k, t): (usize, &f64)| At {

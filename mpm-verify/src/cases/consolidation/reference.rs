@@ -1,14 +1,15 @@
 //! The reference: `references/consolidation.py`, at stated loads and steps.
 
+use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 const TABLE: &str = include_str!("../../../references/consolidation.csv");
 
-/// From which T errors are taken.
+/// T from which on errors are taken.
 const FROM: f64 = 0.1;
 
 /// A solution at a time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct At {
     /// T = c_v t/H².
     pub(super) t: f64,
@@ -43,8 +44,8 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     TABLE.lines().skip(1).filter_map(row).collect()
 });
 
-/// The solution of a load (over M₀) at its tabulated times from T = 0.1 on: the exact one, or in space alone, of
-/// backward Euler's steps of which so many make one of the 125. Empty where there is none.
+/// The solution of a load (over M₀) at its tabulated times from T = 0.1 on: the exact one, or in space alone, of backward Euler's
+/// steps, `steps` of which make one of the 125. Empty where there is none.
 pub(super) fn solution(load: f64, steps: Option<f64>) -> Vec<At> {
     let refine = steps.unwrap_or(0.0);
     let own = |r: &&Row| r.load == load && r.refine == refine && r.at.t >= FROM;
@@ -54,13 +55,13 @@ pub(super) fn solution(load: f64, steps: Option<f64>) -> Vec<At> {
 /// Heights (m) over which κ/J changes by the factor e at the drained top at T = 0.1, from the reference's program.
 const LAYERS: [(f64, f64); 3] = [(0.003, 39.76), (0.3, 0.2986), (1.0, 0.0634)];
 
-/// That of a load, if it is known.
+/// The layer of a load, if it is known.
 pub(super) fn layer(load: f64) -> Option<f64> {
     let known = LAYERS.iter().find(|(of, _)| *of == load);
     known.map(|(_, height)| *height)
 }
 
-/// What `seen` comes to at the time `t`: the cubic through the two before and the two after it.
+/// The value of `seen` at the time `t`: the cubic through the two before and the two after it.
 pub(super) fn between(seen: &[At], t: f64) -> Option<At> {
     let next = seen.partition_point(|at| at.t < t);
     let middle = next.clamp(2, seen.len().checked_sub(2)?.max(2));

@@ -3,44 +3,58 @@
 //!
 //! Mandel 1953, doi:10.1680/geot.1953.3.7.287. Set-up, choices and tolerances: `docs/mandel.md`.
 
-mod checks;
-mod metrics;
-mod parameters;
-mod pictures;
-mod scene;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::{family, levels};
-use crate::case::{Case, Family, Tier};
-use crate::metric::error;
-use crate::results::headline;
-use crate::scheme::{BasisName, Scheme, SpaceName};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::Level;
-use metrics::{
-    CENTRE_PRESSURE_ERROR, CENTRE_PRESSURE_ERROR_SPACE, ENTRIES, EQUATIONS_DISTANCE, MASS_ERROR,
-    PEAK, PEAK_TIME, SETTLEMENT_ERROR,
-};
-use scene::WIDTH;
-use watch::Consolidation;
-
-use BasisName::{Gimp, Linear};
-use SpaceName::{Equal, Ppp, TwoGrid};
-use Tier::{Nightly, Pr, Quick};
+use super::family::levels;
+use super::parameters as common;
+use super::poro::{ROUNDING, spaces};
+use crate::prelude::*;
+use run::{END, HEIGHT, WIDTH};
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
-/// Steps that shrink as h² with the 240 of n16.
-const COARSE: &[&str] = &["steps=60"];
-const FINE: &[&str] = &["steps=960"];
-const MIDDLE: &[&str] = &["steps=120"];
-const RATIOS: [&[&str]; 2] = [&["poisson_ratio=0"], &["poisson_ratio=0.4"]];
+const RATIOS: [&str; 2] = ["poisson_ratio=0", "poisson_ratio=0.4"];
+
+parameters! {
+    /// Parameters of the slab.
+    struct Mandel {
+        young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e7");
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");
+        porosity: f64 = real("-", "0.4", 0.01, 0.99), "porosity of the undeformed slab";
+        conductivity: f64 = real("m/s", "1e-5", 1e-12, 1.0), "hydraulic conductivity k, of water of 9810 N/m³";
+        load: f64 = real("N/m", "10", 1e-3, 1e6),
+            "force F on half a plate: small, so that what is finite of the strain, F/(G a), is below all errors";
+        steps: i32 = whole("-", "240", 30, 100_000), "equal steps to T = 0.3";
+        projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
+        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-2), "residual of a converged step over what it balances";
+    }
+}
+
+metrics! { ALL:
+    CENTRE_PRESSURE_ERROR = "centre_pressure_error", "-",
+        "largest distance, from T = 0.01 on, of the pressure in the middle from Mandel's, over the undrained one F/(2a)";
+    CENTRE_PRESSURE_ERROR_SPACE = "centre_pressure_error_space", "-",
+        "likewise from the exact solution in space of the same backward Euler steps: the error of space alone";
+    CENTRE_PRESSURE_ERROR_TIME = "centre_pressure_error_time", "-",
+        "likewise from the exact solution in time of the difference equations of the same cells: the error of time alone";
+    EQUATIONS_DISTANCE = "equations_distance", "-",
+        "largest distance of that pressure, the settlement and the bulge from the solution of the difference equations, over all steps";
+    PEAK = "peak", "-", "largest pressure in the middle over F/(2a)";
+    PEAK_TIME = "peak_time", "-", "T of it";
+    SETTLEMENT_ERROR = "settlement_error", "-",
+        "largest distance, from T = 0.01 on, of a plate's path from Mandel's, over F b/(G a)";
+    BULGE_ERROR = "bulge_error", "-",
+        "likewise of a side's mean path outwards, by the change of the volume, over F/G";
+    SUPPORT_ERROR = "support_error", "-",
+        "largest distance of the force on the plane of symmetry below from that on the plate, over the latter; 10⁻⁹ if less";
+    MASS_ERROR = "mass_error", "-",
+        "change of the volume and outflow together, over the outflow; 10⁻⁹ if it is less, which no golden should hold";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
+    ENTRIES = "matrix_entries", "-", "entries of a matrix";
+}
 
 pub(super) fn case() -> Case {
     let levels = levels(WIDTH, LEVELS);
     Case {
-        name: "mandel",
-        title: "Consolidation of a slab between plates",
         description: "A slab full of water is pressed together by rigid plates and drains at its sides, at small strain: the pressure \
                       in its middle rises before it falls. Exact solutions are series: of the slab, of its steps, and of the \
                       difference equations of its cells.",
@@ -53,11 +67,9 @@ pub(super) fn case() -> Case {
             "Small strain on a fixed grid, and an answer that does not depend on the height.",
             "Two particles a cell and axis: with more the difference equations are others.",
         ],
-        parameters: parameters::ALL.to_vec(),
         plan: plan(&levels),
         levels,
-        metrics: metrics::ALL.to_vec(),
-        checks: checks::checks(),
+        checks: checks(),
         headlines: vec![
             headline(CENTRE_PRESSURE_ERROR, "error of p in the middle (% of F/2a)", 100.0, 3),
             headline(CENTRE_PRESSURE_ERROR_SPACE, "of space alone (%)", 100.0, 3),
@@ -72,45 +84,34 @@ pub(super) fn case() -> Case {
             error(CENTRE_PRESSURE_ERROR_SPACE, "error of p in the middle, of space"),
             error(CENTRE_PRESSURE_ERROR, "error of p in the middle"),
         ],
-        sweeps: Vec::new(),
         watched: &["centre_pressure", "settlement"],
-        field: None,
         sketch: sketch(),
         cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-3)),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Consolidation::drive(spec, parameters)?))),
-        pictures: pictures::draw,
-        tables: tables::all(),
-        breaks_down: |_| None,
+        pictures,
+        tables: tables(),
+        ..Case::of::<2, run::Consolidation>("mandel", "Consolidation of a slab between plates", ALL)
     }
 }
 
-fn schemes(bases: &[BasisName]) -> Vec<Scheme> {
-    let of = |basis: &BasisName| [TwoGrid, Equal, Ppp].map(|space| Scheme::poro(*basis, space));
-    bases.iter().flat_map(of).collect()
-}
-
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let both = schemes(&[Gimp, Linear]);
-    let (gimp, linear) = both.split_at(3);
-    let (n8, n16, n32) = (&levels[..1], &levels[1..2], &levels[2..]);
-    let mut all = vec![
-        family(Quick, n8, &both[..1], COARSE),
-        family(Pr, n8, &both, &[]),
-        family(Pr, n8, linear, COARSE),
-        family(Pr, n8, linear, MIDDLE),
-        family(Pr, n16, linear, &[]),
-        family(Pr, n32, linear, &[]),
-        family(Nightly, n8, gimp, COARSE),
-        family(Nightly, n8, gimp, MIDDLE),
-        family(Nightly, n16, gimp, &[]),
-        family(Nightly, n32, gimp, &[]),
-        family(Nightly, n32, &both, FINE),
-    ];
-    all.extend(RATIOS.map(|set| family(Pr, n8, linear, set)));
-    all.extend(RATIOS.map(|set| family(Nightly, n16, &both, set)));
-    all
+    let (gimp, linear) = (spaces(Gimp), spaces(Linear));
+    let both = [gimp, linear].concat();
+    // 60 steps at n8, 240 at n16 and 960 at n32 shrink as h².
+    Plan::of(levels)
+        .runs(Quick, "n8", &gimp[..1], "steps=60")
+        .runs(Pr, "n8", &both, "")
+        .runs(Pr, "n8", &linear, "steps=60")
+        .runs(Pr, "n8", &linear, "steps=120")
+        .runs(Pr, "n16", &linear, "")
+        .runs(Pr, "n32", &linear, "")
+        .runs(Nightly, "n8", &gimp, "steps=60")
+        .runs(Nightly, "n8", &gimp, "steps=120")
+        .runs(Nightly, "n16", &gimp, "")
+        .runs(Nightly, "n32", &gimp, "")
+        .runs(Nightly, "n32", &both, "steps=960")
+        .each(Pr, "n8", &linear, RATIOS)
+        .each(Nightly, "n16", &both, RATIOS)
+        .done()
 }
 
 fn sketch() -> Sketch {
@@ -122,12 +123,177 @@ fn sketch() -> Sketch {
         Shape::note([1.12, 0.12], "drained"),
         Shape::note([0.5, 0.5], "plate, F"),
     ];
-    for k in 0..5 {
+    shapes.extend((0..5).map(|k| {
         let x = 0.1 + 0.2 * f64::from(k);
-        shapes.push(Shape::Load([x, 0.42], [x, 0.27]));
-    }
+        Shape::Load([x, 0.42], [x, 0.27])
+    }));
     Sketch {
         shapes,
         description: "A quarter of a slab between rigid plates, drained at its side.",
     }
+}
+
+/// The bounds are derived in `docs/mandel.md`.
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Mandel>;
+    const SERIES_AND_EQUATIONS: &str = "Mandel's series, and what cells and steps make of it";
+    const ORDERS: &str = "linear pressures, mean strains of cells, backward Euler's rule";
+    vec![
+        Check::truth("difference-equations", "pressure in the middle and the paths of plate and side are in every step what elimination of the difference equations gives, but for 10 F/(G a) of finite strain and its rounding")
+            .at_most(EQUATIONS_DISTANCE, |c| c.finite())
+            .because("the equations of cells, nodes and plate at small strain, docs/mandel.md"),
+        Check::truth("centre-pressure", "no farther from Mandel's than the solution of the difference equations is, and 10 F/(G a)")
+            .at_most(CENTRE_PRESSURE_ERROR, |c| c.errors_of_equations().centre + c.finite())
+            .because(SERIES_AND_EQUATIONS),
+        Check::truth("settlement", "of a plate: likewise")
+            .at_most(SETTLEMENT_ERROR, |c| c.errors_of_equations().settlement + c.finite())
+            .because(SERIES_AND_EQUATIONS),
+        Check::truth("bulge", "of a side: likewise")
+            .at_most(BULGE_ERROR, |c| c.errors_of_equations().bulge + c.finite())
+            .because(SERIES_AND_EQUATIONS),
+        Check::truth("peak", "as high as the series' but for the error of the pressure and what the series falls by between steps")
+            .within(PEAK, |c| c.peak_between_steps().0, |c| {
+                c.errors_of_equations().centre + c.peak_between_steps().1 + c.finite()
+            })
+            .because("Mandel's series"),
+        Check::truth("peak-time", "the series at the time of the peak lacks of its own peak at most that loss and twice that error")
+            .at_most(
+                Quantity::new(format!("series' peak less the series at {}", PEAK_TIME.name), |c: &Run<Mandel>| {
+                    c.peak_between_steps().0 - c.exact().at(c.metric(PEAK_TIME)).centre
+                }),
+                |c| 2.0 * (c.errors_of_equations().centre + c.finite()) + c.peak_between_steps().1,
+            )
+            .because("both pressures at both times are apart by the error at most"),
+        Check::truth("support", "the plane of symmetry below bears the force on the plate, but for what Newton's method and rounding of strains leave")
+            .at_most(SUPPORT_ERROR, |c| {
+                let unknowns = 2.0 * c.nodes();
+                let left = 2.0 * unknowns.sqrt() * c.tolerance;
+                ROUNDING + left + c.rounding()
+            })
+            .because("the equations of all nodes add up to the balance of forces"),
+        Check::truth("water", "volume and outflow change together but for what Newton's method and rounding of J̃ leave in every step")
+            .at_most(MASS_ERROR, |c| {
+                let cells = WIDTH / c.h;
+                // Each node stores and moves at most (1 + 2 n) times what leaves, over all of them.
+                let left = c.nodes().sqrt() * (1.0 + 2.0 * cells) * c.tolerance;
+                let end = c.exact().at(END);
+                let outflow = HEIGHT * c.strain() * (end.settlement - end.bulge);
+                let rounding = 4.0 * f64::EPSILON * f64::from(c.steps) * WIDTH * HEIGHT / (0.5 * outflow);
+                left + rounding
+            })
+            .because("exact rate: the equations of all nodes add up to the balance of the slab"),
+        Check::truth("order-space", "default parameters, three finest levels: order in h of the error of space alone at least 2 − 0.15")
+            .when(|c| c.is_default())
+            .order(CENTRE_PRESSURE_ERROR_SPACE, Over::CellSize, 2.0)
+            .named(|c| format!("order in h of {} of {}", CENTRE_PRESSURE_ERROR_SPACE.name, c.scheme))
+            .because(ORDERS),
+        Check::truth("order-time", "linear functions, n8, three finest steps: order in Δt of the error of time alone at least 1 − 0.15")
+            .when(|c| c.level == "n8" && c.basis() == Linear && c.changes_none_but(&["steps"]))
+            .order(CENTRE_PRESSURE_ERROR_TIME, Over::TimeStep, 1.0)
+            .because(ORDERS),
+        Check::truth("order-together", "n8, n16, n32 with steps that shrink as h²: order in h of the whole error at least 2 − 0.15")
+            .when(|c| c.shrinks_together())
+            .order(CENTRE_PRESSURE_ERROR, Over::CellSize, 2.0)
+            .named(|c| format!("order in h and Δt of {} of {}", CENTRE_PRESSURE_ERROR.name, c.scheme))
+            .because(ORDERS),
+    ]
+}
+
+fn tables() -> Vec<ResultTable> {
+    let cells = LEVELS.map(|(level, n)| (level, format!("n = {n}")));
+    let together = LEVELS.map(|(level, n)| {
+        (
+            level,
+            format!("n = {n}, {} steps", 60.0 * (n / 8.0_f64).powi(2)),
+        )
+    });
+    let of_n32 = |title: &str, metric, format| {
+        Column::metric(title, metric, format).of(|r: &Record| r.level == "n32")
+    };
+    let mut of_cells = Column::levels(cells, CENTRE_PRESSURE_ERROR_SPACE, scientific(2));
+    of_cells.extend([
+        Column::order(CENTRE_PRESSURE_ERROR_SPACE),
+        of_n32(
+            "from the difference equations, n = 32",
+            EQUATIONS_DISTANCE,
+            scientific(1),
+        ),
+        of_n32("entries, n = 32", ENTRIES, fixed(0)),
+    ]);
+    let mut of_together = Column::levels(together, CENTRE_PRESSURE_ERROR, scientific(2));
+    of_together.push(Column::order(CENTRE_PRESSURE_ERROR));
+    let of_ratios = [0.0, 0.25, 0.4].into_iter().flat_map(|ratio| {
+        let own = move |r: &Record| Setup::<Mandel>::holds(r, |c| c.poisson_ratio == ratio);
+        let column = |title: &str, metric, format| {
+            Column::metric(format!("{title}, ν = {ratio}"), metric, format).of(own)
+        };
+        [
+            column("error", CENTRE_PRESSURE_ERROR, scientific(2)),
+            column("peak", PEAK, fixed(4)),
+            column("T", PEAK_TIME, fixed(4)),
+        ]
+    });
+    let is_of_ratios = |r: &Record| {
+        let others = r.changes_none_but(&["poisson_ratio", "steps"]);
+        r.level == "n16" && Setup::<Mandel>::holds(r, |c| c.steps == 240) && others
+    };
+    vec![
+        ResultTable::new("mandel-cells", |r| r.is_default(), &[SCHEME], of_cells),
+        ResultTable::new(
+            "mandel-together",
+            |r| Setup::<Mandel>::holds(r, |c| c.shrinks_together()),
+            &[SCHEME],
+            of_together,
+        ),
+        ResultTable::new("mandel-ratios", is_of_ratios, &[SCHEME], of_ratios),
+    ]
+}
+
+/// The pressure in the middle over time, of two grids on 16 cells, on Mandel's series, for every ratio.
+fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
+    const POINTS: u32 = 300;
+    let scheme = Scheme::poro(Gimp, TwoGrid);
+    let own = |r: &&Record| {
+        r.scheme() == scheme
+            && r.level == "n16"
+            && r.status == Status::Ok
+            && r.changes_none_but(&["poisson_ratio"])
+    };
+    let runs = gallery.records.iter().filter(own);
+    let mut runs: Vec<Run<Mandel>> = runs.filter_map(Run::of).collect();
+    runs.sort_by(|a, b| a.poisson_ratio.total_cmp(&b.poisson_ratio));
+    let mut panel = Panel::new("", ["T", "p/(F/2a) in the middle"]);
+    for (colour, run) in runs.iter().enumerate() {
+        let (ratio, exact) = (run.poisson_ratio, run.exact());
+        let points = (1..=POINTS).map(|k| {
+            let t = END * f64::from(k) / f64::from(POINTS);
+            (t, exact.at(t).centre)
+        });
+        panel = panel
+            .curve(Series {
+                name: format!("ν = {ratio}, exact"),
+                colour,
+                ..history(scheme, points.collect())
+            })
+            .histories(gallery, [run.record], |_, table| {
+                table
+                    .points("time_factor", "centre_pressure")
+                    .into_iter()
+                    .step_by(8)
+                    .collect()
+            })?
+            .styled(|_, curve| Series {
+                name: format!("ν = {ratio}"),
+                colour,
+                marker: Marker::Circle,
+                dash: Dash::Dotted,
+                ..curve
+            });
+    }
+    Figure::new(
+        "centre-pressure",
+        "Pressure in the middle of the slab over the time, of two grids with GIMP on 16 cells, and Mandel's series.",
+        [panel],
+    )
+    .draw(gallery)
 }

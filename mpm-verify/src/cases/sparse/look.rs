@@ -4,18 +4,18 @@ use super::metrics as m;
 use super::parameters::{
     CFL, HOLES, JITTERED, LATTICE, LAYOUT, POISSON_RATIO, PPC_PER_DIRECTION, SCATTERED, SEEDS,
 };
+use crate::cases::analysis::Analysis;
 use crate::cases::manufactured::{errors, forcing, vector};
 use crate::cases::noise::noise;
-use crate::cases::still::Look;
 use crate::error::Error;
 use crate::exact::vortex_box::ENTRY;
 use crate::exact::{Exact, Material};
-use crate::job::Column;
+use crate::job::{Row, row};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::record::{Discretisation, WorkDone};
 use crate::scheme::{RuleName, Scheme};
-use crate::spec::RunSpec;
+use crate::setup::Setup;
 use crate::statistics::rms;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
@@ -33,7 +33,7 @@ const SLOW: f64 = 1e6;
 
 /// What is found of a cloud.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Row {
+pub(super) struct Cloud {
     /// Relative errors of displacement and stress, and the displacement along the exact one; none of a cloud that breaks
     /// down.
     found: Option<[f64; 3]>,
@@ -42,21 +42,20 @@ pub(super) struct Row {
 
 /// Clouds of one kind.
 pub(super) struct Clouds {
-    spec: RunSpec,
-    parameters: Parameters,
+    setup: Setup<()>,
     solution: Arc<dyn Exact>,
     law: NeoHookean,
     dt: f64,
     steps: u64,
 }
 
-impl Clouds {
-    /// A run at its start.
-    ///
-    /// # Errors
-    /// A scheme that is neither explicit nor quasi-static; parameters that make no scene.
-    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
-        let slow = match spec.scheme {
+impl Analysis for Clouds {
+    type Parameters = ();
+    type Found = Cloud;
+
+    fn new(setup: Setup<()>) -> Result<Self, Error> {
+        let parameters = &setup.values;
+        let slow = match setup.scheme {
             Scheme::Explicit(_) => false,
             Scheme::Implicit(parts) if parts.rule == RuleName::QuasiStatic => true,
             other => {
@@ -86,38 +85,103 @@ impl Clouds {
         let law = NeoHookean { mu, lambda };
         let longest = match slow {
             true => duration,
-            false => courant_time_step(
-                parameters.number(CFL),
-                spec.level.h,
-                law.wave_speed(density),
-            ),
+            false => courant_time_step(parameters.number(CFL), setup.h, law.wave_speed(density)),
         };
         let steps = (duration / longest).ceil();
         Ok(Self {
-            spec: spec.clone(),
-            parameters: parameters.clone(),
             solution,
             law,
             dt: duration / steps,
             steps: steps as u64,
+            setup,
         })
     }
 
+    fn discretisation(&self) -> Discretisation {
+        let full = self.per_direction().pow(2) as u32;
+        Discretisation {
+            dim: 2,
+            h: self.setup.h,
+            ppc: full - u32::from(self.setup.values.is(LAYOUT, HOLES)),
+            dt: self.dt,
+            wall: "open-knot".to_owned(),
+        }
+    }
+
+    fn rows(&self) -> usize {
+        match self.varies() {
+            true => self.setup.values.number(SEEDS) as usize,
+            false => 1,
+        }
+    }
+
+    fn analyse(&self, k: usize) -> Result<Cloud, Fault> {
+        use Fault::{Breakdown, NoConvergence, Singular};
+        let mut run = self.begin(k)?;
+        let found = match (0..self.steps).try_for_each(|_| run.step()) {
+            Ok(()) => Some(self.errors(run.as_mut())),
+            Err(Breakdown { .. } | NoConvergence { .. } | Singular { .. }) => None,
+            Err(other) => return Err(other),
+        };
+        let work = run.work().into();
+        Ok(Cloud { found, work })
+    }
+
+    fn row(&self, k: usize, cloud: &Cloud) -> Row {
+        let [displacement, stress, along] = cloud.found.unwrap_or([f64::NAN; 3]);
+        row! {
+            "seed (-)": k as f64,
+            "displacement_error (-)": displacement,
+            "stress_error (-)": stress,
+            "along (-)": along,
+        }
+    }
+
+    fn places(&self) -> Vec<[f64; 2]> {
+        self.cloud(0)
+    }
+
+    fn metrics(&self, rows: &[Cloud]) -> Vec<(Metric, f64)> {
+        let of = |which: usize, share: f64| {
+            let value = |row: &Cloud| row.found.map_or(f64::INFINITY, |found| found[which]);
+            quantile(rows.iter().map(value).collect(), share)
+        };
+        let broken = rows.iter().filter(|row| row.found.is_none()).count();
+        vec![
+            (m::ERROR_MEDIAN, of(0, 0.5)),
+            (m::ERROR_HIGH, of(0, 0.9)),
+            (m::STRESS_MEDIAN, of(1, 0.5)),
+            (m::SOFTENING, of(2, 0.5) - 1.0),
+            (m::BROKEN, broken as f64 / rows.len() as f64),
+        ]
+    }
+
+    fn work(&self, rows: &[Cloud]) -> WorkDone {
+        let add = |sum: WorkDone, row: &Cloud| row.work.after(sum);
+        let none = WorkDone {
+            particles: self.cloud(0).len() as u64,
+            ..WorkDone::default()
+        };
+        rows.iter().fold(none, add)
+    }
+}
+
+impl Clouds {
     fn cells(&self) -> usize {
-        (1.0 / self.spec.level.h).round() as usize
+        (1.0 / self.setup.h).round() as usize
     }
 
     fn per_direction(&self) -> usize {
-        self.parameters.number(PPC_PER_DIRECTION) as usize
+        self.setup.values.number(PPC_PER_DIRECTION) as usize
     }
 
     /// Places (m) of the `k`-th cloud.
-    fn places(&self, k: usize) -> Vec<[f64; 2]> {
-        let (cells, n, h) = (self.cells(), self.per_direction(), self.spec.level.h);
+    fn cloud(&self, k: usize) -> Vec<[f64; 2]> {
+        let (cells, n, h) = (self.cells(), self.per_direction(), self.setup.h);
         let count = cells * cells * n * n;
         // A number from 0 to 1, of its own for every cloud, particle and axis.
         let chance = |p: usize, axis: usize| 0.5 + 0.5 * noise((k * count + p) * 3 + axis);
-        let is = |word| self.parameters.is(LAYOUT, word);
+        let is = |word| self.setup.values.is(LAYOUT, word);
         let cell_of = |p: usize| [p / (n * n) % cells, p / (n * n) / cells];
         let part_of = |p: usize| [p % (n * n) % n, p % (n * n) / n];
         let place = |p: usize| {
@@ -143,18 +207,19 @@ impl Clouds {
 
     /// Whether the next cloud is another one.
     fn varies(&self) -> bool {
-        !self.parameters.is(LAYOUT, LATTICE)
+        !self.setup.values.is(LAYOUT, LATTICE)
     }
 
     fn particles_of(&self, k: usize) -> Result<Particles<2>, Fault> {
-        let places = self.places(k);
+        let places = self.cloud(k);
         let volume = 1.0 / places.len() as f64;
-        let half = 0.5 * self.spec.level.h / self.per_direction() as f64;
+        let half = 0.5 * self.setup.h / self.per_direction() as f64;
         let density = self.solution.material().density;
-        let mut particles = Particles::new(self.spec.start_at(places), volume, density, [half; 2])?;
+        let mut particles =
+            Particles::new(self.setup.start_at(places), volume, density, [half; 2])?;
         // Velocities of an explicit run live half a step before places.
         let since = -0.5 * self.dt;
-        if let Scheme::Explicit(_) = self.spec.scheme {
+        if let Scheme::Explicit(_) = self.setup.scheme {
             for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
                 let exact = self.solution.velocity(&vector(x), since);
                 *v = [exact.x, exact.y];
@@ -165,19 +230,19 @@ impl Clouds {
 
     fn begin(&self, k: usize) -> Result<Box<dyn Simulation<2>>, Fault> {
         let axis = Axis::walls(0.0, self.cells());
-        let grid = Grid::new(self.spec.level.h, [axis, axis])?;
+        let grid = Grid::new(self.setup.h, [axis, axis])?;
         let ends = [(0, End::Lo), (0, End::Hi), (1, End::Lo), (1, End::Hi)];
         let kind = WallKind::Roller;
         let walls = ends.map(|(axis, end)| Wall { axis, end, kind });
         let scene = Scene::new(grid, Body::new(self.law, self.particles_of(k)?)?)
             .load(forcing(&self.solution))
             .constrain_all(walls.to_vec());
-        match self.spec.scheme {
+        match self.setup.scheme {
             Scheme::Explicit(_) => {
-                let settings = Settings::new(self.dt).remedy(self.spec.scheme.remedy().build());
-                mpm_solvers::solver(self.spec.scheme, scene, settings)
+                let settings = Settings::new(self.dt).remedy(self.setup.scheme.remedy().build());
+                mpm_solvers::solver(self.setup.scheme, scene, settings)
             }
-            _ => mpm_solvers::implicit(self.spec.scheme, scene, implicit::Settings::new(self.dt)),
+            _ => mpm_solvers::implicit(self.setup.scheme, scene, implicit::Settings::new(self.dt)),
         }
     }
 
@@ -200,88 +265,6 @@ impl Clouds {
             rms(stress.iter().map(|s| s.norm())) / rms(all().map(stress_of)),
             along / squares,
         ]
-    }
-}
-
-impl Look for Clouds {
-    type Row = Row;
-
-    fn discretisation(&self) -> Discretisation {
-        let full = self.per_direction().pow(2) as u32;
-        Discretisation {
-            dim: 2,
-            h: self.spec.level.h,
-            ppc: full - u32::from(self.parameters.is(LAYOUT, HOLES)),
-            dt: self.dt,
-            wall: "open-knot".to_owned(),
-        }
-    }
-
-    fn columns(&self) -> Vec<&'static str> {
-        vec![
-            "seed (-)",
-            "displacement_error (-)",
-            "stress_error (-)",
-            "along (-)",
-        ]
-    }
-
-    fn rows(&self) -> usize {
-        match self.varies() {
-            true => self.parameters.number(SEEDS) as usize,
-            false => 1,
-        }
-    }
-
-    fn look(&self, k: usize) -> Result<Row, Fault> {
-        use Fault::{Breakdown, NoConvergence, Singular};
-        let mut run = self.begin(k)?;
-        let found = match (0..self.steps).try_for_each(|_| run.step()) {
-            Ok(()) => Some(self.errors(run.as_mut())),
-            Err(Breakdown { .. } | NoConvergence { .. } | Singular { .. }) => None,
-            Err(other) => return Err(other),
-        };
-        let work = run.work().into();
-        Ok(Row { found, work })
-    }
-
-    fn numbers(&self, k: usize, row: &Row) -> Vec<f64> {
-        let found = row.found.unwrap_or([f64::NAN; 3]);
-        [vec![k as f64], found.to_vec()].concat()
-    }
-
-    fn particles(&self) -> Vec<Column> {
-        let places = self.places(0);
-        let column = |name, a: usize| Column {
-            name,
-            unit: "m",
-            values: places.iter().map(|x| x[a]).collect(),
-        };
-        vec![column("x", 0), column("y", 1)]
-    }
-
-    fn metrics(&self, rows: &[Row]) -> Vec<(Metric, f64)> {
-        let of = |which: usize, share: f64| {
-            let value = |row: &Row| row.found.map_or(f64::INFINITY, |found| found[which]);
-            quantile(rows.iter().map(value).collect(), share)
-        };
-        let broken = rows.iter().filter(|row| row.found.is_none()).count();
-        vec![
-            (m::ERROR_MEDIAN, of(0, 0.5)),
-            (m::ERROR_HIGH, of(0, 0.9)),
-            (m::STRESS_MEDIAN, of(1, 0.5)),
-            (m::SOFTENING, of(2, 0.5) - 1.0),
-            (m::BROKEN, broken as f64 / rows.len() as f64),
-        ]
-    }
-
-    fn work(&self, rows: &[Row]) -> WorkDone {
-        let add = |sum: WorkDone, row: &Row| row.work.after(sum);
-        let none = WorkDone {
-            particles: self.places(0).len() as u64,
-            ..WorkDone::default()
-        };
-        rows.iter().fold(none, add)
     }
 }
 

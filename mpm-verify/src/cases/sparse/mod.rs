@@ -9,7 +9,6 @@ mod parameters;
 mod tables;
 
 use super::family::{family, implicit, levels, pairs};
-use super::still::Still;
 use crate::case::{Case, Family, Tier};
 use crate::results::headline;
 use crate::scheme::{BasisName, RemedyName, RuleName};
@@ -56,9 +55,7 @@ pub(super) fn case() -> Case {
         cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-2)),
         ladder: &[],
         own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| {
-            Ok(Box::new(Still::new(Clouds::new(spec, parameters)?)))
-        }),
+        begin: Box::new(super::analysis::begin::<Clouds>),
         pictures: |_| Ok(()),
         tables: tables::all(),
         breaks_down: |_| None,

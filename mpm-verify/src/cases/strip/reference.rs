@@ -1,19 +1,14 @@
 //! Finite elements of Taylor and Hood at small strain: `references/strip_fem.py`.
 
-use super::parameters::{
-    CONDUCTIVITY, DIMENSION, DURATION, HALF_WIDTH, LAW, LOAD, POISSON_RATIO, POROSITY, STEPS,
-    YOUNG_MODULUS,
-};
-use crate::parameter::Parameters;
-use serde::Deserialize;
+use super::*;
 use std::sync::OnceLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/strip.json");
 /// The largest load (Pa) that is small.
-const SMALL: f64 = 1e3;
+const LARGEST: f64 = 1e3;
 /// A conductivity (m/s) at which no water flows in a run's time.
 const NOTHING: f64 = 1e-12;
-/// Of the pressures of the file.
+/// Unit of the pressures of the file.
 const UNIT: f64 = 1e-5;
 
 #[derive(Debug, Deserialize)]
@@ -53,34 +48,35 @@ fn document() -> Option<&'static Document> {
         .as_ref()
 }
 
-/// Whether no water flows in a run's time.
-pub(super) fn is_undrained(parameters: &Parameters) -> bool {
-    parameters.number(CONDUCTIVITY) <= NOTHING
-}
-
-/// The solution that a run on cells of size `h` (m) should have, if there is one.
-pub(super) fn solution(h: f64, parameters: &Parameters) -> Option<&'static Solution> {
-    let is = |p, value: f64| parameters.number(p) == value;
-    let elastic = parameters.is(LAW, "elastic") && is(HALF_WIDTH, 1.0) && is(POISSON_RATIO, 0.25);
-    let small = parameters.number(LOAD) <= SMALL;
-    let undrained = is_undrained(parameters);
-    let steps = is(STEPS, 20.0) && is(DURATION, 2000.0) && is(CONDUCTIVITY, 1e-6);
-    let moduli = is(YOUNG_MODULUS, 1e6) && is(POROSITY, 0.4);
-    if !(elastic && small && moduli && (undrained || steps)) {
-        return None;
+impl Setup<Strip> {
+    /// Whether no water flows in a run's time.
+    pub(super) fn is_undrained(&self) -> bool {
+        self.conductivity <= NOTHING
     }
-    let all = document()?;
-    let all = if is(DIMENSION, 3.0) {
-        &all.square
-    } else {
-        &all.strip
-    };
-    let of = if undrained {
-        &all.undrained
-    } else {
-        &all.drained
-    };
-    of.iter().find(|s| (s.h - h).abs() < 1e-9 * h)
+
+    /// The solution that a run should have, if there is one.
+    pub(super) fn reference(&self) -> Option<&'static Solution> {
+        let elastic =
+            self.law == Soil::Elastic && self.half_width == 1.0 && self.poisson_ratio == 0.25;
+        let small = self.load <= LARGEST;
+        let steps = self.steps == 20 && self.duration == 2000.0 && self.conductivity == 1e-6;
+        let moduli = self.young_modulus == 1e6 && self.porosity == 0.4;
+        if !(elastic && small && moduli && (self.is_undrained() || steps)) {
+            return None;
+        }
+        let all = document()?;
+        let all = if self.dimension == 3 {
+            &all.square
+        } else {
+            &all.strip
+        };
+        let of = if self.is_undrained() {
+            &all.undrained
+        } else {
+            &all.drained
+        };
+        of.iter().find(|s| (s.h - self.h).abs() < 1e-9 * self.h)
+    }
 }
 
 #[cfg(test)]
@@ -100,7 +96,7 @@ mod tests {
         }
     }
 
-    /// Of deep undrained ground the pressure is the mean stress in the plane, which under a strip is the angle that it is
+    /// The pressure of deep undrained ground is the mean stress in the plane, which under a strip is the angle that it is
     /// seen by over π, Flamant's solution integrated over the strip. The ground ends at five half widths.
     #[test]
     fn undrained_pressure_is_boussinesqs_mean_stress() {
@@ -115,7 +111,7 @@ mod tests {
         }
     }
 
-    /// Likewise below a square: the mean stress is the solid angle that it is seen by over 2π. Near a corner of the square a
+    /// Below a square the mean stress is the solid angle that it is seen by over 2π. Near a corner of the square a
     /// right-angled part of a by b in the depth z fills atan(ab / (z √(a² + b² + z²))) of it.
     #[test]
     fn undrained_pressure_below_a_square_is_loves_mean_stress() {

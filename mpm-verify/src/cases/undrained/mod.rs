@@ -2,41 +2,67 @@
 //!
 //! Sections 3 and 4.4 of Pretti et al., doi:10.1002/nme.7630. Set-up, choices and tolerances: `docs/undrained.md`.
 
-mod checks;
-mod forms;
-mod look;
-mod metrics;
-mod parameters;
-mod tables;
+mod run;
 
-use super::family::{family, levels};
-use super::still::Still;
-use crate::case::{Case, Family, Tier};
-use crate::metric::error;
-use crate::results::headline;
-use crate::scheme::{BasisName, Scheme, SpaceName};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::Level;
-use look::Undrained;
-use metrics::{
-    CHECKERBOARD_RATIO, DISPLACEMENT_ERROR, INF_SUP, PRESSURE_ERROR, PRESSURES, ZERO_MODES,
-};
-
-use BasisName::{Bspline2, Gimp, Linear};
-use SpaceName::{Equal, TwoGrid};
-use Tier::{Nightly, Pr, Quick};
+use super::analysis::case_of;
+use super::checks::{finest, observed_order};
+use super::family::levels;
+use crate::parameter::Parameter;
+use crate::prelude::*;
+use std::collections::BTreeMap;
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
-const ELLIPSE: &[&str] = &["domain=ellipse"];
-const ELLIPSE_ACROSS: &[&str] = &["domain=ellipse", "layout=across"];
-const ACROSS: &[&str] = &["layout=across"];
-const LINEAR_PRESSURE: &[&str] = &["pressure_functions=linear"];
+
+choices! {
+    /// Shape of the body.
+    enum Domain { Square = "square", Ellipse = "ellipse" }
+}
+
+choices! {
+    /// Places of the particles' domains.
+    enum Layout { Aligned = "aligned", Across = "across" }
+}
+
+choices! {
+    /// Functions of the pressure.
+    enum PressureFunctions { Same = "same", Linear = "linear" }
+}
+
+const DOMAIN: Parameter = Domain::Square.by_default().named("domain");
+const PRESSURE_FUNCTIONS: Parameter = PressureFunctions::Same
+    .by_default()
+    .named("pressure_functions");
+
+parameters! {
+    /// Parameters of the undrained body.
+    struct Undrained {
+        domain: Domain = DOMAIN,
+            "square: held all around, on grid lines; ellipse: half of one, held at its straight side, that fits no grid";
+        points_per_direction: usize = whole("-", "2", 1, 4), "particles per cell of the displacement and direction";
+        layout: Layout = Layout::Aligned.by_default(),
+            "aligned: domains fill cells; across: one more along each side, so that domains lie across grid lines";
+        pressure_functions: PressureFunctions = PRESSURE_FUNCTIONS,
+            "functions of the pressure: those of the displacement, or linear ones";
+    }
+}
+
+metrics! { ALL:
+    INF_SUP = "inf_sup", "-",
+        "least number β > 0 that a pressure's norm times the norms of motions can fall to where it works on them, Chapelle and Bathe's";
+    ZERO_MODES = "zero_modes", "-", "pressures that no motion sees: β² < 10⁻⁹";
+    DISPLACEMENT_ERROR = "displacement_error", "-",
+        "rms over the particles of the distance from the exact displacement, over its rms; none of the ellipse";
+    PRESSURE_ERROR = "pressure_error", "-",
+        "rms over the particles of the distance from the exact pressure, over its rms; none of the ellipse";
+    CHECKERBOARD_RATIO = "checkerboard_ratio", "-",
+        "rms over the cells of the pressure of a checkerboard's amplitude, over the rms of the exact pressure; none of the ellipse";
+    UNKNOWNS = "displacements", "-", "unknown components of displacement";
+    PRESSURES = "pressures", "-", "unknown pressures";
+}
 
 pub(super) fn case() -> Case {
     let levels = levels(1.0, LEVELS);
     Case {
-        name: "undrained",
-        title: "Spaces of displacement and pressure where no water flows",
         description: "Chapelle and Bathe's number of each pair of spaces on three meshes: of one that is stable it has a bound, of equal \
                       order it falls with the cells. And the motion of a body that keeps its volume, against an exact one.",
         references: vec![
@@ -47,11 +73,9 @@ pub(super) fn case() -> Case {
             "Matrices of an undeformed body at small strain, of the solver's functions and ghost penalties but assembled here: no step is taken.",
             "Norms are sums over the particles, exact integrals of linear functions and GIMP on the square alone.",
         ],
-        parameters: parameters::ALL.to_vec(),
         plan: plan(&levels),
         levels,
-        metrics: metrics::ALL.to_vec(),
-        checks: checks::checks(),
+        checks: checks(),
         headlines: vec![
             headline(INF_SUP, "β", 1.0, 4),
             headline(ZERO_MODES, "pressures without effect", 1.0, 0),
@@ -64,47 +88,33 @@ pub(super) fn case() -> Case {
             error(DISPLACEMENT_ERROR, "error of the displacement"),
             error(PRESSURE_ERROR, "error of the pressure"),
         ],
-        sweeps: Vec::new(),
         watched: &["inf_sup"],
-        field: None,
         sketch: sketch(),
         cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-4)),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| {
-            Ok(Box::new(Still::new(Undrained::new(spec, parameters)?)))
-        }),
-        pictures: |_| Ok(()),
-        tables: tables::all(),
-        breaks_down: |_| None,
+        tables: tables(),
+        ..case_of::<run::Body>("undrained", "Spaces of displacement and pressure where no water flows", ALL)
     }
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let of = |bases: &[BasisName], spaces: &[SpaceName]| -> Vec<Scheme> {
-        let each = bases
-            .iter()
-            .flat_map(|b| spaces.iter().map(|s| Scheme::poro(*b, *s)));
-        each.collect()
-    };
-    let stable = of(&[Gimp, Linear, Bspline2], &[TwoGrid]);
-    let equal = of(&[Gimp, Linear], &[Equal]);
-    let splines = of(&[Bspline2], &[TwoGrid]);
+    const EVERY: &str = "n8 n16 n32";
+    let stable = [Gimp, Linear, Bspline2].map(|basis| Scheme::poro(basis, TwoGrid));
+    let equal = [Gimp, Linear].map(|basis| Scheme::poro(basis, Equal));
     let (gimp, equal_gimp) = (&stable[..1], &equal[..1]);
-    vec![
-        family(Quick, &levels[..1], gimp, &[]),
-        family(Pr, levels, &stable, &[]),
-        family(Pr, &levels[..2], &equal, &[]),
-        family(Pr, levels, gimp, ACROSS),
-        family(Pr, &levels[..2], equal_gimp, ACROSS),
-        family(Pr, levels, gimp, ELLIPSE_ACROSS),
-        family(Pr, levels, equal_gimp, ELLIPSE_ACROSS),
-        family(Pr, levels, &stable[1..2], ELLIPSE),
-        family(Pr, levels, &equal[1..], ELLIPSE),
-        family(Pr, levels, &splines, LINEAR_PRESSURE),
-        family(Nightly, levels, &equal, &[]),
-        family(Nightly, levels, equal_gimp, ACROSS),
-    ]
+    Plan::of(levels)
+        .runs(Quick, "n8", gimp, "")
+        .runs(Pr, EVERY, &stable, "")
+        .runs(Pr, "n8 n16", &equal, "")
+        .runs(Pr, EVERY, gimp, "layout=across")
+        .runs(Pr, "n8 n16", equal_gimp, "layout=across")
+        .runs(Pr, EVERY, gimp, "domain=ellipse layout=across")
+        .runs(Pr, EVERY, equal_gimp, "domain=ellipse layout=across")
+        .runs(Pr, EVERY, &stable[1..2], "domain=ellipse")
+        .runs(Pr, EVERY, &equal[1..], "domain=ellipse")
+        .runs(Pr, EVERY, &stable[2..], "pressure_functions=linear")
+        .runs(Nightly, EVERY, &equal, "")
+        .runs(Nightly, EVERY, equal_gimp, "layout=across")
+        .done()
 }
 
 fn sketch() -> Sketch {
@@ -113,21 +123,132 @@ fn sketch() -> Sketch {
         [1.763 + 0.437 * angle.cos(), 0.611 * angle.sin()]
     });
     let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    let sides = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]];
-    let mut shapes = vec![Shape::Body(square), Shape::Body(arc.collect())];
-    let mut last = [0.0, 0.0];
-    for next in sides {
-        shapes.push(Shape::Held(last, next));
-        last = next;
-    }
-    shapes.extend([
-        Shape::Held([1.326, 0.0], [2.2, 0.0]),
-        Shape::length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
-        Shape::note([0.5, 0.5], "square"),
-        Shape::note([1.763, 0.25], "ellipse"),
-    ]);
     Sketch {
-        shapes,
+        shapes: vec![
+            Shape::Body(square),
+            Shape::Body(arc.collect()),
+            Shape::Held([0.0, 0.0], [1.0, 0.0]),
+            Shape::Held([1.0, 0.0], [1.0, 1.0]),
+            Shape::Held([1.0, 1.0], [0.0, 1.0]),
+            Shape::Held([0.0, 1.0], [0.0, 0.0]),
+            Shape::Held([1.326, 0.0], [2.2, 0.0]),
+            Shape::length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
+            Shape::note([0.5, 0.5], "square"),
+            Shape::note([1.763, 0.25], "ellipse"),
+        ],
         description: "A square of 1 m that is held all around, and half an ellipse that is held at its straight side.",
     }
+}
+
+/// The bounds are derived in `docs/undrained.md`.
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Undrained>;
+    type Of = Setup<Undrained>;
+    let is_square =
+        |space| move |b: &Run<Undrained>| b.domain == Domain::Square && b.space() == Some(space);
+    vec![
+        Check::truth("inf-sup-bounded", "two grids, three levels: β falls by no power of h: an order of at most 0.15")
+            .study(|records| {
+                let why = "a stable pair has a bound that no mesh changes";
+                let orders = orders(records, INF_SUP, |b: &Of| b.space() == Some(TwoGrid));
+                orders.into_iter().map(|(name, order)| Finding::at_most(name, order, SLACK, why)).collect()
+            })
+            .because(""),
+        Check::known_limit("equal-order-is-unstable", "equal order on the square, three levels: β falls as h, by an order of at least 1 − 0.15")
+            .study(|records| at_least(records, INF_SUP, Equal, (1.0, "bilinear pressures on the cells of the displacement are not stable")))
+            .because(""),
+        Check::truth("one-constant", "two grids on the square: one pressure has no effect, the constant one")
+            .when(is_square(TwoGrid))
+            .within(ZERO_MODES, |_| 1.0, |_| 0.0)
+            .because("the particles' sums of ∂N/∂x are exact integrals, zero of what is held all around"),
+        Check::known_limit("equal-order-has-checkerboards", "equal order on the square: more pressures than the constant one have no effect")
+            .when(is_square(Equal))
+            .above(ZERO_MODES, |_| 1.0)
+            .because("checkerboards of bilinear functions"),
+        Check::known_limit("equal-order-loses-the-pressure", "equal order on the square: the pressure's error is larger than the pressure")
+            .when(is_square(Equal))
+            .above(PRESSURE_ERROR, |_| 1.0)
+            .because("pressures of small β answer to hardly any motion"),
+        Check::truth("no-locking", "two grids on the square, three levels: order in h of the displacement's error at least 2 − 0.15")
+            .study(|records| at_least(records, DISPLACEMENT_ERROR, TwoGrid, (2.0, "a stable pair locks no motion: second order in the mean")))
+            .because(""),
+        Check::truth("smooth-pressure", "two grids on the square, three levels: order in h of the pressure's error, and of its checkerboard, at least 1 − 0.15")
+            .study(|records| {
+                let why = "a stable pair has the pressure's error of the gradient's, first order";
+                let both = [PRESSURE_ERROR, CHECKERBOARD_RATIO];
+                both.into_iter().flat_map(|metric| at_least(records, metric, TwoGrid, (1.0, why))).collect()
+            })
+            .because(""),
+    ]
+}
+
+/// The order of a metric of the square with a pressure space is at least the formal one less the slack, by order and source.
+fn at_least(
+    records: &[Record],
+    metric: Metric,
+    space: SpaceName,
+    (formal, why): (f64, &str),
+) -> Vec<Finding> {
+    let own = |b: &Setup<Undrained>| b.domain == Domain::Square && b.space() == Some(space);
+    let orders = orders(records, metric, own).into_iter();
+    orders
+        .map(|(name, order)| Finding::above(name, order, formal - SLACK, why))
+        .collect()
+}
+
+/// The order of a metric over three levels, for every scheme and every body.
+fn orders(
+    records: &[Record],
+    metric: Metric,
+    own: impl Fn(&Setup<Undrained>) -> bool,
+) -> Vec<(String, f64)> {
+    let mut ladders: BTreeMap<(Scheme, &[String]), Vec<&Record>> = BTreeMap::new();
+    for r in records.iter().filter(|r| Setup::holds(r, &own)) {
+        ladders.entry((r.scheme(), &r.set)).or_default().push(r);
+    }
+    let of = |((scheme, set), mut runs): ((Scheme, &[String]), Vec<&Record>)| {
+        runs.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
+        let order = observed_order(finest(&runs)?, |r| r.discretisation.h, metric);
+        let name = format!("order of {} of {scheme} {}", metric.name, set.join(" "));
+        Some((name.trim_end().to_owned(), order))
+    };
+    ladders.into_iter().filter_map(of).collect()
+}
+
+fn tables() -> Vec<ResultTable> {
+    let by_level = |title: &str, metric, format| {
+        let titles = LEVELS.map(|(level, n)| (level, format!("{title}, n = {n}")));
+        Column::levels(titles, metric, format)
+    };
+    let numbers = |name: &str, shows: fn(&Record) -> bool| {
+        let mut columns = by_level("β", INF_SUP, fixed(4));
+        columns.push(Column::order(INF_SUP).titled("order in h (between levels)"));
+        columns.extend(Column::levels(
+            [("n16", "without effect, n = 16")],
+            ZERO_MODES,
+            fixed(0),
+        ));
+        ResultTable::new(name, shows, &[SCHEME], columns)
+    };
+    let errors = [
+        by_level("u", DISPLACEMENT_ERROR, share(2)),
+        by_level("p", PRESSURE_ERROR, share(2)),
+        by_level("checkerboard", CHECKERBOARD_RATIO, share(2)),
+    ];
+    vec![
+        numbers("undrained-square", |r| r.is_default()),
+        numbers("undrained-across", |r| r.set == ["layout=across"]),
+        numbers("undrained-splines", |r| {
+            r.set == ["pressure_functions=linear"]
+        }),
+        numbers("undrained-ellipse", |r| {
+            r.set.first().is_some_and(|s| s == "domain=ellipse")
+        }),
+        ResultTable::new(
+            "undrained-errors",
+            |r| r.is_default(),
+            &[SCHEME],
+            errors.into_iter().flatten(),
+        ),
+    ]
 }

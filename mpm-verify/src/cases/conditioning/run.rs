@@ -1,110 +1,147 @@
-//! Matrices of the half ellipse at a place, and of the cantilever.
+//! Matrices of the half ellipse at its places, and of the cantilever.
 
-use super::parameters::{GHOST, MOBILITY, POSITIONS, PRESSURE_GHOST};
+use super::*;
+use crate::cases::analysis::{Analysis, visited};
 use crate::cases::forms::{Cloud, Field, coarse, eigenvalues, log10_condition, scaled};
-use crate::error::Error;
-use crate::parameter::Parameters;
-use crate::scheme::{BasisName, Scheme, SpaceName};
-use crate::spec::RunSpec;
-use mpm_core::basis::{Gimp, Linear};
+use crate::record::WorkDone;
 use mpm_core::implicit::{Moduli, OfHats};
-use mpm_core::{Axis, Grid, Lattice};
+use mpm_core::{Lattice, basis};
 use nalgebra::DMatrix;
-use serde::{Deserialize, Serialize};
+
+type Hats = Lattice<2, 2, basis::Linear>;
+type Means = Lattice<2, 3, basis::Gimp>;
 
 /// Particles a cell of the displacement and direction.
-pub(super) const PARTICLES: usize = 3;
+const PARTICLES: usize = 3;
 /// Half axes of the ellipse, in cells.
 pub(super) const HALF_AXES: [f64; 2] = [10.0, 6.0];
-/// Cells of the grid, and of them those left of the ellipse's middle at its first place.
+/// Cells of the grid, and those of them left of the ellipse's middle at its first place.
 const CELLS: [usize; 2] = [28, 8];
 const BEFORE: f64 = 12.0;
 /// Cells of the cantilever, and of its grid.
 const BEAM: [usize; 2] = [24, 8];
 const BEAM_GRID: [usize; 2] = [26, 12];
 const BEAM_FLOOR: f64 = 2.0;
-/// Points along a cell at which what is held is zero.
+/// Points along a cell at which held functions are zero.
 const POINTS: usize = 4;
 /// Moduli over G, of ν = ¼.
 const MODULI: Moduli = Moduli {
     lambda: 1.0,
     mu: 1.0,
 };
-/// The whole matrix is looked at in every place of so many.
+/// The whole matrix is analysed in one of this number of places.
 const OF_WHOLE: usize = 4;
 
-/// What was found at a place.
+/// Findings of a place.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Found {
     /// log10 of the condition numbers of the matrices of displacement and pressure.
-    pub(super) own: [f64; 2],
+    own: [f64; 2],
     /// Their least eigenvalues.
-    pub(super) softest: [f64; 2],
-    /// Of the whole matrix, and of that scaled to a diagonal of ones, where it was looked at.
-    pub(super) whole: Option<[f64; 2]>,
+    softest: [f64; 2],
+    /// log10 of the condition numbers of the whole matrix, and of that scaled to a diagonal of ones, where it was analysed.
+    whole: Option<[f64; 2]>,
 }
 
-/// A run.
-pub(super) struct Setting {
-    means: bool,
-    equal: bool,
-    h: f64,
-    alpha: f64,
-    positions: usize,
-    mobility: f64,
-    storage: bool,
-    spec: RunSpec,
+/// Least, mean and greatest; NaN stays NaN.
+fn spread(values: impl Iterator<Item = f64>) -> [f64; 3] {
+    let (mut least, mut sum, mut most, mut count) = (f64::INFINITY, 0.0, f64::NEG_INFINITY, 0.0);
+    for value in values {
+        (least, most) = (
+            if value < least { value } else { least },
+            if value > most { value } else { most },
+        );
+        (sum, count) = (sum + value, count + 1.0);
+    }
+    [least, sum / count, most]
 }
 
-impl Setting {
-    /// That of a run.
-    ///
-    /// # Errors
-    /// A scheme that is not one of two grids or equal order with linear functions or GIMP.
-    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
-        let refused = || {
-            Error::Input(format!(
-                "scheme = {}; allowed: poro with linear or gimp and two-grid or equal",
-                spec.scheme
-            ))
-        };
-        let Scheme::Poro(parts) = spec.scheme else {
-            return Err(refused());
-        };
-        let means = match parts.basis {
-            BasisName::Linear => false,
-            BasisName::Gimp => true,
-            _ => return Err(refused()),
-        };
-        let equal = match parts.space {
-            SpaceName::TwoGrid => false,
-            SpaceName::Equal => true,
-            SpaceName::Ppp => return Err(refused()),
-        };
-        Ok(Self {
-            means,
-            equal,
-            h: spec.level.h,
-            alpha: parameters.number(GHOST),
-            positions: parameters.number(POSITIONS) as usize,
-            mobility: parameters.number(MOBILITY),
-            storage: parameters.is(PRESSURE_GHOST, "storage"),
-            spec: spec.clone(),
-        })
+impl Analysis for Setup<Ellipse> {
+    type Parameters = Ellipse;
+    type Found = Found;
+
+    fn new(setup: Self) -> Result<Self, Error> {
+        let basis = matches!(setup.basis(), Linear | Gimp);
+        let space = matches!(setup.space(), Some(TwoGrid | Equal));
+        if basis && space {
+            return Ok(setup);
+        }
+        Err(Error::Input(format!(
+            "scheme = {}; allowed: poro with linear or gimp and two-grid or equal",
+            setup.scheme
+        )))
     }
 
-    /// Places of the body.
-    pub(super) fn positions(&self) -> usize {
+    fn discretisation(&self) -> Discretisation {
+        // Nothing moves: any step will do, and a record has one.
+        self.discretisation(2, PARTICLES * PARTICLES, 1.0)
+    }
+
+    fn rows(&self) -> usize {
         self.positions
     }
 
-    /// How far the body is moved at its `k`-th place, in cells of the displacement: no particle is then on a grid line.
-    pub(super) fn shift(&self, k: usize) -> f64 {
+    fn analyse(&self, k: usize) -> Result<Found, mpm_core::Error> {
+        match self.basis() {
+            Gimp => self.with::<Means>(k),
+            _ => self.with::<Hats>(k),
+        }
+    }
+
+    fn row(&self, k: usize, found: &Found) -> Row {
+        row! {
+            "shift (h)": self.shift(k),
+            "log10_cond_uu (-)": found.own[0],
+            "log10_cond_pp (-)": found.own[1],
+        }
+    }
+
+    fn places(&self) -> Vec<[f64; 2]> {
+        self.cloud(0).places
+    }
+
+    fn metrics(&self, found: &[Found]) -> Vec<(Metric, f64)> {
+        let of = |k: usize| spread(found.iter().map(|r| r.own[k]));
+        let softest = |k: usize| spread(found.iter().map(|r| r.softest[k]))[0];
+        let whole = |k: usize| spread(found.iter().filter_map(|r| Some(r.whole?[k])))[2];
+        let pairs = found.iter().zip(found.iter().rev());
+        let apart = spread(pairs.map(|(a, b)| (a.own[0] - b.own[0]).abs()));
+        let ([u_least, u_mean, u], [p_least, p_mean, p]) = (of(0), of(1));
+        let deflection = match self.basis() {
+            Gimp => self.deflection_change::<Means>(),
+            _ => self.deflection_change::<Hats>(),
+        };
+        vec![
+            (COND_UU, u),
+            (COND_UU_MEAN, u_mean),
+            (COND_UU_LEAST, u_least),
+            (COND_PP, p),
+            (COND_PP_MEAN, p_mean),
+            (COND_PP_LEAST, p_least),
+            (COND, whole(0)),
+            (COND_SCALED, whole(1)),
+            (SOFTEST_UU, softest(0)),
+            (SOFTEST_PP, softest(1)),
+            (MIRROR_ERROR, apart[2]),
+            (DEFLECTION_CHANGE, deflection.unwrap_or(f64::NAN)),
+        ]
+    }
+
+    fn work(&self, found: &[Found]) -> WorkDone {
+        let functions = if self.basis() == Gimp { 9 + 9 } else { 4 + 4 };
+        let particles = self.cloud(0).places.len() as u64;
+        visited(found.len(), [particles, particles * functions])
+    }
+}
+
+impl Setup<Ellipse> {
+    /// Displacement of the body at its `k`-th place, in cells of the displacement: no particle is then on a grid line.
+    fn shift(&self, k: usize) -> f64 {
         2.0 * (k as f64 + 0.5) / self.positions as f64
     }
 
     /// The particles at the `k`-th place.
-    pub(super) fn cloud(&self, k: usize) -> Cloud {
+    fn cloud(&self, k: usize) -> Cloud {
         let h = self.h;
         let half = HALF_AXES;
         let cells = half.map(|a| a.ceil() as usize);
@@ -117,43 +154,20 @@ impl Setting {
         for x in &mut cloud.places {
             x[0] += middle;
         }
-        cloud.places = self.spec.start_at(cloud.places);
+        cloud.places = self.start_at(cloud.places);
         cloud
     }
 
-    /// Pairs of particles and functions at a place.
-    pub(super) fn pairs(&self) -> u64 {
-        let functions = if self.means { 9 + 9 } else { 4 + 4 };
-        self.cloud(0).places.len() as u64 * functions
-    }
-
-    /// What is found at the `k`-th place.
-    ///
-    /// # Errors
-    /// A grid that functions don't live on.
-    pub(super) fn find(&self, k: usize) -> Result<Found, mpm_core::Error> {
-        match self.means {
-            true => self.with::<Lattice<2, 3, Gimp>>(k),
-            false => self.with::<Lattice<2, 2, Linear>>(k),
-        }
-    }
-
-    /// By how much α changes the mean deflection of the cantilever.
-    ///
-    /// # Errors
-    /// Its stiffness is not positive definite.
-    pub(super) fn deflection_change(&self) -> Result<f64, mpm_core::Error> {
-        match self.means {
-            true => self.beam::<Lattice<2, 3, Gimp>>(),
-            false => self.beam::<Lattice<2, 2, Linear>>(),
-        }
-    }
-
+    /// The matrices at the `k`-th place with the functions `I`.
     fn with<I: OfHats<2>>(&self, k: usize) -> Result<Found, mpm_core::Error> {
         let h = self.h;
         let axes = [Axis::open(0.0, CELLS[0]), Axis::walls(0.0, CELLS[1])];
         let grid = Grid::new(h, axes)?;
-        let of_pressure = if self.equal { grid } else { coarse(&grid)? };
+        let of_pressure = if self.space() == Some(Equal) {
+            grid
+        } else {
+            coarse(&grid)?
+        };
         let (of_u, of_p) = (I::on(grid)?, I::on(of_pressure)?);
         let cloud = self.cloud(k);
         let points = CELLS[0] * POINTS;
@@ -172,7 +186,12 @@ impl Setting {
         let whole = k.is_multiple_of(OF_WHOLE).then(|| {
             let cell = of_pressure.h * of_pressure.h;
             let mobility = self.mobility * cell;
-            let over = mobility + if self.storage { cell } else { 0.0 };
+            let over = mobility
+                + if self.pressure_ghost == PressureGhost::Storage {
+                    cell
+                } else {
+                    0.0
+                };
             let of_pressure = flow * mobility + of_water * (self.alpha * over);
             let whole = saddle(&solid, &of_pressure, &u.coupling(&p, &cloud));
             [log10_condition(&whole), log10_condition(&scaled(&whole))]
@@ -189,7 +208,8 @@ impl Setting {
         })
     }
 
-    fn beam<I: OfHats<2>>(&self) -> Result<f64, mpm_core::Error> {
+    /// Change by α of the mean deflection of the cantilever with the functions `I`.
+    fn deflection_change<I: OfHats<2>>(&self) -> Result<f64, mpm_core::Error> {
         let h = self.h;
         let axes = [
             Axis::walls(0.0, BEAM_GRID[0]),

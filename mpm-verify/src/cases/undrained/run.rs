@@ -1,50 +1,43 @@
-//! What the spaces of displacement and pressure are worth where no water flows.
+//! The pairs of spaces of displacement and pressure, their matrices, and the motion of a body that keeps its volume.
 
-use super::parameters::{DOMAIN, LAYOUT, PARTICLES, PRESSURE_FUNCTIONS};
-use crate::cases::forms::{Cloud, Field, coarse, eigenvalues};
-use crate::error::Error;
-use crate::parameter::Parameters;
-use crate::scheme::{BasisName, Scheme, SpaceName};
-use crate::spec::RunSpec;
+use super::*;
+use crate::cases::analysis::{Analysis, visited};
+use crate::cases::forms::{self, Cloud, coarse, eigenvalues};
+use crate::record::WorkDone;
 use crate::statistics::rms;
-use mpm_core::basis::{Gimp, Linear, QuadraticBSpline};
+use mpm_core::Lattice;
+use mpm_core::basis::{self, QuadraticBSpline};
 use mpm_core::implicit::{Interpolation, OfHats};
-use mpm_core::{Axis, Grid, Lattice};
 use nalgebra::{DMatrix, DVector};
-use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-type Hats = Lattice<2, 2, Linear>;
-type Means = Lattice<2, 3, Gimp>;
+type Hats = Lattice<2, 2, basis::Linear>;
+type Means = Lattice<2, 3, basis::Gimp>;
 type Splines = Lattice<2, 3, QuadraticBSpline>;
 
-/// An eigenvalue of less is zero but for rounding.
+/// Smaller eigenvalues are rounding.
 const ZERO: f64 = 1e-9;
-/// Water that a pressure of one stores, over 1/G: what keeps pressures that no motion sees from being anything at all.
+/// Water that a pressure of one stores, over 1/G: it determines pressures that no motion sees.
 const STORED: f64 = 1e-9;
 /// Ghost penalty of the unfitted body.
 const GHOST: f64 = 0.1;
 /// Half axes and middle of the half ellipse's straight side (m): no grid line of a level is near its ends.
 const HALF_AXES: [f64; 2] = [0.437, 0.611];
 const MIDDLE: f64 = 0.513;
-/// Points along an edge, of a cell of the displacement, at which what is held there is zero.
+/// Points along the edge of a cell of the displacement at which held functions are zero.
 const POINTS: usize = 4;
 
-/// What was found.
+/// Findings of a level.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Found {
-    /// The least β that is not zero, and how many are.
-    pub(super) inf_sup: f64,
-    pub(super) zero_modes: f64,
+    /// The least β that is not zero, and the number of zeros.
+    inf_sup: f64,
+    zero_modes: f64,
     /// Unknowns of displacement (both components) and pressure.
-    pub(super) unknowns: [f64; 2],
-    /// Of the solution with k = 0: relative errors of displacement and pressure at the particles, and the
-    /// checkerboard's share; none of the ellipse, where no exact one is known.
-    pub(super) errors: [f64; 3],
-}
-
-pub(super) fn is_fitted(parameters: &Parameters) -> bool {
-    parameters.is(DOMAIN, "square")
+    unknowns: [f64; 2],
+    /// Relative errors of displacement and pressure at the particles of the solution with k = 0, and the checkerboard's share;
+    /// NaN of the ellipse, whose exact motion is not known.
+    errors: [f64; 3],
 }
 
 fn in_ellipse(x: &[f64; 2]) -> bool {
@@ -81,8 +74,9 @@ enum Pair {
     SplinesAndLinear,
 }
 
-/// Functions, grids, particles and what is held.
-pub(super) struct Setting {
+/// Functions, grids, particles and held points of a body at one level.
+pub(super) struct Body {
+    setup: Setup<Undrained>,
     pair: Pair,
     grid: Grid<2>,
     pressure_grid: Grid<2>,
@@ -91,47 +85,41 @@ pub(super) struct Setting {
     fitted: bool,
 }
 
-impl Setting {
-    /// That of a run.
-    ///
-    /// # Errors
-    /// A scheme that has no functions here; parameters that make no scene.
-    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
+impl Analysis for Body {
+    type Parameters = Undrained;
+    type Found = Found;
+
+    fn new(setup: Setup<Undrained>) -> Result<Self, Error> {
         let refused = || {
             Error::Input(format!(
                 "scheme = {}, domain = {}, pressure_functions = {}; allowed: two-grid or equal, in a square linear and \
                  gimp with the same pressure_functions and bspline2 with any, in an ellipse linear and gimp",
-                spec.scheme,
-                parameters.text(DOMAIN),
-                parameters.text(PRESSURE_FUNCTIONS),
+                setup.scheme,
+                setup.values.text(DOMAIN),
+                setup.values.text(PRESSURE_FUNCTIONS),
             ))
         };
-        let fitted = is_fitted(parameters);
-        let Scheme::Poro(parts) = spec.scheme else {
-            return Err(refused());
-        };
-        let linear = parameters.is(PRESSURE_FUNCTIONS, "linear");
-        let pair = match (parts.basis, linear) {
-            (BasisName::Linear, false) => Pair::Linear,
-            (BasisName::Gimp, false) => Pair::Gimp,
-            (BasisName::Bspline2, false) if fitted => Pair::Splines,
-            (BasisName::Bspline2, true) if fitted => Pair::SplinesAndLinear,
+        let fitted = setup.domain == Domain::Square;
+        let pair = match (setup.basis(), setup.pressure_functions) {
+            (Linear, PressureFunctions::Same) => Pair::Linear,
+            (Gimp, PressureFunctions::Same) => Pair::Gimp,
+            (Bspline2, PressureFunctions::Same) if fitted => Pair::Splines,
+            (Bspline2, PressureFunctions::Linear) if fitted => Pair::SplinesAndLinear,
             _ => return Err(refused()),
         };
-        let h = spec.level.h;
-        let n = (1.0 / h).round() as usize;
-        let grid = Grid::new(h, [Axis::walls(0.0, n); 2])?;
-        let pressure_grid = match parts.space {
-            SpaceName::TwoGrid => coarse(&grid)?,
-            SpaceName::Equal => grid,
-            SpaceName::Ppp => return Err(refused()),
+        let n = (1.0 / setup.h).round() as usize;
+        let grid = Grid::new(setup.h, [Axis::walls(0.0, n); 2])?;
+        let pressure_grid = match setup.space() {
+            Some(TwoGrid) => coarse(&grid)?,
+            Some(Equal) => grid,
+            _ => return Err(refused()),
         };
-        // One more than fit the cells, and domains lie across grid lines in every way there is.
-        let more = usize::from(parameters.is(LAYOUT, "across"));
-        let count = n * parameters.number(PARTICLES) as usize + more;
+        // One more than fit the cells, and domains lie across grid lines in every possible way.
+        let more = usize::from(setup.layout == Layout::Across);
+        let count = n * setup.points_per_direction + more;
         let inside = |x: &[f64; 2]| fitted || in_ellipse(x);
         let mut cloud = Cloud::new([0.0; 2], [count; 2], 1.0 / count as f64, inside);
-        cloud.places = spec.start_at(cloud.places);
+        cloud.places = setup.start_at(cloud.places);
         let edge = (0..=n * POINTS).map(|k| k as f64 / (n * POINTS) as f64);
         let held = edge.flat_map(|s| match fitted {
             true => vec![[s, 0.0], [s, 1.0], [0.0, s], [1.0, s]],
@@ -144,30 +132,21 @@ impl Setting {
             cloud,
             held: held.collect(),
             fitted,
+            setup,
         })
     }
 
-    /// The particles' places (m).
-    pub(super) fn places(&self) -> &[[f64; 2]] {
-        &self.cloud.places
+    fn discretisation(&self) -> Discretisation {
+        // Nothing moves: any step will do, and a record has one.
+        self.setup
+            .discretisation(2, self.setup.points_per_direction.pow(2), 1.0)
     }
 
-    /// Particles, and pairs with functions.
-    pub(super) fn work(&self) -> [u64; 2] {
-        let functions = match self.pair {
-            Pair::Linear => 4 + 4,
-            Pair::Gimp | Pair::Splines => 9 + 9,
-            Pair::SplinesAndLinear => 9 + 4,
-        };
-        let particles = self.cloud.places.len() as u64;
-        [particles, particles * functions]
+    fn rows(&self) -> usize {
+        1
     }
 
-    /// What the spaces are worth.
-    ///
-    /// # Errors
-    /// A matrix is not positive definite.
-    pub(super) fn find(&self) -> Result<Found, mpm_core::Error> {
+    fn analyse(&self, _: usize) -> Result<Found, mpm_core::Error> {
         match self.pair {
             Pair::Linear => self.ghosted::<Hats>(),
             Pair::Gimp => self.ghosted::<Means>(),
@@ -176,14 +155,62 @@ impl Setting {
         }
     }
 
+    fn row(&self, _: usize, found: &Found) -> Row {
+        let [displacement, pressure, checkerboard] = match self.fitted {
+            true => found.errors,
+            false => [0.0; 3],
+        };
+        row! {
+            "h (m)": self.setup.h,
+            "inf_sup (-)": found.inf_sup,
+            "zero_modes (-)": found.zero_modes,
+            "displacement_error (-)": displacement,
+            "pressure_error (-)": pressure,
+            "checkerboard_ratio (-)": checkerboard,
+        }
+    }
+
+    fn places(&self) -> Vec<[f64; 2]> {
+        self.cloud.places.clone()
+    }
+
+    fn metrics(&self, found: &[Found]) -> Vec<(Metric, f64)> {
+        let Some(found) = found.first() else {
+            return Vec::new();
+        };
+        let mut all = vec![
+            (INF_SUP, found.inf_sup),
+            (ZERO_MODES, found.zero_modes),
+            (UNKNOWNS, found.unknowns[0]),
+            (PRESSURES, found.unknowns[1]),
+        ];
+        if self.fitted {
+            let names = [DISPLACEMENT_ERROR, PRESSURE_ERROR, CHECKERBOARD_RATIO];
+            all.extend(names.into_iter().zip(found.errors));
+        }
+        all
+    }
+
+    fn work(&self, found: &[Found]) -> WorkDone {
+        let functions = match self.pair {
+            Pair::Linear => 4 + 4,
+            Pair::Gimp | Pair::Splines => 9 + 9,
+            Pair::SplinesAndLinear => 9 + 4,
+        };
+        let particles = self.cloud.places.len() as u64;
+        visited(found.len(), [particles, particles * functions])
+    }
+}
+
+impl Body {
     fn fields<I: Interpolation<2>, J: Interpolation<2>>(
         &self,
         u: &I,
-    ) -> Result<[Field; 2], mpm_core::Error> {
+    ) -> Result<[forms::Field; 2], mpm_core::Error> {
         let p = J::on(self.pressure_grid)?;
         Ok([
-            Field::new(u, &self.cloud, &self.held),
-            Field::new(&p, &self.cloud, &[]),
+            forms::Field::new(u, &self.cloud, &self.held),
+            forms::Field::new(&p, &self.cloud, &[]),
         ])
     }
 
@@ -205,7 +232,11 @@ impl Setting {
         self.found(&fields, norm)
     }
 
-    fn found(&self, [u, p]: &[Field; 2], norm: DMatrix<f64>) -> Result<Found, mpm_core::Error> {
+    fn found(
+        &self,
+        [u, p]: &[forms::Field; 2],
+        norm: DMatrix<f64>,
+    ) -> Result<Found, mpm_core::Error> {
         let singular = || mpm_core::Error::Singular {
             time: 0.0,
             step: 0,
@@ -247,7 +278,7 @@ impl Setting {
 
     fn errors(
         &self,
-        [u, p]: [&Field; 2],
+        [u, p]: [&forms::Field; 2],
         motion: &[DVector<f64>; 2],
         pressure: &DVector<f64>,
     ) -> [f64; 3] {
@@ -275,7 +306,7 @@ impl Setting {
     }
 
     /// Rms over the cells of the pressure of (p₀₀ − p₁₀ − p₀₁ + p₁₁)/4: a checkerboard's amplitude.
-    fn checkerboard(&self, p: &Field, pressure: &DVector<f64>) -> f64 {
+    fn checkerboard(&self, p: &forms::Field, pressure: &DVector<f64>) -> f64 {
         let h = self.pressure_grid.h;
         let n = (1.0 / h).round() as usize;
         let mut grid = DMatrix::from_element(n + 1, n + 1, f64::NAN);
@@ -295,10 +326,10 @@ impl Setting {
     }
 }
 
-/// Motion and pressure where no water flows and as good as none is stored.
+/// Motion and pressure where no water flows and hardly any is stored.
 fn solution(
     cloud: &Cloud,
-    [u, _]: [&Field; 2],
+    [u, _]: [&forms::Field; 2],
     norm: &nalgebra::Cholesky<f64, nalgebra::Dyn>,
     coupling: &[DMatrix<f64>; 2],
     schur: &DMatrix<f64>,

@@ -1,0 +1,70 @@
+//! Judgements that checks of several cases share.
+
+use crate::accuracy::fit_order;
+use crate::metric::Metric;
+use crate::prelude::*;
+use std::collections::BTreeMap;
+
+/// Levels or steps that decide an order.
+pub(super) const DECIDING: usize = 3;
+/// Roache's factors of safety, of three levels that show the order, and of those that do not (doi:10.1115/1.2910291).
+pub(super) const SAFE: [f64; 2] = [1.25, 3.0];
+
+/// The last [`DECIDING`] of some runs, coarsest first; nothing of fewer.
+pub(super) fn finest<T>(runs: &[T]) -> Option<&[T]> {
+    runs.get(runs.len().checked_sub(DECIDING)?..)
+}
+
+/// Observed order of a metric over the abscissa `over` of some runs, coarsest first; NaN if it follows no power law.
+pub(super) fn observed_order(
+    runs: &[&Record],
+    over: impl Fn(&Record) -> f64,
+    metric: Metric,
+) -> f64 {
+    let points: Vec<_> = runs.iter().map(|r| (over(r), r.metric(metric))).collect();
+    fit_order(&points).map_or(f64::NAN, |o| o.order)
+}
+
+/// Roache's grid convergence index.
+pub(super) struct Index {
+    /// Observed order, at most the theory's.
+    pub(super) order: f64,
+    /// Factor of safety.
+    pub(super) safe: f64,
+    /// Bound of the error on the finest level.
+    pub(super) bound: f64,
+}
+
+/// The index of a value at three levels, each with cells of half the size of the one before, by the order of the `theory`.
+/// Differences that do not fall show no order, nor do levels that are not `resolved`.
+pub(super) fn index([coarse, middle, fine]: [f64; 3], theory: f64, resolved: bool) -> Index {
+    let steps = [coarse - middle, middle - fine];
+    let shown = (steps[0] / steps[1]).log2();
+    let (order, safe) = match resolved && shown > 0.0 {
+        true => (shown.min(theory), SAFE[0]),
+        false => (1.0, SAFE[1]),
+    };
+    let bound = safe * steps[1].abs() / (order.exp2() - 1.0);
+    Index { order, safe, bound }
+}
+
+/// Order in time of a metric by runs whose numbers of steps, by `count`, double twice to the `finest`: scheme, level and order of
+/// each set of runs.
+pub(super) fn orders_in_time<'a>(
+    runs: impl Iterator<Item = &'a Record>,
+    count: impl Fn(&Record) -> f64,
+    finest: u64,
+    metric: Metric,
+) -> Vec<(String, f64)> {
+    let mut ladders: BTreeMap<(Scheme, &str), BTreeMap<u64, f64>> = BTreeMap::new();
+    for r in runs.filter(|r| r.status == Status::Ok) {
+        let ladder = ladders.entry((r.scheme(), &*r.level)).or_default();
+        ladder.insert(count(r) as u64, r.metric(metric));
+    }
+    let order = |((scheme, level), by): ((Scheme, &str), BTreeMap<u64, f64>)| {
+        let at = |part: u64| by.get(&(finest / part)).copied();
+        let order = ((at(4)? - at(2)?) / (at(2)? - at(1)?)).log2();
+        Some((format!("{} of {scheme} {level}", metric.name), order))
+    };
+    ladders.into_iter().filter_map(order).collect()
+}

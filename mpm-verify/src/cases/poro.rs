@@ -1,0 +1,58 @@
+//! Scenes and observations that cases of solid and water share.
+
+use crate::prelude::*;
+use mpm_core::poro::PressureSpace;
+
+/// Weight of water (N/m³).
+pub(super) const WATER_WEIGHT: f64 = 9810.0;
+/// Smaller values are rounding.
+pub(super) const ROUNDING: f64 = 1e-9;
+
+/// The three pressure spaces with the functions `basis`.
+pub(super) fn spaces(basis: BasisName) -> [Scheme; 3] {
+    [TwoGrid, Equal, Ppp].map(|space| Scheme::poro(basis, space))
+}
+
+impl<P> Setup<P> {
+    /// The pressure space; a projection has the strength τ `strength` (1/Pa).
+    pub(super) fn pressure_space(&self, strength: f64) -> PressureSpace {
+        match self.space() {
+            Some(TwoGrid) => PressureSpace::TwoGrid,
+            Some(Ppp) => PressureSpace::Projected { strength },
+            // No other kind of scheme has a solver.
+            _ => PressureSpace::Equal,
+        }
+    }
+}
+
+/// A distance that is at least [`ROUNDING`]; NaN stays NaN.
+pub(super) fn above_rounding(distance: f64) -> f64 {
+    if distance < ROUNDING {
+        ROUNDING
+    } else {
+        distance
+    }
+}
+
+/// Entries of a matrix, on average.
+pub(super) fn matrix_entries<const D: usize>(run: &dyn Simulation<D>) -> f64 {
+    let work = run.work();
+    work.nonzeros as f64 / work.factorisations.max(1) as f64
+}
+
+/// Pressure (Pa) at the lowest node of a column.
+pub(super) fn base_pressure(run: &dyn Simulation<1>) -> f64 {
+    let nodes = run.pressure_nodes();
+    let lowest = nodes.iter().min_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+    lowest.map_or(f64::NAN, |(_, p)| *p)
+}
+
+/// Outflow of a run's water (m³, m² in plane strain, m in one dimension).
+pub(super) fn outflow<const D: usize>(run: &dyn Simulation<D>) -> f64 {
+    run.water().map_or(f64::NAN, |w| w.outflow)
+}
+
+/// |`volume` / outflow|.
+pub(super) fn over_outflow<const D: usize>(run: &dyn Simulation<D>, volume: f64) -> f64 {
+    run.water().map_or(f64::NAN, |w| (volume / w.outflow).abs())
+}
