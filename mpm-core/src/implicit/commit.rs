@@ -1,9 +1,11 @@
 //! What a solution makes of the body: where its step ends, what is kept of forces and energies, and the new state.
 
+use super::algebra::dot;
 use super::contact;
 use super::elements::Elements;
 use super::equilibrium::{Step, Trial};
-use super::newton::{Failure, Solution, dot};
+use super::failure::Failure;
+use super::newton::Solution;
 use super::{Interpolation, Setting, Solver};
 use crate::material::Law;
 use crate::monitor::Residual;

@@ -1,7 +1,8 @@
 //! Velocities and accelerations after a step, by its time rule.
 
 use super::equilibrium::Step;
-use super::newton::{Failure, Solution};
+use super::failure::Failure;
+use super::newton::Solution;
 use super::settings::TimeRule;
 use super::{Interpolation, Setting, Solver};
 use crate::material::Law;

@@ -1,9 +1,10 @@
 //! The functions that see the particles, as they are at a step's start and stay in all of it.
 
+use super::algebra::dot;
 use super::domains::Domains;
 use super::extension::Shares;
-use super::interpolation::{Functions, Interpolation};
-use super::newton::dot;
+use super::functions::Functions;
+use super::interpolation::Interpolation;
 use crate::parallel::for_each_piece;
 use nalgebra::{SMatrix, SVector};
 use std::mem::take;

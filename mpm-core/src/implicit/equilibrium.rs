@@ -1,10 +1,10 @@
 //! Forces and stiffness of a step: what its equations are made of.
 
+use super::algebra::dot;
 use super::average::{Average, UNSEEN};
 use super::contact::{self, Obstacle, Push};
 use super::elements::Elements;
 use super::inertia::{Inertia, Mass};
-use super::newton::dot;
 use super::penalty::Penalty;
 use super::response::{Particle, Square, Tangent};
 use super::unknowns::{Pattern, Unknowns};

@@ -3,8 +3,9 @@
 //! A time rule makes of F_ext − f(u) = M a an equation in the increment x at the place where it holds,
 //! c M x + f(x) = F_ext + b, with a factor c (1/s²) and what particles bring along, b (N).
 
+use super::algebra::dot;
 use super::elements::Elements;
-use super::newton::{Failure, dot};
+use super::failure::Failure;
 use super::settings::TimeRule;
 use crate::particles::Particles;
 use nalgebra::SVector;

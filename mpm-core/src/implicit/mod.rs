@@ -7,6 +7,7 @@
 //! The law, its derivatives and the stages are those of the explicit solver; velocities, masses of nodes and transfers
 //! don't exist here.
 
+pub(crate) mod algebra;
 mod average;
 mod commit;
 mod contact;
@@ -15,13 +16,15 @@ mod dynamics;
 pub(crate) mod elements;
 mod equilibrium;
 mod extension;
+pub(crate) mod failure;
+mod functions;
 mod ghost;
 pub(crate) mod held;
 mod inertia;
 mod interpolation;
 pub(crate) mod linear;
 mod memory;
-pub(crate) mod newton;
+mod newton;
 mod penalty;
 mod pieces;
 mod q8;
@@ -33,7 +36,8 @@ pub(crate) mod unknowns;
 
 pub use domains::{Domains, HalfSizes};
 pub use extension::{Nodes, Shares};
-pub use interpolation::{Functions, Interpolation, OfHats};
+pub use functions::Functions;
+pub use interpolation::{Interpolation, OfHats};
 pub use penalty::{Moduli, Penalty};
 pub use pieces::{AxisPieces, Pieces};
 pub use q8::Serendipity;
@@ -49,16 +53,17 @@ use crate::particles::Particles;
 use crate::scene::Scene;
 use crate::simulation::{Field, Part, Simulation};
 use crate::tensor::SymmetricTensor;
-use crate::work::{Spent, Work};
+use crate::work::{Spent, Work, clocked};
 use average::Average;
 use contact::Obstacle;
 use elements::Elements;
 use equilibrium::Step;
+use failure::{Failure, in_parts};
 use held::Held;
 use inertia::Inertia;
 use linear::Direct;
 use nalgebra::SVector;
-use newton::{Failure, Newton, clocked, in_parts};
+use newton::Newton;
 use unknowns::{Pattern, Unknowns};
 
 /// The quasi-static solver for one body on the functions `I`.
@@ -247,10 +252,16 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     fn setting(&self, dt: f64) -> Setting<D> {
         let particles = &self.scene.body.particles;
         let (elements, average) = self.averaging();
-        let stabilisation = self.settings.stabilisation;
         let mut sizes = Vec::new();
         let within = Domains::of(particles).within(&mut sizes);
-        let mut penalties = self.functions.penalties(stabilisation, self.moduli, within);
+        let mut penalties = match self.settings.stabilisation {
+            Stabilisation::None | Stabilisation::Extension => Vec::new(),
+            Stabilisation::Ghost(factor) => {
+                let strength = factor * self.moduli.young();
+                self.functions.ghost(strength, D, within)
+            }
+            Stabilisation::Soft(factor) => soft::penalties(&self.functions, factor, self.moduli),
+        };
         for node in penalties.iter_mut().flat_map(|p| &mut p.node) {
             *node = self.originals[*node];
         }

@@ -1,14 +1,16 @@
 //! Newton's method for the equilibrium of a step.
 
+use super::algebra::{dot, norm};
 use super::equilibrium::{Step, Trial};
+use super::failure::Failure;
 use super::linear::Direct;
 use super::response::Tangent;
 use super::settings::Settings;
 use super::unknowns::Pattern;
-use crate::error::{Error, Fault};
+use crate::error::Fault;
 use crate::material::Law;
 use crate::monitor::Convergence;
-use crate::work::{Spent, Work};
+use crate::work::{Spent, Work, clocked};
 use nalgebra::SVector;
 use std::time::Instant;
 
@@ -21,79 +23,6 @@ const MANY_GRADIENTS: u64 = 40;
 /// The least relative accuracy of a linear solution by conjugate gradients; later ones are as good as the step's
 /// residual, which keeps Newton's order.
 const COARSE: f64 = 1e-2;
-
-/// Why a step has no solution.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Failure {
-    /// After this many iterations the residual, over that of the loads, was this.
-    NoConvergence(u32, f64),
-    /// The matrix of this iteration could not be factorised.
-    Singular(u32),
-    /// A particle was deformed beyond what can be.
-    Particle(usize, Fault),
-    /// Of what acts on the body from outside, by name, it bears only so much of the whole.
-    Lost(&'static str, f64, f64),
-}
-
-impl Failure {
-    /// The error of a run at a `time` (s), after so many steps, of particles with these identities.
-    pub(crate) fn error(self, time: f64, step: u64, ids: &[u32]) -> Error {
-        match self {
-            Self::NoConvergence(iteration, residual) => Error::NoConvergence {
-                time,
-                step,
-                iteration,
-                residual,
-            },
-            Self::Singular(iteration) => Error::Singular {
-                time,
-                step,
-                iteration,
-            },
-            Self::Particle(index, fault) => Error::Breakdown {
-                time,
-                step,
-                particle: ids.get(index).copied().unwrap_or(0),
-                fault,
-            },
-            Self::Lost(what, value, whole) => Error::Lost {
-                time,
-                step,
-                what,
-                value,
-                whole,
-            },
-        }
-    }
-}
-
-/// Goes through a step by `part`, which is told the share of it that is done and that which is to do: a part that
-/// fails is halved, up to `most_halvings` times, one after a success twice as long. Returns how many parts there were.
-pub(crate) fn in_parts(
-    most_halvings: u32,
-    mut part: impl FnMut(f64, f64) -> Result<(), Failure>,
-) -> Result<u32, Failure> {
-    let shortest = 0.5_f64.powi(most_halvings as i32);
-    let (mut done, mut size, mut parts) = (0.0, 1.0, 0);
-    while done < 1.0 {
-        match part(done, size) {
-            Ok(()) => {
-                done += size;
-                parts += 1;
-                size = (2.0 * size).min(1.0 - done);
-            }
-            Err(failure) if size <= shortest => return Err(failure),
-            Err(_) => size *= 0.5,
-        }
-    }
-    Ok(parts)
-}
-
-impl From<(usize, Fault)> for Failure {
-    fn from((particle, fault): (usize, Fault)) -> Self {
-        Self::Particle(particle, fault)
-    }
-}
 
 /// The solution of a step.
 pub(super) struct Solution<const D: usize> {
@@ -121,22 +50,6 @@ pub(super) struct Newton<'a, const D: usize, M: Law> {
     pub(super) spent: &'a mut Spent,
     /// Whether new factors are wanted: of a stiffness always, of what only preconditions it when it does so badly.
     pub(super) worn: bool,
-}
-
-/// Adds the time (s) that `work` takes to `spent`.
-pub(crate) fn clocked<T>(spent: &mut f64, work: impl FnOnce() -> T) -> T {
-    let begun = Instant::now();
-    let done = work();
-    *spent += begun.elapsed().as_secs_f64();
-    done
-}
-
-pub(crate) fn norm(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl<const D: usize, M: Law> Newton<'_, D, M> {
@@ -357,36 +270,5 @@ impl<const D: usize, M: Law> Newton<'_, D, M> {
             product = ahead;
         }
         None
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Parts that fail as often as told, and the shares of a step that are done.
-    fn parts(most_halvings: u32, fails: impl Fn(f64, f64) -> bool) -> (Option<u32>, Vec<[f64; 2]>) {
-        let mut made = Vec::new();
-        let count = in_parts(most_halvings, |done, size| {
-            if fails(done, size) {
-                return Err(Failure::Singular(0));
-            }
-            made.push([done, size]);
-            Ok(())
-        });
-        (count.ok(), made)
-    }
-
-    #[test]
-    fn parts_are_halved_and_doubled_and_make_up_the_step() {
-        assert_eq!(parts(3, |_, _| false), (Some(1), vec![[0.0, 1.0]]));
-        // Hard at the start alone: the last part ends with the step.
-        let (count, made) = parts(3, |done, size| done == 0.0 && size > 0.125);
-        let expected = [[0.0, 0.125], [0.125, 0.25], [0.375, 0.5], [0.875, 0.125]];
-        assert_eq!((count, made), (Some(4), expected.to_vec()));
-        // One halving less than is needed, and as many.
-        let hard = |_, size: f64| size > 0.125;
-        assert_eq!(parts(2, hard), (None, Vec::new()));
-        assert_eq!(parts(3, hard).0, Some(8));
     }
 }

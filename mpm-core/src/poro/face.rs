@@ -11,6 +11,9 @@ use crate::stage::End;
 /// A force, or one per area, as a function of time (s).
 pub(super) type Force<T> = Box<dyn Fn(f64) -> T + Send + Sync>;
 
+/// A function of a position (m).
+pub type OfPlace<const D: usize, T> = Box<dyn Fn(&[f64; D]) -> T + Send + Sync>;
+
 /// What happens on a face.
 pub(super) enum Acts<const D: usize> {
     /// A force per area of the undeformed face: dead, whatever becomes of it.

@@ -21,16 +21,16 @@ mod step;
 mod unknowns;
 mod water;
 
-pub use face::Face;
+pub use face::{Face, OfPlace};
 pub use plate::Plate;
 pub use settings::{Predictor, PressureSpace, Settings, Tangent, VolumeRate};
-pub use water::{Conductivity, Gravity, OfPlace, Source, Water};
+pub use water::{Conductivity, Gravity, Source, Water};
 
 use crate::error::Error;
 use crate::implicit::elements::{Elements, of_domains};
+use crate::implicit::failure::{Failure, in_parts};
 use crate::implicit::held::{self, Held};
 use crate::implicit::linear::{self, Direct};
-use crate::implicit::newton::{Failure, clocked, in_parts};
 use crate::implicit::{Functions, Moduli, OfHats};
 use crate::material::Law;
 use crate::memory::Saved;
@@ -39,7 +39,7 @@ use crate::particles::Particles;
 use crate::scene::Scene;
 use crate::simulation::{Field, Part, Simulation};
 use crate::tensor::SymmetricTensor;
-use crate::work::{Spent, Work};
+use crate::work::{Spent, Work, clocked};
 use newton::Newton;
 use pores::Pores;
 use step::{Setting, Step};

@@ -1,11 +1,12 @@
 //! Newton's method for the displacements and pressures of a step.
 
 use super::step::{Step, Trial};
+use crate::implicit::algebra::{dot, norm};
+use crate::implicit::failure::Failure;
 use crate::implicit::linear::Direct;
-use crate::implicit::newton::{Failure, clocked, dot, norm};
 use crate::material::Law;
 use crate::monitor::Convergence;
-use crate::work::{Spent, Work};
+use crate::work::{Spent, Work, clocked};
 use std::time::Instant;
 
 /// A correction is halved at most so often.

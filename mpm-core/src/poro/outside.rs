@@ -5,7 +5,7 @@ use super::face::{Acts, Corner, Face};
 use super::step::Drain;
 use super::unknowns::{Place, Unknowns};
 use super::{OfHats, Solver};
-use crate::implicit::newton::Failure;
+use crate::implicit::failure::Failure;
 use crate::material::Law;
 use nalgebra::SVector;
 

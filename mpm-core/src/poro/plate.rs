@@ -1,7 +1,6 @@
 //! Rigid plates on a body.
 
-use super::face::Force;
-use super::water::OfPlace;
+use super::face::{Force, OfPlace};
 use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::grid::Grid;

@@ -1,7 +1,7 @@
 //! The water of a scene: how it fills and leaves the pores, what it weighs, and the faces of the body that it leaves
 //! by.
 
-use super::face::Face;
+use super::face::{Face, OfPlace};
 use super::plate::Plate;
 use crate::error::{Error, require};
 use crate::frame::Frame;
@@ -42,9 +42,6 @@ pub struct Gravity<const D: usize> {
     /// Acceleration (m/s²).
     pub acceleration: [f64; D],
 }
-
-/// A function of a place (m).
-pub type OfPlace<const D: usize, T> = Box<dyn Fn(&[f64; D]) -> T + Send + Sync>;
 
 /// Water that comes into a place of the body between two times (s), as a share of the undeformed volume there: a
 /// function of the reference position (m). Over short times it is the rate (1/s) times their difference.

@@ -93,7 +93,7 @@ pub(super) fn slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
         known += (exact - second).powi(2);
     }
     // Rounding of the forces over the least step.
-    let rounding = 100.0 * f64::EPSILON * newton::norm(&product) / 1e-3;
+    let rounding = 100.0 * f64::EPSILON * algebra::norm(&product) / 1e-3;
     assert!(
         error.sqrt() <= known.sqrt() + rounding,
         "{} {}",
@@ -104,7 +104,7 @@ pub(super) fn slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
         let values = step.stiffness(&tangents, &setting.pattern);
         let assembled = multiply(&setting.pattern, &values, &x);
         let apart = assembled.iter().zip(&product).map(|(a, b)| (a - b).powi(2));
-        assert!(apart.sum::<f64>().sqrt() < 1e-12 * newton::norm(&product));
+        assert!(apart.sum::<f64>().sqrt() < 1e-12 * algebra::norm(&product));
     }
 }
 

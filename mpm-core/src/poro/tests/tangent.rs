@@ -1,7 +1,7 @@
 //! The matrix against difference quotients of the residual, and its symmetry.
 
 use super::*;
-use crate::implicit::newton::norm;
+use crate::implicit::algebra::norm;
 
 /// Numbers in (−1, 1), the same every time.
 fn noise(k: usize) -> f64 {

@@ -1,0 +1,107 @@
+//! Failure of a step, and its division into parts that succeed.
+
+use crate::error::{Error, Fault};
+
+/// Why a step has no solution.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Failure {
+    /// After this many iterations the residual, over that of the loads, was this.
+    NoConvergence(u32, f64),
+    /// The matrix of this iteration could not be factorised.
+    Singular(u32),
+    /// A particle was deformed beyond what can be.
+    Particle(usize, Fault),
+    /// Of what acts on the body from outside, by name, it bears only so much of the whole.
+    Lost(&'static str, f64, f64),
+}
+
+impl Failure {
+    /// The error of a run at a `time` (s), after so many steps, of particles with these identities.
+    pub(crate) fn error(self, time: f64, step: u64, ids: &[u32]) -> Error {
+        match self {
+            Self::NoConvergence(iteration, residual) => Error::NoConvergence {
+                time,
+                step,
+                iteration,
+                residual,
+            },
+            Self::Singular(iteration) => Error::Singular {
+                time,
+                step,
+                iteration,
+            },
+            Self::Particle(index, fault) => Error::Breakdown {
+                time,
+                step,
+                particle: ids.get(index).copied().unwrap_or(0),
+                fault,
+            },
+            Self::Lost(what, value, whole) => Error::Lost {
+                time,
+                step,
+                what,
+                value,
+                whole,
+            },
+        }
+    }
+}
+
+impl From<(usize, Fault)> for Failure {
+    fn from((particle, fault): (usize, Fault)) -> Self {
+        Self::Particle(particle, fault)
+    }
+}
+
+/// Goes through a step by `part`, which is told the share of it that is done and that which is to do: a part that
+/// fails is halved, up to `most_halvings` times, one after a success twice as long. Returns how many parts there were.
+pub(crate) fn in_parts(
+    most_halvings: u32,
+    mut part: impl FnMut(f64, f64) -> Result<(), Failure>,
+) -> Result<u32, Failure> {
+    let shortest = 0.5_f64.powi(most_halvings as i32);
+    let (mut done, mut size, mut parts) = (0.0, 1.0, 0);
+    while done < 1.0 {
+        match part(done, size) {
+            Ok(()) => {
+                done += size;
+                parts += 1;
+                size = (2.0 * size).min(1.0 - done);
+            }
+            Err(failure) if size <= shortest => return Err(failure),
+            Err(_) => size *= 0.5,
+        }
+    }
+    Ok(parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Parts that fail as often as told, and the shares of a step that are done.
+    fn parts(most_halvings: u32, fails: impl Fn(f64, f64) -> bool) -> (Option<u32>, Vec<[f64; 2]>) {
+        let mut made = Vec::new();
+        let count = in_parts(most_halvings, |done, size| {
+            if fails(done, size) {
+                return Err(Failure::Singular(0));
+            }
+            made.push([done, size]);
+            Ok(())
+        });
+        (count.ok(), made)
+    }
+
+    #[test]
+    fn parts_are_halved_and_doubled_and_make_up_the_step() {
+        assert_eq!(parts(3, |_, _| false), (Some(1), vec![[0.0, 1.0]]));
+        // Hard at the start alone: the last part ends with the step.
+        let (count, made) = parts(3, |done, size| done == 0.0 && size > 0.125);
+        let expected = [[0.0, 0.125], [0.125, 0.25], [0.375, 0.5], [0.875, 0.125]];
+        assert_eq!((count, made), (Some(4), expected.to_vec()));
+        // One halving less than is needed, and as many.
+        let hard = |_, size: f64| size > 0.125;
+        assert_eq!(parts(2, hard), (None, Vec::new()));
+        assert_eq!(parts(3, hard).0, Some(8));
+    }
+}
