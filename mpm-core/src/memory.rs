@@ -146,6 +146,23 @@ impl<T: Memoryless + ?Sized> Memory for T {
     }
 }
 
+/// Checks that a value in a memory is allowed.
+pub(crate) fn require(
+    ok: bool,
+    what: &'static str,
+    value: f64,
+    allowed: &'static str,
+) -> Result<(), MemoryError> {
+    if ok {
+        return Ok(());
+    }
+    Err(MemoryError::Value {
+        what,
+        value,
+        allowed,
+    })
+}
+
 /// What each of a list remembers.
 ///
 /// # Errors

@@ -1,20 +1,13 @@
 //! What can be done with a run and asked of it.
 
 use crate::error::Error;
+use crate::ledger::Ledger;
 use crate::memory::{Memory, Saved};
 use crate::monitor::{Convergence, Reaction, Residual, Totals, WaterBalance};
 use crate::particles::Particles;
+pub use crate::scene::Part;
 use crate::tensor::SymmetricTensor;
 use crate::work::{Spent, Work};
-
-/// What the body acts on, by its place in the scene's list.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
-    /// A constraint.
-    Constraint(usize),
-    /// A contact with a rigid body.
-    Contact(usize),
-}
 
 /// A field over the particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,17 +32,23 @@ pub trait Simulation<const D: usize>: Memory + Send {
     /// [`Error::Breakdown`] when the computation breaks down; the state is then that of the middle
     /// of the step and no further step makes sense.
     fn step(&mut self) -> Result<(), Error>;
+    /// Time, sums, reactions and counters so far.
+    fn ledger(&self) -> &Ledger;
     /// Time (s).
-    fn time(&self) -> f64;
+    fn time(&self) -> f64 {
+        self.ledger().time
+    }
     /// The particles, sorted by place.
     fn particles(&self) -> &Particles<D>;
     /// Mass, momentum, energies, J.
     fn totals(&self) -> Totals;
     /// Out-of-balance and held forces of the last step.
-    fn residual(&self) -> Residual;
+    fn residual(&self) -> Residual {
+        self.ledger().residual
+    }
     /// How Newton's method came to the end of the last step, of a solver that has one.
     fn convergence(&self) -> Option<&Convergence> {
-        None
+        self.ledger().convergence.as_ref()
     }
     /// An estimate of the condition, in the 1-norm, of the stiffness matrix of the body as it is, scaled to a diagonal of
     /// ones; NaN of a solver without one, infinite of a singular one.
@@ -57,11 +56,12 @@ pub trait Simulation<const D: usize>: Memory + Send {
         f64::NAN
     }
     /// What the run did so far.
-    fn work(&self) -> Work;
-
+    fn work(&self) -> Work {
+        self.ledger().work
+    }
     /// Wall time that the parts of Newton's iterations took since this solver was made; nothing of other solvers.
     fn spent(&self) -> Spent {
-        Spent::default()
+        self.ledger().spent
     }
     /// What the body does to a part of the scene; NaN of a part that there isn't.
     fn on(&self, part: Part) -> Reaction;

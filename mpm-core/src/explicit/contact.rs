@@ -37,7 +37,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let mut stiffest = Stiffest::default();
         let mut ratio = 0.0;
         for contact in &mut self.scene.contacts {
-            let found = contact.try_step(self.time, dt, &mut self.scene.body.particles);
+            let found = contact.try_step(self.ledger.time, dt, &mut self.scene.body.particles);
             contact.commit(dt);
             ratio += found.ratio;
             if found.ratio > stiffest.ratio {

@@ -203,7 +203,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// The contacts as they are at `time` (s).
     pub(super) fn obstacles(&self, time: f64) -> Vec<Obstacle<D>> {
         let contacts = self.scene.contacts.iter();
-        let start = self.time;
+        let start = self.ledger.time;
         contacts.map(|c| Obstacle::new(c, start, time)).collect()
     }
 

@@ -62,7 +62,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let Some(inertia) = &setting.inertia else {
             return Ok(());
         };
-        let external = self.external(self.time, &setting.elements);
+        let external = self.external(self.ledger.time, &setting.elements);
         let step = setting.step(&self.scene.body, dt);
         let rest = vec![0.0; setting.unknowns.len()];
         let internal = step.trial(&rest, external.len())?.internal;
@@ -87,7 +87,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     fn held_change(&self, node: usize, axis: usize, dt: f64) -> Option<f64> {
         let held = self.held[node][axis]?;
         let constraint = &self.scene.constraints[held.by];
-        let [before, after] = [self.time, self.time + dt].map(|time| constraint.amplitude(time));
+        let [before, after] =
+            [self.ledger.time, self.ledger.time + dt].map(|time| constraint.amplitude(time));
         Some(held.velocity * (after - before))
     }
 
@@ -118,8 +119,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let lost = pairs
             .filter(|(_, m)| **m > least)
             .map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
-        self.accumulated.lumping_loss += 0.5 * mass.lumped * lost.sum::<f64>();
-        self.work.linear_iterations += iterations;
+        self.ledger.accumulated.lumping_loss += 0.5 * mass.lumped * lost.sum::<f64>();
+        self.ledger.work.linear_iterations += iterations;
         let particles = &mut self.scene.body.particles;
         for (p, velocity) in particles.velocity.iter_mut().enumerate() {
             *velocity = (SVector::from(*velocity) + elements.value(p, &change)).into();

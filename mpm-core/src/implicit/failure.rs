@@ -1,6 +1,7 @@
 //! Failure of a step, and its division into parts that succeed.
 
 use crate::error::{Error, Fault};
+use crate::ledger::Ledger;
 
 /// Why a step has no solution.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,8 +17,9 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// The error of a run at a `time` (s), after so many steps, of particles with these identities.
-    pub(crate) fn error(self, time: f64, step: u64, ids: &[u32]) -> Error {
+    /// Error of the present step of a run, whose particles have the identities `ids`.
+    pub(crate) fn error(self, ledger: &Ledger, ids: &[u32]) -> Error {
+        let (time, step) = (ledger.time, ledger.work.steps);
         match self {
             Self::NoConvergence(iteration, residual) => Error::NoConvergence {
                 time,
@@ -30,12 +32,7 @@ impl Failure {
                 step,
                 iteration,
             },
-            Self::Particle(index, fault) => Error::Breakdown {
-                time,
-                step,
-                particle: ids.get(index).copied().unwrap_or(0),
-                fault,
-            },
+            Self::Particle(index, fault) => ledger.breakdown(ids, index, fault),
             Self::Lost(what, value, whole) => Error::Lost {
                 time,
                 step,

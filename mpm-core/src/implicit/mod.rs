@@ -44,16 +44,17 @@ pub use q8::Serendipity;
 pub use settings::{Remedy, Settings, Stabilisation, TimeRule};
 
 use crate::body::Body;
-use crate::contact::RigidContact;
 use crate::error::Error;
+use crate::ledger::Ledger;
 use crate::material::Law;
 use crate::memory::Saved;
-use crate::monitor::{Accumulated, Convergence, Reaction, Residual, Totals};
+use crate::monitor::{Reaction, Totals};
 use crate::particles::Particles;
+use crate::scene::Part;
 use crate::scene::Scene;
-use crate::simulation::{Field, Part, Simulation};
+use crate::simulation::{Field, Simulation};
 use crate::tensor::SymmetricTensor;
-use crate::work::{Spent, Work, clocked};
+use crate::work::clocked;
 use average::Average;
 use contact::Obstacle;
 use elements::Elements;
@@ -79,13 +80,7 @@ pub struct Solver<const D: usize, I, M: Law> {
     direct: Direct,
     /// Increments of the nodes in the last part of a step, over its duration (m/s); empty before it.
     advance: Vec<[f64; D]>,
-    time: f64,
-    accumulated: Accumulated,
-    residual: Residual,
-    convergence: Convergence,
-    reactions: Vec<Reaction>,
-    work: Work,
-    spent: Spent,
+    ledger: Ledger,
 }
 
 /// What a part of a step works with.
@@ -102,21 +97,22 @@ struct Setting<const D: usize> {
 impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I, M> {
     /// A load step, in parts if the whole of it finds no equilibrium.
     fn step(&mut self) -> Result<(), Error> {
-        let (start, dt) = (self.time, self.settings.dt);
+        let (start, dt) = (self.ledger.time, self.settings.dt);
         let parts = in_parts(self.settings.most_halvings, |done, size| {
             self.part(size * dt)?;
-            self.time = start + (done + size) * dt;
+            self.ledger.time = start + (done + size) * dt;
             Ok(())
         })
         .map_err(|failure| self.error(failure))?;
-        self.convergence.parts = parts;
-        self.work.steps += 1;
-        self.work.particle_steps += self.work.particles;
+        if let Some(convergence) = &mut self.ledger.convergence {
+            convergence.parts = parts;
+        }
+        self.ledger.count_step();
         Ok(())
     }
 
-    fn time(&self) -> f64 {
-        self.time
+    fn ledger(&self) -> &Ledger {
+        &self.ledger
     }
 
     fn particles(&self) -> &Particles<D> {
@@ -124,15 +120,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
     }
 
     fn totals(&self) -> Totals {
-        self.scene.body.totals(self.accumulated)
-    }
-
-    fn residual(&self) -> Residual {
-        self.residual
-    }
-
-    fn convergence(&self) -> Option<&Convergence> {
-        Some(&self.convergence)
+        self.scene.body.totals(self.ledger.accumulated)
     }
 
     fn condition(&self) -> f64 {
@@ -152,20 +140,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
         }
     }
 
-    fn work(&self) -> Work {
-        self.work
-    }
-
-    fn spent(&self) -> Spent {
-        self.spent
-    }
-
     fn on(&self, part: Part) -> Reaction {
-        match part {
-            Part::Constraint(place) => self.reactions.get(place).copied(),
-            Part::Contact(place) => self.scene.contacts.get(place).map(RigidContact::reaction),
-        }
-        .unwrap_or(Reaction::NONE)
+        self.ledger.on(part, &self.scene.contacts)
     }
 
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
@@ -266,7 +242,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             *node = self.originals[*node];
         }
         let place = self.settings.rule.place();
-        let travel = held::travel(&self.scene.constraints, self.time, dt);
+        let travel = held::travel(&self.scene.constraints, self.ledger.time, dt);
         let prescribed = |node: usize, axis: usize| {
             let held = self.held[node][axis]?;
             Some(held.velocity * (place * travel[held.by]))
@@ -283,7 +259,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let pattern = Pattern::new(width, &unknowns, &elements, &penalties);
         let inertia = Inertia::of(self.settings.rule, dt, &elements, nodes, particles);
         Setting {
-            obstacles: self.obstacles(self.time + place * dt),
+            obstacles: self.obstacles(self.ledger.time + place * dt),
             inertia,
             elements,
             penalties,
@@ -298,7 +274,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let order = elements::order(&self.functions, Domains::of(&self.scene.body.particles));
         if !order.is_sorted() {
             self.scene.body.permute(&order);
-            self.work.sorts += 1;
+            self.ledger.work.sorts += 1;
         }
     }
 
@@ -336,8 +312,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         self.sort();
         let setting = self.setting(dt);
         let place = self.settings.rule.place();
-        let earlier = self.external(self.time, &setting.elements);
-        let external = self.external(self.time + place * dt, &setting.elements);
+        let earlier = self.external(self.ledger.time, &setting.elements);
+        let external = self.external(self.ledger.time + place * dt, &setting.elements);
         let mut driving = external.clone();
         for (force, push) in driving
             .iter_mut()
@@ -345,9 +321,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         {
             *force += push;
         }
-        self.work.analyses += u64::from(self.direct.pattern != setting.pattern);
+        self.ledger.work.analyses += u64::from(self.direct.pattern != setting.pattern);
         let direct = &mut self.direct;
-        clocked(&mut self.spent.factorisation, || {
+        clocked(&mut self.ledger.spent.factorisation, || {
             direct.analyse(&setting.pattern)
         })
         .map_err(|_| Failure::Singular(0))?;
@@ -360,8 +336,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             external: &driving,
             pattern: &setting.pattern,
             direct: &mut self.direct,
-            work: &mut self.work,
-            spent: &mut self.spent,
+            work: &mut self.ledger.work,
+            spent: &mut self.ledger.spent,
             worn: true,
         };
         let solution = newton.solve()?;
@@ -373,13 +349,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         self.advance = end.u.iter().map(|u| u.map(|u| u / dt)).collect();
         self.commit(end, &places, dt);
         self.stick(&end.pushes);
-        self.convergence = solution.convergence;
+        self.ledger.convergence = Some(solution.convergence);
         Ok(())
     }
 
     fn error(&self, failure: Failure) -> Error {
         let ids = &self.scene.body.particles.id;
-        failure.error(self.time, self.work.steps, ids)
+        failure.error(&self.ledger, ids)
     }
 }
 

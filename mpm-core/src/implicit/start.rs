@@ -4,11 +4,11 @@ use super::held;
 use super::linear::Direct;
 use super::{Interpolation, Moduli, Remedy, Settings, Solver, Stabilisation, TimeRule, contact};
 use crate::error::{Error, require};
+use crate::ledger::Ledger;
 use crate::material::Law;
-use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
+use crate::monitor::Convergence;
 use crate::room::Room;
 use crate::scene::Scene;
-use crate::work::{Spent, Work};
 use nalgebra::Matrix3;
 
 impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
@@ -40,23 +40,14 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             moduli.mu,
             "positive (Pa): a fluid has no equilibrium to be found so",
         )?;
+        scene.check_half_size()?;
         let particles = &mut scene.body.particles;
-        for l in particles.half_size {
-            require(
-                l <= 0.5 * scene.grid.h,
-                "particle half size",
-                l,
-                "at most half a cell (m)",
-            )?;
-        }
+        let mut ledger = Ledger::new(particles.len(), functions.len(), scene.constraints.len());
+        ledger.convergence = Some(Convergence::default());
         let room = Room::new(&scene.grid, particles.half_size.map(I::beyond_wall));
-        for (x, id) in particles.position.iter_mut().zip(&particles.id) {
-            room.place(x).map_err(|fault| Error::Breakdown {
-                time: 0.0,
-                step: 0,
-                particle: *id,
-                fault,
-            })?;
+        for (k, x) in particles.position.iter_mut().enumerate() {
+            let placed = room.place(x);
+            placed.map_err(|fault| ledger.breakdown(&particles.id, k, fault))?;
         }
         // What a step of this rule doesn't need.
         match settings.rule {
@@ -77,24 +68,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         for contact in &mut scene.contacts {
             contact.attach(particles.len());
         }
-        let work = Work {
-            particles: particles.len() as u64,
-            nodes: functions.len() as u64,
-            ..Work::default()
-        };
         let mut solver = Self {
             originals: functions.originals(),
             held: held::components(&functions, &scene),
             moduli,
             direct: Direct::new(contact::is_symmetric(&scene)),
             advance: Vec::new(),
-            time: 0.0,
-            accumulated: Accumulated::default(),
-            residual: Residual::default(),
-            convergence: Convergence::default(),
-            reactions: vec![Reaction::default(); scene.constraints.len()],
-            work,
-            spent: Spent::default(),
+            ledger,
             functions,
             scene,
             settings,

@@ -32,14 +32,16 @@ use crate::implicit::failure::{Failure, in_parts};
 use crate::implicit::held::{self, Held};
 use crate::implicit::linear::{self, Direct};
 use crate::implicit::{Functions, Moduli, OfHats};
+use crate::ledger::Ledger;
 use crate::material::Law;
 use crate::memory::Saved;
-use crate::monitor::{Accumulated, Convergence, Reaction, Residual, Totals, WaterBalance};
+use crate::monitor::{Reaction, Totals, WaterBalance};
 use crate::particles::Particles;
+use crate::scene::Part;
 use crate::scene::Scene;
-use crate::simulation::{Field, Part, Simulation};
+use crate::simulation::{Field, Simulation};
 use crate::tensor::SymmetricTensor;
-use crate::work::{Spent, Work, clocked};
+use crate::work::clocked;
 use newton::Newton;
 use pores::Pores;
 use step::{Setting, Step};
@@ -67,36 +69,31 @@ pub struct Solver<const D: usize, I, M: Law> {
     drained: Vec<bool>,
     moduli: Moduli,
     direct: Direct,
-    time: f64,
-    accumulated: Accumulated,
-    residual: Residual,
-    convergence: Convergence,
-    reactions: Vec<Reaction>,
+    ledger: Ledger,
     balance: WaterBalance,
     /// Pressures of the nodes after the last step (Pa); NaN of nodes that no particle sees.
     nodal_pressure: Vec<f64>,
-    work: Work,
-    spent: Spent,
 }
 
 impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
     /// A step, in parts if the whole of it finds no solution.
     fn step(&mut self) -> Result<(), Error> {
-        let (start, dt) = (self.time, self.duration());
+        let (start, dt) = (self.ledger.time, self.duration());
         let parts = in_parts(self.settings.most_halvings, |done, size| {
             self.part(size * dt)?;
-            self.time = start + (done + size) * dt;
+            self.ledger.time = start + (done + size) * dt;
             Ok(())
         })
         .map_err(|failure| self.error(failure))?;
-        self.convergence.parts = parts;
-        self.work.steps += 1;
-        self.work.particle_steps += self.work.particles;
+        if let Some(convergence) = &mut self.ledger.convergence {
+            convergence.parts = parts;
+        }
+        self.ledger.count_step();
         Ok(())
     }
 
-    fn time(&self) -> f64 {
-        self.time
+    fn ledger(&self) -> &Ledger {
+        &self.ledger
     }
 
     fn particles(&self) -> &Particles<D> {
@@ -104,15 +101,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
     }
 
     fn totals(&self) -> Totals {
-        self.scene.body.totals(self.accumulated)
-    }
-
-    fn residual(&self) -> Residual {
-        self.residual
-    }
-
-    fn convergence(&self) -> Option<&Convergence> {
-        Some(&self.convergence)
+        self.scene.body.totals(self.ledger.accumulated)
     }
 
     fn condition(&self) -> f64 {
@@ -128,22 +117,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
             Some(linear::condition(symmetric, &setting.pattern, &values))
         };
         of_rest().unwrap_or(f64::NAN)
-    }
-
-    fn work(&self) -> Work {
-        self.work
-    }
-
-    fn spent(&self) -> Spent {
-        self.spent
-    }
-
-    fn on(&self, part: Part) -> Reaction {
-        match part {
-            Part::Constraint(place) => self.reactions.get(place).copied(),
-            Part::Contact(_) => None,
-        }
-        .unwrap_or(Reaction::NONE)
     }
 
     fn water(&self) -> Option<&WaterBalance> {
@@ -162,6 +135,10 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
     }
 
     /// The effective stress.
+    fn on(&self, part: Part) -> Reaction {
+        self.ledger.on(part, &self.scene.contacts)
+    }
+
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
         self.scene.body.particles.stress.clone()
     }
@@ -191,7 +168,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
 impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     /// Duration of the present step (s).
     fn duration(&self) -> f64 {
-        self.settings.dt * self.settings.growth.powi(self.work.steps as i32)
+        self.settings.dt * self.settings.growth.powi(self.ledger.work.steps as i32)
     }
 
     fn equations<'a>(&'a self, setting: &'a Setting<D>, dt: f64) -> Step<'a, D, M> {
@@ -215,7 +192,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         if !order.is_sorted() {
             self.scene.body.permute(&order);
             self.pores.permute(&order);
-            self.work.sorts += 1;
+            self.ledger.work.sorts += 1;
         }
     }
 
@@ -254,7 +231,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     /// The unknowns of a step of `dt` (s) on the functions of displacement and pressure.
     fn unknowns(&self, elements: [&Elements<D>; 2], dt: f64) -> Unknowns<D> {
         let spaces = [&self.solid_space, &self.water_space];
-        let travel = held::travel(&self.scene.constraints, self.time, dt);
+        let travel = held::travel(&self.scene.constraints, self.ledger.time, dt);
         Unknowns::new(
             elements,
             spaces.map(|s| s.functions.len()),
@@ -367,7 +344,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     /// Volumes of water (m³) that sources give to the nodes in a step of `dt` (s); none without sources.
     fn inflow(&self, water: &Elements<D>, dt: f64) -> Vec<f64> {
         let particles = &self.scene.body.particles;
-        let span = [self.time, self.time + dt];
+        let span = [self.ledger.time, self.ledger.time + dt];
         let mut nodes = Vec::new();
         for source in &self.water.sources {
             nodes.resize(self.water_space.functions.len(), 0.0);
@@ -400,13 +377,13 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let particles = &mut self.scene.body.particles;
         particles.external_force.fill([0.0; D]);
         for load in &self.scene.loads {
-            load.add(self.time + dt, particles);
+            load.add(self.ledger.time + dt, particles);
         }
         let on_particles = particles.external_force.clone();
         let setting = self.setting(dt, on_particles)?;
-        self.work.analyses += u64::from(self.direct.pattern != setting.pattern);
+        self.ledger.work.analyses += u64::from(self.direct.pattern != setting.pattern);
         let direct = &mut self.direct;
-        clocked(&mut self.spent.factorisation, || {
+        clocked(&mut self.ledger.spent.factorisation, || {
             direct.analyse(&setting.pattern)
         })
         .map_err(|_| Failure::Singular(0))?;
@@ -422,12 +399,12 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             },
             rounding,
             direct: &mut self.direct,
-            work: &mut self.work,
-            spent: &mut self.spent,
+            work: &mut self.ledger.work,
+            spent: &mut self.ledger.spent,
         };
         let (trial, convergence) = newton.solve(begin)?;
         self.commit(&setting, trial, dt)?;
-        self.convergence = convergence;
+        self.ledger.convergence = Some(convergence);
         Ok(())
     }
 
@@ -441,7 +418,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
 
     fn error(&self, failure: Failure) -> Error {
         let ids = &self.scene.body.particles.id;
-        failure.error(self.time, self.work.steps, ids)
+        failure.error(&self.ledger, ids)
     }
 }
 

@@ -25,7 +25,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         external: &mut [SVector<f64, D>],
     ) -> Result<Vec<Drain>, Failure> {
         let mut drains = Vec::new();
-        let end = self.time + dt;
+        let end = self.ledger.time + dt;
         for face in &self.water.faces {
             match &face.acts {
                 Acts::Load(traction) => {

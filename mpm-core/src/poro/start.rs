@@ -10,12 +10,12 @@ use crate::implicit::failure::Failure;
 use crate::implicit::held;
 use crate::implicit::linear::Direct;
 use crate::implicit::start::moduli_of;
+use crate::ledger::Ledger;
 use crate::material::Law;
-use crate::monitor::{Accumulated, Convergence, Reaction, Residual, WaterBalance};
+use crate::monitor::{Convergence, WaterBalance};
 use crate::particles::Particles;
 use crate::room::Room;
 use crate::scene::Scene;
-use crate::work::{Spent, Work};
 use nalgebra::SVector;
 
 /// The grid of the pressure: of cells twice as large between the same ends, or the same.
@@ -113,33 +113,20 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         }
         let held = held::components(&solid_space.functions, &scene);
         let tied = ties(&water.plates, &solid_space.functions, &held)?;
+        scene.check_half_size()?;
         let particles = &mut scene.body.particles;
-        for l in particles.half_size {
-            require(
-                l <= 0.5 * scene.grid.h,
-                "particle half size",
-                l,
-                "at most half a cell (m)",
-            )?;
-        }
+        let nodes = solid_space.functions.len() + water_space.functions.len();
+        let mut ledger = Ledger::new(particles.len(), nodes, scene.constraints.len());
+        ledger.convergence = Some(Convergence::default());
         let mut half_size = Vec::with_capacity(particles.len());
         for k in 0..particles.len() {
             let begun = begin::<D, I>(&scene.grid, particles, k);
-            half_size.push(begun.map_err(|fault| Error::Breakdown {
-                time: 0.0,
-                step: 0,
-                particle: particles.id[k],
-                fault,
-            })?);
+            half_size.push(begun.map_err(|fault| ledger.breakdown(&particles.id, k, fault))?);
         }
         for (k, j) in particles.jacobian.iter().enumerate() {
             if *j <= 1.0 - water.porosity {
-                return Err(Error::Breakdown {
-                    time: 0.0,
-                    step: 0,
-                    particle: particles.id[k],
-                    fault: Fault::NonPositivePorosity(1.0 - (1.0 - water.porosity) / j),
-                });
+                let fault = Fault::NonPositivePorosity(1.0 - (1.0 - water.porosity) / j);
+                return Err(ledger.breakdown(&particles.id, k, fault));
             }
         }
         particles.velocity = Vec::new();
@@ -163,11 +150,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             place: watched.to_vec(),
             half_size,
         };
-        let work = Work {
-            particles: particles.len() as u64,
-            nodes: (solid_space.functions.len() + water_space.functions.len()) as u64,
-            ..Work::default()
-        };
         let mut nodal_pressure = vec![f64::NAN; water_space.functions.len()];
         water_space
             .functions
@@ -176,13 +158,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             held,
             tied,
             direct: Direct::new(settings.tangent == Tangent::Symmetric),
-            time: 0.0,
-            accumulated: Accumulated::default(),
-            residual: Residual::default(),
-            convergence: Convergence::default(),
-            reactions: vec![Reaction::default(); scene.constraints.len()],
+            ledger,
             balance: WaterBalance::default(),
-            spent: Spent::default(),
             drained,
             nodal_pressure,
             solid_space,
@@ -192,7 +169,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             scene,
             water,
             settings,
-            work,
         };
         solver.check_outside()?;
         Ok(solver)

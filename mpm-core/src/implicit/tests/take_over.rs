@@ -19,7 +19,7 @@ fn a_block_that_rests_on_its_sticks_rests_in_the_next_run() {
     let steps = 20;
     for rule in [TimeRule::Static, MIDPOINT, NEWMARK] {
         let mut next = block(0.9 * MU, coulomb, Settings::new(0.02).rule(rule));
-        next.time = first.time;
+        next.ledger.time = first.ledger.time;
         next.take_over(&body).unwrap();
         assert_eq!(
             next.scene.contacts[0].sticks(),
