@@ -5,7 +5,7 @@ use super::contact;
 use super::elements::Elements;
 use super::equilibrium::{Step, Trial};
 use super::failure::Failure;
-use super::newton::Solution;
+use super::system::Solution;
 use super::{Interpolation, Setting, Solver};
 use crate::material::Law;
 use crate::monitor::Residual;

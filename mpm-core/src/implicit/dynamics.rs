@@ -2,8 +2,8 @@
 
 use super::equilibrium::Step;
 use super::failure::Failure;
-use super::newton::Solution;
 use super::settings::TimeRule;
+use super::system::Solution;
 use super::{Interpolation, Setting, Solver};
 use crate::material::Law;
 use nalgebra::SVector;

@@ -24,7 +24,7 @@ mod inertia;
 mod interpolation;
 pub(crate) mod linear;
 mod memory;
-mod newton;
+pub(crate) mod newton;
 mod penalty;
 mod pieces;
 mod q8;
@@ -32,6 +32,7 @@ mod response;
 mod settings;
 mod soft;
 pub(crate) mod start;
+mod system;
 pub(crate) mod unknowns;
 
 pub use domains::{Domains, HalfSizes};
@@ -54,7 +55,6 @@ use crate::scene::Part;
 use crate::scene::Scene;
 use crate::simulation::{Field, Simulation};
 use crate::tensor::SymmetricTensor;
-use crate::work::clocked;
 use average::Average;
 use contact::Obstacle;
 use elements::Elements;
@@ -62,9 +62,10 @@ use equilibrium::Step;
 use failure::{Failure, in_parts};
 use held::Held;
 use inertia::Inertia;
-use linear::Direct;
+use linear::{Direct, Linear};
 use nalgebra::SVector;
-use newton::Newton;
+
+use system::System;
 use unknowns::{Pattern, Unknowns};
 
 /// The quasi-static solver for one body on the functions `I`.
@@ -321,26 +322,24 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         {
             *force += push;
         }
-        self.ledger.work.analyses += u64::from(self.direct.pattern != setting.pattern);
-        let direct = &mut self.direct;
-        clocked(&mut self.ledger.spent.factorisation, || {
-            direct.analyse(&setting.pattern)
-        })
-        .map_err(|_| Failure::Singular(0))?;
         let rounding = self.rounding(&setting.elements);
-        let mut newton = Newton {
+        let guess = self.guess(&setting, dt);
+        let mut linear = Linear {
+            direct: &mut self.direct,
+            ledger: &mut self.ledger,
+        };
+        linear.analyse(&setting.pattern)?;
+        let mut system = System {
             step: setting.step(&self.scene.body, place * dt),
             settings: &self.settings,
             rounding,
-            guess: self.guess(&setting, dt),
             external: &driving,
             pattern: &setting.pattern,
-            direct: &mut self.direct,
-            work: &mut self.ledger.work,
-            spent: &mut self.ledger.spent,
+            linear,
             worn: true,
+            start: 0.0,
         };
-        let solution = newton.solve()?;
+        let solution = system.solve(guess)?;
         let end = self.end_of_step(&setting, &solution, dt)?;
         let end = end.as_ref().unwrap_or(&solution.trial);
         let places = self.places_after(&setting.elements, end)?;

@@ -10,7 +10,6 @@
 mod commit;
 mod face;
 mod memory;
-mod newton;
 mod outside;
 mod plate;
 mod pores;
@@ -18,6 +17,7 @@ mod response;
 mod settings;
 mod start;
 mod step;
+mod system;
 mod unknowns;
 mod water;
 
@@ -30,7 +30,7 @@ use crate::error::Error;
 use crate::implicit::elements::{Elements, of_domains};
 use crate::implicit::failure::{Failure, in_parts};
 use crate::implicit::held::{self, Held};
-use crate::implicit::linear::{self, Direct};
+use crate::implicit::linear::{self, Direct, Linear};
 use crate::implicit::{Functions, Moduli, OfHats};
 use crate::ledger::Ledger;
 use crate::material::Law;
@@ -41,10 +41,9 @@ use crate::scene::Part;
 use crate::scene::Scene;
 use crate::simulation::{Field, Simulation};
 use crate::tensor::SymmetricTensor;
-use crate::work::clocked;
-use newton::Newton;
 use pores::Pores;
 use step::{Setting, Step};
+use system::System;
 use unknowns::{Place, Unknowns};
 
 /// Functions on a grid, and of every node the one that it is an image of.
@@ -381,15 +380,14 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         }
         let on_particles = particles.external_force.clone();
         let setting = self.setting(dt, on_particles)?;
-        self.ledger.work.analyses += u64::from(self.direct.pattern != setting.pattern);
-        let direct = &mut self.direct;
-        clocked(&mut self.ledger.spent.factorisation, || {
-            direct.analyse(&setting.pattern)
-        })
-        .map_err(|_| Failure::Singular(0))?;
         let begin = setting.unknowns.begin(&self.predicted(&setting));
         let rounding = self.rounding(&setting);
-        let mut newton = Newton {
+        let mut linear = Linear {
+            direct: &mut self.direct,
+            ledger: &mut self.ledger,
+        };
+        linear.analyse(&setting.pattern)?;
+        let mut system = System {
             step: Step {
                 body: &self.scene.body,
                 water: &self.water,
@@ -398,11 +396,10 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 setting: &setting,
             },
             rounding,
-            direct: &mut self.direct,
-            work: &mut self.ledger.work,
-            spent: &mut self.ledger.spent,
+            linear,
+            scales: Vec::new(),
         };
-        let (trial, convergence) = newton.solve(begin)?;
+        let (trial, convergence) = system.solve(begin)?;
         self.commit(&setting, trial, dt)?;
         self.ledger.convergence = Some(convergence);
         Ok(())
