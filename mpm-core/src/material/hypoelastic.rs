@@ -110,10 +110,6 @@ impl Law for Hypoelastic {
         SymmetricTensor::default()
     }
 
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, SymmetricTensor) {
-        self.update(f, 1.0, &self.initial_state())
-    }
-
     #[inline(always)]
     fn response<T: Real>(
         &self,

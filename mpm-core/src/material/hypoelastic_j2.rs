@@ -57,10 +57,6 @@ impl Law for HypoelasticJ2 {
         }
     }
 
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, ElastoplasticState) {
-        self.update(f, 1.0, &self.initial_state())
-    }
-
     #[inline(always)]
     fn response<T: Real>(
         &self,

@@ -87,11 +87,6 @@ impl Law for ImprovedHencky {
         SymmetricTensor::identity()
     }
 
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, SymmetricTensor) {
-        // The stress depends on no rate: any duration will do.
-        self.update(f, 1.0, &self.initial_state())
-    }
-
     #[inline(always)]
     fn response<T: Real>(
         &self,

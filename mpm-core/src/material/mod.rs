@@ -103,7 +103,10 @@ pub trait Law: Sized + Send + Sync {
     fn initial_state(&self) -> Self::State;
 
     /// Cauchy stress (Pa) and state of a body that rests at the deformation gradient `f` and came there at no rate.
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State);
+    /// Default: of laws whose stress depends on no rate, after a step of any duration.
+    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State) {
+        self.update(f, 1.0, &self.initial_state())
+    }
 
     /// Cauchy stress (Pa) and state after the relative deformation `delta_f` over `dt` (s): the law, of one particle
     /// or of eight, or with derivatives.

@@ -60,15 +60,23 @@ pub trait Transfer<const D: usize>: Memory + Send + Sync {
     }
 
     /// Adds a particle's mass, momentum and forces, Eqs. (7), (8), (10), to `nodes`, which begins at
-    /// node `origin`.
+    /// node `origin`. Default: a particle's momentum has no moment.
+    #[inline(always)]
     fn particle_to_grid<const S: usize>(
         &self,
         stencil: StencilRef<'_, D, S>,
         given: &Given<D>,
-        gives: &Self::Gives<S>,
+        _gives: &Self::Gives<S>,
         nodes: &mut [NodalState],
         origin: usize,
-    );
+    ) {
+        let momentum = given.momentum(stencil.place());
+        let carried = |_, _, w| {
+            let row = momentum * w;
+            move |_| row
+        };
+        kernel::spread(stencil, given, carried, nodes, origin);
+    }
 
     /// Between the grid update and G2P: what needs passes over all particles. `held` are the prescribed
     /// velocities. Returns how often it went from the grid to the particles and back.

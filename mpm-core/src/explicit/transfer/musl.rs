@@ -12,7 +12,7 @@
 //! rigid motion are as with FLIP. The work of the stresses, Σ V σ:∇v Δt, is that of v̄, and no longer the power of the
 //! nodal forces on vⁿ⁺¹.
 
-use super::kernel::{Given, Received, gather};
+use super::kernel::{Received, gather};
 use super::sweep::Sweep;
 use super::{Flip, Transfer};
 use crate::basis::Basis;
@@ -38,18 +38,6 @@ impl<const D: usize> Transfer<D> for Musl {
     type Gives<const S: usize> = ();
     /// From v̄.
     type Receives = Received<D>;
-
-    #[inline(always)]
-    fn particle_to_grid<const S: usize>(
-        &self,
-        stencil: StencilRef<'_, D, S>,
-        given: &Given<D>,
-        gives: &(),
-        nodes: &mut [NodalState],
-        origin: usize,
-    ) {
-        Flip::default().particle_to_grid(stencil, given, gives, nodes, origin);
-    }
 
     fn prepare<const S: usize, B: Basis<S>>(
         &mut self,
