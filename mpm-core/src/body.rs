@@ -52,13 +52,11 @@ impl<const D: usize, M: Law> Body<D, M> {
     }
 
     /// What the law remembers of each particle.
-    #[must_use]
     pub(crate) fn states(&self) -> &[M::State] {
         &self.states
     }
 
     /// Least density of the undeformed material (kg/m³).
-    #[must_use]
     pub fn least_density(&self) -> f64 {
         let p = &self.particles;
         let densities = p.mass.iter().zip(&p.reference_volume).map(|(m, v)| m / v);
@@ -66,7 +64,6 @@ impl<const D: usize, M: Law> Body<D, M> {
     }
 
     /// Greatest [`Law::wave_modulus`] of its particles (Pa).
-    #[must_use]
     pub fn wave_modulus(&self) -> f64 {
         let p = &self.particles;
         let columns = p.jacobian.iter().zip(&p.stress).zip(&self.states);
@@ -114,13 +111,11 @@ impl<const D: usize, M: Law> Body<D, M> {
     }
 
     /// Mass, momentum, energies and J, with what was `accumulated`.
-    #[must_use]
     pub fn totals(&self, accumulated: Accumulated) -> Totals {
         Totals::of(&self.law, &self.particles, &self.states, accumulated)
     }
 
     /// Equivalent plastic strain of every particle.
-    #[must_use]
     pub fn plastic_strain(&self) -> Vec<f64> {
         let strain = |state| self.law.plastic_strain(state);
         self.states.iter().map(strain).collect()
@@ -219,13 +214,11 @@ pub struct Chunk<'a, const D: usize, M: Law> {
 
 impl<const D: usize, M: Law> Chunk<'_, D, M> {
     /// Number of particles.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.states.len()
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.states.is_empty()
     }
@@ -257,7 +250,6 @@ impl<const D: usize, M: Law> Chunk<'_, D, M> {
 
     /// The numbers of the `k`-th eight; zero beyond the last particle.
     #[inline(always)]
-    #[must_use]
     pub fn present(&self, k: usize, numbers: Eight) -> Eight {
         let entries = entries(self.len(), k);
         if entries == EIGHT {

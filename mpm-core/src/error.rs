@@ -53,7 +53,6 @@ pub enum Fault {
 
 impl Fault {
     /// Stable name of the kind, as written to records.
-    #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
             Self::NotFinite { .. } => "not-finite",
@@ -68,7 +67,6 @@ impl Fault {
     }
 
     /// The offending value.
-    #[must_use]
     pub fn value(&self) -> f64 {
         match *self {
             Self::NotFinite { value, .. } | Self::OffGrid { value, .. } => value,

@@ -71,13 +71,11 @@ impl Axis {
     }
 
     /// Coordinate of the upper end (m) for cells of size `h` (m).
-    #[must_use]
     pub fn hi(&self, h: f64) -> f64 {
         self.lo + self.cells as f64 * h
     }
 
     /// Whether the lower and the upper end are walls.
-    #[must_use]
     pub fn wall_ends(&self) -> (bool, bool) {
         match self.kind {
             AxisKind::Bounded { lo, hi } => (lo == Side::Wall, hi == Side::Wall),
@@ -86,7 +84,6 @@ impl Axis {
     }
 
     /// Whether the axis is periodic.
-    #[must_use]
     pub fn is_periodic(&self) -> bool {
         self.kind == AxisKind::Periodic
     }
@@ -124,7 +121,6 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Index of the cell along `axis` that holds coordinate `x` (m), clamped to the grid.
-    #[must_use]
     pub fn cell(&self, axis: usize, x: f64) -> usize {
         let a = &self.axes[axis];
         (((x - a.lo) / self.h) as usize).min(a.cells - 1)

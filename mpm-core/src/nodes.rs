@@ -7,7 +7,6 @@ use wide::f64x4;
 pub type Node = f64x4;
 
 /// A vector of a node, from its components.
-#[must_use]
 pub fn padded<const D: usize>(vector: &[f64; D]) -> Node {
     let mut padded = [0.0; 4];
     padded[..D].copy_from_slice(vector);
@@ -33,14 +32,12 @@ impl AddAssign for NodalState {
 
 impl NodalState {
     /// Mass of the node (kg).
-    #[must_use]
     #[inline(always)]
     pub fn mass(&self) -> f64 {
         self.motion.as_array()[3]
     }
 
     /// Kinetic energy of the node (J), once `motion` is a velocity.
-    #[must_use]
     #[inline(always)]
     pub fn kinetic_energy(&self) -> f64 {
         let v = self.motion.as_array();

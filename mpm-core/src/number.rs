@@ -27,7 +27,6 @@ pub type Octet = [f64; EIGHT];
 
 /// Whole numbers as indices. They are below 2³², so that sums of a few don't overflow, which the compiler then knows.
 #[inline(always)]
-#[must_use]
 pub fn indices(of: Eight) -> [u32; EIGHT] {
     of.fast_trunc_int().to_array().map(|index| index as u32)
 }

@@ -10,7 +10,6 @@ use std::ops::Range;
 
 /// The order of particles at `positions` (m) with half sizes `half_size` (m), stable where nothing tells them apart, and
 /// the range of every slab of [`SLAB`] cells along the first axis.
-#[must_use]
 pub fn stencil_order<const D: usize, const S: usize, B: Basis<S>>(
     lattice: &Lattice<D, S, B>,
     positions: &[[f64; D]],

@@ -147,19 +147,16 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Number of particles.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
 
     /// What `f` gives of every particle, by its place in the columns, in seeding order.
-    #[must_use]
     pub fn seeded<T: Copy + Default>(&self, f: impl Fn(usize) -> T) -> Vec<T> {
         let mut values = vec![T::default(); self.len()];
         for (k, id) in self.id.iter().enumerate() {
@@ -169,7 +166,6 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Kinetic energy Σ ½ m v² (J); that of affine parts is left out.
-    #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
         let squares = self
             .velocity

@@ -65,7 +65,6 @@ impl Reach {
     }
 
     /// Whether `node` is one of them.
-    #[must_use]
     pub fn contains(&self, node: usize) -> bool {
         let after = self.runs.partition_point(|run| run.start <= node);
         after > 0 && self.runs[after - 1].contains(&node)

@@ -32,6 +32,14 @@ pub trait Simulation<const D: usize>: Memory + Send {
     /// [`Error::Breakdown`] when the computation breaks down; the state is then that of the middle
     /// of the step and no further step makes sense.
     fn step(&mut self) -> Result<(), Error>;
+    /// Advances by several steps.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    fn advance(&mut self, steps: usize) -> Result<(), Error> {
+        (0..steps).try_for_each(|_| self.step())
+    }
+
     /// Time, sums, reactions and counters so far.
     fn ledger(&self) -> &Ledger;
     /// Time (s).

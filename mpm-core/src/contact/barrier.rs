@@ -67,13 +67,11 @@ impl Barrier {
     }
 
     /// Gap d̂ (m) at which the barrier begins.
-    #[must_use]
     pub fn distance(&self) -> f64 {
         self.distance
     }
 
     /// Energy B (J) at the gap `gap` (m); infinite at a closed one.
-    #[must_use]
     pub fn energy(&self, gap: f64) -> f64 {
         self.within(gap, |x| {
             let d = self.distance * (1.0 - x);
@@ -82,19 +80,16 @@ impl Barrier {
     }
 
     /// Force −B′ (N) that pushes the particle away, at the gap `gap` (m); infinite at a closed one.
-    #[must_use]
     pub fn force(&self, gap: f64) -> f64 {
         self.within(gap, |x| self.stiffness * self.distance * scaled_force(x))
     }
 
     /// Stiffness B″ (N/m) at the gap `gap` (m); infinite at a closed one.
-    #[must_use]
     pub fn stiffness(&self, gap: f64) -> f64 {
         self.within(gap, |x| self.stiffness * scaled_stiffness(x))
     }
 
     /// The gap (m) at which the barrier carries `force` (N), the inverse of [`Self::force`]; d̂ for none.
-    #[must_use]
     pub fn gap(&self, force: f64) -> f64 {
         let sought = force / (self.stiffness * self.distance);
         if sought <= 0.0 {

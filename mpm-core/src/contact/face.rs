@@ -105,26 +105,22 @@ impl<const D: usize> RigidFace<D> {
     }
 
     /// Axis of the normal.
-    #[must_use]
     pub fn axis(&self) -> usize {
         self.axis
     }
 
     /// Component of the outward unit normal along [`Self::axis`].
-    #[must_use]
     pub fn sign(&self) -> f64 {
         self.sign
     }
 
     /// Displacement (m) since time zero: the exact integral of [`Self::velocity`].
-    #[must_use]
     pub fn displacement(&self, time: f64) -> [f64; D] {
         let stroke = smooth_stroke(time, self.ramp);
         self.velocity.map(|v| v * stroke)
     }
 
     /// Velocity (m/s) at `time` (s), not negative.
-    #[must_use]
     pub fn velocity(&self, time: f64) -> [f64; D] {
         let rise = smooth_rise(time, self.ramp);
         self.velocity.map(|v| v * rise)
@@ -132,7 +128,6 @@ impl<const D: usize> RigidFace<D> {
 
     /// Gap (m) between the face at time zero and what lies at `x` (m), less the face's displacement: negative
     /// inside the body, `None` beside the face.
-    #[must_use]
     pub fn gap(&self, x: &[f64; D]) -> Option<f64> {
         let mut ends = x.iter().zip(&self.extent).enumerate();
         let before = ends.all(|(a, (x, [lo, hi]))| a == self.axis || (x >= lo && x <= hi));
@@ -141,7 +136,6 @@ impl<const D: usize> RigidFace<D> {
 
     /// Whether what lies at `x` (m), less the face's displacement, is in the body or within `distance` (m) of the face
     /// along every axis.
-    #[must_use]
     pub fn is_near(&self, x: &[f64; D], distance: f64) -> bool {
         let mut ends = x.iter().zip(&self.extent).enumerate();
         ends.all(|(a, (x, [lo, hi]))| {

@@ -52,13 +52,11 @@ impl Friction {
     }
 
     /// Stiffness k_t (N/m) of the stick.
-    #[must_use]
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
     /// The coefficient μ, unless the stick never slips.
-    #[must_use]
     pub fn coefficient(&self) -> Option<f64> {
         self.mu.is_finite().then_some(self.mu)
     }
@@ -73,7 +71,6 @@ impl Friction {
 
     /// Force (N) on a particle whose stick is stretched by `stretch` (m), under the normal force `normal` (N,
     /// positive). What the stick can't hold, it gives up.
-    #[must_use]
     pub fn force<const D: usize>(&self, stretch: &mut [f64; D], normal: f64) -> [f64; D] {
         if let Some([share, _]) = self.kept(stretch, normal) {
             *stretch = stretch.map(|u| u * share);

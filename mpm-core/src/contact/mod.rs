@@ -78,19 +78,16 @@ impl<const D: usize> RigidContact<D> {
     }
 
     /// The face.
-    #[must_use]
     pub fn face(&self) -> &RigidFace<D> {
         &self.face
     }
 
     /// The barrier.
-    #[must_use]
     pub fn barrier(&self) -> Barrier {
         self.barrier
     }
 
     /// The friction, if there is any.
-    #[must_use]
     pub fn friction(&self) -> Option<Friction> {
         self.friction
     }
@@ -119,7 +116,6 @@ impl<const D: usize> RigidContact<D> {
     }
 
     /// What the particles do to the rigid body.
-    #[must_use]
     pub fn reaction(&self) -> Reaction {
         self.reaction
     }

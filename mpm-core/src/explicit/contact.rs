@@ -9,7 +9,6 @@ use crate::material::Law;
 
 /// The CFL number of a contact whose stiffness over mass is `ratio` (1/s²) for the time step `dt` (s) of a body of
 /// CFL number `cfl`: the greatest frequency of both together times Δt/2, at most.
-#[must_use]
 pub fn contact_cfl(cfl: f64, ratio: f64, dt: f64) -> f64 {
     cfl.hypot(0.5 * dt * ratio.sqrt())
 }

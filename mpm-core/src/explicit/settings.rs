@@ -22,7 +22,6 @@ pub struct Settings<const D: usize, T = Flip> {
 }
 
 /// The time step (s) of CFL number `cfl` for waves of speed `c` (m/s) on cells of size `h` (m).
-#[must_use]
 pub fn courant_time_step(cfl: f64, h: f64, c: f64) -> f64 {
     cfl * h / c
 }
@@ -33,7 +32,6 @@ pub fn courant_time_step(cfl: f64, h: f64, c: f64) -> f64 {
 /// With nodal masses m_i = Σ m w and stiffness K, g = Δt² λ(M⁻¹K) ≤ 2 suffices: FLIP's two by two matrix has its determinant
 /// between 1 − g and 1 and its trace 2 − g. K and M are sums over particles, of K_p and of M_p = m diag(w), so that λ is at
 /// most the greatest λ(M_p⁻¹K_p) ≤ D c² s/h² (Irons & Treharne 1971, for finite elements).
-#[must_use]
 pub fn stable_cfl(dimension: usize, steepness: f64) -> f64 {
     (2.0 / (dimension as f64 * steepness)).sqrt()
 }
@@ -62,7 +60,6 @@ impl<const D: usize, T> Settings<D, T> {
     }
 
     /// With another transfer.
-    #[must_use]
     pub fn transfer<U>(self, transfer: U) -> Settings<D, U> {
         Settings {
             dt: self.dt,

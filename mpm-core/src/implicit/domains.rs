@@ -36,7 +36,6 @@ impl<'a, const D: usize> Domains<'a, D> {
     }
 
     /// What places are rounded by (m).
-    #[must_use]
     pub fn rounding(&self) -> f64 {
         let coordinates = self.centre.as_flattened().iter();
         let farthest = coordinates.fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -44,7 +43,6 @@ impl<'a, const D: usize> Domains<'a, D> {
     }
 
     /// The same domains without what they touch by rounding alone where they end on grid lines; `sizes` are to hold theirs.
-    #[must_use]
     pub fn within<'b>(&self, sizes: &'b mut Vec<[f64; D]>) -> Domains<'b, D>
     where
         'a: 'b,

@@ -192,11 +192,7 @@ fn standing<const D: usize, M: Law>(
     law: M,
     weight: f64,
 ) -> Scene<D, M> {
-    let rollers = (0..D).map(|axis| Wall {
-        axis,
-        end: End::Lo,
-        kind: WallKind::Roller,
-    });
+    let rollers = (0..D).map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));
     let axis = Axis::bounded(0.0, cells + 2, (Side::Wall, Side::Open));
     filled([axis; D], cells, places, law)
         .constrain_all(rollers)
@@ -306,11 +302,7 @@ fn ground() -> Scene<2, HenckyJ2> {
         Axis::walls(0.0, 8),
         Axis::bounded(0.0, 10, (Side::Wall, Side::Open)),
     ];
-    let roller = |axis, end| Wall {
-        axis,
-        end,
-        kind: WallKind::Roller,
-    };
+    let roller = |axis, end| Wall::new(axis, end, WallKind::Roller);
     filled(axes, 8, Places::Uniform, law).constrain_all([
         roller(0, End::Lo),
         roller(0, End::Hi),
@@ -341,8 +333,7 @@ fn the_number_of_threads_changes_no_bit() {
                 .unwrap();
             pool.install(|| {
                 let mut solver = loaded(remedy);
-                solver.step().unwrap();
-                solver.step().unwrap();
+                solver.advance(2).unwrap();
                 assert!(solver.field(Field::PlasticStrain).iter().any(|e| *e > 0.0));
                 (bits(&solver), solver.work())
             })
@@ -397,11 +388,7 @@ fn loner(stabilisation: Stabilisation) -> f64 {
     positions.push([H * (CELLS as f64 + 0.1), H * 2.1]);
     let more = Particles::new(positions, p.reference_volume[0], 1000.0, p.half_size).unwrap();
     scene.body = Body::new(law, more).unwrap();
-    let wall = Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Fixed,
-    };
+    let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).stabilised(stabilisation);
     Solver::<2, Quadratics<2>, _>::new(scene.constrain(wall), settings)
         .unwrap()
@@ -452,11 +439,7 @@ fn what_is_not_allowed_is_named() {
         Settings::new(1.0).stabilised(Stabilisation::Soft(0.01)),
         "ghost",
     );
-    let wall = Wall {
-        axis: 0,
-        end: End::Hi,
-        kind: WallKind::Separable,
-    };
+    let wall = Wall::new(0, End::Hi, WallKind::Separable);
     let error = Solver::<2, Means<2>, _>::new(scene().constrain(wall), Settings::new(1.0));
     assert!(error.err().unwrap().to_string().contains("one-sided"));
     let law = Hypoelastic::new(YOUNG, POISSON, JaumannUpdate::Split).unwrap();

@@ -120,7 +120,6 @@ impl Strength {
     }
 
     /// κ (Pa) at an equivalent plastic strain, and its slope (Pa).
-    #[must_use]
     #[inline]
     pub fn at<T: Real>(&self, plastic_strain: T) -> (T, T) {
         let difference = T::splat(self.peak - self.residual);
@@ -141,7 +140,6 @@ impl Strength {
     }
 
     /// What flow up to an equivalent plastic strain dissipates per reference volume (J/m³): ∫ √(3/2) κ dε.
-    #[must_use]
     pub fn plastic_work(&self, plastic_strain: f64) -> f64 {
         let difference = self.peak - self.residual;
         let above = match self.softening {

@@ -71,11 +71,7 @@ fn standing<const D: usize, M: Law>(
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let particles = particles.deformed(deformed);
     let rollers = (0..D).flat_map(|axis| {
-        let wall = move |end| Wall {
-            axis,
-            end,
-            kind: WallKind::Roller,
-        };
+        let wall = move |end| Wall::new(axis, end, WallKind::Roller);
         let both = axis + 1 < D;
         [Some(wall(End::Lo)), both.then(|| wall(End::Hi))]
     });
@@ -225,9 +221,7 @@ fn stays_at_rest<const D: usize, I: OfHats<D>>(space: PressureSpace) {
             ..Settings::new(1.0)
         };
         let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
-        for _ in 0..2 {
-            solver.step().unwrap();
-        }
+        solver.advance(2).unwrap();
         let p = solver.particles();
         for k in 0..p.len() {
             let error = solver.pores.pressure[k] - depth(&p.position[k]);

@@ -19,7 +19,6 @@ pub enum Conductivity {
 
 impl Conductivity {
     /// κ (m²/(Pa s)) at the porosity `n`.
-    #[must_use]
     #[inline(always)]
     pub fn at<T: Real>(&self, n: T) -> T {
         match *self {
@@ -170,7 +169,6 @@ impl<const D: usize> Water<D> {
     }
 
     /// κ (m²/(Pa s)) of undeformed material.
-    #[must_use]
     pub fn initial_conductivity(&self) -> f64 {
         self.conductivity.at(self.porosity)
     }

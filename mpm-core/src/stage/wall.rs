@@ -59,6 +59,14 @@ pub struct Wall {
 /// A node this fraction of a cell inside still counts as on the wall.
 const ON_WALL: f64 = 1e-9;
 
+impl Wall {
+    /// Wall at one `end` of an `axis`.
+    #[must_use]
+    pub fn new(axis: usize, end: End, kind: WallKind) -> Self {
+        Self { axis, end, kind }
+    }
+}
+
 impl Memoryless for Wall {}
 
 impl<const D: usize> Constraint<D> for Wall {

@@ -35,9 +35,7 @@ fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>
         let (scene, mut settings) = scene_with(Grid::new(0.5, axes).unwrap(), particles, transfer);
         settings.remedy = Box::new(FbarRate::default());
         let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
-        for _ in 0..60 {
-            solver.step().unwrap();
-        }
+        solver.advance(60).unwrap();
         assert!(solver.work().sorts > 1, "the test must cover sorting");
         let p = solver.particles();
         let t = solver.totals();
@@ -92,9 +90,7 @@ fn the_order_of_the_particles_changes_rounding_only() {
         }
         let (scene, settings) = scene(open_grid::<2>(0.5, 12), particles);
         let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
-        for _ in 0..40 {
-            solver.step().unwrap();
-        }
+        solver.advance(40).unwrap();
         let p = solver.particles();
         let mut sorted: Vec<(u32, [f64; 2])> =
             p.id.iter()
@@ -167,9 +163,7 @@ fn work_is_counted_exactly() {
     let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
     settings.remedy = Box::new(FbarRate::default());
     let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
-    for _ in 0..10 {
-        solver.step().unwrap();
-    }
+    solver.advance(10).unwrap();
     let w = solver.work();
     assert_eq!((w.particles, w.steps, w.particle_steps), (64, 10, 640));
     assert_eq!((w.projections, w.sorts), (10, 1));

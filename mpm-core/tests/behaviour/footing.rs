@@ -48,7 +48,7 @@ fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp, Hencky
     assert!(contact_cfl(wave, ratio, DT) < 1.15 * wave);
     let friction = Friction::rough(stick).unwrap();
     let upright = Axis::bounded(0.0, CELLS[1] + 3, (Side::Wall, Side::Open));
-    let wall = |axis, end, kind| Wall { axis, end, kind };
+    let wall = |axis, end, kind| Wall::new(axis, end, kind);
     let grid = Grid::new(H, [Axis::walls(0.0, CELLS[0]), upright]).unwrap();
     let scene = Scene::new(grid, Body::new(law, particles).unwrap())
         .constrain(wall(1, End::Lo, WallKind::Fixed))

@@ -67,11 +67,7 @@ fn scene<M: Law, T>(
             [100.0 * (15.0 * t).cos(), -0.2 * x[0]]
         })))
         .load(pull)
-        .constrain(Wall {
-            axis: 1,
-            end: End::Lo,
-            kind: WallKind::Roller,
-        })
+        .constrain(Wall::new(1, End::Lo, WallKind::Roller))
         .constrain(press)
         .contact(RigidContact::new(lid, Barrier::new(0.2, 0.3).unwrap()).with_friction(drag));
     let settings = Settings::new(dt)
@@ -97,9 +93,7 @@ fn seen(run: &mut dyn Simulation<2>) -> String {
 }
 
 fn steps(run: &mut dyn Simulation<2>, count: usize) {
-    for _ in 0..count {
-        run.step().unwrap();
-    }
+    run.advance(count).unwrap();
 }
 
 /// Straight on against stopped after every step: between any two sorts, and just before every strike of the

@@ -218,9 +218,7 @@ fn waves_at_rest<const S: usize, B: Basis<S> + 'static>(n: usize) {
             v[0] += unseen;
         }
         let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
-        for _ in 0..steps {
-            solver.step().unwrap();
-        }
+        solver.advance(steps).unwrap();
         let p = solver.particles();
         let mut rest: Vec<f64> = (0..p.len())
             .map(|k| p.velocity[k][0] - unseen[p.id[k] as usize])
@@ -429,9 +427,7 @@ fn growth_of_noise<const S: usize, B: Basis<S> + 'static>(
     let across = |p: &Particles<2>| -> f64 { p.velocity.iter().map(|v| v[1] * v[1]).sum() };
     let mut solver = Solver::<2, S, B, _>::new(scene, settings).unwrap();
     let before = across(solver.particles());
-    for _ in 0..steps {
-        solver.step().unwrap();
-    }
+    solver.advance(steps).unwrap();
     (across(solver.particles()) / before).sqrt()
 }
 
@@ -499,9 +495,7 @@ fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(
             v[0] = amplitude * axis.carried(&phi, id).re;
         }
         let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
-        for _ in 0..steps {
-            solver.step().unwrap();
-        }
+        solver.advance(steps).unwrap();
         // J̄ takes the share ε of the strain, and the force that of the stress (J̄/J) σ.
         let held = if kind == Kind::Consistent {
             let square = UNSEEN * UNSEEN;

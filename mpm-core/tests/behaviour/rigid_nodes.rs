@@ -35,7 +35,7 @@ fn pressed<const S: usize, B: Basis<S> + 'static>(
     let particles =
         Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
     let upright = Axis::bounded(0.0, CELLS, (Side::Wall, Side::Open));
-    let wall = |axis, end, kind| Wall { axis, end, kind };
+    let wall = |axis, end, kind| Wall::new(axis, end, kind);
     let law = law();
     let settings = Settings::new(courant_time_step(0.3, H, law.wave_speed(DENSITY)));
     let grid = Grid::new(H, [Axis::walls(0.0, CELLS), upright]).unwrap();

@@ -37,9 +37,7 @@ fn conserves<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<
         let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
         let before = solver.totals();
         let spin = angular_momentum(solver.particles());
-        for _ in 0..50 {
-            solver.step().unwrap();
-        }
+        solver.advance(50).unwrap();
         let after = solver.totals();
         if angular {
             let now = angular_momentum(solver.particles());
@@ -85,10 +83,8 @@ fn rigid_translation_is_exact_and_free_of_stress_across_cells_and_a_periodic_end
         let dt = settings.dt;
         let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings).unwrap();
         let steps = 400;
-        for _ in 0..steps {
-            solver.step().unwrap();
-        }
-        let travelled = 3.0 * dt * f64::from(steps);
+        solver.advance(steps).unwrap();
+        let travelled = 3.0 * dt * steps as f64;
         assert!(travelled > 4.0, "the body must pass the periodic end");
         let p = solver.particles();
         for k in 0..p.len() {
@@ -110,9 +106,7 @@ fn free_fall_is_exact() {
         .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
     let dt = settings.dt;
     let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
-    for _ in 0..100 {
-        solver.step().unwrap();
-    }
+    solver.advance(100).unwrap();
     let drop = -dt * dt * 100.0 * 101.0 / 2.0;
     let p = solver.particles();
     for (x, reference) in p.position.iter().zip(&p.reference) {
@@ -133,11 +127,9 @@ fn a_bar_vibrates_at_its_fundamental_frequency() {
         v[0] = speed * (0.5 * PI * x[0] / length).sin();
     }
     let (mut scene, settings) = scene(grid, particles);
-    scene.constraints.push(Box::new(Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Fixed,
-    }));
+    scene
+        .constraints
+        .push(Box::new(Wall::new(0, End::Lo, WallKind::Fixed)));
     let dt = settings.dt;
     let period = 4.0 * length / law().wave_speed(DENSITY);
     let mut solver = Solver::<1, 3, QuadraticBSpline, _>::new(scene, settings).unwrap();
@@ -169,7 +161,7 @@ fn walls_hold_what_they_say() {
         let mut particles = block(0.5, 2, [0, 0], [4, 4]);
         particles.velocity.fill([0.1, 0.2]);
         let (mut scene, settings) = scene(grid, particles);
-        let wall = |axis, end| -> Box<dyn Constraint<2>> { Box::new(Wall { axis, end, kind }) };
+        let wall = |axis, end| -> Box<dyn Constraint<2>> { Box::new(Wall::new(axis, end, kind)) };
         scene.constraints = vec![wall(0, End::Lo), wall(0, End::Hi)];
         let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings).unwrap();
         solver.step().unwrap();
@@ -215,9 +207,7 @@ fn damping_takes_energy_and_says_how_much() {
         }
         let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
         let before = solver.totals().kinetic_energy;
-        for _ in 0..200 {
-            solver.step().unwrap();
-        }
+        solver.advance(200).unwrap();
         let t = solver.totals();
         let lost = before - t.kinetic_energy - t.stored_energy;
         (
@@ -249,17 +239,11 @@ fn nodes_take_the_weight_as_particles_do() {
         scene.loads.push(load);
         for axis in 0..2 {
             let kind = WallKind::Roller;
-            scene = scene.constrain(Wall {
-                axis,
-                end: End::Lo,
-                kind,
-            });
+            scene = scene.constrain(Wall::new(axis, End::Lo, kind));
         }
         let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings).unwrap();
         let forces = solver.particles().external_force.len();
-        for _ in 0..40 {
-            solver.step().unwrap();
-        }
+        solver.advance(40).unwrap();
         let y: Vec<f64> = solver.particles().position.iter().map(|x| x[1]).collect();
         let floor = solver.on(Part::Constraint(1)).force[1];
         (forces, y, solver.totals().accumulated.load_work, floor)
@@ -468,9 +452,7 @@ fn a_remedy_may_change_the_stress_that_enters_the_force() {
         settings.remedy = remedy;
         let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
         let before = solver.totals().kinetic_energy;
-        for _ in 0..20 {
-            solver.step().unwrap();
-        }
+        solver.advance(20).unwrap();
         (
             solver.totals().kinetic_energy / before,
             solver.work().projections,

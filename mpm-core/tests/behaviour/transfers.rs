@@ -21,9 +21,7 @@ fn xpic_falls_as_galileo_says() {
         .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
     let time = 100.0 * settings.dt;
     let mut solver = Solver::<2, 3, Gimp, _, Xpic>::new(scene, settings).unwrap();
-    for _ in 0..100 {
-        solver.step().unwrap();
-    }
+    solver.advance(100).unwrap();
     let p = solver.particles();
     for (x, reference) in p.position.iter().zip(&p.reference) {
         assert!((x[1] - reference[1] + 0.5 * time * time).abs() < 1e-10);
@@ -46,9 +44,7 @@ fn turn<T: Transfer<2>>(transfer: T) -> [f64; 2] {
         [solver.totals().kinetic_energy, momentum]
     };
     let before = now(&solver);
-    for _ in 0..steps {
-        solver.step().unwrap();
-    }
+    solver.advance(steps).unwrap();
     let after = now(&solver);
     [after[0] / before[0], after[1] / before[1]]
 }
@@ -113,9 +109,7 @@ fn energy_left<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone>(
         let (scene, settings) = scene_with(open_grid::<2>(0.25, 24), particles, transfer.clone());
         let mut solver = Solver::<2, S, B, _, T>::new(scene, settings).unwrap();
         let before = solver.totals().kinetic_energy;
-        for _ in 0..100 {
-            solver.step().unwrap();
-        }
+        solver.advance(100).unwrap();
         let t = solver.totals();
         (t.kinetic_energy + t.stored_energy) / before
     })
@@ -258,9 +252,7 @@ fn pic_dissipates_and_flip_does_not() {
         let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), particles);
         settings.transfer = Flip::new(flip).unwrap();
         let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
-        for _ in 0..40 {
-            solver.step().unwrap();
-        }
+        solver.advance(40).unwrap();
         let t = solver.totals();
         t.kinetic_energy + t.stored_energy
     };

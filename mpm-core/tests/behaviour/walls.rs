@@ -39,7 +39,7 @@ fn scene<T>(
     let law = NeoHookean::new(100.0, 0.3).unwrap();
     let dt = courant_time_step(0.3, H, law.wave_speed(DENSITY));
     let grid = Grid::new(H, [Axis::walls(0.0, 10), Axis::walls(0.0, 4)]).unwrap();
-    let walls = WALLS.map(|(axis, end)| Wall { axis, end, kind });
+    let walls = WALLS.map(|(axis, end)| Wall::new(axis, end, kind));
     let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain_all(walls);
     let settings = Settings::new(dt).transfer(transfer);
     (scene, settings.remedy(Box::<FbarRate>::default()))
@@ -117,9 +117,7 @@ fn damping_leaves_reactions_what_they_are() {
     let pulled = still.load(BodyForce(Box::new(move |_: &[f64; 2], _| [-weight, 0.0])));
     let damped = settings.filter_forces(LocalDamping::new(0.3).unwrap());
     let mut solver = started::<3, Gimp, _>((pulled, damped));
-    for _ in 0..1000 {
-        solver.step().unwrap();
-    }
+    solver.advance(1000).unwrap();
     let before = solver.on(Part::Constraint(0)).impulse[0];
     solver.step().unwrap();
     let impulse = solver.on(Part::Constraint(0)).impulse[0] - before;
@@ -138,9 +136,7 @@ fn a_body_goes_on_in_another_run_bit_for_bit() {
         )
     };
     let mut first = started::<3, Gimp, _>(start());
-    for _ in 0..150 {
-        first.step().unwrap();
-    }
+    first.advance(150).unwrap();
     let mut second = started::<3, Gimp, _>(start());
     second.take_over(&first.body().unwrap()).unwrap();
     assert_eq!((second.time(), second.work().steps), (0.0, 0));

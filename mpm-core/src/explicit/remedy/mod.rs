@@ -92,7 +92,6 @@ impl<const D: usize> Front for DeformationChunk<'_, D> {
 impl<const D: usize> DeformationChunk<'_, D> {
     /// Whether there is one.
     #[inline(always)]
-    #[must_use]
     pub fn is_there(&self) -> bool {
         !self.delta_f.is_empty()
     }
@@ -116,14 +115,12 @@ impl<const D: usize> DeformationChunk<'_, D> {
 
     /// ΔF of the `k`-th eight.
     #[inline(always)]
-    #[must_use]
     pub fn raw(&self, k: usize) -> [[Eight; D]; D] {
         self.delta_f[k]
     }
 
     /// ΔF̄ of the `k`-th eight, Eq. (25), from J̄ at the begin of the step and the `next`.
     #[inline(always)]
-    #[must_use]
     pub fn averaged(&self, k: usize, j_bar: Eight, next: Eight) -> [[Eight; D]; D] {
         let stretch =
             stretch_of_volume::<Eight, D>(next / (j_bar * numbers(self.volume_change, k)));
@@ -132,7 +129,6 @@ impl<const D: usize> DeformationChunk<'_, D> {
 
     /// The displacement (m) of the `k`-th eight.
     #[inline(always)]
-    #[must_use]
     pub fn increment(&self, k: usize) -> [Eight; D] {
         self.increment[k]
     }
@@ -227,7 +223,6 @@ fn mean<T: Real, const D: usize>(stress: &SymmetricTensor<T>) -> T {
 
 /// The stress that enters the forces where a remedy gives its `mean`: (J̄/J) dev σ and that mean; `ratio` is J̄/J.
 #[inline(always)]
-#[must_use]
 pub fn force_stress<T: Real, const D: usize>(
     stress: &SymmetricTensor<T>,
     ratio: T,

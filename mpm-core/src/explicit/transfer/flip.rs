@@ -37,7 +37,6 @@ impl Flip {
     }
 
     /// The share η of FLIP.
-    #[must_use]
     pub fn share(&self) -> f64 {
         self.eta
     }

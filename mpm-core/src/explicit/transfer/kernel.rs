@@ -56,7 +56,6 @@ impl<const D: usize> Given<D> {
 
     /// Momentum and, in the last place, mass of the `l`-th particle.
     #[inline(always)]
-    #[must_use]
     pub fn momentum(&self, l: usize) -> Node {
         let mut momentum = padded(&self.momentum, l);
         momentum.as_mut_array()[3] = self.mass[l];
@@ -144,21 +143,18 @@ impl<const D: usize> Default for Received<D> {
 impl<const D: usize> Received<D> {
     /// Σ_i w_ip v_iⁿ⁺¹ (m/s) along an axis.
     #[inline(always)]
-    #[must_use]
     pub fn velocity(&self, a: usize) -> Eight {
         Eight::new(self.velocity[a])
     }
 
     /// Σ_i w_ip (v_iⁿ⁺¹ − v_iⁿ) (m/s) along an axis.
     #[inline(always)]
-    #[must_use]
     pub fn increment(&self, a: usize) -> Eight {
         Eight::new(self.increment[a])
     }
 
     /// ∂v_a/∂x_b (1/s).
     #[inline(always)]
-    #[must_use]
     pub fn gradient(&self, a: usize, b: usize) -> Eight {
         Eight::new(self.gradient[a][b])
     }

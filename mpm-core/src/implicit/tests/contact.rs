@@ -165,11 +165,7 @@ fn rests<const D: usize, I: Interpolation<2>, M: Law>(law: M, remedy: Remedy) {
     let weight = 1e3 * (H * CELLS as f64).powi(2);
     let each = weight / (2 * CELLS) as f64;
     let contact = floor(&scene.body.particles, 0.5 * DISTANCE, each);
-    let rollers = [End::Lo, End::Hi].map(|end| Wall {
-        axis: 0,
-        end,
-        kind: WallKind::Roller,
-    });
+    let rollers = [End::Lo, End::Hi].map(|end| Wall::new(0, end, WallKind::Roller));
     let scene = scene
         .constrain_all(rollers)
         .contact(contact)

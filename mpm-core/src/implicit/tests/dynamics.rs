@@ -45,9 +45,7 @@ fn keeps_momentum<const D: usize, I: Interpolation<2>, M: Law + Clone>(law: M) {
     for rule in [MIDPOINT, NEWMARK] {
         let mut solver = moving::<I, M>(law.clone(), rule);
         let before = solver.totals().momentum;
-        for _ in 0..5 {
-            solver.step().unwrap();
-        }
+        solver.advance(5).unwrap();
         let after = solver.totals().momentum;
         for a in 0..2 {
             let change = (after[a] - before[a]).abs();
@@ -98,9 +96,7 @@ fn a_body_falls_freely() {
             ..Settings::new(DT).rule(rule)
         };
         let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
-        for _ in 0..10 {
-            solver.step().unwrap();
-        }
+        solver.advance(10).unwrap();
         let time: f64 = 10.0 * DT;
         let p = solver.particles();
         for ((x0, x), v) in p.reference.iter().zip(&p.position).zip(&p.velocity) {
@@ -148,11 +144,7 @@ fn swinging() -> Scene<2, NeoHookean> {
             0.0,
         ];
     }
-    let roller = |axis, end| Wall {
-        axis,
-        end,
-        kind: WallKind::Roller,
-    };
+    let roller = |axis, end| Wall::new(axis, end, WallKind::Roller);
     let ends = [0, 1].map(|axis| [roller(axis, End::Lo), roller(axis, End::Hi)]);
     scene.constrain_all(ends.into_iter().flatten())
 }
@@ -164,9 +156,7 @@ fn swung(rule: TimeRule, steps: u32) -> Vec<[f64; 2]> {
         ..Settings::new(0.08 / f64::from(steps)).rule(rule)
     };
     let mut solver = Solver::<2, Quadratics<2>, _>::new(swinging(), settings).unwrap();
-    for _ in 0..steps {
-        solver.step().unwrap();
-    }
+    solver.advance(steps as usize).unwrap();
     let p = solver.particles();
     p.seeded(|k| p.position[k])
 }

@@ -155,11 +155,9 @@ fn below_the_angle_of_friction_a_block_rests_and_does_not_creep() {
             go_on(&mut solver, rule, 0.02);
             let before = places(&solver);
             let steps = 50;
-            for _ in 0..steps {
-                solver.step().unwrap();
-            }
+            solver.advance(steps).unwrap();
             let stiffness = (2 * CELLS) as f64 * stick(solver.scene.contacts[0].barrier());
-            let bound = f64::from(steps) * TOLERANCE * MASS / stiffness;
+            let bound = steps as f64 * TOLERANCE * MASS / stiffness;
             for (x, before) in places(&solver).iter().zip(&before) {
                 let moved = (x[0] - before[0]).abs();
                 assert!(moved <= bound, "{share} {rule:?}: {moved} {bound}");
@@ -193,9 +191,7 @@ fn beyond_the_angle_of_friction_a_block_slides_at_its_acceleration() {
         let mut solver = resting(slope);
         go_on(&mut solver, rule, dt);
         solver.settings = solver.settings.stabilised(stabilisation);
-        for _ in 0..20 {
-            solver.step().unwrap();
-        }
+        solver.advance(20).unwrap();
         let (early, start) = (solver.totals().momentum, solver.time());
         let impulse = solver.on(Part::Contact(0)).impulse;
         for _ in 0..steps {
@@ -232,9 +228,7 @@ fn beyond_the_angle_of_friction_a_static_step_is_a_typed_error() {
     assert_eq!(before, places(&solver));
     assert_eq!(contact, solver.scene.contacts[0]);
     go_on(&mut solver, MIDPOINT, 0.01);
-    for _ in 0..20 {
-        solver.step().unwrap();
-    }
+    solver.advance(20).unwrap();
     assert!(solver.totals().momentum[0] > 0.0);
 }
 
@@ -243,9 +237,7 @@ fn a_sliding_block_that_was_stopped_goes_on_as_if_it_had_not() {
     let fresh = || block(2.0 * MU, coulomb, Settings::new(0.25).rule(MIDPOINT));
     let mut straight = fresh();
     let run = |solver: &mut Block| {
-        for _ in 0..5 {
-            solver.step().unwrap();
-        }
+        solver.advance(5).unwrap();
     };
     run(&mut straight);
     let saved = straight.save().unwrap();
@@ -321,8 +313,7 @@ fn a_stick_that_touches_nothing_is_forgotten() {
 fn friction_with_f_bar_has_to_be_rough() {
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
     let mut rough = block(2.0 * MU, |k| Friction::rough(k).unwrap(), settings);
-    rough.step().unwrap();
-    rough.step().unwrap();
+    rough.advance(2).unwrap();
     let force = rough.on(Part::Contact(0)).force;
     assert!(
         (force[0] - 2.0 * MU * MASS).abs() < 1e-9 * MASS,

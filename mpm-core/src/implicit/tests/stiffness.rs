@@ -20,11 +20,7 @@ pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law>(
     let mut scene = full::<D, _>(CELLS, Places::Uniform, law);
     scene.body.particles = scene.body.particles.deformed(|x| (*x, f));
     scene.body = Body::new(scene.body.law, scene.body.particles).unwrap();
-    let wall = Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Fixed,
-    };
+    let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0)
         .remedy(remedy)
         .stabilised(Stabilisation::Ghost(0.01));
@@ -199,11 +195,7 @@ fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D
         Places::Uniform,
         NeoHookean::new(YOUNG, 0.49).unwrap(),
     );
-    let wall = Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Fixed,
-    };
+    let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
     let solver = Solver::<D, I, _>::new(scene.constrain(wall), settings).unwrap();
     let setting = solver.setting(1.0);

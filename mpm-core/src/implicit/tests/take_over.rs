@@ -25,11 +25,9 @@ fn a_block_that_rests_on_its_sticks_rests_in_the_next_run() {
             next.scene.contacts[0].sticks(),
             first.scene.contacts[0].sticks()
         );
-        for _ in 0..steps {
-            next.step().unwrap();
-        }
+        next.advance(steps).unwrap();
         let stiffness = 8.0 * stick(next.scene.contacts[0].barrier());
-        let bound = f64::from(steps) * TOLERANCE * MASS / stiffness;
+        let bound = steps as f64 * TOLERANCE * MASS / stiffness;
         for (x, before) in places(&next).iter().zip(&places(&first)) {
             let moved = (x[0] - before[0]).abs();
             assert!(moved <= bound, "{rule:?}: {moved} {bound}");
@@ -48,11 +46,7 @@ fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2, Means<2>, NeoHooke
     }
     let particles = Particles::new(seeded, 0.25 * H * H, 1000.0, [0.25 * H; 2]).unwrap();
     let contact = floor(&particles, 0.1 * H, 125.0);
-    let rollers = [End::Lo, End::Hi].map(|end| Wall {
-        axis: 0,
-        end,
-        kind: WallKind::Roller,
-    });
+    let rollers = [End::Lo, End::Hi].map(|end| Wall::new(0, end, WallKind::Roller));
     let scene = Scene::new(whole.grid, Body::new(rubber(), particles).unwrap())
         .constrain_all(rollers)
         .load(Gravity(Box::new(|_| [0.0, -1.0])));
@@ -126,11 +120,7 @@ fn accelerations_are_those_of_the_new_scene() {
 fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>, HenckyJ2> {
     let law = HenckyJ2::new(YOUNG, POISSON, Strength::undrained(strength).unwrap()).unwrap();
     let axes = [Axis::bounded(0.0, CELLS + 4, (Side::Wall, Side::Open)); 2];
-    let rollers = [0, 1].map(|axis| Wall {
-        axis,
-        end: End::Lo,
-        kind: WallKind::Roller,
-    });
+    let rollers = [0, 1].map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));
     let rises = rule == TimeRule::Static;
     let gravity = move |time: f64| [0.0, if rises { time } else { 1.0 }];
     let scene = filled(axes, CELLS, Places::Uniform, law)
@@ -165,9 +155,7 @@ fn clay_beyond_its_strength_is_told_and_moves_on_from_its_last_equilibrium() {
     let places = |p: &Particles<2>| p.seeded(|k| p.position[k]);
     assert_eq!(places(moving.particles()), places(still.particles()));
     let mut energy = || {
-        for _ in 0..20 {
-            moving.step().unwrap();
-        }
+        moving.advance(20).unwrap();
         moving.totals().kinetic_energy
     };
     let [early, late] = [energy(), energy()];

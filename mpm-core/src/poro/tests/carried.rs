@@ -154,8 +154,7 @@ fn water_from_within_swells_a_body() {
             ..Settings::new(2.0)
         };
         let mut solver = Solver::<2, Means<2>, _>::new(scene, water, settings).unwrap();
-        solver.step().unwrap();
-        solver.step().unwrap();
+        solver.advance(2).unwrap();
         let balance = solver.water().copied().unwrap();
         // The mean of the height over the body is half of it.
         let given = 4.0 * 5e-3 * 0.5 * TOP * volume;

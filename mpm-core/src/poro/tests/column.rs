@@ -11,11 +11,7 @@ fn one_element_consolidates_as_its_closed_form() {
     let modulus = 1.2e5;
     let grid = Grid::new(H, [Axis::bounded(0.0, 4, (Side::Wall, Side::Open))]).unwrap();
     let particles = Particles::new(vec![[0.25 * H], [0.75 * H]], 0.5 * H, 1.0, [0.25 * H]).unwrap();
-    let floor = Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Roller,
-    };
+    let floor = Wall::new(0, End::Lo, WallKind::Roller);
     let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(floor);
     let load = 1e-6 * modulus;
     let upper = |x: &[f64; 1]| x[0] > 0.5 * H;
@@ -51,9 +47,7 @@ fn one_element_consolidates_as_its_closed_form() {
 /// not.
 fn imbalance<const D: usize, I: OfHats<D>>(settings: Settings) -> f64 {
     let mut solver = loaded::<D, I>(0.5 * MODULUS, settings);
-    for _ in 0..10 {
-        solver.step().unwrap();
-    }
+    solver.advance(10).unwrap();
     let balance = solver.water().copied().unwrap();
     let p = solver.particles();
     let volume = |of: &[f64]| of.iter().sum::<f64>();
@@ -93,8 +87,7 @@ fn a_column_is_a_bar_in_any_dimension() {
             ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
         };
         let mut solver = loaded::<D, I>(0.2 * MODULUS, settings);
-        solver.step().unwrap();
-        solver.step().unwrap();
+        solver.advance(2).unwrap();
         let p = solver.particles();
         let mut rows: Vec<(f64, [f64; 3])> = (0..p.len())
             .map(|k| {
@@ -138,8 +131,7 @@ fn newton_converges_quadratically() {
             ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
         };
         let mut solver = loaded::<2, Means<2>>(0.3 * MODULUS, settings);
-        solver.step().unwrap();
-        solver.step().unwrap();
+        solver.advance(2).unwrap();
         let settlement = solver
             .particles()
             .position
@@ -254,9 +246,7 @@ fn grains_settle_under_their_weight_in_water() {
         ..Settings::new(0.01 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
     };
     let mut solver = Solver::<1, Means<1>, _>::new(scene, water, settings).unwrap();
-    for _ in 0..14 {
-        solver.step().unwrap();
-    }
+    solver.advance(14).unwrap();
     let p = solver.particles();
     for k in 0..p.len() {
         let borne = heavier * (TOP - p.reference[k][0]);
@@ -273,9 +263,7 @@ fn the_number_of_threads_changes_no_bit() {
         pool.unwrap().install(|| {
             let settings = Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01);
             let mut solver = loaded::<2, Means<2>>(0.3 * MODULUS, settings);
-            for _ in 0..3 {
-                solver.step().unwrap();
-            }
+            solver.advance(3).unwrap();
             solver.save().unwrap()
         })
     };
@@ -319,9 +307,7 @@ fn where_newton_begins_does_not_matter() {
                 ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
             };
             let mut solver = loaded::<2, Means<2>>(share * MODULUS, settings);
-            for _ in 0..5 {
-                solver.step().unwrap();
-            }
+            solver.advance(5).unwrap();
             assert_eq!(solver.work().newton_iterations, told, "{predictor:?}");
         }
     }

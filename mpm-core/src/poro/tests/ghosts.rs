@@ -25,11 +25,7 @@ fn unfitted(height: f64, settings: Settings) -> Solver<1, Means<1>, ImprovedHenc
     let highest = |x: &[f64; 1]| x[0] > height * (TOP - 0.5 * H);
     let load = Face::loaded(&particles, highest, (0, End::Hi), |_| [-0.3 * MODULUS]);
     let drain = Face::drained(&particles, highest, (0, End::Hi), 100.0 * KAPPA / H);
-    let floor = Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Roller,
-    };
+    let floor = Wall::new(0, End::Lo, WallKind::Roller);
     let body = Body::new(porous(), particles).unwrap();
     let scene = Scene::new(fitted.grid, body).constrain(floor);
     let water = Water::new(POROSITY, kozeny_carman()).face(load).face(drain);
@@ -115,19 +111,13 @@ fn leaks(settings: Settings) -> [f64; 2] {
         [0.0, -0.1 * MODULUS * (0.1 * t).min(1.0)]
     });
     let sides = [(0, End::Lo), (0, End::Hi), (1, End::Lo)];
-    let rollers = sides.map(|(axis, end)| Wall {
-        axis,
-        end,
-        kind: WallKind::Roller,
-    });
+    let rollers = sides.map(|(axis, end)| Wall::new(axis, end, WallKind::Roller));
     let body = Body::new(porous(), particles).unwrap();
     let scene = Scene::new(fitted.grid, body).constrain_all(rollers);
     let water = Water::new(POROSITY, Conductivity::Constant(1e-20)).face(load);
     let mut solver = Solver::<2, Means<2>, _>::new(scene, water, settings).unwrap();
     [10, 20].map(|steps| {
-        for _ in 0..steps {
-            solver.step().unwrap();
-        }
+        solver.advance(steps).unwrap();
         let jacobian = &solver.particles().jacobian;
         jacobian
             .iter()
