@@ -117,6 +117,16 @@ pub trait Lanes: Real {
     fn part(&self, k: usize) -> f64;
 }
 
+/// Functions of a number that its type has under the same name.
+macro_rules! of_the_type {
+    ($number:ty: $($name:ident($($other:ident),*)),*) => {$(
+        #[inline(always)]
+        fn $name(self, $($other: Self),*) -> Self {
+            <$number>::$name(self, $($other),*)
+        }
+    )*};
+}
+
 impl Real for f64 {
     #[inline(always)]
     fn splat(x: f64) -> Self {
@@ -128,35 +138,7 @@ impl Real for f64 {
         of(0)
     }
 
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        f64::mul_add(self, a, b)
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        f64::sqrt(self)
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        f64::exp(self)
-    }
-
-    #[inline(always)]
-    fn ln(self) -> Self {
-        f64::ln(self)
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f64::abs(self)
-    }
-
-    #[inline(always)]
-    fn floor(self) -> Self {
-        f64::floor(self)
-    }
+    of_the_type!(f64: mul_add(a, b), sqrt(), exp(), ln(), abs(), floor());
 
     #[inline(always)]
     fn at_least(self, limit: f64) -> Self {
@@ -212,35 +194,7 @@ impl Real for Eight {
         f64x8::new(std::array::from_fn(of))
     }
 
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        f64x8::mul_add(self, a, b)
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        f64x8::sqrt(self)
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        f64x8::exp(self)
-    }
-
-    #[inline(always)]
-    fn ln(self) -> Self {
-        f64x8::ln(self)
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f64x8::abs(self)
-    }
-
-    #[inline(always)]
-    fn floor(self) -> Self {
-        f64x8::floor(self)
-    }
+    of_the_type!(f64x8: mul_add(a, b), sqrt(), exp(), ln(), abs(), floor());
 
     #[inline(always)]
     fn at_least(self, limit: f64) -> Self {

@@ -28,7 +28,7 @@ pub(crate) mod newton;
 mod penalty;
 mod pieces;
 mod q8;
-mod response;
+pub(crate) mod response;
 mod settings;
 mod soft;
 pub(crate) mod start;

@@ -1,6 +1,6 @@
 //! The equations of a step and their derivatives: Eqs. (2) to (8) of `docs/poromechanics.md`.
 
-use super::response::{Particle, Slopes, Square};
+use super::response::{Particle, Slopes};
 use super::settings::{PressureSpace, Settings, Tangent};
 use super::unknowns::Unknowns;
 use super::water::Water;
@@ -9,6 +9,7 @@ use crate::error::Fault;
 use crate::implicit::Penalty;
 use crate::implicit::algebra::{dot, norm};
 use crate::implicit::elements::{Elements, LAST_BITS};
+use crate::implicit::response::Square;
 use crate::implicit::unknowns::Pattern;
 use crate::material::Law;
 use crate::parallel::{LIGHT, map};

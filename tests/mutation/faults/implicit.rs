@@ -179,7 +179,7 @@ pub(crate) const IMPLICIT: [Fault; 25] = [
     Fault {
         name: "the tangent is that of the law before the step",
         file: "implicit/response.rs",
-        sound: "Dual::<N>::variable(f[(i, j)], D * i + j)",
+        sound: "Dual::variable(f[(i, j)], D * i + j)",
         broken: "Dual::<N>::variable(f64::from(u8::from(i == j)), D * i + j)",
         seen_by: &[(BEAM, "newton")],
     },

@@ -132,10 +132,6 @@ fn for_each_pair(a: &mut [f64], b: &mut [f64], change: impl Fn(usize, &mut f64, 
 impl Memoryless for FbarConsistent {}
 
 impl<const D: usize> Remedy<D> for FbarConsistent {
-    fn attach(&mut self, particles: &mut Particles<D>) {
-        particles.j_bar = particles.jacobian.clone();
-    }
-
     fn asks_for_shear(&self) -> bool {
         self.relaxation > 0.0
     }

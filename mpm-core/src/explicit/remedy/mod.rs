@@ -155,8 +155,12 @@ fn shear<const D: usize>(delta_f: &[[Eight; D]; D]) -> Eight {
 
 /// A locking remedy of a body. What it remembers of a particle, J̄, is a column of the particles.
 pub trait Remedy<const D: usize>: Memory + Send {
-    /// Gives the particles the columns that the remedy needs.
-    fn attach(&mut self, _particles: &mut Particles<D>) {}
+    /// Gives the particles the columns that the remedy needs: J̄, if it averages.
+    fn attach(&mut self, particles: &mut Particles<D>) {
+        if self.averages() {
+            particles.j_bar = particles.jacobian.clone();
+        }
+    }
 
     /// Whether J̄ is something else than J: then it is formed between ΔF and the law.
     fn averages(&self) -> bool {
