@@ -169,3 +169,8 @@ pub(crate) fn require(
         })
     }
 }
+
+/// Checks that `value` is positive and finite.
+pub(crate) fn positive(value: f64, what: &'static str, allowed: &'static str) -> Result<(), Error> {
+    require(value > 0.0, what, value, allowed)
+}

@@ -1,6 +1,6 @@
 //! Geometry of the background grid.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 
 /// What stands at one end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,7 +107,7 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// `h` not positive and finite, or an axis with fewer than four cells or a non-finite origin.
     pub fn new(h: f64, axes: [Axis; D]) -> Result<Self, Error> {
-        require(h > 0.0, "cell size", h, "positive and finite (m)")?;
+        positive(h, "cell size", "positive and finite (m)")?;
         for axis in &axes {
             require(true, "grid origin", axis.lo, "finite (m)")?;
             require(

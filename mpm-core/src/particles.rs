@@ -1,6 +1,6 @@
 //! The particles of a body, as columns.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::frame::Frame;
 use crate::memory::{MemoryError, row, rows};
 use crate::parallel::{CHUNK, for_each_piece};
@@ -68,10 +68,10 @@ impl<const D: usize> Particles<D> {
         density: f64,
         half_size: [f64; D],
     ) -> Result<Self, Error> {
-        require(volume > 0.0, "particle volume", volume, "positive (m³)")?;
-        require(density > 0.0, "density", density, "positive (kg/m³)")?;
+        positive(volume, "particle volume", "positive (m³)")?;
+        positive(density, "density", "positive (kg/m³)")?;
         for l in half_size {
-            require(l > 0.0, "particle half size", l, "positive (m)")?;
+            positive(l, "particle half size", "positive (m)")?;
         }
         for x in positions.iter().flatten() {
             require(true, "particle position", *x, "finite (m)")?;

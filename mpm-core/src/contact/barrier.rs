@@ -1,6 +1,6 @@
 //! The barrier between a particle and a rigid body.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 
 /// The barrier energy B(d) = −κ (d − d̂)² ln(d/d̂) of a particle at the gap d < d̂ from a body, zero beyond d̂
 /// (Li et al. 2020, doi 10.1145/3386569.3392425): twice continuously differentiable, and without bound as the gap
@@ -21,13 +21,8 @@ impl Barrier {
     /// # Errors
     /// A stiffness or distance that is not positive and finite.
     pub fn new(stiffness: f64, distance: f64) -> Result<Self, Error> {
-        require(
-            stiffness > 0.0,
-            "barrier stiffness",
-            stiffness,
-            "positive (N/m)",
-        )?;
-        require(distance > 0.0, "barrier distance", distance, "positive (m)")?;
+        positive(stiffness, "barrier stiffness", "positive (N/m)")?;
+        positive(distance, "barrier distance", "positive (m)")?;
         Ok(Self {
             stiffness,
             distance,
@@ -48,7 +43,7 @@ impl Barrier {
     /// # Errors
     /// A force or distance that is not positive and finite, a gap outside (0, d̂).
     pub fn carrying_at(force: f64, gap: f64, distance: f64) -> Result<Self, Error> {
-        require(force > 0.0, "force on a barrier", force, "positive (N)")?;
+        positive(force, "force on a barrier", "positive (N)")?;
         require(
             gap > 0.0 && gap < distance,
             "gap of a barrier",

@@ -1,6 +1,6 @@
 //! Coulomb's law with an elastic stick.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use nalgebra::{SMatrix, SVector};
 
 /// Friction between a particle and a rigid body: a spring of tangential stiffness k_t holds the particle to the
@@ -31,12 +31,7 @@ impl Friction {
     /// # Errors
     /// A stiffness that is not positive and finite.
     pub fn rough(stiffness: f64) -> Result<Self, Error> {
-        require(
-            stiffness > 0.0,
-            "stiffness of a stick",
-            stiffness,
-            "positive (N/m)",
-        )?;
+        positive(stiffness, "stiffness of a stick", "positive (N/m)")?;
         Ok(Self {
             mu: f64::INFINITY,
             stiffness,

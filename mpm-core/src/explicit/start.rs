@@ -3,7 +3,7 @@
 use super::remedy::Deformation;
 use super::{ChunkSums, NodeSums, Settings, Solver, Transfer, check_cfl};
 use crate::basis::Basis;
-use crate::error::{Error, require};
+use crate::error::{Error, positive};
 use crate::lattice::Lattice;
 use crate::ledger::Ledger;
 use crate::material::Law;
@@ -22,7 +22,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     /// A time step or particle that is not allowed; a particle off the grid; a
     /// time step beyond the CFL limit; a particle in a rigid body.
     pub fn new(mut scene: Scene<D, M>, mut settings: Settings<D, T>) -> Result<Self, Error> {
-        require(settings.dt > 0.0, "time step", settings.dt, "positive (s)")?;
+        positive(settings.dt, "time step", "positive (s)")?;
         scene.check_half_size()?;
         let particles = &mut scene.body.particles;
         let lattice = Lattice::new(scene.grid, settings.wall);

@@ -1,6 +1,6 @@
 //! How a scene is solved, and how well that went.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 
 /// What holds functions that see hardly any material. Penalties act on the increment of a step, so that what they add to
 /// equilibrium vanishes with the steps; an extension adds nothing.
@@ -168,7 +168,7 @@ impl Settings {
     }
 
     pub(super) fn check(&self) -> Result<(), Error> {
-        require(self.dt > 0.0, "load step", self.dt, "positive (s)")?;
+        positive(self.dt, "load step", "positive (s)")?;
         self.rule.check()?;
         let [least, greatest] = TOLERANCES;
         require(

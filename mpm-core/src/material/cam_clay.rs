@@ -19,7 +19,7 @@ mod state;
 pub use state::CamClayState;
 
 use super::{ImprovedHencky, Law, StateOf};
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
 use flow::Trial;
@@ -57,24 +57,13 @@ impl CamClay {
         preconsolidation: f64,
         initial_pressure: f64,
     ) -> Result<Self, Error> {
-        require(
-            critical_ratio > 0.0,
-            "critical state ratio M",
-            critical_ratio,
-            "positive",
-        )?;
-        require(
-            plastic_compressibility > 0.0,
-            "plastic compressibility λ − κ",
+        positive(critical_ratio, "critical state ratio M", "positive")?;
+        positive(
             plastic_compressibility,
+            "plastic compressibility λ − κ",
             "positive: λ is above κ",
         )?;
-        require(
-            preconsolidation > 0.0,
-            "preconsolidation",
-            preconsolidation,
-            "positive (Pa)",
-        )?;
+        positive(preconsolidation, "preconsolidation", "positive (Pa)")?;
         require(
             initial_pressure > 0.0 && initial_pressure <= preconsolidation,
             "initial effective pressure",

@@ -6,7 +6,7 @@
 //! from what is told of theirs: a bulk parameter, a shear modulus and a positive porosity.
 
 use super::Law;
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
@@ -26,19 +26,9 @@ impl ImprovedHencky {
     /// # Errors
     /// A modulus that is not positive and finite; a porosity outside (0, 1).
     pub fn new(bulk_parameter: f64, shear_modulus: f64, porosity: f64) -> Result<Self, Error> {
-        let positive = "positive (Pa)";
-        require(
-            bulk_parameter > 0.0,
-            "bulk parameter",
-            bulk_parameter,
-            positive,
-        )?;
-        require(
-            shear_modulus > 0.0,
-            "shear modulus",
-            shear_modulus,
-            positive,
-        )?;
+        let allowed = "positive (Pa)";
+        positive(bulk_parameter, "bulk parameter", allowed)?;
+        positive(shear_modulus, "shear modulus", allowed)?;
         require(
             porosity > 0.0 && porosity < 1.0,
             "porosity",

@@ -1,7 +1,7 @@
 //! The strength κ of J2 plasticity, how flow softens it, and the flow that takes a stress back to it.
 
 use super::State;
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::{Lanes, Real};
 use crate::tensor::SymmetricTensor;
 use serde::{Deserialize, Serialize};
@@ -73,7 +73,7 @@ impl Strength {
     /// A strength that is not positive and finite, a residual strength above the peak, a slope that is not positive and
     /// finite.
     pub fn softening_linearly(peak: f64, residual: f64, slope: f64) -> Result<Self, Error> {
-        require(slope > 0.0, "slope of softening", slope, "positive (Pa)")?;
+        positive(slope, "slope of softening", "positive (Pa)")?;
         Self::new(peak, residual, Softening::Linear(slope))
     }
 
@@ -90,7 +90,7 @@ impl Strength {
     }
 
     fn new(peak: f64, residual: f64, softening: Softening) -> Result<Self, Error> {
-        require(peak > 0.0, "peak strength", peak, "positive (Pa)")?;
+        positive(peak, "peak strength", "positive (Pa)")?;
         require(
             residual > 0.0 && residual <= peak,
             "residual strength",

@@ -8,7 +8,7 @@
 //! flow in the presence of shocks*, Los Alamos LA-1930, 1955): it damps what is left behind the front.
 
 use super::{Law, StateOf};
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::{SymmetricTensor, determinant};
 use nalgebra::Matrix3;
@@ -29,8 +29,8 @@ impl<M: Law> Viscous<M> {
     /// # Errors
     /// A density or a size that is not positive, a coefficient that is negative, or any not finite.
     pub fn new(law: M, density: f64, h: f64, [linear, quadratic]: [f64; 2]) -> Result<Self, Error> {
-        require(density > 0.0, "density", density, "positive (kg/m³)")?;
-        require(h > 0.0, "size of the cells", h, "positive (m)")?;
+        positive(density, "density", "positive (kg/m³)")?;
+        positive(h, "size of the cells", "positive (m)")?;
         for coefficient in [linear, quadratic] {
             let what = "coefficient of the artificial viscosity";
             require(coefficient >= 0.0, what, coefficient, "zero or positive")?;

@@ -1,6 +1,6 @@
 //! How a scene with water is solved.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 
 /// The functions of the pore pressure, beside those of the displacement on cells of size h.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -136,13 +136,8 @@ impl Settings {
     }
 
     pub(super) fn check(&self, conservative: bool) -> Result<(), Error> {
-        require(self.dt > 0.0, "time step", self.dt, "positive (s)")?;
-        require(
-            self.growth > 0.0,
-            "growth of the time step",
-            self.growth,
-            "positive",
-        )?;
+        positive(self.dt, "time step", "positive (s)")?;
+        positive(self.growth, "growth of the time step", "positive")?;
         require(
             self.tolerance >= 1e-13 && self.tolerance <= 1e-2,
             "tolerance of Newton's method",
@@ -150,10 +145,9 @@ impl Settings {
             "from 1e-13 to 1e-2",
         )?;
         if let PressureSpace::Projected { strength } = self.pressure_space {
-            require(
-                strength > 0.0,
-                "strength of the pressure projection",
+            positive(
                 strength,
+                "strength of the pressure projection",
                 "positive (1/Pa)",
             )?;
         }

@@ -4,7 +4,7 @@ use super::face::Acts;
 use super::plate::ties;
 use super::pores::{Pores, check_width, grown, keep_before_walls};
 use super::{OfHats, PressureSpace, Settings, Solver, Space, Tangent, Water};
-use crate::error::{Error, Fault, require};
+use crate::error::{Error, Fault, positive, require};
 use crate::grid::{Axis, Grid};
 use crate::implicit::failure::Failure;
 use crate::implicit::held;
@@ -92,10 +92,9 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         )?;
         held::check(&scene.constraints)?;
         let moduli = moduli_of(&scene.body.law, settings.dt);
-        require(
-            moduli.mu > 0.0,
-            "shear modulus of a body with water",
+        positive(
             moduli.mu,
+            "shear modulus of a body with water",
             "positive (Pa)",
         )?;
         let solid_space: Space<I> = Space::on(scene.grid)?;

@@ -2,7 +2,7 @@
 
 use super::{Deformation, Remedy, fill, fill_with_products, mean};
 use crate::eights::{AHEAD, Eights};
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::memory::Memoryless;
 use crate::number::Eight;
 use crate::parallel::{CHUNK, for_each_piece};
@@ -67,7 +67,7 @@ impl FbarConsistent {
     /// `times` that are negative, a modulus that is not positive, or either not finite.
     pub fn holding(mut self, times: f64, modulus: f64) -> Result<Self, Error> {
         require(times >= 0.0, "pressures to hold", times, "zero or positive")?;
-        require(modulus > 0.0, "modulus", modulus, "positive (Pa)")?;
+        positive(modulus, "modulus", "positive (Pa)")?;
         self.hold = times / modulus;
         Ok(self)
     }
