@@ -113,17 +113,21 @@ impl CamClay {
 
 /// The elastic volume strain at a pressure (Pa), which grows without bound as pores close: by bisection.
 fn volume_at(elasticity: &ImprovedHencky, pressure: f64) -> f64 {
-    let (mut low, mut high) = ((1.0 - elasticity.porosity).ln(), 0.0);
+    let above = |volume: f64| -elasticity.volumetric(volume)[1] > pressure;
+    bisect([(1.0 - elasticity.porosity).ln(), 0.0], above)[1]
+}
+
+/// Halves a bracket until no number is left between its ends; `below` tells whether a number is below the one sought.
+fn bisect([mut low, mut high]: [f64; 2], below: impl Fn(f64) -> bool) -> [f64; 2] {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        let [_, mean, _] = elasticity.volumetric(middle);
-        if -mean > pressure {
+        if below(middle) {
             low = middle;
         } else {
             high = middle;
         }
     }
-    high
+    [low, high]
 }
 
 impl Law for CamClay {

@@ -1,8 +1,9 @@
 //! A run that is saved, built anew and restored goes on bit for bit; what is not its memory is refused.
 
+use crate::scenes::remedies;
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::remedy::{FbarRate, Standard};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength};
@@ -20,16 +21,6 @@ const STEPS: usize = 60;
 
 fn solid() -> NeoHookean {
     NeoHookean::new(100.0, 0.4).unwrap()
-}
-
-fn remedies() -> [Box<dyn Remedy<2>>; 5] {
-    [
-        Box::new(Standard),
-        Box::new(FbarRecursive::default()),
-        Box::new(FbarTotal::default()),
-        Box::new(FbarRate::default()),
-        Box::new(FbarConsistent::default()),
-    ]
 }
 
 /// A block `width` cells wide that is shaken along the floor, pressed, pulled and damped.
@@ -92,10 +83,6 @@ fn seen(run: &mut dyn Simulation<2>) -> String {
     )
 }
 
-fn steps(run: &mut dyn Simulation<2>, count: usize) {
-    run.advance(count).unwrap();
-}
-
 /// Straight on against stopped after every step: between any two sorts, and just before every strike of the
 /// kinetic damping, when it matters what the energy was.
 fn goes_on(name: &str, build: &dyn Fn() -> Box<dyn Simulation<2>>) {
@@ -121,7 +108,7 @@ fn of_basis<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone + 'sta
     name: &str,
     transfer: &T,
 ) {
-    for k in 0..remedies().len() {
+    for k in 0..remedies::<2>().len() {
         goes_on(&format!("{name}, remedy {k}"), &|| {
             let remedy = remedies().into_iter().nth(k).unwrap();
             let (scene, settings) = scene(solid(), transfer.clone(), remedy, 6);
@@ -166,7 +153,7 @@ fn gimp(remedy: Box<dyn Remedy<2>>, width: usize) -> Solver<2, 3, Gimp, NeoHooke
 
 fn saved() -> Saved {
     let mut run = gimp(Box::new(FbarRate::default()), 6);
-    steps(&mut run, 25);
+    run.advance(25).unwrap();
     run.save().unwrap()
 }
 

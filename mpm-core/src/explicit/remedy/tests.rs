@@ -23,6 +23,19 @@ struct Bench<const D: usize, const S: usize, B> {
     reach: Reach,
 }
 
+/// Π of a bench.
+macro_rules! averages {
+    ($bench:ident) => {
+        Projection {
+            lattice: &$bench.lattice,
+            slabs: &$bench.slabs,
+            reach: &$bench.reach,
+            averaging: &mut Averaging::new($bench.lattice.len()),
+            count: &mut 0,
+        }
+    };
+}
+
 impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
     fn new(grid: Grid<D>, mut particles: Particles<D>) -> Self {
         let lattice = Lattice::new(grid, WallTreatment::OpenKnot);
@@ -38,14 +51,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
 
     fn average(&self, field: &[f64]) -> Vec<f64> {
         let mut out = field.to_vec();
-        Projection {
-            lattice: &self.lattice,
-            slabs: &self.slabs,
-            reach: &self.reach,
-            averaging: &mut Averaging::new(self.lattice.len()),
-            count: &mut 0,
-        }
-        .average(&self.particles, &mut out);
+        averages!(self).average(&self.particles, &mut out);
         out
     }
 }
@@ -111,22 +117,14 @@ fn properties<const S: usize, B: Basis<S>>(places: &[[f64; 4]]) {
         |a: &[f64], b: &[f64]| -> f64 { (0..a.len()).map(|p| volume[p] * a[p] * b[p]).sum() };
     let (pq, pr) = (bench.average(&q), bench.average(&r));
     let scale = product(&q, &q) + product(&r, &r) + 1.0;
-    assert!(
-        (product(&r, &pq) - product(&q, &pr)).abs() < ROUNDING * scale,
-        "symmetry"
-    );
-    assert!(product(&q, &pq) > -ROUNDING * scale, "positive");
-    assert!(
-        product(&q, &pq) < product(&q, &q) + ROUNDING * scale,
-        "at most one"
-    );
+    let (small, qq) = (ROUNDING * scale, product(&q, &q));
+    let near = |a: f64, b: f64, what: &str| assert!((a - b).abs() < small, "{what}: {a} {b}");
+    near(product(&r, &pq), product(&q, &pr), "symmetry");
+    assert!((-small..qq + small).contains(&product(&q, &pq)), "0 to 1");
 
     // The volume integral of the field survives.
     let ones = vec![1.0; q.len()];
-    assert!(
-        (product(&ones, &pq) - product(&ones, &q)).abs() < ROUNDING * scale,
-        "integral"
-    );
+    near(product(&ones, &pq), product(&ones, &q), "integral");
 }
 
 fn clouds() -> impl Strategy<Value = Vec<[f64; 4]>> {
@@ -220,15 +218,7 @@ fn small_body(
             *j *= determinant(f);
         }
         let mut deformation = deformation(remedy, &raw);
-        let mut averaging = Averaging::new(bench.lattice.len());
-        let mut count = 0;
-        let mut projection = Projection {
-            lattice: &bench.lattice,
-            slabs: &bench.slabs,
-            reach: &bench.reach,
-            averaging: &mut averaging,
-            count: &mut count,
-        };
+        let mut projection = averages!(bench);
         let tried = remedy.next_j_bar(&particles, &deformation, &mut projection);
         let tried = tried.map(<[f64]>::to_vec);
         if let Some(next) = remedy.next_j_bar(&particles, &deformation, &mut projection) {
@@ -341,14 +331,7 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
 ) {
     let law = NeoHookean::new(70.0, 0.49).unwrap();
     let (bench, states, gradients) = strained::<S, B>(&law, places, carried);
-    let mut averaging = Averaging::new(bench.lattice.len());
-    let mut average = Projection {
-        lattice: &bench.lattice,
-        slabs: &bench.slabs,
-        reach: &bench.reach,
-        averaging: &mut averaging,
-        count: &mut 0,
-    };
+    let mut average = averages!(bench);
     let mut remedy = FbarConsistent::new(0.0).holding(times, 5e3).unwrap();
     let loaded = &bench.particles;
     let mut mean = Vec::new();
@@ -403,13 +386,7 @@ fn holding_does_nothing_without_pressure_or_disorder() {
         .map(|[a, b, c, d]| ([a - 0.5, b - 0.5], [*c, *d, *a, *b]))
         .collect();
     let (bench, _, _) = strained::<3, Gimp>(&law, &places, &moved);
-    let mut average = Projection {
-        lattice: &bench.lattice,
-        slabs: &bench.slabs,
-        reach: &bench.reach,
-        averaging: &mut Averaging::new(bench.lattice.len()),
-        count: &mut 0,
-    };
+    let mut average = averages!(bench);
     let mut remedy = FbarConsistent::default().holding(10.0, 5e3).unwrap();
     remedy.force_mean(&bench.particles, &mut average, &mut Vec::new());
     let grown = vec![SMatrix::<f64, 2, 2>::identity() * 1.1; places.len()];
@@ -449,13 +426,7 @@ proptest! {
             // Without a change of volume, to first order and to second.
             let sheared = |l: &SMatrix<f64, 2, 2>| SMatrix::<f64, 2, 2>::new(1.0, shear * l[(0, 1)], 0.0, 1.0);
             let delta_f: Gradients = gradients.iter().map(sheared).collect();
-            let mut average = Projection {
-                lattice: &bench.lattice,
-                slabs: &bench.slabs,
-                reach: &bench.reach,
-                averaging: &mut Averaging::new(bench.lattice.len()),
-                count: &mut 0,
-            };
+            let mut average = averages!(bench);
             let mut remedy = FbarConsistent::new(100.0);
             let deformation = deformation(&remedy, &delta_f);
             let next = remedy.next_j_bar(&bench.particles, &deformation, &mut average);

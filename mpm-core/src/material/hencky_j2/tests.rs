@@ -231,11 +231,7 @@ fn softening_is_integrated_exactly_where_the_direction_stays() {
         let (mut lo, mut hi) = (0.0, 2.0 * end);
         for _ in 0..100 {
             let middle = 0.5 * (lo + hi);
-            if left(middle) > 0.0 {
-                lo = middle;
-            } else {
-                hi = middle;
-            }
+            *(if left(middle) > 0.0 { &mut lo } else { &mut hi }) = middle;
         }
         for steps in [1, 10, 1000] {
             let step = end / f64::from(steps);
