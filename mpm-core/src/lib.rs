@@ -72,6 +72,8 @@ pub mod contact;
 pub mod eights;
 pub mod error;
 pub mod explicit;
+#[cfg(test)]
+mod fixture;
 pub mod frame;
 pub mod grid;
 pub mod implicit;

@@ -2,12 +2,13 @@
 
 use super::*;
 use crate::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use crate::fixture::Affine;
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::material::{Hencky, HenckyJ2, Hypoelastic, JaumannUpdate, NeoHookean, Strength};
-use crate::memory::{Memory, Memoryless};
+use crate::memory::Memory;
 use crate::space::embed;
-use crate::stage::{BodyForce, Constraint, End, Wall, WallKind};
+use crate::stage::{BodyForce, End, Wall, WallKind};
 use nalgebra::SMatrix;
 
 const YOUNG: f64 = 1e5;
@@ -83,27 +84,6 @@ fn places_of<I: Interpolation<D>, const D: usize>() -> Places {
     }
 }
 
-/// Moves the nodes at the faces of the grid, and beyond, as the field u = G (x − c) does, with the centre c.
-struct Affine<const D: usize>(SMatrix<f64, D, D>);
-
-impl<const D: usize> Memoryless for Affine<D> {}
-
-impl<const D: usize> Constraint<D> for Affine<D> {
-    fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {
-        let on_face = |(x, a): (&f64, &Axis)| *x < a.lo + 1e-9 || *x > a.hi(grid.h) - 1e-9;
-        let at_edge = position.iter().zip(&grid.axes).any(on_face);
-        at_edge.then(|| {
-            (0..D)
-                .map(|b| self.0[(axis, b)] * (position[b] - CENTRE))
-                .sum()
-        })
-    }
-
-    fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
-        self
-    }
-}
-
 /// The stresses after one step of the particles that lie within `radius` (m) of the centre, which is affine too.
 fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
     law: &M,
@@ -126,7 +106,14 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
         tolerance: 1e-13,
         ..Settings::new(1.0).stabilised(stabilisation)
     };
-    let mut solver = Solver::<D, I, M>::new(scene.constrain(Affine(gradient)), settings).unwrap();
+    let mut solver = Solver::<D, I, M>::new(
+        scene.constrain(Affine {
+            gradient,
+            centre: CENTRE,
+        }),
+        settings,
+    )
+    .unwrap();
     solver.step().unwrap();
     // Parts of an affine motion, one after the other, are another one.
     assert_eq!(solver.convergence().unwrap().parts, 1);

@@ -4,6 +4,7 @@ use super::*;
 use crate::basis::{Gimp, Linear};
 use crate::body::Body;
 use crate::error::Fault;
+use crate::fixture::{Affine, lattice};
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::material::{Hencky, ImprovedHencky};
@@ -56,17 +57,9 @@ fn standing<const D: usize, M: Law>(
     let mut axes = [Axis::walls(0.0, WIDE); D];
     axes[D - 1] = Axis::bounded(0.0, HIGH + 2, (Side::Wall, Side::Open));
     let grid = Grid::new(H, axes).unwrap();
-    let along = |a: usize| 2 * if a == D - 1 { HIGH } else { WIDE };
-    let count: usize = (0..D).map(along).product();
-    let positions = (0..count)
-        .map(|mut k| {
-            std::array::from_fn(|a| {
-                let i = k % along(a);
-                k /= along(a);
-                0.5 * H * (i as f64 + 0.5)
-            })
-        })
-        .collect();
+    let mut count = [2 * WIDE; D];
+    count[D - 1] = 2 * HIGH;
+    let positions = lattice(count, 0.5 * H, 0.0);
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let particles = particles.deformed(deformed);
@@ -110,23 +103,6 @@ fn loaded<const D: usize, I: OfHats<D>>(
     Solver::new(scene, water, settings).unwrap()
 }
 
-/// Moves the nodes at the faces of the grid, and beyond, as the field u = G x does.
-struct Affine<const D: usize>(SMatrix<f64, D, D>);
-
-impl<const D: usize> Memoryless for Affine<D> {}
-
-impl<const D: usize> Constraint<D> for Affine<D> {
-    fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {
-        let on_face = |(x, a): (&f64, &Axis)| *x < a.lo + 1e-9 || *x > a.hi(grid.h) - 1e-9;
-        let at_edge = position.iter().zip(&grid.axes).any(on_face);
-        at_edge.then(|| (0..D).map(|b| self.0[(axis, b)] * position[b]).sum())
-    }
-
-    fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
-        self
-    }
-}
-
 /// A box between walls, all of whose faces move as an affine field does, is strained by it all through; where water may
 /// leave everywhere the effective stress is the law's and the pressure nothing, and where it may not an isochoric field
 /// needs no pressure either.
@@ -140,16 +116,14 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
         gradient = f - SMatrix::identity();
     }
     let grid = Grid::new(H, [Axis::walls(0.0, HIGH); D]).unwrap();
-    let along = 2 * HIGH;
-    let positions = (0..along.pow(D as u32))
-        .map(|k| {
-            std::array::from_fn(|a| 0.5 * H * ((k / along.pow(a as u32) % along) as f64 + 0.5))
-        })
-        .collect();
+    let positions = lattice([2 * HIGH; D], 0.5 * H, 0.0);
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let law = porous();
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(Affine(gradient));
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(Affine {
+        gradient,
+        centre: 0.0,
+    });
     let water = Water::new(POROSITY, kozeny_carman());
     // One held node fixes a pressure that nothing else does.
     let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));

@@ -1,13 +1,8 @@
 //! The stiffness against difference quotients of the forces, and its symmetry.
 
 use super::*;
+use crate::fixture::{apart, multiply, noise, slope};
 use nalgebra::DMatrix;
-
-/// Numbers in (−1, 1), the same every time.
-fn noise(k: usize) -> f64 {
-    let x = (k as f64 * 12.9898).sin() * 43_758.547;
-    2.0 * (x - x.floor()) - 1.0
-}
 
 /// A strained body with free faces, held at one end, on a trial of random increments.
 pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law>(
@@ -70,48 +65,19 @@ pub(super) fn slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
             .map(|(f, g)| f + g);
         step.free(&sum.collect::<Vec<_>>())
     };
-    let quotient = |s: f64| -> Vec<f64> {
-        let ends = forces(s).into_iter().zip(forces(-s));
-        ends.map(|(a, b)| (a - b) / (2.0 * s)).collect()
-    };
-    let [coarse, middle, fine] = [4e-3, 2e-3, 1e-3].map(quotient);
+    let (exact, known) = slope(forces);
     let trial = step.trial(&u, nodes).unwrap();
     let tangents = step.tangents(&trial);
     let product = step.apply(&tangents, &x, nodes);
-    let (mut error, mut known) = (0.0, 0.0);
-    for i in 0..count {
-        let [first, second] = [
-            (4.0 * middle[i] - coarse[i]) / 3.0,
-            (4.0 * fine[i] - middle[i]) / 3.0,
-        ];
-        let exact = (16.0 * second - first) / 15.0;
-        error += (product[i] - exact).powi(2);
-        known += (exact - second).powi(2);
-    }
     // Rounding of the forces over the least step.
     let rounding = 100.0 * f64::EPSILON * algebra::norm(&product) / 1e-3;
-    assert!(
-        error.sqrt() <= known.sqrt() + rounding,
-        "{} {}",
-        error.sqrt(),
-        known.sqrt()
-    );
+    let (error, known) = (apart(&product, &exact), algebra::norm(&known));
+    assert!(error <= known + rounding, "{error} {known}");
     if remedy == Remedy::None {
         let values = step.stiffness(&tangents, &setting.pattern);
         let assembled = multiply(&setting.pattern, &values, &x);
-        let apart = assembled.iter().zip(&product).map(|(a, b)| (a - b).powi(2));
-        assert!(apart.sum::<f64>().sqrt() < 1e-12 * algebra::norm(&product));
+        assert!(apart(&assembled, &product) < 1e-12 * algebra::norm(&product));
     }
-}
-
-fn multiply(pattern: &Pattern, values: &[f64], x: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; x.len()];
-    for (column, x) in x.iter().enumerate() {
-        for k in pattern.begin[column]..pattern.begin[column + 1] {
-            out[pattern.row[k]] += values[k] * x;
-        }
-    }
-    out
 }
 
 fn ground() -> HenckyJ2 {

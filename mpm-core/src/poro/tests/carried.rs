@@ -25,15 +25,7 @@ const ALL: usize = 12;
 /// Water at rest in a body that is carried up through the cells keeps its pressure, linear below the top: no increment
 /// varies within a cell, or bends from cell to cell.
 fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
-    let along = 2 * BODY;
-    let positions = (0..along.pow(D as u32))
-        .map(|k| {
-            std::array::from_fn(|a| {
-                let place = (k / along.pow(a as u32) % along) as f64;
-                BEFORE as f64 * H + 0.5 * H * (place + 0.5)
-            })
-        })
-        .collect();
+    let positions = lattice([2 * BODY; D], 0.5 * H, BEFORE as f64 * H);
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let top = (BEFORE + BODY) as f64 * H;
@@ -85,9 +77,7 @@ fn water_at_rest_is_carried_through_the_cells() {
 #[test]
 fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     let grid = Grid::new(H, [Axis::periodic(0.0, HIGH)]).unwrap();
-    let positions = (0..2 * HIGH)
-        .map(|k| [0.5 * H * (k as f64 + 0.5)])
-        .collect();
+    let positions = lattice([2 * HIGH], 0.5 * H, 0.0);
     let particles = Particles::new(positions, 0.5 * H, 1000.0, [0.25 * H]).unwrap();
     let scene = Scene::new(grid, Body::new(porous(), particles).unwrap());
     let water = Water::new(POROSITY, kozeny_carman());
