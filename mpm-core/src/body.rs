@@ -236,9 +236,9 @@ impl<const D: usize, M: Law> Chunk<'_, D, M> {
         fetch(self.external_force, k);
     }
 
-    /// Asks the processor for what the law and the place of the `k`-th eight need.
+    /// Prefetches what the law and the position of the `k`-th eight need.
     #[inline(always)]
-    pub fn fetch_rest(&self, k: usize) {
+    pub fn fetch_second_half(&self, k: usize) {
         fetch(self.states, k);
         fetch(self.position, k);
         fetch(self.volume, k);

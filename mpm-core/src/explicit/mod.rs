@@ -3,7 +3,7 @@
 mod contact;
 mod memory;
 pub mod remedy;
-mod rest;
+mod second_half;
 mod settings;
 mod sort;
 mod stages;

@@ -1,6 +1,6 @@
 //! The stages of the explicit step, in its order.
 
-use super::rest::{ForceStress, Rest, force_stress_of};
+use super::second_half::{ForceStress, SecondHalf, force_stress_of};
 use super::transfer::{Given, Received, Transfer};
 use super::{ChunkSums, NodeSums, Solver};
 use crate::basis::Basis;
@@ -145,10 +145,10 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         self.lattice.unfold(&mut self.nodes);
     }
 
-    /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16); and in the same pass the rest of their
-    /// step, [`Rest`], unless the remedy averages before it.
+    /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16); in the same pass the
+    /// [`SecondHalf`] of their step, unless the remedy averages before it.
     pub(super) fn grid_to_particles(&mut self) -> Result<(), Error> {
-        let rest = self.rest();
+        let second_half = self.second_half();
         let (lattice, nodes) = (&self.lattice, &self.nodes);
         let body = &mut self.scene.body;
         let transfer = &mut self.settings.transfer;
@@ -174,7 +174,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                 for k in 0..blocks(p.len()) {
                     p.fetch_motion(k + AHEAD);
                     if !deformation.is_there() {
-                        p.fetch_rest(k + AHEAD);
+                        p.fetch_second_half(k + AHEAD);
                     }
                     let x = components(block(p.position, k, &mut None));
                     let functions = lattice.functions(&x, &half_size);
@@ -232,7 +232,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                     if deformation.is_there() {
                         deformation.keep(k, &delta_f, volume_change, &increment);
                     } else {
-                        rest.finish(&mut p, k, &delta_f, &increment, sums);
+                        second_half.finish(&mut p, k, &delta_f, &increment, sums);
                     }
                 }
                 sums.stress_power = stress_power.reduce_add();
@@ -270,10 +270,10 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             * self.ledger.work.particles;
     }
 
-    /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; and the rest of the particles' step, [`Rest`],
-    /// unless it is done.
+    /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; then the [`SecondHalf`] of the
+    /// particles' step, unless it is done.
     pub(super) fn average_volume_change(&mut self) -> Result<(), Error> {
-        let rest = self.rest();
+        let second_half = self.second_half();
         let before = self.ledger.work.projections;
         let mut projection = Projection {
             lattice: &self.lattice,
@@ -289,7 +289,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             for_each_chunk(all, &mut self.chunk_sums, &|(mut p, deformation), sums| {
                 let next = next.map(|next| &next[p.begin..p.begin + p.len()]);
                 for k in 0..blocks(p.len()) {
-                    p.fetch_rest(k + AHEAD);
+                    p.fetch_second_half(k + AHEAD);
                     let delta_f = match next {
                         Some(next) => {
                             let (j_bar, next) = (numbers(p.j_bar, k), numbers(next, k));
@@ -298,7 +298,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                         }
                         None => deformation.raw(k),
                     };
-                    rest.finish(&mut p, k, &delta_f, &deformation.increment(k), sums);
+                    second_half.finish(&mut p, k, &delta_f, &deformation.increment(k), sums);
                 }
             });
         }
@@ -306,9 +306,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         self.first_fault()
     }
 
-    fn rest(&self) -> Rest<D> {
+    fn second_half(&self) -> SecondHalf<D> {
         let half_size = &self.scene.body.particles.half_size;
-        Rest::of::<S, B>(&self.scene.grid, self.settings.dt, self.density, half_size)
+        SecondHalf::of::<S, B>(&self.scene.grid, self.settings.dt, self.density, half_size)
     }
 
     pub(super) fn filter_particles(&mut self) {
