@@ -18,7 +18,7 @@ pub struct Body<const D: usize, M: Law> {
     pub law: M,
     /// The particles.
     pub particles: Particles<D>,
-    /// What the law remembers of each.
+    /// Law's state of each.
     states: Vec<M::State>,
 }
 
@@ -51,7 +51,7 @@ impl<const D: usize, M: Law> Body<D, M> {
         Ok(body)
     }
 
-    /// What the law remembers of each particle.
+    /// State of every particle.
     pub(crate) fn states(&self) -> &[M::State] {
         &self.states
     }
@@ -182,13 +182,13 @@ impl<const D: usize, M: Law> Body<D, M> {
     }
 }
 
-/// Some particles of a body: a piece of every column that there is, and nothing of those that there aren't.
+/// Some particles of a body: a slice of all columns; absent columns give empty slices.
 pub struct Chunk<'a, const D: usize, M: Law> {
     /// The law of the material.
     pub law: &'a M,
     /// The place of the first particle in the columns.
     pub begin: usize,
-    /// What the law remembers.
+    /// Law's states.
     pub states: &'a mut [M::State],
     /// Position x (m).
     pub position: &'a mut [[f64; D]],

@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 #[derive(Debug, Clone, Copy)]
 pub struct Eights<'a, T> {
     blocks: &'a [[T; EIGHT]],
-    /// What is left over, if anything is.
+    /// Remaining entries, if any.
     last: Option<[T; EIGHT]>,
 }
 

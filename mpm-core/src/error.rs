@@ -3,7 +3,7 @@
 use crate::memory::MemoryError;
 use thiserror::Error;
 
-/// What went wrong in a step, with the offending value.
+/// Failure in a step, with the offending value.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Fault {
     /// A quantity of a particle is NaN or infinite.
@@ -102,7 +102,7 @@ pub enum Error {
         step: u64,
         /// Identity of the first offending particle (its place in the seeding order).
         particle: u32,
-        /// What broke.
+        /// Failure.
         fault: Fault,
     },
     /// Newton's method found no equilibrium, however short the step. The run stays where the last one was found, from which
@@ -140,11 +140,11 @@ pub enum Error {
         time: f64,
         /// Number of steps completed before.
         step: u64,
-        /// What it is: a load, an area.
+        /// Name of the quantity: a load, an area.
         what: &'static str,
         /// The sum over the body (N, m²).
         value: f64,
-        /// What it should be.
+        /// Prescribed value.
         whole: f64,
     },
     /// A body that was handed over is not one of the scene.

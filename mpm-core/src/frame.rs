@@ -11,11 +11,11 @@ use nalgebra::SMatrix;
 /// How a scene is described from elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame<const D: usize> {
-    /// Of every axis of the frame the axis of the scene that it lies along, and 1 or −1 if it points the other way.
+    /// Axis of the scene along which each axis of the frame lies, and 1, or −1 if it points the other way.
     axes: [(usize, f64); D],
     /// Where the scene's origin lies, in the frame's units.
     origin: [f64; D],
-    /// What a metre and a pascal are in the frame's units.
+    /// A metre and a pascal in the frame's units.
     length: f64,
     stress: f64,
 }
@@ -57,17 +57,17 @@ impl<const D: usize> Frame<D> {
         }
     }
 
-    /// What a quantity of the unit Paᵃ mᵇ is multiplied by.
+    /// Factor of a quantity of the unit Paᵃ mᵇ.
     pub fn scale(&self, stress: i32, length: i32) -> f64 {
         self.stress.powi(stress) * self.length.powi(length)
     }
 
-    /// What a force (Pa mᴰ⁻¹) is multiplied by.
+    /// Factor of a force (Pa mᴰ⁻¹).
     pub fn force(&self) -> f64 {
         self.scale(1, D as i32 - 1)
     }
 
-    /// What a stiffness, a force over a length, is multiplied by.
+    /// Factor of a stiffness, a force over a length.
     pub fn stiffness(&self) -> f64 {
         self.scale(1, D as i32 - 2)
     }

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, positive, require};
 
-/// What stands at one end of an axis.
+/// Kind of end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     /// Nothing: material may come near but not leave.

@@ -14,9 +14,9 @@
 //! * [`stage`]: loads, force filters, constraints and particle filters;
 //! * [`contact`]: barrier contact with rigid bodies, with friction;
 //! * [`projection`]: the volume average Π;
-//! * [`frame`]: the same scene from elsewhere, in other units;
+//! * [`frame`]: a scene in another frame and other units;
 //! * [`monitor`]: mass, momentum, the energy budget, J and ln(J/J̄), reactions;
-//! * [`memory`]: how a run is stopped and goes on as if it had not been.
+//! * [`memory`]: checkpoint and bit-identical restart.
 //!
 //! What only the explicit step needs, in [`explicit`]: its [`Settings`](explicit::Settings), particle–grid transfers
 //! ([`explicit::transfer`]: PIC/FLIP blend, APIC, XPIC, MUSL) and remedies ([`explicit::remedy`]: how the averaged

@@ -25,7 +25,7 @@ pub enum MemoryError {
     Read {
         /// The part.
         part: &'static str,
-        /// What is wrong with the bytes.
+        /// Cause.
         cause: postcard::Error,
     },
     /// More bytes than this part's memory has.
@@ -42,7 +42,7 @@ pub enum MemoryError {
     /// A size that is not that of the scene.
     #[error("{what}: {saved} in the memory, {expected} in the scene")]
     Size {
-        /// What is counted.
+        /// Name of the count.
         what: &'static str,
         /// The memory's.
         saved: usize,
@@ -119,7 +119,7 @@ impl Saved {
 
 /// Something that remembers from one step to the next.
 pub trait Memory {
-    /// What it remembers now.
+    /// Present memory.
     ///
     /// # Errors
     /// A value that has no bytes.
@@ -162,7 +162,7 @@ pub(crate) fn require(
     })
 }
 
-/// What each of a list remembers.
+/// Memories of the parts of a list.
 ///
 /// # Errors
 /// A value that has no bytes.

@@ -1,4 +1,4 @@
-//! What the nodes of a grid hold during a step.
+//! Nodal values during a step.
 
 use std::ops::AddAssign;
 use wide::f64x4;
@@ -13,7 +13,7 @@ pub fn padded<const D: usize>(vector: &[f64; D]) -> Node {
     Node::from(padded)
 }
 
-/// What the nodes hold during a step: one cache line each.
+/// Values of a node during a step: one cache line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C, align(64))]
 pub struct NodalState {

@@ -2,7 +2,7 @@
 //!
 //! A formula that is written for any [`Real`] serves one particle and, in one go, eight of them, and of a [`Dual`]
 //! number it gives the derivatives as well. It must not branch on a value, but may do less where *all* of its numbers
-//! allow it. What takes numbers apart loses their derivatives: it asks for [`Lanes`], which a dual number doesn't have.
+//! allow it. Code that takes numbers apart loses derivatives: it asks for [`Lanes`], which a dual number lacks.
 
 mod dual;
 

@@ -35,7 +35,7 @@ pub struct Particles<const D: usize> {
     pub affine: Vec<SMatrix<f64, D, D>>,
     /// Mass (kg; per metre of depth in plane strain, per square metre of section in 1D).
     pub mass: Vec<f64>,
-    /// Reference volume V⁰ (m³, likewise).
+    /// Reference volume V⁰ (m³; m² in plane strain, m in 1D).
     pub reference_volume: Vec<f64>,
     /// Volume that weights stresses and averages, V (m³), Eq. (15).
     pub volume: Vec<f64>,
@@ -156,7 +156,7 @@ impl<const D: usize> Particles<D> {
         self.position.is_empty()
     }
 
-    /// What `f` gives of every particle, by its place in the columns, in seeding order.
+    /// Values of `f` at every place in the columns, in seeding order.
     pub fn seeded<T: Copy + Default>(&self, f: impl Fn(usize) -> T) -> Vec<T> {
         let mut values = vec![T::default(); self.len()];
         for (k, id) in self.id.iter().enumerate() {

@@ -24,7 +24,7 @@ pub trait Average<const D: usize> {
 /// change their volumes: a remedy that averages six times in a step computes them once.
 #[derive(Debug, Clone)]
 pub struct Averaging<const D: usize, const S: usize> {
-    /// Of every particle.
+    /// Weights of every particle.
     weights: Vec<Weights<D, S>>,
     /// V_i of every node. These two arrays are longer than the lattice by the padding of the last row.
     volumes: Vec<f64>,
@@ -35,7 +35,7 @@ pub struct Averaging<const D: usize, const S: usize> {
 }
 
 impl<const D: usize, const S: usize> Averaging<D, S> {
-    /// For a lattice of so many nodes.
+    /// Workspace for a lattice with this number of nodes.
     #[must_use]
     pub fn new(nodes: usize) -> Self {
         Self {
@@ -67,7 +67,7 @@ pub struct Projection<'a, const D: usize, const S: usize, B> {
     pub slabs: &'a [Range<usize>],
     /// The nodes within the particles' reach.
     pub reach: &'a Reach,
-    /// What it works with.
+    /// Workspace.
     pub averaging: &'a mut Averaging<D, S>,
     /// Counts the applications.
     pub count: &'a mut u64,

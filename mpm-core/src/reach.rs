@@ -19,7 +19,7 @@ pub struct Reach {
 type Places = Range<usize>;
 
 impl Reach {
-    /// What particles at `positions` (m) with half sizes `half_size` (m) reach if each moves by a cell at most.
+    /// Nodes within reach of particles at `positions` (m) with half sizes `half_size` (m), if each moves by a cell at most.
     #[must_use]
     pub fn of<const D: usize, const S: usize, B: Basis<S>>(
         lattice: &Lattice<D, S, B>,
@@ -70,7 +70,7 @@ impl Reach {
         after > 0 && self.runs[after - 1].contains(&node)
     }
 
-    /// What is within reach of a piece of the nodes that begins at node `begin` and has `n`: by places in the piece.
+    /// Parts within reach of a piece of `n` nodes that begins at node `begin`, as places in the piece.
     pub fn within(&self, begin: usize, n: usize) -> impl Iterator<Item = Range<usize>> {
         let end = begin + n;
         let first = self.runs.partition_point(|run| run.end <= begin);

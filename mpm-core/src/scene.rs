@@ -1,4 +1,4 @@
-//! What a run is of: a grid, a body, and what acts on it.
+//! Scene of a run: a grid, a body, and what acts on it.
 
 use crate::body::Body;
 use crate::contact::RigidContact;
@@ -9,7 +9,7 @@ use crate::material::Law;
 use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
 use crate::stage::{Constraint, Load};
 
-/// What the body acts on, by its place in the scene's list.
+/// A part of the scene that the body acts on, by its place in the scene's list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// A constraint.
@@ -102,7 +102,7 @@ impl<const D: usize, M: Law> Scene<D, M> {
         Ok(())
     }
 
-    /// What the next run is handed: the body, and the sticks of the contacts, as bytes.
+    /// Bytes for the next run: the body, and the sticks of the contacts.
     ///
     /// # Errors
     /// A value that has no bytes.

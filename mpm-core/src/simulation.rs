@@ -1,4 +1,4 @@
-//! What can be done with a run and asked of it.
+//! Interface of a run, whatever its solver.
 
 use crate::error::Error;
 use crate::ledger::Ledger;
@@ -63,7 +63,7 @@ pub trait Simulation<const D: usize>: Memory + Send {
     fn condition(&self) -> f64 {
         f64::NAN
     }
-    /// What the run did so far.
+    /// Work counters so far.
     fn work(&self) -> Work {
         self.ledger().work
     }
@@ -71,9 +71,9 @@ pub trait Simulation<const D: usize>: Memory + Send {
     fn spent(&self) -> Spent {
         self.ledger().spent
     }
-    /// What the body does to a part of the scene; NaN of a part that there isn't.
+    /// Reaction of a part of the scene; NaN for a part that does not exist.
     fn on(&self, part: Part) -> Reaction;
-    /// What left of the body's water, of a body that has any.
+    /// Water balance, of a body with water.
     fn water(&self) -> Option<&WaterBalance> {
         None
     }

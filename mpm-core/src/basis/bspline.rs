@@ -83,7 +83,7 @@ impl<const S: usize> Basis<S> for BSpline<S> {
                 })
             })
             .collect();
-        // Of a function only the knots within its interval's reach matter.
+        // Only the knots within reach of a function's interval matter.
         let equally_spaced = |cell: &usize| {
             let knots = &knots[cell + 1..=cell + 2 * degree];
             knots.windows(2).all(|pair| pair[1] - pair[0] == 1.0)

@@ -1,4 +1,4 @@
-//! The face of a rigid body that moves as it is told.
+//! Face of a rigid body with a prescribed motion.
 
 use crate::error::{Error, require};
 use crate::frame::Frame;
@@ -9,7 +9,7 @@ use crate::stage::{End, smooth_rise, smooth_stroke};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidFace<const D: usize> {
     axis: usize,
-    /// Of the outward normal along `axis`.
+    /// Sign of the outward normal along `axis`.
     sign: f64,
     position: f64,
     extent: [[f64; 2]; D],

@@ -65,7 +65,7 @@ impl Friction {
     }
 
     /// Force (N) on a particle whose stick is stretched by `stretch` (m), under the normal force `normal` (N,
-    /// positive). What the stick can't hold, it gives up.
+    /// positive). The stick gives up the stretch that it cannot hold.
     pub fn force<const D: usize>(&self, stretch: &mut [f64; D], normal: f64) -> [f64; D] {
         if let Some([share, _]) = self.kept(stretch, normal) {
             *stretch = stretch.map(|u| u * share);
@@ -117,7 +117,7 @@ mod tests {
             assert!((f - sought).abs() < 1e-15);
         }
         assert!((stretch[0] - 0.006).abs() < 1e-17 && (stretch[2] + 0.008).abs() < 1e-17);
-        // What was given up doesn't come back.
+        // Stretch that was given up does not come back.
         assert_eq!(friction.force(&mut stretch, 20.0), force);
     }
 

@@ -1,4 +1,4 @@
-//! Contact of the particles with rigid bodies: barrier, friction, and what they ask of the time step.
+//! Contact of the particles with rigid bodies: barrier, friction, and the stable time step.
 //!
 //! Formulas, choices and limits: `docs/contact.md`.
 
@@ -28,7 +28,7 @@ pub struct RigidContact<const D: usize> {
     tried: Vec<[f64; D]>,
     /// The particles that may touch the body before they are sorted again, by place.
     near: Vec<u32>,
-    /// What the particles do to the body.
+    /// Reaction of the body.
     reaction: Reaction,
 }
 
@@ -115,7 +115,7 @@ impl<const D: usize> RigidContact<D> {
         }
     }
 
-    /// What the particles do to the rigid body.
+    /// Reaction of the rigid body.
     pub fn reaction(&self) -> Reaction {
         self.reaction
     }

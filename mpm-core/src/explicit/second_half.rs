@@ -83,7 +83,7 @@ pub(super) fn force_stress_of<const D: usize, M: Law>(
     }
 }
 
-/// Second half of the particles' step: what it needs beside the particles.
+/// Second half of the particles' step.
 pub(super) struct SecondHalf<const D: usize> {
     dt: f64,
     h: f64,

@@ -1,4 +1,4 @@
-//! What the explicit step needs beside the scene.
+//! Settings of the explicit solver.
 
 use super::remedy::{Remedy, Standard};
 use super::transfer::Flip;

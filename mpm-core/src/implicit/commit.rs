@@ -1,4 +1,4 @@
-//! What a solution makes of the body: where its step ends, what is kept of forces and energies, and the new state.
+//! Commit of a solution: the end of its step, sums of forces and energies, and the new state.
 
 use super::algebra::dot;
 use super::contact;

@@ -29,7 +29,7 @@ pub(super) struct Obstacle<const D: usize> {
     sticks: Vec<[f64; D]>,
 }
 
-/// What an obstacle does to a particle.
+/// Action of an obstacle on a particle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Push<const D: usize> {
     /// Place of the particle, and of the obstacle in its list.
@@ -106,7 +106,7 @@ impl<const D: usize> Obstacle<D> {
     }
 }
 
-/// What obstacles do to the particles at a trial with the nodal increments `u` (m).
+/// Actions of obstacles on the particles at a trial with the nodal increments `u` (m).
 ///
 /// # Errors
 /// The first particle whose gap is closed.

@@ -140,7 +140,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             return;
         };
         let (elements, mass) = (&setting.elements, &inertia.mass);
-        // What the nodes had, (v/(α Δt) + (1/(2α) − 1) a), is the push over their mass.
+        // The nodes' history, (v/(α Δt) + (1/(2α) − 1) a), is the push over their mass.
         let u = solution.trial.u.iter().map(|u| SVector::from(*u));
         let columns = u.zip(&inertia.push).zip(&mass.node);
         let mut acceleration: Field<D> = columns

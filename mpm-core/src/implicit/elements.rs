@@ -28,15 +28,15 @@ pub(crate) struct Elements<const D: usize> {
     node: Vec<usize>,
     /// Where the nodes of every element begin, and those of the last one end.
     first_node: Vec<usize>,
-    /// Of every particle the element.
+    /// Element of every particle.
     element: Vec<usize>,
     /// Values of the functions that see a particle, one particle after the other.
     w: Vec<f64>,
-    /// Gradients (1/m), likewise.
+    /// Gradients (1/m), in the same order.
     dw: Vec<[f64; D]>,
     /// Where the functions of every particle begin, and those of the last one end.
     first: Vec<usize>,
-    /// What the places of particles are rounded by (m).
+    /// Rounding of the particles' positions (m).
     rounding: f64,
 }
 
@@ -65,7 +65,7 @@ pub(crate) fn of_domains<const D: usize, I: Interpolation<D>>(
 }
 
 impl<const D: usize> Elements<D> {
-    /// Of particles that stand in the [`order`] of elements.
+    /// Elements of particles that stand in their [`order`].
     pub(crate) fn new<I: Interpolation<D>>(
         functions_of: &I,
         originals: &[usize],
@@ -119,7 +119,7 @@ impl<const D: usize> Elements<D> {
             rounding: self.rounding,
         };
         for (element, run) in self.particles.iter().enumerate() {
-            // Of every function so far, whose it becomes a part of: place among the new ones, and share.
+            // Place among the new functions, and share, of every function so far.
             let mut nodes: Vec<usize> = Vec::new();
             let mut place = |node: usize| {
                 let known = nodes.iter().position(|n| *n == node);

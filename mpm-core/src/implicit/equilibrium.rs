@@ -1,4 +1,4 @@
-//! Forces and stiffness of a step: what its equations are made of.
+//! Forces and stiffness of a step.
 
 use super::algebra::dot;
 use super::average::{Average, UNSEEN};
@@ -47,7 +47,7 @@ pub(super) struct Trial<const D: usize> {
     pub(super) averaged: Vec<f64>,
     /// Aᵀ q of every particle (J); empty without F̄.
     share: Vec<f64>,
-    /// What rigid bodies do to particles.
+    /// Actions of rigid bodies on particles.
     pub(super) pushes: Vec<Push<D>>,
     /// Forces of the body's stress on the nodes less those of rigid bodies (N).
     pub(super) internal: Vec<SVector<f64, D>>,
@@ -130,7 +130,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         })
     }
 
-    /// What rigid bodies do to particles at nodal increments (m).
+    /// Actions of rigid bodies on particles at nodal increments (m).
     fn pushes(&self, u: &[[f64; D]]) -> Result<Vec<Push<D>>, (usize, Fault)> {
         let particles = &self.body.particles;
         contact::pushes(self.obstacles, self.elements, particles, &vectors(u))
@@ -148,7 +148,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         contact::open_share(self.obstacles, self.elements, particles, &u, &change)
     }
 
-    /// What is linear in the increments: penalties and inertia.
+    /// Forces that are linear in the increments: penalties and inertia.
     fn resistance(&self, u: &[[f64; D]]) -> Vec<SVector<f64, D>> {
         let mut forces = self.penalty_forces(u);
         if let Some(inertia) = self.inertia {

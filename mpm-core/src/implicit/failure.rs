@@ -6,13 +6,13 @@ use crate::ledger::Ledger;
 /// Why a step has no solution.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Failure {
-    /// After this many iterations the residual, over that of the loads, was this.
+    /// Iterations done, and the residual over that of the loads after them.
     NoConvergence(u32, f64),
     /// The matrix of this iteration could not be factorised.
     Singular(u32),
-    /// A particle was deformed beyond what can be.
+    /// A particle was deformed beyond the range of its law.
     Particle(usize, Fault),
-    /// Of what acts on the body from outside, by name, it bears only so much of the whole.
+    /// Only a part of what acts from outside is carried by the body: name, part and whole.
     Lost(&'static str, f64, f64),
 }
 

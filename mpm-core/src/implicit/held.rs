@@ -27,7 +27,7 @@ pub(crate) fn check<const D: usize>(constraints: &[Box<dyn Constraint<D>>]) -> R
     )
 }
 
-/// Of every component of every node what holds it: the first of the scene's constraints that does.
+/// Constraint of every component of every node: the first of the scene's constraints that holds it.
 pub(crate) fn components<const D: usize, I: Interpolation<D>, M: Law>(
     functions: &I,
     scene: &Scene<D, M>,

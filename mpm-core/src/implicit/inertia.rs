@@ -159,7 +159,7 @@ pub(super) struct Inertia<const D: usize> {
 }
 
 impl<const D: usize> Inertia<D> {
-    /// Of a step of `dt` (s) of a rule, if it has any.
+    /// Inertia in a step of `dt` (s) of a rule, if it has any.
     pub(super) fn of(
         rule: TimeRule,
         dt: f64,

@@ -1,4 +1,4 @@
-//! What the implicit solver asks of the functions on a grid.
+//! Interface of the functions on a grid for the implicit solver.
 
 use super::domains::Domains;
 use super::extension::{Nodes, Shares};
@@ -37,7 +37,7 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     /// Calls `visit` with every node and its position (m).
     fn for_each_node(&self, visit: impl FnMut(usize, [f64; D]));
 
-    /// Of every node the one that it is a periodic image of: itself if it is none.
+    /// Original of every node that is a periodic image; other nodes are their own.
     fn originals(&self) -> Vec<usize>;
 
     /// Puts the functions that see a particle at `x` (m) with half sizes `half_size` (m) in `functions`.

@@ -73,9 +73,9 @@ pub struct Solver<const D: usize, I, M: Law> {
     scene: Scene<D, M>,
     settings: Settings,
     functions: I,
-    /// Of every node the one that it is an image of.
+    /// Original of every node.
     originals: Vec<usize>,
-    /// Of every component of every node whether it is held.
+    /// Constraint of every component of every node, if held.
     held: Vec<[Option<Held>; D]>,
     moduli: Moduli,
     direct: Direct,
@@ -84,7 +84,7 @@ pub struct Solver<const D: usize, I, M: Law> {
     ledger: Ledger,
 }
 
-/// What a part of a step works with.
+/// Data of a part of a step.
 struct Setting<const D: usize> {
     elements: Elements<D>,
     penalties: Vec<Penalty>,
@@ -225,7 +225,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         (elements, average)
     }
 
-    /// What a step of `dt` (s) of the body as it is works with.
+    /// Setting of a step of `dt` (s) from the present state.
     fn setting(&self, dt: f64) -> Setting<D> {
         let particles = &self.scene.body.particles;
         let (elements, average) = self.averaging();

@@ -19,7 +19,7 @@ pub struct AxisPieces {
     pub walls: (bool, bool),
     /// Of every interval, whose first function has its index, the k-th derivatives of its k + 1 functions (1/mᵏ).
     pub top: Vec<[f64; MOST]>,
-    /// Of every interval ∫ w w′ dx (m).
+    /// ∫ w w′ dx (m) of every interval.
     pub mass: Vec<[[f64; MOST]; MOST]>,
 }
 

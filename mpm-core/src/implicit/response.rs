@@ -1,4 +1,4 @@
-//! What one particle answers to a trial ΔF of the step, and the derivatives of the answer.
+//! Response of one particle to a trial ΔF of the step, and its derivatives.
 //!
 //! All stresses here are first Piola–Kirchhoff stresses of the configuration at the step's start, times volume: a node's
 //! force is Σ P ∇w. With F̄ a particle has a potential V⁰ W(F̄) of ΔF and of its averaged change of volume a = A ΔJ,
@@ -16,7 +16,7 @@ pub(crate) const MOST: usize = 9;
 pub(super) struct Particle<'a, M: Law> {
     /// The law.
     pub(super) law: &'a M,
-    /// What it remembers.
+    /// State of the law.
     pub(super) state: &'a M::State,
     /// Duration of the step (s).
     pub(super) dt: f64,
@@ -70,7 +70,7 @@ pub(super) struct Tangent<const D: usize> {
     pub(super) pull_by_a: f64,
     /// The cofactor of ΔF.
     pub(super) cofactor: Square<D>,
-    /// What resists the particle's displacement: of a contact (N/m).
+    /// Stiffness against the particle's displacement, of contacts (N/m).
     pub(super) held: SMatrix<f64, D, D>,
 }
 

@@ -1,4 +1,4 @@
-//! How a scene is solved, and how well that went.
+//! Settings of the implicit solver.
 
 use crate::error::{Error, positive, require};
 
@@ -56,7 +56,7 @@ impl TimeRule {
         }
     }
 
-    /// What a force does on the way through a step, of its value at the start and that where the equations hold.
+    /// Shares in a force's work over a step: of its value at the start, and of that where the equations hold.
     pub(super) fn shares(self) -> [f64; 2] {
         match self {
             Self::Midpoint { .. } => [0.0, 1.0],
@@ -92,7 +92,7 @@ impl TimeRule {
     }
 }
 
-/// How the implicit solver solves a scene.
+/// Settings of the implicit solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Duration of a load step (s), or its share of the load: whatever the loads take for time.
@@ -101,7 +101,7 @@ pub struct Settings {
     pub rule: TimeRule,
     /// The locking remedy.
     pub remedy: Remedy,
-    /// What holds functions that see hardly any material.
+    /// Stabilisation of functions that see hardly any material.
     pub stabilisation: Stabilisation,
     /// A step has converged when the free nodes' residual is at most this share of the loads; where a constraint moves, of
     /// reactions, if they are greater.

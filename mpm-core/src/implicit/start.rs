@@ -49,7 +49,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             let placed = room.place(x);
             placed.map_err(|fault| ledger.breakdown(&particles.id, k, fault))?;
         }
-        // What a step of this rule doesn't need.
+        // Columns that a step of this rule does not need.
         match settings.rule {
             TimeRule::Static => particles.velocity = Vec::new(),
             TimeRule::Midpoint { .. } => {}

@@ -16,7 +16,7 @@ use crate::work::clocked;
 use nalgebra::SVector;
 use std::time::Instant;
 
-/// Conjugate gradients take at most so many iterations.
+/// Maximum number of iterations of conjugate gradients.
 const MOST_GRADIENTS: u64 = 2000;
 /// Factors precondition until conjugate gradients take more iterations than this: as many as new ones cost.
 const MANY_GRADIENTS: u64 = 40;
@@ -34,7 +34,7 @@ pub(super) struct Solution<const D: usize> {
     pub(super) before: Trial<D>,
 }
 
-/// A step with the loads at its end, and what solves it.
+/// Equations of a step with the loads at its end, and the means to solve them.
 pub(super) struct System<'a, const D: usize, M: Law> {
     pub(super) step: Step<'a, D, M>,
     pub(super) settings: &'a Settings,
@@ -172,7 +172,7 @@ impl<const D: usize, M: Law> System<'_, D, M> {
     /// Solves the step, from the increments `guess` of the unknowns (m) if they are nearer to equilibrium than none.
     ///
     /// # Errors
-    /// There is no solution that the method finds.
+    /// The method finds no solution.
     pub(super) fn solve(&mut self, guess: Option<Vec<f64>>) -> Result<Solution<D>, Failure> {
         let before = self.trial(&vec![0.0; self.step.unknowns.len()])?;
         self.start = norm(&self.step.free(&before.internal));

@@ -261,7 +261,7 @@ fn bar_error<I: Interpolation<1>>(cells: usize) -> f64 {
     (squares / p.len() as f64).sqrt() / sinking(height, height, weight, &law).abs()
 }
 
-/// Of second order, as particles at Gauss points integrate; at the base the bar is compressed by a quarter.
+/// Second order, as particles stand at Gauss points; at the base the bar is compressed by a quarter.
 #[test]
 fn a_bar_sinks_under_its_weight_as_exactly() {
     for error in [

@@ -13,7 +13,7 @@ pub(crate) struct Unknowns<const D: usize> {
     place: Vec<usize>,
     /// The nodes, in their order.
     pub(crate) node: Vec<usize>,
-    /// Of every unknown the increment (m) at which it is held.
+    /// Prescribed increment (m) of every unknown that is held.
     pub(crate) held: Vec<Option<f64>>,
 }
 
@@ -74,7 +74,7 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// Of matrices with `width` components a node.
+    /// Pattern of matrices with `width` components a node.
     pub(crate) fn new<const D: usize>(
         width: usize,
         unknowns: &Unknowns<D>,

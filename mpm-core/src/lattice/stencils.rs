@@ -134,7 +134,7 @@ impl<const D: usize, const S: usize> StencilRef<'_, D, S> {
         last
     }
 
-    /// The derivatives along the last axis (1/m), likewise.
+    /// The derivatives along the last axis (1/m), each repeated for the components of a node.
     #[inline(always)]
     pub fn slope(&self) -> [Node; S] {
         let mut slope = [Node::ZERO; S];

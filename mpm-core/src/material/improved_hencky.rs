@@ -3,7 +3,7 @@
 //! volumetric strain v = tr h = ln J and the porosity n = 1 − (1 − n₀)/J of a solid with incompressible grains.
 //!
 //! dn/dv = 1 − n, hence τ = 2G dev h + \[K v/n − K v² (1 − n)/(2n²)\] I, which grows without bound as n → 0. W is ours
-//! from what is told of theirs: a bulk parameter, a shear modulus and a positive porosity.
+//! from their description: a bulk parameter, a shear modulus and a positive porosity.
 
 use super::Law;
 use crate::error::{Error, positive, require};

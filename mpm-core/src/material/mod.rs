@@ -29,7 +29,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt::Debug;
 
-/// What a particle remembers: numbers, and nothing more than its law needs.
+/// State of a particle: the numbers that its law needs, and no more.
 pub trait State: Copy + Send + Sync + PartialEq + Debug + Serialize + DeserializeOwned {
     /// The same made of numbers `T`.
     type Of<T: Real>;
@@ -88,14 +88,14 @@ pub type StateOf<M, T> = <<M as Law>::State as State>::Of<T>;
 
 /// A constitutive law.
 pub trait Law: Sized + Send + Sync {
-    /// What a particle remembers.
+    /// State of a particle.
     type State: State;
 
     /// Whether the stress of a step is the derivative of a potential (a stored energy; of associated plasticity, with
     /// what flow dissipates): stiffness matrices are then symmetric.
     const CONSERVATIVE: bool = true;
 
-    /// The same material in units of which a pascal is `stress`; seconds stay.
+    /// The material in units where 1 Pa = `stress`; time is unchanged.
     #[must_use]
     fn in_units(&self, stress: f64) -> Self;
 

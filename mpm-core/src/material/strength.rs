@@ -139,7 +139,7 @@ impl Strength {
         (T::splat(self.residual) + excess, slope)
     }
 
-    /// What flow up to an equivalent plastic strain dissipates per reference volume (J/m³): ∫ √(3/2) κ dε.
+    /// Dissipation up to an equivalent plastic strain per reference volume (J/m³): ∫ √(3/2) κ dε.
     pub fn plastic_work(&self, plastic_strain: f64) -> f64 {
         let difference = self.peak - self.residual;
         let above = match self.softening {
@@ -178,10 +178,10 @@ impl Strength {
     }
 }
 
-/// What a particle of a solid that yields remembers.
+/// State of a particle of a solid that yields.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ElastoplasticState<T = f64> {
-    /// What elasticity remembers: the elastic left Cauchy–Green tensor b_e of [`HenckyJ2`](super::HenckyJ2), the Cauchy
+    /// State of the elasticity: the elastic left Cauchy–Green tensor b_e of [`HenckyJ2`](super::HenckyJ2), the Cauchy
     /// stress (Pa) of [`HypoelasticJ2`](super::HypoelasticJ2).
     pub elastic: SymmetricTensor<T>,
     /// Equivalent plastic strain ε.

@@ -242,7 +242,7 @@ every_law_must!(hencky_solid, Hencky::new(70.0, 0.4).unwrap());
 
 every_law_must!(porous_solid, ImprovedHencky::new(70.0, 40.0, 0.9).unwrap());
 
-/// Clay under pressure, far within its surface. What it does at it is tested beside the law.
+/// Clay under pressure, far within its surface. Flow is tested beside the law.
 fn strong_clay() -> CamClay {
     let elasticity = ImprovedHencky::new(70.0, 40.0, 0.99).unwrap();
     CamClay::new(elasticity, 50.0, 0.1, 1e9, 160.0).unwrap()

@@ -1,4 +1,4 @@
-//! What a solution makes of the body: new places, states, domains and pressures, and what is kept of forces and water.
+//! Commit of a solution: new positions, states, domains and pressures; sums of forces and water.
 
 use super::pores::{check_width, grown, keep_before_walls};
 use super::step::{Setting, Trial};

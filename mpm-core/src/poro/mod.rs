@@ -60,11 +60,11 @@ pub struct Solver<const D: usize, I, M: Law> {
     solid_space: Space<I>,
     water_space: Space<I>,
     pores: Pores<D>,
-    /// Of every component of every node of the displacement whether it is held.
+    /// Constraint of every component of every node of the displacement, if held.
     held: Vec<[Option<Held>; D]>,
-    /// Likewise the plate that it belongs to.
+    /// Plate of every component of every node of the displacement.
     tied: Vec<[Option<usize>; D]>,
-    /// Of every node of the pressure whether it is held at zero.
+    /// Whether a node of the pressure is held at zero.
     drained: Vec<bool>,
     moduli: Moduli,
     direct: Direct,
@@ -195,7 +195,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         }
     }
 
-    /// Of every particle the functions of the pressure less their means over the cell that holds its centre.
+    /// Functions of the pressure at every particle, less their means over the cell that holds its centre.
     fn fluctuations(&self, water: &Elements<D>) -> Vec<Vec<f64>> {
         let space = &self.water_space;
         let grid = space.functions.grid();
@@ -241,7 +241,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         )
     }
 
-    /// What a step of `dt` (s) of the body as it is works with, under forces of loads on the particles (N).
+    /// Setting of a step of `dt` (s) from the present state, under forces of loads on the particles (N).
     fn setting(&self, dt: f64, on_particles: Vec<[f64; D]>) -> Result<Setting<D>, Failure> {
         let particles = &self.scene.body.particles;
         let spaces = [&self.solid_space, &self.water_space];
@@ -258,7 +258,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 _ => runs.push(p..p + 1),
             }
         }
-        // What ghost penalties of pressures act with (m²/Pa), on all of them and on their increments.
+        // Strengths of the ghost penalties of pressures (m²/Pa), on the pressures and on their increments.
         let flow = self.water.initial_conductivity() * dt;
         let cell = self.water_space.functions.grid().h;
         let on_all = self.settings.ghost_pressure * flow;
@@ -267,7 +267,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             self.settings.ghost_displacement * self.moduli.mu,
             on_all + on_increments,
         ];
-        // What a domain touches by rounding alone is not of the body: its nodes are no unknowns.
+        // Cells that a domain touches by rounding alone are no part of the body: their nodes are no unknowns.
         let mut sizes = Vec::new();
         let within = self.pores.domains(particles).within(&mut sizes);
         let ghosts = [(0, D), (1, 1)].map(|(k, components)| {

@@ -9,7 +9,7 @@ use crate::implicit::failure::Failure;
 use crate::material::Law;
 use nalgebra::SVector;
 
-/// What a sum may lack of its whole: rounding, and what a corner may lose.
+/// Share of a whole that its sum may lack: rounding, and the loss of a corner.
 const LACKING: f64 = 1e-9;
 
 impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {

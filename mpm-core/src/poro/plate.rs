@@ -43,7 +43,7 @@ impl<const D: usize> Plate<D> {
     }
 }
 
-/// Of every component of every node of `functions` the plate that it belongs to.
+/// Plate of every component of every node of `functions`.
 ///
 /// # Errors
 /// A plate that moves along no axis, takes no node, or one that a constraint or another plate has too.

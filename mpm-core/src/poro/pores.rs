@@ -1,4 +1,4 @@
-//! What particles of a body with water have beside those of a dry one.
+//! Columns of the particles of a body with water, beside those of a dry one.
 
 use crate::error::Fault;
 use crate::grid::Grid;

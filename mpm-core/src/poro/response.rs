@@ -1,6 +1,6 @@
-//! What one particle of solid and water answers to a trial of the step, and the derivatives of the answer.
+//! Response of one particle of solid and water to a trial of the step, and its derivatives.
 //!
-//! All is told of the configuration at the step's start: P is a first Piola–Kirchhoff stress there, times volume, and
+//! The reference configuration is that of the step's start: P is a first Piola–Kirchhoff stress there, times volume, and
 //! the flux goes through its areas. C is the cofactor J̃ F̃⁻ᵀ of the relative deformation. Equations are those of
 //! `docs/poromechanics.md`.
 

@@ -1,4 +1,4 @@
-//! How a scene with water is solved.
+//! Settings of the solver of solid and water.
 
 use crate::error::{Error, positive, require};
 
@@ -36,7 +36,7 @@ pub enum Tangent {
     Symmetric,
 }
 
-/// Where Newton's method begins to look for the pressure of a step.
+/// Initial guess of the pressure in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Predictor {
     /// At zero.
@@ -45,7 +45,7 @@ pub enum Predictor {
     Particles,
 }
 
-/// How the solver of solid and water solves a scene.
+/// Settings of the solver of solid and water.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Duration of the first step (s).
@@ -58,7 +58,7 @@ pub struct Settings {
     pub volume_rate: VolumeRate,
     /// The matrix.
     pub tangent: Tangent,
-    /// Where to begin.
+    /// Initial guess.
     pub predictor: Predictor,
     /// Ghost penalty of the displacement, over the shear modulus.
     pub ghost_displacement: f64,

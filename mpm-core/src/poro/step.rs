@@ -21,7 +21,7 @@ use std::ops::Range;
 /// Runs of particles whose matrices are held at once.
 const BATCH: usize = 256;
 
-/// What stays in a step as it is at its start.
+/// Data of a step that are frozen at its start.
 pub(super) struct Setting<const D: usize> {
     /// The functions of the displacement at the particles, and those of the pressure.
     pub(super) solid: Elements<D>,
@@ -34,7 +34,7 @@ pub(super) struct Setting<const D: usize> {
     /// The unknowns of every run, of every ghost penalty of displacements, and of pressures.
     pub(super) groups: Vec<Vec<Option<usize>>>,
     pub(super) pattern: Pattern,
-    /// Of every particle the functions of the pressure less their means over its cell; none unless projected.
+    /// Functions of the pressure at every particle less their means over its cell; empty unless projected.
     pub(super) fluctuations: Vec<Vec<f64>>,
     pub(super) drains: Vec<Drain>,
     /// Volumes of water (m³) that sources give to the nodes of the pressure; none without sources.

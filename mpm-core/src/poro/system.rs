@@ -12,10 +12,10 @@ use crate::monitor::Convergence;
 use crate::work::clocked;
 use std::time::Instant;
 
-/// The share of its pores that a particle keeps at least in one correction.
+/// Minimum share of its pores that a particle keeps in one correction.
 const KEPT: f64 = 0.1;
 
-/// A step, and what solves it.
+/// Equations of a step, and the means to solve them.
 pub(super) struct System<'a, const D: usize, M: Law> {
     pub(super) step: Step<'a, D, M>,
     /// Norm of the out-of-balance forces (N) that rounding leaves.
@@ -125,7 +125,7 @@ impl<const D: usize, M: Law> System<'_, D, M> {
     /// Solves the step from the unknowns `x`.
     ///
     /// # Errors
-    /// There is no solution that the method finds.
+    /// The method finds no solution.
     pub(super) fn solve(&mut self, x: Vec<f64>) -> Result<(Trial<D>, Convergence), Failure> {
         let beginning = self.at(x)?;
         let most = self.step.settings.most_iterations;

@@ -31,7 +31,7 @@ impl Conductivity {
     }
 }
 
-/// What pulls water and grains down.
+/// Gravity on water and grains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gravity<const D: usize> {
     /// Density of the water (kg/m³).

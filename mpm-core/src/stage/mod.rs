@@ -1,4 +1,4 @@
-//! What a scene does to the motion, beyond the material itself.
+//! Stages of a scene: loads, filters and constraints, and the criterion of rest.
 //!
 //! Four roles, called once per step; a scene lists the stages that it has, and an absent one costs
 //! nothing:

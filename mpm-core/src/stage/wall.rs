@@ -34,14 +34,14 @@ impl End {
     }
 }
 
-/// What a wall holds.
+/// Components that a wall holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WallKind {
     /// All components.
     Fixed,
     /// The normal component; material slides freely and sticks to the wall.
     Roller,
-    /// Likewise, but one-sided: the wall bears no tension and material comes off it freely.
+    /// The normal component, one-sided: the wall bears no tension and material comes off it freely.
     Separable,
 }
 
@@ -52,7 +52,7 @@ pub struct Wall {
     pub axis: usize,
     /// End of that axis.
     pub end: End,
-    /// What is held.
+    /// Components held.
     pub kind: WallKind,
 }
 

@@ -153,7 +153,7 @@ fn shear<const D: usize>(delta_f: &[[Eight; D]; D]) -> Eight {
     (squares + squares).sqrt()
 }
 
-/// A locking remedy of a body. What it remembers of a particle, J̄, is a column of the particles.
+/// A locking remedy of a body. Its state, J̄, is a column of the particles.
 pub trait Remedy<const D: usize>: Memory + Send {
     /// Gives the particles the columns that the remedy needs: J̄, if it averages.
     fn attach(&mut self, particles: &mut Particles<D>) {

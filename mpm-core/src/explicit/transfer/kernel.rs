@@ -1,4 +1,4 @@
-//! What all transfers share: forces and velocities between a particle and the nodes of its stencil.
+//! Shared kernels of the transfers: forces and velocities between a particle and the nodes of its stencil.
 //!
 //! Particles come in eights. What is computed side by side is written to memory, where the loop over the eight reads
 //! it: a run-time index keeps the arrays there.
@@ -8,7 +8,7 @@ use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight, Octet};
 use crate::tensor::SymmetricTensor;
 
-/// What eight particles give to the grid.
+/// Data that eight particles give to the grid.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Given<const D: usize> {
@@ -34,7 +34,7 @@ impl<const D: usize> Default for Given<D> {
 }
 
 impl<const D: usize> Given<D> {
-    /// Of particles of the given mass (kg), velocity (m/s), volume (m³), Cauchy stress (Pa) and external force (N).
+    /// Sets the data of particles with the given mass (kg), velocity (m/s), volume (m³), Cauchy stress (Pa) and external force (N).
     #[inline(always)]
     pub fn set(
         &mut self,
@@ -118,7 +118,7 @@ pub fn spread<const D: usize, const S: usize, R: Fn(usize) -> Node>(
     }
 }
 
-/// What eight particles receive from the grid.
+/// Data that eight particles receive from the grid.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Received<const D: usize> {

@@ -205,7 +205,7 @@ fn a_face_across_a_periodic_axis_is_refused() {
     assert!(solver.err().unwrap().to_string().contains("periodic"));
 }
 
-/// What no part of a step can keep open is an error that says so.
+/// A gap that no part of a step can keep open gives a typed error.
 #[test]
 fn a_face_that_jumps_on_the_body_is_a_typed_error() {
     let mut solver = thrown(TimeRule::Midpoint { lumped: 0.1 }, 0.01, 1.5 * DISTANCE);

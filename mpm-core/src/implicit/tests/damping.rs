@@ -1,4 +1,4 @@
-//! What local damping does to an implicit step, on a mass at a spring: why [`Settings::locally_damped`] refuses it.
+//! Local damping in an implicit step, for a mass on a spring: why [`Settings::locally_damped`] refuses it.
 
 use super::*;
 

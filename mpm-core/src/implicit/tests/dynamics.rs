@@ -149,7 +149,7 @@ fn swinging() -> Scene<2, NeoHookean> {
     scene.constrain_all(ends.into_iter().flatten())
 }
 
-/// Where the particles of the box are after 0.08 s in so many steps, in seeding order.
+/// Positions of the box's particles after 0.08 s in this number of steps, in seeding order.
 fn swung(rule: TimeRule, steps: u32) -> Vec<[f64; 2]> {
     let settings = Settings {
         tolerance: 1e-12,

@@ -10,7 +10,7 @@ use crate::stage::Gravity;
 pub(super) const MU: f64 = 0.3;
 /// Mass of a block (kg/m), whose weight is that of a gravity of 1 m/s² across the slope.
 pub(super) const MASS: f64 = 1e3 * (H * CELLS as f64) * (H * CELLS as f64);
-/// Of the particles that touch the slope, each bears this at half of the barrier's distance (N/m).
+/// Load (N/m) of each particle that touches the slope, at half of the barrier's distance.
 const EACH: f64 = MASS / (2 * CELLS) as f64;
 pub(super) const TOLERANCE: f64 = 1e-12;
 pub(super) const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.1 };
@@ -308,7 +308,7 @@ fn a_stick_that_touches_nothing_is_forgotten() {
     assert_eq!(held, [0.0, 0.0, 0.0, 0.3]);
 }
 
-/// What slips has no potential for F̄; what never does is solved with it.
+/// A contact that can slip has no potential for F̄; a rough one is solved with it.
 #[test]
 fn friction_with_f_bar_has_to_be_rough() {
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);

@@ -82,7 +82,7 @@ fn what_is_excavated_is_gone_and_the_rest_stays_as_it_was() {
     assert!((weight(&cut) / weight(&whole) - 5.0 / 8.0).abs() < 1e-12);
 }
 
-/// What is not there can't be handed over.
+/// Missing particles cannot be handed over.
 #[test]
 fn a_body_of_fewer_particles_is_refused() {
     let few = pile(5, TimeRule::Static, true);

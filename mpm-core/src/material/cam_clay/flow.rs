@@ -17,12 +17,12 @@ use crate::number::Real;
 const MOST_STEPS: u32 = 120;
 /// Accuracy of N = 1.
 const ACCURACY: f64 = 1e-13;
-/// What N may be off by where rounding lets it be no closer.
+/// Error of N that rounding allows.
 const LOOSE: f64 = 1e-6;
 /// Accuracy of a volume strain, relative to it and to what its equation has beside it: rounding.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// What an elastic step leads to.
+/// Result of an elastic step.
 #[derive(Clone, Copy)]
 pub(super) struct Trial<T> {
     /// Elastic volume strain, extension positive.
@@ -33,7 +33,7 @@ pub(super) struct Trial<T> {
     pub(super) preconsolidation: T,
 }
 
-/// What flow leads to.
+/// Result of flow.
 #[derive(Clone, Copy)]
 pub(super) struct End<T> {
     /// Elastic volume strain, extension positive.
@@ -170,7 +170,7 @@ impl CamClay {
         multiplier = multiplier.with_slopes_of(-value / slope);
         volume = self.volume_after(multiplier, volume, trial);
         let (_, _, remains) = at(multiplier, volume);
-        // What was not found has no stress.
+        // Without convergence there is no stress.
         let missed = value.abs() - number(LOOSE);
         volume = missed.if_positive(number(f64::NAN), volume);
         Some(End {

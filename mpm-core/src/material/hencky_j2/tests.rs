@@ -88,7 +88,7 @@ proptest! {
     }
 
     /// Eight particles side by side, some of which flow, some of which have far strains and some of which do
-    /// neither, are as one after the other: stress to rounding of the strain's identity, flow likewise.
+    /// neither, are as one after the other: stress and flow to rounding of the strain's identity.
     #[test]
     fn eight_are_as_one(
         path in prop::collection::vec(prop::array::uniform8(prop::array::uniform9(-1.0..1.0_f64)), 1..6),

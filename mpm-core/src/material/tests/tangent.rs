@@ -69,7 +69,7 @@ fn far() -> impl Strategy<Value = Matrix3<f64>> {
         .prop_map(|(q, e, r)| q * Matrix3::from_diagonal(&Vector3::from(e).map(f64::exp)) * r)
 }
 
-/// Of an elastic law: after a deformation and a further one.
+/// Tangent of an elastic law after a deformation and a further one.
 fn elastic<M: Law>(law: &M, first: &Matrix3<f64>, second: &Matrix3<f64>) {
     let scale = modulus(law) * condition(&(second * first));
     tangent_is_the_slope(law, second, &deform(law, first).1, scale);
@@ -170,7 +170,7 @@ fn hypoelastic_ground() -> [HypoelasticJ2; 3] {
     strengths().map(law)
 }
 
-/// Of ground that flows on the way there.
+/// Tangent of ground that flows in the second deformation; whether it flows far enough to tell.
 fn plastic<M: Law>(law: &M, first: &Matrix3<f64>, second: &Matrix3<f64>) -> bool {
     let before = deform(law, first).1;
     let after = law.update(second, DT, &before).1;

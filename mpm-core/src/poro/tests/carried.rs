@@ -1,4 +1,4 @@
-//! What pressures change by, of bodies that move across cells; water that comes from within.
+//! Changes of pressure in bodies that move across cells; water that comes from within.
 
 use super::*;
 
@@ -128,7 +128,7 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     });
 }
 
-/// What sources give is what the volume grows by, with no way out.
+/// With no way out, the volume grows by what sources give.
 #[test]
 fn water_from_within_swells_a_body() {
     for space in SPACES {
@@ -155,7 +155,7 @@ fn water_from_within_swells_a_body() {
     }
 }
 
-/// Of a dry body a solver has one lattice, one pass and no column: the same scene with water has two of the first two.
+/// A dry solver has one lattice, one pass and no extra column; one with water has two lattices and two passes.
 #[test]
 fn a_dry_body_carries_no_water() {
     let scene = || standing::<2, _>(porous(), straight);

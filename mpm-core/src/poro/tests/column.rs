@@ -156,7 +156,7 @@ fn newton_converges_quadratically() {
     }
 }
 
-/// Of the coarse cells, from the floor up; at once the water there is pressed.
+/// Nodes are those of the coarse cells, from the floor up; the water there is under pressure at once.
 #[test]
 fn pressures_of_nodes_are_at_their_places() {
     let load = 1e-3 * MODULUS;

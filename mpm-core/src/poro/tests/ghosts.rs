@@ -1,4 +1,4 @@
-//! What ghost penalties on the pressure cost: on all of it, as Pretti et al. have it, and on its increments.
+//! Cost of ghost penalties on the pressure: on all of it, as Pretti et al. have it, and on its increments.
 
 use super::*;
 

@@ -84,7 +84,7 @@ fn a_face_may_bear_no_load() {
     assert_eq!(solver.totals().accumulated.load_work, 0.0);
 }
 
-/// A load of which a part is missing is none: here that of a side that the face has and the body not.
+/// A load with a missing part is refused: here the part of a side that the face has and the body lacks.
 #[test]
 fn the_sum_of_a_load_is_checked_in_every_step() {
     let settings = Settings::new(0.05 / (KAPPA * MODULUS));

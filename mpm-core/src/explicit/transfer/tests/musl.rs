@@ -7,7 +7,7 @@ fn noise(k: usize) -> f64 {
     (12.9898 * k as f64 + 1.0).sin()
 }
 
-/// What eight copies of a particle at `x` (m) gather.
+/// Values gathered by eight copies of a particle at `x` (m).
 fn gathered<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>>(
     transfer: &T,
     frozen: &Frozen<D, S, B>,
