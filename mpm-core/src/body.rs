@@ -81,11 +81,8 @@ impl<const D: usize, M: Law> Body<D, M> {
         let delta_f = &p.delta_f;
         let update = |k| space::embed(&delta_f[k]);
         law.update_all(update, dt, &mut self.states, &mut p.stress);
-        for (volume, (j, reference)) in p
-            .volume
-            .iter_mut()
-            .zip(p.jacobian.iter().zip(&p.reference_volume))
-        {
+        let columns = p.jacobian.iter().zip(&p.reference_volume);
+        for (volume, (j, reference)) in p.volume.iter_mut().zip(columns) {
             *volume = j * reference;
         }
     }

@@ -167,15 +167,9 @@ impl<const D: usize> Particles<D> {
 
     /// Kinetic energy Σ ½ m v² (J); that of affine parts is left out.
     pub fn kinetic_energy(&self) -> f64 {
-        let squares = self
-            .velocity
-            .iter()
-            .map(|v| v.iter().map(|v| v * v).sum::<f64>());
-        self.mass
-            .iter()
-            .zip(squares)
-            .map(|(m, v2)| 0.5 * m * v2)
-            .sum()
+        let square = |v: &[f64; D]| v.iter().map(|v| v * v).sum::<f64>();
+        let pairs = self.mass.iter().zip(&self.velocity);
+        pairs.map(|(m, v)| 0.5 * m * square(v)).sum()
     }
 
     /// The lengths of the columns, by name.

@@ -107,12 +107,8 @@ impl<const D: usize, M: Law> Scene<D, M> {
     /// # Errors
     /// A value that has no bytes.
     pub(crate) fn hand_over(&self, body: Saved) -> Result<Saved, MemoryError> {
-        let sticks: Vec<&[f64]> = self
-            .contacts
-            .iter()
-            .map(|c| c.sticks().as_flattened())
-            .collect();
-        Saved::of(&(body, sticks))
+        let sticks = self.contacts.iter().map(|c| c.sticks().as_flattened());
+        Saved::of(&(body, sticks.collect::<Vec<_>>()))
     }
 
     /// Takes the sticks of a run that ended, contact by contact as far as both have one with friction there; others begin

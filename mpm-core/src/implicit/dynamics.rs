@@ -70,14 +70,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let elements = &setting.elements;
         let held = |node: usize, axis: usize| self.held_change(node, axis, dt).map(|v| v / dt);
         let (acceleration, _) = inertia.mass.solve(elements, &forces, held)?;
-        for (p, a) in self
-            .scene
-            .body
-            .particles
-            .acceleration
-            .iter_mut()
-            .enumerate()
-        {
+        let particles = &mut self.scene.body.particles;
+        for (p, a) in particles.acceleration.iter_mut().enumerate() {
             *a = elements.value(p, &acceleration).into();
         }
         Ok(())
@@ -161,10 +155,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             }
         }
         let particles = &mut self.scene.body.particles;
-        let columns = particles
-            .velocity
-            .iter_mut()
-            .zip(&mut particles.acceleration);
+        let velocities = particles.velocity.iter_mut();
+        let columns = velocities.zip(&mut particles.acceleration);
         for (p, (velocity, before)) in columns.enumerate() {
             let after = elements.value(p, &acceleration);
             let mean = SVector::from(*before) * (1.0 - delta) + after * delta;

@@ -370,10 +370,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
     /// Nodal values at the unknowns, zero at those that are held.
     pub(super) fn free(&self, nodes: &[SVector<f64, D>]) -> Vec<f64> {
         let unknowns = self.unknowns;
-        let all = unknowns
-            .node
-            .iter()
-            .flat_map(|node| nodes[*node].iter().copied());
+        let seen = unknowns.node.iter();
+        let all = seen.flat_map(|node| nodes[*node].iter().copied());
         let pairs = all.zip(&unknowns.held);
         pairs
             .map(|(value, held)| if held.is_some() { 0.0 } else { value })

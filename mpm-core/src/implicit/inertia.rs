@@ -116,8 +116,8 @@ impl Mass {
                 .collect()
         };
         let inner = |a: &[SVector<f64, D>], b: &[SVector<f64, D>]| {
-            a.iter()
-                .zip(b)
+            let pairs = a.iter().zip(b);
+            pairs
                 .map(|(a, b)| dot(a.as_slice(), b.as_slice()))
                 .sum::<f64>()
         };

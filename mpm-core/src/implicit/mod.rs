@@ -209,11 +209,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let mut elements = Elements::new(&self.functions, &self.originals, Domains::of(particles));
         if self.settings.stabilisation == Stabilisation::Extension {
             let volume = elements.sums(self.functions.len(), &particles.volume);
-            let held: Vec<bool> = self
-                .held
-                .iter()
-                .map(|h| h.iter().any(Option::is_some))
-                .collect();
+            let any = |of: &[Option<Held>; D]| of.iter().any(Option::is_some);
+            let held: Vec<bool> = self.held.iter().map(any).collect();
             let nodes = Nodes {
                 originals: &self.originals,
                 volume: &volume,

@@ -125,11 +125,8 @@ impl<const D: usize, M: Law> System<'_, D, M> {
     /// internal ones at the start if there are none or if bodies swing, and of reactions, if greater, where a constraint
     /// moves.
     fn residual(&self, trial: &Trial<D>) -> (Vec<f64>, f64) {
-        let forces = trial
-            .internal
-            .iter()
-            .zip(&trial.resistance)
-            .zip(self.external);
+        let inner = trial.internal.iter().zip(&trial.resistance);
+        let forces = inner.zip(self.external);
         let out: Vec<SVector<f64, D>> = forces.map(|((f, g), e)| e - f - g).collect();
         let residual = self.step.free(&out);
         let unknowns = self.step.unknowns;
@@ -143,8 +140,8 @@ impl<const D: usize, M: Law> System<'_, D, M> {
             }
         }
         let external = norm(&self.step.free(self.external));
-        let inner = external == 0.0 || self.step.inertia.is_some();
-        let loads = if inner {
+        let by_internal = external == 0.0 || self.step.inertia.is_some();
+        let loads = if by_internal {
             external.max(self.start)
         } else {
             external

@@ -94,11 +94,8 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
     let mut scene = full::<D, _>(CELLS, places_of::<I, D>(), law.clone());
     let p = &scene.body.particles;
     let from_centre = |x: &[f64; D]| SVector::from(*x).add_scalar(-CENTRE);
-    let within = p
-        .position
-        .iter()
-        .copied()
-        .filter(|x| from_centre(x).norm() <= radius);
+    let places = p.position.iter().copied();
+    let within = places.filter(|x| from_centre(x).norm() <= radius);
     let volume = p.reference_volume[0];
     let some = Particles::new(within.collect(), volume, 1000.0, p.half_size).unwrap();
     scene.body = Body::new(law.clone(), some).unwrap();
@@ -314,11 +311,8 @@ fn loaded(remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
 fn the_number_of_threads_changes_no_bit() {
     for remedy in [Remedy::None, Remedy::FbarConsistent] {
         let with = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .unwrap();
-            pool.install(|| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            pool.build().unwrap().install(|| {
                 let mut solver = loaded(remedy);
                 solver.advance(2).unwrap();
                 assert!(solver.field(Field::PlasticStrain).iter().any(|e| *e > 0.0));

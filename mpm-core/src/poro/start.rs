@@ -139,12 +139,9 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         } else {
             &[]
         };
+        let pressures = particles.position.iter().map(|x| (water.start)(x));
         let pores = Pores {
-            pressure: particles
-                .position
-                .iter()
-                .map(|x| (water.start)(x))
-                .collect(),
+            pressure: pressures.collect(),
             slope: vec![[0.0; D]; watched.len()],
             place: watched.to_vec(),
             half_size,

@@ -143,6 +143,8 @@ impl<const D: usize> Water<D> {
         let sources = self.sources.into_iter().map(|source| -> Source<D> {
             Box::new(move |x, times| source(&frame.place_of_scene(x), times))
         });
+        let faces = self.faces.into_iter().map(|f| f.seen_from(&frame));
+        let plates = self.plates.into_iter();
         Self {
             porosity: self.porosity,
             conductivity: match self.conductivity {
@@ -156,15 +158,9 @@ impl<const D: usize> Water<D> {
             }),
             start: Box::new(move |x| frame.scale(1, 0) * start(&frame.place_of_scene(x))),
             drained: Box::new(move |x| drained(&frame.node_of_scene(&grid, x))),
-            faces: self
-                .faces
-                .into_iter()
-                .map(|f| f.seen_from(&frame))
-                .collect(),
+            faces: faces.collect(),
             sources: sources.collect(),
-            plates: (self.plates.into_iter())
-                .map(|plate| plate.seen_from(&frame, &grid))
-                .collect(),
+            plates: plates.map(|p| p.seen_from(&frame, &grid)).collect(),
         }
     }
 
@@ -204,9 +200,8 @@ impl<const D: usize> Water<D> {
         ] {
             require(density > 0.0, what, density, "positive (kg/m³)")?;
         }
-        gravity
-            .acceleration
-            .iter()
-            .try_for_each(|g| require(true, "acceleration of gravity", *g, "finite (m/s²)"))
+        let mut components = gravity.acceleration.into_iter();
+        let (what, allowed) = ("acceleration of gravity", "finite (m/s²)");
+        components.try_for_each(|g| require(true, what, g, allowed))
     }
 }

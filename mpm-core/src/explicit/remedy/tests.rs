@@ -154,12 +154,8 @@ fn spread<const S: usize, B: Basis<S>>(per_cell: usize) -> f64 {
         .collect();
     let particles = Particles::new(positions, spacing, 1.0, [0.5 * spacing]).unwrap();
     let bench = Bench::<1, S, B>::new(grid, particles);
-    let squares: Vec<f64> = bench
-        .particles
-        .position
-        .iter()
-        .map(|x| x[0] * x[0])
-        .collect();
+    let places = bench.particles.position.iter();
+    let squares: Vec<f64> = places.map(|x| x[0] * x[0]).collect();
     let averaged = bench.average(&squares);
     let middle = 10 * per_cell..11 * per_cell;
     let mean: f64 = middle.map(|p| averaged[p] - squares[p]).sum::<f64>() / per_cell as f64;
@@ -173,10 +169,7 @@ fn the_spread_of_the_average_is_as_stated_for_each_basis() {
     let many = 50;
     let tolerance = 1.0 / (many * many) as f64;
     let close = |value: f64, exact: f64, tolerance: f64| {
-        assert!(
-            (value - exact).abs() <= tolerance,
-            "{value} instead of {exact}"
-        );
+        assert!((value - exact).abs() <= tolerance, "{value} for {exact}");
     };
     close(spread::<2, Linear>(many), 1.0 / 3.0, tolerance);
     close(spread::<3, QuadraticBSpline>(many), 0.5, tolerance);
@@ -206,14 +199,11 @@ fn small_body(
     let (mut raw, mut averaged) = (Vec::new(), Vec::new());
     for step in 0..steps {
         let mut particles = bench.particles.clone();
-        raw = particles
-            .position
-            .iter()
-            .map(|x| {
-                let grow = 0.01 * (x[0] * 5.0 + step as f64).sin() + 0.02 * (x[1] * 3.0).cos();
-                SMatrix::<f64, 2, 2>::new(1.0 + grow, 0.1, -0.05, 1.0)
-            })
-            .collect();
+        let grown = |x: &[f64; 2]| {
+            let grow = 0.01 * (x[0] * 5.0 + step as f64).sin() + 0.02 * (x[1] * 3.0).cos();
+            SMatrix::<f64, 2, 2>::new(1.0 + grow, 0.1, -0.05, 1.0)
+        };
+        raw = particles.position.iter().map(grown).collect();
         for (j, f) in particles.jacobian.iter_mut().zip(&raw) {
             *j *= determinant(f);
         }

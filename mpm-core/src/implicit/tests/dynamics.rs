@@ -162,11 +162,7 @@ fn swung(rule: TimeRule, steps: u32) -> Vec<[f64; 2]> {
 }
 
 fn apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
-    let squares = a
-        .iter()
-        .zip(b)
-        .map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2));
-    squares.sum::<f64>().sqrt()
+    crate::fixture::apart(a.as_flattened(), b.as_flattened())
 }
 
 /// The error of the displacement falls with the square of the step.

@@ -58,12 +58,8 @@ pub(super) fn slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
     let forces = |s: f64| {
         let at: Vec<f64> = u.iter().zip(&x).map(|(u, x)| u + s * x).collect();
         let trial = step.trial(&at, nodes).unwrap();
-        let sum = trial
-            .internal
-            .iter()
-            .zip(&trial.resistance)
-            .map(|(f, g)| f + g);
-        step.free(&sum.collect::<Vec<_>>())
+        let pairs = trial.internal.iter().zip(&trial.resistance);
+        step.free(&pairs.map(|(f, g)| f + g).collect::<Vec<_>>())
     };
     let (exact, known) = slope(forces);
     let trial = step.trial(&u, nodes).unwrap();

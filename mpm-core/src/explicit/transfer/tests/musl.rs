@@ -57,10 +57,8 @@ fn strains_are_of_the_new_velocities<const D: usize, const S: usize, B: Basis<S>
     assert_eq!(sweeps, 1);
     let flip = Flip::default();
     let places = frozen.particles.position.clone();
-    let found: Vec<Received<D>> = places
-        .iter()
-        .map(|x| gathered(&musl, &frozen, &nodes, x))
-        .collect();
+    let found = places.iter().map(|x| gathered(&musl, &frozen, &nodes, x));
+    let found: Vec<Received<D>> = found.collect();
     for (k, x) in places.iter().enumerate() {
         let half_size = frozen.particles.half_size;
         let before = frozen.particles.velocity[k];
