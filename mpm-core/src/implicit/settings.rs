@@ -145,6 +145,12 @@ impl Settings {
         }
     }
 
+    /// With a tolerance of Newton's method.
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
     /// With a remedy.
     #[must_use]
     pub fn remedy(self, remedy: Remedy) -> Self {

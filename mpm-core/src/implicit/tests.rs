@@ -99,10 +99,9 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
     let volume = p.reference_volume[0];
     let some = Particles::new(within.collect(), volume, 1000.0, p.half_size).unwrap();
     scene.body = Body::new(law.clone(), some).unwrap();
-    let settings = Settings {
-        tolerance: 1e-13,
-        ..Settings::new(1.0).stabilised(stabilisation)
-    };
+    let settings = Settings::new(1.0)
+        .stabilised(stabilisation)
+        .tolerance(1e-13);
     let mut solver = Solver::<D, I, M>::new(
         scene.constrain(Affine {
             gradient,
@@ -191,10 +190,9 @@ fn standing<const D: usize, M: Law>(
 /// two before rounding ends it.
 #[test]
 fn newton_converges_quadratically() {
-    let settings = Settings {
-        tolerance: 1e-11,
-        ..Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01))
-    };
+    let settings = Settings::new(1.0)
+        .stabilised(Stabilisation::Ghost(0.01))
+        .tolerance(1e-11);
     for remedy in [Remedy::None, Remedy::FbarConsistent] {
         let scene = standing::<2, _>(
             4,
@@ -405,13 +403,7 @@ fn what_is_not_allowed_is_named() {
         assert!(error.to_string().contains(what), "{error}");
     };
     refused(Settings::new(0.0), "load step");
-    refused(
-        Settings {
-            tolerance: 0.5,
-            ..Settings::new(1.0)
-        },
-        "tolerance",
-    );
+    refused(Settings::new(1.0).tolerance(0.5), "tolerance");
     refused(
         Settings::new(1.0).stabilised(Stabilisation::Ghost(-1.0)),
         "stabilisation",

@@ -111,6 +111,36 @@ impl Settings {
         }
     }
 
+    /// With a pressure space.
+    #[must_use]
+    pub fn pressure_space(self, pressure_space: PressureSpace) -> Self {
+        Self {
+            pressure_space,
+            ..self
+        }
+    }
+
+    /// With a matrix of Newton's method.
+    #[must_use]
+    pub fn tangent(self, tangent: Tangent) -> Self {
+        Self { tangent, ..self }
+    }
+
+    /// With a rate of volume.
+    #[must_use]
+    pub fn volume_rate(self, volume_rate: VolumeRate) -> Self {
+        Self {
+            volume_rate,
+            ..self
+        }
+    }
+
+    /// With a tolerance of Newton's method.
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
     /// With ghost penalties on displacement and pressure.
     #[must_use]
     pub fn ghosts(self, displacement: f64, pressure: f64) -> Self {

@@ -127,10 +127,7 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     let water = Water::new(POROSITY, kozeny_carman());
     // One held node fixes a pressure that nothing else does.
     let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
-    let settings = Settings {
-        tolerance: 1e-13,
-        ..Settings::new(1.0).ghosts(0.1, 0.01)
-    };
+    let settings = Settings::new(1.0).ghosts(0.1, 0.01).tolerance(1e-13);
     let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
     solver.step().unwrap();
     let exact = law
@@ -189,11 +186,7 @@ fn stays_at_rest<const D: usize, I: OfHats<D>>(space: PressureSpace) {
             .start(depth)
             .drained(|x| x[D - 1] > TOP - 1e-9);
         let scene = standing::<D, _>(porous(), straight);
-        let settings = Settings {
-            pressure_space: space,
-            tangent,
-            ..Settings::new(1.0)
-        };
+        let settings = Settings::new(1.0).pressure_space(space).tangent(tangent);
         let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
         solver.advance(2).unwrap();
         let p = solver.particles();
@@ -246,10 +239,7 @@ fn what_is_not_allowed_is_refused_by_name() {
     refused(Water::new(0.3, some), settings, other);
     let negative = Conductivity::KozenyCarman(-1.0);
     refused(Water::new(POROSITY, negative), settings, "conductivity");
-    let logarithmic = Settings {
-        volume_rate: VolumeRate::Logarithmic,
-        ..settings
-    };
+    let logarithmic = settings.volume_rate(VolumeRate::Logarithmic);
     refused(Water::new(POROSITY, some), logarithmic, "consistent");
     refused(Water::new(POROSITY, some), Settings::new(0.0), "time step");
     let ghost = settings.ghosts(-1.0, 0.0);
@@ -257,10 +247,7 @@ fn what_is_not_allowed_is_refused_by_name() {
     let ghost = settings.ghost_on_increments(-1.0);
     refused(Water::new(POROSITY, some), ghost, "of increments");
     let none = PressureSpace::Projected { strength: 0.0 };
-    let settings = Settings {
-        pressure_space: none,
-        ..settings
-    };
+    let settings = settings.pressure_space(none);
     refused(Water::new(POROSITY, some), settings, "projection");
 }
 
@@ -269,10 +256,7 @@ fn a_cell_of_the_pressure_holds_two_of_the_displacement() {
     let mut scene = standing::<1, _>(porous(), straight);
     scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
     let water = || Water::new(POROSITY, Conductivity::Constant(KAPPA));
-    let equal = Settings {
-        pressure_space: PressureSpace::Equal,
-        ..Settings::new(1.0)
-    };
+    let equal = Settings::new(1.0).pressure_space(PressureSpace::Equal);
     let refused = Solver::<1, Hats<1>, _>::new(scene, water(), Settings::new(1.0));
     assert!(refused.err().unwrap().to_string().contains("even"));
     let mut scene = standing::<1, _>(porous(), straight);

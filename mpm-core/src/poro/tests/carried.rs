@@ -62,10 +62,9 @@ fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
 fn water_at_rest_is_carried_through_the_cells() {
     let dt = H * H / (KAPPA * MODULUS);
     for pressure_space in SPACES {
-        let settings = Settings {
-            pressure_space,
-            ..Settings::new(dt).ghosts(0.1, 0.01)
-        };
+        let settings = Settings::new(dt)
+            .ghosts(0.1, 0.01)
+            .pressure_space(pressure_space);
         for settings in [settings, settings.ghost_on_increments(0.1)] {
             is_carried_along::<1, Means<1>>(settings);
             is_carried_along::<2, Means<2>>(settings);
@@ -139,10 +138,7 @@ fn water_from_within_swells_a_body() {
         for rate in rates {
             water = water.source(move |x, [begin, end]| rate * x[1] * (end - begin));
         }
-        let settings = Settings {
-            pressure_space: space,
-            ..Settings::new(2.0)
-        };
+        let settings = Settings::new(2.0).pressure_space(space);
         let mut solver = Solver::<2, Means<2>, _>::new(scene, water, settings).unwrap();
         solver.advance(2).unwrap();
         let balance = solver.water().copied().unwrap();

@@ -20,10 +20,7 @@ fn one_element_consolidates_as_its_closed_form() {
         .drained(|x| x[0] > 0.5 * H)
         .face(face);
     let dt = 0.1 * H * H / (KAPPA * modulus);
-    let settings = Settings {
-        pressure_space: PressureSpace::Equal,
-        ..Settings::new(dt)
-    };
+    let settings = Settings::new(dt).pressure_space(PressureSpace::Equal);
     let mut solver = Solver::<1, Hats<1>, _>::new(scene, water, settings).unwrap();
     let mut lacking = load / modulus;
     for _ in 0..20 {
@@ -60,17 +57,14 @@ fn imbalance<const D: usize, I: OfHats<D>>(settings: Settings) -> f64 {
 fn the_exact_rate_loses_no_water() {
     let dt = 0.05 / (KAPPA * MODULUS);
     for pressure_space in SPACES {
-        let settings = Settings {
-            pressure_space,
-            ..Settings::new(dt).ghosts(0.1, 0.01)
-        };
+        let settings = Settings::new(dt)
+            .ghosts(0.1, 0.01)
+            .pressure_space(pressure_space);
         assert!(imbalance::<1, Means<1>>(settings) < 1e-8);
         assert!(imbalance::<2, Means<2>>(settings) < 1e-8);
-        let logarithmic = Settings {
-            volume_rate: VolumeRate::Logarithmic,
-            tangent: Tangent::Consistent,
-            ..settings
-        };
+        let logarithmic = settings
+            .volume_rate(VolumeRate::Logarithmic)
+            .tangent(Tangent::Consistent);
         let lost = imbalance::<1, Means<1>>(logarithmic);
         assert!(lost > 1e-4, "{lost}");
     }
@@ -80,10 +74,9 @@ fn the_exact_rate_loses_no_water() {
 #[test]
 fn a_column_is_a_bar_in_any_dimension() {
     fn settled<const D: usize, I: OfHats<D>>(space: PressureSpace) -> Vec<f64> {
-        let settings = Settings {
-            pressure_space: space,
-            ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
-        };
+        let settings = Settings::new(0.05 / (KAPPA * MODULUS))
+            .ghosts(0.1, 0.01)
+            .pressure_space(space);
         let mut solver = loaded::<D, I>(0.2 * MODULUS, settings);
         solver.advance(2).unwrap();
         let p = solver.particles();
@@ -193,10 +186,9 @@ fn pores_that_close_are_a_typed_error() {
 /// Twenty times the modulus at once, drained: an undamped correction would close the pores.
 #[test]
 fn pores_stay_open_under_any_load() {
-    let settings = Settings {
-        tangent: Tangent::Consistent,
-        ..Settings::new(100.0 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
-    };
+    let settings = Settings::new(100.0 / (KAPPA * MODULUS))
+        .ghosts(0.1, 0.01)
+        .tangent(Tangent::Consistent);
     let mut solver = loaded::<1, Means<1>>(20.0 * MODULUS, settings);
     solver.step().unwrap();
     for n in solver.field(Field::Porosity) {

@@ -4,10 +4,7 @@ use super::*;
 
 /// None, that of the paper, and one on increments; of displacements all have the same.
 fn ghosts(dt: f64) -> [Settings; 3] {
-    let settings = Settings {
-        tangent: Tangent::Consistent,
-        ..Settings::new(dt)
-    };
+    let settings = Settings::new(dt).tangent(Tangent::Consistent);
     [
         settings.ghosts(0.1, 0.0),
         settings.ghosts(0.1, 0.01),

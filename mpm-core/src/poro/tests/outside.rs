@@ -131,10 +131,7 @@ fn unevenness<I: OfHats<2>>(solver: &mut Solver<2, I, ImprovedHencky>) -> f64 {
 /// tolerance. (A pull: the side comes in, and leaves no grid.)
 fn carries_its_force<I: OfHats<2>>(pressure_space: PressureSpace) {
     let force = 0.02 * MODULUS;
-    let settings = Settings {
-        pressure_space,
-        ..Settings::new(0.02 / (KAPPA * MODULUS))
-    };
+    let settings = Settings::new(0.02 / (KAPPA * MODULUS)).pressure_space(pressure_space);
     let plate = Plate::new(1, uppermost, move |_| force);
     let mut tied = slab::<I>(water().plate(plate), settings);
     assert!(unevenness(&mut tied) < 1e-9);

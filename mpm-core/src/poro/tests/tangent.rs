@@ -80,26 +80,22 @@ fn matrix_is_the_slope<const D: usize, I: OfHats<D>>(settings: Settings) {
 fn the_matrix_is_the_slope_of_the_residual() {
     for pressure_space in SPACES {
         for volume_rate in [VolumeRate::Exact, VolumeRate::Logarithmic] {
-            let settings = Settings {
-                pressure_space,
-                volume_rate,
-                tangent: Tangent::Consistent,
-                ..Settings::new(1.0)
-                    .ghosts(0.1, 0.01)
-                    .ghost_on_increments(0.01)
-            };
+            let settings = Settings::new(1.0)
+                .ghosts(0.1, 0.01)
+                .ghost_on_increments(0.01)
+                .pressure_space(pressure_space)
+                .volume_rate(volume_rate)
+                .tangent(Tangent::Consistent);
             matrix_is_the_slope::<1, Hats<1>>(settings);
             matrix_is_the_slope::<1, Means<1>>(settings);
             matrix_is_the_slope::<2, Hats<2>>(settings);
             matrix_is_the_slope::<2, Means<2>>(settings);
         }
     }
-    let settings = Settings {
-        tangent: Tangent::Consistent,
-        ..Settings::new(1.0)
-            .ghosts(0.1, 0.01)
-            .ghost_on_increments(0.01)
-    };
+    let settings = Settings::new(1.0)
+        .ghosts(0.1, 0.01)
+        .ghost_on_increments(0.01)
+        .tangent(Tangent::Consistent);
     matrix_is_the_slope::<3, Means<3>>(settings);
 }
 
@@ -133,14 +129,8 @@ fn the_exact_rate_makes_a_symmetric_matrix() {
         .ghosts(0.1, 0.01)
         .ghost_on_increments(0.01);
     assert!(asymmetry(symmetric) < 1e-13);
-    let consistent = Settings {
-        tangent: Tangent::Consistent,
-        ..symmetric
-    };
+    let consistent = symmetric.tangent(Tangent::Consistent);
     assert!(asymmetry(consistent) > 1e-4);
-    let logarithmic = Settings {
-        volume_rate: VolumeRate::Logarithmic,
-        ..consistent
-    };
+    let logarithmic = consistent.volume_rate(VolumeRate::Logarithmic);
     assert!(asymmetry(logarithmic) > 1e-2, "{}", asymmetry(logarithmic));
 }
