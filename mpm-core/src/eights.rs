@@ -73,8 +73,8 @@ pub fn entries(n: usize, k: usize) -> usize {
     (n - k * EIGHT).min(EIGHT)
 }
 
-/// The `k`-th block of a column that changes. What the last block lacks is the column's last entry, again: such a block
-/// is made in `spare`.
+/// The `k`-th block of a column that changes. An incomplete last block is filled with the column's last entry, in
+/// `spare`.
 #[inline(always)]
 pub fn block<'a, T: Copy>(
     column: &'a [T],

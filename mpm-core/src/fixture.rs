@@ -1,4 +1,4 @@
-//! What tests of several solvers share.
+//! Fixtures for the tests of several solvers.
 
 use crate::grid::{Axis, Grid};
 use crate::implicit::unknowns::Pattern;

@@ -1,8 +1,9 @@
 //! The same scene from elsewhere: along other axes, from another origin, in other units.
 //!
-//! No result may depend on that, but for the digits that places far from the origin lose. Axes may change places and point
-//! the other way; other angles would turn the grid against the body, which is another scene. Of the units those of length and
-//! stress are free. The second stays, so that mass follows from them: with millimetres and megapascals, in tonnes.
+//! No result may depend on that, except for the digits that positions far from the origin lose. Axes may change places
+//! and point the other way; other angles would turn the grid against the body, which is another scene. The units of
+//! length and stress are free. The second stays, so that the unit of mass follows: with millimetres and megapascals,
+//! the tonne.
 
 use crate::grid::{Axis, AxisKind, Grid};
 use crate::tensor::SymmetricTensor;

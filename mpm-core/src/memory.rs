@@ -1,9 +1,9 @@
-//! What a run remembers: all that the next step needs and the scene doesn't say.
+//! Memory of a run: all that the next step needs and the scene does not define.
 //!
-//! A run that is saved, built anew from its scene and restored goes on as if it had never stopped, bit
-//! for bit. So every part of a run says what it carries from one step to the next: by [`Memory`], or,
-//! if that is nothing, by [`Memoryless`]. What a part was built from is no memory (moduli, limits, walls),
-//! nor is what each step begins by overwriting (work arrays).
+//! A run that is saved, built anew from its scene and restored goes on as if it had never stopped, bit for bit. So
+//! every part of a run says what it carries from one step to the next: by [`Memory`], or, if that is nothing, by
+//! [`Memoryless`]. Construction data (moduli, limits, walls) are not saved, nor are work arrays, which each step
+//! overwrites.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};

@@ -1,8 +1,8 @@
 //! The nodes that particles can reach before they are sorted again.
 //!
-//! Grids are mostly empty: a slide leaves most of a slope bare, a tank is higher than its water. What is done for
-//! nodes is done for runs of nodes that a particle sees or may come to see; all other nodes hold zeros. Particles are
-//! sorted, and the runs found anew, before one has moved farther than a cell.
+//! Grids are mostly empty: a slide leaves most of a slope bare, a tank is higher than its water. Loops over nodes run
+//! over those that a particle sees or may come to see; all other nodes hold zeros. Particles are sorted, and the runs
+//! found anew, before one has moved farther than a cell.
 
 use crate::basis::Basis;
 use crate::lattice::Lattice;

@@ -60,8 +60,8 @@ fn check<const S: usize, B: Basis<S>>(
     let error = (one - 1.0).abs();
     assert!(error < ROUNDING * 100.0, "derivative of x: {one}");
 
-    // A central difference of step d errs by d² w‴/6 inside a polynomial piece and by d w″ where a
-    // knot lies within it; w″ h² ≤ 6 and w‴ h³ ≤ 9 for all bases, but for the kink of hats.
+    // A central difference of step d errs by d² w‴/6 inside a polynomial piece and by d w″ where a knot lies within it;
+    // w″ h² ≤ 6 and w‴ h³ ≤ 9 for all bases, except at the kink of hats.
     let d = 1e-6 * h;
     if x - d > axis.lo && x + d < axis.hi(h) {
         let dense = |x: f64| {
@@ -176,7 +176,7 @@ fn gimp_is_the_average_of_the_hat_over_the_particle() {
     }
 }
 
-/// The greatest h² Σ w′²/w over a cell, at so many places, and what the basis says.
+/// The greatest h² Σ w′²/w over many places in a cell, and the value that the basis states.
 fn steepest<const S: usize, B: Basis<S>>(half_size: f64) -> (f64, Option<f64>) {
     const PLACES: u32 = 20_000;
     let basis = B::new(&Axis::periodic(0.0, 8), 1.0, WallTreatment::OpenKnot);

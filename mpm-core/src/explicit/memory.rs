@@ -1,5 +1,5 @@
-//! What a solver remembers: particles and their states, what the stages remember, and the sums so far.
-//! Nodal arrays are no memory; constraints declare theirs anew.
+//! Memory of a solver: particles and their states, memories of the stages, and the ledger. Nodal arrays are not saved;
+//! constraints declare theirs anew.
 
 use super::Solver;
 use crate::basis::Basis;

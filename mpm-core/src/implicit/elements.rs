@@ -12,8 +12,8 @@ use std::ops::{AddAssign, Range};
 
 /// Units in the last place by which a stress is rounded.
 pub(crate) const LAST_BITS: f64 = 4.0;
-/// What a function counts at least, of its value and its slope over a cell, at one particle: less is rounding, of a
-/// domain that ends on a grid line.
+/// Smallest value, or slope over a cell, of a function that counts at a particle: less is rounding of a domain that
+/// ends on a grid line.
 const LEAST: f64 = 1e-12;
 /// That slope over the share of a cell by which the domain, of an eighth of it or more, reaches over the line.
 const PER_ROUNDING: f64 = 8.0;
@@ -185,8 +185,8 @@ impl<const D: usize> Elements<D> {
         forces
     }
 
-    /// What rounding of a stress by some last bits of a `modulus` (Pa) makes of the forces on `nodes` nodes, in their
-    /// norm (N), of particles of these volumes (m³).
+    /// Norm of the forces (N) on `nodes` nodes that rounding of stresses by some last bits of a `modulus` (Pa) causes,
+    /// for particles of these volumes (m³).
     pub(crate) fn rounding(&self, nodes: usize, volume: &[f64], modulus: f64) -> f64 {
         let mut reach = vec![0.0; nodes];
         self.scatter(0.0, &mut reach, |p, sums| {
@@ -209,8 +209,8 @@ impl<const D: usize> Elements<D> {
         pairs.fold(SVector::zeros(), |sum, (node, w)| sum + field[*node] * *w)
     }
 
-    /// Of every one of `nodes` nodes whether a particle sees it by more than rounding, on cells of size `h` (m). A function
-    /// with no value but a gradient at a particle bears force and counts.
+    /// Whether a particle sees each of `nodes` nodes by more than rounding, on cells of size `h` (m). A function with
+    /// no value but a gradient at a particle bears force and counts.
     pub(crate) fn seen_nodes(&self, nodes: usize, h: f64) -> Vec<bool> {
         let mut seen = vec![false; nodes];
         let least = LEAST + PER_ROUNDING * self.rounding / h;

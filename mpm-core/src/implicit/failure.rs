@@ -50,8 +50,8 @@ impl From<(usize, Fault)> for Failure {
     }
 }
 
-/// Goes through a step by `part`, which is told the share of it that is done and that which is to do: a part that
-/// fails is halved, up to `most_halvings` times, one after a success twice as long. Returns how many parts there were.
+/// Performs a step in parts; `part` takes the completed share and the share to do. A part that fails is halved, up to
+/// `most_halvings` times; one after a success is twice as long. Returns the number of parts.
 pub(crate) fn in_parts(
     most_halvings: u32,
     mut part: impl FnMut(f64, f64) -> Result<(), Failure>,

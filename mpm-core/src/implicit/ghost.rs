@@ -46,8 +46,8 @@ impl<const D: usize> Cells<D> {
         }
     }
 
-    /// Whether a neighbour of the cell, also across an edge or corner, holds no material. What is behind a wall counts as
-    /// full, what is beyond an open end as empty.
+    /// Whether a neighbour of the cell, also across an edge or corner, holds no material. Cells behind a wall count as
+    /// full, cells beyond an open end as empty.
     fn at_edge(&self, cell: &[usize; D]) -> bool {
         (0..3_usize.pow(D as u32)).any(|k| {
             let mut neighbour = [0; D];
@@ -71,7 +71,7 @@ impl<const D: usize> Cells<D> {
     }
 }
 
-/// The penalties of the faces near the edge of the body on a field with so many `components`, with γ E the `strength`.
+/// Penalties of the faces near the edge of the body on a field with this many `components`, with γ E the `strength`.
 pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
     lattice: &Lattice<D, S, B>,
     strength: f64,

@@ -10,7 +10,8 @@ use super::settings::TimeRule;
 use crate::particles::Particles;
 use nalgebra::SVector;
 
-/// What a mass is solved to, in how many iterations at most, and what is enough after these: then rounding allows no more.
+/// Tolerance of a solution with the mass, maximum number of iterations, and the tolerance after these, where rounding
+/// allows no more.
 const TO: f64 = 1e-15;
 const MOST: usize = 500;
 const ENOUGH: f64 = 1e-10;

@@ -1,5 +1,5 @@
-//! What a solver remembers: particles and their states, what the stages remember, the sums so far, and the pattern of
-//! its matrices, so that a new one is counted as one.
+//! Memory of a solver: particles and their states, memories of the stages, the ledger, and the pattern of its matrices,
+//! so that a new one is counted as such.
 
 use super::linear::Direct;
 use super::unknowns::Pattern;

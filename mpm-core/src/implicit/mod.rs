@@ -1,8 +1,8 @@
 //! Quasi-static equilibrium by Newton's method: `docs/implicit.md` derives it, and equation numbers here are that page's.
 //!
-//! Of a step's start stay the functions on the grid, the particles' places and states, and the average of F̄. The
-//! unknowns are the increments of the nodes; a trial of them changes nothing, and what has converged is committed. Then
-//! the grid is as before and the particles have moved.
+//! Shape functions, particle positions, states and the F̄ average are frozen at the start of the step. The unknowns are
+//! the increments of the nodes; a trial of them changes nothing, and the converged one is committed. Then the grid is
+//! as before and the particles have moved.
 //!
 //! The law, its derivatives and the stages are those of the explicit solver; velocities, masses of nodes and transfers
 //! don't exist here.
@@ -297,8 +297,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         goes_on.then(|| rates.map(|rate| rate * dt).collect())
     }
 
-    /// What rounding of a stress by some last bits of the modulus of pressure waves makes of the forces, in their norm (N):
-    /// a nearly incompressible body has no smaller residual.
+    /// Norm of the forces (N) that rounding of stresses causes, by some last bits of the modulus of pressure waves: a
+    /// nearly incompressible body has no smaller residual.
     fn rounding(&self, elements: &Elements<D>) -> f64 {
         let volume = &self.scene.body.particles.volume;
         let modulus = self.moduli.lambda + 2.0 * self.moduli.mu;

@@ -2,8 +2,8 @@
 
 use crate::error::{Error, positive, require};
 
-/// What holds functions that see hardly any material. Penalties act on the increment of a step, so that what they add to
-/// equilibrium vanishes with the steps; an extension adds nothing.
+/// Stabilisation of functions that see hardly any material. Penalties act on the increment of a step, so that their
+/// contribution to equilibrium vanishes with the step; an extension adds nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stabilisation {
     /// Nothing.

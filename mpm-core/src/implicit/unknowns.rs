@@ -9,7 +9,7 @@ const NONE: usize = usize::MAX;
 
 /// The components of displacement of the nodes that a step moves.
 pub(crate) struct Unknowns<const D: usize> {
-    /// Of every node its place among those that move, `NONE` of one that sees nothing.
+    /// Place of every node among those that move; `NONE` for one that sees nothing.
     place: Vec<usize>,
     /// The nodes, in their order.
     pub(crate) node: Vec<usize>,
@@ -18,7 +18,7 @@ pub(crate) struct Unknowns<const D: usize> {
 }
 
 impl<const D: usize> Unknowns<D> {
-    /// The components of so many nodes, on cells of a size (m), that see a particle or a penalty.
+    /// Components of the nodes that see a particle or a penalty, from the number of nodes and the cell size (m).
     pub(crate) fn new(
         (nodes, h): (usize, f64),
         elements: &Elements<D>,

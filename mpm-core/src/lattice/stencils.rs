@@ -87,7 +87,7 @@ impl<const D: usize, const S: usize> StencilRef<'_, D, S> {
         self.of.first[self.l] as usize
     }
 
-    /// Of an array that begins at node `origin`, where the rows at the place `slow` begin and how many nodes further
+    /// In an array that begins at node `origin`: where the rows at the place `slow` begin, and how many nodes further
     /// the last of them ends; each begins [`StencilRef::stride`] nodes after the one before.
     #[inline(always)]
     pub fn line(&self, slow: usize, origin: usize) -> (usize, usize) {

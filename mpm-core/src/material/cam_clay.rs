@@ -5,7 +5,7 @@
 //!
 //! ((p − ρ)/A)² + (q/B)² = 1, ρ = ½ γ p_c, A = (1 − γ) p + ½ γ p_c, B = M \[(1 − α) p + ½ α γ p_c\],
 //!
-//! of which α = γ = 1 is the ellipse q² = M² p (p_c − p) of Roscoe & Burland (1968). What flow dissipates is
+//! where α = γ = 1 gives the ellipse q² = M² p (p_c − p) of Roscoe & Burland (1968). The dissipation of flow is
 //!
 //! Φ = √(A² ε̇_v² + B² ε̇_s²),
 //!

@@ -107,8 +107,8 @@ fn eight_are_as_one<M: Law>(
     }
 }
 
-/// ρ₀ c² (Pa) of the pressure wave along `n`: J times the slope of the stress σ_nn in uniaxial strain. What the stress
-/// that is there adds to the slope of the force per area of the step's start, σ_nn tr(n ⊗ n) − σ_nn, is nothing.
+/// ρ₀ c² (Pa) of the pressure wave along `n`: J times the slope of the stress σ_nn in uniaxial strain. The present
+/// stress adds σ_nn tr(n ⊗ n) − σ_nn = 0 to the slope of the force per area of the step's start.
 fn modulus_along<M: Law>(law: &M, f: &Matrix3<f64>, n: &Vector3<f64>) -> f64 {
     // An hour: no viscosity acts.
     let tangent = law.tangent(&Matrix3::identity(), 3600.0, &deform(law, f).1);

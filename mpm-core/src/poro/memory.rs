@@ -1,5 +1,5 @@
-//! What a solver of solid and water remembers: particles, states and pores, what the stages remember, the sums so far,
-//! and the pattern of its matrices, so that a new one is counted as one.
+//! Memory of a solver of solid and water: particles, states, pores, memories of the stages, the ledger, and the pattern
+//! of its matrices, so that a new one is counted as such.
 
 use super::pores::Pores;
 use super::{OfHats, Solver, Tangent};

@@ -1,5 +1,5 @@
-//! What acts on a body from outside in a step: forces of faces and plates on the nodes, and drains. Each sum is the
-//! whole of what its face has, or there is no step.
+//! External actions in a step: forces of faces and plates on the nodes, and drains. Each sum must equal the whole of
+//! its face; otherwise the step fails.
 
 use super::face::{Acts, Corner, Face};
 use super::step::Drain;

@@ -9,8 +9,8 @@ pub enum PressureSpace {
     TwoGrid,
     /// The same functions on the same cells: pressures that no change of volume sees are not held.
     Equal,
-    /// Likewise, and what a pressure's increment varies within a cell is penalised (Dohrmann & Bochev 2004,
-    /// doi:10.1002/fld.752), with a strength τ (1/Pa) of about 1/(2G).
+    /// The same functions on the same cells, with a penalty on the variation of a pressure's increment within a cell
+    /// (Dohrmann & Bochev 2004, doi:10.1002/fld.752), with a strength τ (1/Pa) of about 1/(2G).
     Projected {
         /// τ (1/Pa).
         strength: f64,

@@ -370,8 +370,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         matrix
     }
 
-    /// What scales the matrix symmetrically: one over the root of a diagonal entry, of a pressure over that of what its
-    /// elimination makes of it, which doesn't vanish where hardly any water flows.
+    /// Symmetric scaling of the matrix: one over the root of a diagonal entry; for a pressure, of the entry after
+    /// elimination, which does not vanish where hardly any water flows.
     pub(super) fn scales(&self, values: &[f64]) -> Vec<f64> {
         let Pattern { begin, row, .. } = &self.setting.pattern;
         let displacements = self.setting.unknowns.displacements;

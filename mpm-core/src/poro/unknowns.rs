@@ -38,8 +38,8 @@ fn next(count: &mut usize) -> usize {
 }
 
 impl<const D: usize> Unknowns<D> {
-    /// Of functions on `elements` of the displacement and the pressure, on so many nodes and cells of these sizes (m);
-    /// held as two functions say, while those components are one that a plate ties.
+    /// Unknowns of functions on `elements` of the displacement and the pressure, with their numbers of nodes and cell
+    /// sizes (m). Two functions give held values; components that a plate ties are one unknown.
     pub(super) fn new(
         elements: [&Elements<D>; 2],
         nodes: [usize; 2],

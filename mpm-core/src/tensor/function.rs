@@ -19,7 +19,7 @@ const VERY_NEAR: f64 = 1e-6;
 const LOGARITHM_TERMS: (u32, u32) = (3, 7);
 /// Powers of the exponential's series: 10⁻¹⁸/6! is below 10⁻²⁰, 0.1¹¹/11! below 10⁻¹⁸.
 const EXPONENTIAL_TERMS: (u32, u32) = (5, 10);
-/// An exponent is halved, and a root taken of what a logarithm is of, at most so many times: beyond it numbers overflow.
+/// Maximum number of halvings of an exponent, and of roots of a logarithm's argument: beyond it numbers overflow.
 const MOST_HALVINGS: u32 = 13;
 /// Newton steps for the trace of a root: at most this many.
 const MOST_STEPS: u32 = 50;
@@ -313,7 +313,7 @@ impl<T: Real> SymmetricTensor<T> {
         self.combine(square, 1.0, sum)
     }
 
-    /// The exponential of this tensor a by scaling and squaring, (e^(a/2ⁿ))^(2ⁿ). What is squared is e^(a/2ⁿ) − I, whose
+    /// The exponential of this tensor a by scaling and squaring, (e^(a/2ⁿ))^(2ⁿ). It squares e^(a/2ⁿ) − I, whose
     /// relative error does not double.
     fn far_exp(&self) -> Self {
         let mut part = *self;

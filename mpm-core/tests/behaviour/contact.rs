@@ -142,7 +142,7 @@ const AT_REST: f64 = 1e-4;
 /// Rounding of a sum of some hundred terms.
 const ROUNDING: f64 = 1e-12;
 
-/// What is left of the nodal forces is the difference of weight and reaction.
+/// The residual of the nodal forces is the difference of weight and reaction.
 #[test]
 fn a_block_rests_with_its_weight_on_the_floor() {
     let particles = block::<2>(16);

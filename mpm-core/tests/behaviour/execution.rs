@@ -120,7 +120,7 @@ fn a_step_allocates_nothing_but_to_sort() {
     });
 }
 
-/// Of a body on its way: steps that sort its particles give back what they take.
+/// A moving body allocates nothing, beyond steps that sort its particles and give back what they take.
 fn allocates_nothing<const D: usize, const S: usize, B, T>(transfer: &T)
 where
     B: Basis<S> + 'static,

@@ -74,10 +74,10 @@ fn under(face: &RigidFace<2>, solver: &dyn Simulation<2>, per_cell: usize) -> (V
     (gaps, slip)
 }
 
-/// The clay yields under the footing: Prandtl's pressure is (2 + π) s_u, and a coarse grid is above it, by less than
-/// a tenth. Since the force of the barrier is convex, the mean gap is at least that of the mean force; it is known
-/// from the reaction to a tenth of the loss. What is rough doesn't slide along: less than a hundredth of what the
-/// footing sinks.
+/// The clay yields under the footing: Prandtl's pressure is (2 + π) s_u, and a coarse grid is above it, by less than a
+/// tenth. Since the force of the barrier is convex, the mean gap is at least that of the mean force; it is known from
+/// the reaction to a tenth of the loss. The rough contact does not slide: by less than a hundredth of the footing's
+/// stroke.
 #[test]
 fn a_rough_footing_sinks_into_clay_with_a_known_loss() {
     let (face, barrier, mut solver) = footing(2);

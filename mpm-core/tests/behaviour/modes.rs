@@ -1,4 +1,4 @@
-//! What the averages do to waves: the closed forms and tables of `docs/modes.md`.
+//! Effect of the averages on waves: the closed forms and tables of `docs/modes.md`.
 
 mod fluid;
 mod model;
@@ -67,7 +67,7 @@ fn symbol_is<const S: usize, B: Basis<S> + 'static>(closed: fn(usize, f64) -> f6
             for (a, q) in averaged.iter().zip(&field) {
                 assert!((a - expected * q).abs() < ROUNDING, "{n} {m:?}: {a} {q}");
             }
-            // What is orthogonal to φ along one axis is lost, whatever it is along the other.
+            // A part orthogonal to φ along one axis is lost, whatever it is along the other.
             let mut null = noise(n, m[0]);
             let norm = product(&x, &x).re;
             if norm > ROUNDING {
@@ -367,7 +367,7 @@ fn noise_grows_as_documented() {
     }
 }
 
-/// A pressure of a hundredth of K, and a stiffness of what Π can't see of so many times that: the table of
+/// A pressure of a hundredth of K, and a multiple of it as the stiffness of modes that Π cannot see: the table of
 /// `docs/disorder.md`. A quarter of the pressure is too little at rest.
 #[test]
 fn a_stiffness_above_the_pressure_stills_the_noise() {

@@ -228,8 +228,8 @@ fn damping_takes_energy_and_says_how_much() {
     assert!(LocalDamping::new(f64::NAN).is_err());
 }
 
-/// Of a body in a box: where its particles are, the work of its weight and the force on the floor, when nodes take the
-/// weight and when particles do.
+/// A body in a box has the same positions, work of its weight and force on the floor, whether nodes or particles take
+/// the weight.
 #[test]
 fn nodes_take_the_weight_as_particles_do() {
     let run = |load: Box<dyn Load<2>>| {

@@ -1,4 +1,4 @@
-//! What transfers keep and what they take.
+//! Quantities that transfers conserve or dissipate.
 
 use crate::scenes::{angular_momentum, block, open_grid, scene, scene_with, swirl};
 use mpm_core::basis::{Gimp, Linear, QuadraticBSpline};

@@ -84,8 +84,8 @@ fn leftmost(solver: &impl Simulation<2>) -> f64 {
     x.fold(f64::INFINITY, f64::min)
 }
 
-/// A block that is pulled off the wall (0.8 N s) leaves it, if that is separable, as if it weren't there, but for what
-/// the corner's rounding pushes; one that is thrown at the wall comes back.
+/// A block that is pulled off the wall (0.8 N s) leaves it, if that is separable, as if it were not there, except for
+/// the push of the corner's rounding; one that is thrown at the wall comes back.
 fn separates<const S: usize, B: Basis<S>, T: Transfer<2> + Copy>(transfer: T) {
     let pulled = || block(0, [SPEED, 0.3 * SPEED]);
     let free = run::<S, B, T>(pulled(), WallKind::Separable, transfer);

@@ -13,12 +13,11 @@ use crate::tensor::SymmetricTensor;
 /// J̄ⁿ⁺¹ = J̄ⁿ A(ΔJ), less a relaxation of what Π can't see, and the force from the stress
 /// (J̄/J) dev σ + A((J̄/J) p) I, with A = I − (1 − ε)(I − Π)², ε = 0.01.
 ///
-/// A is symmetric in the volume-weighted product, as Π is, so the power that the pressure takes from
-/// the grid is the rate of the energy stored: `docs/remedy.md` derives it. It errs by the square of
-/// Π's error. What Π can't see keeps the share ε of its strain, a stiffness ε² K, so that a pressure
-/// doesn't feed it. It fills as particles pass each other, and is
-/// emptied by J̄ ← J̄ − (I − Π) θ (I − Π) J̄ with θ = min(1, β γ) and γ the shear strain of the step,
-/// which keeps the volume, never adds energy to first order, and does nothing at rest.
+/// A is symmetric in the volume-weighted product, as Π is, so the power that the pressure takes from the grid is the
+/// rate of the energy stored: `docs/remedy.md` derives it. It errs by the square of Π's error. Modes that Π cannot see
+/// keep the share ε of their strain, a stiffness ε² K, so that a pressure does not feed them. It fills as particles
+/// pass each other, and is emptied by J̄ ← J̄ − (I − Π) θ (I − Π) J̄ with θ = min(1, β γ) and γ the shear strain of the
+/// step, which keeps the volume, never adds energy to first order, and does nothing at rest.
 ///
 /// A pressure above ε² K does feed it. [`holding`](Self::holding) gives every particle an ε of its own, that the
 /// pressure there asks for: A = I − (I − Π)(1 − ε)(I − Π) is as symmetric (`docs/disorder.md`).

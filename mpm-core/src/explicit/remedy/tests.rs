@@ -176,8 +176,8 @@ fn the_spread_of_the_average_is_as_stated_for_each_basis() {
     close(spread::<4, CubicBSpline>(many), 2.0 / 3.0, tolerance);
     for n in [2, 5] {
         let exact = 1.0 / 3.0 + 1.0 / (6.0 * (n * n) as f64);
-        // GIMP's weights at lattice particles are cell integrals, exact but for the mean of x² over
-        // a particle, which is x² + l²/3: at most 1/(12 n²) of a cell squared.
+        // GIMP's weights at lattice particles are cell integrals, exact except for the mean of x² over a particle,
+        // which is x² + l²/3: at most 1/(12 n²) of a cell squared.
         close(spread::<3, Gimp>(n), exact, 1.0 / (12.0 * (n * n) as f64));
     }
 }
@@ -266,8 +266,8 @@ fn the_assumed_gradient_has_the_averaged_volume_and_the_given_shape() {
     }
 }
 
-/// What a particle of the energy test carries beside its place: deviations of J and J̄ from one, and a
-/// velocity gradient.
+/// Data of a particle in the energy test, beside its position: deviations of J and J̄ from one, and a velocity
+/// gradient.
 type Carried = ([f64; 2], [f64; 4]);
 
 /// A cloud of particles that have seen different deformations, whose J̄ has parted from J.
@@ -359,8 +359,7 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
     );
 }
 
-/// What is held is held against a pressure: where there is none no bit changes, and of a body that grows alike everywhere
-/// nothing is unseen.
+/// Strains are held against a pressure: without one no bit changes, and uniform growth has no unseen part.
 #[test]
 fn holding_does_nothing_without_pressure_or_disorder() {
     let (_, plain, _) = small_body(&mut FbarConsistent::default(), 2);

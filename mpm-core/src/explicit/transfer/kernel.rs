@@ -1,7 +1,7 @@
 //! Shared kernels of the transfers: forces and velocities between a particle and the nodes of its stencil.
 //!
-//! Particles come in eights. What is computed side by side is written to memory, where the loop over the eight reads
-//! it: a run-time index keeps the arrays there.
+//! Particles come in eights. Results computed side by side are written to memory, where the loop over the eight reads
+//! them: a run-time index keeps the arrays there.
 
 use crate::lattice::{Stencil, StencilRef};
 use crate::nodes::{NodalState, Node};
@@ -76,8 +76,8 @@ pub(super) fn padded<const D: usize>(components: &[Octet; D], l: usize) -> Node 
 /// Adds a particle's momentum and mass, Eqs. (7) and (8), and its forces, −V_p σ_p ∇w_ip + w_ip f_p,
 /// Eq. (10), to `nodes`, which begins at node `origin`.
 ///
-/// `carried(slow, fast, w)` gives, for the row of the stencil at these places and of weight `w`, the momentum and
-/// mass that node `k` of the row receives but for the weight along the row.
+/// `carried(slow, fast, w)` gives, for the row of the stencil at these places and of weight `w`, the momentum and mass
+/// that node `k` of the row receives, without the weight along the row.
 #[inline(always)]
 pub fn spread<const D: usize, const S: usize, R: Fn(usize) -> Node>(
     stencil: StencilRef<'_, D, S>,

@@ -37,7 +37,7 @@ impl Swing {
     }
 
     /// With damping by the force and velocity at the end of the step: on each of the four pairs of their signs the
-    /// equations are linear, and a solution that has other signs is none. A mass of a step without solution stops.
+    /// equations are linear, and a solution with other signs is invalid. In a step without solution the mass stops.
     fn inside(&mut self) {
         let [_, v, a] = self.now;
         let (stiffness, push) = (4.0 / self.dt.powi(2), 4.0 * v / self.dt + a);

@@ -167,8 +167,8 @@ fn the_midpoint_rule_is_of_second_order() {
     assert!((ratio - 4.0).abs() < 0.3, "{ratio}");
 }
 
-/// Between walls, with the same mass, both rules swing alike: of small strains they are the same but for what particles
-/// take from the nodes.
+/// Between walls, with the same mass, both rules swing alike: at small strains they differ only by what particles take
+/// from the nodes.
 #[test]
 fn the_rules_agree_between_walls() {
     let start = swinging().body.particles.position;

@@ -139,8 +139,8 @@ pub(super) fn places(solver: &Block) -> Vec<[f64; 2]> {
     places
 }
 
-/// What a step leaves is a force of Newton's tolerance, against which the sticks of all that touch hold the block: no
-/// step moves it by more than that force stretches them.
+/// A step leaves a residual force of Newton's tolerance, which all touching sticks hold: no step moves the block by
+/// more than that force stretches them.
 #[test]
 fn below_the_angle_of_friction_a_block_rests_and_does_not_creep() {
     for share in [0.5, 0.9] {

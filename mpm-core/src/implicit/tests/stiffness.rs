@@ -149,8 +149,8 @@ fn stiffness_is_symmetric_where_there_is_a_potential() {
     assert!(asymmetry::<2, Quadratics<2>, _>(law, none) > 1e-4);
 }
 
-/// Pressures of nodes that are eliminated from what preconditions, Eq. (13), resist a strain that is alike everywhere as
-/// the average does, but for the share of it that is kept where averages see nothing.
+/// Pressures of nodes that are eliminated from what preconditions, Eq. (13), resist a strain that is alike everywhere
+/// as the average does, except for the share that is kept where averages see nothing.
 fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D>>() {
     let scene = full::<D, _>(
         CELLS,

@@ -4,11 +4,11 @@
 //!
 //! v = v_tr + μ (p − ρ), q = q_tr B²/(B² + 3G μ A²),
 //!
-//! where p, ρ, A and B are functions of the elastic volume strain v alone, as p_c grows by e^((v − v_tr)/ψ). What is
-//! dissipated is μ A². For a given μ the first equation has one solution, since p falls and ρ grows with v. Then
-//! N = √(((p − ρ)/A)² + (q/B)²) is a function of μ, above 1 at 0 and zero far out: so that N = 1 has a solution,
-//! between bounds that close in. 1 − 1/N is nearly linear in μ. Both equations are solved by Newton's method, which
-//! halves where it would leave its bounds.
+//! where p, ρ, A and B are functions of the elastic volume strain v alone, as p_c grows by e^((v − v_tr)/ψ). The
+//! dissipation is μ A². For a given μ the first equation has one solution, since p falls and ρ grows with v. Then N =
+//! √(((p − ρ)/A)² + (q/B)²) is a function of μ, above 1 at 0 and zero far out: so that N = 1 has a solution, between
+//! bounds that close in. 1 − 1/N is nearly linear in μ. Both equations are solved by Newton's method, which halves
+//! where it would leave its bounds.
 
 use super::CamClay;
 use crate::number::Real;

@@ -161,8 +161,8 @@ fn uniaxial_strain_follows_its_closed_form() {
     }
 }
 
-/// Uniaxial tension without lateral stress, isochoric beyond yield but for elasticity: σ_y = √(3/2) κ. Driven
-/// by strains that a uniaxial stress has: e = σ/E along, −νe across until yield; then (1, −½, −½).
+/// Uniaxial tension without lateral stress, isochoric beyond yield except for elasticity: σ_y = √(3/2) κ. Driven by
+/// strains that a uniaxial stress has: e = σ/E along, −νe across until yield; then (1, −½, −½).
 #[test]
 fn a_bar_yields_at_the_uniaxial_strength_of_the_convention() {
     let law = perfect();
@@ -289,7 +289,7 @@ fn softening_under_turning_flow_is_of_first_order() {
     for pair in differences.windows(2) {
         assert!((1.7..2.5).contains(&(pair[0] / pair[1])), "{differences:?}");
     }
-    // What is left at a step: the next difference, and the geometric series after it.
+    // Error at a step: the next difference, and the geometric series after it.
     assert!(2.0 * differences[1].abs() < 1e-5 * KAPPA, "{differences:?}");
 }
 

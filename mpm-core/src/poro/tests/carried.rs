@@ -102,7 +102,7 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     });
     assert_eq!(seen, HIGH / 2);
 
-    // Of particles that differ, hats of 2h, whose means over domains in a cell are their values.
+    // Particles that differ: hats of 2h, whose means over domains in a cell are their values.
     let pressure: Vec<f64> = (0..places.len()).map(|p| (p * p) as f64).collect();
     let volume: Vec<f64> = (0..places.len()).map(|p| H / (1 + p) as f64).collect();
     solver.pores.pressure = pressure.clone();

@@ -38,8 +38,7 @@ fn one_element_consolidates_as_its_closed_form() {
     }
 }
 
-/// What the volume changes by is what flows out: with the exact rate to Newton's tolerance, with the logarithmic one
-/// not.
+/// The change of volume equals the outflow, to Newton's tolerance with the exact rate; not with the logarithmic one.
 fn imbalance<const D: usize, I: OfHats<D>>(settings: Settings) -> f64 {
     let mut solver = loaded::<D, I>(0.5 * MODULUS, settings);
     solver.advance(10).unwrap();

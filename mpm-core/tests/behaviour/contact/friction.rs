@@ -14,10 +14,10 @@ pub(super) fn on_a_slope(mu: f64, slope: f64, speed: f64) -> Setting<2> {
     })
 }
 
-/// While all slide, the stick of each is on Coulomb's cone in every step: it stretches in a step by more than its
-/// limit grows. So the momentum along the floor is that of the slope less μ times that of the floor; but for the first
-/// step, in which no stick is stretched yet, or from rest the time t in which they are stretched to their limit u,
-/// u = ½ a t² with an acceleration of at least that of the slide.
+/// While all slide, the stick of each is on Coulomb's cone in every step: it stretches in a step by more than its limit
+/// grows. So the momentum along the floor is that of the slope less μ times that of the floor, except for the first
+/// step, in which no stick is stretched yet, or from rest the time t in which they are stretched to their limit u, u =
+/// ½ a t² with an acceleration of at least that of the slide.
 #[test]
 fn a_sliding_block_follows_coulomb() {
     let mu = 0.3;
@@ -92,7 +92,7 @@ fn a_rough_stick_does_not_creep() {
 }
 
 /// A rough plate takes along a block that is pulled back, and lifts it, across cells; then the block follows its
-/// stroke but for what the stick and the barrier give way. The plate's ramp, of jerk 6 v/T² at its ends, leaves an
+/// stroke, except that the stick and the barrier give way. The plate's ramp, of jerk 6 v/T² at its ends, leaves an
 /// oscillation of at most four times the jerk over ω³. That of the lift is smaller, by the ratio of the speeds.
 #[test]
 fn a_moving_plate_takes_a_block_along() {

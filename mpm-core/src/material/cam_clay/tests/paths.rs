@@ -210,7 +210,7 @@ fn shear_ends_in_the_critical_state_of_any_shape() {
 fn rates(law: &CamClay, v: f64, q: f64, pc: f64) -> [f64; 3] {
     let [_, mean, bulk] = law.elasticity.volumetric(v);
     let (p, g) = (-mean, law.elasticity.shear_modulus);
-    // Of the ellipse f = q²/M² + p² − p p_c.
+    // Gradient of the ellipse f = q²/M² + p² − p p_c.
     let m2 = RATIO * RATIO;
     let [by_p, by_q, by_pc] = [2.0 * p - pc, 2.0 * q / m2, -p];
     let elastic = by_p * bulk + by_q * 2.0 * g;
