@@ -14,10 +14,10 @@ use thiserror::Error;
 #[serde(transparent)]
 pub struct Saved(#[serde(with = "serde_bytes")] Vec<u8>);
 
-/// Why a memory can't be saved or restored.
+/// Why a memory cannot be saved or restored.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MemoryError {
-    /// A value that can't be written as bytes.
+    /// A value that cannot be written as bytes.
     #[error("memory can't be written: {0}")]
     Write(postcard::Error),
     /// Bytes that are not the memory of this part.
@@ -36,7 +36,7 @@ pub enum MemoryError {
         /// How many are left.
         surplus: usize,
     },
-    /// The memory asks for a scene that can't be built.
+    /// The memory asks for a scene that cannot be built.
     #[error("the scene can't be built: {0}")]
     Scene(String),
     /// A size that is not that of the scene.
@@ -49,7 +49,7 @@ pub enum MemoryError {
         /// The scene's.
         expected: usize,
     },
-    /// A value that the scene doesn't allow.
+    /// A value that the scene does not allow.
     #[error("{what} = {value} in the memory is not allowed: {allowed}")]
     Value {
         /// The field.

@@ -25,7 +25,7 @@ pub const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"
 /// Eight numbers in memory, each of which a loop over the eight reads as a broadcast.
 pub type Octet = [f64; EIGHT];
 
-/// Whole numbers as indices. They are below 2³², so that sums of a few don't overflow, which the compiler then knows.
+/// Whole numbers as indices. They are below 2³², so that sums of a few do not overflow, which the compiler then knows.
 #[inline(always)]
 pub fn indices(of: Eight) -> [u32; EIGHT] {
     of.fast_trunc_int().to_array().map(|index| index as u32)
@@ -89,7 +89,7 @@ pub trait Real:
     #[must_use]
     fn clamped(self, low: f64, high: f64) -> Self;
 
-    /// Whether all are below `limit`; what is not a number isn't.
+    /// Whether all are below `limit`; what is not a number is not.
     fn all_below(self, limit: f64) -> bool;
 
     /// Whether all are above `low` and below `high`.

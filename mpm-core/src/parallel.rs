@@ -9,7 +9,7 @@
 //! first axis hold contiguous runs of them. A slab's particles reach fewer than `2 SLAB` planes of
 //! nodes, so slabs of even number can run side by side, each on its own run of planes, and then
 //! those of odd number. A node thus receives its contributions in an order that the number of
-//! threads doesn't change, without atomics and without private grids.
+//! threads does not change, without atomics and without private grids.
 
 use std::ops::Range;
 

@@ -49,7 +49,7 @@ pub struct Particles<const D: usize> {
     #[serde(with = "rows")]
     pub external_force: Vec<[f64; D]>,
     /// At the start, the deformation gradient F. Then the relative deformation gradient ΔF, or ΔF̄, of a step, where a
-    /// solver keeps it here; the explicit one doesn't.
+    /// solver keeps it here; the explicit one does not.
     pub delta_f: Vec<SMatrix<f64, D, D>>,
     /// Displacement of the step (m).
     #[serde(with = "rows")]

@@ -22,7 +22,7 @@ impl<const D: usize> RigidFace<D> {
     /// above, at `Hi` what presses from above.
     ///
     /// # Errors
-    /// An axis that there isn't, a position that is not finite.
+    /// An axis that there is not, a position that is not finite.
     pub fn half_space(axis: usize, end: End, position: f64) -> Result<Self, Error> {
         require(
             axis < D,
@@ -46,7 +46,7 @@ impl<const D: usize> RigidFace<D> {
     }
 
     /// Limits the face to `extent`, lower and upper end along every axis (m) at time zero; that along the normal
-    /// has no meaning. Particles beside the face don't feel it.
+    /// has no meaning. Particles beside the face do not feel it.
     #[must_use]
     pub fn within(self, extent: [[f64; 2]; D]) -> Self {
         Self { extent, ..self }

@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 
 /// Friction between a particle and a rigid body: a spring of tangential stiffness k_t holds the particle to the
 /// body, up to μ times the normal force, beyond which its foot slides (Coulomb's law with the return of plasticity,
-/// Simo & Laursen 1992, doi 10.1016/0045-7949(92)90540-G). A stick is elastic: it doesn't creep.
+/// Simo & Laursen 1992, doi 10.1016/0045-7949(92)90540-G). A stick is elastic: it does not creep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     mu: f64,
@@ -56,7 +56,7 @@ impl Friction {
         self.mu.is_finite().then_some(self.mu)
     }
 
-    /// The share of a stretch (m) that the stick can't hold which it keeps under the normal force `normal` (N), and the
+    /// The share of a stretch (m) that the stick cannot hold which it keeps under the normal force `normal` (N), and the
     /// length of the stretch (m); none if it holds all of it.
     fn kept<const D: usize>(&self, stretch: &[f64; D], normal: f64) -> Option<[f64; 2]> {
         let length = stretch.iter().map(|u| u * u).sum::<f64>().sqrt();

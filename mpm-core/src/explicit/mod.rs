@@ -50,7 +50,7 @@ struct ChunkSums {
     /// Greatest moduli ρ₀ c² of waves (Pa), lane by lane.
     wave_modulus: Eight,
     wrapped: bool,
-    /// The first particle that has no volume, and the first that can't go where it should; by place in the columns.
+    /// The first particle that has no volume, and the first that cannot go where it should; by place in the columns.
     collapsed: Option<(usize, Fault)>,
     astray: Option<(usize, Fault)>,
 }
@@ -200,7 +200,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
 }
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
-    /// Replaces `field` (one value per particle) by its average Π `field`. No work of the run: it isn't counted.
+    /// Replaces `field` (one value per particle) by its average Π `field`. No work of the run: it is not counted.
     pub fn average(&mut self, field: &mut [f64]) {
         let mut uncounted = 0;
         Projection {

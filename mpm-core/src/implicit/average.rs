@@ -5,7 +5,7 @@
 use super::elements::Elements;
 use crate::parallel::{LIGHT, map};
 
-/// The share ε of a field that Π can't see which A keeps, as the explicit remedy does.
+/// The share ε of a field that Π cannot see which A keeps, as the explicit remedy does.
 pub(super) const UNSEEN: f64 = 0.01;
 
 /// A, frozen in a step.

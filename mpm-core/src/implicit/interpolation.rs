@@ -17,7 +17,7 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     /// The functions on `grid`.
     ///
     /// # Errors
-    /// A grid that these functions don't live on.
+    /// A grid that these functions do not live on.
     fn on(grid: Grid<D>) -> Result<Self, Error>;
 
     /// The grid.
@@ -49,7 +49,7 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     /// Whether these functions offer a stabilisation.
     ///
     /// # Errors
-    /// They don't.
+    /// They do not.
     fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error>;
 
     /// Gauss points along an axis that integrate the stiffness of a cell.

@@ -5,7 +5,7 @@
 //! as before and the particles have moved.
 //!
 //! The law, its derivatives and the stages are those of the explicit solver; velocities, masses of nodes and transfers
-//! don't exist here.
+//! do not exist here.
 
 pub(crate) mod algebra;
 mod average;

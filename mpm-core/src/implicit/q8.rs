@@ -1,4 +1,4 @@
-//! Serendipity elements with eight nodes, the paper's: to reproduce its cantilever, which they don't converge to.
+//! Serendipity elements with eight nodes, the paper's: to reproduce its cantilever, which they do not converge to.
 //!
 //! Corners and mid-sides stand on a lattice of half the cell size, whose points in the middle of cells are no nodes.
 

@@ -15,7 +15,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// A solver of `scene` with `settings` at time zero.
     ///
     /// # Errors
-    /// A setting or particle that is not allowed; a stabilisation that the functions don't offer; F̄ with a law that is
+    /// A setting or particle that is not allowed; a stabilisation that the functions do not offer; F̄ with a law that is
     /// not conservative or friction that can slip; a contact across a periodic axis; a constraint on one side only; a
     /// particle off the grid.
     pub fn new(mut scene: Scene<D, M>, settings: Settings) -> Result<Self, Error> {

@@ -174,7 +174,7 @@ pub trait Law: Sized + Send + Sync {
             .0
     }
 
-    /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that doesn't flow.
+    /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that does not flow.
     fn plastic_strain(&self, _state: &Self::State) -> f64 {
         0.0
     }

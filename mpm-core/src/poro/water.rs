@@ -67,7 +67,7 @@ pub struct Water<const D: usize> {
 }
 
 impl<const D: usize> Water<D> {
-    /// Weightless water without pressure that can't leave.
+    /// Weightless water without pressure that cannot leave.
     #[must_use]
     pub fn new(porosity: f64, conductivity: Conductivity) -> Self {
         Self {

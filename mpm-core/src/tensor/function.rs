@@ -226,7 +226,7 @@ impl<T: Real> SymmetricTensor<T> {
             );
             let square = z.times_commuting(&z);
             let size = square.trace();
-            // Not below for a tensor that isn't finite; those beside it keep their digits.
+            // Not below for a tensor that is not finite; those beside it keep their digits.
             if size.all_below(NEAR) || halvings == MOST_HALVINGS {
                 let mut powers = Powers::new(&z, &square);
                 let mut sum = powers.now;

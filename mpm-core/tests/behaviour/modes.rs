@@ -276,7 +276,7 @@ fn crossing_a_cell_feeds_waves_as_documented() {
     }
 }
 
-/// A pressure that Π can't see accelerates what Π can't see either; the consistent force lets the share ε of
+/// A pressure that Π cannot see accelerates what Π cannot see either; the consistent force lets the share ε of
 /// it through.
 fn unseen_pressure_pushes<const S: usize, B: Basis<S> + 'static>() {
     let axis = Bloch::<S, B>::new(2, theta(7));

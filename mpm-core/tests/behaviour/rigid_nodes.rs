@@ -103,7 +103,7 @@ fn a_constraint_that_does_not_exist_has_no_force() {
     assert!(solver.on(Part::Constraint(9)).force[0].is_nan());
 }
 
-/// A narrow press on a fixed body: a rough one holds the material under it, a smooth one doesn't; nodes beside it
+/// A narrow press on a fixed body: a rough one holds the material under it, a smooth one does not; nodes beside it
 /// are free.
 #[test]
 fn a_rough_press_holds_and_a_smooth_one_lets_slide() {

@@ -10,7 +10,7 @@ use crate::particles::Particles;
 use crate::projection::Average;
 use crate::tensor::SymmetricTensor;
 
-/// J̄ⁿ⁺¹ = J̄ⁿ A(ΔJ), less a relaxation of what Π can't see, and the force from the stress
+/// J̄ⁿ⁺¹ = J̄ⁿ A(ΔJ), less a relaxation of what Π cannot see, and the force from the stress
 /// (J̄/J) dev σ + A((J̄/J) p) I, with A = I − (1 − ε)(I − Π)², ε = 0.01.
 ///
 /// A is symmetric in the volume-weighted product, as Π is, so the power that the pressure takes from the grid is the
@@ -35,7 +35,7 @@ pub struct FbarConsistent {
 
 /// The relaxation β that serves every problem of the bench.
 const RELAXATION: f64 = 10.0;
-/// The share ε of a strain that Π can't see which is kept. ε² K has to hold against the pressure of a body,
+/// The share ε of a strain that Π cannot see which is kept. ε² K has to hold against the pressure of a body,
 /// 10⁻⁴ K is ten times that of two metres of water; from 0.1 on bodies lock (`docs/remedy.md`).
 const UNSEEN: f64 = 0.01;
 
@@ -59,7 +59,7 @@ impl FbarConsistent {
         }
     }
 
-    /// With a stiffness ε² K of what Π can't see that is at least `times` the smooth pressure Π p at every particle, in a material of the
+    /// With a stiffness ε² K of what Π cannot see that is at least `times` the smooth pressure Π p at every particle, in a material of the
     /// modulus K = `modulus` (Pa); ε is at most one. Zero `times` for the same ε everywhere.
     ///
     /// # Errors

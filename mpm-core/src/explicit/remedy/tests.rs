@@ -308,7 +308,7 @@ fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
     places: &[[f64; 4]],
     carried: &[Carried],
 ) {
-    // Pressures are up to a thousand; the second remedy keeps from a hundredth to all of what Π can't see.
+    // Pressures are up to a thousand; the second remedy keeps from a hundredth to all of what Π cannot see.
     for times in [0.0, 10.0] {
         power_of_remedy_is_the_rate_of_energy::<S, B>(times, places, carried);
     }

@@ -37,7 +37,7 @@ fn moving<I: Interpolation<2>, M: Law>(law: M, rule: TimeRule) -> Solver<2, I, M
     Solver::new(tumbling(law), settings).unwrap()
 }
 
-/// Nothing outside acts: both rules keep linear momentum, and Newton's tolerance doesn't matter to the midpoint rule.
+/// Nothing outside acts: both rules keep linear momentum, and Newton's tolerance does not matter to the midpoint rule.
 fn keeps_momentum<const D: usize, I: Interpolation<2>, M: Law + Clone>(law: M) {
     for rule in [MIDPOINT, NEWMARK] {
         let mut solver = moving::<I, M>(law.clone(), rule);
