@@ -141,7 +141,6 @@ impl Totals {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::material::NeoHookean;

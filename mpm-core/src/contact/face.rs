@@ -149,7 +149,6 @@ impl<const D: usize> RigidFace<D> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
 

@@ -246,7 +246,6 @@ fn difference<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D] {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::stage::End;

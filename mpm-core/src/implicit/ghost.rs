@@ -169,7 +169,6 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::super::domains::HalfSizes;
     use super::*;

@@ -156,7 +156,6 @@ impl Interpolation<2> for Serendipity {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::grid::Axis;

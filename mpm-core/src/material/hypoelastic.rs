@@ -166,7 +166,6 @@ impl Law for Hypoelastic {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use nalgebra::Rotation3;

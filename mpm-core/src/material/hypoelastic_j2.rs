@@ -100,7 +100,6 @@ impl Law for HypoelasticJ2 {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::material::HenckyJ2;

@@ -51,7 +51,6 @@ impl<const D: usize> Constraint<D> for RigidNodes<D> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::grid::Axis;
