@@ -2,6 +2,7 @@
 
 mod friction;
 
+use crate::scenes::with_threads;
 use friction::on_a_slope;
 use mpm_core::basis::Gimp;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
@@ -394,8 +395,7 @@ fn bits(
     threads: usize,
     contacts: impl Fn(&Particles<2>) -> Vec<RigidContact<2>> + Sync,
 ) -> Vec<u64> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-    pool.build().unwrap().install(|| {
+    with_threads(threads, || {
         let mut particles = block::<2>(72);
         for (k, v) in particles.velocity.iter_mut().enumerate() {
             *v = [0.5 + 0.01 * (k as f64).sin(), 0.01 * (k as f64).cos()];
@@ -439,8 +439,7 @@ fn a_face_out_of_reach_changes_no_bit() {
 
 #[test]
 fn contact_allocates_nothing() {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
-    pool.build().unwrap().install(|| {
+    with_threads(1, || {
         let mut solver = started(on_a_slope(0.3, 0.5, 0.0)).unwrap();
         solver.step().unwrap();
         let info = allocation_counter::measure(|| {

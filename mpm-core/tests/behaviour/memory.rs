@@ -1,6 +1,6 @@
 //! A run that is saved, built anew and restored goes on bit for bit; what is not its memory is refused.
 
-use crate::scenes::remedies;
+use crate::scenes::{DENSITY, block, remedies};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::remedy::{FbarRate, Standard};
@@ -12,11 +12,10 @@ use mpm_core::stage::{
     BodyForce, DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion,
     RigidNodes, Wall, WallKind,
 };
-use mpm_core::{Axis, Basis, Body, Grid, Law, Part, Particles, Scene, Side, Simulation};
+use mpm_core::{Axis, Basis, Body, Grid, Law, Part, Scene, Side, Simulation};
 
 const H: f64 = 0.5;
 const CELLS: usize = 20;
-const DENSITY: f64 = 2.0;
 const STEPS: usize = 60;
 
 fn solid() -> NeoHookean {
@@ -30,13 +29,7 @@ fn scene<M: Law, T>(
     remedy: Box<dyn Remedy<2>>,
     width: usize,
 ) -> (Scene<2, M>, Settings<2, T>) {
-    let spacing = 0.5 * H;
-    let positions = (0..2 * width * 12)
-        .map(|k| [(k / 12) as f64, (k % 12) as f64].map(|i| (i + 0.5) * spacing))
-        .map(|[x, y]| [x + H, y])
-        .collect();
-    let mut particles =
-        Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
+    let mut particles = block(H, 2, [1, 0], [1 + width, 6]);
     for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
         *v = [3.0, 0.05 * x[0] * x[1]];
     }
@@ -181,10 +174,8 @@ fn the_memory_of_another_scene_is_refused() {
     let (mut longer, settings) = scene(solid(), Flip::default(), rate(), 6);
     longer.grid = Grid::new(H, [Axis::periodic(0.0, CELLS + 8), longer.grid.axes[1]]).unwrap();
     let longer = Solver::<2, 3, Gimp, _>::new(longer, settings).unwrap();
-    assert!(matches!(
-        refusal(longer),
-        MemoryError::Size { what: "nodes", .. }
-    ));
+    let of_nodes = matches!(refusal(longer), MemoryError::Size { what: "nodes", .. });
+    assert!(of_nodes);
     let fluid = NewtonianFluid::new(200.0, 0.1).unwrap();
     let (fluid, settings) = scene(fluid, Flip::default(), rate(), 6);
     let fluid = Solver::<2, 3, Gimp, _>::new(fluid, settings).unwrap();
