@@ -8,7 +8,7 @@ use crate::scene::Part;
 use crate::work::{Spent, Work};
 use serde::{Deserialize, Serialize};
 
-/// Time, sums, reactions and counters of a run.
+/// Time, sums, reactions and counters of a run, to be read by the methods of [`Simulation`](crate::Simulation).
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Ledger {
     /// Time (s).
@@ -43,6 +43,14 @@ impl Ledger {
     pub(crate) fn count_step(&mut self) {
         self.work.steps += 1;
         self.work.particle_steps += self.work.particles;
+    }
+
+    /// Counts a completed step that Newton's method made in `parts` parts.
+    pub(crate) fn count_parts(&mut self, parts: u32) {
+        if let Some(convergence) = &mut self.convergence {
+            convergence.parts = parts;
+        }
+        self.count_step();
     }
 
     /// Reaction of a part of the scene with these contacts; NaN of a part that does not exist.

@@ -64,7 +64,6 @@ use held::Held;
 use inertia::Inertia;
 use linear::{Direct, Linear};
 use nalgebra::SVector;
-
 use system::System;
 use unknowns::{Pattern, Unknowns};
 
@@ -105,10 +104,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
             Ok(())
         })
         .map_err(|failure| self.error(failure))?;
-        if let Some(convergence) = &mut self.ledger.convergence {
-            convergence.parts = parts;
-        }
-        self.ledger.count_step();
+        self.ledger.count_parts(parts);
         Ok(())
     }
 

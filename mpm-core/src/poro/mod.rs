@@ -84,10 +84,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
             Ok(())
         })
         .map_err(|failure| self.error(failure))?;
-        if let Some(convergence) = &mut self.ledger.convergence {
-            convergence.parts = parts;
-        }
-        self.ledger.count_step();
+        self.ledger.count_parts(parts);
         Ok(())
     }
 
