@@ -23,8 +23,8 @@ pub struct Body<const D: usize, M: Law> {
 }
 
 impl<const D: usize, M: Law> Body<D, M> {
-    /// The body at the start: at the deformation gradients of the particles' `delta_f`, with the stress and state of rest
-    /// there.
+    /// The body at the start: at the deformation gradients of the particles' `delta_f`, with the stress and state of
+    /// rest there.
     ///
     /// # Errors
     /// [`Error::Breakdown`] of a particle whose J is not positive and finite.
@@ -144,8 +144,8 @@ impl<const D: usize, M: Law> Body<D, M> {
         self.replace(saved.read("a body")?, check)
     }
 
-    /// Goes on with the body of another run, of which it has the particles that were seeded first; `check` is asked before
-    /// that. See [`Simulation::take_over`](crate::Simulation::take_over).
+    /// Goes on with the body of another run, of which it has the particles that were seeded first; `check` is asked
+    /// before that. See [`Simulation::take_over`](crate::Simulation::take_over).
     ///
     /// # Errors
     /// As [`restore`](Self::restore).

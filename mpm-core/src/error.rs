@@ -105,8 +105,8 @@ pub enum Error {
         /// Failure.
         fault: Fault,
     },
-    /// Newton's method found no equilibrium, however short the step. The run stays where the last one was found, from which
-    /// another rule can go on by [`take_over`](crate::Simulation::take_over).
+    /// Newton's method found no equilibrium, however short the step. The run stays where the last one was found, from
+    /// which another rule can go on by [`take_over`](crate::Simulation::take_over).
     #[error(
         "step {step}: no equilibrium found beyond t = {time} s, residual {residual:e} of the loads after {iteration} iterations"
     )]
@@ -120,8 +120,8 @@ pub enum Error {
         /// The residual over that of the loads.
         residual: f64,
     },
-    /// A stiffness matrix could not be factorised, or gave no finite solution, however short the step. The run stays as with
-    /// [`NoConvergence`](Self::NoConvergence).
+    /// A stiffness matrix could not be factorised, or gave no finite solution, however short the step. The run stays as
+    /// with [`NoConvergence`](Self::NoConvergence).
     #[error(
         "step {step}: no equilibrium found beyond t = {time} s, the stiffness matrix is singular in iteration {iteration}"
     )]

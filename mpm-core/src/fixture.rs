@@ -46,8 +46,8 @@ pub(crate) fn multiply(pattern: &Pattern, values: &[f64], x: &[f64]) -> Vec<f64>
     out
 }
 
-/// The derivative of `of` at zero: central differences extrapolated from three steps. Returns it, and by how much the last
-/// extrapolation changes it.
+/// The derivative of `of` at zero: central differences extrapolated from three steps. Returns it, and by how much the
+/// last extrapolation changes it.
 pub(crate) fn slope(of: impl Fn(f64) -> Vec<f64>) -> (Vec<f64>, Vec<f64>) {
     let quotient = |s: f64| -> Vec<f64> {
         let ends = of(s).into_iter().zip(of(-s));
@@ -69,8 +69,8 @@ pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// Particles at the places of a lattice: `count` along every axis, the first of which varies fastest, `spacing` (m) apart
-/// from `origin` (m) on.
+/// Particles at the places of a lattice: `count` along every axis, the first of which varies fastest, `spacing` (m)
+/// apart from `origin` (m) on.
 pub(crate) fn lattice<const D: usize>(
     count: [usize; D],
     spacing: f64,

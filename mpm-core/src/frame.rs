@@ -105,7 +105,8 @@ impl<const D: usize> Frame<D> {
         self.vector_of_scene(&from_origin, self.length)
     }
 
-    /// The place of a node of the frame as the scene, on `grid`, has it: without what the way there and back rounds off.
+    /// The place of a node of the frame as the scene, on `grid`, has it: without what the way there and back rounds
+    /// off.
     pub fn node_of_scene(&self, grid: &Grid<D>, place: &[f64; D]) -> [f64; D] {
         let near = self.place_of_scene(place);
         std::array::from_fn(|a| {

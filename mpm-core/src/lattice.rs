@@ -174,7 +174,8 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         row_offset(&self.strides, slow, fast)
     }
 
-    /// Distances x_i − x_p (m) from eight particles at `x` (m) to the nodes of the functions that see them, axis by axis.
+    /// Distances x_i − x_p (m) from eight particles at `x` (m) to the nodes of the functions that see them, axis by
+    /// axis.
     #[inline(always)]
     pub fn arms(&self, functions: &[EightAxisWeights<S>; D], x: &[Eight; D]) -> [[Eight; S]; D] {
         let mut arms = [[Eight::ZERO; S]; D];

@@ -18,8 +18,8 @@ pub struct Accumulated {
     pub constraint_loss: f64,
     /// Kinetic energy removed by particle filters (kinetic damping).
     pub filter_loss: f64,
-    /// Kinetic energy that the particles do not take from nodes with a lumped mass, ½ Δvᵀ (M_β − M_c) Δv of the midpoint
-    /// rule.
+    /// Kinetic energy that the particles do not take from nodes with a lumped mass, ½ Δvᵀ (M_β − M_c) Δv of the
+    /// midpoint rule.
     pub lumping_loss: f64,
 }
 

@@ -17,9 +17,10 @@ pub type Eight = f64x8;
 /// How many.
 pub const EIGHT: usize = 8;
 
-/// Whether this build multiplies and adds in one instruction. Without it a step takes 2.2 to 2.6 times as long, and each
-/// product is rounded before it is added, which changes last digits; with it, they are the same for any processor.
-/// A package that uses this one gets it by `RUSTFLAGS="-C target-cpu=native"`, or `x86-64-v3` for any processor with AVX2.
+/// Whether this build multiplies and adds in one instruction. Without it a step takes 2.2 to 2.6 times as long, and
+/// each product is rounded before it is added, which changes last digits; with it, they are the same for any processor.
+/// A package that uses this one gets it by `RUSTFLAGS="-C target-cpu=native"`, or `x86-64-v3` for any processor with
+/// AVX2.
 pub const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
 
 /// Eight numbers in memory, each of which a loop over the eight reads as a broadcast.

@@ -109,8 +109,8 @@ impl<const D: usize> Particles<D> {
         self
     }
 
-    /// The same particles, before their first step, seen from `frame`; those of a [`Body`](crate::Body) get their stress and
-    /// volume from it.
+    /// The same particles, before their first step, seen from `frame`; those of a [`Body`](crate::Body) get their
+    /// stress and volume from it.
     #[must_use]
     pub fn seen_from(&self, frame: &Frame<D>) -> Self {
         let [length, area, volume] = [1, 2, D as i32].map(|power| frame.scale(0, power));
@@ -230,8 +230,8 @@ impl<const D: usize> Particles<D> {
             .collect()
     }
 
-    /// Makes these, of a run that ended, the particles of one that begins as `scene`: motion that only one of the two has a
-    /// column for begins at rest, or is forgotten.
+    /// Makes these, of a run that ended, the particles of one that begins as `scene`: motion that only one of the two
+    /// has a column for begins at rest, or is forgotten.
     pub(crate) fn go_on_as(&mut self, scene: &Self) {
         let columns = [
             (&mut self.velocity, &scene.velocity),
@@ -246,8 +246,8 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`. An order of some leaves the
-    /// others out.
+    /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`. An order of some leaves
+    /// the others out.
     pub fn permute(&mut self, order: &[u32]) {
         permute(&mut self.id, order);
         permute(&mut self.reference, order);

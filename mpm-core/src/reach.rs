@@ -19,7 +19,8 @@ pub struct Reach {
 type Places = Range<usize>;
 
 impl Reach {
-    /// Nodes within reach of particles at `positions` (m) with half sizes `half_size` (m), if each moves by a cell at most.
+    /// Nodes within reach of particles at `positions` (m) with half sizes `half_size` (m), if each moves by a cell at
+    /// most.
     #[must_use]
     pub fn of<const D: usize, const S: usize, B: Basis<S>>(
         lattice: &Lattice<D, S, B>,

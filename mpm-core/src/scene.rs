@@ -111,8 +111,8 @@ impl<const D: usize, M: Law> Scene<D, M> {
         Saved::of(&(body, sticks.collect::<Vec<_>>()))
     }
 
-    /// Takes the sticks of a run that ended, contact by contact as far as both have one with friction there; others begin
-    /// unstretched.
+    /// Takes the sticks of a run that ended, contact by contact as far as both have one with friction there; others
+    /// begin unstretched.
     pub(crate) fn take_sticks(&mut self, sticks: &[Vec<f64>]) {
         for (contact, sticks) in self.contacts.iter_mut().zip(sticks) {
             let (rows, _) = sticks.as_chunks();

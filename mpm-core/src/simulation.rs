@@ -58,8 +58,8 @@ pub trait Simulation<const D: usize>: Memory + Send {
     fn convergence(&self) -> Option<&Convergence> {
         self.ledger().convergence.as_ref()
     }
-    /// An estimate of the condition, in the 1-norm, of the stiffness matrix of the body as it is, scaled to a diagonal of
-    /// ones; NaN of a solver without one, infinite of a singular one.
+    /// An estimate of the condition, in the 1-norm, of the stiffness matrix of the body as it is, scaled to a diagonal
+    /// of ones; NaN of a solver without one, infinite of a singular one.
     fn condition(&self) -> f64 {
         f64::NAN
     }
@@ -90,13 +90,13 @@ pub trait Simulation<const D: usize>: Memory + Send {
     /// # Errors
     /// [`Error::Memory`], as [`Memory::save`].
     fn body(&self) -> Result<Saved, Error>;
-    /// Goes on with the [`body`](Self::body) of another run of the same basis, remedy, transfer and kind of law: under the
-    /// stages and with the constants of this one, whose time and sums stay as they are. Sticks go along, contact by contact
-    /// in the scenes' order.
+    /// Goes on with the [`body`](Self::body) of another run of the same basis, remedy, transfer and kind of law: under
+    /// the stages and with the constants of this one, whose time and sums stay as they are. Sticks go along, contact by
+    /// contact in the scenes' order.
     ///
-    /// Explicit runs have the same particles. An implicit run may have fewer, those that were seeded first: the others are
-    /// taken away, as an excavation does. It may go on by another time rule: what a static run has not, begins at rest, and
-    /// Newmark's accelerations are those of the forces now.
+    /// Explicit runs have the same particles. An implicit run may have fewer, those that were seeded first: the others
+    /// are taken away, as an excavation does. It may go on by another time rule: what a static run has not, begins at
+    /// rest, and Newmark's accelerations are those of the forces now.
     ///
     /// # Errors
     /// [`Error::Memory`], as [`Memory::restore`]; the run then stays as it was.

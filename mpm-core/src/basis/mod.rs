@@ -93,14 +93,14 @@ pub trait Basis<const S: usize>: Send + Sync + Sized {
         0.0
     }
 
-    /// Greatest h² Σ w′²/w over the places of a particle away from walls, whose half size is `half_size` cells: the stiffness
-    /// of a particle over its share of the masses of its nodes. None of functions that have no bound.
+    /// Greatest h² Σ w′²/w over the places of a particle away from walls, whose half size is `half_size` cells: the
+    /// stiffness of a particle over its share of the masses of its nodes. None of functions that have no bound.
     fn steepness(_half_size: f64) -> Option<f64> {
         None
     }
 
-    /// Values and derivatives at `x` (m), which lies on the axis or no further beyond a wall than it may, for a particle
-    /// that reaches `half_size` (m, at most half a cell) to either side.
+    /// Values and derivatives at `x` (m), which lies on the axis or no further beyond a wall than it may, for a
+    /// particle that reaches `half_size` (m, at most half a cell) to either side.
     fn weights(&self, x: f64, half_size: f64) -> AxisWeights<S>;
 
     /// Values and derivatives at a point `x` (m): of a particle without size.

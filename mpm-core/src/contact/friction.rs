@@ -56,8 +56,8 @@ impl Friction {
         self.mu.is_finite().then_some(self.mu)
     }
 
-    /// The share of a stretch (m) that the stick cannot hold which it keeps under the normal force `normal` (N), and the
-    /// length of the stretch (m); none if it holds all of it.
+    /// The share of a stretch (m) that the stick cannot hold which it keeps under the normal force `normal` (N), and
+    /// the length of the stretch (m); none if it holds all of it.
     fn kept<const D: usize>(&self, stretch: &[f64; D], normal: f64) -> Option<[f64; 2]> {
         let length = stretch.iter().map(|u| u * u).sum::<f64>().sqrt();
         let longest = self.mu * normal / self.stiffness;

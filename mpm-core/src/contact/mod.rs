@@ -151,8 +151,8 @@ impl<const D: usize> RigidContact<D> {
         steps.into_iter().fold(0.0, f64::max)
     }
 
-    /// Adds the contact forces at `time` (s), the end of a step of `dt` (s), to the particles' external forces. The sticks
-    /// start from where the last [`commit`](Self::commit) left them, however often a step is tried.
+    /// Adds the contact forces at `time` (s), the end of a step of `dt` (s), to the particles' external forces. The
+    /// sticks start from where the last [`commit`](Self::commit) left them, however often a step is tried.
     pub(crate) fn try_step(
         &mut self,
         time: f64,

@@ -7,8 +7,8 @@ use crate::nodes::NodalState;
 use crate::order::stencil_order;
 use crate::reach::Reach;
 
-/// Cells that a particle and a rigid body move towards each other until the particles are sorted again, at most: one, and
-/// up to one each in the steps that begin and end it.
+/// Cells that a particle and a rigid body move towards each other until the particles are sorted again, at most: one,
+/// and up to one each in the steps that begin and end it.
 const MOTION: f64 = 3.0;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
@@ -38,7 +38,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         self.find_reach();
     }
 
-    /// Finds the nodes that the particles see, and the particles that may touch a rigid body, until they are sorted again.
+    /// Finds the nodes that the particles see, and the particles that may touch a rigid body, until they are sorted
+    /// again.
     pub(super) fn find_reach(&mut self) {
         let p = &self.scene.body.particles;
         self.reach = Reach::of(&self.lattice, &p.position, &p.half_size);

@@ -141,8 +141,8 @@ pub(super) fn pushes<const D: usize>(
     Ok(found)
 }
 
-/// How much of a `correction` to the nodal increments `u` (m) may be taken: all of it, or nine tenths of what would close
-/// the first gap. Gaps are linear in the increments.
+/// How much of a `correction` to the nodal increments `u` (m) may be taken: all of it, or nine tenths of what would
+/// close the first gap. Gaps are linear in the increments.
 pub(super) fn open_share<const D: usize>(
     obstacles: &[Obstacle<D>],
     elements: &Elements<D>,

@@ -42,7 +42,8 @@ impl<'a, const D: usize> Domains<'a, D> {
         SPACINGS * f64::EPSILON * farthest
     }
 
-    /// The same domains without what they touch by rounding alone where they end on grid lines; `sizes` are to hold theirs.
+    /// The same domains without what they touch by rounding alone where they end on grid lines; `sizes` are to hold
+    /// theirs.
     pub fn within<'b>(&self, sizes: &'b mut Vec<[f64; D]>) -> Domains<'b, D>
     where
         'a: 'b,

@@ -190,8 +190,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         tangents
     }
 
-    /// The entries of the stiffness matrix, Eq. (5); with F̄ of what preconditions it, Eq. (13), where a node's pressure
-    /// comes after its displacements.
+    /// The entries of the stiffness matrix, Eq. (5); with F̄ of what preconditions it, Eq. (13), where a node's
+    /// pressure comes after its displacements.
     pub(super) fn stiffness(&self, tangents: &[Tangent<D>], pattern: &Pattern) -> Vec<f64> {
         let mut values = vec![0.0; pattern.entries()];
         let (unknowns, elements, width) = (self.unknowns, self.elements, pattern.width);
@@ -255,8 +255,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         }
     }
 
-    /// Held unknowns are eliminated, and pressures that no particle resists: what stands for them is of the order of the
-    /// others.
+    /// Held unknowns are eliminated, and pressures that no particle resists: what stands for them is of the order of
+    /// the others.
     fn stand_in(&self, pattern: &Pattern, values: &mut [f64]) {
         let width = pattern.width;
         let diagonals = (0..self.unknowns.node.len()).flat_map(|k| {
@@ -279,7 +279,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         }
     }
 
-    /// Σ ∇w · H · ∇w over the particles of an element; with a pressure, what couples it to changes of volume, and its own.
+    /// Σ ∇w · H · ∇w over the particles of an element; with a pressure, what couples it to changes of volume, and its
+    /// own.
     fn of_element(&self, element: usize, tangents: &[Tangent<D>], width: usize) -> DMatrix<f64> {
         let size = self.elements.nodes_of(element).len() * width;
         let mut matrix = DMatrix::zeros(size, size);

@@ -1,5 +1,5 @@
-//! Extension (Höllig, Reif & Wipper 2001, doi:10.1137/S0036142900373208): a function that sees hardly any material is no
-//! unknown of its own, but moves as a linear field through the nearest functions that see more.
+//! Extension (Höllig, Reif & Wipper 2001, doi:10.1137/S0036142900373208): a function that sees hardly any material is
+//! no unknown of its own, but moves as a linear field through the nearest functions that see more.
 
 use super::pieces::{AxisPieces, Pieces};
 use crate::lattice::Lattice;

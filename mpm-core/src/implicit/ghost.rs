@@ -2,8 +2,8 @@
 //! neighbours lend it.
 //!
 //! On the faces between cells of the body, one of which is at its edge, the polynomials of either side are drawn
-//! together: γ E h^(2k−1) ∫ \[∂ₙᵏu\] · \[∂ₙᵏv\] with the degree k. All lower derivatives of a spline are continuous, so the
-//! jump is all by which the two differ. It vanishes where u is one polynomial of degree k.
+//! together: γ E h^(2k−1) ∫ \[∂ₙᵏu\] · \[∂ₙᵏv\] with the degree k. All lower derivatives of a spline are continuous, so
+//! the jump is all by which the two differ. It vanishes where u is one polynomial of degree k.
 
 use super::domains::Domains;
 use super::penalty::Penalty;

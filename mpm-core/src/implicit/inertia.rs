@@ -81,8 +81,8 @@ impl Mass {
         product
     }
 
-    /// The field that is `held` where something holds it, and elsewhere M times it is `right`, and how many iterations of
-    /// conjugate gradients found it. Nodes without mass get zero.
+    /// The field that is `held` where something holds it, and elsewhere M times it is `right`, and how many iterations
+    /// of conjugate gradients found it. Nodes without mass get zero.
     ///
     /// # Errors
     /// The mass is singular.

@@ -1,4 +1,5 @@
-//! Quasi-static equilibrium by Newton's method: `docs/implicit.md` derives it, and equation numbers here are that page's.
+//! Quasi-static equilibrium by Newton's method: `docs/implicit.md` derives it, and equation numbers here are that
+//! page's.
 //!
 //! Shape functions, particle positions, states and the F̄ average are frozen at the start of the step. The unknowns are
 //! the increments of the nodes; a trial of them changes nothing, and the converged one is committed. Then the grid is

@@ -1,8 +1,8 @@
 //! Response of one particle to a trial ΔF of the step, and its derivatives.
 //!
-//! All stresses here are first Piola–Kirchhoff stresses of the configuration at the step's start, times volume: a node's
-//! force is Σ P ∇w. With F̄ a particle has a potential V⁰ W(F̄) of ΔF and of its averaged change of volume a = A ΔJ,
-//! F̄ = (a/ΔJ)^(1/D) ΔF F̄ⁿ. Its derivatives are P = ∂/∂ΔF and q = ∂/∂a, Eqs. (8) and (9) of `docs/implicit.md`.
+//! All stresses here are first Piola–Kirchhoff stresses of the configuration at the step's start, times volume: a
+//! node's force is Σ P ∇w. With F̄ a particle has a potential V⁰ W(F̄) of ΔF and of its averaged change of volume a = A
+//! ΔJ, F̄ = (a/ΔJ)^(1/D) ΔF F̄ⁿ. Its derivatives are P = ∂/∂ΔF and q = ∂/∂a, Eqs. (8) and (9) of `docs/implicit.md`.
 
 use crate::material::{Law, State};
 use crate::number::{Dual, Real};

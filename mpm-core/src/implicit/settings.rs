@@ -37,8 +37,8 @@ pub enum TimeRule {
         /// β, the share of the lumped mass.
         lumped: f64,
     },
-    /// Newmark's rule with the lumped mass, equilibrium at the end of the step, as Eqs. (22) to (32) of Wang et al. 2016,
-    /// doi:10.1016/j.compgeo.2015.08.008, are printed.
+    /// Newmark's rule with the lumped mass, equilibrium at the end of the step, as Eqs. (22) to (32) of Wang et al.
+    /// 2016, doi:10.1016/j.compgeo.2015.08.008, are printed.
     Newmark {
         /// α of Eq. (23).
         alpha: f64,
@@ -103,8 +103,8 @@ pub struct Settings {
     pub remedy: Remedy,
     /// Stabilisation of functions that see hardly any material.
     pub stabilisation: Stabilisation,
-    /// A step has converged when the free nodes' residual is at most this share of the loads; where a constraint moves, of
-    /// reactions, if they are greater.
+    /// A step has converged when the free nodes' residual is at most this share of the loads; where a constraint moves,
+    /// of reactions, if they are greater.
     pub tolerance: f64,
     /// A step that takes more Newton iterations is halved.
     pub most_iterations: u32,

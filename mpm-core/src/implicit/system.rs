@@ -122,8 +122,8 @@ impl<const D: usize, M: Law> System<'_, D, M> {
     }
 
     /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: of the external forces, of the
-    /// internal ones at the start if there are none or if bodies swing, and of reactions, if greater, where a constraint
-    /// moves.
+    /// internal ones at the start if there are none or if bodies swing, and of reactions, if greater, where a
+    /// constraint moves.
     fn residual(&self, trial: &Trial<D>) -> (Vec<f64>, f64) {
         let inner = trial.internal.iter().zip(&trial.resistance);
         let forces = inner.zip(self.external);
@@ -149,8 +149,8 @@ impl<const D: usize, M: Law> System<'_, D, M> {
         (residual, loads.max(held.sqrt()))
     }
 
-    /// The point to begin from, of no increments and the `guess`: the one nearer to equilibrium, both with held components
-    /// at their values. Functions that hardly see material can have moved far, and are no guide.
+    /// The point to begin from, of no increments and the `guess`: the one nearer to equilibrium, both with held
+    /// components at their values. Functions that hardly see material can have moved far, and are no guide.
     fn beginning(&mut self, guess: Option<Vec<f64>>) -> Result<Point<Trial<D>>, (usize, Fault)> {
         let rest = vec![0.0; self.step.unknowns.len()];
         let mut begin = |u: Vec<f64>| {

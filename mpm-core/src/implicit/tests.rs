@@ -186,8 +186,8 @@ fn standing<const D: usize, M: Law>(
         })))
 }
 
-/// Near the end an iteration squares the error of Newton's method: of three residuals in a row ln(e₃/e₂)/ln(e₂/e₁) comes to
-/// two before rounding ends it.
+/// Near the end an iteration squares the error of Newton's method: of three residuals in a row ln(e₃/e₂)/ln(e₂/e₁)
+/// comes to two before rounding ends it.
 #[test]
 fn newton_converges_quadratically() {
     let settings = Settings::new(1.0)

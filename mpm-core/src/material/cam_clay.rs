@@ -10,8 +10,8 @@
 //! Φ = √(A² ε̇_v² + B² ε̇_s²),
 //!
 //! hence ε̇_v : ε̇_s = (p − ρ)/A² : q/B²: along the ellipse's normal where α = γ = 1, elsewhere not along that of the
-//! surface. The work of ρ is not dissipated but stored. Flow hardens: p_c grows by e^(ε_v/ψ) with ψ = λ − κ. The critical
-//! state is at p = ρ, q = M p. `docs/cam-clay.md` derives it.
+//! surface. The work of ρ is not dissipated but stored. Flow hardens: p_c grows by e^(ε_v/ψ) with ψ = λ − κ. The
+//! critical state is at p = ρ, q = M p. `docs/cam-clay.md` derives it.
 
 mod flow;
 mod state;

@@ -1,11 +1,11 @@
 //! Hencky elasticity with J2 plasticity, perfect or softening.
 //!
-//! W = μ ‖dev h‖² + ½ K (tr h)² of Hencky's elastic strain h = ½ ln b_e, hence the Kirchhoff stress
-//! τ = 2μ dev h + K tr h I. It yields at **‖s‖ = κ**, s = dev τ and ‖·‖ the Frobenius norm. That is
-//! √(2/3) of the strength in uniaxial tension and √2 times the undrained shear strength s_u of plane strain:
-//! κ = √(2/3) σ_y = √2 s_u. Flow is associated and keeps the volume. [`Strength`] says how κ falls. Integrated by the exponential map (Simo 1992, doi:10.1016/0045-7825(92)90123-2), which returns
-//! along a radius, for any size of the step: exact where the direction of flow does not turn, of first order in
-//! the step where it does.
+//! W = μ ‖dev h‖² + ½ K (tr h)² of Hencky's elastic strain h = ½ ln b_e, hence the Kirchhoff stress τ = 2μ dev h + K tr
+//! h I. It yields at **‖s‖ = κ**, s = dev τ and ‖·‖ the Frobenius norm. That is √(2/3) of the strength in uniaxial
+//! tension and √2 times the undrained shear strength s_u of plane strain: κ = √(2/3) σ_y = √2 s_u. Flow is associated
+//! and keeps the volume. [`Strength`] says how κ falls. Integrated by the exponential map (Simo 1992,
+//! doi:10.1016/0045-7825(92)90123-2), which returns along a radius, for any size of the step: exact where the direction
+//! of flow does not turn, of first order in the step where it does.
 
 use super::strength::PER_FLOW;
 use super::{ElastoplasticState, Hencky, Law, Strength};

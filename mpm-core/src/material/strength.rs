@@ -104,8 +104,8 @@ impl Strength {
         })
     }
 
-    /// That the strength softens no faster than the stress of a solid with the shear modulus μ (Pa) can fall; the stress
-    /// would jump at yield.
+    /// That the strength softens no faster than the stress of a solid with the shear modulus μ (Pa) can fall; the
+    /// stress would jump at yield.
     ///
     /// # Errors
     /// √(2/3) |dκ/dε| ≥ 2μ at the peak, where all that soften are steepest.

@@ -318,8 +318,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         })
     }
 
-    /// Pressures of the nodes (Pa) at a step's start, from which increments are measured: those of the step before; of a
-    /// node that no particle saw then what particles say of it. None where nothing acts on increments.
+    /// Pressures of the nodes (Pa) at a step's start, from which increments are measured: those of the step before; of
+    /// a node that no particle saw then what particles say of it. None where nothing acts on increments.
     fn before(&self, water: &Elements<D>, unknowns: &Unknowns<D>) -> Vec<f64> {
         let mut before = vec![0.0; self.water_space.functions.len()];
         if self.pores.slope.is_empty() {

@@ -17,8 +17,8 @@ pub struct Plate<const D: usize> {
 
 impl<const D: usize> Plate<D> {
     /// A plate on the nodes that `takes` says by their places (m), which moves along `axis` under a `force` (N; N/m in
-    /// plane strain, Pa in 1D) that depends on the time (s). Nodes behind the plate belong to it too, where the body may
-    /// come to reach beyond it.
+    /// plane strain, Pa in 1D) that depends on the time (s). Nodes behind the plate belong to it too, where the body
+    /// may come to reach beyond it.
     pub fn new(
         axis: usize,
         takes: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static,

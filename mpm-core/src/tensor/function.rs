@@ -1,10 +1,10 @@
 //! Logarithm and exponential of symmetric tensors.
 //!
-//! Near the identity, where elastic strains of stiff materials are, both are power series. By the theorem of
-//! Cayley and Hamilton every power of z is a combination of z², z and I, so that the series run over three
-//! numbers and no eigenvectors are needed. Farther away the exponential is that of a half, squared, as often as it
-//! takes, and the logarithm twice that of the root. All of it is arithmetic: a derivative passes through, be eigenvalues
-//! equal or not. Rounding is that of the condition of b, 10⁻¹³ at stretches from 0.2 to 5 and more beyond.
+//! Near the identity, where elastic strains of stiff materials are, both are power series. By the theorem of Cayley and
+//! Hamilton every power of z is a combination of z², z and I, so that the series run over three numbers and no
+//! eigenvectors are needed. Farther away the exponential is that of a half, squared, as often as it takes, and the
+//! logarithm twice that of the root. All of it is arithmetic: a derivative passes through, be eigenvalues equal or not.
+//! Rounding is that of the condition of b, 10⁻¹³ at stretches from 0.2 to 5 and more beyond.
 
 use super::SymmetricTensor;
 use crate::number::Real;

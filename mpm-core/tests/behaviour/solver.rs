@@ -280,8 +280,8 @@ fn sums_over_nodes_are_those_of_a_falling_body_however_many_nodes() {
     }
 }
 
-/// A body at v is stopped to w all over while g pulls: M (½ (v² − w²) + g Δt w) is what the constraint takes in the first
-/// step, and M g Δt w, which it holds against the pull, in each of those after it.
+/// A body at v is stopped to w all over while g pulls: M (½ (v² − w²) + g Δt w) is what the constraint takes in the
+/// first step, and M g Δt w, which it holds against the pull, in each of those after it.
 #[test]
 fn what_constraints_take_is_known() {
     let [v, w, g] = [2.0, 0.5, 3.0];

@@ -154,8 +154,8 @@ fn check_energy_left<const S: usize, B: Basis<S> + 'static>(documented: [[f64; 2
     }
 }
 
-/// The outermost of a bar's particles lies in a cell alone, by `share` of it, and all are compressed by a thousandth: by how much
-/// its ΔF differs from one after a step.
+/// The outermost of a bar's particles lies in a cell alone, by `share` of it, and all are compressed by a thousandth:
+/// by how much its ΔF differs from one after a step.
 fn strain_of_a_lone_particle<T: Transfer<1>>(share: f64, transfer: T) -> f64 {
     let (h, law) = (0.5, NeoHookean::new(100.0, 0.3).unwrap());
     let mut places: Vec<[f64; 1]> = (0..8)
@@ -226,8 +226,8 @@ fn swing<T: Transfer<1>>(waves: f64, transfer: T) -> [f64; 2] {
     [(b * c - a * d) / size, (c * c - b * d) / size]
 }
 
-/// With q = ω²Δt² and λ of S S⁺, strain and velocity swing by [[1 − q, Δt], [−λq/Δt, 1]] with USL, and by symplectic Euler
-/// with λq for q with MUSL, which takes nothing from any mode.
+/// With q = ω²Δt² and λ of S S⁺, strain and velocity swing by [[1 − q, Δt], [−λq/Δt, 1]] with USL, and by symplectic
+/// Euler with λq for q with MUSL, which takes nothing from any mode.
 #[test]
 fn musl_takes_no_energy_from_a_wave_where_usl_does() {
     for waves in [1.0, 3.0, 5.0] {

@@ -59,8 +59,8 @@ impl FbarConsistent {
         }
     }
 
-    /// With a stiffness ε² K of what Π cannot see that is at least `times` the smooth pressure Π p at every particle, in a material of the
-    /// modulus K = `modulus` (Pa); ε is at most one. Zero `times` for the same ε everywhere.
+    /// With a stiffness ε² K of what Π cannot see that is at least `times` the smooth pressure Π p at every particle,
+    /// in a material of the modulus K = `modulus` (Pa); ε is at most one. Zero `times` for the same ε everywhere.
     ///
     /// # Errors
     /// `times` that are negative, a modulus that is not positive, or either not finite.
@@ -93,8 +93,8 @@ impl FbarConsistent {
     }
 }
 
-/// Replaces `field` by A `field` = Π field + ε r + Π (1 − ε) r with r = (I − Π) field, which `rest` is for; ε is that which
-/// every particle has `kept`, or the same of all.
+/// Replaces `field` by A `field` = Π field + ε r + Π (1 − ε) r with r = (I − Π) field, which `rest` is for; ε is that
+/// which every particle has `kept`, or the same of all.
 fn sharpened<const D: usize>(
     particles: &Particles<D>,
     average: &mut dyn Average<D>,

@@ -43,7 +43,8 @@ pub struct Deformation<const D: usize> {
     pub increment: Vec<[Eight; D]>,
     /// ΔJ = det ΔF.
     pub volume_change: Vec<f64>,
-    /// Shear strain √2 ‖dev sym(ΔF − I)‖, of a remedy that asks for it; the deviator is that of the motion's own dimensions.
+    /// Shear strain √2 ‖dev sym(ΔF − I)‖, of a remedy that asks for it; the deviator is that of the motion's own
+    /// dimensions.
     pub shear: Vec<f64>,
 }
 
@@ -182,8 +183,9 @@ pub trait Remedy<const D: usize>: Memory + Send {
     ) {
     }
 
-    /// After ΔF and J are known: J̄ⁿ⁺¹ of every particle, unless that is J. Positions, volumes and J̄ are still those of
-    /// the step's start; it can be asked for again after other ΔF. Who takes the step makes it that of the particles.
+    /// After ΔF and J are known: J̄ⁿ⁺¹ of every particle, unless that is J. Positions, volumes and J̄ are still those
+    /// of the step's start; it can be asked for again after other ΔF. Who takes the step makes it that of the
+    /// particles.
     fn next_j_bar(
         &mut self,
         particles: &Particles<D>,

@@ -34,7 +34,8 @@ impl<const D: usize> Default for Given<D> {
 }
 
 impl<const D: usize> Given<D> {
-    /// Sets the data of particles with the given mass (kg), velocity (m/s), volume (m³), Cauchy stress (Pa) and external force (N).
+    /// Sets the data of particles with the given mass (kg), velocity (m/s), volume (m³), Cauchy stress (Pa) and
+    /// external force (N).
     #[inline(always)]
     pub fn set(
         &mut self,

@@ -47,7 +47,8 @@ pub trait Transfer<const D: usize>: Memory + Send + Sync {
     /// Gives the particles the columns that the transfer needs; a column that is there is kept.
     fn attach(&self, _particles: &mut Particles<D>) {}
 
-    /// Data given by particles at `x` (m) that see `functions`, with their mass (kg) and moment B (m²/s), if they carry one.
+    /// Data given by particles at `x` (m) that see `functions`, with their mass (kg) and moment B (m²/s), if they carry
+    /// one.
     fn give<const S: usize, B: Basis<S>>(
         &self,
         _lattice: &Lattice<D, S, B>,

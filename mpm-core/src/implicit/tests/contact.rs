@@ -103,8 +103,8 @@ fn bounced(rule: TimeRule, dt: f64) -> f64 {
     change
 }
 
-/// Energy differs by the third derivative of the potentials along an increment: a sum of third order a step, second order
-/// in all.
+/// Energy differs by the third derivative of the potentials along an increment: a sum of third order a step, second
+/// order in all.
 #[test]
 fn a_block_bounces_on_the_barrier_and_keeps_its_energy() {
     let rule = TimeRule::Midpoint { lumped: 0.1 };

@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// A unit mass at a unit spring, pulled by a unit force at once, with damping −α |F| sign(v) of the out-of-balance force F,
-/// by Newmark's rule (α = ¼, δ = ½) with steps of `dt` (ω Δt).
+/// A unit mass at a unit spring, pulled by a unit force at once, with damping −α |F| sign(v) of the out-of-balance
+/// force F, by Newmark's rule (α = ¼, δ = ½) with steps of `dt` (ω Δt).
 struct Swing {
     damping: f64,
     dt: f64,

@@ -178,8 +178,9 @@ fn slips_within_coulombs_law(solver: &Block) {
     }
 }
 
-/// Σ friction is μ Σ N where all particles slip. So the mean acceleration along the slope is g_x − μ (g_y + Δv_y/T), and a
-/// block that stays on the face swings by no more than a fall of 1/ω from rest gives, ω² = ΣB″/m: |Δv_y| ≤ 2 g_y/ω.
+/// Σ friction is μ Σ N where all particles slip. So the mean acceleration along the slope is g_x − μ (g_y + Δv_y/T),
+/// and a block that stays on the face swings by no more than a fall of 1/ω from rest gives, ω² = ΣB″/m: |Δv_y| ≤ 2
+/// g_y/ω.
 #[test]
 fn beyond_the_angle_of_friction_a_block_slides_at_its_acceleration() {
     let slope = 2.0 * MU;

@@ -116,7 +116,8 @@ fn accelerations_are_those_of_the_new_scene() {
     resting.step().unwrap();
 }
 
-/// Clay of the length L = 1 m between a symmetry plane and a free face, which hangs on a smooth plate: gravity is upward.
+/// Clay of the length L = 1 m between a symmetry plane and a free face, which hangs on a smooth plate: gravity is
+/// upward.
 fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>, HenckyJ2> {
     let law = HenckyJ2::new(YOUNG, POISSON, Strength::undrained(strength).unwrap()).unwrap();
     let axes = [Axis::bounded(0.0, CELLS + 4, (Side::Wall, Side::Open)); 2];
@@ -132,10 +133,11 @@ fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>, Hencky
     Solver::new(scene, settings).unwrap()
 }
 
-/// Columns that hang alone, σ_y = γ (L − y), bound the share of γ that can be carried by 2c/(γL) from below, and clay that is
-/// stretched as a whole by 4c/(γL) from above: its field of velocities is in every space, and what is stretched is thinner.
-/// Beyond, the error says so, and the state is the last equilibrium. Clay that flows is driven by a constant force: at twice
-/// the time its energy is four times as large; half of that is asked. That of clay which holds would swing.
+/// Columns that hang alone, σ_y = γ (L − y), bound the share of γ that can be carried by 2c/(γL) from below, and clay
+/// that is stretched as a whole by 4c/(γL) from above: its field of velocities is in every space, and what is stretched
+/// is thinner. Beyond, the error says so, and the state is the last equilibrium. Clay that flows is driven by a
+/// constant force: at twice the time its energy is four times as large; half of that is asked. That of clay which holds
+/// would swing.
 #[test]
 fn clay_beyond_its_strength_is_told_and_moves_on_from_its_last_equilibrium() {
     let strength = 150.0;

@@ -244,8 +244,8 @@ fn softening_is_integrated_exactly_where_the_direction_stays() {
     }
 }
 
-/// The flow's derivative is that of its equation, dγ (2μ + √(2/3) κ′) = dτ, however far from it Newton's last step began.
-/// It would lag most where one step is enough, close to the surface: by some 10⁻⁶.
+/// The flow's derivative is that of its equation, dγ (2μ + √(2/3) κ′) = dτ, however far from it Newton's last step
+/// began. It would lag most where one step is enough, close to the surface: by some 10⁻⁶.
 #[test]
 fn the_slope_of_the_flow_does_not_lag() {
     // Almost as steep as the elastic slope, of which four hundredths are left.
@@ -254,7 +254,8 @@ fn the_slope_of_the_flow_does_not_lag() {
     let law = HenckyJ2::new(YOUNG, RATIO, strength).unwrap();
     let slope = |plastic: f64| PER_FLOW * law.strength.at(plastic).1;
     let left = |plastic: f64| 2.0 * law.elasticity.shear_modulus + slope(plastic);
-    // How far the flow may be from the equation's, times the relative curvature there: both are greatest at the surface.
+    // How far the flow may be from the equation's, times the relative curvature there: both are greatest at the
+    // surface.
     let tolerance = ACCURACY * KAPPA / left(0.0) * (PER_FLOW * eta * slope(0.0) / left(0.0)).abs();
     // Excess from 25 times the strength down to what counts as none.
     for k in 0..350 {

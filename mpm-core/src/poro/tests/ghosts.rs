@@ -79,8 +79,8 @@ fn ghosts_mend_the_condition_of_small_cuts_where_water_flows() {
     }
 }
 
-/// A top that rounding takes past a grid line touches a cell whose nodes no particle sees: what these are is no unknown,
-/// and nothing is held by them.
+/// A top that rounding takes past a grid line touches a cell whose nodes no particle sees: what these are is no
+/// unknown, and nothing is held by them.
 #[test]
 fn a_cell_touched_by_rounding_holds_nothing() {
     let settings = ghosts(0.005 / (KAPPA * MODULUS))[1];
@@ -93,8 +93,8 @@ fn a_cell_touched_by_rounding_holds_nothing() {
     assert!((above / below - 1.0).abs() < 1e-9, "{below} {above}");
 }
 
-/// Largest |J − 1| where no water flows, under a load on half of the top that grows over ten steps and stays for twenty:
-/// after those, and at the end.
+/// Largest |J − 1| where no water flows, under a load on half of the top that grows over ten steps and stays for
+/// twenty: after those, and at the end.
 fn leaks(settings: Settings) -> [f64; 2] {
     let fitted = standing::<2, _>(porous(), straight);
     let height = 0.93;
