@@ -36,7 +36,11 @@ fn read_paths<'a>(text: &'a str, prefix: &Names, found: &mut Vec<Names>) -> &'a 
             let behind = read_paths(inner, prefix, found);
             // A name may be followed by `as` and another.
             let end = behind.find([',', '{', '}']).unwrap_or(behind.len());
-            inner = if behind.len() < inner.len() { &behind[end..] } else { "" };
+            inner = if behind.len() < inner.len() {
+                &behind[end..]
+            } else {
+                ""
+            };
         }
     }
     let end = text.find(|c: char| !c.is_alphanumeric() && c != '_');
@@ -69,7 +73,11 @@ fn paths(module: &Names, code: &str) -> Vec<Names> {
     let mut found = Vec::new();
     for (start, parents) in [("crate::", 0), ("super::", 1)] {
         let outside = &module[..module.len().saturating_sub(parents)];
-        let prefix = if parents == 0 { Names::new() } else { outside.to_vec() };
+        let prefix = if parents == 0 {
+            Names::new()
+        } else {
+            outside.to_vec()
+        };
         let mut rest = code;
         while let Some(at) = rest.find(start) {
             rest = read_paths(&rest[at + start.len()..], &prefix, &mut found);
@@ -81,11 +89,17 @@ fn paths(module: &Names, code: &str) -> Vec<Names> {
 /// Where the names come from that a module makes its own by `pub use`.
 fn origins(code: &str) -> BTreeMap<String, String> {
     let mut found = Vec::new();
-    for part in code.split("\npub use ").chain(code.split("\npub(crate) use ")).skip(1) {
+    for part in code
+        .split("\npub use ")
+        .chain(code.split("\npub(crate) use "))
+        .skip(1)
+    {
         read_paths(part, &Names::new(), &mut found);
     }
     let pairs = found.into_iter().filter(|path| path.len() > 1);
-    pairs.map(|path| (path[path.len() - 1].clone(), path[0].clone())).collect()
+    pairs
+        .map(|path| (path[path.len() - 1].clone(), path[0].clone()))
+        .collect()
 }
 
 /// Which modules of each folder of a crate use which others of it, themselves or by what lies below them. What a folder
@@ -106,7 +120,8 @@ fn arrows(krate: &str) -> BTreeMap<Names, Arrows> {
         }
         for path in paths(own, code) {
             let same = own.iter().zip(&path).take_while(|(a, b)| a == b).count();
-            let (folder, [of_own, ..], [name, ..]) = (&own[..same], &own[same..], &path[same..]) else {
+            let (folder, [of_own, ..], [name, ..]) = (&own[..same], &own[same..], &path[same..])
+            else {
                 continue;
             };
             let module_of_name = [folder, std::slice::from_ref(name)].concat();
@@ -147,7 +162,12 @@ fn no_module_uses_one_that_uses_it() {
         let arrows = arrows(krate);
         assert!(!arrows.is_empty(), "{krate}");
         for (folder, arrows) in arrows {
-            assert_eq!(circles(arrows), Arrows::new(), "{krate}: {}", folder.join("/"));
+            assert_eq!(
+                circles(arrows),
+                Arrows::new(),
+                "{krate}: {}",
+                folder.join("/")
+            );
         }
     }
 }
