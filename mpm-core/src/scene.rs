@@ -26,9 +26,9 @@ pub struct Scene<const D: usize, M: Law> {
     pub body: Body<D, M>,
     /// Loads.
     pub loads: Vec<Box<dyn Load<D>>>,
-    /// Constraints. Their places are those of [`Part::Constraint`](Part::Constraint).
+    /// Constraints. Their places are those of [`Part::Constraint`].
     pub constraints: Vec<Box<dyn Constraint<D>>>,
-    /// Contacts with rigid bodies. Their places are those of [`Part::Contact`](Part::Contact).
+    /// Contacts with rigid bodies. Their places are those of [`Part::Contact`].
     pub contacts: Vec<RigidContact<D>>,
 }
 
