@@ -44,10 +44,10 @@ pub enum Fault {
     #[error("porosity n = {0} is not positive")]
     NonPositivePorosity(f64),
     /// A face of the particle's domain lies in a cell without material: this share of a corner would be lost.
-    #[error("a share {0} of a loaded or drained face lies on a node that sees no particle")]
+    #[error("a share {0} of a loaded or drained face lies on a node in an empty cell")]
     EmptyCell(f64),
     /// The particle's domain has grown beyond a cell: half its size over the cell's.
-    #[error("half size of the domain is {0} cells, more than half a cell")]
+    #[error("half size of the particle domain is {0} cells; the limit is half a cell")]
     WideDomain(f64),
 }
 
@@ -134,7 +134,7 @@ pub enum Error {
         iteration: u32,
     },
     /// The body bears only a part of what acts on it from outside, or lets water out by only a part of what drains.
-    #[error("step {step} (t = {time} s): of the {what}, {whole}, the body has {value}")]
+    #[error("step {step} (t = {time} s): only {value} of the {what} ({whole}) acts on the body")]
     Lost {
         /// Time at the start of the failed part of the step (s).
         time: f64,

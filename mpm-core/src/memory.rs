@@ -18,10 +18,10 @@ pub struct Saved(#[serde(with = "serde_bytes")] Vec<u8>);
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MemoryError {
     /// A value that cannot be written as bytes.
-    #[error("memory can't be written: {0}")]
+    #[error("state cannot be saved: {0}")]
     Write(postcard::Error),
     /// Bytes that are not the memory of this part.
-    #[error("not the memory of {part}: {cause}")]
+    #[error("saved state does not match {part}: {cause}")]
     Read {
         /// The part.
         part: &'static str,
@@ -29,7 +29,7 @@ pub enum MemoryError {
         cause: postcard::Error,
     },
     /// More bytes than this part's memory has.
-    #[error("not the memory of {part}: {surplus} bytes too many")]
+    #[error("saved state does not match {part}: {surplus} unexpected bytes")]
     Surplus {
         /// The part.
         part: &'static str,
@@ -37,10 +37,10 @@ pub enum MemoryError {
         surplus: usize,
     },
     /// The memory asks for a scene that cannot be built.
-    #[error("the scene can't be built: {0}")]
+    #[error("the scene cannot be built: {0}")]
     Scene(String),
     /// A size that is not that of the scene.
-    #[error("{what}: {saved} in the memory, {expected} in the scene")]
+    #[error("{what}: {saved} in the saved state, {expected} in the scene")]
     Size {
         /// Name of the count.
         what: &'static str,
@@ -50,7 +50,7 @@ pub enum MemoryError {
         expected: usize,
     },
     /// A value that the scene does not allow.
-    #[error("{what} = {value} in the memory is not allowed: {allowed}")]
+    #[error("{what} = {value} in the saved state is not allowed: {allowed}")]
     Value {
         /// The field.
         what: &'static str,
@@ -141,7 +141,7 @@ impl<T: Memoryless + ?Sized> Memory for T {
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        saved.read("a part that remembers nothing")
+        saved.read("a part without a state")
     }
 }
 

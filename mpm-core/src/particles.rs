@@ -214,7 +214,7 @@ impl<const D: usize> Particles<D> {
                     return Err(MemoryError::Value {
                         what: "id of a particle",
                         value: f64::from(*id),
-                        allowed: "each number below that of particles once",
+                        allowed: "each number below the number of particles, once",
                     });
                 }
             }

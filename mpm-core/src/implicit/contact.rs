@@ -193,7 +193,7 @@ pub(super) fn check<const D: usize>(
             slipping.is_none() || remedy != Remedy::FbarConsistent,
             "friction coefficient of an implicit run with F-bar",
             slipping.unwrap_or(0.0),
-            "none, or infinite (rough): conjugate gradients solve with F-bar, and what slips has no symmetric stiffness",
+            "none or infinite (rough): F-bar is solved by conjugate gradients, and slip has no symmetric stiffness",
         )?;
     }
     Ok(())

@@ -23,7 +23,7 @@ pub(crate) fn check<const D: usize>(constraints: &[Box<dyn Constraint<D>>]) -> R
         count == 0,
         "one-sided constraints of a quasi-static run",
         count as f64,
-        "none: walls are fixed or rollers there",
+        "none: walls of such a run are fixed or rollers",
     )
 }
 

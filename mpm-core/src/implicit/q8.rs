@@ -132,7 +132,7 @@ impl Interpolation<2> for Serendipity {
                 allowed: "none or soft: their derivatives jump across all faces",
             }),
             Stabilisation::Extension => Err(Error::Input {
-                what: "extension of serendipity elements, share of a full function",
+                what: "extension of serendipity elements, threshold",
                 value: extension::HARDLY,
                 allowed: "none or soft: mid-side functions have no linear extension by neighbours along an axis",
             }),

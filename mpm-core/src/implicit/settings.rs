@@ -167,8 +167,8 @@ impl Settings {
             alpha == 0.0,
             "local damping of an implicit run",
             alpha,
-            "0: -alpha |F| sign(v) is not differentiable, so that a step can have no solution, and by the step before it \
-             does not come to rest; static steps find the state of rest",
+            "0: -alpha |F| sign(v) is not differentiable, so a step may have no solution; lagged by a step, it does not come \
+             to rest. Static steps find the state of rest",
         )?;
         Ok(self)
     }

@@ -25,9 +25,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let averages = settings.remedy == Remedy::FbarConsistent;
         require(
             M::CONSERVATIVE || !averages,
-            "F-bar in variational form, of laws without a potential",
+            "variational F-bar with a law without a potential",
             1.0,
-            "not with a rate of stress or a viscosity: remedy none",
+            "remedy none: the law has a rate of stress or a viscosity",
         )?;
         let functions = I::on(scene.grid)?;
         functions.offers(settings.stabilisation)?;
@@ -38,7 +38,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             moduli.mu > 0.0 || inertia_alone,
             "shear modulus of a quasi-static or stabilised run",
             moduli.mu,
-            "positive (Pa): a fluid has no equilibrium to be found so",
+            "positive (Pa): a fluid has no static equilibrium",
         )?;
         scene.check_half_size()?;
         let particles = &mut scene.body.particles;

@@ -73,7 +73,12 @@ pub(super) fn ties<const D: usize, I: OfHats<D>>(
         let what = "nodes of a plate";
         require(taken > 0, what, taken.into(), "at least 1")?;
         let what = "nodes of a plate that a constraint or another plate has";
-        require(shared == 0, what, shared.into(), "none: it moves as one")?;
+        require(
+            shared == 0,
+            what,
+            shared.into(),
+            "none: a plate moves as one",
+        )?;
     }
     Ok(ties)
 }

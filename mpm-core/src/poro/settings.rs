@@ -194,7 +194,7 @@ impl Settings {
         let exact = self.volume_rate == VolumeRate::Exact;
         require(
             self.tangent == Tangent::Consistent || (exact && conservative),
-            "symmetric tangent of a logarithmic rate or a law without a potential",
+            "symmetric tangent with a logarithmic rate or a law without a potential",
             1.0,
             "a consistent tangent",
         )

@@ -31,7 +31,7 @@ fn grid_of_pressure<const D: usize>(
             axis.cells.is_multiple_of(2),
             "cells of an axis on two grids",
             axis.cells as f64,
-            "even: a cell of the pressure holds two along every axis",
+            "even: a cell of the pressure spans two cells along every axis",
         )?;
     }
     let coarse = |axis: &Axis| Axis {
@@ -88,7 +88,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             contacts == 0,
             "contacts of a body with water",
             contacts as f64,
-            "none: rigid bodies are constraints there",
+            "none: rigid bodies are constraints in such a scene",
         )?;
         held::check(&scene.constraints)?;
         let moduli = moduli_of(&scene.body.law, settings.dt);
@@ -182,10 +182,10 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 false,
                 "share of a corner of a loaded or drained face in an empty cell",
                 share,
-                "none: nodes that see no particle bear no load and let no water out",
+                "none: nodes in an empty cell bear no load and let no water out",
             ),
             Err(Failure::Lost(what, sum, _)) => {
-                let allowed = "the whole: nodes that see no particle bear nothing";
+                let allowed = "the whole: nodes in an empty cell bear nothing";
                 require(false, what, sum, allowed)
             }
             Err(failure) => Err(self.error(failure)),

@@ -181,7 +181,7 @@ impl<const D: usize> Water<D> {
             of_law.is_none_or(|n| n == self.porosity),
             "porosity of the water",
             self.porosity,
-            "that of the solid's law, which depends on it",
+            "that of the solid's law",
         )?;
         let k = self.initial_conductivity();
         require(k >= 0.0, "conductivity", k, "at least 0 (m²/(Pa s))")?;

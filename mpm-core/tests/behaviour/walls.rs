@@ -140,7 +140,7 @@ fn a_body_of_other_particles_is_refused() {
     let before = solver.body().unwrap();
     let error = solver.take_over(&few.body().unwrap()).unwrap_err();
     assert!(
-        error.to_string().contains("60 in the memory, 64"),
+        error.to_string().contains("60 in the saved state, 64"),
         "{error}"
     );
     assert_eq!(solver.body().unwrap(), before);

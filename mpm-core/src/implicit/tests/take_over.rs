@@ -89,7 +89,7 @@ fn a_body_of_fewer_particles_is_refused() {
     let mut many = pile(8, TimeRule::Static, true);
     let error = many.take_over(&few.body().unwrap()).unwrap_err();
     assert!(
-        error.to_string().contains("40 in the memory, 64"),
+        error.to_string().contains("40 in the saved state, 64"),
         "{error}"
     );
     let hand_over = Saved::of(&(few.scene.body.save().unwrap(), 7_u8)).unwrap();
