@@ -18,13 +18,13 @@ pub struct Body<const D: usize, M: Law> {
     pub law: M,
     /// The particles.
     pub particles: Particles<D>,
-    /// What the law remembers of each.
+    /// Law's state of each.
     states: Vec<M::State>,
 }
 
 impl<const D: usize, M: Law> Body<D, M> {
-    /// The body at the start: at the deformation gradients of the particles' `delta_f`, with the stress and state of rest
-    /// there.
+    /// The body at the start: at the deformation gradients of the particles' `delta_f`, with the stress and state of
+    /// rest there.
     ///
     /// # Errors
     /// [`Error::Breakdown`] of a particle whose J is not positive and finite.
@@ -51,14 +51,12 @@ impl<const D: usize, M: Law> Body<D, M> {
         Ok(body)
     }
 
-    /// What the law remembers of each particle.
-    #[must_use]
+    /// State of every particle.
     pub(crate) fn states(&self) -> &[M::State] {
         &self.states
     }
 
     /// Least density of the undeformed material (kg/m³).
-    #[must_use]
     pub fn least_density(&self) -> f64 {
         let p = &self.particles;
         let densities = p.mass.iter().zip(&p.reference_volume).map(|(m, v)| m / v);
@@ -66,7 +64,6 @@ impl<const D: usize, M: Law> Body<D, M> {
     }
 
     /// Greatest [`Law::wave_modulus`] of its particles (Pa).
-    #[must_use]
     pub fn wave_modulus(&self) -> f64 {
         let p = &self.particles;
         let columns = p.jacobian.iter().zip(&p.stress).zip(&self.states);
@@ -84,11 +81,8 @@ impl<const D: usize, M: Law> Body<D, M> {
         let delta_f = &p.delta_f;
         let update = |k| space::embed(&delta_f[k]);
         law.update_all(update, dt, &mut self.states, &mut p.stress);
-        for (volume, (j, reference)) in p
-            .volume
-            .iter_mut()
-            .zip(p.jacobian.iter().zip(&p.reference_volume))
-        {
+        let columns = p.jacobian.iter().zip(&p.reference_volume);
+        for (volume, (j, reference)) in p.volume.iter_mut().zip(columns) {
             *volume = j * reference;
         }
     }
@@ -114,13 +108,11 @@ impl<const D: usize, M: Law> Body<D, M> {
     }
 
     /// Mass, momentum, energies and J, with what was `accumulated`.
-    #[must_use]
     pub fn totals(&self, accumulated: Accumulated) -> Totals {
         Totals::of(&self.law, &self.particles, &self.states, accumulated)
     }
 
     /// Equivalent plastic strain of every particle.
-    #[must_use]
     pub fn plastic_strain(&self) -> Vec<f64> {
         let strain = |state| self.law.plastic_strain(state);
         self.states.iter().map(strain).collect()
@@ -152,8 +144,8 @@ impl<const D: usize, M: Law> Body<D, M> {
         self.replace(saved.read("a body")?, check)
     }
 
-    /// Goes on with the body of another run, of which it has the particles that were seeded first; `check` is asked before
-    /// that. See [`Simulation::take_over`](crate::Simulation::take_over).
+    /// Goes on with the body of another run, of which it has the particles that were seeded first; `check` is asked
+    /// before that. See [`Simulation::take_over`](crate::Simulation::take_over).
     ///
     /// # Errors
     /// As [`restore`](Self::restore).
@@ -187,13 +179,13 @@ impl<const D: usize, M: Law> Body<D, M> {
     }
 }
 
-/// Some particles of a body: a piece of every column that there is, and nothing of those that there aren't.
+/// Some particles of a body: a slice of all columns; absent columns give empty slices.
 pub struct Chunk<'a, const D: usize, M: Law> {
     /// The law of the material.
     pub law: &'a M,
     /// The place of the first particle in the columns.
     pub begin: usize,
-    /// What the law remembers.
+    /// Law's states.
     pub states: &'a mut [M::State],
     /// Position x (m).
     pub position: &'a mut [[f64; D]],
@@ -219,13 +211,11 @@ pub struct Chunk<'a, const D: usize, M: Law> {
 
 impl<const D: usize, M: Law> Chunk<'_, D, M> {
     /// Number of particles.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.states.len()
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.states.is_empty()
     }
@@ -243,9 +233,9 @@ impl<const D: usize, M: Law> Chunk<'_, D, M> {
         fetch(self.external_force, k);
     }
 
-    /// Asks the processor for what the law and the place of the `k`-th eight need.
+    /// Prefetches what the law and the position of the `k`-th eight need.
     #[inline(always)]
-    pub fn fetch_rest(&self, k: usize) {
+    pub fn fetch_second_half(&self, k: usize) {
         fetch(self.states, k);
         fetch(self.position, k);
         fetch(self.volume, k);
@@ -257,7 +247,6 @@ impl<const D: usize, M: Law> Chunk<'_, D, M> {
 
     /// The numbers of the `k`-th eight; zero beyond the last particle.
     #[inline(always)]
-    #[must_use]
     pub fn present(&self, k: usize, numbers: Eight) -> Eight {
         let entries = entries(self.len(), k);
         if entries == EIGHT {

@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 #[derive(Debug, Clone, Copy)]
 pub struct Eights<'a, T> {
     blocks: &'a [[T; EIGHT]],
-    /// What is left over, if anything is.
+    /// Remaining entries, if any.
     last: Option<[T; EIGHT]>,
 }
 
@@ -27,7 +27,6 @@ impl<'a, T: Copy> Eights<'a, T> {
 
     /// The `k`-th block.
     #[inline(always)]
-    #[must_use]
     pub fn at(&self, k: usize) -> &[T; EIGHT] {
         match &self.last {
             Some(last) if k == self.blocks.len() => last,
@@ -64,22 +63,19 @@ pub const AHEAD: usize = 2;
 
 /// How many blocks `n` entries make.
 #[inline(always)]
-#[must_use]
 pub fn blocks(n: usize) -> usize {
     n.div_ceil(EIGHT)
 }
 
 /// How many of `n` entries the `k`-th block has.
 #[inline(always)]
-#[must_use]
 pub fn entries(n: usize, k: usize) -> usize {
     (n - k * EIGHT).min(EIGHT)
 }
 
-/// The `k`-th block of a column that changes. What the last block lacks is the column's last entry, again: such a block
-/// is made in `spare`.
+/// The `k`-th block of a column that changes. An incomplete last block is filled with the column's last entry, in
+/// `spare`.
 #[inline(always)]
-#[must_use]
 pub fn block<'a, T: Copy>(
     column: &'a [T],
     k: usize,
@@ -94,7 +90,6 @@ pub fn block<'a, T: Copy>(
 
 /// The numbers of the `k`-th block of a column that changes.
 #[inline(always)]
-#[must_use]
 pub fn numbers(column: &[f64], k: usize) -> Eight {
     Eight::new(*block(column, k, &mut None))
 }
@@ -138,7 +133,6 @@ pub fn store_vectors<const D: usize>(column: &mut [[f64; D]], k: usize, componen
 
 /// Eight vectors, component by component.
 #[inline(always)]
-#[must_use]
 pub fn components<const D: usize>(vectors: &[[f64; D]; EIGHT]) -> [Eight; D] {
     let mut components = [Eight::ZERO; D];
     for a in 0..D {
@@ -149,7 +143,6 @@ pub fn components<const D: usize>(vectors: &[[f64; D]; EIGHT]) -> [Eight; D] {
 
 /// Eight matrices, entry by entry: `[a][b]` is that of row `a` and column `b`.
 #[inline(always)]
-#[must_use]
 pub fn matrix_entries<const D: usize>(matrices: &[SMatrix<f64, D, D>; EIGHT]) -> [[Eight; D]; D] {
     let mut entries = [[Eight::ZERO; D]; D];
     for a in 0..D {

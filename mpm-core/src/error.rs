@@ -3,7 +3,7 @@
 use crate::memory::MemoryError;
 use thiserror::Error;
 
-/// What went wrong in a step, with the offending value.
+/// Failure in a step, with the offending value.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Fault {
     /// A quantity of a particle is NaN or infinite.
@@ -44,16 +44,15 @@ pub enum Fault {
     #[error("porosity n = {0} is not positive")]
     NonPositivePorosity(f64),
     /// A face of the particle's domain lies in a cell without material: this share of a corner would be lost.
-    #[error("a share {0} of a loaded or drained face lies on a node that sees no particle")]
+    #[error("a share {0} of a loaded or drained face lies on a node in an empty cell")]
     EmptyCell(f64),
     /// The particle's domain has grown beyond a cell: half its size over the cell's.
-    #[error("half size of the domain is {0} cells, more than half a cell")]
+    #[error("half size of the particle domain is {0} cells; the limit is half a cell")]
     WideDomain(f64),
 }
 
 impl Fault {
     /// Stable name of the kind, as written to records.
-    #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
             Self::NotFinite { .. } => "not-finite",
@@ -68,7 +67,6 @@ impl Fault {
     }
 
     /// The offending value.
-    #[must_use]
     pub fn value(&self) -> f64 {
         match *self {
             Self::NotFinite { value, .. } | Self::OffGrid { value, .. } => value,
@@ -104,11 +102,11 @@ pub enum Error {
         step: u64,
         /// Identity of the first offending particle (its place in the seeding order).
         particle: u32,
-        /// What broke.
+        /// Failure.
         fault: Fault,
     },
-    /// Newton's method found no equilibrium, however short the step. The run stays where the last one was found, from which
-    /// another rule can go on by [`take_over`](crate::Simulation::take_over).
+    /// Newton's method found no equilibrium, however short the step. The run stays where the last one was found, from
+    /// which another rule can go on by [`take_over`](crate::Simulation::take_over).
     #[error(
         "step {step}: no equilibrium found beyond t = {time} s, residual {residual:e} of the loads after {iteration} iterations"
     )]
@@ -122,8 +120,8 @@ pub enum Error {
         /// The residual over that of the loads.
         residual: f64,
     },
-    /// A stiffness matrix could not be factorised, or gave no finite solution, however short the step. The run stays as with
-    /// [`NoConvergence`](Self::NoConvergence).
+    /// A stiffness matrix could not be factorised, or gave no finite solution, however short the step. The run stays as
+    /// with [`NoConvergence`](Self::NoConvergence).
     #[error(
         "step {step}: no equilibrium found beyond t = {time} s, the stiffness matrix is singular in iteration {iteration}"
     )]
@@ -136,17 +134,17 @@ pub enum Error {
         iteration: u32,
     },
     /// The body bears only a part of what acts on it from outside, or lets water out by only a part of what drains.
-    #[error("step {step} (t = {time} s): of the {what}, {whole}, the body has {value}")]
+    #[error("step {step} (t = {time} s): only {value} of the {what} ({whole}) acts on the body")]
     Lost {
         /// Time at the start of the failed part of the step (s).
         time: f64,
         /// Number of steps completed before.
         step: u64,
-        /// What it is: a load, an area.
+        /// Name of the quantity: a load, an area.
         what: &'static str,
         /// The sum over the body (N, m²).
         value: f64,
-        /// What it should be.
+        /// Prescribed value.
         whole: f64,
     },
     /// A body that was handed over is not one of the scene.
@@ -170,4 +168,9 @@ pub(crate) fn require(
             allowed,
         })
     }
+}
+
+/// Checks that `value` is positive and finite.
+pub(crate) fn positive(value: f64, what: &'static str, allowed: &'static str) -> Result<(), Error> {
+    require(value > 0.0, what, value, allowed)
 }

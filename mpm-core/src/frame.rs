@@ -1,8 +1,9 @@
 //! The same scene from elsewhere: along other axes, from another origin, in other units.
 //!
-//! No result may depend on that, but for the digits that places far from the origin lose. Axes may change places and point
-//! the other way; other angles would turn the grid against the body, which is another scene. Of the units those of length and
-//! stress are free. The second stays, so that mass follows from them: with millimetres and megapascals, in tonnes.
+//! No result may depend on that, except for the digits that positions far from the origin lose. Axes may change places
+//! and point the other way; other angles would turn the grid against the body, which is another scene. The units of
+//! length and stress are free. The second stays, so that the unit of mass follows: with millimetres and megapascals,
+//! the tonne.
 
 use crate::grid::{Axis, AxisKind, Grid};
 use crate::tensor::SymmetricTensor;
@@ -11,11 +12,11 @@ use nalgebra::SMatrix;
 /// How a scene is described from elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame<const D: usize> {
-    /// Of every axis of the frame the axis of the scene that it lies along, and 1 or −1 if it points the other way.
+    /// Axis of the scene along which each axis of the frame lies, and 1, or −1 if it points the other way.
     axes: [(usize, f64); D],
     /// Where the scene's origin lies, in the frame's units.
     origin: [f64; D],
-    /// What a metre and a pascal are in the frame's units.
+    /// A metre and a pascal in the frame's units.
     length: f64,
     stress: f64,
 }
@@ -57,39 +58,33 @@ impl<const D: usize> Frame<D> {
         }
     }
 
-    /// What a quantity of the unit Paᵃ mᵇ is multiplied by.
-    #[must_use]
+    /// Factor of a quantity of the unit Paᵃ mᵇ.
     pub fn scale(&self, stress: i32, length: i32) -> f64 {
         self.stress.powi(stress) * self.length.powi(length)
     }
 
-    /// What a force (Pa mᴰ⁻¹) is multiplied by.
-    #[must_use]
+    /// Factor of a force (Pa mᴰ⁻¹).
     pub fn force(&self) -> f64 {
         self.scale(1, D as i32 - 1)
     }
 
-    /// What a stiffness, a force over a length, is multiplied by.
-    #[must_use]
+    /// Factor of a stiffness, a force over a length.
     pub fn stiffness(&self) -> f64 {
         self.scale(1, D as i32 - 2)
     }
 
     /// The axis of the frame along the scene's `axis`, and its sign.
-    #[must_use]
     pub fn axis(&self, axis: usize) -> (usize, f64) {
         let found = self.axes.iter().position(|(own, _)| *own == axis);
         found.map_or((axis, 1.0), |k| (k, self.axes[k].1))
     }
 
     /// A vector of a unit that is multiplied by `scale`.
-    #[must_use]
     pub fn vector(&self, of_scene: &[f64; D], scale: f64) -> [f64; D] {
         self.axes.map(|(axis, sign)| scale * sign * of_scene[axis])
     }
 
     /// A vector of the frame as the scene has it: the inverse of [`Self::vector`].
-    #[must_use]
     pub fn vector_of_scene(&self, vector: &[f64; D], scale: f64) -> [f64; D] {
         let mut of_scene = [0.0; D];
         for ((axis, sign), v) in self.axes.iter().zip(vector) {
@@ -99,21 +94,19 @@ impl<const D: usize> Frame<D> {
     }
 
     /// A place.
-    #[must_use]
     pub fn place(&self, of_scene: &[f64; D]) -> [f64; D] {
         let turned = self.vector(of_scene, self.length);
         std::array::from_fn(|k| turned[k] + self.origin[k])
     }
 
     /// A place of the frame as the scene has it: the inverse of [`Self::place`].
-    #[must_use]
     pub fn place_of_scene(&self, place: &[f64; D]) -> [f64; D] {
         let from_origin = std::array::from_fn(|k| place[k] - self.origin[k]);
         self.vector_of_scene(&from_origin, self.length)
     }
 
-    /// The place of a node of the frame as the scene, on `grid`, has it: without what the way there and back rounds off.
-    #[must_use]
+    /// The place of a node of the frame as the scene, on `grid`, has it: without what the way there and back rounds
+    /// off.
     pub fn node_of_scene(&self, grid: &Grid<D>, place: &[f64; D]) -> [f64; D] {
         let near = self.place_of_scene(place);
         std::array::from_fn(|a| {
@@ -124,7 +117,6 @@ impl<const D: usize> Frame<D> {
     }
 
     /// Lower and upper ends along the axes.
-    #[must_use]
     pub fn extent(&self, of_scene: &[[f64; 2]; D]) -> [[f64; 2]; D] {
         let [lo, hi] = [0, 1].map(|end| self.place(&of_scene.map(|ends| ends[end])));
         std::array::from_fn(|k| match self.axes[k].1 > 0.0 {
@@ -134,7 +126,6 @@ impl<const D: usize> Frame<D> {
     }
 
     /// A tensor of a unit that is multiplied by `scale`.
-    #[must_use]
     pub fn matrix(&self, of_scene: &SMatrix<f64, D, D>, scale: f64) -> SMatrix<f64, D, D> {
         SMatrix::from_fn(|i, j| {
             let ((a, s), (b, t)) = (self.axes[i], self.axes[j]);
@@ -143,7 +134,6 @@ impl<const D: usize> Frame<D> {
     }
 
     /// A stress of the frame as the scene (Pa) has it. Axes beyond the dimension stay.
-    #[must_use]
     pub fn stress_of_scene(&self, stress: &SymmetricTensor) -> SymmetricTensor {
         let of = |a: usize, b: usize| {
             let [(i, s), (j, t)] = [a, b].map(|axis| self.axis(axis));
@@ -160,7 +150,6 @@ impl<const D: usize> Frame<D> {
     }
 
     /// The grid.
-    #[must_use]
     pub fn grid(&self, of_scene: &Grid<D>) -> Grid<D> {
         let ends = of_scene.axes.map(|a| [a.lo, a.hi(of_scene.h)]);
         let ends = self.extent(&ends);

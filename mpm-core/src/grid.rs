@@ -1,8 +1,8 @@
 //! Geometry of the background grid.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 
-/// What stands at one end of an axis.
+/// Kind of end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     /// Nothing: material may come near but not leave.
@@ -71,13 +71,11 @@ impl Axis {
     }
 
     /// Coordinate of the upper end (m) for cells of size `h` (m).
-    #[must_use]
     pub fn hi(&self, h: f64) -> f64 {
         self.lo + self.cells as f64 * h
     }
 
     /// Whether the lower and the upper end are walls.
-    #[must_use]
     pub fn wall_ends(&self) -> (bool, bool) {
         match self.kind {
             AxisKind::Bounded { lo, hi } => (lo == Side::Wall, hi == Side::Wall),
@@ -86,7 +84,6 @@ impl Axis {
     }
 
     /// Whether the axis is periodic.
-    #[must_use]
     pub fn is_periodic(&self) -> bool {
         self.kind == AxisKind::Periodic
     }
@@ -110,7 +107,7 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// `h` not positive and finite, or an axis with fewer than four cells or a non-finite origin.
     pub fn new(h: f64, axes: [Axis; D]) -> Result<Self, Error> {
-        require(h > 0.0, "cell size", h, "positive and finite (m)")?;
+        positive(h, "cell size", "positive and finite (m)")?;
         for axis in &axes {
             require(true, "grid origin", axis.lo, "finite (m)")?;
             require(
@@ -124,7 +121,6 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Index of the cell along `axis` that holds coordinate `x` (m), clamped to the grid.
-    #[must_use]
     pub fn cell(&self, axis: usize, x: f64) -> usize {
         let a = &self.axes[axis];
         (((x - a.lo) / self.h) as usize).min(a.cells - 1)

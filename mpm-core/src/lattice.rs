@@ -48,38 +48,32 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
     }
 
     /// Length of a nodal array.
-    #[must_use]
     pub fn len(&self) -> usize {
         (PLANES_BEFORE + self.nodes[0].position.len()) * self.strides[0]
     }
 
     /// Never: a grid has nodes.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         false
     }
 
     /// Nodes in a plane of equal first index.
-    #[must_use]
     pub fn plane(&self) -> usize {
         self.strides[0]
     }
 
     /// Nodes in a row along the last axis; in one dimension that is a plane.
-    #[must_use]
     pub fn row_length(&self) -> usize {
         if D == 1 { 1 } else { self.strides[D - 2] }
     }
 
     /// Whether nodes have periodic images.
-    #[must_use]
     pub fn has_images(&self) -> bool {
         !self.images.is_empty()
     }
 
     /// The basis functions that see a particle at `x` (m) with half sizes `half_size` (m).
     #[inline(always)]
-    #[must_use]
     pub fn stencil(&self, x: &[f64; D], half_size: &[f64; D]) -> Stencil<D, S> {
         let mut axis = [AxisWeights::NONE; D];
         for a in 0..D {
@@ -93,7 +87,6 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
     }
 
     /// The functions that see a point `x` (m), a particle without size.
-    #[must_use]
     pub fn stencil_of_point(&self, x: &[f64; D]) -> Stencil<D, S> {
         let axis: [AxisWeights<S>; D] = std::array::from_fn(|a| self.bases[a].at_point(x[a]));
         Stencil {
@@ -115,7 +108,6 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
 
     /// The functions along every axis that see eight particles at `x` (m) with half sizes `half_size` (m).
     #[inline(always)]
-    #[must_use]
     pub fn functions(&self, x: &[Eight; D], half_size: &[f64; D]) -> [EightAxisWeights<S>; D] {
         let mut functions = [EightAxisWeights::NONE; D];
         for a in 0..D {
@@ -126,7 +118,6 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
 
     /// The first nodes of eight stencils, whole numbers.
     #[inline(always)]
-    #[must_use]
     fn first_nodes(&self, functions: &[EightAxisWeights<S>; D]) -> Eight {
         let mut first = Eight::splat((PLANES_BEFORE * self.strides[0]) as f64);
         for a in 0..D {
@@ -179,14 +170,13 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
     /// How many nodes after a stencil's first one the row at the places `slow` and `fast` begins: see
     /// [`Stencil::OUTER`].
     #[inline(always)]
-    #[must_use]
     pub fn row_offset(&self, slow: usize, fast: usize) -> usize {
         row_offset(&self.strides, slow, fast)
     }
 
-    /// Distances x_i − x_p (m) from eight particles at `x` (m) to the nodes of the functions that see them, axis by axis.
+    /// Distances x_i − x_p (m) from eight particles at `x` (m) to the nodes of the functions that see them, axis by
+    /// axis.
     #[inline(always)]
-    #[must_use]
     pub fn arms(&self, functions: &[EightAxisWeights<S>; D], x: &[Eight; D]) -> [[Eight; S]; D] {
         let mut arms = [[Eight::ZERO; S]; D];
         for a in 0..D {
@@ -200,7 +190,6 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
     }
 
     /// Position of a node (its Greville abscissae, m) from its multi-index.
-    #[must_use]
     pub fn position(&self, index: &[usize; D]) -> [f64; D] {
         std::array::from_fn(|a| self.nodes[a].position[index[a]])
     }
@@ -290,21 +279,18 @@ impl<const D: usize, const S: usize> Default for Weights<D, S> {
 impl<const D: usize, const S: usize> Weights<D, S> {
     /// The first node of the stencil.
     #[inline(always)]
-    #[must_use]
     pub fn first(&self) -> usize {
         self.first
     }
 
     /// The weights along an axis.
     #[inline(always)]
-    #[must_use]
     pub fn axis(&self, axis: usize) -> &[f64; S] {
         &self.w[axis]
     }
 
     /// The weights along the last axis.
     #[inline(always)]
-    #[must_use]
     pub fn last(&self) -> &[f64; S] {
         &self.w[D - 1]
     }
@@ -334,7 +320,6 @@ impl<const D: usize, const S: usize> Stencil<D, S> {
     /// `row.w * last.w[k]` and its gradient `row.gradient[a] * last.w[k]`, with `last.dw[k]` instead
     /// of `last.w[k]` in the last direction.
     #[inline(always)]
-    #[must_use]
     pub fn row(&self, slow: usize, fast: usize) -> Row<D> {
         let mut row = Row {
             node: self.first() + row_offset(&self.strides, slow, fast),
@@ -358,14 +343,12 @@ impl<const D: usize, const S: usize> Stencil<D, S> {
 
     /// The first node.
     #[inline(always)]
-    #[must_use]
     pub fn first(&self) -> usize {
         self.first
     }
 
     /// The weights along the last axis.
     #[inline(always)]
-    #[must_use]
     pub fn last(&self) -> &AxisWeights<S> {
         &self.axis[D - 1]
     }

@@ -1,11 +1,9 @@
 //! Finite-strain material point method (MPM) with the F̄ family of locking remedies.
 //!
-//! The method is that of Zhao, Jiang & Choo, "Circumventing volumetric locking in explicit
-//! material point methods" (2023); equation numbers in this crate are theirs. A [`Scene`] is a [`Grid`], a [`Body`] and
-//! what acts on it; a solver, behind [`Simulation`], moves it. There are three kinds: the
-//! [explicit](explicit::Solver) one, whose `step` is the algorithm, the [implicit](implicit::Solver) one, and that of
-//! [solid and water](poro::Solver). What is
-//! shared:
+//! The method is that of Zhao, Jiang & Choo, "Circumventing volumetric locking in explicit material point methods"
+//! (2023); equation numbers in this crate are theirs. A [`Scene`] is a [`Grid`], a [`Body`] and what acts on it; a
+//! solver, behind [`Simulation`], moves it. There are three kinds: the [explicit](explicit::Solver) one, whose `step`
+//! is the algorithm, the [implicit](implicit::Solver) one, and that of [solid and water](poro::Solver). Shared parts:
 //!
 //! * [`Grid`], [`Lattice`] and [`nodes`]: cells, axes, the nodes of a basis and what they hold in a step;
 //! * [`basis`]: linear, uGIMP, quadratic and cubic B-splines, one-dimensional factors of a tensor product;
@@ -14,16 +12,16 @@
 //! * [`stage`]: loads, force filters, constraints and particle filters;
 //! * [`contact`]: barrier contact with rigid bodies, with friction;
 //! * [`projection`]: the volume average Π;
-//! * [`frame`]: the same scene from elsewhere, in other units;
+//! * [`frame`]: a scene in another frame and other units;
 //! * [`monitor`]: mass, momentum, the energy budget, J and ln(J/J̄), reactions;
-//! * [`memory`]: how a run is stopped and goes on as if it had not been.
+//! * [`memory`]: checkpoint and bit-identical restart.
 //!
-//! What only the explicit step needs, in [`explicit`]: its [`Settings`](explicit::Settings), particle–grid transfers
+//! The explicit solver has in [`explicit`] its [`Settings`](explicit::Settings), particle–grid transfers
 //! ([`explicit::transfer`]: PIC/FLIP blend, APIC, XPIC, MUSL) and remedies ([`explicit::remedy`]: how the averaged
 //! Jacobian J̄ is formed).
 //!
-//! What only the implicit one needs, in [`implicit`]: functions as it asks for them, penalties, Newton's method. What a
-//! body with water has beside them, in [`poro`].
+//! The implicit solver has in [`implicit`] its functions, penalties and Newton's method; a body with water adds
+//! [`poro`].
 //!
 //! A block of nearly incompressible rubber that begins to sag under its weight:
 //!
@@ -72,10 +70,13 @@ pub mod contact;
 pub mod eights;
 pub mod error;
 pub mod explicit;
+#[cfg(test)]
+mod fixture;
 pub mod frame;
 pub mod grid;
 pub mod implicit;
 pub mod lattice;
+pub mod ledger;
 pub mod material;
 pub mod memory;
 pub mod monitor;
@@ -101,6 +102,7 @@ pub use error::{Error, Fault};
 pub use frame::Frame;
 pub use grid::{Axis, Grid, Side};
 pub use lattice::Lattice;
+pub use ledger::Ledger;
 pub use material::Law;
 pub use memory::{Memory, MemoryError, Memoryless, Saved};
 pub use monitor::{Reaction, Totals};

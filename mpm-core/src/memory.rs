@@ -1,9 +1,9 @@
-//! What a run remembers: all that the next step needs and the scene doesn't say.
+//! Memory of a run: all that the next step needs and the scene does not define.
 //!
-//! A run that is saved, built anew from its scene and restored goes on as if it had never stopped, bit
-//! for bit. So every part of a run says what it carries from one step to the next: by [`Memory`], or,
-//! if that is nothing, by [`Memoryless`]. What a part was built from is no memory (moduli, limits, walls),
-//! nor is what each step begins by overwriting (work arrays).
+//! A run that is saved, built anew from its scene and restored goes on as if it had never stopped, bit for bit. So
+//! every part of a run says what it carries from one step to the next: by [`Memory`], or, if that is nothing, by
+//! [`Memoryless`]. Construction data (moduli, limits, walls) are not saved, nor are work arrays, which each step
+//! overwrites.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -14,43 +14,43 @@ use thiserror::Error;
 #[serde(transparent)]
 pub struct Saved(#[serde(with = "serde_bytes")] Vec<u8>);
 
-/// Why a memory can't be saved or restored.
+/// Why a memory cannot be saved or restored.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MemoryError {
-    /// A value that can't be written as bytes.
-    #[error("memory can't be written: {0}")]
+    /// A value that cannot be written as bytes.
+    #[error("state cannot be saved: {0}")]
     Write(postcard::Error),
     /// Bytes that are not the memory of this part.
-    #[error("not the memory of {part}: {cause}")]
+    #[error("saved state does not match {part}: {cause}")]
     Read {
         /// The part.
         part: &'static str,
-        /// What is wrong with the bytes.
+        /// Cause.
         cause: postcard::Error,
     },
     /// More bytes than this part's memory has.
-    #[error("not the memory of {part}: {surplus} bytes too many")]
+    #[error("saved state does not match {part}: {surplus} unexpected bytes")]
     Surplus {
         /// The part.
         part: &'static str,
         /// How many are left.
         surplus: usize,
     },
-    /// The memory asks for a scene that can't be built.
-    #[error("the scene can't be built: {0}")]
+    /// The memory asks for a scene that cannot be built.
+    #[error("the scene cannot be built: {0}")]
     Scene(String),
     /// A size that is not that of the scene.
-    #[error("{what}: {saved} in the memory, {expected} in the scene")]
+    #[error("{what}: {saved} in the saved state, {expected} in the scene")]
     Size {
-        /// What is counted.
+        /// Name of the count.
         what: &'static str,
         /// The memory's.
         saved: usize,
         /// The scene's.
         expected: usize,
     },
-    /// A value that the scene doesn't allow.
-    #[error("{what} = {value} in the memory is not allowed: {allowed}")]
+    /// A value that the scene does not allow.
+    #[error("{what} = {value} in the saved state is not allowed: {allowed}")]
     Value {
         /// The field.
         what: &'static str,
@@ -96,7 +96,6 @@ impl Saved {
     }
 
     /// The bytes.
-    #[must_use]
     pub fn bytes(&self) -> &[u8] {
         &self.0
     }
@@ -120,7 +119,7 @@ impl Saved {
 
 /// Something that remembers from one step to the next.
 pub trait Memory {
-    /// What it remembers now.
+    /// Present memory.
     ///
     /// # Errors
     /// A value that has no bytes.
@@ -142,11 +141,28 @@ impl<T: Memoryless + ?Sized> Memory for T {
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        saved.read("a part that remembers nothing")
+        saved.read("a part without a state")
     }
 }
 
-/// What each of a list remembers.
+/// Checks that a value in a memory is allowed.
+pub(crate) fn require(
+    ok: bool,
+    what: &'static str,
+    value: f64,
+    allowed: &'static str,
+) -> Result<(), MemoryError> {
+    if ok {
+        return Ok(());
+    }
+    Err(MemoryError::Value {
+        what,
+        value,
+        allowed,
+    })
+}
+
+/// Memories of the parts of a list.
 ///
 /// # Errors
 /// A value that has no bytes.

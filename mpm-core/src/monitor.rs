@@ -1,4 +1,4 @@
-//! What every run watches.
+//! Quantities that every run monitors.
 
 use crate::material::Law;
 use crate::particles::Particles;
@@ -18,8 +18,8 @@ pub struct Accumulated {
     pub constraint_loss: f64,
     /// Kinetic energy removed by particle filters (kinetic damping).
     pub filter_loss: f64,
-    /// Kinetic energy that the particles don't take from nodes with a lumped mass, ½ Δvᵀ (M_β − M_c) Δv of the midpoint
-    /// rule.
+    /// Kinetic energy that the particles do not take from nodes with a lumped mass, ½ Δvᵀ (M_β − M_c) Δv of the
+    /// midpoint rule.
     pub lumping_loss: f64,
 }
 
@@ -41,7 +41,7 @@ pub struct Convergence {
     pub residuals: Vec<f64>,
     /// The paper's out-of-balance force ratio, Eq. (37): ‖F_ext − F_int‖ / ‖F_ext‖ over all free components.
     pub force_ratio: f64,
-    /// What rounding of the stresses by some last bits may leave of that: less is not asked for.
+    /// Share of that which rounding of the stresses may leave: the lower limit of what is asked for.
     pub force_rounding: f64,
     /// The analogue of the paper's energy ratio, Eq. (38), where nothing moves: the residual's work on the last
     /// correction over that of the external force on the increment.
@@ -55,13 +55,13 @@ pub struct Convergence {
 pub struct WaterBalance {
     /// Volume that left (m³; m² in plane strain, m in 1D).
     pub outflow: f64,
-    /// Volume that sources within the body gave, likewise.
+    /// Volume that sources within the body gave (m³; m² in plane strain, m in 1D).
     pub inflow: f64,
     /// Change of the body's volume and outflow together, less inflow (m³): what the scheme creates.
     pub imbalance: f64,
 }
 
-/// What the body does to a part of the scene.
+/// Reaction of a part of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Reaction {
     /// Force (N) in the last step: on a constraint the nodal forces at the components that it holds.
@@ -72,7 +72,7 @@ pub struct Reaction {
 }
 
 impl Reaction {
-    /// Of a part that there isn't.
+    /// Reaction of a part that does not exist.
     pub const NONE: Self = Self {
         force: [f64::NAN; 3],
         impulse: [f64::NAN; 3],
@@ -141,7 +141,6 @@ impl Totals {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::material::NeoHookean;

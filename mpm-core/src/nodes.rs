@@ -1,4 +1,4 @@
-//! What the nodes of a grid hold during a step.
+//! Nodal values during a step.
 
 use std::ops::AddAssign;
 use wide::f64x4;
@@ -7,14 +7,13 @@ use wide::f64x4;
 pub type Node = f64x4;
 
 /// A vector of a node, from its components.
-#[must_use]
 pub fn padded<const D: usize>(vector: &[f64; D]) -> Node {
     let mut padded = [0.0; 4];
     padded[..D].copy_from_slice(vector);
     Node::from(padded)
 }
 
-/// What the nodes hold during a step: one cache line each.
+/// Values of a node during a step: one cache line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C, align(64))]
 pub struct NodalState {
@@ -33,14 +32,12 @@ impl AddAssign for NodalState {
 
 impl NodalState {
     /// Mass of the node (kg).
-    #[must_use]
     #[inline(always)]
     pub fn mass(&self) -> f64 {
         self.motion.as_array()[3]
     }
 
     /// Kinetic energy of the node (J), once `motion` is a velocity.
-    #[must_use]
     #[inline(always)]
     pub fn kinetic_energy(&self) -> f64 {
         let v = self.motion.as_array();

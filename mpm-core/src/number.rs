@@ -2,7 +2,7 @@
 //!
 //! A formula that is written for any [`Real`] serves one particle and, in one go, eight of them, and of a [`Dual`]
 //! number it gives the derivatives as well. It must not branch on a value, but may do less where *all* of its numbers
-//! allow it. What takes numbers apart loses their derivatives: it asks for [`Lanes`], which a dual number doesn't have.
+//! allow it. Code that takes numbers apart loses derivatives: it asks for [`Lanes`], which a dual number lacks.
 
 mod dual;
 
@@ -17,17 +17,17 @@ pub type Eight = f64x8;
 /// How many.
 pub const EIGHT: usize = 8;
 
-/// Whether this build multiplies and adds in one instruction. Without it a step takes 2.2 to 2.6 times as long, and each
-/// product is rounded before it is added, which changes last digits; with it, they are the same for any processor.
-/// A package that uses this one gets it by `RUSTFLAGS="-C target-cpu=native"`, or `x86-64-v3` for any processor with AVX2.
+/// Whether this build multiplies and adds in one instruction. Without it a step takes 2.2 to 2.6 times as long, and
+/// each product is rounded before it is added, which changes last digits; with it, they are the same for any processor.
+/// A package that uses this one gets it by `RUSTFLAGS="-C target-cpu=native"`, or `x86-64-v3` for any processor with
+/// AVX2.
 pub const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
 
 /// Eight numbers in memory, each of which a loop over the eight reads as a broadcast.
 pub type Octet = [f64; EIGHT];
 
-/// Whole numbers as indices. They are below 2³², so that sums of a few don't overflow, which the compiler then knows.
+/// Whole numbers as indices. They are below 2³², so that sums of a few do not overflow, which the compiler then knows.
 #[inline(always)]
-#[must_use]
 pub fn indices(of: Eight) -> [u32; EIGHT] {
     of.fast_trunc_int().to_array().map(|index| index as u32)
 }
@@ -90,7 +90,7 @@ pub trait Real:
     #[must_use]
     fn clamped(self, low: f64, high: f64) -> Self;
 
-    /// Whether all are below `limit`; what is not a number isn't.
+    /// Whether all are below `limit`; what is not a number is not.
     fn all_below(self, limit: f64) -> bool;
 
     /// Whether all are above `low` and below `high`.
@@ -118,6 +118,16 @@ pub trait Lanes: Real {
     fn part(&self, k: usize) -> f64;
 }
 
+/// Functions of a number that its type has under the same name.
+macro_rules! of_the_type {
+    ($number:ty: $($name:ident($($other:ident),*)),*) => {$(
+        #[inline(always)]
+        fn $name(self, $($other: Self),*) -> Self {
+            <$number>::$name(self, $($other),*)
+        }
+    )*};
+}
+
 impl Real for f64 {
     #[inline(always)]
     fn splat(x: f64) -> Self {
@@ -129,35 +139,7 @@ impl Real for f64 {
         of(0)
     }
 
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        f64::mul_add(self, a, b)
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        f64::sqrt(self)
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        f64::exp(self)
-    }
-
-    #[inline(always)]
-    fn ln(self) -> Self {
-        f64::ln(self)
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f64::abs(self)
-    }
-
-    #[inline(always)]
-    fn floor(self) -> Self {
-        f64::floor(self)
-    }
+    of_the_type!(f64: mul_add(a, b), sqrt(), exp(), ln(), abs(), floor());
 
     #[inline(always)]
     fn at_least(self, limit: f64) -> Self {
@@ -213,35 +195,7 @@ impl Real for Eight {
         f64x8::new(std::array::from_fn(of))
     }
 
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        f64x8::mul_add(self, a, b)
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        f64x8::sqrt(self)
-    }
-
-    #[inline(always)]
-    fn exp(self) -> Self {
-        f64x8::exp(self)
-    }
-
-    #[inline(always)]
-    fn ln(self) -> Self {
-        f64x8::ln(self)
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f64x8::abs(self)
-    }
-
-    #[inline(always)]
-    fn floor(self) -> Self {
-        f64x8::floor(self)
-    }
+    of_the_type!(f64x8: mul_add(a, b), sqrt(), exp(), ln(), abs(), floor());
 
     #[inline(always)]
     fn at_least(self, limit: f64) -> Self {

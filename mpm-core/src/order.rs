@@ -8,9 +8,8 @@ use crate::lattice::Lattice;
 use crate::parallel::SLAB;
 use std::ops::Range;
 
-/// The order of particles at `positions` (m) with half sizes `half_size` (m), stable where nothing tells them apart, and
-/// the range of every slab of [`SLAB`] cells along the first axis.
-#[must_use]
+/// The order of particles at `positions` (m) with half sizes `half_size` (m), stable where nothing tells them apart,
+/// and the range of every slab of [`SLAB`] cells along the first axis.
 pub fn stencil_order<const D: usize, const S: usize, B: Basis<S>>(
     lattice: &Lattice<D, S, B>,
     positions: &[[f64; D]],

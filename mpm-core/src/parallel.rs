@@ -3,13 +3,13 @@
 //! *Gathers* write to particles only: they run over chunks of [`CHUNK`] particles, and sums are
 //! formed per chunk and added in the order of the chunks.
 //!
-//! What is done *node by node* runs over chunks of [`NODE_CHUNK`] nodes, likewise ([`crate::reach`]).
+//! Loops *node by node* run over chunks of [`NODE_CHUNK`] nodes in the same way ([`crate::reach`]).
 //!
 //! *Scatters* write to nodes. Particles are sorted by place, and slabs of [`SLAB`] cells along the
 //! first axis hold contiguous runs of them. A slab's particles reach fewer than `2 SLAB` planes of
 //! nodes, so slabs of even number can run side by side, each on its own run of planes, and then
 //! those of odd number. A node thus receives its contributions in an order that the number of
-//! threads doesn't change, without atomics and without private grids.
+//! threads does not change, without atomics and without private grids.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ use std::ops::Range;
 pub const CHUNK: usize = 1024;
 /// Chunks that a thread takes at once, at most: few, so that threads which are not equally fast end together.
 pub const AT_ONCE: usize = 4;
-/// Nodes per chunk of what is done for nodes: so many that a small scene is one chunk, which wakes no other thread.
+/// Nodes per chunk in loops over nodes: a small scene is one chunk, which wakes no other thread.
 pub const NODE_CHUNK: usize = 4096;
 /// Entries a piece of a [`map`] whose entries cost little each, such as particles; elements are a piece each.
 pub const LIGHT: usize = 64;
@@ -82,7 +82,7 @@ pub fn map<T: Send>(n: usize, size: usize, of: impl Fn(usize) -> T + Sync) -> Ve
     of_pieces(n, size, &|piece| piece.map(&of).collect())
 }
 
-/// What `of` gives of every piece of `size` numbers below `n`, one after the other: one instance a type.
+/// Results of `of` for every piece of `size` numbers below `n`, in their order: one instance a type.
 fn of_pieces<T: Send>(
     n: usize,
     size: usize,

@@ -1,6 +1,6 @@
 //! The particles of a body, as columns.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::frame::Frame;
 use crate::memory::{MemoryError, row, rows};
 use crate::parallel::{CHUNK, for_each_piece};
@@ -35,7 +35,7 @@ pub struct Particles<const D: usize> {
     pub affine: Vec<SMatrix<f64, D, D>>,
     /// Mass (kg; per metre of depth in plane strain, per square metre of section in 1D).
     pub mass: Vec<f64>,
-    /// Reference volume V⁰ (m³, likewise).
+    /// Reference volume V⁰ (m³; m² in plane strain, m in 1D).
     pub reference_volume: Vec<f64>,
     /// Volume that weights stresses and averages, V (m³), Eq. (15).
     pub volume: Vec<f64>,
@@ -49,7 +49,7 @@ pub struct Particles<const D: usize> {
     #[serde(with = "rows")]
     pub external_force: Vec<[f64; D]>,
     /// At the start, the deformation gradient F. Then the relative deformation gradient ΔF, or ΔF̄, of a step, where a
-    /// solver keeps it here; the explicit one doesn't.
+    /// solver keeps it here; the explicit one does not.
     pub delta_f: Vec<SMatrix<f64, D, D>>,
     /// Displacement of the step (m).
     #[serde(with = "rows")]
@@ -68,10 +68,10 @@ impl<const D: usize> Particles<D> {
         density: f64,
         half_size: [f64; D],
     ) -> Result<Self, Error> {
-        require(volume > 0.0, "particle volume", volume, "positive (m³)")?;
-        require(density > 0.0, "density", density, "positive (kg/m³)")?;
+        positive(volume, "particle volume", "positive (m³)")?;
+        positive(density, "density", "positive (kg/m³)")?;
         for l in half_size {
-            require(l > 0.0, "particle half size", l, "positive (m)")?;
+            positive(l, "particle half size", "positive (m)")?;
         }
         for x in positions.iter().flatten() {
             require(true, "particle position", *x, "finite (m)")?;
@@ -109,8 +109,8 @@ impl<const D: usize> Particles<D> {
         self
     }
 
-    /// The same particles, before their first step, seen from `frame`; those of a [`Body`](crate::Body) get their stress and
-    /// volume from it.
+    /// The same particles, before their first step, seen from `frame`; those of a [`Body`](crate::Body) get their
+    /// stress and volume from it.
     #[must_use]
     pub fn seen_from(&self, frame: &Frame<D>) -> Self {
         let [length, area, volume] = [1, 2, D as i32].map(|power| frame.scale(0, power));
@@ -147,19 +147,16 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Number of particles.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
 
-    /// What `f` gives of every particle, by its place in the columns, in seeding order.
-    #[must_use]
+    /// Values of `f` at every place in the columns, in seeding order.
     pub fn seeded<T: Copy + Default>(&self, f: impl Fn(usize) -> T) -> Vec<T> {
         let mut values = vec![T::default(); self.len()];
         for (k, id) in self.id.iter().enumerate() {
@@ -169,17 +166,10 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Kinetic energy Σ ½ m v² (J); that of affine parts is left out.
-    #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
-        let squares = self
-            .velocity
-            .iter()
-            .map(|v| v.iter().map(|v| v * v).sum::<f64>());
-        self.mass
-            .iter()
-            .zip(squares)
-            .map(|(m, v2)| 0.5 * m * v2)
-            .sum()
+        let square = |v: &[f64; D]| v.iter().map(|v| v * v).sum::<f64>();
+        let pairs = self.mass.iter().zip(&self.velocity);
+        pairs.map(|(m, v)| 0.5 * m * square(v)).sum()
     }
 
     /// The lengths of the columns, by name.
@@ -224,7 +214,7 @@ impl<const D: usize> Particles<D> {
                     return Err(MemoryError::Value {
                         what: "id of a particle",
                         value: f64::from(*id),
-                        allowed: "each number below that of particles once",
+                        allowed: "each number below the number of particles, once",
                     });
                 }
             }
@@ -240,8 +230,8 @@ impl<const D: usize> Particles<D> {
             .collect()
     }
 
-    /// Makes these, of a run that ended, the particles of one that begins as `scene`: motion that only one of the two has a
-    /// column for begins at rest, or is forgotten.
+    /// Makes these, of a run that ended, the particles of one that begins as `scene`: motion that only one of the two
+    /// has a column for begins at rest, or is forgotten.
     pub(crate) fn go_on_as(&mut self, scene: &Self) {
         let columns = [
             (&mut self.velocity, &scene.velocity),
@@ -256,8 +246,8 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`. An order of some leaves the
-    /// others out.
+    /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`. An order of some leaves
+    /// the others out.
     pub fn permute(&mut self, order: &[u32]) {
         permute(&mut self.id, order);
         permute(&mut self.reference, order);

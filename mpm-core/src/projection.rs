@@ -20,11 +20,11 @@ pub trait Average<const D: usize> {
     fn average(&mut self, particles: &Particles<D>, field: &mut [f64]);
 }
 
-/// What averages work with. Weights and nodal volumes are those of all averages until the particles move or
-/// change their volumes: a remedy that averages six times in a step computes them once.
+/// Workspace of averages. Weights and nodal volumes serve all averages until the particles move or change their
+/// volumes: a remedy that averages six times in a step computes them once.
 #[derive(Debug, Clone)]
 pub struct Averaging<const D: usize, const S: usize> {
-    /// Of every particle.
+    /// Weights of every particle.
     weights: Vec<Weights<D, S>>,
     /// V_i of every node. These two arrays are longer than the lattice by the padding of the last row.
     volumes: Vec<f64>,
@@ -35,7 +35,7 @@ pub struct Averaging<const D: usize, const S: usize> {
 }
 
 impl<const D: usize, const S: usize> Averaging<D, S> {
-    /// For a lattice of so many nodes.
+    /// Workspace for a lattice with this number of nodes.
     #[must_use]
     pub fn new(nodes: usize) -> Self {
         Self {
@@ -46,14 +46,14 @@ impl<const D: usize, const S: usize> Averaging<D, S> {
         }
     }
 
-    /// To be told when nodes that had been in reach may no longer be.
+    /// Forgets all nodal values: call it when nodes may have left the particles' reach.
     pub fn clear(&mut self) {
         self.volumes.fill(0.0);
         self.values.fill(0.0);
         self.current = false;
     }
 
-    /// To be told when particles have moved, changed their volumes or been put in another order.
+    /// Marks weights and volumes as outdated: call it when particles have moved, changed volume or order.
     pub fn expire(&mut self) {
         self.current = false;
     }
@@ -67,7 +67,7 @@ pub struct Projection<'a, const D: usize, const S: usize, B> {
     pub slabs: &'a [Range<usize>],
     /// The nodes within the particles' reach.
     pub reach: &'a Reach,
-    /// What it works with.
+    /// Workspace.
     pub averaging: &'a mut Averaging<D, S>,
     /// Counts the applications.
     pub count: &'a mut u64,

@@ -1,8 +1,8 @@
 //! The nodes that particles can reach before they are sorted again.
 //!
-//! Grids are mostly empty: a slide leaves most of a slope bare, a tank is higher than its water. What is done for
-//! nodes is done for runs of nodes that a particle sees or may come to see; all other nodes hold zeros. Particles are
-//! sorted, and the runs found anew, before one has moved farther than a cell.
+//! Grids are mostly empty: a slide leaves most of a slope bare, a tank is higher than its water. Loops over nodes run
+//! over those that a particle sees or may come to see; all other nodes hold zeros. Particles are sorted, and the runs
+//! found anew, before one has moved farther than a cell.
 
 use crate::basis::Basis;
 use crate::lattice::Lattice;
@@ -19,7 +19,8 @@ pub struct Reach {
 type Places = Range<usize>;
 
 impl Reach {
-    /// What particles at `positions` (m) with half sizes `half_size` (m) reach if each moves by a cell at most.
+    /// Nodes within reach of particles at `positions` (m) with half sizes `half_size` (m), if each moves by a cell at
+    /// most.
     #[must_use]
     pub fn of<const D: usize, const S: usize, B: Basis<S>>(
         lattice: &Lattice<D, S, B>,
@@ -65,13 +66,12 @@ impl Reach {
     }
 
     /// Whether `node` is one of them.
-    #[must_use]
     pub fn contains(&self, node: usize) -> bool {
         let after = self.runs.partition_point(|run| run.start <= node);
         after > 0 && self.runs[after - 1].contains(&node)
     }
 
-    /// What is within reach of a piece of the nodes that begins at node `begin` and has `n`: by places in the piece.
+    /// Parts within reach of a piece of `n` nodes that begins at node `begin`, as places in the piece.
     pub fn within(&self, begin: usize, n: usize) -> impl Iterator<Item = Range<usize>> {
         let end = begin + n;
         let first = self.runs.partition_point(|run| run.end <= begin);

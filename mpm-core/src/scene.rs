@@ -1,13 +1,22 @@
-//! What a run is of: a grid, a body, and what acts on it.
+//! Scene of a run: a grid, a body, and what acts on it.
 
 use crate::body::Body;
 use crate::contact::RigidContact;
-use crate::error::Error;
+use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::grid::Grid;
 use crate::material::Law;
-use crate::memory::{MemoryError, Saved};
+use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
 use crate::stage::{Constraint, Load};
+
+/// A part of the scene that the body acts on, by its place in the scene's list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// A constraint.
+    Constraint(usize),
+    /// A contact with a rigid body.
+    Contact(usize),
+}
 
 /// A grid, a body on it, and the loads, constraints and contacts that the scene has. How it is solved is the solver's.
 pub struct Scene<const D: usize, M: Law> {
@@ -17,11 +26,14 @@ pub struct Scene<const D: usize, M: Law> {
     pub body: Body<D, M>,
     /// Loads.
     pub loads: Vec<Box<dyn Load<D>>>,
-    /// Constraints. Their places are those of [`Part::Constraint`](crate::simulation::Part::Constraint).
+    /// Constraints. Their places are those of [`Part::Constraint`].
     pub constraints: Vec<Box<dyn Constraint<D>>>,
-    /// Contacts with rigid bodies. Their places are those of [`Part::Contact`](crate::simulation::Part::Contact).
+    /// Contacts with rigid bodies. Their places are those of [`Part::Contact`].
     pub contacts: Vec<RigidContact<D>>,
 }
+
+/// Memories of the loads, constraints and contacts of a scene.
+pub(crate) type SavedStages = (Vec<Saved>, Vec<Saved>, Vec<Saved>);
 
 impl<const D: usize, M: Law> Scene<D, M> {
     /// `body` on `grid`, left to itself.
@@ -61,21 +73,46 @@ impl<const D: usize, M: Law> Scene<D, M> {
         self
     }
 
-    /// What the next run is handed: the body, and the sticks of the contacts, as bytes.
+    /// Refuses particles wider than a cell.
+    pub(crate) fn check_half_size(&self) -> Result<(), Error> {
+        let (what, allowed) = ("particle half size", "at most half a cell (m)");
+        let mut half_size = self.body.particles.half_size.into_iter();
+        half_size.try_for_each(|l| require(l <= 0.5 * self.grid.h, what, l, allowed))
+    }
+
+    /// Memories of the stages.
+    pub(crate) fn save_stages(&self) -> Result<SavedStages, MemoryError> {
+        let contacts: Result<_, _> = self.contacts.iter().map(Memory::save).collect();
+        Ok((
+            save_all(&self.loads)?,
+            save_all(&self.constraints)?,
+            contacts?,
+        ))
+    }
+
+    /// Restores the stages from their memories.
+    pub(crate) fn restore_stages(&mut self, saved: &SavedStages) -> Result<(), MemoryError> {
+        let (loads, constraints, contacts) = saved;
+        restore_all("loads", &mut self.loads, loads)?;
+        restore_all("constraints", &mut self.constraints, constraints)?;
+        MemoryError::unless_equal("contacts", contacts.len(), self.contacts.len())?;
+        for (contact, saved) in self.contacts.iter_mut().zip(contacts) {
+            contact.restore(saved)?;
+        }
+        Ok(())
+    }
+
+    /// Bytes for the next run: the body, and the sticks of the contacts.
     ///
     /// # Errors
     /// A value that has no bytes.
     pub(crate) fn hand_over(&self, body: Saved) -> Result<Saved, MemoryError> {
-        let sticks: Vec<&[f64]> = self
-            .contacts
-            .iter()
-            .map(|c| c.sticks().as_flattened())
-            .collect();
-        Saved::of(&(body, sticks))
+        let sticks = self.contacts.iter().map(|c| c.sticks().as_flattened());
+        Saved::of(&(body, sticks.collect::<Vec<_>>()))
     }
 
-    /// Takes the sticks of a run that ended, contact by contact as far as both have one with friction there; others begin
-    /// unstretched.
+    /// Takes the sticks of a run that ended, contact by contact as far as both have one with friction there; others
+    /// begin unstretched.
     pub(crate) fn take_sticks(&mut self, sticks: &[Vec<f64>]) {
         for (contact, sticks) in self.contacts.iter_mut().zip(sticks) {
             let (rows, _) = sticks.as_chunks();

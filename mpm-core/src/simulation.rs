@@ -1,20 +1,13 @@
-//! What can be done with a run and asked of it.
+//! Interface of a run, whatever its solver.
 
 use crate::error::Error;
+use crate::ledger::Ledger;
 use crate::memory::{Memory, Saved};
 use crate::monitor::{Convergence, Reaction, Residual, Totals, WaterBalance};
 use crate::particles::Particles;
+pub use crate::scene::Part;
 use crate::tensor::SymmetricTensor;
 use crate::work::{Spent, Work};
-
-/// What the body acts on, by its place in the scene's list.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
-    /// A constraint.
-    Constraint(usize),
-    /// A contact with a rigid body.
-    Contact(usize),
-}
 
 /// A field over the particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,33 +32,48 @@ pub trait Simulation<const D: usize>: Memory + Send {
     /// [`Error::Breakdown`] when the computation breaks down; the state is then that of the middle
     /// of the step and no further step makes sense.
     fn step(&mut self) -> Result<(), Error>;
+    /// Advances by several steps.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    fn advance(&mut self, steps: usize) -> Result<(), Error> {
+        (0..steps).try_for_each(|_| self.step())
+    }
+
+    /// Time, sums, reactions and counters so far.
+    fn ledger(&self) -> &Ledger;
     /// Time (s).
-    fn time(&self) -> f64;
+    fn time(&self) -> f64 {
+        self.ledger().time
+    }
     /// The particles, sorted by place.
     fn particles(&self) -> &Particles<D>;
     /// Mass, momentum, energies, J.
     fn totals(&self) -> Totals;
     /// Out-of-balance and held forces of the last step.
-    fn residual(&self) -> Residual;
+    fn residual(&self) -> Residual {
+        self.ledger().residual
+    }
     /// How Newton's method came to the end of the last step, of a solver that has one.
     fn convergence(&self) -> Option<&Convergence> {
-        None
+        self.ledger().convergence.as_ref()
     }
-    /// An estimate of the condition, in the 1-norm, of the stiffness matrix of the body as it is, scaled to a diagonal of
-    /// ones; NaN of a solver without one, infinite of a singular one.
+    /// An estimate of the condition, in the 1-norm, of the stiffness matrix of the body as it is, scaled to a diagonal
+    /// of ones; NaN of a solver without one, infinite of a singular one.
     fn condition(&self) -> f64 {
         f64::NAN
     }
-    /// What the run did so far.
-    fn work(&self) -> Work;
-
+    /// Work counters so far.
+    fn work(&self) -> Work {
+        self.ledger().work
+    }
     /// Wall time that the parts of Newton's iterations took since this solver was made; nothing of other solvers.
     fn spent(&self) -> Spent {
-        Spent::default()
+        self.ledger().spent
     }
-    /// What the body does to a part of the scene; NaN of a part that there isn't.
+    /// Reaction of a part of the scene; NaN for a part that does not exist.
     fn on(&self, part: Part) -> Reaction;
-    /// What left of the body's water, of a body that has any.
+    /// Water balance, of a body with water.
     fn water(&self) -> Option<&WaterBalance> {
         None
     }
@@ -82,13 +90,13 @@ pub trait Simulation<const D: usize>: Memory + Send {
     /// # Errors
     /// [`Error::Memory`], as [`Memory::save`].
     fn body(&self) -> Result<Saved, Error>;
-    /// Goes on with the [`body`](Self::body) of another run of the same basis, remedy, transfer and kind of law: under the
-    /// stages and with the constants of this one, whose time and sums stay as they are. Sticks go along, contact by contact
-    /// in the scenes' order.
+    /// Goes on with the [`body`](Self::body) of another run of the same basis, remedy, transfer and kind of law: under
+    /// the stages and with the constants of this one, whose time and sums stay as they are. Sticks go along, contact by
+    /// contact in the scenes' order.
     ///
-    /// Explicit runs have the same particles. An implicit run may have fewer, those that were seeded first: the others are
-    /// taken away, as an excavation does. It may go on by another time rule: what a static run has not, begins at rest, and
-    /// Newmark's accelerations are those of the forces now.
+    /// Explicit runs have the same particles. An implicit run may have fewer, those that were seeded first: the others
+    /// are taken away, as an excavation does. It may go on by another time rule: what a static run has not, begins at
+    /// rest, and Newmark's accelerations are those of the forces now.
     ///
     /// # Errors
     /// [`Error::Memory`], as [`Memory::restore`]; the run then stays as it was.

@@ -8,7 +8,6 @@ use crate::tensor;
 use nalgebra::{Matrix3, SMatrix};
 
 /// The relative deformation gradient completed to three dimensions.
-#[must_use]
 #[inline]
 pub fn embed<const D: usize>(f: &SMatrix<f64, D, D>) -> Matrix3<f64> {
     let mut full = Matrix3::identity();
@@ -21,7 +20,6 @@ pub fn embed<const D: usize>(f: &SMatrix<f64, D, D>) -> Matrix3<f64> {
 }
 
 /// The same of its entries, one number each or eight.
-#[must_use]
 #[inline(always)]
 pub fn embed_entries<T: Real, const D: usize>(f: &[[T; D]; D]) -> Matrix3<T> {
     let (zero, one) = (T::default(), T::splat(1.0));
@@ -34,14 +32,12 @@ pub fn embed_entries<T: Real, const D: usize>(f: &[[T; D]; D]) -> Matrix3<T> {
 }
 
 /// The determinant of a deformation gradient (that of its completion).
-#[must_use]
 #[inline]
 pub fn determinant<const D: usize>(f: &SMatrix<f64, D, D>) -> f64 {
     determinant_of_entries::<f64, D>(&std::array::from_fn(|a| std::array::from_fn(|b| f[(a, b)])))
 }
 
 /// The same of its entries, one number each or eight.
-#[must_use]
 #[inline(always)]
 pub fn determinant_of_entries<T: Real, const D: usize>(f: &[[T; D]; D]) -> T {
     match D {
@@ -53,7 +49,6 @@ pub fn determinant_of_entries<T: Real, const D: usize>(f: &[[T; D]; D]) -> T {
 
 /// `x^(1/D)`: by how much each of the `D` directions stretches when the volume grows by `x`,
 /// the exponent of Eq. (18). In plane strain the out-of-plane stretch stays one, so `D` = 2.
-#[must_use]
 #[inline(always)]
 pub fn stretch_of_volume<T: Lanes, const D: usize>(x: T) -> T {
     match D {

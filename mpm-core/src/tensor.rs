@@ -7,7 +7,6 @@ use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 /// The determinant of `m`.
-#[must_use]
 #[inline]
 pub fn determinant<T: Real>(m: &Matrix3<T>) -> T {
     let minor = |j: usize, k: usize| m[(1, j)] * m[(2, k)] - m[(2, j)] * m[(1, k)];
@@ -33,7 +32,6 @@ pub struct SymmetricTensor<T = f64> {
 
 impl SymmetricTensor {
     /// As a full matrix.
-    #[must_use]
     pub fn to_matrix(&self) -> Matrix3<f64> {
         Matrix3::new(
             self.xx, self.xy, self.xz, self.xy, self.yy, self.yz, self.xz, self.yz, self.zz,
@@ -44,7 +42,6 @@ impl SymmetricTensor {
 impl<T: Lanes> SymmetricTensor<T> {
     /// The `k`-th of the tensors.
     #[inline(always)]
-    #[must_use]
     pub fn part(&self, k: usize) -> SymmetricTensor {
         SymmetricTensor {
             xx: self.xx.part(k),
@@ -99,7 +96,6 @@ impl<T: Real> SymmetricTensor<T> {
     }
 
     /// Component (`i`, `j`), counted from zero and below three.
-    #[must_use]
     #[inline]
     pub fn get(&self, i: usize, j: usize) -> T {
         match (i.min(j), i.max(j)) {
@@ -113,21 +109,18 @@ impl<T: Real> SymmetricTensor<T> {
     }
 
     /// Trace.
-    #[must_use]
     #[inline]
     pub fn trace(&self) -> T {
         self.xx + self.yy + self.zz
     }
 
     /// A third of the trace: for a Cauchy stress the mean normal stress (Pa, tension positive).
-    #[must_use]
     #[inline]
     pub fn mean(&self) -> T {
         self.trace() / T::splat(3.0)
     }
 
     /// A number that no eigenvalue exceeds, and the greatest one where the axes are principal: of Gershgorin's circles.
-    #[must_use]
     #[inline]
     pub fn greatest_at_most(&self) -> T {
         let (xy, yz, xz) = (self.xy.abs(), self.yz.abs(), self.xz.abs());
@@ -139,7 +132,6 @@ impl<T: Real> SymmetricTensor<T> {
     }
 
     /// A number that no eigenvalue falls below, and the least one where the axes are principal.
-    #[must_use]
     #[inline]
     pub fn least_at_least(&self) -> T {
         -self
@@ -148,7 +140,6 @@ impl<T: Real> SymmetricTensor<T> {
     }
 
     /// Determinant.
-    #[must_use]
     #[inline]
     pub fn determinant(&self) -> T {
         self.xx * (self.yy * self.zz - self.yz * self.yz)
@@ -164,7 +155,6 @@ impl<T: Real> SymmetricTensor<T> {
     }
 
     /// Frobenius norm √(a : a).
-    #[must_use]
     #[inline]
     pub fn norm(&self) -> T {
         let normal = self.xx * self.xx + self.yy * self.yy + self.zz * self.zz;

@@ -1,6 +1,7 @@
 //! Exact work counters: what a run did, independent of the machine.
 
 use serde::{Deserialize, Serialize};
+use std::time::Instant;
 
 /// Counts of a run since it began.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -45,4 +46,12 @@ pub struct Spent {
     pub factorisation: f64,
     /// Solutions of linear systems.
     pub solution: f64,
+}
+
+/// Adds the time (s) that `work` takes to `spent`.
+pub(crate) fn clocked<T>(spent: &mut f64, work: impl FnOnce() -> T) -> T {
+    let begun = Instant::now();
+    let done = work();
+    *spent += begun.elapsed().as_secs_f64();
+    done
 }

@@ -239,11 +239,11 @@ fn what_is_not_the_checkpoint_of_the_run_is_refused_and_left_alone() {
         (resealed(&bytes, &content[..50]), ["can't be read", ""]),
         (
             resealed(&bytes, &content[..content.len() - 1]),
-            ["not the memory of a run", ""],
+            ["saved state does not match a run", ""],
         ),
         (
             resealed(&bytes, &[content, b"x"].concat()),
-            ["not the memory of a run", "1 bytes too many"],
+            ["saved state does not match a run", "1 unexpected bytes"],
         ),
     ] {
         fs::write(&path, content).unwrap();

@@ -83,7 +83,7 @@ impl<const S: usize> Basis<S> for BSpline<S> {
                 })
             })
             .collect();
-        // Of a function only the knots within its interval's reach matter.
+        // Only the knots within reach of a function's interval matter.
         let equally_spaced = |cell: &usize| {
             let knots = &knots[cell + 1..=cell + 2 * degree];
             knots.windows(2).all(|pair| pair[1] - pair[0] == 1.0)
@@ -107,8 +107,8 @@ impl<const S: usize> Basis<S> for BSpline<S> {
         }
     }
 
-    /// At a knot two quadratic splines are ½ with the slope 1, and w′²/w of the third, which begins there, is 2. Of hats one
-    /// vanishes with a slope: they have no bound. Degrees above three are not needed.
+    /// At a knot two quadratic splines are ½ with the slope 1, and w′²/w of the third, which begins there, is 2. A hat
+    /// vanishes with a slope: hats have no bound. Degrees above three are not needed.
     fn steepness(_half_size: f64) -> Option<f64> {
         match S {
             3 => Some(6.0),

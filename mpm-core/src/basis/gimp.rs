@@ -52,7 +52,8 @@ impl Basis<3> for Gimp {
         }
     }
 
-    /// The domain reaches from a node's vertex to either side at the same length: 2/l of the neighbours, 1/(1 − l) of the node.
+    /// The domain reaches from a node's vertex to either side at the same length: 2/l of the neighbours, 1/(1 − l) of
+    /// the node.
     fn steepness(half_size: f64) -> Option<f64> {
         Some(2.0 / half_size + 1.0 / (1.0 - half_size))
     }
@@ -72,7 +73,8 @@ impl Basis<3> for Gimp {
         }
     }
 
-    /// A mean over the domain does not vanish where the domain's centre meets the wall; it has when all of it is beyond.
+    /// A mean over the domain does not vanish where the domain's centre meets the wall; it has when all of it is
+    /// beyond.
     fn beyond_wall(half_size: f64) -> f64 {
         half_size
     }

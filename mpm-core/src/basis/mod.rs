@@ -57,7 +57,6 @@ impl<const S: usize> EightAxisWeights<S> {
 
     /// Those at the `k`-th point.
     #[inline(always)]
-    #[must_use]
     pub fn part(&self, k: usize) -> AxisWeights<S> {
         let mut part = AxisWeights {
             first: self.first.part(k) as usize,
@@ -90,20 +89,18 @@ pub trait Basis<const S: usize>: Send + Sync + Sized {
 
     /// How far (m) a particle that reaches `half_size` (m) to either side may pass a wall: so far do functions inside
     /// see it and move it.
-    #[must_use]
     fn beyond_wall(_half_size: f64) -> f64 {
         0.0
     }
 
-    /// Greatest h² Σ w′²/w over the places of a particle away from walls, whose half size is `half_size` cells: the stiffness
-    /// of a particle over its share of the masses of its nodes. None of functions that have no bound.
-    #[must_use]
+    /// Greatest h² Σ w′²/w over the places of a particle away from walls, whose half size is `half_size` cells: the
+    /// stiffness of a particle over its share of the masses of its nodes. None of functions that have no bound.
     fn steepness(_half_size: f64) -> Option<f64> {
         None
     }
 
-    /// Values and derivatives at `x` (m), which lies on the axis or no further beyond a wall than it may, for a particle
-    /// that reaches `half_size` (m, at most half a cell) to either side.
+    /// Values and derivatives at `x` (m), which lies on the axis or no further beyond a wall than it may, for a
+    /// particle that reaches `half_size` (m, at most half a cell) to either side.
     fn weights(&self, x: f64, half_size: f64) -> AxisWeights<S>;
 
     /// Values and derivatives at a point `x` (m): of a particle without size.

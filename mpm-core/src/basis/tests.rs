@@ -47,31 +47,21 @@ fn check<const S: usize, B: Basis<S>>(
 
     let unity: f64 = at.w.iter().sum();
     let slope: f64 = at.dw.iter().sum();
-    assert!(
-        (unity - 1.0).abs() < ROUNDING,
-        "partition of unity: {unity}"
-    );
+    assert!((unity - 1.0).abs() < ROUNDING, "sum: {unity}");
     assert!((slope * h).abs() < ROUNDING, "derivative of one: {slope}");
-    assert!(
-        at.w.iter().all(|w| *w > -ROUNDING),
-        "negative weight: {:?}",
-        at.w
-    );
+    let positive = at.w.iter().all(|w| *w > -ROUNDING);
+    assert!(positive, "negative weight: {:?}", at.w);
 
     let position = &nodes.position[at.first..at.first + S];
     let reproduced: f64 = at.w.iter().zip(position).map(|(w, q)| w * q).sum();
     let one: f64 = at.dw.iter().zip(position).map(|(dw, q)| dw * q).sum();
-    assert!(
-        (reproduced - x).abs() < ROUNDING * 10.0,
-        "{x} became {reproduced}"
-    );
-    assert!(
-        (one - 1.0).abs() < ROUNDING * 100.0,
-        "derivative of x: {one}"
-    );
+    let error = (reproduced - x).abs();
+    assert!(error < ROUNDING * 10.0, "{x} became {reproduced}");
+    let error = (one - 1.0).abs();
+    assert!(error < ROUNDING * 100.0, "derivative of x: {one}");
 
-    // A central difference of step d errs by d² w‴/6 inside a polynomial piece and by d w″ where a
-    // knot lies within it; w″ h² ≤ 6 and w‴ h³ ≤ 9 for all bases, but for the kink of hats.
+    // A central difference of step d errs by d² w‴/6 inside a polynomial piece and by d w″ where a knot lies within it;
+    // w″ h² ≤ 6 and w‴ h³ ≤ 9 for all bases, except at the kink of hats.
     let d = 1e-6 * h;
     if x - d > axis.lo && x + d < axis.hi(h) {
         let dense = |x: f64| {
@@ -186,7 +176,7 @@ fn gimp_is_the_average_of_the_hat_over_the_particle() {
     }
 }
 
-/// The greatest h² Σ w′²/w over a cell, at so many places, and what the basis says.
+/// The greatest h² Σ w′²/w over many places in a cell, and the value that the basis states.
 fn steepest<const S: usize, B: Basis<S>>(half_size: f64) -> (f64, Option<f64>) {
     const PLACES: u32 = 20_000;
     let basis = B::new(&Axis::periodic(0.0, 8), 1.0, WallTreatment::OpenKnot);

@@ -1,6 +1,6 @@
 //! The barrier between a particle and a rigid body.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 
 /// The barrier energy B(d) = −κ (d − d̂)² ln(d/d̂) of a particle at the gap d < d̂ from a body, zero beyond d̂
 /// (Li et al. 2020, doi 10.1145/3386569.3392425): twice continuously differentiable, and without bound as the gap
@@ -21,13 +21,8 @@ impl Barrier {
     /// # Errors
     /// A stiffness or distance that is not positive and finite.
     pub fn new(stiffness: f64, distance: f64) -> Result<Self, Error> {
-        require(
-            stiffness > 0.0,
-            "barrier stiffness",
-            stiffness,
-            "positive (N/m)",
-        )?;
-        require(distance > 0.0, "barrier distance", distance, "positive (m)")?;
+        positive(stiffness, "barrier stiffness", "positive (N/m)")?;
+        positive(distance, "barrier distance", "positive (m)")?;
         Ok(Self {
             stiffness,
             distance,
@@ -48,7 +43,7 @@ impl Barrier {
     /// # Errors
     /// A force or distance that is not positive and finite, a gap outside (0, d̂).
     pub fn carrying_at(force: f64, gap: f64, distance: f64) -> Result<Self, Error> {
-        require(force > 0.0, "force on a barrier", force, "positive (N)")?;
+        positive(force, "force on a barrier", "positive (N)")?;
         require(
             gap > 0.0 && gap < distance,
             "gap of a barrier",
@@ -67,13 +62,11 @@ impl Barrier {
     }
 
     /// Gap d̂ (m) at which the barrier begins.
-    #[must_use]
     pub fn distance(&self) -> f64 {
         self.distance
     }
 
     /// Energy B (J) at the gap `gap` (m); infinite at a closed one.
-    #[must_use]
     pub fn energy(&self, gap: f64) -> f64 {
         self.within(gap, |x| {
             let d = self.distance * (1.0 - x);
@@ -82,19 +75,16 @@ impl Barrier {
     }
 
     /// Force −B′ (N) that pushes the particle away, at the gap `gap` (m); infinite at a closed one.
-    #[must_use]
     pub fn force(&self, gap: f64) -> f64 {
         self.within(gap, |x| self.stiffness * self.distance * scaled_force(x))
     }
 
     /// Stiffness B″ (N/m) at the gap `gap` (m); infinite at a closed one.
-    #[must_use]
     pub fn stiffness(&self, gap: f64) -> f64 {
         self.within(gap, |x| self.stiffness * scaled_stiffness(x))
     }
 
     /// The gap (m) at which the barrier carries `force` (N), the inverse of [`Self::force`]; d̂ for none.
-    #[must_use]
     pub fn gap(&self, force: f64) -> f64 {
         let sought = force / (self.stiffness * self.distance);
         if sought <= 0.0 {
@@ -137,7 +127,6 @@ fn scaled_stiffness(x: f64) -> f64 {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
 

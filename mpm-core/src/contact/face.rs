@@ -1,4 +1,4 @@
-//! The face of a rigid body that moves as it is told.
+//! Face of a rigid body with a prescribed motion.
 
 use crate::error::{Error, require};
 use crate::frame::Frame;
@@ -9,7 +9,7 @@ use crate::stage::{End, smooth_rise, smooth_stroke};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidFace<const D: usize> {
     axis: usize,
-    /// Of the outward normal along `axis`.
+    /// Sign of the outward normal along `axis`.
     sign: f64,
     position: f64,
     extent: [[f64; 2]; D],
@@ -22,7 +22,7 @@ impl<const D: usize> RigidFace<D> {
     /// above, at `Hi` what presses from above.
     ///
     /// # Errors
-    /// An axis that there isn't, a position that is not finite.
+    /// An axis that there is not, a position that is not finite.
     pub fn half_space(axis: usize, end: End, position: f64) -> Result<Self, Error> {
         require(
             axis < D,
@@ -46,7 +46,7 @@ impl<const D: usize> RigidFace<D> {
     }
 
     /// Limits the face to `extent`, lower and upper end along every axis (m) at time zero; that along the normal
-    /// has no meaning. Particles beside the face don't feel it.
+    /// has no meaning. Particles beside the face do not feel it.
     #[must_use]
     pub fn within(self, extent: [[f64; 2]; D]) -> Self {
         Self { extent, ..self }
@@ -105,26 +105,22 @@ impl<const D: usize> RigidFace<D> {
     }
 
     /// Axis of the normal.
-    #[must_use]
     pub fn axis(&self) -> usize {
         self.axis
     }
 
     /// Component of the outward unit normal along [`Self::axis`].
-    #[must_use]
     pub fn sign(&self) -> f64 {
         self.sign
     }
 
     /// Displacement (m) since time zero: the exact integral of [`Self::velocity`].
-    #[must_use]
     pub fn displacement(&self, time: f64) -> [f64; D] {
         let stroke = smooth_stroke(time, self.ramp);
         self.velocity.map(|v| v * stroke)
     }
 
     /// Velocity (m/s) at `time` (s), not negative.
-    #[must_use]
     pub fn velocity(&self, time: f64) -> [f64; D] {
         let rise = smooth_rise(time, self.ramp);
         self.velocity.map(|v| v * rise)
@@ -132,7 +128,6 @@ impl<const D: usize> RigidFace<D> {
 
     /// Gap (m) between the face at time zero and what lies at `x` (m), less the face's displacement: negative
     /// inside the body, `None` beside the face.
-    #[must_use]
     pub fn gap(&self, x: &[f64; D]) -> Option<f64> {
         let mut ends = x.iter().zip(&self.extent).enumerate();
         let before = ends.all(|(a, (x, [lo, hi]))| a == self.axis || (x >= lo && x <= hi));
@@ -141,7 +136,6 @@ impl<const D: usize> RigidFace<D> {
 
     /// Whether what lies at `x` (m), less the face's displacement, is in the body or within `distance` (m) of the face
     /// along every axis.
-    #[must_use]
     pub fn is_near(&self, x: &[f64; D], distance: f64) -> bool {
         let mut ends = x.iter().zip(&self.extent).enumerate();
         ends.all(|(a, (x, [lo, hi]))| {
@@ -155,7 +149,6 @@ impl<const D: usize> RigidFace<D> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
 

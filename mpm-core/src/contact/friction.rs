@@ -1,11 +1,11 @@
 //! Coulomb's law with an elastic stick.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use nalgebra::{SMatrix, SVector};
 
 /// Friction between a particle and a rigid body: a spring of tangential stiffness k_t holds the particle to the
 /// body, up to μ times the normal force, beyond which its foot slides (Coulomb's law with the return of plasticity,
-/// Simo & Laursen 1992, doi 10.1016/0045-7949(92)90540-G). A stick is elastic: it doesn't creep.
+/// Simo & Laursen 1992, doi 10.1016/0045-7949(92)90540-G). A stick is elastic: it does not creep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     mu: f64,
@@ -31,12 +31,7 @@ impl Friction {
     /// # Errors
     /// A stiffness that is not positive and finite.
     pub fn rough(stiffness: f64) -> Result<Self, Error> {
-        require(
-            stiffness > 0.0,
-            "stiffness of a stick",
-            stiffness,
-            "positive (N/m)",
-        )?;
+        positive(stiffness, "stiffness of a stick", "positive (N/m)")?;
         Ok(Self {
             mu: f64::INFINITY,
             stiffness,
@@ -52,19 +47,17 @@ impl Friction {
     }
 
     /// Stiffness k_t (N/m) of the stick.
-    #[must_use]
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
     /// The coefficient μ, unless the stick never slips.
-    #[must_use]
     pub fn coefficient(&self) -> Option<f64> {
         self.mu.is_finite().then_some(self.mu)
     }
 
-    /// The share of a stretch (m) that the stick can't hold which it keeps under the normal force `normal` (N), and the
-    /// length of the stretch (m); none if it holds all of it.
+    /// The share of a stretch (m) that the stick cannot hold which it keeps under the normal force `normal` (N), and
+    /// the length of the stretch (m); none if it holds all of it.
     fn kept<const D: usize>(&self, stretch: &[f64; D], normal: f64) -> Option<[f64; 2]> {
         let length = stretch.iter().map(|u| u * u).sum::<f64>().sqrt();
         let longest = self.mu * normal / self.stiffness;
@@ -72,8 +65,7 @@ impl Friction {
     }
 
     /// Force (N) on a particle whose stick is stretched by `stretch` (m), under the normal force `normal` (N,
-    /// positive). What the stick can't hold, it gives up.
-    #[must_use]
+    /// positive). The stick gives up the stretch that it cannot hold.
     pub fn force<const D: usize>(&self, stretch: &mut [f64; D], normal: f64) -> [f64; D] {
         if let Some([share, _]) = self.kept(stretch, normal) {
             *stretch = stretch.map(|u| u * share);
@@ -104,7 +96,6 @@ impl Friction {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
 
@@ -125,7 +116,7 @@ mod tests {
             assert!((f - sought).abs() < 1e-15);
         }
         assert!((stretch[0] - 0.006).abs() < 1e-17 && (stretch[2] + 0.008).abs() < 1e-17);
-        // What was given up doesn't come back.
+        // Stretch that was given up does not come back.
         assert_eq!(friction.force(&mut stretch, 20.0), force);
     }
 

@@ -1,4 +1,4 @@
-//! Contact of the particles with rigid bodies: barrier, friction, and what they ask of the time step.
+//! Contact of the particles with rigid bodies: barrier, friction, and the stable time step.
 //!
 //! Formulas, choices and limits: `docs/contact.md`.
 
@@ -28,7 +28,7 @@ pub struct RigidContact<const D: usize> {
     tried: Vec<[f64; D]>,
     /// The particles that may touch the body before they are sorted again, by place.
     near: Vec<u32>,
-    /// What the particles do to the body.
+    /// Reaction of the body.
     reaction: Reaction,
 }
 
@@ -78,19 +78,16 @@ impl<const D: usize> RigidContact<D> {
     }
 
     /// The face.
-    #[must_use]
     pub fn face(&self) -> &RigidFace<D> {
         &self.face
     }
 
     /// The barrier.
-    #[must_use]
     pub fn barrier(&self) -> Barrier {
         self.barrier
     }
 
     /// The friction, if there is any.
-    #[must_use]
     pub fn friction(&self) -> Option<Friction> {
         self.friction
     }
@@ -118,8 +115,7 @@ impl<const D: usize> RigidContact<D> {
         }
     }
 
-    /// What the particles do to the rigid body.
-    #[must_use]
+    /// Reaction of the rigid body.
     pub fn reaction(&self) -> Reaction {
         self.reaction
     }
@@ -155,8 +151,8 @@ impl<const D: usize> RigidContact<D> {
         steps.into_iter().fold(0.0, f64::max)
     }
 
-    /// Adds the contact forces at `time` (s), the end of a step of `dt` (s), to the particles' external forces. The sticks
-    /// start from where the last [`commit`](Self::commit) left them, however often a step is tried.
+    /// Adds the contact forces at `time` (s), the end of a step of `dt` (s), to the particles' external forces. The
+    /// sticks start from where the last [`commit`](Self::commit) left them, however often a step is tried.
     pub(crate) fn try_step(
         &mut self,
         time: f64,
@@ -250,7 +246,6 @@ fn difference<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D] {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::stage::End;

@@ -9,7 +9,6 @@ use crate::material::Law;
 
 /// The CFL number of a contact whose stiffness over mass is `ratio` (1/s²) for the time step `dt` (s) of a body of
 /// CFL number `cfl`: the greatest frequency of both together times Δt/2, at most.
-#[must_use]
 pub fn contact_cfl(cfl: f64, ratio: f64, dt: f64) -> f64 {
     cfl.hypot(0.5 * dt * ratio.sqrt())
 }
@@ -37,7 +36,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let mut stiffest = Stiffest::default();
         let mut ratio = 0.0;
         for contact in &mut self.scene.contacts {
-            let found = contact.try_step(self.time, dt, &mut self.scene.body.particles);
+            let found = contact.try_step(self.ledger.time, dt, &mut self.scene.body.particles);
             contact.commit(dt);
             ratio += found.ratio;
             if found.ratio > stiffest.ratio {

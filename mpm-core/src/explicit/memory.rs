@@ -1,78 +1,60 @@
-//! What a solver remembers: particles and their states, what the stages remember, and the sums so far.
-//! Nodal arrays are no memory; constraints declare theirs anew.
+//! Memory of a solver: particles and their states, memories of the stages, and the ledger. Nodal arrays are not saved;
+//! constraints declare theirs anew.
 
-use super::{Held, Solver};
+use super::Solver;
 use crate::basis::Basis;
 use crate::explicit::transfer::Transfer;
 use crate::grid::Grid;
+use crate::ledger::Ledger;
 use crate::material::Law;
-use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
-use crate::monitor::{Accumulated, Residual};
+use crate::memory::{Memory, MemoryError, Saved, require, restore_all, save_all};
 use crate::parallel::SLAB;
 use crate::particles::Particles;
-use crate::work::Work;
+use crate::scene::SavedStages;
 use std::ops::Range;
-
-/// Sums and forces: what is neither of a particle nor of a stage.
-type Sums = (f64, Accumulated, Residual, Work, Vec<Held>);
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
     for Solver<D, S, B, M, T>
 {
     fn save(&self) -> Result<Saved, MemoryError> {
-        let (scene, settings) = (&self.scene, &self.settings);
-        let sums = (
-            self.time,
-            self.accumulated,
-            self.residual,
-            self.work,
-            &self.held,
-        );
-        let stages = (
-            save_all(&scene.loads)?,
+        let settings = &self.settings;
+        let filters = (
             save_all(&settings.force_filters)?,
-            save_all(&scene.constraints)?,
             save_all(&settings.particle_filters)?,
         );
-        let contacts: Result<Vec<Saved>, _> = scene.contacts.iter().map(Memory::save).collect();
         Saved::of(&(
             self.save_body()?,
-            sums,
+            &self.ledger,
             settings.transfer.save()?,
             settings.remedy.save()?,
-            stages,
-            contacts?,
+            self.scene.save_stages()?,
+            filters,
         ))
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        type Stages = (Vec<Saved>, Vec<Saved>, Vec<Saved>, Vec<Saved>);
-        type All = (Saved, Sums, Saved, Saved, Stages, Vec<Saved>);
-        let (body, sums, transfer, remedy, stages, contacts): All = saved.read("a solver")?;
-        let (time, accumulated, residual, work, held) = sums;
-        MemoryError::unless_equal("constraints", held.len(), self.held.len())?;
-        MemoryError::unless_equal("nodes", work.nodes as usize, self.nodes.len())?;
+        type All = (
+            Saved,
+            Ledger,
+            Saved,
+            Saved,
+            SavedStages,
+            (Vec<Saved>, Vec<Saved>),
+        );
+        let (body, ledger, transfer, remedy, stages, filters): All = saved.read("a solver")?;
+        self.ledger.check(&ledger)?;
         self.restore_body(&body)?;
-        let (scene, settings) = (&mut self.scene, &mut self.settings);
-        restore_all("loads", &mut scene.loads, &stages.0)?;
-        restore_all("force filters", &mut settings.force_filters, &stages.1)?;
-        restore_all("constraints", &mut scene.constraints, &stages.2)?;
+        self.scene.restore_stages(&stages)?;
+        let settings = &mut self.settings;
+        restore_all("force filters", &mut settings.force_filters, &filters.0)?;
         restore_all(
             "particle filters",
             &mut settings.particle_filters,
-            &stages.3,
+            &filters.1,
         )?;
-        MemoryError::unless_equal("contacts", contacts.len(), scene.contacts.len())?;
-        for (contact, saved) in scene.contacts.iter_mut().zip(&contacts) {
-            contact.restore(saved)?;
-        }
         settings.transfer.restore(&transfer)?;
         settings.remedy.restore(&remedy)?;
-        self.time = time;
-        self.accumulated = accumulated;
-        self.residual = residual;
-        self.work = work;
-        self.held = held;
+        self.ledger.restore(ledger);
         Ok(())
     }
 }
@@ -135,20 +117,4 @@ fn check_places<const D: usize>(
         }
     }
     MemoryError::unless_equal("particles in slabs", end, particles.len())
-}
-
-fn require(
-    ok: bool,
-    what: &'static str,
-    value: f64,
-    allowed: &'static str,
-) -> Result<(), MemoryError> {
-    if ok {
-        return Ok(());
-    }
-    Err(MemoryError::Value {
-        what,
-        value,
-        allowed,
-    })
 }

@@ -3,7 +3,7 @@
 mod contact;
 mod memory;
 pub mod remedy;
-mod rest;
+mod second_half;
 mod settings;
 mod sort;
 mod stages;
@@ -17,25 +17,24 @@ pub use transfer::Transfer;
 
 use crate::basis::Basis;
 use crate::body::{Chunk, check_jacobian};
-use crate::contact::RigidContact;
 use crate::eights::entries;
 use crate::error::{Error, Fault};
 use crate::lattice::Lattice;
+use crate::ledger::Ledger;
 use crate::material::Law;
 use crate::memory::Saved;
-use crate::monitor::{Accumulated, Reaction, Residual, Totals};
+use crate::monitor::{Reaction, Totals};
 use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight};
 use crate::particles::Particles;
 use crate::projection::{Average, Averaging, Projection};
 use crate::reach::Reach;
+use crate::scene::Part;
 use crate::scene::Scene;
-use crate::simulation::{Field, Part, Simulation};
+use crate::simulation::{Field, Simulation};
 use crate::stage::Prescribed;
 use crate::tensor::SymmetricTensor;
-use crate::work::Work;
 use remedy::Deformation;
-use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use transfer::Flip;
 
@@ -51,7 +50,7 @@ struct ChunkSums {
     /// Greatest moduli ρ₀ c² of waves (Pa), lane by lane.
     wave_modulus: Eight,
     wrapped: bool,
-    /// The first particle that has no volume, and the first that can't go where it should; by place in the columns.
+    /// The first particle that has no volume, and the first that cannot go where it should; by place in the columns.
     collapsed: Option<(usize, Fault)>,
     astray: Option<(usize, Fault)>,
 }
@@ -92,14 +91,6 @@ struct NodeSums {
     momentum: Node,
 }
 
-/// A constraint in a step.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-struct Held {
-    amplitude: f64,
-    /// What the body does to it.
-    reaction: Reaction,
-}
-
 /// The explicit solver for one body.
 pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     scene: Scene<D, M>,
@@ -115,7 +106,8 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     /// All prescribed velocities, and those of nodes within reach.
     declared: Vec<Prescribed>,
     prescribed: Vec<Prescribed>,
-    held: Vec<Held>,
+    /// Amplitudes of the constraints in the step.
+    amplitudes: Vec<f64>,
     /// The mean stress of every particle that enters the forces of a step (Pa); empty where that is the law's.
     force_mean: Vec<f64>,
     /// Between G2P and the law.
@@ -127,10 +119,7 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     /// Least density of the undeformed material (kg/m³), and the greatest modulus ρ₀ c² of waves (Pa).
     density: f64,
     wave_modulus: f64,
-    time: f64,
-    accumulated: Accumulated,
-    residual: Residual,
-    work: Work,
+    ledger: Ledger,
     /// Particle–node visits per particle and step, averages aside.
     transfer_pairs: u64,
 }
@@ -146,19 +135,18 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
         self.move_constraints();
         self.update_grid();
         self.grid_to_particles()?;
-        self.keep_gaps_open(self.time + self.settings.dt)?;
+        self.keep_gaps_open(self.ledger.time + self.settings.dt)?;
         self.average_volume_change()?;
         self.find_fastest_wave();
         self.sort_if_needed();
         self.filter_particles();
-        self.time += self.settings.dt;
-        self.work.steps += 1;
-        self.work.particle_steps += self.work.particles;
+        self.ledger.time += self.settings.dt;
+        self.ledger.count_step();
         Ok(())
     }
 
-    fn time(&self) -> f64 {
-        self.time
+    fn ledger(&self) -> &Ledger {
+        &self.ledger
     }
 
     fn particles(&self) -> &Particles<D> {
@@ -166,29 +154,17 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
     }
 
     fn totals(&self) -> Totals {
-        self.scene.body.totals(self.accumulated)
-    }
-
-    fn residual(&self) -> Residual {
-        self.residual
-    }
-
-    fn work(&self) -> Work {
-        self.work
+        self.scene.body.totals(self.ledger.accumulated)
     }
 
     fn on(&self, part: Part) -> Reaction {
-        let found = match part {
-            Part::Constraint(place) => self.held.get(place).map(|held| held.reaction),
-            Part::Contact(place) => self.scene.contacts.get(place).map(RigidContact::reaction),
-        };
-        found.unwrap_or(Reaction::NONE)
+        self.ledger.on(part, &self.scene.contacts)
     }
 
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
-        let work = self.work;
+        let work = self.ledger.work;
         self.average_stress();
-        self.work = work;
+        self.ledger.work = work;
         let p = &self.scene.body.particles;
         let mut stress = p.stress.clone();
         let columns = stress.iter_mut().zip(&self.force_mean);
@@ -224,7 +200,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
 }
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
-    /// Replaces `field` (one value per particle) by its average Π `field`. No work of the run: it isn't counted.
+    /// Replaces `field` (one value per particle) by its average Π `field`. No work of the run: it is not counted.
     pub fn average(&mut self, field: &mut [f64]) {
         let mut uncounted = 0;
         Projection {
@@ -250,19 +226,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn breakdown(&self, index: usize, fault: Fault) -> Error {
-        Error::Breakdown {
-            time: self.time,
-            step: self.work.steps,
-            particle: self
-                .scene
-                .body
-                .particles
-                .id
-                .get(index)
-                .copied()
-                .unwrap_or(0),
-            fault,
-        }
+        let ids = &self.scene.body.particles.id;
+        self.ledger.breakdown(ids, index, fault)
     }
 
     fn first_fault(&self) -> Result<(), Error> {

@@ -1,4 +1,4 @@
-//! What the explicit step needs beside the scene.
+//! Settings of the explicit solver.
 
 use super::remedy::{Remedy, Standard};
 use super::transfer::Flip;
@@ -22,18 +22,16 @@ pub struct Settings<const D: usize, T = Flip> {
 }
 
 /// The time step (s) of CFL number `cfl` for waves of speed `c` (m/s) on cells of size `h` (m).
-#[must_use]
 pub fn courant_time_step(cfl: f64, h: f64, c: f64) -> f64 {
     cfl * h / c
 }
 
-/// The CFL number c Δt/h, in `dimension` dimensions, up to which steps of particles at rest are stable however they lie, on
-/// functions of a [`Basis::steepness`](crate::Basis::steepness) `steepness`: √(2/(D s)).
+/// The CFL number c Δt/h, in `dimension` dimensions, up to which steps of particles at rest are stable however they
+/// lie, on functions of a [`Basis::steepness`](crate::Basis::steepness) `steepness`: √(2/(D s)).
 ///
-/// With nodal masses m_i = Σ m w and stiffness K, g = Δt² λ(M⁻¹K) ≤ 2 suffices: FLIP's two by two matrix has its determinant
-/// between 1 − g and 1 and its trace 2 − g. K and M are sums over particles, of K_p and of M_p = m diag(w), so that λ is at
-/// most the greatest λ(M_p⁻¹K_p) ≤ D c² s/h² (Irons & Treharne 1971, for finite elements).
-#[must_use]
+/// With nodal masses m_i = Σ m w and stiffness K, g = Δt² λ(M⁻¹K) ≤ 2 suffices: FLIP's two by two matrix has its
+/// determinant between 1 − g and 1 and its trace 2 − g. K and M are sums over particles, of K_p and of M_p = m diag(w),
+/// so that λ is at most the greatest λ(M_p⁻¹K_p) ≤ D c² s/h² (Irons & Treharne 1971, for finite elements).
 pub fn stable_cfl(dimension: usize, steepness: f64) -> f64 {
     (2.0 / (dimension as f64 * steepness)).sqrt()
 }
@@ -62,7 +60,6 @@ impl<const D: usize, T> Settings<D, T> {
     }
 
     /// With another transfer.
-    #[must_use]
     pub fn transfer<U>(self, transfer: U) -> Settings<D, U> {
         Settings {
             dt: self.dt,

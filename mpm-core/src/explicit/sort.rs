@@ -7,8 +7,8 @@ use crate::nodes::NodalState;
 use crate::order::stencil_order;
 use crate::reach::Reach;
 
-/// Cells that a particle and a rigid body move towards each other until the particles are sorted again, at most: one, and
-/// up to one each in the steps that begin and end it.
+/// Cells that a particle and a rigid body move towards each other until the particles are sorted again, at most: one,
+/// and up to one each in the steps that begin and end it.
 const MOTION: f64 = 3.0;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
@@ -20,7 +20,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             let jump = if sums.wrapped { f64::INFINITY } else { 0.0 };
             largest = largest.max(sums.largest_increment + jump);
         }
-        let (time, dt) = (self.time, self.settings.dt);
+        let (time, dt) = (self.ledger.time, self.settings.dt);
         let faces = self.scene.contacts.iter().map(|c| c.motion(time, dt));
         self.drift += largest + faces.fold(0.0, f64::max);
         if self.drift > self.scene.grid.h {
@@ -34,16 +34,17 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         self.scene.body.permute(&order);
         self.slabs = slabs;
         self.drift = 0.0;
-        self.work.sorts += 1;
+        self.ledger.work.sorts += 1;
         self.find_reach();
     }
 
-    /// Finds the nodes that the particles see, and the particles that may touch a rigid body, until they are sorted again.
+    /// Finds the nodes that the particles see, and the particles that may touch a rigid body, until they are sorted
+    /// again.
     pub(super) fn find_reach(&mut self) {
         let p = &self.scene.body.particles;
         self.reach = Reach::of(&self.lattice, &p.position, &p.half_size);
         for contact in &mut self.scene.contacts {
-            contact.find_near(self.time, MOTION * self.scene.grid.h, p);
+            contact.find_near(self.ledger.time, MOTION * self.scene.grid.h, p);
         }
         self.nodes.fill(NodalState::default());
         self.averaging.clear();

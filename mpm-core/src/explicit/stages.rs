@@ -1,6 +1,6 @@
 //! The stages of the explicit step, in its order.
 
-use super::rest::{ForceStress, Rest, force_stress_of};
+use super::second_half::{ForceStress, SecondHalf, force_stress_of};
 use super::transfer::{Given, Received, Transfer};
 use super::{ChunkSums, NodeSums, Solver};
 use crate::basis::Basis;
@@ -21,14 +21,15 @@ use crate::stage::ForceFilter;
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// Sets the prescribed velocities to those in the middle of the step, and notes the forces on what they hold.
     pub(super) fn move_constraints(&mut self) {
-        let middle = self.time + 0.5 * self.settings.dt;
+        let middle = self.ledger.time + 0.5 * self.settings.dt;
         let now = self.scene.constraints.iter().map(|c| c.amplitude(middle));
-        for (held, amplitude) in self.held.iter_mut().zip(now) {
-            held.amplitude = amplitude;
-            held.reaction.force = [0.0; 3];
+        let held = self.amplitudes.iter_mut().zip(&mut self.ledger.reactions);
+        for ((held, reaction), amplitude) in held.zip(now) {
+            *held = amplitude;
+            reaction.force = [0.0; 3];
         }
         for p in &mut self.prescribed {
-            p.velocity = self.held[p.by].amplitude * p.full_velocity;
+            p.velocity = self.amplitudes[p.by] * p.full_velocity;
             let node = &self.nodes[p.node];
             p.force = (node.change + self.gravity * node.mass()).as_array()[p.axis];
         }
@@ -39,9 +40,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         self.scene.body.particles.external_force.fill([0.0; D]);
         self.gravity = Node::ZERO;
         for load in &self.scene.loads {
-            match load.acceleration(self.time) {
+            match load.acceleration(self.ledger.time) {
                 Some(acceleration) => self.gravity += padded(&acceleration),
-                None => load.add(self.time, &mut self.scene.body.particles),
+                None => load.add(self.ledger.time, &mut self.scene.body.particles),
             }
         }
     }
@@ -112,7 +113,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             momentum += sums.momentum;
             residual.free_force += sums.free_force;
             residual.kinetic_energy += sums.kinetic_energy;
-            self.accumulated.damping += dt * sums.damping;
+            self.ledger.accumulated.damping += dt * sums.damping;
         }
         for c in &self.prescribed {
             let node = &mut self.nodes[c.node];
@@ -127,26 +128,27 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             let before = free - *change;
             residual.free_force -= (mass * *change / dt).abs();
             residual.held_force[c.axis] += c.force;
-            self.held[c.by].reaction.force[c.axis] += c.force;
-            self.held[c.by].reaction.impulse[c.axis] += mass * (before - held) + dt * c.force;
-            self.accumulated.constraint_loss +=
+            let reaction = &mut self.ledger.reactions[c.by];
+            reaction.force[c.axis] += c.force;
+            reaction.impulse[c.axis] += mass * (before - held) + dt * c.force;
+            self.ledger.accumulated.constraint_loss +=
                 mass * (0.5 * (before * before - held * held) + (free - before) * held);
             *change += held - free;
             *velocity = held;
             momentum.as_mut_array()[c.axis] += mass * (held - free);
             residual.kinetic_energy += node.kinetic_energy();
         }
-        self.residual = residual;
+        self.ledger.residual = residual;
         for (g, momentum) in gravity.as_array()[..D].iter().zip(momentum.as_array()) {
-            self.accumulated.load_work += dt * g * momentum;
+            self.ledger.accumulated.load_work += dt * g * momentum;
         }
         self.lattice.unfold(&mut self.nodes);
     }
 
-    /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16); and in the same pass the rest of their
-    /// step, [`Rest`], unless the remedy averages before it.
+    /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16); in the same pass the
+    /// [`SecondHalf`] of their step, unless the remedy averages before it.
     pub(super) fn grid_to_particles(&mut self) -> Result<(), Error> {
-        let rest = self.rest();
+        let second_half = self.second_half();
         let (lattice, nodes) = (&self.lattice, &self.nodes);
         let body = &mut self.scene.body;
         let transfer = &mut self.settings.transfer;
@@ -172,7 +174,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                 for k in 0..blocks(p.len()) {
                     p.fetch_motion(k + AHEAD);
                     if !deformation.is_there() {
-                        p.fetch_rest(k + AHEAD);
+                        p.fetch_second_half(k + AHEAD);
                     }
                     let x = components(block(p.position, k, &mut None));
                     let functions = lattice.functions(&x, &half_size);
@@ -230,30 +232,31 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                     if deformation.is_there() {
                         deformation.keep(k, &delta_f, volume_change, &increment);
                     } else {
-                        rest.finish(&mut p, k, &delta_f, &increment, sums);
+                        second_half.finish(&mut p, k, &delta_f, &increment, sums);
                     }
                 }
                 sums.stress_power = stress_power.reduce_add();
                 sums.load_power = load_power.reduce_add();
             },
         );
-        self.work.particle_node_pairs += passes * self.transfer_pairs * self.work.particles;
+        self.ledger.work.particle_node_pairs +=
+            passes * self.transfer_pairs * self.ledger.work.particles;
         for sums in &self.chunk_sums {
-            self.accumulated.stress_work += self.settings.dt * sums.stress_power;
-            self.accumulated.load_work += self.settings.dt * sums.load_power;
+            self.ledger.accumulated.stress_work += self.settings.dt * sums.stress_power;
+            self.ledger.accumulated.load_work += self.settings.dt * sums.load_power;
         }
         self.first_fault()
     }
 
     /// The mean stress of the forces, where the remedy has a share in it.
     pub(super) fn average_stress(&mut self) {
-        let before = self.work.projections;
+        let before = self.ledger.work.projections;
         let mut projection = Projection {
             lattice: &self.lattice,
             slabs: &self.slabs,
             reach: &self.reach,
             averaging: &mut self.averaging,
-            count: &mut self.work.projections,
+            count: &mut self.ledger.work.projections,
         };
         let particles = &self.scene.body.particles;
         let remedy = &mut self.settings.remedy;
@@ -262,21 +265,22 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn count_averages_since(&mut self, before: u64) {
-        self.work.particle_node_pairs +=
-            (self.work.projections - before) * self.transfer_pairs * self.work.particles;
+        self.ledger.work.particle_node_pairs += (self.ledger.work.projections - before)
+            * self.transfer_pairs
+            * self.ledger.work.particles;
     }
 
-    /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; and the rest of the particles' step, [`Rest`],
-    /// unless it is done.
+    /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; then the [`SecondHalf`] of the
+    /// particles' step, unless it is done.
     pub(super) fn average_volume_change(&mut self) -> Result<(), Error> {
-        let rest = self.rest();
-        let before = self.work.projections;
+        let second_half = self.second_half();
+        let before = self.ledger.work.projections;
         let mut projection = Projection {
             lattice: &self.lattice,
             slabs: &self.slabs,
             reach: &self.reach,
             averaging: &mut self.averaging,
-            count: &mut self.work.projections,
+            count: &mut self.ledger.work.projections,
         };
         let (remedy, body) = (self.settings.remedy.as_mut(), &mut self.scene.body);
         let next = remedy.next_j_bar(&body.particles, &self.deformation, &mut projection);
@@ -285,7 +289,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             for_each_chunk(all, &mut self.chunk_sums, &|(mut p, deformation), sums| {
                 let next = next.map(|next| &next[p.begin..p.begin + p.len()]);
                 for k in 0..blocks(p.len()) {
-                    p.fetch_rest(k + AHEAD);
+                    p.fetch_second_half(k + AHEAD);
                     let delta_f = match next {
                         Some(next) => {
                             let (j_bar, next) = (numbers(p.j_bar, k), numbers(next, k));
@@ -294,7 +298,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                         }
                         None => deformation.raw(k),
                     };
-                    rest.finish(&mut p, k, &delta_f, &deformation.increment(k), sums);
+                    second_half.finish(&mut p, k, &delta_f, &deformation.increment(k), sums);
                 }
             });
         }
@@ -302,15 +306,17 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         self.first_fault()
     }
 
-    fn rest(&self) -> Rest<D> {
+    fn second_half(&self) -> SecondHalf<D> {
         let half_size = &self.scene.body.particles.half_size;
-        Rest::of::<S, B>(&self.scene.grid, self.settings.dt, self.density, half_size)
+        SecondHalf::of::<S, B>(&self.scene.grid, self.settings.dt, self.density, half_size)
     }
 
     pub(super) fn filter_particles(&mut self) {
         for filter in &mut self.settings.particle_filters {
-            self.accumulated.filter_loss +=
-                filter.filter(self.residual.kinetic_energy, &mut self.scene.body.particles);
+            self.ledger.accumulated.filter_loss += filter.filter(
+                self.ledger.residual.kinetic_energy,
+                &mut self.scene.body.particles,
+            );
         }
     }
 }

@@ -1,12 +1,12 @@
 //! A solver at time zero.
 
 use super::remedy::Deformation;
-use super::{ChunkSums, Held, NodeSums, Settings, Solver, Transfer, check_cfl};
+use super::{ChunkSums, NodeSums, Settings, Solver, Transfer, check_cfl};
 use crate::basis::Basis;
-use crate::error::{Error, require};
+use crate::error::{Error, positive};
 use crate::lattice::Lattice;
+use crate::ledger::Ledger;
 use crate::material::Law;
-use crate::monitor::{Accumulated, Residual};
 use crate::nodes::{NodalState, Node};
 use crate::parallel::{CHUNK, NODE_CHUNK};
 use crate::projection::Averaging;
@@ -14,7 +14,6 @@ use crate::reach::Reach;
 use crate::room::Room;
 use crate::scene::Scene;
 use crate::stage::Prescribed;
-use crate::work::Work;
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// A solver of `scene` with `settings` at time zero.
@@ -23,16 +22,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     /// A time step or particle that is not allowed; a particle off the grid; a
     /// time step beyond the CFL limit; a particle in a rigid body.
     pub fn new(mut scene: Scene<D, M>, mut settings: Settings<D, T>) -> Result<Self, Error> {
-        require(settings.dt > 0.0, "time step", settings.dt, "positive (s)")?;
+        positive(settings.dt, "time step", "positive (s)")?;
+        scene.check_half_size()?;
         let particles = &mut scene.body.particles;
-        for l in particles.half_size {
-            require(
-                l <= 0.5 * scene.grid.h,
-                "particle half size",
-                l,
-                "at most half a cell (m)",
-            )?;
-        }
         let lattice = Lattice::new(scene.grid, settings.wall);
         settings.remedy.attach(particles);
         settings.transfer.attach(particles);
@@ -50,11 +42,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             true => Deformation::of(settings.remedy.as_ref(), n),
             false => Deformation::default(),
         };
-        let work = Work {
-            particles: n as u64,
-            nodes: lattice.len() as u64,
-            ..Work::default()
-        };
         let mut solver = Self {
             slabs: Vec::new(),
             nodes: vec![NodalState::default(); lattice.len()],
@@ -63,7 +50,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             reach: Reach::everything(&lattice),
             declared: Vec::new(),
             prescribed: Vec::new(),
-            held: vec![Held::default(); scene.constraints.len()],
+            amplitudes: vec![0.0; scene.constraints.len()],
             force_mean: Vec::new(),
             deformation,
             chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
@@ -71,10 +58,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             drift: 0.0,
             density: scene.body.least_density(),
             wave_modulus: scene.body.wave_modulus(),
-            time: 0.0,
-            accumulated: Accumulated::default(),
-            residual: Residual::default(),
-            work,
+            ledger: Ledger::new(n, lattice.len(), scene.constraints.len()),
             transfer_pairs: 2 * (S as u64).pow(D as u32),
             lattice,
             scene,

@@ -5,7 +5,7 @@
 use super::elements::Elements;
 use crate::parallel::{LIGHT, map};
 
-/// The share ε of a field that Π can't see which A keeps, as the explicit remedy does.
+/// The share ε of a field that Π cannot see which A keeps, as the explicit remedy does.
 pub(super) const UNSEEN: f64 = 0.01;
 
 /// A, frozen in a step.
@@ -48,11 +48,8 @@ impl Average {
         }
         let gather = |p: usize| {
             let (nodes, w, _) = elements.seen(p);
-            nodes
-                .iter()
-                .zip(w)
-                .map(|(node, w)| w * of_nodes[*node])
-                .sum()
+            let pairs = nodes.iter().zip(w);
+            pairs.map(|(node, w)| w * of_nodes[*node]).sum()
         };
         map(field.len(), LIGHT, gather)
     }
@@ -74,10 +71,7 @@ impl Average {
     ) -> Vec<f64> {
         let per_volume: Vec<f64> = field.iter().zip(&self.volume).map(|(f, v)| f / v).collect();
         let averaged = self.apply(elements, &per_volume);
-        averaged
-            .iter()
-            .zip(&self.volume)
-            .map(|(a, v)| a * v)
-            .collect()
+        let pairs = averaged.iter().zip(&self.volume);
+        pairs.map(|(a, v)| a * v).collect()
     }
 }

@@ -1,9 +1,11 @@
-//! What a solution makes of the body: where its step ends, what is kept of forces and energies, and the new state.
+//! Commit of a solution: the end of its step, sums of forces and energies, and the new state.
 
+use super::algebra::dot;
 use super::contact;
 use super::elements::Elements;
 use super::equilibrium::{Step, Trial};
-use super::newton::{Failure, Solution, dot};
+use super::failure::Failure;
+use super::system::Solution;
 use super::{Interpolation, Setting, Solver};
 use crate::material::Law;
 use crate::monitor::Residual;
@@ -23,9 +25,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         if place == 1.0 {
             return Ok(None);
         }
-        self.work.particle_node_pairs += 2 * setting.elements.pairs() as u64;
+        self.ledger.work.particle_node_pairs += 2 * setting.elements.pairs() as u64;
         let whole: Vec<f64> = solution.u.iter().map(|u| u / place).collect();
-        let obstacles = self.obstacles(self.time + dt);
+        let obstacles = self.obstacles(self.ledger.time + dt);
         let step = Step {
             obstacles: &obstacles,
             ..setting.step(&self.scene.body, dt)
@@ -78,12 +80,12 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         {
             *out += push;
         }
-        self.residual = Residual {
+        self.ledger.residual = Residual {
             free_force: step.free(&out).iter().map(|f| f.abs()).sum(),
             kinetic_energy: self.nodal_kinetic_energy(setting),
             ..Residual::default()
         };
-        for reaction in &mut self.reactions {
+        for reaction in &mut self.ledger.reactions {
             reaction.force = [0.0; 3];
         }
         let work_of = |forces: &[SVector<f64, D>]| -> f64 {
@@ -95,17 +97,18 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let [pushed_before, pushed] = [&solution.before.pushes, &trial.pushes]
             .map(|pushes| contact::work(pushes, &setting.elements, &increments));
         let pushed = first * pushed_before + last * pushed;
-        self.accumulated.stress_work +=
+        self.ledger.accumulated.stress_work +=
             first * work_of(&solution.before.internal) + last * work_of(&trial.internal) + pushed;
-        self.accumulated.load_work += first * work_of(earlier) + last * work_of(external) + pushed;
-        self.accumulated.damping += 0.5 * work_of(&step.penalty_forces(&end.u));
+        self.ledger.accumulated.load_work +=
+            first * work_of(earlier) + last * work_of(external) + pushed;
+        self.ledger.accumulated.damping += 0.5 * work_of(&step.penalty_forces(&end.u));
         let mut moved = 0.0;
         for node in &setting.unknowns.node {
             for a in 0..D {
                 if let Some(held) = self.held[*node][a] {
                     let force = out[*node][a];
-                    self.residual.held_force[a] += force;
-                    let reaction = &mut self.reactions[held.by];
+                    self.ledger.residual.held_force[a] += force;
+                    let reaction = &mut self.ledger.reactions[held.by];
                     reaction.force[a] += force;
                     reaction.impulse[a] += force * dt;
                     let before = earlier[*node][a] - solution.before.internal[*node][a];
@@ -113,7 +116,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
                 }
             }
         }
-        self.accumulated.constraint_loss += moved;
+        self.ledger.accumulated.constraint_loss += moved;
         self.react(&trial.pushes, dt);
     }
 

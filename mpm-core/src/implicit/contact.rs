@@ -29,7 +29,7 @@ pub(super) struct Obstacle<const D: usize> {
     sticks: Vec<[f64; D]>,
 }
 
-/// What an obstacle does to a particle.
+/// Action of an obstacle on a particle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Push<const D: usize> {
     /// Place of the particle, and of the obstacle in its list.
@@ -106,7 +106,7 @@ impl<const D: usize> Obstacle<D> {
     }
 }
 
-/// What obstacles do to the particles at a trial with the nodal increments `u` (m).
+/// Actions of obstacles on the particles at a trial with the nodal increments `u` (m).
 ///
 /// # Errors
 /// The first particle whose gap is closed.
@@ -141,8 +141,8 @@ pub(super) fn pushes<const D: usize>(
     Ok(found)
 }
 
-/// How much of a `correction` to the nodal increments `u` (m) may be taken: all of it, or nine tenths of what would close
-/// the first gap. Gaps are linear in the increments.
+/// How much of a `correction` to the nodal increments `u` (m) may be taken: all of it, or nine tenths of what would
+/// close the first gap. Gaps are linear in the increments.
 pub(super) fn open_share<const D: usize>(
     obstacles: &[Obstacle<D>],
     elements: &Elements<D>,
@@ -193,7 +193,7 @@ pub(super) fn check<const D: usize>(
             slipping.is_none() || remedy != Remedy::FbarConsistent,
             "friction coefficient of an implicit run with F-bar",
             slipping.unwrap_or(0.0),
-            "none, or infinite (rough): conjugate gradients solve with F-bar, and what slips has no symmetric stiffness",
+            "none or infinite (rough): F-bar is solved by conjugate gradients, and slip has no symmetric stiffness",
         )?;
     }
     Ok(())
@@ -203,7 +203,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// The contacts as they are at `time` (s).
     pub(super) fn obstacles(&self, time: f64) -> Vec<Obstacle<D>> {
         let contacts = self.scene.contacts.iter();
-        let start = self.time;
+        let start = self.ledger.time;
         contacts.map(|c| Obstacle::new(c, start, time)).collect()
     }
 

@@ -19,14 +19,14 @@ pub struct Domains<'a, const D: usize> {
 /// Half the sizes (m) of domains along the axes.
 #[derive(Debug, Clone, Copy)]
 pub enum HalfSizes<'a, const D: usize> {
-    /// Of all the same.
+    /// One size for all particles.
     OfAll([f64; D]),
-    /// Of each its own.
+    /// One size for each particle.
     OfEach(&'a [[f64; D]]),
 }
 
 impl<'a, const D: usize> Domains<'a, D> {
-    /// Of particles that are all of one size.
+    /// Domains of particles that are all of one size.
     #[must_use]
     pub fn of(particles: &'a Particles<D>) -> Self {
         Self {
@@ -35,16 +35,15 @@ impl<'a, const D: usize> Domains<'a, D> {
         }
     }
 
-    /// What places are rounded by (m).
-    #[must_use]
+    /// Rounding of positions (m).
     pub fn rounding(&self) -> f64 {
         let coordinates = self.centre.as_flattened().iter();
         let farthest = coordinates.fold(0.0, |most: f64, x| most.max(x.abs()));
         SPACINGS * f64::EPSILON * farthest
     }
 
-    /// The same domains without what they touch by rounding alone where they end on grid lines; `sizes` are to hold theirs.
-    #[must_use]
+    /// The same domains without what they touch by rounding alone where they end on grid lines; `sizes` are to hold
+    /// theirs.
     pub fn within<'b>(&self, sizes: &'b mut Vec<[f64; D]>) -> Domains<'b, D>
     where
         'a: 'b,

@@ -1,8 +1,9 @@
 //! Velocities and accelerations after a step, by its time rule.
 
 use super::equilibrium::Step;
-use super::newton::{Failure, Solution};
+use super::failure::Failure;
 use super::settings::TimeRule;
+use super::system::Solution;
 use super::{Interpolation, Setting, Solver};
 use crate::material::Law;
 use nalgebra::SVector;
@@ -61,7 +62,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let Some(inertia) = &setting.inertia else {
             return Ok(());
         };
-        let external = self.external(self.time, &setting.elements);
+        let external = self.external(self.ledger.time, &setting.elements);
         let step = setting.step(&self.scene.body, dt);
         let rest = vec![0.0; setting.unknowns.len()];
         let internal = step.trial(&rest, external.len())?.internal;
@@ -69,14 +70,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let elements = &setting.elements;
         let held = |node: usize, axis: usize| self.held_change(node, axis, dt).map(|v| v / dt);
         let (acceleration, _) = inertia.mass.solve(elements, &forces, held)?;
-        for (p, a) in self
-            .scene
-            .body
-            .particles
-            .acceleration
-            .iter_mut()
-            .enumerate()
-        {
+        let particles = &mut self.scene.body.particles;
+        for (p, a) in particles.acceleration.iter_mut().enumerate() {
             *a = elements.value(p, &acceleration).into();
         }
         Ok(())
@@ -86,7 +81,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     fn held_change(&self, node: usize, axis: usize, dt: f64) -> Option<f64> {
         let held = self.held[node][axis]?;
         let constraint = &self.scene.constraints[held.by];
-        let [before, after] = [self.time, self.time + dt].map(|time| constraint.amplitude(time));
+        let [before, after] =
+            [self.ledger.time, self.ledger.time + dt].map(|time| constraint.amplitude(time));
         Some(held.velocity * (after - before))
     }
 
@@ -117,8 +113,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let lost = pairs
             .filter(|(_, m)| **m > least)
             .map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
-        self.accumulated.lumping_loss += 0.5 * mass.lumped * lost.sum::<f64>();
-        self.work.linear_iterations += iterations;
+        self.ledger.accumulated.lumping_loss += 0.5 * mass.lumped * lost.sum::<f64>();
+        self.ledger.work.linear_iterations += iterations;
         let particles = &mut self.scene.body.particles;
         for (p, velocity) in particles.velocity.iter_mut().enumerate() {
             *velocity = (SVector::from(*velocity) + elements.value(p, &change)).into();
@@ -138,7 +134,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             return;
         };
         let (elements, mass) = (&setting.elements, &inertia.mass);
-        // What the nodes had, (v/(α Δt) + (1/(2α) − 1) a), is the push over their mass.
+        // The nodes' history, (v/(α Δt) + (1/(2α) − 1) a), is the push over their mass.
         let u = solution.trial.u.iter().map(|u| SVector::from(*u));
         let columns = u.zip(&inertia.push).zip(&mass.node);
         let mut acceleration: Field<D> = columns
@@ -159,10 +155,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             }
         }
         let particles = &mut self.scene.body.particles;
-        let columns = particles
-            .velocity
-            .iter_mut()
-            .zip(&mut particles.acceleration);
+        let velocities = particles.velocity.iter_mut();
+        let columns = velocities.zip(&mut particles.acceleration);
         for (p, (velocity, before)) in columns.enumerate() {
             let after = elements.value(p, &acceleration);
             let mean = SVector::from(*before) * (1.0 - delta) + after * delta;

@@ -1,9 +1,10 @@
 //! The functions that see the particles, as they are at a step's start and stay in all of it.
 
+use super::algebra::dot;
 use super::domains::Domains;
 use super::extension::Shares;
-use super::interpolation::{Functions, Interpolation};
-use super::newton::dot;
+use super::functions::Functions;
+use super::interpolation::Interpolation;
 use crate::parallel::for_each_piece;
 use nalgebra::{SMatrix, SVector};
 use std::mem::take;
@@ -11,8 +12,8 @@ use std::ops::{AddAssign, Range};
 
 /// Units in the last place by which a stress is rounded.
 pub(crate) const LAST_BITS: f64 = 4.0;
-/// What a function counts at least, of its value and its slope over a cell, at one particle: less is rounding, of a
-/// domain that ends on a grid line.
+/// Smallest value, or slope over a cell, of a function that counts at a particle: less is rounding of a domain that
+/// ends on a grid line.
 const LEAST: f64 = 1e-12;
 /// That slope over the share of a cell by which the domain, of an eighth of it or more, reaches over the line.
 const PER_ROUNDING: f64 = 8.0;
@@ -27,15 +28,15 @@ pub(crate) struct Elements<const D: usize> {
     node: Vec<usize>,
     /// Where the nodes of every element begin, and those of the last one end.
     first_node: Vec<usize>,
-    /// Of every particle the element.
+    /// Element of every particle.
     element: Vec<usize>,
     /// Values of the functions that see a particle, one particle after the other.
     w: Vec<f64>,
-    /// Gradients (1/m), likewise.
+    /// Gradients (1/m), in the same order.
     dw: Vec<[f64; D]>,
     /// Where the functions of every particle begin, and those of the last one end.
     first: Vec<usize>,
-    /// What the places of particles are rounded by (m).
+    /// Rounding of the particles' positions (m).
     rounding: f64,
 }
 
@@ -64,7 +65,7 @@ pub(crate) fn of_domains<const D: usize, I: Interpolation<D>>(
 }
 
 impl<const D: usize> Elements<D> {
-    /// Of particles that stand in the [`order`] of elements.
+    /// Elements of particles that stand in their [`order`].
     pub(crate) fn new<I: Interpolation<D>>(
         functions_of: &I,
         originals: &[usize],
@@ -118,7 +119,7 @@ impl<const D: usize> Elements<D> {
             rounding: self.rounding,
         };
         for (element, run) in self.particles.iter().enumerate() {
-            // Of every function so far, whose it becomes a part of: place among the new ones, and share.
+            // Place among the new functions, and share, of every function so far.
             let mut nodes: Vec<usize> = Vec::new();
             let mut place = |node: usize| {
                 let known = nodes.iter().position(|n| *n == node);
@@ -184,8 +185,8 @@ impl<const D: usize> Elements<D> {
         forces
     }
 
-    /// What rounding of a stress by some last bits of a `modulus` (Pa) makes of the forces on `nodes` nodes, in their
-    /// norm (N), of particles of these volumes (m³).
+    /// Norm of the forces (N) on `nodes` nodes that rounding of stresses by some last bits of a `modulus` (Pa) causes,
+    /// for particles of these volumes (m³).
     pub(crate) fn rounding(&self, nodes: usize, volume: &[f64], modulus: f64) -> f64 {
         let mut reach = vec![0.0; nodes];
         self.scatter(0.0, &mut reach, |p, sums| {
@@ -208,8 +209,8 @@ impl<const D: usize> Elements<D> {
         pairs.fold(SVector::zeros(), |sum, (node, w)| sum + field[*node] * *w)
     }
 
-    /// Of every one of `nodes` nodes whether a particle sees it by more than rounding, on cells of size `h` (m). A function
-    /// with no value but a gradient at a particle bears force and counts.
+    /// Whether a particle sees each of `nodes` nodes by more than rounding, on cells of size `h` (m). A function with
+    /// no value but a gradient at a particle bears force and counts.
     pub(crate) fn seen_nodes(&self, nodes: usize, h: f64) -> Vec<bool> {
         let mut seen = vec![false; nodes];
         let least = LEAST + PER_ROUNDING * self.rounding / h;

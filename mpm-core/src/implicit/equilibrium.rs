@@ -1,10 +1,10 @@
-//! Forces and stiffness of a step: what its equations are made of.
+//! Forces and stiffness of a step.
 
+use super::algebra::dot;
 use super::average::{Average, UNSEEN};
 use super::contact::{self, Obstacle, Push};
 use super::elements::Elements;
 use super::inertia::{Inertia, Mass};
-use super::newton::dot;
 use super::penalty::Penalty;
 use super::response::{Particle, Square, Tangent};
 use super::unknowns::{Pattern, Unknowns};
@@ -47,7 +47,7 @@ pub(super) struct Trial<const D: usize> {
     pub(super) averaged: Vec<f64>,
     /// Aᵀ q of every particle (J); empty without F̄.
     share: Vec<f64>,
-    /// What rigid bodies do to particles.
+    /// Actions of rigid bodies on particles.
     pub(super) pushes: Vec<Push<D>>,
     /// Forces of the body's stress on the nodes less those of rigid bodies (N).
     pub(super) internal: Vec<SVector<f64, D>>,
@@ -130,7 +130,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         })
     }
 
-    /// What rigid bodies do to particles at nodal increments (m).
+    /// Actions of rigid bodies on particles at nodal increments (m).
     fn pushes(&self, u: &[[f64; D]]) -> Result<Vec<Push<D>>, (usize, Fault)> {
         let particles = &self.body.particles;
         contact::pushes(self.obstacles, self.elements, particles, &vectors(u))
@@ -148,7 +148,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         contact::open_share(self.obstacles, self.elements, particles, &u, &change)
     }
 
-    /// What is linear in the increments: penalties and inertia.
+    /// Forces that are linear in the increments: penalties and inertia.
     fn resistance(&self, u: &[[f64; D]]) -> Vec<SVector<f64, D>> {
         let mut forces = self.penalty_forces(u);
         if let Some(inertia) = self.inertia {
@@ -190,8 +190,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         tangents
     }
 
-    /// The entries of the stiffness matrix, Eq. (5); with F̄ of what preconditions it, Eq. (13), where a node's pressure
-    /// comes after its displacements.
+    /// The entries of the stiffness matrix, Eq. (5); with F̄ of what preconditions it, Eq. (13), where a node's
+    /// pressure comes after its displacements.
     pub(super) fn stiffness(&self, tangents: &[Tangent<D>], pattern: &Pattern) -> Vec<f64> {
         let mut values = vec![0.0; pattern.entries()];
         let (unknowns, elements, width) = (self.unknowns, self.elements, pattern.width);
@@ -255,8 +255,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         }
     }
 
-    /// Held unknowns are eliminated, and pressures that no particle resists: what stands for them is of the order of the
-    /// others.
+    /// Held unknowns are eliminated, and pressures that no particle resists: what stands for them is of the order of
+    /// the others.
     fn stand_in(&self, pattern: &Pattern, values: &mut [f64]) {
         let width = pattern.width;
         let diagonals = (0..self.unknowns.node.len()).flat_map(|k| {
@@ -279,7 +279,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         }
     }
 
-    /// Σ ∇w · H · ∇w over the particles of an element; with a pressure, what couples it to changes of volume, and its own.
+    /// Σ ∇w · H · ∇w over the particles of an element; with a pressure, what couples it to changes of volume, and its
+    /// own.
     fn of_element(&self, element: usize, tangents: &[Tangent<D>], width: usize) -> DMatrix<f64> {
         let size = self.elements.nodes_of(element).len() * width;
         let mut matrix = DMatrix::zeros(size, size);
@@ -370,10 +371,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
     /// Nodal values at the unknowns, zero at those that are held.
     pub(super) fn free(&self, nodes: &[SVector<f64, D>]) -> Vec<f64> {
         let unknowns = self.unknowns;
-        let all = unknowns
-            .node
-            .iter()
-            .flat_map(|node| nodes[*node].iter().copied());
+        let seen = unknowns.node.iter();
+        let all = seen.flat_map(|node| nodes[*node].iter().copied());
         let pairs = all.zip(&unknowns.held);
         pairs
             .map(|(value, held)| if held.is_some() { 0.0 } else { value })

@@ -1,5 +1,5 @@
-//! Extension (Höllig, Reif & Wipper 2001, doi:10.1137/S0036142900373208): a function that sees hardly any material is no
-//! unknown of its own, but moves as a linear field through the nearest functions that see more.
+//! Extension (Höllig, Reif & Wipper 2001, doi:10.1137/S0036142900373208): a function that sees hardly any material is
+//! no unknown of its own, but moves as a linear field through the nearest functions that see more.
 
 use super::pieces::{AxisPieces, Pieces};
 use crate::lattice::Lattice;
@@ -9,13 +9,13 @@ pub(super) const HARDLY: f64 = 0.1;
 /// How far, in nodes along an axis, the functions that it follows may be.
 const REACH: isize = 4;
 
-/// Of a node those that it follows, with their shares; none of a node that has its own unknowns.
+/// Nodes that a node follows, with their shares; empty for a node with its own unknowns.
 pub type Shares = Vec<Vec<(usize, f64)>>;
 
-/// What is known of the nodes of a body, images being their originals.
+/// Nodes of a body; images stand for their originals.
 #[derive(Debug)]
 pub struct Nodes<'a> {
-    /// Of every node the one that it is an image of.
+    /// Original of every node.
     pub originals: &'a [usize],
     /// Volume (m³) that it sees; NaN if no element has it.
     pub volume: &'a [f64],

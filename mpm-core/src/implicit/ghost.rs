@@ -2,8 +2,8 @@
 //! neighbours lend it.
 //!
 //! On the faces between cells of the body, one of which is at its edge, the polynomials of either side are drawn
-//! together: γ E h^(2k−1) ∫ \[∂ₙᵏu\] · \[∂ₙᵏv\] with the degree k. All lower derivatives of a spline are continuous, so the
-//! jump is all by which the two differ. It vanishes where u is one polynomial of degree k.
+//! together: γ E h^(2k−1) ∫ \[∂ₙᵏu\] · \[∂ₙᵏv\] with the degree k. All lower derivatives of a spline are continuous, so
+//! the jump is all by which the two differ. It vanishes where u is one polynomial of degree k.
 
 use super::domains::Domains;
 use super::penalty::Penalty;
@@ -46,8 +46,8 @@ impl<const D: usize> Cells<D> {
         }
     }
 
-    /// Whether a neighbour of the cell, also across an edge or corner, holds no material. What is behind a wall counts as
-    /// full, what is beyond an open end as empty.
+    /// Whether a neighbour of the cell, also across an edge or corner, holds no material. Cells behind a wall count as
+    /// full, cells beyond an open end as empty.
     fn at_edge(&self, cell: &[usize; D]) -> bool {
         (0..3_usize.pow(D as u32)).any(|k| {
             let mut neighbour = [0; D];
@@ -71,7 +71,7 @@ impl<const D: usize> Cells<D> {
     }
 }
 
-/// The penalties of the faces near the edge of the body on a field with so many `components`, with γ E the `strength`.
+/// Penalties of the faces near the edge of the body on a field with this many `components`, with γ E the `strength`.
 pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
     lattice: &Lattice<D, S, B>,
     strength: f64,
@@ -169,7 +169,6 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::super::domains::HalfSizes;
     use super::*;

@@ -23,11 +23,11 @@ pub(crate) fn check<const D: usize>(constraints: &[Box<dyn Constraint<D>>]) -> R
         count == 0,
         "one-sided constraints of a quasi-static run",
         count as f64,
-        "none: walls are fixed or rollers there",
+        "none: walls of such a run are fixed or rollers",
     )
 }
 
-/// Of every component of every node what holds it: the first of the scene's constraints that does.
+/// Constraint of every component of every node: the first of the scene's constraints that holds it.
 pub(crate) fn components<const D: usize, I: Interpolation<D>, M: Law>(
     functions: &I,
     scene: &Scene<D, M>,

@@ -3,13 +3,15 @@
 //! A time rule makes of F_ext − f(u) = M a an equation in the increment x at the place where it holds,
 //! c M x + f(x) = F_ext + b, with a factor c (1/s²) and what particles bring along, b (N).
 
+use super::algebra::dot;
 use super::elements::Elements;
-use super::newton::{Failure, dot};
+use super::failure::Failure;
 use super::settings::TimeRule;
 use crate::particles::Particles;
 use nalgebra::SVector;
 
-/// What a mass is solved to, in how many iterations at most, and what is enough after these: then rounding allows no more.
+/// Tolerance of a solution with the mass, maximum number of iterations, and the tolerance after these, where rounding
+/// allows no more.
 const TO: f64 = 1e-15;
 const MOST: usize = 500;
 const ENOUGH: f64 = 1e-10;
@@ -79,8 +81,8 @@ impl Mass {
         product
     }
 
-    /// The field that is `held` where something holds it, and elsewhere M times it is `right`, and how many iterations of
-    /// conjugate gradients found it. Nodes without mass get zero.
+    /// The field that is `held` where something holds it, and elsewhere M times it is `right`, and how many iterations
+    /// of conjugate gradients found it. Nodes without mass get zero.
     ///
     /// # Errors
     /// The mass is singular.
@@ -115,8 +117,8 @@ impl Mass {
                 .collect()
         };
         let inner = |a: &[SVector<f64, D>], b: &[SVector<f64, D>]| {
-            a.iter()
-                .zip(b)
+            let pairs = a.iter().zip(b);
+            pairs
                 .map(|(a, b)| dot(a.as_slice(), b.as_slice()))
                 .sum::<f64>()
         };
@@ -158,7 +160,7 @@ pub(super) struct Inertia<const D: usize> {
 }
 
 impl<const D: usize> Inertia<D> {
-    /// Of a step of `dt` (s) of a rule, if it has any.
+    /// Inertia in a step of `dt` (s) of a rule, if it has any.
     pub(super) fn of(
         rule: TimeRule,
         dt: f64,

@@ -1,74 +1,23 @@
-//! What the implicit solver asks of the functions on a grid.
+//! Interface of the functions on a grid for the implicit solver.
 
 use super::domains::Domains;
 use super::extension::{Nodes, Shares};
-use super::penalty::{Moduli, Penalty};
+use super::functions::Functions;
+use super::penalty::Penalty;
 use super::pieces::Pieces;
 use super::settings::Stabilisation;
-use super::{extension, ghost, soft};
+use super::{extension, ghost};
 use crate::basis::{Gimp, Linear, WallTreatment};
 use crate::error::Error;
 use crate::grid::Grid;
-use crate::lattice::{Lattice, Stencil};
-
-/// The functions that see a place, and which they are.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Functions<const D: usize> {
-    /// Equal for all places that the same nodes see.
-    pub element: usize,
-    /// Their nodes.
-    pub node: Vec<usize>,
-    /// Values.
-    pub w: Vec<f64>,
-    /// Gradients (1/m).
-    pub dw: Vec<[f64; D]>,
-}
-
-impl<const D: usize> Functions<D> {
-    /// None yet.
-    #[must_use]
-    pub fn new() -> Self {
-        Self {
-            element: 0,
-            node: Vec::new(),
-            w: Vec::new(),
-            dw: Vec::new(),
-        }
-    }
-
-    /// Those of a stencil.
-    fn set<const S: usize>(&mut self, stencil: &Stencil<D, S>) {
-        let last = stencil.last();
-        self.element = stencil.first();
-        self.node.clear();
-        self.w.clear();
-        self.dw.clear();
-        let (lines, rows) = Stencil::<D, S>::OUTER;
-        for r in 0..lines * rows {
-            let row = stencil.row(r / rows, r % rows);
-            for k in 0..S {
-                let mut dw = row.gradient.map(|g| g * last.w[k]);
-                dw[D - 1] = row.w * last.dw[k];
-                self.node.push(row.node + k);
-                self.w.push(row.w * last.w[k]);
-                self.dw.push(dw);
-            }
-        }
-    }
-}
-
-impl<const D: usize> Default for Functions<D> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+use crate::lattice::Lattice;
 
 /// Functions on a grid.
 pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     /// The functions on `grid`.
     ///
     /// # Errors
-    /// A grid that these functions don't live on.
+    /// A grid that these functions do not live on.
     fn on(grid: Grid<D>) -> Result<Self, Error>;
 
     /// The grid.
@@ -88,7 +37,7 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     /// Calls `visit` with every node and its position (m).
     fn for_each_node(&self, visit: impl FnMut(usize, [f64; D]));
 
-    /// Of every node the one that it is a periodic image of: itself if it is none.
+    /// Original of every node that is a periodic image; other nodes are their own.
     fn originals(&self) -> Vec<usize>;
 
     /// Puts the functions that see a particle at `x` (m) with half sizes `half_size` (m) in `functions`.
@@ -100,17 +49,15 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     /// Whether these functions offer a stabilisation.
     ///
     /// # Errors
-    /// They don't.
+    /// They do not.
     fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error>;
 
-    /// The penalties of a stabilisation that is [offered](Self::offers), on the increment of a step, for a material of
-    /// `moduli` where `domains` are.
-    fn penalties(
-        &self,
-        stabilisation: Stabilisation,
-        moduli: Moduli,
-        domains: Domains<D>,
-    ) -> Vec<Penalty>;
+    /// Gauss points along an axis that integrate the stiffness of a cell.
+    fn points(&self) -> usize;
+
+    /// Ghost penalty of a field of this many `components` where `domains` are, with γ E the `strength` (Pa, or the
+    /// equivalent of a field of another kind), of functions that offer it.
+    fn ghost(&self, strength: f64, components: usize, domains: Domains<D>) -> Vec<Penalty>;
 
     /// The shares by which nodes that see hardly any material follow others, of functions that offer the
     /// [extension](Stabilisation::Extension).
@@ -124,10 +71,6 @@ pub trait OfHats<const D: usize>: Interpolation<D> {
 
     /// The hats of the same nodes at a point `x` (m).
     fn hats(&self, x: &[f64; D], functions: &mut Functions<D>);
-
-    /// The ghost penalty of a field with so many `components` where `domains` are, γ E being the `strength` (Pa, or what
-    /// gives a field of another kind its unit).
-    fn ghost(&self, strength: f64, components: usize, domains: Domains<D>) -> Vec<Penalty>;
 }
 
 macro_rules! of_hats {
@@ -137,10 +80,6 @@ macro_rules! of_hats {
 
             fn hats(&self, x: &[f64; D], functions: &mut Functions<D>) {
                 functions.set(&self.stencil_of_point(x));
-            }
-
-            fn ghost(&self, strength: f64, components: usize, domains: Domains<D>) -> Vec<Penalty> {
-                ghost::penalties(self, strength, components, domains)
             }
         }
     };
@@ -195,19 +134,12 @@ impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<
         }
     }
 
-    fn penalties(
-        &self,
-        stabilisation: Stabilisation,
-        moduli: Moduli,
-        domains: Domains<D>,
-    ) -> Vec<Penalty> {
-        match stabilisation {
-            Stabilisation::None | Stabilisation::Extension => Vec::new(),
-            Stabilisation::Ghost(factor) => {
-                ghost::penalties(self, factor * moduli.young(), D, domains)
-            }
-            Stabilisation::Soft(factor) => soft::penalties(self, S, factor, moduli),
-        }
+    fn points(&self) -> usize {
+        S
+    }
+
+    fn ghost(&self, strength: f64, components: usize, domains: Domains<D>) -> Vec<Penalty> {
+        ghost::penalties(self, strength, components, domains)
     }
 
     fn extension(&self, nodes: &Nodes) -> Shares {

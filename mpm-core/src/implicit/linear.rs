@@ -1,6 +1,9 @@
 //! Sparse linear systems, by `faer`: LDLᵀ of symmetric matrices, LU of others.
 
+use super::failure::Failure;
 use super::unknowns::Pattern;
+use crate::ledger::Ledger;
+use crate::work::clocked;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::sparse::linalg::cholesky::{
@@ -193,4 +196,30 @@ pub(crate) fn condition(symmetric: bool, pattern: &Pattern, values: &[f64]) -> f
         x[greatest] = 1.0;
     }
     norm * inverse
+}
+
+/// Direct solution in a step, counted in the ledger.
+pub(crate) struct Linear<'a> {
+    pub(crate) direct: &'a mut Direct,
+    pub(crate) ledger: &'a mut Ledger,
+}
+
+impl Linear<'_> {
+    /// Prepares for matrices of a pattern.
+    pub(crate) fn analyse(&mut self, pattern: &Pattern) -> Result<(), Failure> {
+        let Ledger { work, spent, .. } = &mut *self.ledger;
+        work.analyses += u64::from(self.direct.pattern != *pattern);
+        let analysed = clocked(&mut spent.factorisation, || self.direct.analyse(pattern));
+        analysed.map_err(|_| Failure::Singular(0))
+    }
+
+    /// Factorises the matrix of an iteration with these entries.
+    pub(crate) fn factorise(&mut self, values: &[f64], iteration: u32) -> Result<(), Failure> {
+        let Ledger { work, spent, .. } = &mut *self.ledger;
+        work.assemblies += 1;
+        work.factorisations += 1;
+        work.nonzeros += self.direct.pattern.entries() as u64;
+        let factorised = clocked(&mut spent.factorisation, || self.direct.factorise(values));
+        factorised.map_err(|_| Failure::Singular(iteration))
+    }
 }

@@ -1,12 +1,14 @@
-//! Quasi-static equilibrium by Newton's method: `docs/implicit.md` derives it, and equation numbers here are that page's.
+//! Quasi-static equilibrium by Newton's method: `docs/implicit.md` derives it, and equation numbers here are that
+//! page's.
 //!
-//! Of a step's start stay the functions on the grid, the particles' places and states, and the average of F̄. The
-//! unknowns are the increments of the nodes; a trial of them changes nothing, and what has converged is committed. Then
-//! the grid is as before and the particles have moved.
+//! Shape functions, particle positions, states and the F̄ average are frozen at the start of the step. The unknowns are
+//! the increments of the nodes; a trial of them changes nothing, and the converged one is committed. Then the grid is
+//! as before and the particles have moved.
 //!
 //! The law, its derivatives and the stages are those of the explicit solver; velocities, masses of nodes and transfers
-//! don't exist here.
+//! do not exist here.
 
+pub(crate) mod algebra;
 mod average;
 mod commit;
 mod contact;
@@ -15,6 +17,8 @@ mod dynamics;
 pub(crate) mod elements;
 mod equilibrium;
 mod extension;
+pub(crate) mod failure;
+mod functions;
 mod ghost;
 pub(crate) mod held;
 mod inertia;
@@ -25,40 +29,43 @@ pub(crate) mod newton;
 mod penalty;
 mod pieces;
 mod q8;
-mod response;
+pub(crate) mod response;
 mod settings;
 mod soft;
 pub(crate) mod start;
+mod system;
 pub(crate) mod unknowns;
 
 pub use domains::{Domains, HalfSizes};
 pub use extension::{Nodes, Shares};
-pub use interpolation::{Functions, Interpolation, OfHats};
+pub use functions::Functions;
+pub use interpolation::{Interpolation, OfHats};
 pub use penalty::{Moduli, Penalty};
 pub use pieces::{AxisPieces, Pieces};
 pub use q8::Serendipity;
 pub use settings::{Remedy, Settings, Stabilisation, TimeRule};
 
 use crate::body::Body;
-use crate::contact::RigidContact;
 use crate::error::Error;
+use crate::ledger::Ledger;
 use crate::material::Law;
 use crate::memory::Saved;
-use crate::monitor::{Accumulated, Convergence, Reaction, Residual, Totals};
+use crate::monitor::{Reaction, Totals};
 use crate::particles::Particles;
+use crate::scene::Part;
 use crate::scene::Scene;
-use crate::simulation::{Field, Part, Simulation};
+use crate::simulation::{Field, Simulation};
 use crate::tensor::SymmetricTensor;
-use crate::work::{Spent, Work};
 use average::Average;
 use contact::Obstacle;
 use elements::Elements;
 use equilibrium::Step;
+use failure::{Failure, in_parts};
 use held::Held;
 use inertia::Inertia;
-use linear::Direct;
+use linear::{Direct, Linear};
 use nalgebra::SVector;
-use newton::{Failure, Newton, clocked, in_parts};
+use system::System;
 use unknowns::{Pattern, Unknowns};
 
 /// The quasi-static solver for one body on the functions `I`.
@@ -66,24 +73,18 @@ pub struct Solver<const D: usize, I, M: Law> {
     scene: Scene<D, M>,
     settings: Settings,
     functions: I,
-    /// Of every node the one that it is an image of.
+    /// Original of every node.
     originals: Vec<usize>,
-    /// Of every component of every node whether it is held.
+    /// Constraint of every component of every node, if held.
     held: Vec<[Option<Held>; D]>,
     moduli: Moduli,
     direct: Direct,
     /// Increments of the nodes in the last part of a step, over its duration (m/s); empty before it.
     advance: Vec<[f64; D]>,
-    time: f64,
-    accumulated: Accumulated,
-    residual: Residual,
-    convergence: Convergence,
-    reactions: Vec<Reaction>,
-    work: Work,
-    spent: Spent,
+    ledger: Ledger,
 }
 
-/// What a part of a step works with.
+/// Data of a part of a step.
 struct Setting<const D: usize> {
     elements: Elements<D>,
     penalties: Vec<Penalty>,
@@ -97,21 +98,19 @@ struct Setting<const D: usize> {
 impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I, M> {
     /// A load step, in parts if the whole of it finds no equilibrium.
     fn step(&mut self) -> Result<(), Error> {
-        let (start, dt) = (self.time, self.settings.dt);
+        let (start, dt) = (self.ledger.time, self.settings.dt);
         let parts = in_parts(self.settings.most_halvings, |done, size| {
             self.part(size * dt)?;
-            self.time = start + (done + size) * dt;
+            self.ledger.time = start + (done + size) * dt;
             Ok(())
         })
         .map_err(|failure| self.error(failure))?;
-        self.convergence.parts = parts;
-        self.work.steps += 1;
-        self.work.particle_steps += self.work.particles;
+        self.ledger.count_parts(parts);
         Ok(())
     }
 
-    fn time(&self) -> f64 {
-        self.time
+    fn ledger(&self) -> &Ledger {
+        &self.ledger
     }
 
     fn particles(&self) -> &Particles<D> {
@@ -119,15 +118,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
     }
 
     fn totals(&self) -> Totals {
-        self.scene.body.totals(self.accumulated)
-    }
-
-    fn residual(&self) -> Residual {
-        self.residual
-    }
-
-    fn convergence(&self) -> Option<&Convergence> {
-        Some(&self.convergence)
+        self.scene.body.totals(self.ledger.accumulated)
     }
 
     fn condition(&self) -> f64 {
@@ -147,20 +138,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
         }
     }
 
-    fn work(&self) -> Work {
-        self.work
-    }
-
-    fn spent(&self) -> Spent {
-        self.spent
-    }
-
     fn on(&self, part: Part) -> Reaction {
-        match part {
-            Part::Constraint(place) => self.reactions.get(place).copied(),
-            Part::Contact(place) => self.scene.contacts.get(place).map(RigidContact::reaction),
-        }
-        .unwrap_or(Reaction::NONE)
+        self.ledger.on(part, &self.scene.contacts)
     }
 
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
@@ -227,11 +206,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let mut elements = Elements::new(&self.functions, &self.originals, Domains::of(particles));
         if self.settings.stabilisation == Stabilisation::Extension {
             let volume = elements.sums(self.functions.len(), &particles.volume);
-            let held: Vec<bool> = self
-                .held
-                .iter()
-                .map(|h| h.iter().any(Option::is_some))
-                .collect();
+            let any = |of: &[Option<Held>; D]| of.iter().any(Option::is_some);
+            let held: Vec<bool> = self.held.iter().map(any).collect();
             let nodes = Nodes {
                 originals: &self.originals,
                 volume: &volume,
@@ -243,19 +219,25 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         (elements, average)
     }
 
-    /// What a step of `dt` (s) of the body as it is works with.
+    /// Setting of a step of `dt` (s) from the present state.
     fn setting(&self, dt: f64) -> Setting<D> {
         let particles = &self.scene.body.particles;
         let (elements, average) = self.averaging();
-        let stabilisation = self.settings.stabilisation;
         let mut sizes = Vec::new();
         let within = Domains::of(particles).within(&mut sizes);
-        let mut penalties = self.functions.penalties(stabilisation, self.moduli, within);
+        let mut penalties = match self.settings.stabilisation {
+            Stabilisation::None | Stabilisation::Extension => Vec::new(),
+            Stabilisation::Ghost(factor) => {
+                let strength = factor * self.moduli.young();
+                self.functions.ghost(strength, D, within)
+            }
+            Stabilisation::Soft(factor) => soft::penalties(&self.functions, factor, self.moduli),
+        };
         for node in penalties.iter_mut().flat_map(|p| &mut p.node) {
             *node = self.originals[*node];
         }
         let place = self.settings.rule.place();
-        let travel = held::travel(&self.scene.constraints, self.time, dt);
+        let travel = held::travel(&self.scene.constraints, self.ledger.time, dt);
         let prescribed = |node: usize, axis: usize| {
             let held = self.held[node][axis]?;
             Some(held.velocity * (place * travel[held.by]))
@@ -272,7 +254,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let pattern = Pattern::new(width, &unknowns, &elements, &penalties);
         let inertia = Inertia::of(self.settings.rule, dt, &elements, nodes, particles);
         Setting {
-            obstacles: self.obstacles(self.time + place * dt),
+            obstacles: self.obstacles(self.ledger.time + place * dt),
             inertia,
             elements,
             penalties,
@@ -287,7 +269,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let order = elements::order(&self.functions, Domains::of(&self.scene.body.particles));
         if !order.is_sorted() {
             self.scene.body.permute(&order);
-            self.work.sorts += 1;
+            self.ledger.work.sorts += 1;
         }
     }
 
@@ -312,8 +294,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         goes_on.then(|| rates.map(|rate| rate * dt).collect())
     }
 
-    /// What rounding of a stress by some last bits of the modulus of pressure waves makes of the forces, in their norm (N):
-    /// a nearly incompressible body has no smaller residual.
+    /// Norm of the forces (N) that rounding of stresses causes, by some last bits of the modulus of pressure waves: a
+    /// nearly incompressible body has no smaller residual.
     fn rounding(&self, elements: &Elements<D>) -> f64 {
         let volume = &self.scene.body.particles.volume;
         let modulus = self.moduli.lambda + 2.0 * self.moduli.mu;
@@ -325,8 +307,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         self.sort();
         let setting = self.setting(dt);
         let place = self.settings.rule.place();
-        let earlier = self.external(self.time, &setting.elements);
-        let external = self.external(self.time + place * dt, &setting.elements);
+        let earlier = self.external(self.ledger.time, &setting.elements);
+        let external = self.external(self.ledger.time + place * dt, &setting.elements);
         let mut driving = external.clone();
         for (force, push) in driving
             .iter_mut()
@@ -334,26 +316,24 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         {
             *force += push;
         }
-        self.work.analyses += u64::from(self.direct.pattern != setting.pattern);
-        let direct = &mut self.direct;
-        clocked(&mut self.spent.factorisation, || {
-            direct.analyse(&setting.pattern)
-        })
-        .map_err(|_| Failure::Singular(0))?;
         let rounding = self.rounding(&setting.elements);
-        let mut newton = Newton {
+        let guess = self.guess(&setting, dt);
+        let mut linear = Linear {
+            direct: &mut self.direct,
+            ledger: &mut self.ledger,
+        };
+        linear.analyse(&setting.pattern)?;
+        let mut system = System {
             step: setting.step(&self.scene.body, place * dt),
             settings: &self.settings,
             rounding,
-            guess: self.guess(&setting, dt),
             external: &driving,
             pattern: &setting.pattern,
-            direct: &mut self.direct,
-            work: &mut self.work,
-            spent: &mut self.spent,
+            linear,
             worn: true,
+            start: 0.0,
         };
-        let solution = newton.solve()?;
+        let solution = system.solve(guess)?;
         let end = self.end_of_step(&setting, &solution, dt)?;
         let end = end.as_ref().unwrap_or(&solution.trial);
         let places = self.places_after(&setting.elements, end)?;
@@ -362,13 +342,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         self.advance = end.u.iter().map(|u| u.map(|u| u / dt)).collect();
         self.commit(end, &places, dt);
         self.stick(&end.pushes);
-        self.convergence = solution.convergence;
+        self.ledger.convergence = Some(solution.convergence);
         Ok(())
     }
 
     fn error(&self, failure: Failure) -> Error {
         let ids = &self.scene.body.particles.id;
-        failure.error(self.time, self.work.steps, ids)
+        failure.error(&self.ledger, ids)
     }
 }
 

@@ -1,392 +1,113 @@
-//! Newton's method for the equilibrium of a step.
+//! Newton's method with a line search, for the equations of any solver.
 
-use super::equilibrium::{Step, Trial};
-use super::linear::Direct;
-use super::response::Tangent;
-use super::settings::Settings;
-use super::unknowns::Pattern;
-use crate::error::{Error, Fault};
-use crate::material::Law;
-use crate::monitor::Convergence;
-use crate::work::{Spent, Work};
-use nalgebra::SVector;
-use std::time::Instant;
+use super::failure::Failure;
+use crate::error::Fault;
+use crate::ledger::Ledger;
 
-/// A correction is halved at most so often.
-const MOST_CUTS: u32 = 12;
-/// Conjugate gradients take at most so many iterations.
-const MOST_GRADIENTS: u64 = 2000;
-/// Factors precondition until conjugate gradients take more iterations than this: as many as new ones cost.
-const MANY_GRADIENTS: u64 = 40;
-/// The least relative accuracy of a linear solution by conjugate gradients; later ones are as good as the step's
-/// residual, which keeps Newton's order.
-const COARSE: f64 = 1e-2;
-
-/// Why a step has no solution.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Failure {
-    /// After this many iterations the residual, over that of the loads, was this.
-    NoConvergence(u32, f64),
-    /// The matrix of this iteration could not be factorised.
-    Singular(u32),
-    /// A particle was deformed beyond what can be.
-    Particle(usize, Fault),
-    /// Of what acts on the body from outside, by name, it bears only so much of the whole.
-    Lost(&'static str, f64, f64),
+/// Values of the unknowns, and what the equations make of them.
+pub(crate) struct Point<T> {
+    /// Values of the unknowns.
+    pub(crate) x: Vec<f64>,
+    /// State of the body.
+    pub(crate) trial: T,
+    /// Residual: the right-hand side of the next correction.
+    pub(crate) residual: Vec<f64>,
+    /// Norm of the residual over that of the loads.
+    pub(crate) share: f64,
 }
 
-impl Failure {
-    /// The error of a run at a `time` (s), after so many steps, of particles with these identities.
-    pub(crate) fn error(self, time: f64, step: u64, ids: &[u32]) -> Error {
-        match self {
-            Self::NoConvergence(iteration, residual) => Error::NoConvergence {
-                time,
-                step,
-                iteration,
-                residual,
-            },
-            Self::Singular(iteration) => Error::Singular {
-                time,
-                step,
-                iteration,
-            },
-            Self::Particle(index, fault) => Error::Breakdown {
-                time,
-                step,
-                particle: ids.get(index).copied().unwrap_or(0),
-                fault,
-            },
-            Self::Lost(what, value, whole) => Error::Lost {
-                time,
-                step,
-                what,
-                value,
-                whole,
-            },
-        }
-    }
-}
+/// Equations of a step.
+pub(crate) trait Equations {
+    /// State of the body at some values of the unknowns.
+    type Trial;
+    /// Maximum number of halvings in the line search.
+    const MOST_CUTS: u32;
 
-/// Goes through a step by `part`, which is told the share of it that is done and that which is to do: a part that
-/// fails is halved, up to `most_halvings` times, one after a success twice as long. Returns how many parts there were.
-pub(crate) fn in_parts(
-    most_halvings: u32,
-    mut part: impl FnMut(f64, f64) -> Result<(), Failure>,
-) -> Result<u32, Failure> {
-    let shortest = 0.5_f64.powi(most_halvings as i32);
-    let (mut done, mut size, mut parts) = (0.0, 1.0, 0);
-    while done < 1.0 {
-        match part(done, size) {
-            Ok(()) => {
-                done += size;
-                parts += 1;
-                size = (2.0 * size).min(1.0 - done);
-            }
-            Err(failure) if size <= shortest => return Err(failure),
-            Err(_) => size *= 0.5,
-        }
-    }
-    Ok(parts)
-}
-
-impl From<(usize, Fault)> for Failure {
-    fn from((particle, fault): (usize, Fault)) -> Self {
-        Self::Particle(particle, fault)
-    }
-}
-
-/// The solution of a step.
-pub(super) struct Solution<const D: usize> {
-    /// The increments of the unknowns (m).
-    pub(super) u: Vec<f64>,
-    pub(super) trial: Trial<D>,
-    pub(super) convergence: Convergence,
-    /// The trial of no increments.
-    pub(super) before: Trial<D>,
-}
-
-/// A step with the loads at its end, and what solves it.
-pub(super) struct Newton<'a, const D: usize, M: Law> {
-    pub(super) step: Step<'a, D, M>,
-    pub(super) settings: &'a Settings,
-    /// Norm of the residual (N) that rounding of the stresses leaves.
-    pub(super) rounding: f64,
-    /// Increments of the unknowns (m) to begin from, if they are nearer to equilibrium than none; held ones keep theirs.
-    pub(super) guess: Option<Vec<f64>>,
-    /// External forces on the nodes (N), and in dynamics what the particles bring along.
-    pub(super) external: &'a [SVector<f64, D>],
-    pub(super) pattern: &'a Pattern,
-    pub(super) direct: &'a mut Direct,
-    pub(super) work: &'a mut Work,
-    pub(super) spent: &'a mut Spent,
-    /// Whether new factors are wanted: of a stiffness always, of what only preconditions it when it does so badly.
-    pub(super) worn: bool,
-}
-
-/// Adds the time (s) that `work` takes to `spent`.
-pub(crate) fn clocked<T>(spent: &mut f64, work: impl FnOnce() -> T) -> T {
-    let begun = Instant::now();
-    let done = work();
-    *spent += begun.elapsed().as_secs_f64();
-    done
-}
-
-pub(crate) fn norm(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-impl<const D: usize, M: Law> Newton<'_, D, M> {
-    /// A trial of these increments.
-    fn trial(&mut self, u: &[f64]) -> Result<Trial<D>, (usize, Fault)> {
-        // Deformations are gathered, forces scattered.
-        self.work.particle_node_pairs += 2 * self.step.elements.pairs() as u64;
-        let nodes = self.external.len();
-        clocked(&mut self.spent.forces, || self.step.trial(u, nodes))
-    }
-
-    /// F_ext − F_int of a trial at the free unknowns (N), and the norm of the loads: of the external forces, of the
-    /// internal ones at the start if there are none or if bodies swing, and of reactions, if greater, where a constraint
-    /// moves.
-    fn residual(&self, trial: &Trial<D>, start: f64) -> (Vec<f64>, f64) {
-        let forces = trial
-            .internal
-            .iter()
-            .zip(&trial.resistance)
-            .zip(self.external);
-        let out: Vec<SVector<f64, D>> = forces.map(|((f, g), e)| e - f - g).collect();
-        let residual = self.step.free(&out);
-        let unknowns = self.step.unknowns;
-        let moves = unknowns.held.iter().flatten().any(|u| *u != 0.0);
-        let mut held = 0.0;
-        for (k, node) in unknowns.node.iter().enumerate() {
-            for a in 0..D {
-                if unknowns.held[k * D + a].is_some() && moves {
-                    held += out[*node][a] * out[*node][a];
-                }
-            }
-        }
-        let external = norm(&self.step.free(self.external));
-        let inner = external == 0.0 || self.step.inertia.is_some();
-        let loads = if inner { external.max(start) } else { external };
-        (residual, loads.max(held.sqrt()))
-    }
-
-    /// The increments to begin from, of those `rest` and the guess, and their trial: what is nearer to equilibrium.
-    /// Functions that hardly see material can have moved far, and are no guide.
-    fn beginning(
-        &mut self,
-        rest: Vec<f64>,
-        start: f64,
-    ) -> Result<(Vec<f64>, Trial<D>), (usize, Fault)> {
-        let guess = self.guess.take();
-        let mut begin = |u: Vec<f64>| {
-            let held = self.step.unknowns.held.iter().zip(u);
-            let u: Vec<f64> = held.map(|(held, u)| held.unwrap_or(u)).collect();
-            let trial = self.trial(&u)?;
-            let size = norm(&self.residual(&trial, start).0);
-            Ok((size, u, trial))
-        };
-        let plain = begin(rest);
-        let found = match guess.map(begin) {
-            Some(Ok(guess)) if plain.as_ref().is_ok_and(|plain| plain.0 <= guess.0) => plain,
-            Some(Ok(guess)) => Ok(guess),
-            _ => plain,
-        };
-        found.map(|(_, u, trial)| (u, trial))
-    }
-
-    /// Solves the step.
+    /// Evaluates the equations.
     ///
     /// # Errors
-    /// There is no solution that the method finds.
-    pub(super) fn solve(&mut self) -> Result<Solution<D>, Failure> {
-        let rest = vec![0.0; self.step.unknowns.len()];
-        let at_rest = self.trial(&rest)?;
-        let start = norm(&self.step.free(&at_rest.internal));
-        let before = at_rest;
-        let (mut u, mut trial) = self.beginning(rest, start)?;
-        let (mut residual, mut loads) = self.residual(&trial, start);
-        let mut convergence = Convergence::default();
-        let mut last = vec![0.0; u.len()];
-        let external = self.step.free(self.external);
-        for iteration in 0..=self.settings.most_iterations {
-            let size = norm(&residual);
-            let share = if loads > 0.0 { size / loads } else { size };
-            convergence.residuals.push(share);
-            if share <= self.settings.tolerance || size <= self.rounding {
-                let scale = norm(&external).max(f64::MIN_POSITIVE);
-                convergence.force_ratio = size / scale;
-                convergence.force_rounding = self.rounding / scale;
-                let work = dot(&external, &u).abs().max(f64::MIN_POSITIVE);
-                convergence.energy_ratio = dot(&residual, &last).abs() / work;
-                return Ok(Solution {
-                    u,
-                    trial,
-                    convergence,
-                    before,
-                });
-            }
-            if iteration == self.settings.most_iterations {
-                break;
-            }
-            last = self.correction(&trial, &residual, share, iteration)?;
-            let slope = dot(&last, &residual).abs();
-            let mut length = self.step.open_share(&trial.u, &last);
-            let mut cuts = 0;
-            loop {
-                let moved: Vec<f64> = u.iter().zip(&last).map(|(u, d)| u + length * d).collect();
-                let attempt = self.trial(&moved);
-                let accepted = attempt.map(|attempt| {
-                    let (ahead, loads_ahead) = self.residual(&attempt, start);
-                    // Past the least energy along the line by no more than it was before it, or nearer to equilibrium.
-                    let close = dot(&last, &ahead).abs() <= slope || norm(&ahead) <= size;
-                    close.then_some((attempt, ahead, loads_ahead))
-                });
-                match accepted {
-                    Ok(Some((attempt, ahead, loads_ahead))) => {
-                        (u, trial, residual, loads) = (moved, attempt, ahead, loads_ahead);
-                        break;
-                    }
-                    Ok(None) if cuts == MOST_CUTS => {
-                        return Err(Failure::NoConvergence(iteration, share));
-                    }
-                    Err(fault) if cuts == MOST_CUTS => return Err(fault.into()),
-                    _ => {}
-                }
-                length *= 0.5;
-                cuts += 1;
-            }
-            self.work.newton_iterations += 1;
-        }
-        let share = convergence.residuals.last().copied().unwrap_or(f64::NAN);
-        Err(Failure::NoConvergence(self.settings.most_iterations, share))
-    }
+    /// The first particle that cannot take these values.
+    fn at(&mut self, x: Vec<f64>) -> Result<Point<Self::Trial>, (usize, Fault)>;
 
-    /// K⁻¹ `residual`.
+    /// Whether a point solves the equations.
+    fn solved_by(&self, point: &Point<Self::Trial>) -> bool;
+
+    /// Correction of the unknowns, K⁻¹ times the residual.
+    ///
+    /// # Errors
+    /// The matrix of this iteration is singular.
     fn correction(
         &mut self,
-        trial: &Trial<D>,
-        residual: &[f64],
-        share: f64,
+        from: &Point<Self::Trial>,
         iteration: u32,
-    ) -> Result<Vec<f64>, Failure> {
-        let step = &self.step;
-        let tangents = clocked(&mut self.spent.assembly, || step.tangents(trial));
-        if self.worn {
-            let pattern = self.pattern;
-            let values = clocked(&mut self.spent.assembly, || {
-                step.stiffness(&tangents, pattern)
-            });
-            self.work.assemblies += 1;
-            self.work.factorisations += 1;
-            self.work.nonzeros += pattern.entries() as u64;
-            let factorised = clocked(&mut self.spent.factorisation, || {
-                self.direct.factorise(&values)
-            });
-            factorised.map_err(|_| Failure::Singular(iteration))?;
-        }
-        let begun = Instant::now();
-        let found = if step.average.is_some() {
-            let enough = 0.1 * self.settings.tolerance / share;
-            let accuracy = share.min(COARSE).max(enough).max(1e-12);
-            let before = self.work.linear_iterations;
-            let found = self.conjugate_gradients(&tangents, residual, accuracy);
-            self.worn = self.work.linear_iterations - before > MANY_GRADIENTS;
-            found
-        } else {
-            self.work.linear_iterations += 1;
-            Some(self.by_factors(residual))
-        };
-        self.spent.solution += begun.elapsed().as_secs_f64();
-        let usable = |x: &Vec<f64>| x.iter().all(|x| x.is_finite());
-        found.filter(usable).ok_or(Failure::Singular(iteration))
-    }
+    ) -> Result<Vec<f64>, Failure>;
 
-    /// The displacements that the factors give for `right`, without forces on what else the matrix has.
-    fn by_factors(&mut self, right: &[f64]) -> Vec<f64> {
-        let mut x = vec![0.0; self.pattern.len()];
-        for (x, r) in x.chunks_exact_mut(self.pattern.width).zip(right.chunks(D)) {
-            x[..D].copy_from_slice(r);
-        }
-        self.direct.solve(&mut x);
-        let of_nodes = x.chunks_exact(self.pattern.width);
-        of_nodes.flat_map(|x| x[..D].iter().copied()).collect()
-    }
+    /// Largest share of a correction to try.
+    fn largest_share(&self, from: &Point<Self::Trial>, correction: &[f64]) -> f64;
 
-    /// Conjugate gradients with the exact stiffness of F̄, preconditioned by the factors of Eq. (13). Where the
-    /// stiffness is not positive they stop at what they have.
-    fn conjugate_gradients(
-        &mut self,
-        tangents: &[Tangent<D>],
-        right: &[f64],
-        accuracy: f64,
-    ) -> Option<Vec<f64>> {
-        let nodes = self.external.len();
-        let mut x = vec![0.0; right.len()];
-        let mut rest = right.to_vec();
-        let mut direction = self.by_factors(&rest);
-        let mut product = dot(&rest, &direction);
-        let target = accuracy * norm(right);
-        for iteration in 0..MOST_GRADIENTS {
-            if norm(&rest) <= target {
-                return Some(x);
-            }
-            self.work.linear_iterations += 1;
-            let image = self.step.apply(tangents, &direction, nodes);
-            let curvature = dot(&direction, &image);
-            if curvature <= 0.0 || product <= 0.0 {
-                return (iteration > 0).then_some(x);
-            }
-            let length = product / curvature;
-            for (x, d) in x.iter_mut().zip(&direction) {
-                *x += length * d;
-            }
-            for (r, a) in rest.iter_mut().zip(&image) {
-                *r -= length * a;
-            }
-            let next = self.by_factors(&rest);
-            let ahead = dot(&rest, &next);
-            let share = ahead / product;
-            for (d, z) in direction.iter_mut().zip(&next) {
-                *d = z + share * *d;
-            }
-            product = ahead;
-        }
-        None
-    }
+    /// Whether the line search ends at the point `ahead`.
+    fn accepts(
+        &self,
+        from: &Point<Self::Trial>,
+        correction: &[f64],
+        ahead: &Point<Self::Trial>,
+    ) -> bool;
+
+    /// Ledger of the run.
+    fn ledger(&mut self) -> &mut Ledger;
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Solution of the equations.
+pub(crate) struct Solved<T> {
+    pub(crate) point: Point<T>,
+    /// Last correction, and the residual before it; zero and empty without one.
+    pub(crate) last: (Vec<f64>, Vec<f64>),
+    /// Shares of the residual, at the start and after every iteration.
+    pub(crate) shares: Vec<f64>,
+}
 
-    /// Parts that fail as often as told, and the shares of a step that are done.
-    fn parts(most_halvings: u32, fails: impl Fn(f64, f64) -> bool) -> (Option<u32>, Vec<[f64; 2]>) {
-        let mut made = Vec::new();
-        let count = in_parts(most_halvings, |done, size| {
-            if fails(done, size) {
-                return Err(Failure::Singular(0));
+/// Solves `equations` from a point on.
+///
+/// # Errors
+/// No solution after `most_iterations`, or none along a correction; a singular matrix.
+pub(crate) fn solve<E: Equations>(
+    equations: &mut E,
+    mut point: Point<E::Trial>,
+    most_iterations: u32,
+) -> Result<Solved<E::Trial>, Failure> {
+    let mut last = (vec![0.0; point.x.len()], Vec::new());
+    let mut shares = Vec::new();
+    for iteration in 0.. {
+        let share = point.share;
+        shares.push(share);
+        if equations.solved_by(&point) {
+            break;
+        }
+        if iteration == most_iterations {
+            return Err(Failure::NoConvergence(iteration, share));
+        }
+        let correction = equations.correction(&point, iteration)?;
+        let mut length = equations.largest_share(&point, &correction);
+        let mut cuts = 0;
+        let ahead = loop {
+            let pairs = point.x.iter().zip(&correction);
+            match equations.at(pairs.map(|(x, c)| x + length * c).collect()) {
+                Ok(ahead) if equations.accepts(&point, &correction, &ahead) => break ahead,
+                Ok(_) if cuts == E::MOST_CUTS => {
+                    return Err(Failure::NoConvergence(iteration, share));
+                }
+                Err(fault) if cuts == E::MOST_CUTS => return Err(fault.into()),
+                _ => {}
             }
-            made.push([done, size]);
-            Ok(())
-        });
-        (count.ok(), made)
+            length *= 0.5;
+            cuts += 1;
+        };
+        last = (correction, std::mem::replace(&mut point, ahead).residual);
+        equations.ledger().work.newton_iterations += 1;
     }
-
-    #[test]
-    fn parts_are_halved_and_doubled_and_make_up_the_step() {
-        assert_eq!(parts(3, |_, _| false), (Some(1), vec![[0.0, 1.0]]));
-        // Hard at the start alone: the last part ends with the step.
-        let (count, made) = parts(3, |done, size| done == 0.0 && size > 0.125);
-        let expected = [[0.0, 0.125], [0.125, 0.25], [0.375, 0.5], [0.875, 0.125]];
-        assert_eq!((count, made), (Some(4), expected.to_vec()));
-        // One halving less than is needed, and as many.
-        let hard = |_, size: f64| size > 0.125;
-        assert_eq!(parts(2, hard), (None, Vec::new()));
-        assert_eq!(parts(3, hard).0, Some(8));
-    }
+    Ok(Solved {
+        point,
+        last,
+        shares,
+    })
 }

@@ -22,7 +22,6 @@ pub struct Moduli {
 
 impl Moduli {
     /// Young's modulus (Pa).
-    #[must_use]
     pub fn young(&self) -> f64 {
         self.mu * (3.0 * self.lambda + 2.0 * self.mu) / (self.lambda + self.mu)
     }

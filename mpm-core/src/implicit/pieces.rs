@@ -17,14 +17,15 @@ pub struct AxisPieces {
     pub periodic: bool,
     /// Whether walls stand at the ends.
     pub walls: (bool, bool),
-    /// Of every interval, whose first function has its index, the k-th derivatives of its k + 1 functions (1/mᵏ).
+    /// k-th derivatives (1/mᵏ) of the k + 1 functions of every interval, whose first function has its index.
     pub top: Vec<[f64; MOST]>,
-    /// Of every interval ∫ w w′ dx (m).
+    /// ∫ w w′ dx (m) of every interval.
     pub mass: Vec<[[f64; MOST]; MOST]>,
 }
 
 impl AxisPieces {
-    /// Of the spline of degree `S` − 1 on an axis with `beyond` more intervals at either end than `walls` stand at.
+    /// Pieces of the spline of degree `S` − 1 on an axis with `beyond` more intervals at either end than `walls` stand
+    /// at.
     fn new<const S: usize>(axis: &Axis, h: f64, beyond: usize, walls: (bool, bool)) -> Self {
         let spline = BSpline::<S>::new(axis, h, WallTreatment::OpenKnot);
         let degree = S - 1;

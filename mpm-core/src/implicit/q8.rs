@@ -1,20 +1,19 @@
-//! Serendipity elements with eight nodes, the paper's: to reproduce its cantilever, which they don't converge to.
+//! Serendipity elements with eight nodes, the paper's: to reproduce its cantilever, which they do not converge to.
 //!
 //! Corners and mid-sides stand on a lattice of half the cell size, whose points in the middle of cells are no nodes.
 
 use super::domains::Domains;
+use super::extension;
 use super::extension::{Nodes, Shares};
-use super::interpolation::{Functions, Interpolation};
-use super::penalty::{Moduli, Penalty};
+use super::functions::Functions;
+use super::interpolation::Interpolation;
+use super::penalty::Penalty;
 use super::settings::Stabilisation;
-use super::{extension, soft};
 use crate::error::{Error, require};
 use crate::grid::Grid;
 
 /// Nodes of an element.
 const NODES: usize = 8;
-/// Gauss points along an axis that integrate the stiffness of an undistorted element exactly.
-const POINTS: usize = 3;
 
 /// Serendipity elements on the cells of a grid.
 #[derive(Debug, Clone)]
@@ -133,7 +132,7 @@ impl Interpolation<2> for Serendipity {
                 allowed: "none or soft: their derivatives jump across all faces",
             }),
             Stabilisation::Extension => Err(Error::Input {
-                what: "extension of serendipity elements, share of a full function",
+                what: "extension of serendipity elements, threshold",
                 value: extension::HARDLY,
                 allowed: "none or soft: mid-side functions have no linear extension by neighbours along an axis",
             }),
@@ -141,16 +140,13 @@ impl Interpolation<2> for Serendipity {
         }
     }
 
-    fn penalties(
-        &self,
-        stabilisation: Stabilisation,
-        moduli: Moduli,
-        _domains: Domains<2>,
-    ) -> Vec<Penalty> {
-        match stabilisation {
-            Stabilisation::Soft(factor) => soft::penalties(self, POINTS, factor, moduli),
-            _ => Vec::new(),
-        }
+    fn points(&self) -> usize {
+        3
+    }
+
+    /// Not [offered](Self::offers).
+    fn ghost(&self, _strength: f64, _components: usize, _domains: Domains<2>) -> Vec<Penalty> {
+        Vec::new()
     }
 
     /// Not [offered](Self::offers): every node has its own unknowns.
@@ -160,7 +156,6 @@ impl Interpolation<2> for Serendipity {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::grid::Axis;

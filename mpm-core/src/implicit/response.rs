@@ -1,8 +1,8 @@
-//! What one particle answers to a trial ΔF of the step, and the derivatives of the answer.
+//! Response of one particle to a trial ΔF of the step, and its derivatives.
 //!
-//! All stresses here are first Piola–Kirchhoff stresses of the configuration at the step's start, times volume: a node's
-//! force is Σ P ∇w. With F̄ a particle has a potential V⁰ W(F̄) of ΔF and of its averaged change of volume a = A ΔJ,
-//! F̄ = (a/ΔJ)^(1/D) ΔF F̄ⁿ. Its derivatives are P = ∂/∂ΔF and q = ∂/∂a, Eqs. (8) and (9) of `docs/implicit.md`.
+//! All stresses here are first Piola–Kirchhoff stresses of the configuration at the step's start, times volume: a
+//! node's force is Σ P ∇w. With F̄ a particle has a potential V⁰ W(F̄) of ΔF and of its averaged change of volume a = A
+//! ΔJ, F̄ = (a/ΔJ)^(1/D) ΔF F̄ⁿ. Its derivatives are P = ∂/∂ΔF and q = ∂/∂a, Eqs. (8) and (9) of `docs/implicit.md`.
 
 use crate::material::{Law, State};
 use crate::number::{Dual, Real};
@@ -10,13 +10,13 @@ use crate::tensor::determinant;
 use nalgebra::{Matrix3, SMatrix};
 
 /// Most components of a ΔF.
-const MOST: usize = 9;
+pub(crate) const MOST: usize = 9;
 
 /// A particle at the start of a step.
 pub(super) struct Particle<'a, M: Law> {
     /// The law.
     pub(super) law: &'a M,
-    /// What it remembers.
+    /// State of the law.
     pub(super) state: &'a M::State,
     /// Duration of the step (s).
     pub(super) dt: f64,
@@ -35,7 +35,27 @@ pub(super) struct Response<T> {
 }
 
 /// A component for every pair of axes.
-pub(super) type Square<const D: usize> = [[f64; D]; D];
+pub(crate) type Square<const D: usize> = [[f64; D]; D];
+
+/// The minor of `f` without the row `i` and the column `j`, with its sign.
+#[inline(always)]
+pub(crate) fn minor<T: Real>(f: &Matrix3<T>, i: usize, j: usize) -> T {
+    let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+    f[(a, c)] * f[(b, d)] - f[(a, d)] * f[(b, c)]
+}
+
+/// `f`, completed to three dimensions, of variables: the component in the place D i + j is the variable of that number.
+pub(crate) fn variables<const D: usize, const N: usize>(
+    f: &SMatrix<f64, D, D>,
+) -> Matrix3<Dual<N>> {
+    Matrix3::from_fn(|i, j| {
+        if i < D && j < D {
+            Dual::variable(f[(i, j)], D * i + j)
+        } else {
+            Dual::splat(if i == j { 1.0 } else { 0.0 })
+        }
+    })
+}
 
 /// The derivatives of an answer by ΔF and by a.
 #[derive(Debug, Clone, Copy)]
@@ -50,7 +70,7 @@ pub(super) struct Tangent<const D: usize> {
     pub(super) pull_by_a: f64,
     /// The cofactor of ΔF.
     pub(super) cofactor: Square<D>,
-    /// What resists the particle's displacement: of a contact (N/m).
+    /// Stiffness against the particle's displacement, of contacts (N/m).
     pub(super) held: SMatrix<f64, D, D>,
 }
 
@@ -71,14 +91,10 @@ impl<M: Law> Particle<'_, M> {
         f: &Matrix3<T>,
         averaged: Option<T>,
     ) -> Response<T> {
-        let minor = |i: usize, j: usize| {
-            let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-            f[(a, c)] * f[(b, d)] - f[(a, d)] * f[(b, c)]
-        };
         let mut cofactor = [T::default(); MOST];
         for i in 0..D {
             for j in 0..D {
-                cofactor[D * i + j] = minor(i, j);
+                cofactor[D * i + j] = minor(f, i, j);
             }
         }
         let state = M::State::pack::<T>(|_| *self.state);
@@ -145,15 +161,8 @@ impl<M: Law> Particle<'_, M> {
         averaged: Option<f64>,
         share: f64,
     ) -> Tangent<D> {
-        let variables = Matrix3::from_fn(|i, j| {
-            if i < D && j < D {
-                Dual::<N>::variable(f[(i, j)], D * i + j)
-            } else {
-                Dual::splat(if i == j { 1.0 } else { 0.0 })
-            }
-        });
         let averaged = averaged.map(|a| Dual::variable(a, D * D));
-        let answer = self.respond::<_, D>(&variables, averaged);
+        let answer = self.respond::<_, D>(&variables::<D, N>(f), averaged);
         let mut tangent = Tangent {
             stress_by_f: [[[[0.0; D]; D]; D]; D],
             stress_by_a: [[0.0; D]; D],

@@ -1,9 +1,9 @@
-//! How a scene is solved, and how well that went.
+//! Settings of the implicit solver.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 
-/// What holds functions that see hardly any material. Penalties act on the increment of a step, so that what they add to
-/// equilibrium vanishes with the steps; an extension adds nothing.
+/// Stabilisation of functions that see hardly any material. Penalties act on the increment of a step, so that their
+/// contribution to equilibrium vanishes with the step; an extension adds nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stabilisation {
     /// Nothing.
@@ -37,8 +37,8 @@ pub enum TimeRule {
         /// β, the share of the lumped mass.
         lumped: f64,
     },
-    /// Newmark's rule with the lumped mass, equilibrium at the end of the step, as Eqs. (22) to (32) of Wang et al. 2016,
-    /// doi:10.1016/j.compgeo.2015.08.008, are printed.
+    /// Newmark's rule with the lumped mass, equilibrium at the end of the step, as Eqs. (22) to (32) of Wang et al.
+    /// 2016, doi:10.1016/j.compgeo.2015.08.008, are printed.
     Newmark {
         /// α of Eq. (23).
         alpha: f64,
@@ -56,7 +56,7 @@ impl TimeRule {
         }
     }
 
-    /// What a force does on the way through a step, of its value at the start and that where the equations hold.
+    /// Shares in a force's work over a step: of its value at the start, and of that where the equations hold.
     pub(super) fn shares(self) -> [f64; 2] {
         match self {
             Self::Midpoint { .. } => [0.0, 1.0],
@@ -92,7 +92,7 @@ impl TimeRule {
     }
 }
 
-/// How the implicit solver solves a scene.
+/// Settings of the implicit solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Duration of a load step (s), or its share of the load: whatever the loads take for time.
@@ -101,10 +101,10 @@ pub struct Settings {
     pub rule: TimeRule,
     /// The locking remedy.
     pub remedy: Remedy,
-    /// What holds functions that see hardly any material.
+    /// Stabilisation of functions that see hardly any material.
     pub stabilisation: Stabilisation,
-    /// A step has converged when the free nodes' residual is at most this share of the loads; where a constraint moves, of
-    /// reactions, if they are greater.
+    /// A step has converged when the free nodes' residual is at most this share of the loads; where a constraint moves,
+    /// of reactions, if they are greater.
     pub tolerance: f64,
     /// A step that takes more Newton iterations is halved.
     pub most_iterations: u32,
@@ -145,6 +145,12 @@ impl Settings {
         }
     }
 
+    /// With a tolerance of Newton's method.
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
     /// With a remedy.
     #[must_use]
     pub fn remedy(self, remedy: Remedy) -> Self {
@@ -161,14 +167,14 @@ impl Settings {
             alpha == 0.0,
             "local damping of an implicit run",
             alpha,
-            "0: -alpha |F| sign(v) is not differentiable, so that a step can have no solution, and by the step before it \
-             does not come to rest; static steps find the state of rest",
+            "0: -alpha |F| sign(v) is not differentiable, so a step may have no solution; lagged by a step, it does not come \
+             to rest. Static steps find the state of rest",
         )?;
         Ok(self)
     }
 
     pub(super) fn check(&self) -> Result<(), Error> {
-        require(self.dt > 0.0, "load step", self.dt, "positive (s)")?;
+        positive(self.dt, "load step", "positive (s)")?;
         self.rule.check()?;
         let [least, greatest] = TOLERANCES;
         require(

@@ -1,19 +1,19 @@
 //! The paper's soft stiffness: a small share of the elastic stiffness of the whole mesh, as if it were full.
 
-use super::interpolation::{Functions, Interpolation};
+use super::functions::Functions;
+use super::interpolation::Interpolation;
 use super::penalty::{Moduli, Penalty};
 use super::pieces::gauss;
 use nalgebra::DMatrix;
 
-/// The penalties of the cells of a grid, each integrated with so many Gauss points along an axis.
+/// Penalties of all cells of the grid.
 pub(super) fn penalties<const D: usize, I: Interpolation<D>>(
     functions_of: &I,
-    points: usize,
     factor: f64,
     moduli: Moduli,
 ) -> Vec<Penalty> {
     let grid = functions_of.grid();
-    let rule: Vec<(f64, f64)> = gauss(points).collect();
+    let rule: Vec<(f64, f64)> = gauss(functions_of.points()).collect();
     let cells = grid.axes.map(|axis| axis.cells);
     let mut found = Vec::new();
     let mut functions = Functions::new();

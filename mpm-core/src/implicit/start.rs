@@ -4,18 +4,18 @@ use super::held;
 use super::linear::Direct;
 use super::{Interpolation, Moduli, Remedy, Settings, Solver, Stabilisation, TimeRule, contact};
 use crate::error::{Error, require};
+use crate::ledger::Ledger;
 use crate::material::Law;
-use crate::monitor::{Accumulated, Convergence, Reaction, Residual};
+use crate::monitor::Convergence;
 use crate::room::Room;
 use crate::scene::Scene;
-use crate::work::{Spent, Work};
 use nalgebra::Matrix3;
 
 impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// A solver of `scene` with `settings` at time zero.
     ///
     /// # Errors
-    /// A setting or particle that is not allowed; a stabilisation that the functions don't offer; F̄ with a law that is
+    /// A setting or particle that is not allowed; a stabilisation that the functions do not offer; F̄ with a law that is
     /// not conservative or friction that can slip; a contact across a periodic axis; a constraint on one side only; a
     /// particle off the grid.
     pub fn new(mut scene: Scene<D, M>, settings: Settings) -> Result<Self, Error> {
@@ -25,9 +25,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let averages = settings.remedy == Remedy::FbarConsistent;
         require(
             M::CONSERVATIVE || !averages,
-            "F-bar in variational form, of laws without a potential",
+            "variational F-bar with a law without a potential",
             1.0,
-            "not with a rate of stress or a viscosity: remedy none",
+            "remedy none: the law has a rate of stress or a viscosity",
         )?;
         let functions = I::on(scene.grid)?;
         functions.offers(settings.stabilisation)?;
@@ -38,27 +38,18 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             moduli.mu > 0.0 || inertia_alone,
             "shear modulus of a quasi-static or stabilised run",
             moduli.mu,
-            "positive (Pa): a fluid has no equilibrium to be found so",
+            "positive (Pa): a fluid has no static equilibrium",
         )?;
+        scene.check_half_size()?;
         let particles = &mut scene.body.particles;
-        for l in particles.half_size {
-            require(
-                l <= 0.5 * scene.grid.h,
-                "particle half size",
-                l,
-                "at most half a cell (m)",
-            )?;
-        }
+        let mut ledger = Ledger::new(particles.len(), functions.len(), scene.constraints.len());
+        ledger.convergence = Some(Convergence::default());
         let room = Room::new(&scene.grid, particles.half_size.map(I::beyond_wall));
-        for (x, id) in particles.position.iter_mut().zip(&particles.id) {
-            room.place(x).map_err(|fault| Error::Breakdown {
-                time: 0.0,
-                step: 0,
-                particle: *id,
-                fault,
-            })?;
+        for (k, x) in particles.position.iter_mut().enumerate() {
+            let placed = room.place(x);
+            placed.map_err(|fault| ledger.breakdown(&particles.id, k, fault))?;
         }
-        // What a step of this rule doesn't need.
+        // Columns that a step of this rule does not need.
         match settings.rule {
             TimeRule::Static => particles.velocity = Vec::new(),
             TimeRule::Midpoint { .. } => {}
@@ -77,24 +68,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         for contact in &mut scene.contacts {
             contact.attach(particles.len());
         }
-        let work = Work {
-            particles: particles.len() as u64,
-            nodes: functions.len() as u64,
-            ..Work::default()
-        };
         let mut solver = Self {
             originals: functions.originals(),
             held: held::components(&functions, &scene),
             moduli,
             direct: Direct::new(contact::is_symmetric(&scene)),
             advance: Vec::new(),
-            time: 0.0,
-            accumulated: Accumulated::default(),
-            residual: Residual::default(),
-            convergence: Convergence::default(),
-            reactions: vec![Reaction::default(); scene.constraints.len()],
-            work,
-            spent: Spent::default(),
+            ledger,
             functions,
             scene,
             settings,

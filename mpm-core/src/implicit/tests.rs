@@ -2,12 +2,13 @@
 
 use super::*;
 use crate::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use crate::fixture::Affine;
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::material::{Hencky, HenckyJ2, Hypoelastic, JaumannUpdate, NeoHookean, Strength};
-use crate::memory::{Memory, Memoryless};
+use crate::memory::Memory;
 use crate::space::embed;
-use crate::stage::{BodyForce, Constraint, End, Wall, WallKind};
+use crate::stage::{BodyForce, End, Wall, WallKind};
 use nalgebra::SMatrix;
 
 const YOUNG: f64 = 1e5;
@@ -83,27 +84,6 @@ fn places_of<I: Interpolation<D>, const D: usize>() -> Places {
     }
 }
 
-/// Moves the nodes at the faces of the grid, and beyond, as the field u = G (x − c) does, with the centre c.
-struct Affine<const D: usize>(SMatrix<f64, D, D>);
-
-impl<const D: usize> Memoryless for Affine<D> {}
-
-impl<const D: usize> Constraint<D> for Affine<D> {
-    fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {
-        let on_face = |(x, a): (&f64, &Axis)| *x < a.lo + 1e-9 || *x > a.hi(grid.h) - 1e-9;
-        let at_edge = position.iter().zip(&grid.axes).any(on_face);
-        at_edge.then(|| {
-            (0..D)
-                .map(|b| self.0[(axis, b)] * (position[b] - CENTRE))
-                .sum()
-        })
-    }
-
-    fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
-        self
-    }
-}
-
 /// The stresses after one step of the particles that lie within `radius` (m) of the centre, which is affine too.
 fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
     law: &M,
@@ -114,19 +94,22 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
     let mut scene = full::<D, _>(CELLS, places_of::<I, D>(), law.clone());
     let p = &scene.body.particles;
     let from_centre = |x: &[f64; D]| SVector::from(*x).add_scalar(-CENTRE);
-    let within = p
-        .position
-        .iter()
-        .copied()
-        .filter(|x| from_centre(x).norm() <= radius);
+    let places = p.position.iter().copied();
+    let within = places.filter(|x| from_centre(x).norm() <= radius);
     let volume = p.reference_volume[0];
     let some = Particles::new(within.collect(), volume, 1000.0, p.half_size).unwrap();
     scene.body = Body::new(law.clone(), some).unwrap();
-    let settings = Settings {
-        tolerance: 1e-13,
-        ..Settings::new(1.0).stabilised(stabilisation)
-    };
-    let mut solver = Solver::<D, I, M>::new(scene.constrain(Affine(gradient)), settings).unwrap();
+    let settings = Settings::new(1.0)
+        .stabilised(stabilisation)
+        .tolerance(1e-13);
+    let mut solver = Solver::<D, I, M>::new(
+        scene.constrain(Affine {
+            gradient,
+            centre: CENTRE,
+        }),
+        settings,
+    )
+    .unwrap();
     solver.step().unwrap();
     // Parts of an affine motion, one after the other, are another one.
     assert_eq!(solver.convergence().unwrap().parts, 1);
@@ -192,11 +175,7 @@ fn standing<const D: usize, M: Law>(
     law: M,
     weight: f64,
 ) -> Scene<D, M> {
-    let rollers = (0..D).map(|axis| Wall {
-        axis,
-        end: End::Lo,
-        kind: WallKind::Roller,
-    });
+    let rollers = (0..D).map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));
     let axis = Axis::bounded(0.0, cells + 2, (Side::Wall, Side::Open));
     filled([axis; D], cells, places, law)
         .constrain_all(rollers)
@@ -207,14 +186,13 @@ fn standing<const D: usize, M: Law>(
         })))
 }
 
-/// Near the end an iteration squares the error of Newton's method: of three residuals in a row ln(e₃/e₂)/ln(e₂/e₁) comes to
-/// two before rounding ends it.
+/// Near the end an iteration squares the error of Newton's method: of three residuals in a row ln(e₃/e₂)/ln(e₂/e₁)
+/// comes to two before rounding ends it.
 #[test]
 fn newton_converges_quadratically() {
-    let settings = Settings {
-        tolerance: 1e-11,
-        ..Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01))
-    };
+    let settings = Settings::new(1.0)
+        .stabilised(Stabilisation::Ghost(0.01))
+        .tolerance(1e-11);
     for remedy in [Remedy::None, Remedy::FbarConsistent] {
         let scene = standing::<2, _>(
             4,
@@ -278,7 +256,7 @@ fn bar_error<I: Interpolation<1>>(cells: usize) -> f64 {
     (squares / p.len() as f64).sqrt() / sinking(height, height, weight, &law).abs()
 }
 
-/// Of second order, as particles at Gauss points integrate; at the base the bar is compressed by a quarter.
+/// Second order, as particles stand at Gauss points; at the base the bar is compressed by a quarter.
 #[test]
 fn a_bar_sinks_under_its_weight_as_exactly() {
     for error in [
@@ -306,11 +284,7 @@ fn ground() -> Scene<2, HenckyJ2> {
         Axis::walls(0.0, 8),
         Axis::bounded(0.0, 10, (Side::Wall, Side::Open)),
     ];
-    let roller = |axis, end| Wall {
-        axis,
-        end,
-        kind: WallKind::Roller,
-    };
+    let roller = |axis, end| Wall::new(axis, end, WallKind::Roller);
     filled(axes, 8, Places::Uniform, law).constrain_all([
         roller(0, End::Lo),
         roller(0, End::Hi),
@@ -335,14 +309,10 @@ fn loaded(remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
 fn the_number_of_threads_changes_no_bit() {
     for remedy in [Remedy::None, Remedy::FbarConsistent] {
         let with = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .unwrap();
-            pool.install(|| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            pool.build().unwrap().install(|| {
                 let mut solver = loaded(remedy);
-                solver.step().unwrap();
-                solver.step().unwrap();
+                solver.advance(2).unwrap();
                 assert!(solver.field(Field::PlasticStrain).iter().any(|e| *e > 0.0));
                 (bits(&solver), solver.work())
             })
@@ -397,11 +367,7 @@ fn loner(stabilisation: Stabilisation) -> f64 {
     positions.push([H * (CELLS as f64 + 0.1), H * 2.1]);
     let more = Particles::new(positions, p.reference_volume[0], 1000.0, p.half_size).unwrap();
     scene.body = Body::new(law, more).unwrap();
-    let wall = Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Fixed,
-    };
+    let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).stabilised(stabilisation);
     Solver::<2, Quadratics<2>, _>::new(scene.constrain(wall), settings)
         .unwrap()
@@ -437,13 +403,7 @@ fn what_is_not_allowed_is_named() {
         assert!(error.to_string().contains(what), "{error}");
     };
     refused(Settings::new(0.0), "load step");
-    refused(
-        Settings {
-            tolerance: 0.5,
-            ..Settings::new(1.0)
-        },
-        "tolerance",
-    );
+    refused(Settings::new(1.0).tolerance(0.5), "tolerance");
     refused(
         Settings::new(1.0).stabilised(Stabilisation::Ghost(-1.0)),
         "stabilisation",
@@ -452,11 +412,7 @@ fn what_is_not_allowed_is_named() {
         Settings::new(1.0).stabilised(Stabilisation::Soft(0.01)),
         "ghost",
     );
-    let wall = Wall {
-        axis: 0,
-        end: End::Hi,
-        kind: WallKind::Separable,
-    };
+    let wall = Wall::new(0, End::Hi, WallKind::Separable);
     let error = Solver::<2, Means<2>, _>::new(scene().constrain(wall), Settings::new(1.0));
     assert!(error.err().unwrap().to_string().contains("one-sided"));
     let law = Hypoelastic::new(YOUNG, POISSON, JaumannUpdate::Split).unwrap();

@@ -9,16 +9,16 @@ const NONE: usize = usize::MAX;
 
 /// The components of displacement of the nodes that a step moves.
 pub(crate) struct Unknowns<const D: usize> {
-    /// Of every node its place among those that move, `NONE` of one that sees nothing.
+    /// Place of every node among those that move; `NONE` for one that sees nothing.
     place: Vec<usize>,
     /// The nodes, in their order.
     pub(crate) node: Vec<usize>,
-    /// Of every unknown the increment (m) at which it is held.
+    /// Prescribed increment (m) of every unknown that is held.
     pub(crate) held: Vec<Option<f64>>,
 }
 
 impl<const D: usize> Unknowns<D> {
-    /// The components of so many nodes, on cells of a size (m), that see a particle or a penalty.
+    /// Components of the nodes that see a particle or a penalty, from the number of nodes and the cell size (m).
     pub(crate) fn new(
         (nodes, h): (usize, f64),
         elements: &Elements<D>,
@@ -74,7 +74,7 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// Of matrices with `width` components a node.
+    /// Pattern of matrices with `width` components a node.
     pub(crate) fn new<const D: usize>(
         width: usize,
         unknowns: &Unknowns<D>,

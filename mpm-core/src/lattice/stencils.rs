@@ -62,7 +62,6 @@ impl<const D: usize, const S: usize> Stencils<D, S> {
 
     /// The `l`-th.
     #[inline(always)]
-    #[must_use]
     pub fn at(&self, l: usize) -> StencilRef<'_, D, S> {
         StencilRef { of: self, l }
     }
@@ -78,22 +77,19 @@ pub struct StencilRef<'a, const D: usize, const S: usize> {
 impl<const D: usize, const S: usize> StencilRef<'_, D, S> {
     /// Which of the eight.
     #[inline(always)]
-    #[must_use]
     pub fn place(&self) -> usize {
         self.l
     }
 
     /// The first node.
     #[inline(always)]
-    #[must_use]
     pub fn first(&self) -> usize {
         self.of.first[self.l] as usize
     }
 
-    /// Of an array that begins at node `origin`, where the rows at the place `slow` begin and how many nodes further
+    /// In an array that begins at node `origin`: where the rows at the place `slow` begin, and how many nodes further
     /// the last of them ends; each begins [`StencilRef::stride`] nodes after the one before.
     #[inline(always)]
-    #[must_use]
     pub fn line(&self, slow: usize, origin: usize) -> (usize, usize) {
         let begin = self.first() - origin;
         match D {
@@ -108,7 +104,6 @@ impl<const D: usize, const S: usize> StencilRef<'_, D, S> {
 
     /// Nodes from one row to the next in a line.
     #[inline(always)]
-    #[must_use]
     pub fn stride(&self) -> usize {
         if D == 1 {
             0
@@ -119,21 +114,18 @@ impl<const D: usize, const S: usize> StencilRef<'_, D, S> {
 
     /// Product of the outer axes' weights of a row.
     #[inline(always)]
-    #[must_use]
     pub fn row_weight(&self, slow: usize, fast: usize) -> f64 {
         self.row_gradient(slow, fast, D - 1)
     }
 
     /// The same with the derivative (1/m) along outer axis `a`; with `D − 1` the weight.
     #[inline(always)]
-    #[must_use]
     pub fn row_gradient(&self, slow: usize, fast: usize, a: usize) -> f64 {
         self.of.rows[slow][fast][a][self.l]
     }
 
     /// The weights along the last axis, each as often as a node has components.
     #[inline(always)]
-    #[must_use]
     pub fn last(&self) -> [Node; S] {
         let mut last = [Node::ZERO; S];
         for k in 0..S {
@@ -142,9 +134,8 @@ impl<const D: usize, const S: usize> StencilRef<'_, D, S> {
         last
     }
 
-    /// The derivatives along the last axis (1/m), likewise.
+    /// The derivatives along the last axis (1/m), each repeated for the components of a node.
     #[inline(always)]
-    #[must_use]
     pub fn slope(&self) -> [Node; S] {
         let mut slope = [Node::ZERO; S];
         for k in 0..S {

@@ -5,13 +5,13 @@
 //!
 //! ((p − ρ)/A)² + (q/B)² = 1, ρ = ½ γ p_c, A = (1 − γ) p + ½ γ p_c, B = M \[(1 − α) p + ½ α γ p_c\],
 //!
-//! of which α = γ = 1 is the ellipse q² = M² p (p_c − p) of Roscoe & Burland (1968). What flow dissipates is
+//! where α = γ = 1 gives the ellipse q² = M² p (p_c − p) of Roscoe & Burland (1968). The dissipation of flow is
 //!
 //! Φ = √(A² ε̇_v² + B² ε̇_s²),
 //!
 //! hence ε̇_v : ε̇_s = (p − ρ)/A² : q/B²: along the ellipse's normal where α = γ = 1, elsewhere not along that of the
-//! surface. The work of ρ is not dissipated but stored. Flow hardens: p_c grows by e^(ε_v/ψ) with ψ = λ − κ. The critical
-//! state is at p = ρ, q = M p. `docs/cam-clay.md` derives it.
+//! surface. The work of ρ is not dissipated but stored. Flow hardens: p_c grows by e^(ε_v/ψ) with ψ = λ − κ. The
+//! critical state is at p = ρ, q = M p. `docs/cam-clay.md` derives it.
 
 mod flow;
 mod state;
@@ -19,7 +19,7 @@ mod state;
 pub use state::CamClayState;
 
 use super::{ImprovedHencky, Law, StateOf};
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
 use flow::Trial;
@@ -57,24 +57,13 @@ impl CamClay {
         preconsolidation: f64,
         initial_pressure: f64,
     ) -> Result<Self, Error> {
-        require(
-            critical_ratio > 0.0,
-            "critical state ratio M",
-            critical_ratio,
-            "positive",
-        )?;
-        require(
-            plastic_compressibility > 0.0,
-            "plastic compressibility λ − κ",
+        positive(critical_ratio, "critical state ratio M", "positive")?;
+        positive(
             plastic_compressibility,
+            "plastic compressibility λ − κ",
             "positive: λ is above κ",
         )?;
-        require(
-            preconsolidation > 0.0,
-            "preconsolidation",
-            preconsolidation,
-            "positive (Pa)",
-        )?;
+        positive(preconsolidation, "preconsolidation", "positive (Pa)")?;
         require(
             initial_pressure > 0.0 && initial_pressure <= preconsolidation,
             "initial effective pressure",
@@ -124,17 +113,21 @@ impl CamClay {
 
 /// The elastic volume strain at a pressure (Pa), which grows without bound as pores close: by bisection.
 fn volume_at(elasticity: &ImprovedHencky, pressure: f64) -> f64 {
-    let (mut low, mut high) = ((1.0 - elasticity.porosity).ln(), 0.0);
+    let above = |volume: f64| -elasticity.volumetric(volume)[1] > pressure;
+    bisect([(1.0 - elasticity.porosity).ln(), 0.0], above)[1]
+}
+
+/// Halves a bracket until no number is left between its ends; `below` tells whether a number is below the one sought.
+fn bisect([mut low, mut high]: [f64; 2], below: impl Fn(f64) -> bool) -> [f64; 2] {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        let [_, mean, _] = elasticity.volumetric(middle);
-        if -mean > pressure {
+        if below(middle) {
             low = middle;
         } else {
             high = middle;
         }
     }
-    high
+    [low, high]
 }
 
 impl Law for CamClay {
@@ -158,11 +151,6 @@ impl Law for CamClay {
             plastic_volume: -self.initial_volume,
             plastic_strain: 0.0,
         }
-    }
-
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, CamClayState) {
-        // The stress depends on no rate: any duration will do.
-        self.update(f, 1.0, &self.initial_state())
     }
 
     #[inline(always)]

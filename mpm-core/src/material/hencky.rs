@@ -9,8 +9,8 @@ use nalgebra::Matrix3;
 /// A Hencky solid. Its state is the left Cauchy–Green tensor b = F Fᵀ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hencky {
-    bulk_modulus: f64,
-    shear_modulus: f64,
+    pub(super) bulk_modulus: f64,
+    pub(super) shear_modulus: f64,
 }
 
 impl Hencky {
@@ -39,11 +39,6 @@ impl Law for Hencky {
 
     fn initial_state(&self) -> SymmetricTensor {
         SymmetricTensor::identity()
-    }
-
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, SymmetricTensor) {
-        // The stress depends on no rate: any duration will do.
-        self.update(f, 1.0, &self.initial_state())
     }
 
     #[inline(always)]

@@ -1,14 +1,14 @@
 //! Hencky elasticity with J2 plasticity, perfect or softening.
 //!
-//! W = μ ‖dev h‖² + ½ K (tr h)² of Hencky's elastic strain h = ½ ln b_e, hence the Kirchhoff stress
-//! τ = 2μ dev h + K tr h I. It yields at **‖s‖ = κ**, s = dev τ and ‖·‖ the Frobenius norm. That is
-//! √(2/3) of the strength in uniaxial tension and √2 times the undrained shear strength s_u of plane strain:
-//! κ = √(2/3) σ_y = √2 s_u. Flow is associated and keeps the volume. [`Strength`] says how κ falls. Integrated by the exponential map (Simo 1992, doi:10.1016/0045-7825(92)90123-2), which returns
-//! along a radius, for any size of the step: exact where the direction of flow doesn't turn, of first order in
-//! the step where it does.
+//! W = μ ‖dev h‖² + ½ K (tr h)² of Hencky's elastic strain h = ½ ln b_e, hence the Kirchhoff stress τ = 2μ dev h + K tr
+//! h I. It yields at **‖s‖ = κ**, s = dev τ and ‖·‖ the Frobenius norm. That is √(2/3) of the strength in uniaxial
+//! tension and √2 times the undrained shear strength s_u of plane strain: κ = √(2/3) σ_y = √2 s_u. Flow is associated
+//! and keeps the volume. [`Strength`] says how κ falls. Integrated by the exponential map (Simo 1992,
+//! doi:10.1016/0045-7825(92)90123-2), which returns along a radius, for any size of the step: exact where the direction
+//! of flow does not turn, of first order in the step where it does.
 
 use super::strength::PER_FLOW;
-use super::{ElastoplasticState, Law, NeoHookean, Strength};
+use super::{ElastoplasticState, Hencky, Law, Strength};
 use crate::error::Error;
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
@@ -17,8 +17,7 @@ use nalgebra::Matrix3;
 /// A Hencky solid that yields.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HenckyJ2 {
-    bulk_modulus: f64,
-    shear_modulus: f64,
+    elasticity: Hencky,
     strength: Strength,
 }
 
@@ -29,11 +28,10 @@ impl HenckyJ2 {
     /// A modulus that is not positive and finite; a ratio outside (−1, 0.5); a strength that softens faster
     /// than the elastic stress can fall.
     pub fn new(young_modulus: f64, poisson_ratio: f64, strength: Strength) -> Result<Self, Error> {
-        let NeoHookean { lambda, mu } = NeoHookean::new(young_modulus, poisson_ratio)?;
-        strength.require_gentler_than(mu)?;
+        let elasticity = Hencky::new(young_modulus, poisson_ratio)?;
+        strength.require_gentler_than(elasticity.shear_modulus)?;
         Ok(Self {
-            bulk_modulus: lambda + 2.0 * mu / 3.0,
-            shear_modulus: mu,
+            elasticity,
             strength,
         })
     }
@@ -44,22 +42,16 @@ impl Law for HenckyJ2 {
 
     fn in_units(&self, stress: f64) -> Self {
         Self {
-            bulk_modulus: stress * self.bulk_modulus,
-            shear_modulus: stress * self.shear_modulus,
+            elasticity: self.elasticity.in_units(stress),
             strength: self.strength.in_units(stress),
         }
     }
 
     fn initial_state(&self) -> ElastoplasticState {
         ElastoplasticState {
-            elastic: SymmetricTensor::identity(),
+            elastic: self.elasticity.initial_state(),
             plastic_strain: 0.0,
         }
-    }
-
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, ElastoplasticState) {
-        // The stress depends on no rate: any duration will do.
-        self.update(f, 1.0, &self.initial_state())
     }
 
     #[inline(always)]
@@ -75,17 +67,21 @@ impl Law for HenckyJ2 {
         let inverse_jacobian = T::splat(1.0) / elastic.determinant().sqrt();
         let logarithm = elastic.ln();
         let direction = logarithm.deviator();
-        let (norm, mut shear) = (direction.norm(), T::splat(self.shear_modulus));
+        let Hencky {
+            bulk_modulus,
+            shear_modulus,
+        } = self.elasticity;
+        let (norm, mut shear) = (direction.norm(), T::splat(shear_modulus));
         let flow = self
             .strength
-            .flow(shear * norm, 2.0 * self.shear_modulus, plastic_strain);
+            .flow(shear * norm, 2.0 * shear_modulus, plastic_strain);
         if flow.any_positive() {
             let share = T::splat(2.0) * flow / norm.at_least(f64::MIN_POSITIVE);
             let back = direction.scale_add_identity(-share, T::default());
             elastic = elastic.times_commuting(&back.exp());
             shear -= shear * share;
         }
-        let pressure_part = T::splat(0.5 * self.bulk_modulus) * logarithm.trace();
+        let pressure_part = T::splat(0.5 * bulk_modulus) * logarithm.trace();
         let stress = direction
             .scale_add_identity(shear * inverse_jacobian, pressure_part * inverse_jacobian);
         let after = ElastoplasticState {
@@ -100,22 +96,18 @@ impl Law for HenckyJ2 {
     }
 
     fn energy(&self, state: &ElastoplasticState) -> f64 {
-        let log_jacobian = 0.5 * state.elastic.determinant().ln();
-        let deviator = 0.5 * state.elastic.ln().deviator().norm();
-        self.shear_modulus * deviator * deviator
-            + 0.5 * self.bulk_modulus * log_jacobian * log_jacobian
+        self.elasticity.energy(&state.elastic)
     }
 
-    /// K + 4μ/3 − τ₁ along the least Kirchhoff stress τ₁ of elastic material.
+    /// That of elastic material.
     #[inline(always)]
     fn wave_modulus<T: Real>(
         &self,
         j: T,
         stress: &SymmetricTensor<T>,
-        _state: &ElastoplasticState<T>,
+        state: &ElastoplasticState<T>,
     ) -> T {
-        let undeformed = self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus;
-        T::splat(undeformed) - j * stress.least_at_least()
+        self.elasticity.wave_modulus(j, stress, &state.elastic)
     }
 }
 

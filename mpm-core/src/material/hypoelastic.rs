@@ -1,12 +1,12 @@
 //! Hypoelasticity with the Jaumann rate: σ̊ = σ̇ − W σ + σ W = C : D, with Hooke's C and the Cauchy stress σ.
 //!
 //! Two integrations of a step. The second-order one takes the velocity gradient L Δt = (ΔF − I)\[½ (ΔF + I)\]⁻¹ at the
-//! middle of the step, D and W its parts, and rotates the stress of the start by all of the step's rotation, the strain's
-//! by half of it: σ′ = Q σ Qᵀ + Q½ (C : D Δt) Q½ᵀ with Cayley's Q = (I − ½ W Δt)⁻¹ (I + ½ W Δt) and Q½ of half the spin.
-//! A step that turns rigidly gives exactly the turned stress. Hughes & Winget (1980) leave C : D unrotated, of first order. The first-order one is that of Wang, Vardon, Hicks & Chen (2016), Eqs. (8)
-//! to (10): linear strain and spin of the step, spin times the stress of its start. Their Eq. (9) as printed adds
-//! −(σ Δω + Δω σ), which of an antisymmetric Δω is antisymmetric and hence no stress; Δω σ − σ Δω is meant, as their
-//! Eq. (16) shows.
+//! middle of the step, D and W its parts, and rotates the stress of the start by all of the step's rotation, the
+//! strain's by half of it: σ′ = Q σ Qᵀ + Q½ (C : D Δt) Q½ᵀ with Cayley's Q = (I − ½ W Δt)⁻¹ (I + ½ W Δt) and Q½ of half
+//! the spin. A step that turns rigidly gives exactly the turned stress. Hughes & Winget (1980) leave C : D unrotated,
+//! of first order. The first-order one is that of Wang, Vardon, Hicks & Chen (2016), Eqs. (8) to (10): linear strain
+//! and spin of the step, spin times the stress of its start. Their Eq. (9) as printed adds −(σ Δω + Δω σ), which of an
+//! antisymmetric Δω is antisymmetric and hence no stress; Δω σ − σ Δω is meant, as their Eq. (16) shows.
 
 use super::{Law, NeoHookean};
 use crate::error::Error;
@@ -110,10 +110,6 @@ impl Law for Hypoelastic {
         SymmetricTensor::default()
     }
 
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, SymmetricTensor) {
-        self.update(f, 1.0, &self.initial_state())
-    }
-
     #[inline(always)]
     fn response<T: Real>(
         &self,
@@ -170,7 +166,6 @@ impl Law for Hypoelastic {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use nalgebra::Rotation3;

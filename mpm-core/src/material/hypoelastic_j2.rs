@@ -1,9 +1,9 @@
 //! Hypoelasticity with J2 plasticity: the rate of the Cauchy stress is that of [`Hypoelastic`], and where its deviator
 //! exceeds the strength, ‖s‖ > κ, flow takes it back along a radius.
 //!
-//! The law of Section 3.3 of Wang, Vardon, Hicks & Chen (2016), doi:10.1016/j.compgeo.2015.08.008: small elastic strains
-//! in a body that turns and flows far. [`HenckyJ2`](super::HenckyJ2) is its hyperelastic counterpart; the two differ by
-//! the elastic strain.
+//! The law of Section 3.3 of Wang, Vardon, Hicks & Chen (2016), doi:10.1016/j.compgeo.2015.08.008: small elastic
+//! strains in a body that turns and flows far. [`HenckyJ2`](super::HenckyJ2) is its hyperelastic counterpart; the two
+//! differ by the elastic strain.
 
 use super::strength::PER_FLOW;
 use super::{ElastoplasticState, Hypoelastic, JaumannUpdate, Law, Strength};
@@ -57,10 +57,6 @@ impl Law for HypoelasticJ2 {
         }
     }
 
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, ElastoplasticState) {
-        self.update(f, 1.0, &self.initial_state())
-    }
-
     #[inline(always)]
     fn response<T: Real>(
         &self,
@@ -104,7 +100,6 @@ impl Law for HypoelasticJ2 {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::material::HenckyJ2;
@@ -134,8 +129,8 @@ mod tests {
         last
     }
 
-    /// Plane-strain shortening: the stress difference is 2c = √2 κ(ε), with ε from 2μ (√2 e − √(3/2) ε) = κ(ε), a linear
-    /// equation until the residual strength. A step has the strain 2 tanh(e/2) at its middle, e + O(e³).
+    /// Plane-strain shortening: the stress difference is 2c = √2 κ(ε), with ε from 2μ (√2 e − √(3/2) ε) = κ(ε), a
+    /// linear equation until the residual strength. A step has the strain 2 tanh(e/2) at its middle, e + O(e³).
     #[test]
     fn shortening_follows_the_strength() {
         let law = law(softening());

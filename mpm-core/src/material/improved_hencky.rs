@@ -3,10 +3,10 @@
 //! volumetric strain v = tr h = ln J and the porosity n = 1 − (1 − n₀)/J of a solid with incompressible grains.
 //!
 //! dn/dv = 1 − n, hence τ = 2G dev h + \[K v/n − K v² (1 − n)/(2n²)\] I, which grows without bound as n → 0. W is ours
-//! from what is told of theirs: a bulk parameter, a shear modulus and a positive porosity.
+//! from their description: a bulk parameter, a shear modulus and a positive porosity.
 
 use super::Law;
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
@@ -26,19 +26,9 @@ impl ImprovedHencky {
     /// # Errors
     /// A modulus that is not positive and finite; a porosity outside (0, 1).
     pub fn new(bulk_parameter: f64, shear_modulus: f64, porosity: f64) -> Result<Self, Error> {
-        let positive = "positive (Pa)";
-        require(
-            bulk_parameter > 0.0,
-            "bulk parameter",
-            bulk_parameter,
-            positive,
-        )?;
-        require(
-            shear_modulus > 0.0,
-            "shear modulus",
-            shear_modulus,
-            positive,
-        )?;
+        let allowed = "positive (Pa)";
+        positive(bulk_parameter, "bulk parameter", allowed)?;
+        positive(shear_modulus, "shear modulus", allowed)?;
         require(
             porosity > 0.0 && porosity < 1.0,
             "porosity",
@@ -85,11 +75,6 @@ impl Law for ImprovedHencky {
 
     fn initial_state(&self) -> SymmetricTensor {
         SymmetricTensor::identity()
-    }
-
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, SymmetricTensor) {
-        // The stress depends on no rate: any duration will do.
-        self.update(f, 1.0, &self.initial_state())
     }
 
     #[inline(always)]

@@ -29,7 +29,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt::Debug;
 
-/// What a particle remembers: numbers, and nothing more than its law needs.
+/// State of a particle: the numbers that its law needs, and no more.
 pub trait State: Copy + Send + Sync + PartialEq + Debug + Serialize + DeserializeOwned {
     /// The same made of numbers `T`.
     type Of<T: Real>;
@@ -88,14 +88,14 @@ pub type StateOf<M, T> = <<M as Law>::State as State>::Of<T>;
 
 /// A constitutive law.
 pub trait Law: Sized + Send + Sync {
-    /// What a particle remembers.
+    /// State of a particle.
     type State: State;
 
     /// Whether the stress of a step is the derivative of a potential (a stored energy; of associated plasticity, with
     /// what flow dissipates): stiffness matrices are then symmetric.
     const CONSERVATIVE: bool = true;
 
-    /// The same material in units of which a pascal is `stress`; seconds stay.
+    /// The material in units where 1 Pa = `stress`; time is unchanged.
     #[must_use]
     fn in_units(&self, stress: f64) -> Self;
 
@@ -103,7 +103,10 @@ pub trait Law: Sized + Send + Sync {
     fn initial_state(&self) -> Self::State;
 
     /// Cauchy stress (Pa) and state of a body that rests at the deformation gradient `f` and came there at no rate.
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State);
+    /// Default: of laws whose stress depends on no rate, after a step of any duration.
+    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State) {
+        self.update(f, 1.0, &self.initial_state())
+    }
 
     /// Cauchy stress (Pa) and state after the relative deformation `delta_f` over `dt` (s): the law, of one particle
     /// or of eight, or with derivatives.
@@ -171,7 +174,7 @@ pub trait Law: Sized + Send + Sync {
             .0
     }
 
-    /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that doesn't flow.
+    /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that does not flow.
     fn plastic_strain(&self, _state: &Self::State) -> f64 {
         0.0
     }

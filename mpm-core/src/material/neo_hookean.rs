@@ -4,7 +4,7 @@
 //! σ = \[μ (b − I) + λ ln J I\]/J with b = F Fᵀ.
 
 use super::Law;
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
@@ -24,12 +24,7 @@ impl NeoHookean {
     /// # Errors
     /// A modulus that is not positive and finite; a ratio outside (−1, 0.5).
     pub fn new(young_modulus: f64, poisson_ratio: f64) -> Result<Self, Error> {
-        require(
-            young_modulus > 0.0,
-            "Young's modulus",
-            young_modulus,
-            "positive (Pa)",
-        )?;
+        positive(young_modulus, "Young's modulus", "positive (Pa)")?;
         require(
             poisson_ratio > -1.0 && poisson_ratio < 0.5,
             "Poisson's ratio",
@@ -56,11 +51,6 @@ impl Law for NeoHookean {
 
     fn initial_state(&self) -> SymmetricTensor {
         SymmetricTensor::identity()
-    }
-
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, SymmetricTensor) {
-        // The stress depends on no rate: any duration will do.
-        self.update(f, 1.0, &self.initial_state())
     }
 
     #[inline(always)]

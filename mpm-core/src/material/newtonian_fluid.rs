@@ -4,7 +4,7 @@
 //! equation of state of Zhao, Jiang & Choo's dam break. With F̄, J is J̄.
 
 use super::Law;
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::{SymmetricTensor, determinant};
 use nalgebra::Matrix3;
@@ -24,12 +24,7 @@ impl NewtonianFluid {
     /// # Errors
     /// A modulus that is not positive, a viscosity that is negative, or either not finite.
     pub fn new(bulk_modulus: f64, viscosity: f64) -> Result<Self, Error> {
-        require(
-            bulk_modulus > 0.0,
-            "bulk modulus",
-            bulk_modulus,
-            "positive (Pa)",
-        )?;
+        positive(bulk_modulus, "bulk modulus", "positive (Pa)")?;
         require(
             viscosity >= 0.0,
             "viscosity",

@@ -1,7 +1,7 @@
 //! The strength κ of J2 plasticity, how flow softens it, and the flow that takes a stress back to it.
 
 use super::State;
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::{Lanes, Real};
 use crate::tensor::SymmetricTensor;
 use serde::{Deserialize, Serialize};
@@ -73,7 +73,7 @@ impl Strength {
     /// A strength that is not positive and finite, a residual strength above the peak, a slope that is not positive and
     /// finite.
     pub fn softening_linearly(peak: f64, residual: f64, slope: f64) -> Result<Self, Error> {
-        require(slope > 0.0, "slope of softening", slope, "positive (Pa)")?;
+        positive(slope, "slope of softening", "positive (Pa)")?;
         Self::new(peak, residual, Softening::Linear(slope))
     }
 
@@ -90,7 +90,7 @@ impl Strength {
     }
 
     fn new(peak: f64, residual: f64, softening: Softening) -> Result<Self, Error> {
-        require(peak > 0.0, "peak strength", peak, "positive (Pa)")?;
+        positive(peak, "peak strength", "positive (Pa)")?;
         require(
             residual > 0.0 && residual <= peak,
             "residual strength",
@@ -104,8 +104,8 @@ impl Strength {
         })
     }
 
-    /// That the strength softens no faster than the stress of a solid with the shear modulus μ (Pa) can fall; the stress
-    /// would jump at yield.
+    /// That the strength softens no faster than the stress of a solid with the shear modulus μ (Pa) can fall; the
+    /// stress would jump at yield.
     ///
     /// # Errors
     /// √(2/3) |dκ/dε| ≥ 2μ at the peak, where all that soften are steepest.
@@ -120,7 +120,6 @@ impl Strength {
     }
 
     /// κ (Pa) at an equivalent plastic strain, and its slope (Pa).
-    #[must_use]
     #[inline]
     pub fn at<T: Real>(&self, plastic_strain: T) -> (T, T) {
         let difference = T::splat(self.peak - self.residual);
@@ -140,8 +139,7 @@ impl Strength {
         (T::splat(self.residual) + excess, slope)
     }
 
-    /// What flow up to an equivalent plastic strain dissipates per reference volume (J/m³): ∫ √(3/2) κ dε.
-    #[must_use]
+    /// Dissipation up to an equivalent plastic strain per reference volume (J/m³): ∫ √(3/2) κ dε.
     pub fn plastic_work(&self, plastic_strain: f64) -> f64 {
         let difference = self.peak - self.residual;
         let above = match self.softening {
@@ -180,10 +178,10 @@ impl Strength {
     }
 }
 
-/// What a particle of a solid that yields remembers.
+/// State of a particle of a solid that yields.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ElastoplasticState<T = f64> {
-    /// What elasticity remembers: the elastic left Cauchy–Green tensor b_e of [`HenckyJ2`](super::HenckyJ2), the Cauchy
+    /// State of the elasticity: the elastic left Cauchy–Green tensor b_e of [`HenckyJ2`](super::HenckyJ2), the Cauchy
     /// stress (Pa) of [`HypoelasticJ2`](super::HypoelasticJ2).
     pub elastic: SymmetricTensor<T>,
     /// Equivalent plastic strain ε.

@@ -1,14 +1,14 @@
 //! Artificial viscosity: a pressure that resists quick compression and takes what a shock must lose.
 //!
-//! q = ρ h ε̇ (c₁ c + c₂ h ε̇) where the volume shrinks at the rate ε̇ = −(det ΔF − 1)/Δt > 0, and none elsewhere;
-//! σ = σ(law) − q I, with the density ρ = ρ₀/J of the moment, as the cells of a grid don't shrink with the material. The
+//! q = ρ h ε̇ (c₁ c + c₂ h ε̇) where the volume shrinks at the rate ε̇ = −(det ΔF − 1)/Δt > 0, and none elsewhere; σ =
+//! σ(law) − q I, with the density ρ = ρ₀/J of the moment, as the cells of a grid do not shrink with the material. The
 //! quadratic part is that of von Neumann & Richtmyer, *A method for the numerical calculation of hydrodynamic shocks*,
-//! J. Appl. Phys. 21, 232–237, 1950, doi:10.1063/1.1699639: a strong front is as wide as some cells, whatever its speed.
-//! The linear one, with the speed c of waves in undeformed material, is Landshoff's (*A numerical method for treating fluid
-//! flow in the presence of shocks*, Los Alamos LA-1930, 1955): it damps what is left behind the front.
+//! J. Appl. Phys. 21, 232–237, 1950, doi:10.1063/1.1699639: a strong front is as wide as some cells, whatever its
+//! speed. The linear one, with the speed c of waves in undeformed material, is Landshoff's (*A numerical method for
+//! treating fluid flow in the presence of shocks*, Los Alamos LA-1930, 1955): it damps what is left behind the front.
 
 use super::{Law, StateOf};
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::{SymmetricTensor, determinant};
 use nalgebra::Matrix3;
@@ -29,8 +29,8 @@ impl<M: Law> Viscous<M> {
     /// # Errors
     /// A density or a size that is not positive, a coefficient that is negative, or any not finite.
     pub fn new(law: M, density: f64, h: f64, [linear, quadratic]: [f64; 2]) -> Result<Self, Error> {
-        require(density > 0.0, "density", density, "positive (kg/m³)")?;
-        require(h > 0.0, "size of the cells", h, "positive (m)")?;
+        positive(density, "density", "positive (kg/m³)")?;
+        positive(h, "size of the cells", "positive (m)")?;
         for coefficient in [linear, quadratic] {
             let what = "coefficient of the artificial viscosity";
             require(coefficient >= 0.0, what, coefficient, "zero or positive")?;
@@ -94,8 +94,8 @@ impl<M: Law> Law for Viscous<M> {
         self.law.energy(state)
     }
 
-    /// That of the law. A step must be shorter than waves alone ask for: by √(1 + ζ²) + ζ, ζ = c₁ + 2 c₂ h ε̇/c, as of any
-    /// oscillator with such a damping.
+    /// That of the law. A step must be shorter than waves alone ask for: by √(1 + ζ²) + ζ, ζ = c₁ + 2 c₂ h ε̇/c, as of
+    /// any oscillator with such a damping.
     #[inline(always)]
     fn wave_modulus<T: Real>(
         &self,

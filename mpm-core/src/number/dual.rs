@@ -93,25 +93,21 @@ impl<const N: usize> Neg for Dual<N> {
     }
 }
 
-impl<const N: usize> AddAssign for Dual<N> {
-    #[inline]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
+macro_rules! assign {
+    ($($operation:ident, $name:ident, $operator:tt;)*) => {$(
+        impl<const N: usize> $operation for Dual<N> {
+            #[inline]
+            fn $name(&mut self, other: Self) {
+                *self = *self $operator other;
+            }
+        }
+    )*};
 }
 
-impl<const N: usize> SubAssign for Dual<N> {
-    #[inline]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl<const N: usize> MulAssign for Dual<N> {
-    #[inline]
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
+assign! {
+    AddAssign, add_assign, +;
+    SubAssign, sub_assign, -;
+    MulAssign, mul_assign, *;
 }
 
 impl<const N: usize> Real for Dual<N> {

@@ -1,11 +1,12 @@
-//! What a solution makes of the body: new places, states, domains and pressures, and what is kept of forces and water.
+//! Commit of a solution: new positions, states, domains and pressures; sums of forces and water.
 
 use super::pores::{check_width, grown, keep_before_walls};
 use super::step::{Setting, Trial};
 use super::unknowns::Place;
 use super::{OfHats, Solver};
 use crate::implicit::Functions;
-use crate::implicit::newton::{Failure, dot};
+use crate::implicit::algebra::dot;
+use crate::implicit::failure::Failure;
 use crate::material::Law;
 use crate::monitor::Residual;
 use crate::room::Room;
@@ -114,16 +115,16 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
 
     /// Keeps what a trial says of forces, work and water, before the particles move.
     fn observe(&mut self, setting: &Setting<D>, trial: &Trial<D>, dt: f64) {
-        self.residual = Residual::default();
-        for reaction in &mut self.reactions {
+        self.ledger.residual = Residual::default();
+        for reaction in &mut self.ledger.reactions {
             reaction.force = [0.0; 3];
         }
         let work_of = |forces: &[SVector<f64, D>]| -> f64 {
             let pairs = forces.iter().zip(&trial.u);
             pairs.map(|(f, u)| dot(f.as_slice(), u)).sum()
         };
-        self.accumulated.stress_work += work_of(&trial.internal);
-        self.accumulated.load_work += work_of(&trial.external);
+        self.ledger.accumulated.stress_work += work_of(&trial.internal);
+        self.ledger.accumulated.load_work += work_of(&trial.external);
         let mut lacking = vec![0.0; setting.unknowns.displacements];
         for (node, places) in setting.unknowns.displacement.iter().enumerate() {
             for (a, place) in places.iter().enumerate() {
@@ -131,8 +132,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 match (place, self.held[node][a]) {
                     (Place::Free(unknown), _) => lacking[*unknown] += force,
                     (Place::Held(_), Some(held)) => {
-                        self.residual.held_force[a] += force;
-                        let reaction = &mut self.reactions[held.by];
+                        self.ledger.residual.held_force[a] += force;
+                        let reaction = &mut self.ledger.reactions[held.by];
                         reaction.force[a] += force;
                         reaction.impulse[a] += force * dt;
                     }
@@ -140,7 +141,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 }
             }
         }
-        self.residual.free_force = lacking.iter().map(|f: &f64| f.abs()).sum();
+        self.ledger.residual.free_force = lacking.iter().map(|f: &f64| f.abs()).sum();
         // Water that a held pressure lets out is what its equation lacks.
         let mut outflow = trial.drained;
         for (place, lacking) in setting.unknowns.pressure.iter().zip(&trial.mass) {

@@ -11,7 +11,10 @@ use crate::stage::End;
 /// A force, or one per area, as a function of time (s).
 pub(super) type Force<T> = Box<dyn Fn(f64) -> T + Send + Sync>;
 
-/// What happens on a face.
+/// A function of a position (m).
+pub type OfPlace<const D: usize, T> = Box<dyn Fn(&[f64; D]) -> T + Send + Sync>;
+
+/// Boundary condition on a face.
 pub(super) enum Acts<const D: usize> {
     /// A force per area of the undeformed face: dead, whatever becomes of it.
     Load(Force<[f64; D]>),
@@ -73,7 +76,7 @@ impl<const D: usize> Face<D> {
         Self::new(particles, select, at, Acts::Load(Box::new(traction)))
     }
 
-    /// Likewise sides where the water leaves at `penalty` (m/(Pa s)) times its pressure.
+    /// The same sides, where the water leaves at `penalty` (m/(Pa s)) times its pressure.
     pub fn drained(
         particles: &Particles<D>,
         select: impl Fn(&[f64; D]) -> bool,
@@ -103,7 +106,7 @@ impl<const D: usize> Face<D> {
         }
     }
 
-    /// Refuses a face that is not one of so many `particles`.
+    /// Refuses a face chosen from another number of `particles`.
     pub(super) fn check(&self, particles: usize) -> Result<(), Error> {
         let (of, axis) = (self.chosen.len(), self.axis);
         let what = "particles of the body that a face was chosen from";

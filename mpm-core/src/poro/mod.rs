@@ -10,7 +10,6 @@
 mod commit;
 mod face;
 mod memory;
-mod newton;
 mod outside;
 mod plate;
 mod pores;
@@ -18,31 +17,33 @@ mod response;
 mod settings;
 mod start;
 mod step;
+mod system;
 mod unknowns;
 mod water;
 
-pub use face::Face;
+pub use face::{Face, OfPlace};
 pub use plate::Plate;
 pub use settings::{Predictor, PressureSpace, Settings, Tangent, VolumeRate};
-pub use water::{Conductivity, Gravity, OfPlace, Source, Water};
+pub use water::{Conductivity, Gravity, Source, Water};
 
 use crate::error::Error;
 use crate::implicit::elements::{Elements, of_domains};
+use crate::implicit::failure::{Failure, in_parts};
 use crate::implicit::held::{self, Held};
-use crate::implicit::linear::{self, Direct};
-use crate::implicit::newton::{Failure, clocked, in_parts};
+use crate::implicit::linear::{self, Direct, Linear};
 use crate::implicit::{Functions, Moduli, OfHats};
+use crate::ledger::Ledger;
 use crate::material::Law;
 use crate::memory::Saved;
-use crate::monitor::{Accumulated, Convergence, Reaction, Residual, Totals, WaterBalance};
+use crate::monitor::{Reaction, Totals, WaterBalance};
 use crate::particles::Particles;
+use crate::scene::Part;
 use crate::scene::Scene;
-use crate::simulation::{Field, Part, Simulation};
+use crate::simulation::{Field, Simulation};
 use crate::tensor::SymmetricTensor;
-use crate::work::{Spent, Work};
-use newton::Newton;
 use pores::Pores;
 use step::{Setting, Step};
+use system::System;
 use unknowns::{Place, Unknowns};
 
 /// Functions on a grid, and of every node the one that it is an image of.
@@ -59,44 +60,36 @@ pub struct Solver<const D: usize, I, M: Law> {
     solid_space: Space<I>,
     water_space: Space<I>,
     pores: Pores<D>,
-    /// Of every component of every node of the displacement whether it is held.
+    /// Constraint of every component of every node of the displacement, if held.
     held: Vec<[Option<Held>; D]>,
-    /// Likewise the plate that it belongs to.
+    /// Plate of every component of every node of the displacement.
     tied: Vec<[Option<usize>; D]>,
-    /// Of every node of the pressure whether it is held at zero.
+    /// Whether a node of the pressure is held at zero.
     drained: Vec<bool>,
     moduli: Moduli,
     direct: Direct,
-    time: f64,
-    accumulated: Accumulated,
-    residual: Residual,
-    convergence: Convergence,
-    reactions: Vec<Reaction>,
+    ledger: Ledger,
     balance: WaterBalance,
     /// Pressures of the nodes after the last step (Pa); NaN of nodes that no particle sees.
     nodal_pressure: Vec<f64>,
-    work: Work,
-    spent: Spent,
 }
 
 impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
     /// A step, in parts if the whole of it finds no solution.
     fn step(&mut self) -> Result<(), Error> {
-        let (start, dt) = (self.time, self.duration());
+        let (start, dt) = (self.ledger.time, self.duration());
         let parts = in_parts(self.settings.most_halvings, |done, size| {
             self.part(size * dt)?;
-            self.time = start + (done + size) * dt;
+            self.ledger.time = start + (done + size) * dt;
             Ok(())
         })
         .map_err(|failure| self.error(failure))?;
-        self.convergence.parts = parts;
-        self.work.steps += 1;
-        self.work.particle_steps += self.work.particles;
+        self.ledger.count_parts(parts);
         Ok(())
     }
 
-    fn time(&self) -> f64 {
-        self.time
+    fn ledger(&self) -> &Ledger {
+        &self.ledger
     }
 
     fn particles(&self) -> &Particles<D> {
@@ -104,15 +97,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
     }
 
     fn totals(&self) -> Totals {
-        self.scene.body.totals(self.accumulated)
-    }
-
-    fn residual(&self) -> Residual {
-        self.residual
-    }
-
-    fn convergence(&self) -> Option<&Convergence> {
-        Some(&self.convergence)
+        self.scene.body.totals(self.ledger.accumulated)
     }
 
     fn condition(&self) -> f64 {
@@ -128,22 +113,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
             Some(linear::condition(symmetric, &setting.pattern, &values))
         };
         of_rest().unwrap_or(f64::NAN)
-    }
-
-    fn work(&self) -> Work {
-        self.work
-    }
-
-    fn spent(&self) -> Spent {
-        self.spent
-    }
-
-    fn on(&self, part: Part) -> Reaction {
-        match part {
-            Part::Constraint(place) => self.reactions.get(place).copied(),
-            Part::Contact(_) => None,
-        }
-        .unwrap_or(Reaction::NONE)
     }
 
     fn water(&self) -> Option<&WaterBalance> {
@@ -162,6 +131,10 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
     }
 
     /// The effective stress.
+    fn on(&self, part: Part) -> Reaction {
+        self.ledger.on(part, &self.scene.contacts)
+    }
+
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
         self.scene.body.particles.stress.clone()
     }
@@ -191,7 +164,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
 impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     /// Duration of the present step (s).
     fn duration(&self) -> f64 {
-        self.settings.dt * self.settings.growth.powi(self.work.steps as i32)
+        self.settings.dt * self.settings.growth.powi(self.ledger.work.steps as i32)
     }
 
     fn equations<'a>(&'a self, setting: &'a Setting<D>, dt: f64) -> Step<'a, D, M> {
@@ -215,11 +188,11 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         if !order.is_sorted() {
             self.scene.body.permute(&order);
             self.pores.permute(&order);
-            self.work.sorts += 1;
+            self.ledger.work.sorts += 1;
         }
     }
 
-    /// Of every particle the functions of the pressure less their means over the cell that holds its centre.
+    /// Functions of the pressure at every particle, less their means over the cell that holds its centre.
     fn fluctuations(&self, water: &Elements<D>) -> Vec<Vec<f64>> {
         let space = &self.water_space;
         let grid = space.functions.grid();
@@ -254,7 +227,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     /// The unknowns of a step of `dt` (s) on the functions of displacement and pressure.
     fn unknowns(&self, elements: [&Elements<D>; 2], dt: f64) -> Unknowns<D> {
         let spaces = [&self.solid_space, &self.water_space];
-        let travel = held::travel(&self.scene.constraints, self.time, dt);
+        let travel = held::travel(&self.scene.constraints, self.ledger.time, dt);
         Unknowns::new(
             elements,
             spaces.map(|s| s.functions.len()),
@@ -265,7 +238,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         )
     }
 
-    /// What a step of `dt` (s) of the body as it is works with, under forces of loads on the particles (N).
+    /// Setting of a step of `dt` (s) from the present state, under forces of loads on the particles (N).
     fn setting(&self, dt: f64, on_particles: Vec<[f64; D]>) -> Result<Setting<D>, Failure> {
         let particles = &self.scene.body.particles;
         let spaces = [&self.solid_space, &self.water_space];
@@ -282,7 +255,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 _ => runs.push(p..p + 1),
             }
         }
-        // What ghost penalties of pressures act with (m²/Pa), on all of them and on their increments.
+        // Strengths of the ghost penalties of pressures (m²/Pa), on the pressures and on their increments.
         let flow = self.water.initial_conductivity() * dt;
         let cell = self.water_space.functions.grid().h;
         let on_all = self.settings.ghost_pressure * flow;
@@ -291,7 +264,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             self.settings.ghost_displacement * self.moduli.mu,
             on_all + on_increments,
         ];
-        // What a domain touches by rounding alone is not of the body: its nodes are no unknowns.
+        // Cells that a domain touches by rounding alone are no part of the body: their nodes are no unknowns.
         let mut sizes = Vec::new();
         let within = self.pores.domains(particles).within(&mut sizes);
         let ghosts = [(0, D), (1, 1)].map(|(k, components)| {
@@ -345,8 +318,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         })
     }
 
-    /// Pressures of the nodes (Pa) at a step's start, from which increments are measured: those of the step before; of a
-    /// node that no particle saw then what particles say of it. None where nothing acts on increments.
+    /// Pressures of the nodes (Pa) at a step's start, from which increments are measured: those of the step before; of
+    /// a node that no particle saw then what particles say of it. None where nothing acts on increments.
     fn before(&self, water: &Elements<D>, unknowns: &Unknowns<D>) -> Vec<f64> {
         let mut before = vec![0.0; self.water_space.functions.len()];
         if self.pores.slope.is_empty() {
@@ -367,7 +340,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     /// Volumes of water (m³) that sources give to the nodes in a step of `dt` (s); none without sources.
     fn inflow(&self, water: &Elements<D>, dt: f64) -> Vec<f64> {
         let particles = &self.scene.body.particles;
-        let span = [self.time, self.time + dt];
+        let span = [self.ledger.time, self.ledger.time + dt];
         let mut nodes = Vec::new();
         for source in &self.water.sources {
             nodes.resize(self.water_space.functions.len(), 0.0);
@@ -400,19 +373,18 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let particles = &mut self.scene.body.particles;
         particles.external_force.fill([0.0; D]);
         for load in &self.scene.loads {
-            load.add(self.time + dt, particles);
+            load.add(self.ledger.time + dt, particles);
         }
         let on_particles = particles.external_force.clone();
         let setting = self.setting(dt, on_particles)?;
-        self.work.analyses += u64::from(self.direct.pattern != setting.pattern);
-        let direct = &mut self.direct;
-        clocked(&mut self.spent.factorisation, || {
-            direct.analyse(&setting.pattern)
-        })
-        .map_err(|_| Failure::Singular(0))?;
         let begin = setting.unknowns.begin(&self.predicted(&setting));
         let rounding = self.rounding(&setting);
-        let mut newton = Newton {
+        let mut linear = Linear {
+            direct: &mut self.direct,
+            ledger: &mut self.ledger,
+        };
+        linear.analyse(&setting.pattern)?;
+        let mut system = System {
             step: Step {
                 body: &self.scene.body,
                 water: &self.water,
@@ -421,13 +393,12 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 setting: &setting,
             },
             rounding,
-            direct: &mut self.direct,
-            work: &mut self.work,
-            spent: &mut self.spent,
+            linear,
+            scales: Vec::new(),
         };
-        let (trial, convergence) = newton.solve(begin)?;
+        let (trial, convergence) = system.solve(begin)?;
         self.commit(&setting, trial, dt)?;
-        self.convergence = convergence;
+        self.ledger.convergence = Some(convergence);
         Ok(())
     }
 
@@ -441,7 +412,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
 
     fn error(&self, failure: Failure) -> Error {
         let ids = &self.scene.body.particles.id;
-        failure.error(self.time, self.work.steps, ids)
+        failure.error(&self.ledger, ids)
     }
 }
 

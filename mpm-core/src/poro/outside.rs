@@ -1,15 +1,15 @@
-//! What acts on a body from outside in a step: forces of faces and plates on the nodes, and drains. Each sum is the
-//! whole of what its face has, or there is no step.
+//! External actions in a step: forces of faces and plates on the nodes, and drains. Each sum must equal the whole of
+//! its face; otherwise the step fails.
 
 use super::face::{Acts, Corner, Face};
 use super::step::Drain;
 use super::unknowns::{Place, Unknowns};
 use super::{OfHats, Solver};
-use crate::implicit::newton::Failure;
+use crate::implicit::failure::Failure;
 use crate::material::Law;
 use nalgebra::SVector;
 
-/// What a sum may lack of its whole: rounding, and what a corner may lose.
+/// Share of a whole that its sum may lack: rounding, and the loss of a corner.
 const LACKING: f64 = 1e-9;
 
 impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
@@ -25,7 +25,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         external: &mut [SVector<f64, D>],
     ) -> Result<Vec<Drain>, Failure> {
         let mut drains = Vec::new();
-        let end = self.time + dt;
+        let end = self.ledger.time + dt;
         for face in &self.water.faces {
             match &face.acts {
                 Acts::Load(traction) => {

@@ -1,7 +1,6 @@
 //! Rigid plates on a body.
 
-use super::face::Force;
-use super::water::OfPlace;
+use super::face::{Force, OfPlace};
 use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::grid::Grid;
@@ -18,8 +17,8 @@ pub struct Plate<const D: usize> {
 
 impl<const D: usize> Plate<D> {
     /// A plate on the nodes that `takes` says by their places (m), which moves along `axis` under a `force` (N; N/m in
-    /// plane strain, Pa in 1D) that depends on the time (s). Nodes behind the plate belong to it too, where the body may
-    /// come to reach beyond it.
+    /// plane strain, Pa in 1D) that depends on the time (s). Nodes behind the plate belong to it too, where the body
+    /// may come to reach beyond it.
     pub fn new(
         axis: usize,
         takes: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static,
@@ -44,7 +43,7 @@ impl<const D: usize> Plate<D> {
     }
 }
 
-/// Of every component of every node of `functions` the plate that it belongs to.
+/// Plate of every component of every node of `functions`.
 ///
 /// # Errors
 /// A plate that moves along no axis, takes no node, or one that a constraint or another plate has too.
@@ -74,7 +73,12 @@ pub(super) fn ties<const D: usize, I: OfHats<D>>(
         let what = "nodes of a plate";
         require(taken > 0, what, taken.into(), "at least 1")?;
         let what = "nodes of a plate that a constraint or another plate has";
-        require(shared == 0, what, shared.into(), "none: it moves as one")?;
+        require(
+            shared == 0,
+            what,
+            shared.into(),
+            "none: a plate moves as one",
+        )?;
     }
     Ok(ties)
 }

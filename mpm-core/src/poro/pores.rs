@@ -1,4 +1,4 @@
-//! What particles of a body with water have beside those of a dry one.
+//! Columns of the particles of a body with water, beside those of a dry one.
 
 use crate::error::Fault;
 use crate::grid::Grid;
@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Pores<const D: usize> {
     /// Pore pressure (Pa).
     pub(super) pressure: Vec<f64>,
-    /// Its gradient (Pa/m), and the place (m) where both were found, at the start of the last step; empty unless something
-    /// acts on what pressures change by.
+    /// Its gradient (Pa/m), and the place (m) where both were found, at the start of the last step; empty unless
+    /// something acts on what pressures change by.
     #[serde(with = "rows")]
     pub(super) slope: Vec<[f64; D]>,
     #[serde(with = "rows")]
@@ -76,9 +76,9 @@ pub(super) fn keep_before_walls<const D: usize>(
     }
 }
 
-/// The half sizes (m) of a box that goes from `before` to the shape of `after`, but whose volume grows by `change`: what
-/// the logarithms of the stretches lack of that of the change is shared in proportion to them, so that an axis along
-/// which nothing happens keeps its size.
+/// The half sizes (m) of a box that goes from `before` to the shape of `after`, but whose volume grows by `change`:
+/// what the logarithms of the stretches lack of that of the change is shared in proportion to them, so that an axis
+/// along which nothing happens keeps its size.
 pub(super) fn grown<const D: usize>(before: &[f64; D], after: &[f64; D], change: f64) -> [f64; D] {
     let logarithms: [f64; D] = std::array::from_fn(|a| (after[a] / before[a]).ln());
     let lacking = change.ln() - logarithms.iter().sum::<f64>();

@@ -1,18 +1,16 @@
-//! What one particle of solid and water answers to a trial of the step, and the derivatives of the answer.
+//! Response of one particle of solid and water to a trial of the step, and its derivatives.
 //!
-//! All is told of the configuration at the step's start: P is a first Piola–Kirchhoff stress there, times volume, and
+//! The reference configuration is that of the step's start: P is a first Piola–Kirchhoff stress there, times volume, and
 //! the flux goes through its areas. C is the cofactor J̃ F̃⁻ᵀ of the relative deformation. Equations are those of
 //! `docs/poromechanics.md`.
 
 use super::settings::VolumeRate;
 use super::water::Water;
+use crate::implicit::response::{MOST, Square, minor, variables};
 use crate::material::{Law, State};
 use crate::number::{Dual, Real};
 use crate::tensor::determinant;
 use nalgebra::{Matrix3, SMatrix};
-
-/// Most components of an F̃.
-const MOST: usize = 9;
 
 /// A particle at the start of a step.
 pub(super) struct Particle<'a, const D: usize, M: Law> {
@@ -41,9 +39,6 @@ pub(super) struct Answer<T> {
     pub(super) mass: T,
 }
 
-/// A component for every pair of axes.
-pub(super) type Square<const D: usize> = [[f64; D]; D];
-
 /// The derivatives of an answer by F̃ and p.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slopes<const D: usize> {
@@ -60,14 +55,10 @@ impl<const D: usize, M: Law> Particle<'_, D, M> {
     #[inline]
     pub(super) fn respond<T: Real>(&self, f: &Matrix3<T>, p: T, slope: &[f64; D]) -> Answer<T> {
         let number = T::splat;
-        let minor = |i: usize, j: usize| {
-            let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-            f[(a, c)] * f[(b, d)] - f[(a, d)] * f[(b, c)]
-        };
         let mut cofactor = [[T::default(); D]; D];
         for (i, row) in cofactor.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                *entry = minor(i, j);
+                *entry = minor(f, i, j);
             }
         }
         let state = M::State::pack::<T>(|_| *self.state);
@@ -130,14 +121,7 @@ impl<const D: usize, M: Law> Particle<'_, D, M> {
         p: f64,
         slope: &[f64; D],
     ) -> Slopes<D> {
-        let variables = Matrix3::from_fn(|i, j| {
-            if i < D && j < D {
-                Dual::<N>::variable(f[(i, j)], D * i + j)
-            } else {
-                Dual::splat(if i == j { 1.0 } else { 0.0 })
-            }
-        });
-        let answer = self.respond(&variables, Dual::variable(p, D * D), slope);
+        let answer = self.respond(&variables::<D, N>(f), Dual::variable(p, D * D), slope);
         let by_f = |of: &Dual<N>| -> Square<D> {
             std::array::from_fn(|k| std::array::from_fn(|l| of.slope[D * k + l]))
         };

@@ -1,6 +1,6 @@
-//! How a scene with water is solved.
+//! Settings of the solver of solid and water.
 
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 
 /// The functions of the pore pressure, beside those of the displacement on cells of size h.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,8 +9,8 @@ pub enum PressureSpace {
     TwoGrid,
     /// The same functions on the same cells: pressures that no change of volume sees are not held.
     Equal,
-    /// Likewise, and what a pressure's increment varies within a cell is penalised (Dohrmann & Bochev 2004,
-    /// doi:10.1002/fld.752), with a strength τ (1/Pa) of about 1/(2G).
+    /// The same functions on the same cells, with a penalty on the variation of a pressure's increment within a cell
+    /// (Dohrmann & Bochev 2004, doi:10.1002/fld.752), with a strength τ (1/Pa) of about 1/(2G).
     Projected {
         /// τ (1/Pa).
         strength: f64,
@@ -36,7 +36,7 @@ pub enum Tangent {
     Symmetric,
 }
 
-/// Where Newton's method begins to look for the pressure of a step.
+/// Initial guess of the pressure in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Predictor {
     /// At zero.
@@ -45,7 +45,7 @@ pub enum Predictor {
     Particles,
 }
 
-/// How the solver of solid and water solves a scene.
+/// Settings of the solver of solid and water.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Duration of the first step (s).
@@ -58,7 +58,7 @@ pub struct Settings {
     pub volume_rate: VolumeRate,
     /// The matrix.
     pub tangent: Tangent,
-    /// Where to begin.
+    /// Initial guess.
     pub predictor: Predictor,
     /// Ghost penalty of the displacement, over the shear modulus.
     pub ghost_displacement: f64,
@@ -111,6 +111,36 @@ impl Settings {
         }
     }
 
+    /// With a pressure space.
+    #[must_use]
+    pub fn pressure_space(self, pressure_space: PressureSpace) -> Self {
+        Self {
+            pressure_space,
+            ..self
+        }
+    }
+
+    /// With a matrix of Newton's method.
+    #[must_use]
+    pub fn tangent(self, tangent: Tangent) -> Self {
+        Self { tangent, ..self }
+    }
+
+    /// With a rate of volume.
+    #[must_use]
+    pub fn volume_rate(self, volume_rate: VolumeRate) -> Self {
+        Self {
+            volume_rate,
+            ..self
+        }
+    }
+
+    /// With a tolerance of Newton's method.
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
     /// With ghost penalties on displacement and pressure.
     #[must_use]
     pub fn ghosts(self, displacement: f64, pressure: f64) -> Self {
@@ -136,13 +166,8 @@ impl Settings {
     }
 
     pub(super) fn check(&self, conservative: bool) -> Result<(), Error> {
-        require(self.dt > 0.0, "time step", self.dt, "positive (s)")?;
-        require(
-            self.growth > 0.0,
-            "growth of the time step",
-            self.growth,
-            "positive",
-        )?;
+        positive(self.dt, "time step", "positive (s)")?;
+        positive(self.growth, "growth of the time step", "positive")?;
         require(
             self.tolerance >= 1e-13 && self.tolerance <= 1e-2,
             "tolerance of Newton's method",
@@ -150,10 +175,9 @@ impl Settings {
             "from 1e-13 to 1e-2",
         )?;
         if let PressureSpace::Projected { strength } = self.pressure_space {
-            require(
-                strength > 0.0,
-                "strength of the pressure projection",
+            positive(
                 strength,
+                "strength of the pressure projection",
                 "positive (1/Pa)",
             )?;
         }
@@ -170,7 +194,7 @@ impl Settings {
         let exact = self.volume_rate == VolumeRate::Exact;
         require(
             self.tangent == Tangent::Consistent || (exact && conservative),
-            "symmetric tangent of a logarithmic rate or a law without a potential",
+            "symmetric tangent with a logarithmic rate or a law without a potential",
             1.0,
             "a consistent tangent",
         )

@@ -4,18 +4,18 @@ use super::face::Acts;
 use super::plate::ties;
 use super::pores::{Pores, check_width, grown, keep_before_walls};
 use super::{OfHats, PressureSpace, Settings, Solver, Space, Tangent, Water};
-use crate::error::{Error, Fault, require};
+use crate::error::{Error, Fault, positive, require};
 use crate::grid::{Axis, Grid};
+use crate::implicit::failure::Failure;
 use crate::implicit::held;
 use crate::implicit::linear::Direct;
-use crate::implicit::newton::Failure;
 use crate::implicit::start::moduli_of;
+use crate::ledger::Ledger;
 use crate::material::Law;
-use crate::monitor::{Accumulated, Convergence, Reaction, Residual, WaterBalance};
+use crate::monitor::{Convergence, WaterBalance};
 use crate::particles::Particles;
 use crate::room::Room;
 use crate::scene::Scene;
-use crate::work::{Spent, Work};
 use nalgebra::SVector;
 
 /// The grid of the pressure: of cells twice as large between the same ends, or the same.
@@ -31,7 +31,7 @@ fn grid_of_pressure<const D: usize>(
             axis.cells.is_multiple_of(2),
             "cells of an axis on two grids",
             axis.cells as f64,
-            "even: a cell of the pressure holds two along every axis",
+            "even: a cell of the pressure spans two cells along every axis",
         )?;
     }
     let coarse = |axis: &Axis| Axis {
@@ -88,14 +88,13 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             contacts == 0,
             "contacts of a body with water",
             contacts as f64,
-            "none: rigid bodies are constraints there",
+            "none: rigid bodies are constraints in such a scene",
         )?;
         held::check(&scene.constraints)?;
         let moduli = moduli_of(&scene.body.law, settings.dt);
-        require(
-            moduli.mu > 0.0,
-            "shear modulus of a body with water",
+        positive(
             moduli.mu,
+            "shear modulus of a body with water",
             "positive (Pa)",
         )?;
         let solid_space: Space<I> = Space::on(scene.grid)?;
@@ -113,33 +112,20 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         }
         let held = held::components(&solid_space.functions, &scene);
         let tied = ties(&water.plates, &solid_space.functions, &held)?;
+        scene.check_half_size()?;
         let particles = &mut scene.body.particles;
-        for l in particles.half_size {
-            require(
-                l <= 0.5 * scene.grid.h,
-                "particle half size",
-                l,
-                "at most half a cell (m)",
-            )?;
-        }
+        let nodes = solid_space.functions.len() + water_space.functions.len();
+        let mut ledger = Ledger::new(particles.len(), nodes, scene.constraints.len());
+        ledger.convergence = Some(Convergence::default());
         let mut half_size = Vec::with_capacity(particles.len());
         for k in 0..particles.len() {
             let begun = begin::<D, I>(&scene.grid, particles, k);
-            half_size.push(begun.map_err(|fault| Error::Breakdown {
-                time: 0.0,
-                step: 0,
-                particle: particles.id[k],
-                fault,
-            })?);
+            half_size.push(begun.map_err(|fault| ledger.breakdown(&particles.id, k, fault))?);
         }
         for (k, j) in particles.jacobian.iter().enumerate() {
             if *j <= 1.0 - water.porosity {
-                return Err(Error::Breakdown {
-                    time: 0.0,
-                    step: 0,
-                    particle: particles.id[k],
-                    fault: Fault::NonPositivePorosity(1.0 - (1.0 - water.porosity) / j),
-                });
+                let fault = Fault::NonPositivePorosity(1.0 - (1.0 - water.porosity) / j);
+                return Err(ledger.breakdown(&particles.id, k, fault));
             }
         }
         particles.velocity = Vec::new();
@@ -153,20 +139,12 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         } else {
             &[]
         };
+        let pressures = particles.position.iter().map(|x| (water.start)(x));
         let pores = Pores {
-            pressure: particles
-                .position
-                .iter()
-                .map(|x| (water.start)(x))
-                .collect(),
+            pressure: pressures.collect(),
             slope: vec![[0.0; D]; watched.len()],
             place: watched.to_vec(),
             half_size,
-        };
-        let work = Work {
-            particles: particles.len() as u64,
-            nodes: (solid_space.functions.len() + water_space.functions.len()) as u64,
-            ..Work::default()
         };
         let mut nodal_pressure = vec![f64::NAN; water_space.functions.len()];
         water_space
@@ -176,13 +154,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             held,
             tied,
             direct: Direct::new(settings.tangent == Tangent::Symmetric),
-            time: 0.0,
-            accumulated: Accumulated::default(),
-            residual: Residual::default(),
-            convergence: Convergence::default(),
-            reactions: vec![Reaction::default(); scene.constraints.len()],
+            ledger,
             balance: WaterBalance::default(),
-            spent: Spent::default(),
             drained,
             nodal_pressure,
             solid_space,
@@ -192,7 +165,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             scene,
             water,
             settings,
-            work,
         };
         solver.check_outside()?;
         Ok(solver)
@@ -210,10 +182,10 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 false,
                 "share of a corner of a loaded or drained face in an empty cell",
                 share,
-                "none: nodes that see no particle bear no load and let no water out",
+                "none: nodes in an empty cell bear no load and let no water out",
             ),
             Err(Failure::Lost(what, sum, _)) => {
-                let allowed = "the whole: nodes that see no particle bear nothing";
+                let allowed = "the whole: nodes in an empty cell bear nothing";
                 require(false, what, sum, allowed)
             }
             Err(failure) => Err(self.error(failure)),

@@ -1,14 +1,15 @@
 //! The equations of a step and their derivatives: Eqs. (2) to (8) of `docs/poromechanics.md`.
 
-use super::response::{Particle, Slopes, Square};
+use super::response::{Particle, Slopes};
 use super::settings::{PressureSpace, Settings, Tangent};
 use super::unknowns::Unknowns;
 use super::water::Water;
 use crate::body::{Body, check_jacobian};
 use crate::error::Fault;
 use crate::implicit::Penalty;
+use crate::implicit::algebra::{dot, norm};
 use crate::implicit::elements::{Elements, LAST_BITS};
-use crate::implicit::newton::{dot, norm};
+use crate::implicit::response::Square;
 use crate::implicit::unknowns::Pattern;
 use crate::material::Law;
 use crate::parallel::{LIGHT, map};
@@ -20,7 +21,7 @@ use std::ops::Range;
 /// Runs of particles whose matrices are held at once.
 const BATCH: usize = 256;
 
-/// What stays in a step as it is at its start.
+/// Data of a step that are frozen at its start.
 pub(super) struct Setting<const D: usize> {
     /// The functions of the displacement at the particles, and those of the pressure.
     pub(super) solid: Elements<D>,
@@ -33,7 +34,7 @@ pub(super) struct Setting<const D: usize> {
     /// The unknowns of every run, of every ghost penalty of displacements, and of pressures.
     pub(super) groups: Vec<Vec<Option<usize>>>,
     pub(super) pattern: Pattern,
-    /// Of every particle the functions of the pressure less their means over its cell; none unless projected.
+    /// Functions of the pressure at every particle less their means over its cell; empty unless projected.
     pub(super) fluctuations: Vec<Vec<f64>>,
     pub(super) drains: Vec<Drain>,
     /// Volumes of water (m³) that sources give to the nodes of the pressure; none without sources.
@@ -369,8 +370,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         matrix
     }
 
-    /// What scales the matrix symmetrically: one over the root of a diagonal entry, of a pressure over that of what its
-    /// elimination makes of it, which doesn't vanish where hardly any water flows.
+    /// Symmetric scaling of the matrix: one over the root of a diagonal entry; for a pressure, of the entry after
+    /// elimination, which does not vanish where hardly any water flows.
     pub(super) fn scales(&self, values: &[f64]) -> Vec<f64> {
         let Pattern { begin, row, .. } = &self.setting.pattern;
         let displacements = self.setting.unknowns.displacements;

@@ -4,6 +4,7 @@ use super::*;
 use crate::basis::{Gimp, Linear};
 use crate::body::Body;
 use crate::error::Fault;
+use crate::fixture::{Affine, lattice};
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::material::{Hencky, ImprovedHencky};
@@ -56,26 +57,14 @@ fn standing<const D: usize, M: Law>(
     let mut axes = [Axis::walls(0.0, WIDE); D];
     axes[D - 1] = Axis::bounded(0.0, HIGH + 2, (Side::Wall, Side::Open));
     let grid = Grid::new(H, axes).unwrap();
-    let along = |a: usize| 2 * if a == D - 1 { HIGH } else { WIDE };
-    let count: usize = (0..D).map(along).product();
-    let positions = (0..count)
-        .map(|mut k| {
-            std::array::from_fn(|a| {
-                let i = k % along(a);
-                k /= along(a);
-                0.5 * H * (i as f64 + 0.5)
-            })
-        })
-        .collect();
+    let mut count = [2 * WIDE; D];
+    count[D - 1] = 2 * HIGH;
+    let positions = lattice(count, 0.5 * H, 0.0);
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let particles = particles.deformed(deformed);
     let rollers = (0..D).flat_map(|axis| {
-        let wall = move |end| Wall {
-            axis,
-            end,
-            kind: WallKind::Roller,
-        };
+        let wall = move |end| Wall::new(axis, end, WallKind::Roller);
         let both = axis + 1 < D;
         [Some(wall(End::Lo)), both.then(|| wall(End::Hi))]
     });
@@ -114,23 +103,6 @@ fn loaded<const D: usize, I: OfHats<D>>(
     Solver::new(scene, water, settings).unwrap()
 }
 
-/// Moves the nodes at the faces of the grid, and beyond, as the field u = G x does.
-struct Affine<const D: usize>(SMatrix<f64, D, D>);
-
-impl<const D: usize> Memoryless for Affine<D> {}
-
-impl<const D: usize> Constraint<D> for Affine<D> {
-    fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {
-        let on_face = |(x, a): (&f64, &Axis)| *x < a.lo + 1e-9 || *x > a.hi(grid.h) - 1e-9;
-        let at_edge = position.iter().zip(&grid.axes).any(on_face);
-        at_edge.then(|| (0..D).map(|b| self.0[(axis, b)] * position[b]).sum())
-    }
-
-    fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
-        self
-    }
-}
-
 /// A box between walls, all of whose faces move as an affine field does, is strained by it all through; where water may
 /// leave everywhere the effective stress is the law's and the pressure nothing, and where it may not an isochoric field
 /// needs no pressure either.
@@ -144,23 +116,18 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
         gradient = f - SMatrix::identity();
     }
     let grid = Grid::new(H, [Axis::walls(0.0, HIGH); D]).unwrap();
-    let along = 2 * HIGH;
-    let positions = (0..along.pow(D as u32))
-        .map(|k| {
-            std::array::from_fn(|a| 0.5 * H * ((k / along.pow(a as u32) % along) as f64 + 0.5))
-        })
-        .collect();
+    let positions = lattice([2 * HIGH; D], 0.5 * H, 0.0);
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let law = porous();
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(Affine(gradient));
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(Affine {
+        gradient,
+        centre: 0.0,
+    });
     let water = Water::new(POROSITY, kozeny_carman());
     // One held node fixes a pressure that nothing else does.
     let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
-    let settings = Settings {
-        tolerance: 1e-13,
-        ..Settings::new(1.0).ghosts(0.1, 0.01)
-    };
+    let settings = Settings::new(1.0).ghosts(0.1, 0.01).tolerance(1e-13);
     let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
     solver.step().unwrap();
     let exact = law
@@ -219,15 +186,9 @@ fn stays_at_rest<const D: usize, I: OfHats<D>>(space: PressureSpace) {
             .start(depth)
             .drained(|x| x[D - 1] > TOP - 1e-9);
         let scene = standing::<D, _>(porous(), straight);
-        let settings = Settings {
-            pressure_space: space,
-            tangent,
-            ..Settings::new(1.0)
-        };
+        let settings = Settings::new(1.0).pressure_space(space).tangent(tangent);
         let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
-        for _ in 0..2 {
-            solver.step().unwrap();
-        }
+        solver.advance(2).unwrap();
         let p = solver.particles();
         for k in 0..p.len() {
             let error = solver.pores.pressure[k] - depth(&p.position[k]);
@@ -278,10 +239,7 @@ fn what_is_not_allowed_is_refused_by_name() {
     refused(Water::new(0.3, some), settings, other);
     let negative = Conductivity::KozenyCarman(-1.0);
     refused(Water::new(POROSITY, negative), settings, "conductivity");
-    let logarithmic = Settings {
-        volume_rate: VolumeRate::Logarithmic,
-        ..settings
-    };
+    let logarithmic = settings.volume_rate(VolumeRate::Logarithmic);
     refused(Water::new(POROSITY, some), logarithmic, "consistent");
     refused(Water::new(POROSITY, some), Settings::new(0.0), "time step");
     let ghost = settings.ghosts(-1.0, 0.0);
@@ -289,10 +247,7 @@ fn what_is_not_allowed_is_refused_by_name() {
     let ghost = settings.ghost_on_increments(-1.0);
     refused(Water::new(POROSITY, some), ghost, "of increments");
     let none = PressureSpace::Projected { strength: 0.0 };
-    let settings = Settings {
-        pressure_space: none,
-        ..settings
-    };
+    let settings = settings.pressure_space(none);
     refused(Water::new(POROSITY, some), settings, "projection");
 }
 
@@ -301,10 +256,7 @@ fn a_cell_of_the_pressure_holds_two_of_the_displacement() {
     let mut scene = standing::<1, _>(porous(), straight);
     scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
     let water = || Water::new(POROSITY, Conductivity::Constant(KAPPA));
-    let equal = Settings {
-        pressure_space: PressureSpace::Equal,
-        ..Settings::new(1.0)
-    };
+    let equal = Settings::new(1.0).pressure_space(PressureSpace::Equal);
     let refused = Solver::<1, Hats<1>, _>::new(scene, water(), Settings::new(1.0));
     assert!(refused.err().unwrap().to_string().contains("even"));
     let mut scene = standing::<1, _>(porous(), straight);

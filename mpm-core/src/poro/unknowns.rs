@@ -8,7 +8,7 @@ use crate::particles::Particles;
 use nalgebra::SVector;
 use std::collections::BTreeMap;
 
-/// Of a nodal value whether it is an unknown.
+/// Place of a nodal value among the unknowns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Place {
     /// The unknown of this number: of several components if a plate ties them.
@@ -21,9 +21,9 @@ pub(super) enum Place {
 
 /// The unknowns of a step, of all nodal values.
 pub(super) struct Unknowns<const D: usize> {
-    /// Of every node of the displacement.
+    /// Places of every node of the displacement.
     pub(super) displacement: Vec<[Place; D]>,
-    /// Of every node of the pressure.
+    /// Place of every node of the pressure.
     pub(super) pressure: Vec<Place>,
     /// Unknown displacements.
     pub(super) displacements: usize,
@@ -38,8 +38,8 @@ fn next(count: &mut usize) -> usize {
 }
 
 impl<const D: usize> Unknowns<D> {
-    /// Of functions on `elements` of the displacement and the pressure, on so many nodes and cells of these sizes (m);
-    /// held as two functions say, while those components are one that a plate ties.
+    /// Unknowns of functions on `elements` of the displacement and the pressure, with their numbers of nodes and cell
+    /// sizes (m). Two functions give held values; components that a plate ties are one unknown.
     pub(super) fn new(
         elements: [&Elements<D>; 2],
         nodes: [usize; 2],
@@ -50,7 +50,7 @@ impl<const D: usize> Unknowns<D> {
     ) -> Self {
         let mut count = 0;
         let of = |k: usize| elements[k].seen_nodes(nodes[k], h[k]);
-        // Of every plate its unknown, which the first of its nodes brings.
+        // Unknown of every plate, numbered at the first of its nodes.
         let mut plates: BTreeMap<usize, usize> = BTreeMap::new();
         let displacement: Vec<[Place; D]> = (of(0).into_iter().enumerate())
             .map(|(n, seen)| {

@@ -1,7 +1,7 @@
 //! The water of a scene: how it fills and leaves the pores, what it weighs, and the faces of the body that it leaves
 //! by.
 
-use super::face::Face;
+use super::face::{Face, OfPlace};
 use super::plate::Plate;
 use crate::error::{Error, require};
 use crate::frame::Frame;
@@ -19,7 +19,6 @@ pub enum Conductivity {
 
 impl Conductivity {
     /// κ (m²/(Pa s)) at the porosity `n`.
-    #[must_use]
     #[inline(always)]
     pub fn at<T: Real>(&self, n: T) -> T {
         match *self {
@@ -32,7 +31,7 @@ impl Conductivity {
     }
 }
 
-/// What pulls water and grains down.
+/// Gravity on water and grains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gravity<const D: usize> {
     /// Density of the water (kg/m³).
@@ -42,9 +41,6 @@ pub struct Gravity<const D: usize> {
     /// Acceleration (m/s²).
     pub acceleration: [f64; D],
 }
-
-/// A function of a place (m).
-pub type OfPlace<const D: usize, T> = Box<dyn Fn(&[f64; D]) -> T + Send + Sync>;
 
 /// Water that comes into a place of the body between two times (s), as a share of the undeformed volume there: a
 /// function of the reference position (m). Over short times it is the rate (1/s) times their difference.
@@ -71,7 +67,7 @@ pub struct Water<const D: usize> {
 }
 
 impl<const D: usize> Water<D> {
-    /// Weightless water without pressure that can't leave.
+    /// Weightless water without pressure that cannot leave.
     #[must_use]
     pub fn new(porosity: f64, conductivity: Conductivity) -> Self {
         Self {
@@ -147,6 +143,8 @@ impl<const D: usize> Water<D> {
         let sources = self.sources.into_iter().map(|source| -> Source<D> {
             Box::new(move |x, times| source(&frame.place_of_scene(x), times))
         });
+        let faces = self.faces.into_iter().map(|f| f.seen_from(&frame));
+        let plates = self.plates.into_iter();
         Self {
             porosity: self.porosity,
             conductivity: match self.conductivity {
@@ -160,20 +158,13 @@ impl<const D: usize> Water<D> {
             }),
             start: Box::new(move |x| frame.scale(1, 0) * start(&frame.place_of_scene(x))),
             drained: Box::new(move |x| drained(&frame.node_of_scene(&grid, x))),
-            faces: self
-                .faces
-                .into_iter()
-                .map(|f| f.seen_from(&frame))
-                .collect(),
+            faces: faces.collect(),
             sources: sources.collect(),
-            plates: (self.plates.into_iter())
-                .map(|plate| plate.seen_from(&frame, &grid))
-                .collect(),
+            plates: plates.map(|p| p.seen_from(&frame, &grid)).collect(),
         }
     }
 
     /// κ (m²/(Pa s)) of undeformed material.
-    #[must_use]
     pub fn initial_conductivity(&self) -> f64 {
         self.conductivity.at(self.porosity)
     }
@@ -190,7 +181,7 @@ impl<const D: usize> Water<D> {
             of_law.is_none_or(|n| n == self.porosity),
             "porosity of the water",
             self.porosity,
-            "that of the solid's law, which depends on it",
+            "that of the solid's law",
         )?;
         let k = self.initial_conductivity();
         require(k >= 0.0, "conductivity", k, "at least 0 (m²/(Pa s))")?;
@@ -209,9 +200,8 @@ impl<const D: usize> Water<D> {
         ] {
             require(density > 0.0, what, density, "positive (kg/m³)")?;
         }
-        gravity
-            .acceleration
-            .iter()
-            .try_for_each(|g| require(true, "acceleration of gravity", *g, "finite (m/s²)"))
+        let mut components = gravity.acceleration.into_iter();
+        let (what, allowed) = ("acceleration of gravity", "finite (m/s²)");
+        components.try_for_each(|g| require(true, what, g, allowed))
     }
 }

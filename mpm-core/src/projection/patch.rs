@@ -15,7 +15,7 @@ pub(super) const ROW: usize = 4;
 /// in one only the first row.
 pub(super) struct Patch<const S: usize>([[f64x4; S]; S]);
 
-/// The weights of the two outer axes, one where there is none, and of the last, padded.
+/// Weights of the two outer axes, one for an absent axis, and of the last, padded.
 #[inline(always)]
 fn factors<const D: usize, const S: usize>(weights: &Weights<D, S>) -> ([f64; S], [f64; S], f64x4) {
     let mut last = [0.0; ROW];

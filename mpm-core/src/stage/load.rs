@@ -95,7 +95,6 @@ impl<const D: usize> DeadForce<D> {
     }
 
     /// How many particles carry the load.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.loaded.iter().filter(|&&l| l).count()
     }

@@ -1,4 +1,4 @@
-//! What a scene does to the motion, beyond the material itself.
+//! Stages of a scene: loads, filters and constraints, and the criterion of rest.
 //!
 //! Four roles, called once per step; a scene lists the stages that it has, and an absent one costs
 //! nothing:
@@ -72,7 +72,6 @@ pub struct Prescribed {
 
 impl Prescribed {
     /// The velocity (m/s) of the node, which would be `free` without the constraint, where that acts.
-    #[must_use]
     pub fn held(&self, free: f64) -> Option<f64> {
         let acts = match self.bound {
             Bound::Equal => true,
@@ -123,7 +122,6 @@ pub trait ParticleFilter<const D: usize>: Memory + Send {
 
 /// The integral of [`smooth_rise`] since time zero (s): `ramp` (s³ − s⁴/2), s = time/ramp, then `time − ramp/2`; zero
 /// before.
-#[must_use]
 pub fn smooth_stroke(time: f64, ramp: f64) -> f64 {
     if time <= 0.0 {
         return 0.0;
@@ -136,7 +134,6 @@ pub fn smooth_stroke(time: f64, ramp: f64) -> f64 {
 }
 
 /// Rises from zero at time zero to one at `ramp` (s) as 3 s² − 2 s³, s = time/ramp; one after it.
-#[must_use]
 pub fn smooth_rise(time: f64, ramp: f64) -> f64 {
     if time >= ramp {
         return 1.0;

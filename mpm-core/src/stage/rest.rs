@@ -4,7 +4,7 @@ use crate::memory::{Memory, MemoryError, Saved};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// What is observed of a motion at one time.
+/// Observation of a motion at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
     /// Time (s).

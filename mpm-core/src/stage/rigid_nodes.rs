@@ -7,7 +7,7 @@ use crate::memory::Memoryless;
 
 /// The nodes in a box move with a rigid body; the velocity starts smoothly. The box stays where it is: this is
 /// contact for strokes that are small against a cell. Material that it touches sticks to it along the axes
-/// that it holds, and can't leave it.
+/// that it holds, and cannot leave it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidNodes<const D: usize> {
     /// Lower and upper end along every axis (m), infinite ones allowed. A node counts as within up to a
@@ -51,7 +51,6 @@ impl<const D: usize> Constraint<D> for RigidNodes<D> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::grid::Axis;

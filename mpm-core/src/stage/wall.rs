@@ -34,14 +34,14 @@ impl End {
     }
 }
 
-/// What a wall holds.
+/// Components that a wall holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WallKind {
     /// All components.
     Fixed,
     /// The normal component; material slides freely and sticks to the wall.
     Roller,
-    /// Likewise, but one-sided: the wall bears no tension and material comes off it freely.
+    /// The normal component, one-sided: the wall bears no tension and material comes off it freely.
     Separable,
 }
 
@@ -52,12 +52,20 @@ pub struct Wall {
     pub axis: usize,
     /// End of that axis.
     pub end: End,
-    /// What is held.
+    /// Components held.
     pub kind: WallKind,
 }
 
 /// A node this fraction of a cell inside still counts as on the wall.
 const ON_WALL: f64 = 1e-9;
+
+impl Wall {
+    /// Wall at one `end` of an `axis`.
+    #[must_use]
+    pub fn new(axis: usize, end: End, kind: WallKind) -> Self {
+        Self { axis, end, kind }
+    }
+}
 
 impl Memoryless for Wall {}
 

@@ -1,10 +1,10 @@
 //! Logarithm and exponential of symmetric tensors.
 //!
-//! Near the identity, where elastic strains of stiff materials are, both are power series. By the theorem of
-//! Cayley and Hamilton every power of z is a combination of z², z and I, so that the series run over three
-//! numbers and no eigenvectors are needed. Farther away the exponential is that of a half, squared, as often as it
-//! takes, and the logarithm twice that of the root. All of it is arithmetic: a derivative passes through, be eigenvalues
-//! equal or not. Rounding is that of the condition of b, 10⁻¹³ at stretches from 0.2 to 5 and more beyond.
+//! Near the identity, where elastic strains of stiff materials are, both are power series. By the theorem of Cayley and
+//! Hamilton every power of z is a combination of z², z and I, so that the series run over three numbers and no
+//! eigenvectors are needed. Farther away the exponential is that of a half, squared, as often as it takes, and the
+//! logarithm twice that of the root. All of it is arithmetic: a derivative passes through, be eigenvalues equal or not.
+//! Rounding is that of the condition of b, 10⁻¹³ at stretches from 0.2 to 5 and more beyond.
 
 use super::SymmetricTensor;
 use crate::number::Real;
@@ -19,7 +19,7 @@ const VERY_NEAR: f64 = 1e-6;
 const LOGARITHM_TERMS: (u32, u32) = (3, 7);
 /// Powers of the exponential's series: 10⁻¹⁸/6! is below 10⁻²⁰, 0.1¹¹/11! below 10⁻¹⁸.
 const EXPONENTIAL_TERMS: (u32, u32) = (5, 10);
-/// An exponent is halved, and a root taken of what a logarithm is of, at most so many times: beyond it numbers overflow.
+/// Maximum number of halvings of an exponent, and of roots of a logarithm's argument: beyond it numbers overflow.
 const MOST_HALVINGS: u32 = 13;
 /// Newton steps for the trace of a root: at most this many.
 const MOST_STEPS: u32 = 50;
@@ -226,7 +226,7 @@ impl<T: Real> SymmetricTensor<T> {
             );
             let square = z.times_commuting(&z);
             let size = square.trace();
-            // Not below for a tensor that isn't finite; those beside it keep their digits.
+            // Not below for a tensor that is not finite; those beside it keep their digits.
             if size.all_below(NEAR) || halvings == MOST_HALVINGS {
                 let mut powers = Powers::new(&z, &square);
                 let mut sum = powers.now;
@@ -313,7 +313,7 @@ impl<T: Real> SymmetricTensor<T> {
         self.combine(square, 1.0, sum)
     }
 
-    /// The exponential of this tensor a by scaling and squaring, (e^(a/2ⁿ))^(2ⁿ). What is squared is e^(a/2ⁿ) − I, whose
+    /// The exponential of this tensor a by scaling and squaring, (e^(a/2ⁿ))^(2ⁿ). It squares e^(a/2ⁿ) − I, whose
     /// relative error does not double.
     fn far_exp(&self) -> Self {
         let mut part = *self;

@@ -1,10 +1,14 @@
 //! Contact with rigid bodies: barrier, friction, reactions, the time step.
 
+mod friction;
+
+use crate::scenes::with_threads;
+use friction::on_a_slope;
 use mpm_core::basis::Gimp;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::{Settings, Solver, contact_cfl, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::stage::{End, Gravity, LocalDamping, smooth_rise, smooth_stroke};
+use mpm_core::stage::{End, Gravity, LocalDamping};
 use mpm_core::{Axis, Body, Error, Fault, Grid, Part, Particles, Scene, Simulation};
 
 const H: f64 = 0.5;
@@ -139,7 +143,7 @@ const AT_REST: f64 = 1e-4;
 /// Rounding of a sum of some hundred terms.
 const ROUNDING: f64 = 1e-12;
 
-/// What is left of the nodal forces is the difference of weight and reaction.
+/// The residual of the nodal forces is the difference of weight and reaction.
 #[test]
 fn a_block_rests_with_its_weight_on_the_floor() {
     let particles = block::<2>(16);
@@ -219,124 +223,6 @@ fn action_is_reaction_to_rounding() {
         momentum_balances::<2>(Some(friction));
         momentum_balances::<3>(Some(friction));
     }
-}
-
-/// A block with friction `mu` at the speed `speed`, under gravity of the slope `slope`.
-fn on_a_slope(mu: f64, slope: f64, speed: f64) -> Setting<2> {
-    let mut particles = block::<2>(16);
-    particles.velocity.fill([speed, 0.0]);
-    let contact = RigidContact::new(floor(&particles, REST_GAP), barrier())
-        .with_friction(Friction::new(mu, stick()).unwrap());
-    under(scene(particles, vec![contact]), move |_| {
-        [slope * GRAVITY, -GRAVITY]
-    })
-}
-
-/// While all slide, the stick of each is on Coulomb's cone in every step: it stretches in a step by more than its
-/// limit grows. So the momentum along the floor is that of the slope less μ times that of the floor; but for the first
-/// step, in which no stick is stretched yet, or from rest the time t in which they are stretched to their limit u,
-/// u = ½ a t² with an acceleration of at least that of the slide.
-#[test]
-fn a_sliding_block_follows_coulomb() {
-    let mu = 0.3;
-    let limit = mu * LOAD / stick();
-    for (slope, speed) in [(0.0, 0.3), (0.5, 0.3), (0.5, 0.0)] {
-        let scene = on_a_slope(mu, slope, speed);
-        let stretching = match speed {
-            0.0 => (2.0 * limit / ((slope - mu) * GRAVITY)).sqrt(),
-            _ => scene.1.dt,
-        };
-        let mut solver = started(scene).unwrap();
-        while solver.time() < 6.0 {
-            solver.step().unwrap();
-            let [along, across, _] = solver.on(Part::Contact(0)).force;
-            assert!(along <= -mu * across * (1.0 + ROUNDING));
-        }
-        let (totals, time) = (solver.totals(), solver.time());
-        let [u, v] = [0, 1].map(|a| totals.momentum[a] / totals.mass);
-        let slid = speed + slope * GRAVITY * time - mu * (GRAVITY * time + v);
-        let short = u - slid;
-        assert!(
-            short >= -ROUNDING && short <= mu * GRAVITY * stretching + ROUNDING,
-            "{short}"
-        );
-        assert!(solver.work().sorts > 1 || speed == 0.0);
-    }
-}
-
-/// Below the angle of friction a block stays: the sticks give way elastically and come to rest.
-#[test]
-fn a_block_sticks_below_the_angle_of_friction() {
-    let (mu, slope) = (0.6, 0.5);
-    let mut solver = started(damped(on_a_slope(mu, slope, 0.0))).unwrap();
-    run(&mut solver, 200.0);
-    let (weight, left) = (solver.totals().mass * GRAVITY, out_of_balance(&solver));
-    assert!(left < AT_REST * weight, "{left}");
-    assert!(
-        (solver.on(Part::Contact(0)).force[0] - slope * weight).abs() <= left + ROUNDING * weight
-    );
-    let stretch = slope * LOAD / stick();
-    let before = shift(&solver, 0);
-    // Sticks may have given up some stretch in the oscillations before rest, at most their limit.
-    assert!(before >= 0.999 * stretch && before < stretch + mu * LOAD / stick());
-    run(&mut solver, 240.0);
-    assert!((shift(&solver, 0) - before).abs() < 1e-6 * stretch);
-}
-
-/// A rough contact under a shear load that comes and goes: it gives way by the load over the stick's stiffness, then
-/// stays, then comes back.
-#[test]
-fn a_rough_stick_does_not_creep() {
-    let particles = block::<2>(16);
-    let contact = RigidContact::new(floor(&particles, REST_GAP), barrier())
-        .with_friction(Friction::rough(stick()).unwrap());
-    let shear = 0.5 * GRAVITY;
-    let scene = damped(under(scene(particles, vec![contact]), move |t| {
-        let share = smooth_rise((t - 40.0).max(0.0), 5.0) - smooth_rise((t - 120.0).max(0.0), 5.0);
-        [share * shear, -GRAVITY]
-    }));
-    let dt = scene.1.dt;
-    let mut solver = started(scene).unwrap();
-    let [start, early, late, back] = [40.0, 80.0, 120.0, 200.0].map(|until| {
-        run(&mut solver, until);
-        shift(&solver, 0)
-    });
-    let stretch = shear / GRAVITY * LOAD / stick();
-    assert!((early - start - stretch).abs() < 1e-4 * stretch);
-    // A friction by slip speed creeps by a step per step: τ Δt/(ρ l).
-    let viscous = shear * LAYERS as f64 * dt;
-    assert!((late - early).abs() < 1e-6 * viscous * 40.0);
-    assert!((back - start).abs() < 1e-6 * stretch);
-}
-
-/// A rough plate takes along a block that is pulled back, and lifts it, across cells; then the block follows its
-/// stroke but for what the stick and the barrier give way. The plate's ramp, of jerk 6 v/T² at its ends, leaves an
-/// oscillation of at most four times the jerk over ω³. That of the lift is smaller, by the ratio of the speeds.
-#[test]
-fn a_moving_plate_takes_a_block_along() {
-    let particles = block::<2>(16);
-    let (speed, ramp, pull) = ([0.1, 0.02], 12.0, -0.05);
-    let face = floor(&particles, REST_GAP).moving(speed, ramp).unwrap();
-    let contact =
-        RigidContact::new(face, barrier()).with_friction(Friction::rough(stick()).unwrap());
-    let mut solver = started(under(scene(particles, vec![contact]), move |t| {
-        [pull * smooth_rise(t, 12.0), -GRAVITY]
-    }))
-    .unwrap();
-    run(&mut solver, 30.0);
-    assert!(solver.work().sorts > 3);
-    let stroke = smooth_stroke(solver.time(), ramp);
-    let moved = face.displacement(solver.time());
-    assert_eq!(moved, [0.1 * stroke, 0.02 * stroke]);
-    let mass_per_stick = LOAD / GRAVITY;
-    let omega = (stick() / mass_per_stick).sqrt();
-    let stretch = pull * mass_per_stick / stick();
-    let swing = 4.0 * 6.0 * (speed[0] - pull / omega) / ramp.powi(2) / omega.powi(3);
-    let slip = shift(&solver, 0) - moved[0] - stretch;
-    assert!(slip.abs() < swing, "{slip} {swing}");
-    assert!(swing < -0.5 * stretch);
-    assert!((shift(&solver, 1) - moved[1]).abs() < swing);
-    assert!(least(&gaps(&solver, &face, &moved)) > 0.0);
 }
 
 /// A block thrown at the floor from the gap d̂.
@@ -509,8 +395,7 @@ fn bits(
     threads: usize,
     contacts: impl Fn(&Particles<2>) -> Vec<RigidContact<2>> + Sync,
 ) -> Vec<u64> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-    pool.build().unwrap().install(|| {
+    with_threads(threads, || {
         let mut particles = block::<2>(72);
         for (k, v) in particles.velocity.iter_mut().enumerate() {
             *v = [0.5 + 0.01 * (k as f64).sin(), 0.01 * (k as f64).cos()];
@@ -554,14 +439,11 @@ fn a_face_out_of_reach_changes_no_bit() {
 
 #[test]
 fn contact_allocates_nothing() {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
-    pool.build().unwrap().install(|| {
+    with_threads(1, || {
         let mut solver = started(on_a_slope(0.3, 0.5, 0.0)).unwrap();
         solver.step().unwrap();
         let info = allocation_counter::measure(|| {
-            for _ in 0..20 {
-                solver.step().unwrap();
-            }
+            solver.advance(20).unwrap();
         });
         assert_eq!(info.count_total, 0);
     });

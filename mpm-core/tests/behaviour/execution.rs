@@ -1,6 +1,6 @@
 //! Threads, the order of the particles, allocation and counters.
 
-use crate::scenes::{block, open_grid, remedies, scene, scene_with, swirl};
+use crate::scenes::{block, open_grid, remedies, scene, scene_with, swirl, with_threads};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::FbarRate;
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
@@ -16,11 +16,7 @@ fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>
     threads: usize,
     transfer: T,
 ) -> Vec<u64> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .unwrap();
-    pool.install(|| {
+    with_threads(threads, || {
         let mut lo = [4; D];
         let mut hi = [8; D];
         lo[0] = 2;
@@ -35,18 +31,16 @@ fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>
         let (scene, mut settings) = scene_with(Grid::new(0.5, axes).unwrap(), particles, transfer);
         settings.remedy = Box::new(FbarRate::default());
         let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
-        for _ in 0..60 {
-            solver.step().unwrap();
-        }
+        solver.advance(60).unwrap();
         assert!(solver.work().sorts > 1, "the test must cover sorting");
         let p = solver.particles();
         let t = solver.totals();
-        let columns = p
+        let moved = p
             .position
             .iter()
             .flatten()
-            .chain(p.velocity.iter().flatten())
-            .chain(p.affine.iter().flatten());
+            .chain(p.velocity.iter().flatten());
+        let columns = moved.chain(p.affine.iter().flatten());
         let stress = p.stress.iter().map(|s| s.xx.to_bits());
         let sums = [
             t.kinetic_energy,
@@ -92,30 +86,18 @@ fn the_order_of_the_particles_changes_rounding_only() {
         }
         let (scene, settings) = scene(open_grid::<2>(0.5, 12), particles);
         let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
-        for _ in 0..40 {
-            solver.step().unwrap();
-        }
+        solver.advance(40).unwrap();
         let p = solver.particles();
-        let mut sorted: Vec<(u32, [f64; 2])> =
-            p.id.iter()
-                .copied()
-                .zip(p.position.iter().copied())
-                .collect();
-        sorted.sort_by_key(|(id, _)| *id);
-        sorted
+        p.seeded(|k| p.position[k])
     };
-    for ((_, a), (_, b)) in run(false).iter().zip(run(true)) {
+    for (a, b) in run(false).iter().zip(run(true)) {
         assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12);
     }
 }
 
 #[test]
 fn a_step_allocates_nothing_but_to_sort() {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .unwrap();
-    pool.install(|| {
+    with_threads(1, || {
         allocates_nothing::<2, 3, Gimp, _>(&Flip::default());
         allocates_nothing::<2, 3, Gimp, _>(&Apic);
         allocates_nothing::<2, 3, Gimp, _>(&Xpic::new(3).unwrap());
@@ -124,7 +106,7 @@ fn a_step_allocates_nothing_but_to_sort() {
     });
 }
 
-/// Of a body on its way: steps that sort its particles give back what they take.
+/// A moving body allocates nothing, beyond steps that sort its particles and give back what they take.
 fn allocates_nothing<const D: usize, const S: usize, B, T>(transfer: &T)
 where
     B: Basis<S> + 'static,
@@ -167,9 +149,7 @@ fn work_is_counted_exactly() {
     let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
     settings.remedy = Box::new(FbarRate::default());
     let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
-    for _ in 0..10 {
-        solver.step().unwrap();
-    }
+    solver.advance(10).unwrap();
     let w = solver.work();
     assert_eq!((w.particles, w.steps, w.particle_steps), (64, 10, 640));
     assert_eq!((w.projections, w.sorts), (10, 1));

@@ -48,7 +48,7 @@ fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp, Hencky
     assert!(contact_cfl(wave, ratio, DT) < 1.15 * wave);
     let friction = Friction::rough(stick).unwrap();
     let upright = Axis::bounded(0.0, CELLS[1] + 3, (Side::Wall, Side::Open));
-    let wall = |axis, end, kind| Wall { axis, end, kind };
+    let wall = |axis, end, kind| Wall::new(axis, end, kind);
     let grid = Grid::new(H, [Axis::walls(0.0, CELLS[0]), upright]).unwrap();
     let scene = Scene::new(grid, Body::new(law, particles).unwrap())
         .constrain(wall(1, End::Lo, WallKind::Fixed))
@@ -74,10 +74,10 @@ fn under(face: &RigidFace<2>, solver: &dyn Simulation<2>, per_cell: usize) -> (V
     (gaps, slip)
 }
 
-/// The clay yields under the footing: Prandtl's pressure is (2 + π) s_u, and a coarse grid is above it, by less than
-/// a tenth. Since the force of the barrier is convex, the mean gap is at least that of the mean force; it is known
-/// from the reaction to a tenth of the loss. What is rough doesn't slide along: less than a hundredth of what the
-/// footing sinks.
+/// The clay yields under the footing: Prandtl's pressure is (2 + π) s_u, and a coarse grid is above it, by less than a
+/// tenth. Since the force of the barrier is convex, the mean gap is at least that of the mean force; it is known from
+/// the reaction to a tenth of the loss. The rough contact does not slide: by less than a hundredth of the footing's
+/// stroke.
 #[test]
 fn a_rough_footing_sinks_into_clay_with_a_known_loss() {
     let (face, barrier, mut solver) = footing(2);

@@ -1,8 +1,9 @@
 //! A run that is saved, built anew and restored goes on bit for bit; what is not its memory is refused.
 
+use crate::scenes::{DENSITY, block, remedies};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::remedy::{FbarRate, Standard};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength};
@@ -11,25 +12,14 @@ use mpm_core::stage::{
     BodyForce, DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion,
     RigidNodes, Wall, WallKind,
 };
-use mpm_core::{Axis, Basis, Body, Grid, Law, Part, Particles, Scene, Side, Simulation};
+use mpm_core::{Axis, Basis, Body, Grid, Law, Part, Scene, Side, Simulation};
 
 const H: f64 = 0.5;
 const CELLS: usize = 20;
-const DENSITY: f64 = 2.0;
 const STEPS: usize = 60;
 
 fn solid() -> NeoHookean {
     NeoHookean::new(100.0, 0.4).unwrap()
-}
-
-fn remedies() -> [Box<dyn Remedy<2>>; 5] {
-    [
-        Box::new(Standard),
-        Box::new(FbarRecursive::default()),
-        Box::new(FbarTotal::default()),
-        Box::new(FbarRate::default()),
-        Box::new(FbarConsistent::default()),
-    ]
 }
 
 /// A block `width` cells wide that is shaken along the floor, pressed, pulled and damped.
@@ -39,13 +29,7 @@ fn scene<M: Law, T>(
     remedy: Box<dyn Remedy<2>>,
     width: usize,
 ) -> (Scene<2, M>, Settings<2, T>) {
-    let spacing = 0.5 * H;
-    let positions = (0..2 * width * 12)
-        .map(|k| [(k / 12) as f64, (k % 12) as f64].map(|i| (i + 0.5) * spacing))
-        .map(|[x, y]| [x + H, y])
-        .collect();
-    let mut particles =
-        Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
+    let mut particles = block(H, 2, [1, 0], [1 + width, 6]);
     for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
         *v = [3.0, 0.05 * x[0] * x[1]];
     }
@@ -67,11 +51,7 @@ fn scene<M: Law, T>(
             [100.0 * (15.0 * t).cos(), -0.2 * x[0]]
         })))
         .load(pull)
-        .constrain(Wall {
-            axis: 1,
-            end: End::Lo,
-            kind: WallKind::Roller,
-        })
+        .constrain(Wall::new(1, End::Lo, WallKind::Roller))
         .constrain(press)
         .contact(RigidContact::new(lid, Barrier::new(0.2, 0.3).unwrap()).with_friction(drag));
     let settings = Settings::new(dt)
@@ -94,12 +74,6 @@ fn seen(run: &mut dyn Simulation<2>) -> String {
         run.particles().clone(),
         run.force_stress()
     )
-}
-
-fn steps(run: &mut dyn Simulation<2>, count: usize) {
-    for _ in 0..count {
-        run.step().unwrap();
-    }
 }
 
 /// Straight on against stopped after every step: between any two sorts, and just before every strike of the
@@ -127,7 +101,7 @@ fn of_basis<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone + 'sta
     name: &str,
     transfer: &T,
 ) {
-    for k in 0..remedies().len() {
+    for k in 0..remedies::<2>().len() {
         goes_on(&format!("{name}, remedy {k}"), &|| {
             let remedy = remedies().into_iter().nth(k).unwrap();
             let (scene, settings) = scene(solid(), transfer.clone(), remedy, 6);
@@ -172,7 +146,7 @@ fn gimp(remedy: Box<dyn Remedy<2>>, width: usize) -> Solver<2, 3, Gimp, NeoHooke
 
 fn saved() -> Saved {
     let mut run = gimp(Box::new(FbarRate::default()), 6);
-    steps(&mut run, 25);
+    run.advance(25).unwrap();
     run.save().unwrap()
 }
 
@@ -200,10 +174,8 @@ fn the_memory_of_another_scene_is_refused() {
     let (mut longer, settings) = scene(solid(), Flip::default(), rate(), 6);
     longer.grid = Grid::new(H, [Axis::periodic(0.0, CELLS + 8), longer.grid.axes[1]]).unwrap();
     let longer = Solver::<2, 3, Gimp, _>::new(longer, settings).unwrap();
-    assert!(matches!(
-        refusal(longer),
-        MemoryError::Size { what: "nodes", .. }
-    ));
+    let of_nodes = matches!(refusal(longer), MemoryError::Size { what: "nodes", .. });
+    assert!(of_nodes);
     let fluid = NewtonianFluid::new(200.0, 0.1).unwrap();
     let (fluid, settings) = scene(fluid, Flip::default(), rate(), 6);
     let fluid = Solver::<2, 3, Gimp, _>::new(fluid, settings).unwrap();

@@ -1,108 +1,21 @@
-//! What the averages do to waves: the closed forms and tables of `docs/modes.md`.
+//! Effect of the averages on waves: the closed forms and tables of `docs/modes.md`.
 
+mod fluid;
 mod model;
 
+use fluid::{C, DENSITY, FLUID, scene};
 use model::{
     Bloch, CELLS, H, KINDS, Kind, LENGTH, Moving, UNSEEN, Wave, add, noise, product, theta,
 };
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::FbarConsistent;
-use mpm_core::explicit::{Remedy, Settings, Solver, courant_time_step};
-use mpm_core::material::NewtonianFluid;
-use mpm_core::number::Real;
-use mpm_core::{Axis, Basis, Body, Grid, Law, Particles, Scene, Simulation, SymmetricTensor};
-use nalgebra::{Complex, Matrix3};
+use mpm_core::explicit::{Remedy, Solver};
+use mpm_core::{Basis, Body, Particles, Simulation};
+use nalgebra::Complex;
 use std::f64::consts::TAU;
 
-const DENSITY: f64 = 2.0;
 /// Identities between sums of a few weights.
 const ROUNDING: f64 = 1e-12;
-
-/// A fluid under the stress `mean` (Pa, tension positive): σ = mean + K (J̄ − 1).
-struct Prestressed {
-    bulk: NewtonianFluid,
-    mean: f64,
-}
-
-impl Law for Prestressed {
-    type State = f64;
-
-    fn in_units(&self, stress: f64) -> Self {
-        Self {
-            bulk: self.bulk.in_units(stress),
-            mean: stress * self.mean,
-        }
-    }
-
-    fn initial_state(&self) -> f64 {
-        1.0
-    }
-
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, f64) {
-        let (stress, state) = self.bulk.at_rest(f);
-        (stress.scale_add_identity(1.0, self.mean), state)
-    }
-
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        dt: f64,
-        state: &T,
-    ) -> (SymmetricTensor<T>, T) {
-        let (stress, state) = self.bulk.response(delta_f, dt, state);
-        let mean = T::splat(self.mean);
-        (stress.scale_add_identity(T::splat(1.0), mean), state)
-    }
-
-    fn energy(&self, state: &f64) -> f64 {
-        self.mean * (state - 1.0) + self.bulk.energy(state)
-    }
-
-    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, state: &T) -> T {
-        self.bulk.wave_modulus(j, stress, state)
-    }
-}
-
-const FLUID: NewtonianFluid = NewtonianFluid {
-    bulk_modulus: 50.0,
-    viscosity: 0.0,
-};
-
-/// Wave speed of [`FLUID`] (m/s).
-const C: f64 = 5.0;
-
-/// `n` particles per cell and direction, at the middle of their shares, on a periodic grid.
-fn scene<const D: usize>(
-    n: usize,
-    kind: Kind,
-    cfl: f64,
-    mean: f64,
-) -> (Scene<D, Prestressed>, Settings<D>) {
-    let spacing = H / n as f64;
-    let count = CELLS * n;
-    let positions = (0..count.pow(D as u32))
-        .map(|k| {
-            std::array::from_fn(|a| ((k / count.pow(a as u32) % count) as f64 + 0.5) * spacing)
-        })
-        .collect();
-    let mut particles = Particles::new(
-        positions,
-        spacing.powi(D as i32),
-        DENSITY,
-        [0.5 * spacing; D],
-    )
-    .unwrap();
-    particles
-        .stress
-        .fill(SymmetricTensor::identity().scale_add_identity(mean, 0.0));
-    let grid = Grid::new(H, [Axis::periodic(0.0, CELLS); D]).unwrap();
-    let law = Prestressed { bulk: FLUID, mean };
-    let settings = Settings::new(courant_time_step(cfl, H, C)).remedy(kind.remedy());
-    (
-        Scene::new(grid, Body::new(law, particles).unwrap()),
-        settings,
-    )
-}
 
 /// Π̂ as a polynomial in y = 1 − cos kh: the closed forms of `docs/modes.md`.
 fn hat(n: usize, y: f64) -> f64 {
@@ -154,7 +67,7 @@ fn symbol_is<const S: usize, B: Basis<S> + 'static>(closed: fn(usize, f64) -> f6
             for (a, q) in averaged.iter().zip(&field) {
                 assert!((a - expected * q).abs() < ROUNDING, "{n} {m:?}: {a} {q}");
             }
-            // What is orthogonal to φ along one axis is lost, whatever it is along the other.
+            // A part orthogonal to φ along one axis is lost, whatever it is along the other.
             let mut null = noise(n, m[0]);
             let norm = product(&x, &x).re;
             if norm > ROUNDING {
@@ -218,9 +131,7 @@ fn waves_at_rest<const S: usize, B: Basis<S> + 'static>(n: usize) {
             v[0] += unseen;
         }
         let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
-        for _ in 0..steps {
-            solver.step().unwrap();
-        }
+        solver.advance(steps).unwrap();
         let p = solver.particles();
         let mut rest: Vec<f64> = (0..p.len())
             .map(|k| p.velocity[k][0] - unseen[p.id[k] as usize])
@@ -365,7 +276,7 @@ fn crossing_a_cell_feeds_waves_as_documented() {
     }
 }
 
-/// A pressure that Π can't see accelerates what Π can't see either; the consistent force lets the share ε of
+/// A pressure that Π cannot see accelerates what Π cannot see either; the consistent force lets the share ε of
 /// it through.
 fn unseen_pressure_pushes<const S: usize, B: Basis<S> + 'static>() {
     let axis = Bloch::<S, B>::new(2, theta(7));
@@ -429,9 +340,7 @@ fn growth_of_noise<const S: usize, B: Basis<S> + 'static>(
     let across = |p: &Particles<2>| -> f64 { p.velocity.iter().map(|v| v[1] * v[1]).sum() };
     let mut solver = Solver::<2, S, B, _>::new(scene, settings).unwrap();
     let before = across(solver.particles());
-    for _ in 0..steps {
-        solver.step().unwrap();
-    }
+    solver.advance(steps).unwrap();
     (across(solver.particles()) / before).sqrt()
 }
 
@@ -458,7 +367,7 @@ fn noise_grows_as_documented() {
     }
 }
 
-/// A pressure of a hundredth of K, and a stiffness of what Π can't see of so many times that: the table of
+/// A pressure of a hundredth of K, and a multiple of it as the stiffness of modes that Π cannot see: the table of
 /// `docs/disorder.md`. A quarter of the pressure is too little at rest.
 #[test]
 fn a_stiffness_above_the_pressure_stills_the_noise() {
@@ -499,9 +408,7 @@ fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(
             v[0] = amplitude * axis.carried(&phi, id).re;
         }
         let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
-        for _ in 0..steps {
-            solver.step().unwrap();
-        }
+        solver.advance(steps).unwrap();
         // J̄ takes the share ε of the strain, and the force that of the stress (J̄/J) σ.
         let held = if kind == Kind::Consistent {
             let square = UNSEEN * UNSEEN;

@@ -1,23 +1,19 @@
 //! A body pressed by nodes that move with a rigid one.
 
+use crate::scenes::{block, law, scene};
 use mpm_core::basis::{Gimp, Linear, QuadraticBSpline};
-use mpm_core::explicit::{Settings, Solver, courant_time_step};
-use mpm_core::material::{Law, NeoHookean};
+use mpm_core::explicit::Solver;
+use mpm_core::material::NeoHookean;
 use mpm_core::stage::{End, RigidNodes, Wall, WallKind};
-use mpm_core::{Axis, Basis, Body, Grid, Part, Particles, Scene, Side, Simulation};
+use mpm_core::{Axis, Basis, Grid, Part, Side, Simulation};
 
 const H: f64 = 0.5;
 const CELLS: usize = 8;
 const HEIGHT: f64 = 6.0 * H;
-const DENSITY: f64 = 2.0;
 /// Speed of the press (m/s), a hundred-thousandth of that of sound.
 const SPEED: f64 = 1e-4;
 /// Time (s) in which it starts.
 const RAMP: f64 = 6.0;
-
-fn law() -> NeoHookean {
-    NeoHookean::new(100.0, 0.3).unwrap()
-}
 
 /// A block six cells high and eight wide, on rollers at the sides, on a roller or fixed at the base, under
 /// `press`.
@@ -25,24 +21,13 @@ fn pressed<const S: usize, B: Basis<S> + 'static>(
     base: WallKind,
     press: RigidNodes<2>,
 ) -> Solver<2, S, B, NeoHookean> {
-    let spacing = 0.5 * H;
-    let positions = (0..2 * CELLS * 12)
-        .map(|k| {
-            let (i, j) = (k / 12, k % 12);
-            [(i as f64 + 0.5) * spacing, (j as f64 + 0.5) * spacing]
-        })
-        .collect();
-    let particles =
-        Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
     let upright = Axis::bounded(0.0, CELLS, (Side::Wall, Side::Open));
-    let wall = |axis, end, kind| Wall { axis, end, kind };
-    let law = law();
-    let settings = Settings::new(courant_time_step(0.3, H, law.wave_speed(DENSITY)));
     let grid = Grid::new(H, [Axis::walls(0.0, CELLS), upright]).unwrap();
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap())
-        .constrain(wall(1, End::Lo, base))
-        .constrain(wall(0, End::Lo, WallKind::Roller))
-        .constrain(wall(0, End::Hi, WallKind::Roller))
+    let (scene, settings) = scene(grid, block(H, 2, [0, 0], [CELLS, 6]));
+    let scene = scene
+        .constrain(Wall::new(1, End::Lo, base))
+        .constrain(Wall::new(0, End::Lo, WallKind::Roller))
+        .constrain(Wall::new(0, End::Hi, WallKind::Roller))
         .constrain(press);
     Solver::new(scene, settings).unwrap()
 }
@@ -103,7 +88,7 @@ fn a_constraint_that_does_not_exist_has_no_force() {
     assert!(solver.on(Part::Constraint(9)).force[0].is_nan());
 }
 
-/// A narrow press on a fixed body: a rough one holds the material under it, a smooth one doesn't; nodes beside it
+/// A narrow press on a fixed body: a rough one holds the material under it, a smooth one does not; nodes beside it
 /// are free.
 #[test]
 fn a_rough_press_holds_and_a_smooth_one_lets_slide() {

@@ -70,6 +70,12 @@ pub(crate) fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {
     ]
 }
 
+/// What `work` gives in a pool of `threads` threads.
+pub(crate) fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    pool.build().unwrap().install(work)
+}
+
 pub(crate) fn open_grid<const D: usize>(h: f64, cells: usize) -> Grid<D> {
     Grid::new(h, [Axis::open(0.0, cells); D]).unwrap()
 }

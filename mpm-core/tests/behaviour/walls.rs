@@ -1,15 +1,15 @@
 //! Walls that hold on to what touches them and walls that let go; a body handed from run to run.
 
+use crate::scenes::{self, DENSITY};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline};
 use mpm_core::explicit::remedy::FbarRate;
 use mpm_core::explicit::transfer::{Apic, Flip};
-use mpm_core::explicit::{Settings, Solver, Transfer, courant_time_step};
-use mpm_core::material::{Law, NeoHookean};
+use mpm_core::explicit::{Settings, Solver, Transfer};
+use mpm_core::material::NeoHookean;
 use mpm_core::stage::{BodyForce, End, LocalDamping, Wall, WallKind};
-use mpm_core::{Axis, Basis, Body, Error, Grid, Part, Particles, Scene, Simulation};
+use mpm_core::{Axis, Basis, Error, Grid, Part, Particles, Scene, Simulation};
 
 const H: f64 = 0.5;
-const DENSITY: f64 = 2.0;
 /// Speed (m/s) of the block, a hundredth of that of sound.
 const SPEED: f64 = 0.1;
 /// Left, lower, upper.
@@ -17,16 +17,7 @@ const WALLS: [(usize, End); 3] = [(0, End::Lo), (1, End::Lo), (1, End::Hi)];
 
 /// A block of four by four cells, `gap` cells off the left wall and between walls above and below that it touches.
 fn block(gap: usize, velocity: [f64; 2]) -> Particles<2> {
-    let spacing = 0.5 * H;
-    let positions = (0..64)
-        .map(|k| {
-            let (i, j) = (k / 8, k % 8);
-            let x = gap as f64 * H + (i as f64 + 0.5) * spacing;
-            [x, (j as f64 + 0.5) * spacing]
-        })
-        .collect();
-    let mut particles =
-        Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
+    let mut particles = scenes::block(H, 2, [gap, 0], [gap + 4, 4]);
     particles.velocity.fill(velocity);
     particles
 }
@@ -36,12 +27,10 @@ fn scene<T>(
     kind: WallKind,
     transfer: T,
 ) -> (Scene<2, NeoHookean>, Settings<2, T>) {
-    let law = NeoHookean::new(100.0, 0.3).unwrap();
-    let dt = courant_time_step(0.3, H, law.wave_speed(DENSITY));
     let grid = Grid::new(H, [Axis::walls(0.0, 10), Axis::walls(0.0, 4)]).unwrap();
-    let walls = WALLS.map(|(axis, end)| Wall { axis, end, kind });
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain_all(walls);
-    let settings = Settings::new(dt).transfer(transfer);
+    let walls = WALLS.map(|(axis, end)| Wall::new(axis, end, kind));
+    let (scene, settings) = scenes::scene_with(grid, particles, transfer);
+    let scene = scene.constrain_all(walls);
     (scene, settings.remedy(Box::<FbarRate>::default()))
 }
 
@@ -84,8 +73,8 @@ fn leftmost(solver: &impl Simulation<2>) -> f64 {
     x.fold(f64::INFINITY, f64::min)
 }
 
-/// A block that is pulled off the wall (0.8 N s) leaves it, if that is separable, as if it weren't there, but for what
-/// the corner's rounding pushes; one that is thrown at the wall comes back.
+/// A block that is pulled off the wall (0.8 N s) leaves it, if that is separable, as if it were not there, except for
+/// the push of the corner's rounding; one that is thrown at the wall comes back.
 fn separates<const S: usize, B: Basis<S>, T: Transfer<2> + Copy>(transfer: T) {
     let pulled = || block(0, [SPEED, 0.3 * SPEED]);
     let free = run::<S, B, T>(pulled(), WallKind::Separable, transfer);
@@ -117,9 +106,7 @@ fn damping_leaves_reactions_what_they_are() {
     let pulled = still.load(BodyForce(Box::new(move |_: &[f64; 2], _| [-weight, 0.0])));
     let damped = settings.filter_forces(LocalDamping::new(0.3).unwrap());
     let mut solver = started::<3, Gimp, _>((pulled, damped));
-    for _ in 0..1000 {
-        solver.step().unwrap();
-    }
+    solver.advance(1000).unwrap();
     let before = solver.on(Part::Constraint(0)).impulse[0];
     solver.step().unwrap();
     let impulse = solver.on(Part::Constraint(0)).impulse[0] - before;
@@ -130,24 +117,15 @@ fn damping_leaves_reactions_what_they_are() {
 
 #[test]
 fn a_body_goes_on_in_another_run_bit_for_bit() {
-    let start = || {
-        scene(
-            block(1, [-SPEED, 0.0]),
-            WallKind::Separable,
-            Flip::default(),
-        )
-    };
+    let thrown = || block(1, [-SPEED, 0.0]);
+    let start = || scene(thrown(), WallKind::Separable, Flip::default());
     let mut first = started::<3, Gimp, _>(start());
-    for _ in 0..150 {
-        first.step().unwrap();
-    }
+    first.advance(150).unwrap();
     let mut second = started::<3, Gimp, _>(start());
     second.take_over(&first.body().unwrap()).unwrap();
     assert_eq!((second.time(), second.work().steps), (0.0, 0));
-    for _ in 0..50 {
-        first.step().unwrap();
-        second.step().unwrap();
-    }
+    first.advance(50).unwrap();
+    second.advance(50).unwrap();
     assert_eq!(first.body().unwrap(), second.body().unwrap());
 }
 
@@ -162,7 +140,7 @@ fn a_body_of_other_particles_is_refused() {
     let before = solver.body().unwrap();
     let error = solver.take_over(&few.body().unwrap()).unwrap_err();
     assert!(
-        error.to_string().contains("60 in the memory, 64"),
+        error.to_string().contains("60 in the saved state, 64"),
         "{error}"
     );
     assert_eq!(solver.body().unwrap(), before);

@@ -126,7 +126,7 @@ pub(crate) const EXPLICIT: [Fault; 23] = [
     },
     Fault {
         name: "the place of a particle is that before the step",
-        file: "explicit/rest.rs",
+        file: "explicit/second_half.rs",
         sound: "x[a] += increment[a]",
         broken: "x[a] += Eight::ZERO * increment[a]",
         seen_by: &[(AXIS, "order-displacement")],
@@ -140,7 +140,7 @@ pub(crate) const EXPLICIT: [Fault; 23] = [
     },
     Fault {
         name: "the wave of a deformed state is ten times as fast",
-        file: "explicit/rest.rs",
+        file: "explicit/second_half.rs",
         sound: "p.law.wave_modulus(j, &stress, &after)",
         broken: "Eight::splat(100.0) * p.law.wave_modulus(j, &stress, &after)",
         seen_by: &[(RATE, "completes")],

@@ -18,8 +18,8 @@ pub(crate) const IMPLICIT: [Fault; 25] = [
     Fault {
         name: "a load step ends before its load",
         file: "implicit/mod.rs",
-        sound: "self.external(self.time + place * dt, &setting.elements)",
-        broken: "self.external(self.time + 0.9 * place * dt, &setting.elements)",
+        sound: "self.external(self.ledger.time + place * dt, &setting.elements)",
+        broken: "self.external(self.ledger.time + 0.9 * place * dt, &setting.elements)",
         seen_by: &[(MEMBRANE, "static-reaction")],
     },
     Fault {
@@ -45,9 +45,9 @@ pub(crate) const IMPLICIT: [Fault; 25] = [
     },
     Fault {
         name: "the ghost penalty vanishes",
-        file: "implicit/interpolation.rs",
-        sound: "factor * moduli.young()",
-        broken: "0.0 * moduli.young()",
+        file: "implicit/mod.rs",
+        sound: "factor * self.moduli.young()",
+        broken: "0.0 * self.moduli.young()",
         seen_by: &[(BEAM, "completes")],
     },
     Fault {
@@ -179,7 +179,7 @@ pub(crate) const IMPLICIT: [Fault; 25] = [
     Fault {
         name: "the tangent is that of the law before the step",
         file: "implicit/response.rs",
-        sound: "Dual::<N>::variable(f[(i, j)], D * i + j)",
+        sound: "Dual::variable(f[(i, j)], D * i + j)",
         broken: "Dual::<N>::variable(f64::from(u8::from(i == j)), D * i + j)",
         seen_by: &[(BEAM, "newton")],
     },

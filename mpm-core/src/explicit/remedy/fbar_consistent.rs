@@ -2,7 +2,7 @@
 
 use super::{Deformation, Remedy, fill, fill_with_products, mean};
 use crate::eights::{AHEAD, Eights};
-use crate::error::{Error, require};
+use crate::error::{Error, positive, require};
 use crate::memory::Memoryless;
 use crate::number::Eight;
 use crate::parallel::{CHUNK, for_each_piece};
@@ -10,15 +10,14 @@ use crate::particles::Particles;
 use crate::projection::Average;
 use crate::tensor::SymmetricTensor;
 
-/// J̄ⁿ⁺¹ = J̄ⁿ A(ΔJ), less a relaxation of what Π can't see, and the force from the stress
+/// J̄ⁿ⁺¹ = J̄ⁿ A(ΔJ), less a relaxation of what Π cannot see, and the force from the stress
 /// (J̄/J) dev σ + A((J̄/J) p) I, with A = I − (1 − ε)(I − Π)², ε = 0.01.
 ///
-/// A is symmetric in the volume-weighted product, as Π is, so the power that the pressure takes from
-/// the grid is the rate of the energy stored: `docs/remedy.md` derives it. It errs by the square of
-/// Π's error. What Π can't see keeps the share ε of its strain, a stiffness ε² K, so that a pressure
-/// doesn't feed it. It fills as particles pass each other, and is
-/// emptied by J̄ ← J̄ − (I − Π) θ (I − Π) J̄ with θ = min(1, β γ) and γ the shear strain of the step,
-/// which keeps the volume, never adds energy to first order, and does nothing at rest.
+/// A is symmetric in the volume-weighted product, as Π is, so the power that the pressure takes from the grid is the
+/// rate of the energy stored: `docs/remedy.md` derives it. It errs by the square of Π's error. Modes that Π cannot see
+/// keep the share ε of their strain, a stiffness ε² K, so that a pressure does not feed them. It fills as particles
+/// pass each other, and is emptied by J̄ ← J̄ − (I − Π) θ (I − Π) J̄ with θ = min(1, β γ) and γ the shear strain of the
+/// step, which keeps the volume, never adds energy to first order, and does nothing at rest.
 ///
 /// A pressure above ε² K does feed it. [`holding`](Self::holding) gives every particle an ε of its own, that the
 /// pressure there asks for: A = I − (I − Π)(1 − ε)(I − Π) is as symmetric (`docs/disorder.md`).
@@ -36,7 +35,7 @@ pub struct FbarConsistent {
 
 /// The relaxation β that serves every problem of the bench.
 const RELAXATION: f64 = 10.0;
-/// The share ε of a strain that Π can't see which is kept. ε² K has to hold against the pressure of a body,
+/// The share ε of a strain that Π cannot see which is kept. ε² K has to hold against the pressure of a body,
 /// 10⁻⁴ K is ten times that of two metres of water; from 0.1 on bodies lock (`docs/remedy.md`).
 const UNSEEN: f64 = 0.01;
 
@@ -60,14 +59,14 @@ impl FbarConsistent {
         }
     }
 
-    /// With a stiffness ε² K of what Π can't see that is at least `times` the smooth pressure Π p at every particle, in a material of the
-    /// modulus K = `modulus` (Pa); ε is at most one. Zero `times` for the same ε everywhere.
+    /// With a stiffness ε² K of what Π cannot see that is at least `times` the smooth pressure Π p at every particle,
+    /// in a material of the modulus K = `modulus` (Pa); ε is at most one. Zero `times` for the same ε everywhere.
     ///
     /// # Errors
     /// `times` that are negative, a modulus that is not positive, or either not finite.
     pub fn holding(mut self, times: f64, modulus: f64) -> Result<Self, Error> {
         require(times >= 0.0, "pressures to hold", times, "zero or positive")?;
-        require(modulus > 0.0, "modulus", modulus, "positive (Pa)")?;
+        positive(modulus, "modulus", "positive (Pa)")?;
         self.hold = times / modulus;
         Ok(self)
     }
@@ -94,8 +93,8 @@ impl FbarConsistent {
     }
 }
 
-/// Replaces `field` by A `field` = Π field + ε r + Π (1 − ε) r with r = (I − Π) field, which `rest` is for; ε is that which
-/// every particle has `kept`, or the same of all.
+/// Replaces `field` by A `field` = Π field + ε r + Π (1 − ε) r with r = (I − Π) field, which `rest` is for; ε is that
+/// which every particle has `kept`, or the same of all.
 fn sharpened<const D: usize>(
     particles: &Particles<D>,
     average: &mut dyn Average<D>,
@@ -132,10 +131,6 @@ fn for_each_pair(a: &mut [f64], b: &mut [f64], change: impl Fn(usize, &mut f64, 
 impl Memoryless for FbarConsistent {}
 
 impl<const D: usize> Remedy<D> for FbarConsistent {
-    fn attach(&mut self, particles: &mut Particles<D>) {
-        particles.j_bar = particles.jacobian.clone();
-    }
-
     fn asks_for_shear(&self) -> bool {
         self.relaxation > 0.0
     }

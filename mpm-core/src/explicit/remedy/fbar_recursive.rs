@@ -15,10 +15,6 @@ pub struct FbarRecursive {
 impl Memoryless for FbarRecursive {}
 
 impl<const D: usize> Remedy<D> for FbarRecursive {
-    fn attach(&mut self, particles: &mut Particles<D>) {
-        particles.j_bar = particles.jacobian.clone();
-    }
-
     fn next_j_bar(
         &mut self,
         particles: &Particles<D>,

@@ -14,10 +14,6 @@ pub struct FbarTotal {
 impl Memoryless for FbarTotal {}
 
 impl<const D: usize> Remedy<D> for FbarTotal {
-    fn attach(&mut self, particles: &mut Particles<D>) {
-        particles.j_bar = particles.jacobian.clone();
-    }
-
     fn next_j_bar(
         &mut self,
         particles: &Particles<D>,

@@ -43,7 +43,8 @@ pub struct Deformation<const D: usize> {
     pub increment: Vec<[Eight; D]>,
     /// ΔJ = det ΔF.
     pub volume_change: Vec<f64>,
-    /// Shear strain √2 ‖dev sym(ΔF − I)‖, of a remedy that asks for it; the deviator is that of the motion's own dimensions.
+    /// Shear strain √2 ‖dev sym(ΔF − I)‖, of a remedy that asks for it; the deviator is that of the motion's own
+    /// dimensions.
     pub shear: Vec<f64>,
 }
 
@@ -92,7 +93,6 @@ impl<const D: usize> Front for DeformationChunk<'_, D> {
 impl<const D: usize> DeformationChunk<'_, D> {
     /// Whether there is one.
     #[inline(always)]
-    #[must_use]
     pub fn is_there(&self) -> bool {
         !self.delta_f.is_empty()
     }
@@ -116,14 +116,12 @@ impl<const D: usize> DeformationChunk<'_, D> {
 
     /// ΔF of the `k`-th eight.
     #[inline(always)]
-    #[must_use]
     pub fn raw(&self, k: usize) -> [[Eight; D]; D] {
         self.delta_f[k]
     }
 
     /// ΔF̄ of the `k`-th eight, Eq. (25), from J̄ at the begin of the step and the `next`.
     #[inline(always)]
-    #[must_use]
     pub fn averaged(&self, k: usize, j_bar: Eight, next: Eight) -> [[Eight; D]; D] {
         let stretch =
             stretch_of_volume::<Eight, D>(next / (j_bar * numbers(self.volume_change, k)));
@@ -132,7 +130,6 @@ impl<const D: usize> DeformationChunk<'_, D> {
 
     /// The displacement (m) of the `k`-th eight.
     #[inline(always)]
-    #[must_use]
     pub fn increment(&self, k: usize) -> [Eight; D] {
         self.increment[k]
     }
@@ -157,10 +154,14 @@ fn shear<const D: usize>(delta_f: &[[Eight; D]; D]) -> Eight {
     (squares + squares).sqrt()
 }
 
-/// A locking remedy of a body. What it remembers of a particle, J̄, is a column of the particles.
+/// A locking remedy of a body. Its state, J̄, is a column of the particles.
 pub trait Remedy<const D: usize>: Memory + Send {
-    /// Gives the particles the columns that the remedy needs.
-    fn attach(&mut self, _particles: &mut Particles<D>) {}
+    /// Gives the particles the columns that the remedy needs: J̄, if it averages.
+    fn attach(&mut self, particles: &mut Particles<D>) {
+        if self.averages() {
+            particles.j_bar = particles.jacobian.clone();
+        }
+    }
 
     /// Whether J̄ is something else than J: then it is formed between ΔF and the law.
     fn averages(&self) -> bool {
@@ -182,8 +183,9 @@ pub trait Remedy<const D: usize>: Memory + Send {
     ) {
     }
 
-    /// After ΔF and J are known: J̄ⁿ⁺¹ of every particle, unless that is J. Positions, volumes and J̄ are still those of
-    /// the step's start; it can be asked for again after other ΔF. Who takes the step makes it that of the particles.
+    /// After ΔF and J are known: J̄ⁿ⁺¹ of every particle, unless that is J. Positions, volumes and J̄ are still those
+    /// of the step's start; it can be asked for again after other ΔF. Who takes the step makes it that of the
+    /// particles.
     fn next_j_bar(
         &mut self,
         particles: &Particles<D>,
@@ -227,7 +229,6 @@ fn mean<T: Real, const D: usize>(stress: &SymmetricTensor<T>) -> T {
 
 /// The stress that enters the forces where a remedy gives its `mean`: (J̄/J) dev σ and that mean; `ratio` is J̄/J.
 #[inline(always)]
-#[must_use]
 pub fn force_stress<T: Real, const D: usize>(
     stress: &SymmetricTensor<T>,
     ratio: T,

@@ -23,6 +23,19 @@ struct Bench<const D: usize, const S: usize, B> {
     reach: Reach,
 }
 
+/// Π of a bench.
+macro_rules! averages {
+    ($bench:ident) => {
+        Projection {
+            lattice: &$bench.lattice,
+            slabs: &$bench.slabs,
+            reach: &$bench.reach,
+            averaging: &mut Averaging::new($bench.lattice.len()),
+            count: &mut 0,
+        }
+    };
+}
+
 impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
     fn new(grid: Grid<D>, mut particles: Particles<D>) -> Self {
         let lattice = Lattice::new(grid, WallTreatment::OpenKnot);
@@ -38,14 +51,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
 
     fn average(&self, field: &[f64]) -> Vec<f64> {
         let mut out = field.to_vec();
-        Projection {
-            lattice: &self.lattice,
-            slabs: &self.slabs,
-            reach: &self.reach,
-            averaging: &mut Averaging::new(self.lattice.len()),
-            count: &mut 0,
-        }
-        .average(&self.particles, &mut out);
+        averages!(self).average(&self.particles, &mut out);
         out
     }
 }
@@ -111,22 +117,14 @@ fn properties<const S: usize, B: Basis<S>>(places: &[[f64; 4]]) {
         |a: &[f64], b: &[f64]| -> f64 { (0..a.len()).map(|p| volume[p] * a[p] * b[p]).sum() };
     let (pq, pr) = (bench.average(&q), bench.average(&r));
     let scale = product(&q, &q) + product(&r, &r) + 1.0;
-    assert!(
-        (product(&r, &pq) - product(&q, &pr)).abs() < ROUNDING * scale,
-        "symmetry"
-    );
-    assert!(product(&q, &pq) > -ROUNDING * scale, "positive");
-    assert!(
-        product(&q, &pq) < product(&q, &q) + ROUNDING * scale,
-        "at most one"
-    );
+    let (small, qq) = (ROUNDING * scale, product(&q, &q));
+    let near = |a: f64, b: f64, what: &str| assert!((a - b).abs() < small, "{what}: {a} {b}");
+    near(product(&r, &pq), product(&q, &pr), "symmetry");
+    assert!((-small..qq + small).contains(&product(&q, &pq)), "0 to 1");
 
     // The volume integral of the field survives.
     let ones = vec![1.0; q.len()];
-    assert!(
-        (product(&ones, &pq) - product(&ones, &q)).abs() < ROUNDING * scale,
-        "integral"
-    );
+    near(product(&ones, &pq), product(&ones, &q), "integral");
 }
 
 fn clouds() -> impl Strategy<Value = Vec<[f64; 4]>> {
@@ -156,12 +154,8 @@ fn spread<const S: usize, B: Basis<S>>(per_cell: usize) -> f64 {
         .collect();
     let particles = Particles::new(positions, spacing, 1.0, [0.5 * spacing]).unwrap();
     let bench = Bench::<1, S, B>::new(grid, particles);
-    let squares: Vec<f64> = bench
-        .particles
-        .position
-        .iter()
-        .map(|x| x[0] * x[0])
-        .collect();
+    let places = bench.particles.position.iter();
+    let squares: Vec<f64> = places.map(|x| x[0] * x[0]).collect();
     let averaged = bench.average(&squares);
     let middle = 10 * per_cell..11 * per_cell;
     let mean: f64 = middle.map(|p| averaged[p] - squares[p]).sum::<f64>() / per_cell as f64;
@@ -175,18 +169,15 @@ fn the_spread_of_the_average_is_as_stated_for_each_basis() {
     let many = 50;
     let tolerance = 1.0 / (many * many) as f64;
     let close = |value: f64, exact: f64, tolerance: f64| {
-        assert!(
-            (value - exact).abs() <= tolerance,
-            "{value} instead of {exact}"
-        );
+        assert!((value - exact).abs() <= tolerance, "{value} for {exact}");
     };
     close(spread::<2, Linear>(many), 1.0 / 3.0, tolerance);
     close(spread::<3, QuadraticBSpline>(many), 0.5, tolerance);
     close(spread::<4, CubicBSpline>(many), 2.0 / 3.0, tolerance);
     for n in [2, 5] {
         let exact = 1.0 / 3.0 + 1.0 / (6.0 * (n * n) as f64);
-        // GIMP's weights at lattice particles are cell integrals, exact but for the mean of x² over
-        // a particle, which is x² + l²/3: at most 1/(12 n²) of a cell squared.
+        // GIMP's weights at lattice particles are cell integrals, exact except for the mean of x² over a particle,
+        // which is x² + l²/3: at most 1/(12 n²) of a cell squared.
         close(spread::<3, Gimp>(n), exact, 1.0 / (12.0 * (n * n) as f64));
     }
 }
@@ -208,27 +199,16 @@ fn small_body(
     let (mut raw, mut averaged) = (Vec::new(), Vec::new());
     for step in 0..steps {
         let mut particles = bench.particles.clone();
-        raw = particles
-            .position
-            .iter()
-            .map(|x| {
-                let grow = 0.01 * (x[0] * 5.0 + step as f64).sin() + 0.02 * (x[1] * 3.0).cos();
-                SMatrix::<f64, 2, 2>::new(1.0 + grow, 0.1, -0.05, 1.0)
-            })
-            .collect();
+        let grown = |x: &[f64; 2]| {
+            let grow = 0.01 * (x[0] * 5.0 + step as f64).sin() + 0.02 * (x[1] * 3.0).cos();
+            SMatrix::<f64, 2, 2>::new(1.0 + grow, 0.1, -0.05, 1.0)
+        };
+        raw = particles.position.iter().map(grown).collect();
         for (j, f) in particles.jacobian.iter_mut().zip(&raw) {
             *j *= determinant(f);
         }
         let mut deformation = deformation(remedy, &raw);
-        let mut averaging = Averaging::new(bench.lattice.len());
-        let mut count = 0;
-        let mut projection = Projection {
-            lattice: &bench.lattice,
-            slabs: &bench.slabs,
-            reach: &bench.reach,
-            averaging: &mut averaging,
-            count: &mut count,
-        };
+        let mut projection = averages!(bench);
         let tried = remedy.next_j_bar(&particles, &deformation, &mut projection);
         let tried = tried.map(<[f64]>::to_vec);
         if let Some(next) = remedy.next_j_bar(&particles, &deformation, &mut projection) {
@@ -286,8 +266,8 @@ fn the_assumed_gradient_has_the_averaged_volume_and_the_given_shape() {
     }
 }
 
-/// What a particle of the energy test carries beside its place: deviations of J and J̄ from one, and a
-/// velocity gradient.
+/// Data of a particle in the energy test, beside its position: deviations of J and J̄ from one, and a velocity
+/// gradient.
 type Carried = ([f64; 2], [f64; 4]);
 
 /// A cloud of particles that have seen different deformations, whose J̄ has parted from J.
@@ -328,7 +308,7 @@ fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
     places: &[[f64; 4]],
     carried: &[Carried],
 ) {
-    // Pressures are up to a thousand; the second remedy keeps from a hundredth to all of what Π can't see.
+    // Pressures are up to a thousand; the second remedy keeps from a hundredth to all of what Π cannot see.
     for times in [0.0, 10.0] {
         power_of_remedy_is_the_rate_of_energy::<S, B>(times, places, carried);
     }
@@ -341,14 +321,7 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
 ) {
     let law = NeoHookean::new(70.0, 0.49).unwrap();
     let (bench, states, gradients) = strained::<S, B>(&law, places, carried);
-    let mut averaging = Averaging::new(bench.lattice.len());
-    let mut average = Projection {
-        lattice: &bench.lattice,
-        slabs: &bench.slabs,
-        reach: &bench.reach,
-        averaging: &mut averaging,
-        count: &mut 0,
-    };
+    let mut average = averages!(bench);
     let mut remedy = FbarConsistent::new(0.0).holding(times, 5e3).unwrap();
     let loaded = &bench.particles;
     let mut mean = Vec::new();
@@ -386,8 +359,7 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
     );
 }
 
-/// What is held is held against a pressure: where there is none no bit changes, and of a body that grows alike everywhere
-/// nothing is unseen.
+/// Strains are held against a pressure: without one no bit changes, and uniform growth has no unseen part.
 #[test]
 fn holding_does_nothing_without_pressure_or_disorder() {
     let (_, plain, _) = small_body(&mut FbarConsistent::default(), 2);
@@ -403,13 +375,7 @@ fn holding_does_nothing_without_pressure_or_disorder() {
         .map(|[a, b, c, d]| ([a - 0.5, b - 0.5], [*c, *d, *a, *b]))
         .collect();
     let (bench, _, _) = strained::<3, Gimp>(&law, &places, &moved);
-    let mut average = Projection {
-        lattice: &bench.lattice,
-        slabs: &bench.slabs,
-        reach: &bench.reach,
-        averaging: &mut Averaging::new(bench.lattice.len()),
-        count: &mut 0,
-    };
+    let mut average = averages!(bench);
     let mut remedy = FbarConsistent::default().holding(10.0, 5e3).unwrap();
     remedy.force_mean(&bench.particles, &mut average, &mut Vec::new());
     let grown = vec![SMatrix::<f64, 2, 2>::identity() * 1.1; places.len()];
@@ -449,13 +415,7 @@ proptest! {
             // Without a change of volume, to first order and to second.
             let sheared = |l: &SMatrix<f64, 2, 2>| SMatrix::<f64, 2, 2>::new(1.0, shear * l[(0, 1)], 0.0, 1.0);
             let delta_f: Gradients = gradients.iter().map(sheared).collect();
-            let mut average = Projection {
-                lattice: &bench.lattice,
-                slabs: &bench.slabs,
-                reach: &bench.reach,
-                averaging: &mut Averaging::new(bench.lattice.len()),
-                count: &mut 0,
-            };
+            let mut average = averages!(bench);
             let mut remedy = FbarConsistent::new(100.0);
             let deformation = deformation(&remedy, &delta_f);
             let next = remedy.next_j_bar(&bench.particles, &deformation, &mut average);

@@ -35,7 +35,7 @@ use nalgebra::SMatrix;
 pub struct Apic;
 
 /// A second moment below this share of h² counts as zero: a particle this close to a node of hats.
-/// What it then leaves out is at most this share of what it gives.
+/// Largest share of a result that this neglects.
 const SINGULAR: f64 = 1e-12;
 
 /// The places of a row along the outer axes, axis by axis.

@@ -4,7 +4,7 @@
 //! particle's velocity, PIC replaces it by the nodes' velocity. Particles move with Σ w_ip v_iⁿ⁺¹.
 
 use super::Transfer;
-use super::kernel::{Given, Received, gather, spread};
+use super::kernel::{Received, gather};
 use crate::error::{Error, require};
 use crate::lattice::StencilRef;
 use crate::memory::Memoryless;
@@ -37,7 +37,6 @@ impl Flip {
     }
 
     /// The share η of FLIP.
-    #[must_use]
     pub fn share(&self) -> f64 {
         self.eta
     }
@@ -54,23 +53,6 @@ impl Memoryless for Flip {}
 impl<const D: usize> Transfer<D> for Flip {
     type Gives<const S: usize> = ();
     type Receives = ();
-
-    #[inline(always)]
-    fn particle_to_grid<const S: usize>(
-        &self,
-        stencil: StencilRef<'_, D, S>,
-        given: &Given<D>,
-        _gives: &(),
-        nodes: &mut [NodalState],
-        origin: usize,
-    ) {
-        let momentum = given.momentum(stencil.place());
-        let carried = |_, _, w| {
-            let row = momentum * w;
-            move |_| row
-        };
-        spread(stencil, given, carried, nodes, origin);
-    }
 
     #[inline(always)]
     fn grid_to_particle<const S: usize>(

@@ -1,14 +1,14 @@
-//! What all transfers share: forces and velocities between a particle and the nodes of its stencil.
+//! Shared kernels of the transfers: forces and velocities between a particle and the nodes of its stencil.
 //!
-//! Particles come in eights. What is computed side by side is written to memory, where the loop over the eight reads
-//! it: a run-time index keeps the arrays there.
+//! Particles come in eights. Results computed side by side are written to memory, where the loop over the eight reads
+//! them: a run-time index keeps the arrays there.
 
 use crate::lattice::{Stencil, StencilRef};
 use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight, Octet};
 use crate::tensor::SymmetricTensor;
 
-/// What eight particles give to the grid.
+/// Data that eight particles give to the grid.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Given<const D: usize> {
@@ -34,7 +34,8 @@ impl<const D: usize> Default for Given<D> {
 }
 
 impl<const D: usize> Given<D> {
-    /// Of particles of the given mass (kg), velocity (m/s), volume (m³), Cauchy stress (Pa) and external force (N).
+    /// Sets the data of particles with the given mass (kg), velocity (m/s), volume (m³), Cauchy stress (Pa) and
+    /// external force (N).
     #[inline(always)]
     pub fn set(
         &mut self,
@@ -56,7 +57,6 @@ impl<const D: usize> Given<D> {
 
     /// Momentum and, in the last place, mass of the `l`-th particle.
     #[inline(always)]
-    #[must_use]
     pub fn momentum(&self, l: usize) -> Node {
         let mut momentum = padded(&self.momentum, l);
         momentum.as_mut_array()[3] = self.mass[l];
@@ -77,8 +77,8 @@ pub(super) fn padded<const D: usize>(components: &[Octet; D], l: usize) -> Node 
 /// Adds a particle's momentum and mass, Eqs. (7) and (8), and its forces, −V_p σ_p ∇w_ip + w_ip f_p,
 /// Eq. (10), to `nodes`, which begins at node `origin`.
 ///
-/// `carried(slow, fast, w)` gives, for the row of the stencil at these places and of weight `w`, the momentum and
-/// mass that node `k` of the row receives but for the weight along the row.
+/// `carried(slow, fast, w)` gives, for the row of the stencil at these places and of weight `w`, the momentum and mass
+/// that node `k` of the row receives, without the weight along the row.
 #[inline(always)]
 pub fn spread<const D: usize, const S: usize, R: Fn(usize) -> Node>(
     stencil: StencilRef<'_, D, S>,
@@ -119,7 +119,7 @@ pub fn spread<const D: usize, const S: usize, R: Fn(usize) -> Node>(
     }
 }
 
-/// What eight particles receive from the grid.
+/// Data that eight particles receive from the grid.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Received<const D: usize> {
@@ -144,21 +144,18 @@ impl<const D: usize> Default for Received<D> {
 impl<const D: usize> Received<D> {
     /// Σ_i w_ip v_iⁿ⁺¹ (m/s) along an axis.
     #[inline(always)]
-    #[must_use]
     pub fn velocity(&self, a: usize) -> Eight {
         Eight::new(self.velocity[a])
     }
 
     /// Σ_i w_ip (v_iⁿ⁺¹ − v_iⁿ) (m/s) along an axis.
     #[inline(always)]
-    #[must_use]
     pub fn increment(&self, a: usize) -> Eight {
         Eight::new(self.increment[a])
     }
 
     /// ∂v_a/∂x_b (1/s).
     #[inline(always)]
-    #[must_use]
     pub fn gradient(&self, a: usize, b: usize) -> Eight {
         Eight::new(self.gradient[a][b])
     }

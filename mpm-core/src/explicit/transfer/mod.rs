@@ -39,15 +39,16 @@ use std::ops::Range;
 /// A particle–grid transfer. Its methods stand inside the loop over particles and nodes, so it is a
 /// type parameter of the solver. They serve eight particles, or one of eight.
 pub trait Transfer<const D: usize>: Memory + Send + Sync {
-    /// What eight particles give to the nodes beside momentum, mass and forces, in memory.
+    /// Data that eight particles give to the nodes beside momentum, mass and forces.
     type Gives<const S: usize>: Copy + Default;
-    /// What eight particles receive beside what all do, in memory.
+    /// Data that eight particles receive beside [`Received`].
     type Receives: Copy + Default;
 
     /// Gives the particles the columns that the transfer needs; a column that is there is kept.
     fn attach(&self, _particles: &mut Particles<D>) {}
 
-    /// What particles at `x` (m) that see `functions` give, of mass (kg) and moment B (m²/s) where they carry one.
+    /// Data given by particles at `x` (m) that see `functions`, with their mass (kg) and moment B (m²/s), if they carry
+    /// one.
     fn give<const S: usize, B: Basis<S>>(
         &self,
         _lattice: &Lattice<D, S, B>,
@@ -60,15 +61,23 @@ pub trait Transfer<const D: usize>: Memory + Send + Sync {
     }
 
     /// Adds a particle's mass, momentum and forces, Eqs. (7), (8), (10), to `nodes`, which begins at
-    /// node `origin`.
+    /// node `origin`. Default: a particle's momentum has no moment.
+    #[inline(always)]
     fn particle_to_grid<const S: usize>(
         &self,
         stencil: StencilRef<'_, D, S>,
         given: &Given<D>,
-        gives: &Self::Gives<S>,
+        _gives: &Self::Gives<S>,
         nodes: &mut [NodalState],
         origin: usize,
-    );
+    ) {
+        let momentum = given.momentum(stencil.place());
+        let carried = |_, _, w| {
+            let row = momentum * w;
+            move |_| row
+        };
+        kernel::spread(stencil, given, carried, nodes, origin);
+    }
 
     /// Between the grid update and G2P: what needs passes over all particles. `held` are the prescribed
     /// velocities. Returns how often it went from the grid to the particles and back.

@@ -1,18 +1,18 @@
 //! FLIP with the stress updated from velocities that were mapped again.
 //!
-//! Sulsky, Zhou & Schreyer (1995), doi 10.1016/0010-4655(94)00170-7: the modified update of stress last, MUSL. Particles
-//! take velocities and move as with FLIP; then their new velocities go back to the nodes, with the functions at the places
-//! where the step began, and strains come from these:
+//! Sulsky, Zhou & Schreyer (1995), doi 10.1016/0010-4655(94)00170-7: the modified update of stress last, MUSL.
+//! Particles take velocities and move as with FLIP; then their new velocities go back to the nodes, with the functions
+//! at the places where the step began, and strains come from these:
 //!
 //! v̄ = S⁺Vⁿ⁺¹ = vⁿ + S⁺S a Δt,  ∇v = Σ_i v̄_i ⊗ ∇w_ip.
 //!
 //! A node that sees hardly any mass has a force and next to no inertia: vⁿ⁺¹ there is what its few particles feel as a
-//! strain, without bound as the mass vanishes. v̄ there is a mean over particles, whose velocities are bounded. Elsewhere
-//! S⁺S smooths a Δt over a cell, which is of second order in h. Since 1ᵀ m S⁺S = 1ᵀ m and v = const is kept, momentum and
-//! rigid motion are as with FLIP. The work of the stresses, Σ V σ:∇v Δt, is that of v̄, and no longer the power of the
-//! nodal forces on vⁿ⁺¹.
+//! strain, without bound as the mass vanishes. v̄ there is a mean over particles, whose velocities are bounded.
+//! Elsewhere S⁺S smooths a Δt over a cell, which is of second order in h. Since 1ᵀ m S⁺S = 1ᵀ m and v = const is kept,
+//! momentum and rigid motion are as with FLIP. The work of the stresses, Σ V σ:∇v Δt, is that of v̄, and no longer the
+//! power of the nodal forces on vⁿ⁺¹.
 
-use super::kernel::{Given, Received, gather};
+use super::kernel::{Received, gather};
 use super::sweep::Sweep;
 use super::{Flip, Transfer};
 use crate::basis::Basis;
@@ -38,18 +38,6 @@ impl<const D: usize> Transfer<D> for Musl {
     type Gives<const S: usize> = ();
     /// From v̄.
     type Receives = Received<D>;
-
-    #[inline(always)]
-    fn particle_to_grid<const S: usize>(
-        &self,
-        stencil: StencilRef<'_, D, S>,
-        given: &Given<D>,
-        gives: &(),
-        nodes: &mut [NodalState],
-        origin: usize,
-    ) {
-        Flip::default().particle_to_grid(stencil, given, gives, nodes, origin);
-    }
 
     fn prepare<const S: usize, B: Basis<S>>(
         &mut self,

@@ -1,4 +1,4 @@
-//! A map from nodes to particles and back, S⁺S but for the division by mass, on nodes of a transfer's own.
+//! Map from nodes to particles and back, S⁺S without the division by mass, on a transfer's own nodes.
 
 use crate::basis::Basis;
 use crate::eights::{AHEAD, Eights, blocks, components, entries};

@@ -221,12 +221,9 @@ fn affine_field_survives<const D: usize, const S: usize, B: Basis<S>>(
     }
     for k in 0..shares.len() {
         let (v, b) = (frozen.particles.velocity[k], frozen.particles.affine[k]);
+        let exact = exact[k];
         for a in 0..D {
-            assert!(
-                (v[a] - exact[k][a]).abs() < ROUNDING,
-                "{v:?} {:?}",
-                exact[k]
-            );
+            assert!((v[a] - exact[a]).abs() < ROUNDING, "{v:?} {exact:?}");
         }
         assert!((b - moments[k]).norm() < ROUNDING, "{b} {}", moments[k]);
     }
@@ -421,11 +418,8 @@ fn what_no_node_sees_flip_keeps_and_every_other_transfer_removes() {
             v[0] = if p % 2 == 0 { 1.0 } else { -1.0 };
         }
         transfer(&mut frozen);
-        frozen
-            .particles
-            .velocity
-            .iter()
-            .fold(0.0_f64, |m, v| m.max(v[0].abs()))
+        let speeds = frozen.particles.velocity.iter().map(|v| v[0].abs());
+        speeds.fold(0.0, f64::max)
     };
     assert!((after(&mut |f| f.transfer(&mut Flip::default())) - 1.0).abs() < ROUNDING);
     assert!(after(&mut |f| f.transfer(&mut Apic)) < ROUNDING);

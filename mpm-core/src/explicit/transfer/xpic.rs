@@ -18,9 +18,9 @@
 //! Particles move by Δt (S v + ½ (Vⁿ⁺¹ − Vⁿ)), second order in Δt; v is vⁿ, at held nodes what they
 //! are held to (as mapped it would carry particles through a wall).
 
-use super::kernel::{Given, Received, gather};
+use super::Transfer;
+use super::kernel::{Received, gather};
 use super::sweep::Sweep;
-use super::{Flip, Transfer};
 use crate::basis::Basis;
 use crate::error::{Error, require};
 use crate::lattice::{Lattice, StencilRef};
@@ -68,18 +68,6 @@ impl<const D: usize> Transfer<D> for Xpic {
     type Gives<const S: usize> = ();
     /// From its own nodes: S (v* + a Δt) for the velocity, S v for the increment.
     type Receives = Received<D>;
-
-    #[inline(always)]
-    fn particle_to_grid<const S: usize>(
-        &self,
-        stencil: StencilRef<'_, D, S>,
-        given: &Given<D>,
-        gives: &(),
-        nodes: &mut [NodalState],
-        origin: usize,
-    ) {
-        Flip::default().particle_to_grid(stencil, given, gives, nodes, origin);
-    }
 
     fn prepare<const S: usize, B: Basis<S>>(
         &mut self,

@@ -56,10 +56,7 @@ fn thrown(rule: TimeRule, dt: f64, gap: f64) -> Solver<2, Quadratics<2>, NeoHook
     }
     scene.body.particles.velocity.fill([0.1, -SPEED]);
     let contact = floor(&scene.body.particles, gap, FORCE);
-    let settings = Settings {
-        tolerance: 1e-12,
-        ..Settings::new(dt).rule(rule)
-    };
+    let settings = Settings::new(dt).rule(rule).tolerance(1e-12);
     Solver::new(scene.contact(contact), settings).unwrap()
 }
 
@@ -106,8 +103,8 @@ fn bounced(rule: TimeRule, dt: f64) -> f64 {
     change
 }
 
-/// Energy differs by the third derivative of the potentials along an increment: a sum of third order a step, second order
-/// in all.
+/// Energy differs by the third derivative of the potentials along an increment: a sum of third order a step, second
+/// order in all.
 #[test]
 fn a_block_bounces_on_the_barrier_and_keeps_its_energy() {
     let rule = TimeRule::Midpoint { lumped: 0.1 };
@@ -165,11 +162,7 @@ fn rests<const D: usize, I: Interpolation<2>, M: Law>(law: M, remedy: Remedy) {
     let weight = 1e3 * (H * CELLS as f64).powi(2);
     let each = weight / (2 * CELLS) as f64;
     let contact = floor(&scene.body.particles, 0.5 * DISTANCE, each);
-    let rollers = [End::Lo, End::Hi].map(|end| Wall {
-        axis: 0,
-        end,
-        kind: WallKind::Roller,
-    });
+    let rollers = [End::Lo, End::Hi].map(|end| Wall::new(0, end, WallKind::Roller));
     let scene = scene
         .constrain_all(rollers)
         .contact(contact)
@@ -209,7 +202,7 @@ fn a_face_across_a_periodic_axis_is_refused() {
     assert!(solver.err().unwrap().to_string().contains("periodic"));
 }
 
-/// What no part of a step can keep open is an error that says so.
+/// A gap that no part of a step can keep open gives a typed error.
 #[test]
 fn a_face_that_jumps_on_the_body_is_a_typed_error() {
     let mut solver = thrown(TimeRule::Midpoint { lumped: 0.1 }, 0.01, 1.5 * DISTANCE);

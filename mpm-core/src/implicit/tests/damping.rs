@@ -1,9 +1,9 @@
-//! What local damping does to an implicit step, on a mass at a spring: why [`Settings::locally_damped`] refuses it.
+//! Local damping in an implicit step, for a mass on a spring: why [`Settings::locally_damped`] refuses it.
 
 use super::*;
 
-/// A unit mass at a unit spring, pulled by a unit force at once, with damping −α |F| sign(v) of the out-of-balance force F,
-/// by Newmark's rule (α = ¼, δ = ½) with steps of `dt` (ω Δt).
+/// A unit mass at a unit spring, pulled by a unit force at once, with damping −α |F| sign(v) of the out-of-balance
+/// force F, by Newmark's rule (α = ¼, δ = ½) with steps of `dt` (ω Δt).
 struct Swing {
     damping: f64,
     dt: f64,
@@ -37,7 +37,7 @@ impl Swing {
     }
 
     /// With damping by the force and velocity at the end of the step: on each of the four pairs of their signs the
-    /// equations are linear, and a solution that has other signs is none. A mass of a step without solution stops.
+    /// equations are linear, and a solution with other signs is invalid. In a step without solution the mass stops.
     fn inside(&mut self) {
         let [_, v, a] = self.now;
         let (stiffness, push) = (4.0 / self.dt.powi(2), 4.0 * v / self.dt + a);

@@ -33,21 +33,16 @@ fn rubber() -> NeoHookean {
 }
 
 fn moving<I: Interpolation<2>, M: Law>(law: M, rule: TimeRule) -> Solver<2, I, M> {
-    let settings = Settings {
-        tolerance: 1e-12,
-        ..Settings::new(DT).rule(rule)
-    };
+    let settings = Settings::new(DT).rule(rule).tolerance(1e-12);
     Solver::new(tumbling(law), settings).unwrap()
 }
 
-/// Nothing outside acts: both rules keep linear momentum, and Newton's tolerance doesn't matter to the midpoint rule.
+/// Nothing outside acts: both rules keep linear momentum, and Newton's tolerance does not matter to the midpoint rule.
 fn keeps_momentum<const D: usize, I: Interpolation<2>, M: Law + Clone>(law: M) {
     for rule in [MIDPOINT, NEWMARK] {
         let mut solver = moving::<I, M>(law.clone(), rule);
         let before = solver.totals().momentum;
-        for _ in 0..5 {
-            solver.step().unwrap();
-        }
+        solver.advance(5).unwrap();
         let after = solver.totals().momentum;
         for a in 0..2 {
             let change = (after[a] - before[a]).abs();
@@ -93,14 +88,9 @@ fn a_body_falls_freely() {
             *x = x.map(|x| x + 3.0 * H);
         }
         let scene = scene.load(Gravity(Box::new(|_| [0.0, -9.81])));
-        let settings = Settings {
-            tolerance: 1e-13,
-            ..Settings::new(DT).rule(rule)
-        };
+        let settings = Settings::new(DT).rule(rule).tolerance(1e-13);
         let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
-        for _ in 0..10 {
-            solver.step().unwrap();
-        }
+        solver.advance(10).unwrap();
         let time: f64 = 10.0 * DT;
         let p = solver.particles();
         for ((x0, x), v) in p.reference.iter().zip(&p.position).zip(&p.velocity) {
@@ -148,35 +138,24 @@ fn swinging() -> Scene<2, NeoHookean> {
             0.0,
         ];
     }
-    let roller = |axis, end| Wall {
-        axis,
-        end,
-        kind: WallKind::Roller,
-    };
+    let roller = |axis, end| Wall::new(axis, end, WallKind::Roller);
     let ends = [0, 1].map(|axis| [roller(axis, End::Lo), roller(axis, End::Hi)]);
     scene.constrain_all(ends.into_iter().flatten())
 }
 
-/// Where the particles of the box are after 0.08 s in so many steps, in seeding order.
+/// Positions of the box's particles after 0.08 s in this number of steps, in seeding order.
 fn swung(rule: TimeRule, steps: u32) -> Vec<[f64; 2]> {
-    let settings = Settings {
-        tolerance: 1e-12,
-        ..Settings::new(0.08 / f64::from(steps)).rule(rule)
-    };
+    let settings = Settings::new(0.08 / f64::from(steps))
+        .rule(rule)
+        .tolerance(1e-12);
     let mut solver = Solver::<2, Quadratics<2>, _>::new(swinging(), settings).unwrap();
-    for _ in 0..steps {
-        solver.step().unwrap();
-    }
+    solver.advance(steps as usize).unwrap();
     let p = solver.particles();
     p.seeded(|k| p.position[k])
 }
 
 fn apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
-    let squares = a
-        .iter()
-        .zip(b)
-        .map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2));
-    squares.sum::<f64>().sqrt()
+    crate::fixture::apart(a.as_flattened(), b.as_flattened())
 }
 
 /// The error of the displacement falls with the square of the step.
@@ -188,8 +167,8 @@ fn the_midpoint_rule_is_of_second_order() {
     assert!((ratio - 4.0).abs() < 0.3, "{ratio}");
 }
 
-/// Between walls, with the same mass, both rules swing alike: of small strains they are the same but for what particles
-/// take from the nodes.
+/// Between walls, with the same mass, both rules swing alike: at small strains they differ only by what particles take
+/// from the nodes.
 #[test]
 fn the_rules_agree_between_walls() {
     let start = swinging().body.particles.position;

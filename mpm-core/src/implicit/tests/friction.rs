@@ -10,7 +10,7 @@ use crate::stage::Gravity;
 pub(super) const MU: f64 = 0.3;
 /// Mass of a block (kg/m), whose weight is that of a gravity of 1 m/s² across the slope.
 pub(super) const MASS: f64 = 1e3 * (H * CELLS as f64) * (H * CELLS as f64);
-/// Of the particles that touch the slope, each bears this at half of the barrier's distance (N/m).
+/// Load (N/m) of each particle that touches the slope, at half of the barrier's distance.
 const EACH: f64 = MASS / (2 * CELLS) as f64;
 pub(super) const TOLERANCE: f64 = 1e-12;
 pub(super) const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.1 };
@@ -87,10 +87,9 @@ pub(super) fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Se
     let contact = floor(&scene.body.particles, 0.5 * DISTANCE, EACH);
     let friction = friction(stick(contact.barrier()));
     let gravity = move |t: f64| [if t > 1.0 { slope } else { 0.0 }, -1.0];
-    let settings = Settings {
-        tolerance: TOLERANCE,
-        ..settings.stabilised(Stabilisation::Extension)
-    };
+    let settings = settings
+        .stabilised(Stabilisation::Extension)
+        .tolerance(TOLERANCE);
     let scene = scene
         .contact(contact.with_friction(friction))
         .load(Gravity(Box::new(gravity)));
@@ -140,8 +139,8 @@ pub(super) fn places(solver: &Block) -> Vec<[f64; 2]> {
     places
 }
 
-/// What a step leaves is a force of Newton's tolerance, against which the sticks of all that touch hold the block: no
-/// step moves it by more than that force stretches them.
+/// A step leaves a residual force of Newton's tolerance, which all touching sticks hold: no step moves the block by
+/// more than that force stretches them.
 #[test]
 fn below_the_angle_of_friction_a_block_rests_and_does_not_creep() {
     for share in [0.5, 0.9] {
@@ -155,11 +154,9 @@ fn below_the_angle_of_friction_a_block_rests_and_does_not_creep() {
             go_on(&mut solver, rule, 0.02);
             let before = places(&solver);
             let steps = 50;
-            for _ in 0..steps {
-                solver.step().unwrap();
-            }
+            solver.advance(steps).unwrap();
             let stiffness = (2 * CELLS) as f64 * stick(solver.scene.contacts[0].barrier());
-            let bound = f64::from(steps) * TOLERANCE * MASS / stiffness;
+            let bound = steps as f64 * TOLERANCE * MASS / stiffness;
             for (x, before) in places(&solver).iter().zip(&before) {
                 let moved = (x[0] - before[0]).abs();
                 assert!(moved <= bound, "{share} {rule:?}: {moved} {bound}");
@@ -181,8 +178,9 @@ fn slips_within_coulombs_law(solver: &Block) {
     }
 }
 
-/// Σ friction is μ Σ N where all particles slip. So the mean acceleration along the slope is g_x − μ (g_y + Δv_y/T), and a
-/// block that stays on the face swings by no more than a fall of 1/ω from rest gives, ω² = ΣB″/m: |Δv_y| ≤ 2 g_y/ω.
+/// Σ friction is μ Σ N where all particles slip. So the mean acceleration along the slope is g_x − μ (g_y + Δv_y/T),
+/// and a block that stays on the face swings by no more than a fall of 1/ω from rest gives, ω² = ΣB″/m: |Δv_y| ≤ 2
+/// g_y/ω.
 #[test]
 fn beyond_the_angle_of_friction_a_block_slides_at_its_acceleration() {
     let slope = 2.0 * MU;
@@ -193,9 +191,7 @@ fn beyond_the_angle_of_friction_a_block_slides_at_its_acceleration() {
         let mut solver = resting(slope);
         go_on(&mut solver, rule, dt);
         solver.settings = solver.settings.stabilised(stabilisation);
-        for _ in 0..20 {
-            solver.step().unwrap();
-        }
+        solver.advance(20).unwrap();
         let (early, start) = (solver.totals().momentum, solver.time());
         let impulse = solver.on(Part::Contact(0)).impulse;
         for _ in 0..steps {
@@ -225,16 +221,12 @@ fn beyond_the_angle_of_friction_a_static_step_is_a_typed_error() {
     let mut solver = resting(1.1 * MU);
     let (before, contact) = (places(&solver), solver.scene.contacts[0].clone());
     let error = solver.step().unwrap_err();
-    assert!(
-        matches!(error, Error::NoConvergence { .. } | Error::Singular { .. }),
-        "{error}"
-    );
+    let typed = matches!(error, Error::NoConvergence { .. } | Error::Singular { .. });
+    assert!(typed, "{error}");
     assert_eq!(before, places(&solver));
     assert_eq!(contact, solver.scene.contacts[0]);
     go_on(&mut solver, MIDPOINT, 0.01);
-    for _ in 0..20 {
-        solver.step().unwrap();
-    }
+    solver.advance(20).unwrap();
     assert!(solver.totals().momentum[0] > 0.0);
 }
 
@@ -243,9 +235,7 @@ fn a_sliding_block_that_was_stopped_goes_on_as_if_it_had_not() {
     let fresh = || block(2.0 * MU, coulomb, Settings::new(0.25).rule(MIDPOINT));
     let mut straight = fresh();
     let run = |solver: &mut Block| {
-        for _ in 0..5 {
-            solver.step().unwrap();
-        }
+        solver.advance(5).unwrap();
     };
     run(&mut straight);
     let saved = straight.save().unwrap();
@@ -306,36 +296,26 @@ fn a_stick_remembers_the_whole_of_a_step() {
 
 #[test]
 fn a_stick_that_touches_nothing_is_forgotten() {
-    let mut contact = block(0.0, coulomb, Settings::new(1.0))
-        .scene
-        .contacts
-        .remove(0);
+    let mut solver = block(0.0, coulomb, Settings::new(1.0));
+    let contact = &mut solver.scene.contacts[0];
     contact.stick([(1, [0.1, 0.0]), (3, [0.2, 0.0])].into_iter());
     contact.stick([(3, [0.3, 0.0])].into_iter());
     let held: Vec<f64> = contact.sticks()[..4].iter().map(|u| u[0]).collect();
     assert_eq!(held, [0.0, 0.0, 0.0, 0.3]);
 }
 
-/// What slips has no potential for F̄; what never does is solved with it.
+/// A contact that can slip has no potential for F̄; a rough one is solved with it.
 #[test]
 fn friction_with_f_bar_has_to_be_rough() {
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
     let mut rough = block(2.0 * MU, |k| Friction::rough(k).unwrap(), settings);
-    rough.step().unwrap();
-    rough.step().unwrap();
+    rough.advance(2).unwrap();
     let force = rough.on(Part::Contact(0)).force;
-    assert!(
-        (force[0] - 2.0 * MU * MASS).abs() < 1e-9 * MASS,
-        "{force:?}"
-    );
+    let slope = 2.0 * MU * MASS;
+    assert!((force[0] - slope).abs() < 1e-9 * MASS, "{force:?}");
     let scene = Scene {
         contacts: vec![rough.scene.contacts[0].clone().with_friction(coulomb(1.0))],
-        ..filled(
-            [Axis::walls(0.0, CELLS); 2],
-            CELLS,
-            Places::Uniform,
-            rubber(),
-        )
+        ..full(CELLS, Places::Uniform, rubber())
     };
     let error = Block::new(scene, settings).err().unwrap().to_string();
     assert!(

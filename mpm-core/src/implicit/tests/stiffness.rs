@@ -1,13 +1,8 @@
 //! The stiffness against difference quotients of the forces, and its symmetry.
 
 use super::*;
+use crate::fixture::{apart, multiply, noise, slope};
 use nalgebra::DMatrix;
-
-/// Numbers in (−1, 1), the same every time.
-fn noise(k: usize) -> f64 {
-    let x = (k as f64 * 12.9898).sin() * 43_758.547;
-    2.0 * (x - x.floor()) - 1.0
-}
 
 /// A strained body with free faces, held at one end, on a trial of random increments.
 pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law>(
@@ -20,11 +15,7 @@ pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law>(
     let mut scene = full::<D, _>(CELLS, Places::Uniform, law);
     scene.body.particles = scene.body.particles.deformed(|x| (*x, f));
     scene.body = Body::new(scene.body.law, scene.body.particles).unwrap();
-    let wall = Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Fixed,
-    };
+    let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0)
         .remedy(remedy)
         .stabilised(Stabilisation::Ghost(0.01));
@@ -67,55 +58,22 @@ pub(super) fn slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
     let forces = |s: f64| {
         let at: Vec<f64> = u.iter().zip(&x).map(|(u, x)| u + s * x).collect();
         let trial = step.trial(&at, nodes).unwrap();
-        let sum = trial
-            .internal
-            .iter()
-            .zip(&trial.resistance)
-            .map(|(f, g)| f + g);
-        step.free(&sum.collect::<Vec<_>>())
+        let pairs = trial.internal.iter().zip(&trial.resistance);
+        step.free(&pairs.map(|(f, g)| f + g).collect::<Vec<_>>())
     };
-    let quotient = |s: f64| -> Vec<f64> {
-        let ends = forces(s).into_iter().zip(forces(-s));
-        ends.map(|(a, b)| (a - b) / (2.0 * s)).collect()
-    };
-    let [coarse, middle, fine] = [4e-3, 2e-3, 1e-3].map(quotient);
+    let (exact, known) = slope(forces);
     let trial = step.trial(&u, nodes).unwrap();
     let tangents = step.tangents(&trial);
     let product = step.apply(&tangents, &x, nodes);
-    let (mut error, mut known) = (0.0, 0.0);
-    for i in 0..count {
-        let [first, second] = [
-            (4.0 * middle[i] - coarse[i]) / 3.0,
-            (4.0 * fine[i] - middle[i]) / 3.0,
-        ];
-        let exact = (16.0 * second - first) / 15.0;
-        error += (product[i] - exact).powi(2);
-        known += (exact - second).powi(2);
-    }
     // Rounding of the forces over the least step.
-    let rounding = 100.0 * f64::EPSILON * newton::norm(&product) / 1e-3;
-    assert!(
-        error.sqrt() <= known.sqrt() + rounding,
-        "{} {}",
-        error.sqrt(),
-        known.sqrt()
-    );
+    let rounding = 100.0 * f64::EPSILON * algebra::norm(&product) / 1e-3;
+    let (error, known) = (apart(&product, &exact), algebra::norm(&known));
+    assert!(error <= known + rounding, "{error} {known}");
     if remedy == Remedy::None {
         let values = step.stiffness(&tangents, &setting.pattern);
         let assembled = multiply(&setting.pattern, &values, &x);
-        let apart = assembled.iter().zip(&product).map(|(a, b)| (a - b).powi(2));
-        assert!(apart.sum::<f64>().sqrt() < 1e-12 * newton::norm(&product));
+        assert!(apart(&assembled, &product) < 1e-12 * algebra::norm(&product));
     }
-}
-
-fn multiply(pattern: &Pattern, values: &[f64], x: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; x.len()];
-    for (column, x) in x.iter().enumerate() {
-        for k in pattern.begin[column]..pattern.begin[column + 1] {
-            out[pattern.row[k]] += values[k] * x;
-        }
-    }
-    out
 }
 
 fn ground() -> HenckyJ2 {
@@ -191,19 +149,15 @@ fn stiffness_is_symmetric_where_there_is_a_potential() {
     assert!(asymmetry::<2, Quadratics<2>, _>(law, none) > 1e-4);
 }
 
-/// Pressures of nodes that are eliminated from what preconditions, Eq. (13), resist a strain that is alike everywhere as
-/// the average does, but for the share of it that is kept where averages see nothing.
+/// Pressures of nodes that are eliminated from what preconditions, Eq. (13), resist a strain that is alike everywhere
+/// as the average does, except for the share that is kept where averages see nothing.
 fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D>>() {
     let scene = full::<D, _>(
         CELLS,
         Places::Uniform,
         NeoHookean::new(YOUNG, 0.49).unwrap(),
     );
-    let wall = Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Fixed,
-    };
+    let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
     let solver = Solver::<D, I, _>::new(scene.constrain(wall), settings).unwrap();
     let setting = solver.setting(1.0);

@@ -19,17 +19,15 @@ fn a_block_that_rests_on_its_sticks_rests_in_the_next_run() {
     let steps = 20;
     for rule in [TimeRule::Static, MIDPOINT, NEWMARK] {
         let mut next = block(0.9 * MU, coulomb, Settings::new(0.02).rule(rule));
-        next.time = first.time;
+        next.ledger.time = first.ledger.time;
         next.take_over(&body).unwrap();
         assert_eq!(
             next.scene.contacts[0].sticks(),
             first.scene.contacts[0].sticks()
         );
-        for _ in 0..steps {
-            next.step().unwrap();
-        }
+        next.advance(steps).unwrap();
         let stiffness = 8.0 * stick(next.scene.contacts[0].barrier());
-        let bound = f64::from(steps) * TOLERANCE * MASS / stiffness;
+        let bound = steps as f64 * TOLERANCE * MASS / stiffness;
         for (x, before) in places(&next).iter().zip(&places(&first)) {
             let moved = (x[0] - before[0]).abs();
             assert!(moved <= bound, "{rule:?}: {moved} {bound}");
@@ -48,11 +46,7 @@ fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2, Means<2>, NeoHooke
     }
     let particles = Particles::new(seeded, 0.25 * H * H, 1000.0, [0.25 * H; 2]).unwrap();
     let contact = floor(&particles, 0.1 * H, 125.0);
-    let rollers = [End::Lo, End::Hi].map(|end| Wall {
-        axis: 0,
-        end,
-        kind: WallKind::Roller,
-    });
+    let rollers = [End::Lo, End::Hi].map(|end| Wall::new(0, end, WallKind::Roller));
     let scene = Scene::new(whole.grid, Body::new(rubber(), particles).unwrap())
         .constrain_all(rollers)
         .load(Gravity(Box::new(|_| [0.0, -1.0])));
@@ -88,14 +82,14 @@ fn what_is_excavated_is_gone_and_the_rest_stays_as_it_was() {
     assert!((weight(&cut) / weight(&whole) - 5.0 / 8.0).abs() < 1e-12);
 }
 
-/// What is not there can't be handed over.
+/// Missing particles cannot be handed over.
 #[test]
 fn a_body_of_fewer_particles_is_refused() {
     let few = pile(5, TimeRule::Static, true);
     let mut many = pile(8, TimeRule::Static, true);
     let error = many.take_over(&few.body().unwrap()).unwrap_err();
     assert!(
-        error.to_string().contains("40 in the memory, 64"),
+        error.to_string().contains("40 in the saved state, 64"),
         "{error}"
     );
     let hand_over = Saved::of(&(few.scene.body.save().unwrap(), 7_u8)).unwrap();
@@ -122,15 +116,12 @@ fn accelerations_are_those_of_the_new_scene() {
     resting.step().unwrap();
 }
 
-/// Clay of the length L = 1 m between a symmetry plane and a free face, which hangs on a smooth plate: gravity is upward.
+/// Clay of the length L = 1 m between a symmetry plane and a free face, which hangs on a smooth plate: gravity is
+/// upward.
 fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>, HenckyJ2> {
     let law = HenckyJ2::new(YOUNG, POISSON, Strength::undrained(strength).unwrap()).unwrap();
     let axes = [Axis::bounded(0.0, CELLS + 4, (Side::Wall, Side::Open)); 2];
-    let rollers = [0, 1].map(|axis| Wall {
-        axis,
-        end: End::Lo,
-        kind: WallKind::Roller,
-    });
+    let rollers = [0, 1].map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));
     let rises = rule == TimeRule::Static;
     let gravity = move |time: f64| [0.0, if rises { time } else { 1.0 }];
     let scene = filled(axes, CELLS, Places::Uniform, law)
@@ -142,10 +133,11 @@ fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>, Hencky
     Solver::new(scene, settings).unwrap()
 }
 
-/// Columns that hang alone, σ_y = γ (L − y), bound the share of γ that can be carried by 2c/(γL) from below, and clay that is
-/// stretched as a whole by 4c/(γL) from above: its field of velocities is in every space, and what is stretched is thinner.
-/// Beyond, the error says so, and the state is the last equilibrium. Clay that flows is driven by a constant force: at twice
-/// the time its energy is four times as large; half of that is asked. That of clay which holds would swing.
+/// Columns that hang alone, σ_y = γ (L − y), bound the share of γ that can be carried by 2c/(γL) from below, and clay
+/// that is stretched as a whole by 4c/(γL) from above: its field of velocities is in every space, and what is stretched
+/// is thinner. Beyond, the error says so, and the state is the last equilibrium. Clay that flows is driven by a
+/// constant force: at twice the time its energy is four times as large; half of that is asked. That of clay which holds
+/// would swing.
 #[test]
 fn clay_beyond_its_strength_is_told_and_moves_on_from_its_last_equilibrium() {
     let strength = 150.0;
@@ -165,9 +157,7 @@ fn clay_beyond_its_strength_is_told_and_moves_on_from_its_last_equilibrium() {
     let places = |p: &Particles<2>| p.seeded(|k| p.position[k]);
     assert_eq!(places(moving.particles()), places(still.particles()));
     let mut energy = || {
-        for _ in 0..20 {
-            moving.step().unwrap();
-        }
+        moving.advance(20).unwrap();
         moving.totals().kinetic_energy
     };
     let [early, late] = [energy(), energy()];

@@ -4,11 +4,11 @@
 //!
 //! v = v_tr + μ (p − ρ), q = q_tr B²/(B² + 3G μ A²),
 //!
-//! where p, ρ, A and B are functions of the elastic volume strain v alone, as p_c grows by e^((v − v_tr)/ψ). What is
-//! dissipated is μ A². For a given μ the first equation has one solution, since p falls and ρ grows with v. Then
-//! N = √(((p − ρ)/A)² + (q/B)²) is a function of μ, above 1 at 0 and zero far out: so that N = 1 has a solution,
-//! between bounds that close in. 1 − 1/N is nearly linear in μ. Both equations are solved by Newton's method, which
-//! halves where it would leave its bounds.
+//! where p, ρ, A and B are functions of the elastic volume strain v alone, as p_c grows by e^((v − v_tr)/ψ). The
+//! dissipation is μ A². For a given μ the first equation has one solution, since p falls and ρ grows with v. Then N =
+//! √(((p − ρ)/A)² + (q/B)²) is a function of μ, above 1 at 0 and zero far out: so that N = 1 has a solution, between
+//! bounds that close in. 1 − 1/N is nearly linear in μ. Both equations are solved by Newton's method, which halves
+//! where it would leave its bounds.
 
 use super::CamClay;
 use crate::number::Real;
@@ -17,12 +17,12 @@ use crate::number::Real;
 const MOST_STEPS: u32 = 120;
 /// Accuracy of N = 1.
 const ACCURACY: f64 = 1e-13;
-/// What N may be off by where rounding lets it be no closer.
+/// Error of N that rounding allows.
 const LOOSE: f64 = 1e-6;
 /// Accuracy of a volume strain, relative to it and to what its equation has beside it: rounding.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// What an elastic step leads to.
+/// Result of an elastic step.
 #[derive(Clone, Copy)]
 pub(super) struct Trial<T> {
     /// Elastic volume strain, extension positive.
@@ -33,7 +33,7 @@ pub(super) struct Trial<T> {
     pub(super) preconsolidation: T,
 }
 
-/// What flow leads to.
+/// Result of flow.
 #[derive(Clone, Copy)]
 pub(super) struct End<T> {
     /// Elastic volume strain, extension positive.
@@ -170,7 +170,7 @@ impl CamClay {
         multiplier = multiplier.with_slopes_of(-value / slope);
         volume = self.volume_after(multiplier, volume, trial);
         let (_, _, remains) = at(multiplier, volume);
-        // What was not found has no stress.
+        // Without convergence there is no stress.
         let missed = value.abs() - number(LOOSE);
         volume = missed.if_positive(number(f64::NAN), volume);
         Some(End {

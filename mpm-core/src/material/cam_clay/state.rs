@@ -1,4 +1,4 @@
-//! What a particle of clay remembers.
+//! State of a particle of clay.
 
 use crate::material::State;
 use crate::number::{Lanes, Real};

@@ -110,7 +110,7 @@ proptest! {
                 let of_stress = stress.deviator().to_matrix();
                 let off = of_stress * deviator.norm() - deviator * of_stress.norm();
                 prop_assert!(off.norm() < (1e-12 / grows + 10.0 * rounding) * deviator.norm() * pc);
-                // What it dissipates: the work less what is stored, and √(A² ε_v² + B² ε_s²).
+                // Dissipation: work less stored energy, and √(A² ε_v² + B² ε_s²).
                 let dissipated = (p - rho) * compression + q * shear;
                 let by_rate = ((a * compression).powi(2) + (b * shear).powi(2)).sqrt();
                 prop_assert!((dissipated - by_rate).abs() < (1e-12 / grows + rounding) * by_rate);

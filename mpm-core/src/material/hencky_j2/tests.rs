@@ -73,7 +73,7 @@ proptest! {
                 prop_assert!(norm <= kappa * (1.0 + 1e-12));
                 if state.plastic_strain > before.plastic_strain {
                     prop_assert!((norm / kappa - 1.0).abs() < 1e-12);
-                    let kept = law.shear_modulus * state.elastic.ln().deviator().norm();
+                    let kept = law.elasticity.shear_modulus * state.elastic.ln().deviator().norm();
                     prop_assert!((kept / kappa - 1.0).abs() < 1e-11);
                     // The energy that the return releases: what the elastic trial state had stored, less what
                     // is stored now.
@@ -88,7 +88,7 @@ proptest! {
     }
 
     /// Eight particles side by side, some of which flow, some of which have far strains and some of which do
-    /// neither, are as one after the other: stress to rounding of the strain's identity, flow likewise.
+    /// neither, are as one after the other: stress and flow to rounding of the strain's identity.
     #[test]
     fn eight_are_as_one(
         path in prop::collection::vec(prop::array::uniform8(prop::array::uniform9(-1.0..1.0_f64)), 1..6),
@@ -145,7 +145,7 @@ proptest! {
 #[test]
 fn uniaxial_strain_follows_its_closed_form() {
     let law = perfect();
-    let (bulk, shear) = (law.bulk_modulus, law.shear_modulus);
+    let (bulk, shear) = (law.elasticity.bulk_modulus, law.elasticity.shear_modulus);
     for steps in [1, 7] {
         for end in [0.003_f64, 0.02, 0.5, -0.5] {
             let path = vec![stretches([end / f64::from(steps), 0.0, 0.0]); steps as usize];
@@ -161,8 +161,8 @@ fn uniaxial_strain_follows_its_closed_form() {
     }
 }
 
-/// Uniaxial tension without lateral stress, isochoric beyond yield but for elasticity: σ_y = √(3/2) κ. Driven
-/// by strains that a uniaxial stress has: e = σ/E along, −νe across until yield; then (1, −½, −½).
+/// Uniaxial tension without lateral stress, isochoric beyond yield except for elasticity: σ_y = √(3/2) κ. Driven by
+/// strains that a uniaxial stress has: e = σ/E along, −νe across until yield; then (1, −½, −½).
 #[test]
 fn a_bar_yields_at_the_uniaxial_strength_of_the_convention() {
     let law = perfect();
@@ -193,7 +193,7 @@ fn plane_strain_yields_at_the_undrained_strength() {
 #[test]
 fn simple_shear_flows_at_its_closed_form_and_converges_with_first_order() {
     let law = perfect();
-    let stretch = KAPPA / (8.0_f64.sqrt() * law.shear_modulus);
+    let stretch = KAPPA / (8.0_f64.sqrt() * law.elasticity.shear_modulus);
     let exact = [
         KAPPA / (2.0_f64.sqrt() * (2.0 * stretch).cosh()),
         KAPPA * (2.0 * stretch).tanh() / 2.0_f64.sqrt(),
@@ -225,17 +225,13 @@ fn softening_is_integrated_exactly_where_the_direction_stays() {
         .flat_map(|law| [0.01_f64, 0.1, 1.0].map(|end| (law, end)))
     {
         let left = |plastic: f64| {
-            2.0 * law.shear_modulus * (2.0_f64.sqrt() * end - 1.5_f64.sqrt() * plastic)
+            2.0 * law.elasticity.shear_modulus * (2.0_f64.sqrt() * end - 1.5_f64.sqrt() * plastic)
                 - law.strength.at(plastic).0
         };
         let (mut lo, mut hi) = (0.0, 2.0 * end);
         for _ in 0..100 {
             let middle = 0.5 * (lo + hi);
-            if left(middle) > 0.0 {
-                lo = middle;
-            } else {
-                hi = middle;
-            }
+            *(if left(middle) > 0.0 { &mut lo } else { &mut hi }) = middle;
         }
         for steps in [1, 10, 1000] {
             let step = end / f64::from(steps);
@@ -248,8 +244,8 @@ fn softening_is_integrated_exactly_where_the_direction_stays() {
     }
 }
 
-/// The flow's derivative is that of its equation, dγ (2μ + √(2/3) κ′) = dτ, however far from it Newton's last step began.
-/// It would lag most where one step is enough, close to the surface: by some 10⁻⁶.
+/// The flow's derivative is that of its equation, dγ (2μ + √(2/3) κ′) = dτ, however far from it Newton's last step
+/// began. It would lag most where one step is enough, close to the surface: by some 10⁻⁶.
 #[test]
 fn the_slope_of_the_flow_does_not_lag() {
     // Almost as steep as the elastic slope, of which four hundredths are left.
@@ -257,20 +253,22 @@ fn the_slope_of_the_flow_does_not_lag() {
     let strength = Strength::softening(KAPPA, 0.06 * KAPPA, eta).unwrap();
     let law = HenckyJ2::new(YOUNG, RATIO, strength).unwrap();
     let slope = |plastic: f64| PER_FLOW * law.strength.at(plastic).1;
-    let left = |plastic: f64| 2.0 * law.shear_modulus + slope(plastic);
-    // How far the flow may be from the equation's, times the relative curvature there: both are greatest at the surface.
+    let left = |plastic: f64| 2.0 * law.elasticity.shear_modulus + slope(plastic);
+    // How far the flow may be from the equation's, times the relative curvature there: both are greatest at the
+    // surface.
     let tolerance = ACCURACY * KAPPA / left(0.0) * (PER_FLOW * eta * slope(0.0) / left(0.0)).abs();
     // Excess from 25 times the strength down to what counts as none.
     for k in 0..350 {
         let trial = KAPPA * (1.0 + 25.0 * 0.9_f64.powi(k));
         let flow = law.strength.flow(
             Dual::<1>::variable(trial, 0),
-            2.0 * law.shear_modulus,
+            2.0 * law.elasticity.shear_modulus,
             Dual::splat(0.0),
         );
         assert_eq!(
             flow.value,
-            law.strength.flow(trial, 2.0 * law.shear_modulus, 0.0)
+            law.strength
+                .flow(trial, 2.0 * law.elasticity.shear_modulus, 0.0)
         );
         let off = flow.slope[0] * left(PER_FLOW * flow.value) - 1.0;
         assert!(off.abs() < tolerance, "{trial}: {off}");
@@ -292,7 +290,7 @@ fn softening_under_turning_flow_is_of_first_order() {
     for pair in differences.windows(2) {
         assert!((1.7..2.5).contains(&(pair[0] / pair[1])), "{differences:?}");
     }
-    // What is left at a step: the next difference, and the geometric series after it.
+    // Error at a step: the next difference, and the geometric series after it.
     assert!(2.0 * differences[1].abs() < 1e-5 * KAPPA, "{differences:?}");
 }
 

@@ -1,4 +1,4 @@
-//! What pressures change by, of bodies that move across cells; water that comes from within.
+//! Changes of pressure in bodies that move across cells; water that comes from within.
 
 use super::*;
 
@@ -25,15 +25,7 @@ const ALL: usize = 12;
 /// Water at rest in a body that is carried up through the cells keeps its pressure, linear below the top: no increment
 /// varies within a cell, or bends from cell to cell.
 fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
-    let along = 2 * BODY;
-    let positions = (0..along.pow(D as u32))
-        .map(|k| {
-            std::array::from_fn(|a| {
-                let place = (k / along.pow(a as u32) % along) as f64;
-                BEFORE as f64 * H + 0.5 * H * (place + 0.5)
-            })
-        })
-        .collect();
+    let positions = lattice([2 * BODY; D], 0.5 * H, BEFORE as f64 * H);
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let top = (BEFORE + BODY) as f64 * H;
@@ -70,10 +62,9 @@ fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
 fn water_at_rest_is_carried_through_the_cells() {
     let dt = H * H / (KAPPA * MODULUS);
     for pressure_space in SPACES {
-        let settings = Settings {
-            pressure_space,
-            ..Settings::new(dt).ghosts(0.1, 0.01)
-        };
+        let settings = Settings::new(dt)
+            .ghosts(0.1, 0.01)
+            .pressure_space(pressure_space);
         for settings in [settings, settings.ghost_on_increments(0.1)] {
             is_carried_along::<1, Means<1>>(settings);
             is_carried_along::<2, Means<2>>(settings);
@@ -85,9 +76,7 @@ fn water_at_rest_is_carried_through_the_cells() {
 #[test]
 fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     let grid = Grid::new(H, [Axis::periodic(0.0, HIGH)]).unwrap();
-    let positions = (0..2 * HIGH)
-        .map(|k| [0.5 * H * (k as f64 + 0.5)])
-        .collect();
+    let positions = lattice([2 * HIGH], 0.5 * H, 0.0);
     let particles = Particles::new(positions, 0.5 * H, 1000.0, [0.25 * H]).unwrap();
     let scene = Scene::new(grid, Body::new(porous(), particles).unwrap());
     let water = Water::new(POROSITY, kozeny_carman());
@@ -113,7 +102,7 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     });
     assert_eq!(seen, HIGH / 2);
 
-    // Of particles that differ, hats of 2h, whose means over domains in a cell are their values.
+    // Particles that differ: hats of 2h, whose means over domains in a cell are their values.
     let pressure: Vec<f64> = (0..places.len()).map(|p| (p * p) as f64).collect();
     let volume: Vec<f64> = (0..places.len()).map(|p| H / (1 + p) as f64).collect();
     solver.pores.pressure = pressure.clone();
@@ -138,7 +127,7 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     });
 }
 
-/// What sources give is what the volume grows by, with no way out.
+/// With no way out, the volume grows by what sources give.
 #[test]
 fn water_from_within_swells_a_body() {
     for space in SPACES {
@@ -149,13 +138,9 @@ fn water_from_within_swells_a_body() {
         for rate in rates {
             water = water.source(move |x, [begin, end]| rate * x[1] * (end - begin));
         }
-        let settings = Settings {
-            pressure_space: space,
-            ..Settings::new(2.0)
-        };
+        let settings = Settings::new(2.0).pressure_space(space);
         let mut solver = Solver::<2, Means<2>, _>::new(scene, water, settings).unwrap();
-        solver.step().unwrap();
-        solver.step().unwrap();
+        solver.advance(2).unwrap();
         let balance = solver.water().copied().unwrap();
         // The mean of the height over the body is half of it.
         let given = 4.0 * 5e-3 * 0.5 * TOP * volume;
@@ -166,7 +151,7 @@ fn water_from_within_swells_a_body() {
     }
 }
 
-/// Of a dry body a solver has one lattice, one pass and no column: the same scene with water has two of the first two.
+/// A dry solver has one lattice, one pass and no extra column; one with water has two lattices and two passes.
 #[test]
 fn a_dry_body_carries_no_water() {
     let scene = || standing::<2, _>(porous(), straight);

@@ -1,13 +1,10 @@
-//! What ghost penalties on the pressure cost: on all of it, as Pretti et al. have it, and on its increments.
+//! Cost of ghost penalties on the pressure: on all of it, as Pretti et al. have it, and on its increments.
 
 use super::*;
 
 /// None, that of the paper, and one on increments; of displacements all have the same.
 fn ghosts(dt: f64) -> [Settings; 3] {
-    let settings = Settings {
-        tangent: Tangent::Consistent,
-        ..Settings::new(dt)
-    };
+    let settings = Settings::new(dt).tangent(Tangent::Consistent);
     [
         settings.ghosts(0.1, 0.0),
         settings.ghosts(0.1, 0.01),
@@ -25,11 +22,7 @@ fn unfitted(height: f64, settings: Settings) -> Solver<1, Means<1>, ImprovedHenc
     let highest = |x: &[f64; 1]| x[0] > height * (TOP - 0.5 * H);
     let load = Face::loaded(&particles, highest, (0, End::Hi), |_| [-0.3 * MODULUS]);
     let drain = Face::drained(&particles, highest, (0, End::Hi), 100.0 * KAPPA / H);
-    let floor = Wall {
-        axis: 0,
-        end: End::Lo,
-        kind: WallKind::Roller,
-    };
+    let floor = Wall::new(0, End::Lo, WallKind::Roller);
     let body = Body::new(porous(), particles).unwrap();
     let scene = Scene::new(fitted.grid, body).constrain(floor);
     let water = Water::new(POROSITY, kozeny_carman()).face(load).face(drain);
@@ -86,8 +79,8 @@ fn ghosts_mend_the_condition_of_small_cuts_where_water_flows() {
     }
 }
 
-/// A top that rounding takes past a grid line touches a cell whose nodes no particle sees: what these are is no unknown,
-/// and nothing is held by them.
+/// A top that rounding takes past a grid line touches a cell whose nodes no particle sees: what these are is no
+/// unknown, and nothing is held by them.
 #[test]
 fn a_cell_touched_by_rounding_holds_nothing() {
     let settings = ghosts(0.005 / (KAPPA * MODULUS))[1];
@@ -100,8 +93,8 @@ fn a_cell_touched_by_rounding_holds_nothing() {
     assert!((above / below - 1.0).abs() < 1e-9, "{below} {above}");
 }
 
-/// Largest |J − 1| where no water flows, under a load on half of the top that grows over ten steps and stays for twenty:
-/// after those, and at the end.
+/// Largest |J − 1| where no water flows, under a load on half of the top that grows over ten steps and stays for
+/// twenty: after those, and at the end.
 fn leaks(settings: Settings) -> [f64; 2] {
     let fitted = standing::<2, _>(porous(), straight);
     let height = 0.93;
@@ -115,19 +108,13 @@ fn leaks(settings: Settings) -> [f64; 2] {
         [0.0, -0.1 * MODULUS * (0.1 * t).min(1.0)]
     });
     let sides = [(0, End::Lo), (0, End::Hi), (1, End::Lo)];
-    let rollers = sides.map(|(axis, end)| Wall {
-        axis,
-        end,
-        kind: WallKind::Roller,
-    });
+    let rollers = sides.map(|(axis, end)| Wall::new(axis, end, WallKind::Roller));
     let body = Body::new(porous(), particles).unwrap();
     let scene = Scene::new(fitted.grid, body).constrain_all(rollers);
     let water = Water::new(POROSITY, Conductivity::Constant(1e-20)).face(load);
     let mut solver = Solver::<2, Means<2>, _>::new(scene, water, settings).unwrap();
     [10, 20].map(|steps| {
-        for _ in 0..steps {
-            solver.step().unwrap();
-        }
+        solver.advance(steps).unwrap();
         let jacobian = &solver.particles().jacobian;
         jacobian
             .iter()

@@ -84,7 +84,7 @@ fn a_face_may_bear_no_load() {
     assert_eq!(solver.totals().accumulated.load_work, 0.0);
 }
 
-/// A load of which a part is missing is none: here that of a side that the face has and the body not.
+/// A load with a missing part is refused: here the part of a side that the face has and the body lacks.
 #[test]
 fn the_sum_of_a_load_is_checked_in_every_step() {
     let settings = Settings::new(0.05 / (KAPPA * MODULUS));
@@ -131,10 +131,7 @@ fn unevenness<I: OfHats<2>>(solver: &mut Solver<2, I, ImprovedHencky>) -> f64 {
 /// tolerance. (A pull: the side comes in, and leaves no grid.)
 fn carries_its_force<I: OfHats<2>>(pressure_space: PressureSpace) {
     let force = 0.02 * MODULUS;
-    let settings = Settings {
-        pressure_space,
-        ..Settings::new(0.02 / (KAPPA * MODULUS))
-    };
+    let settings = Settings::new(0.02 / (KAPPA * MODULUS)).pressure_space(pressure_space);
     let plate = Plate::new(1, uppermost, move |_| force);
     let mut tied = slab::<I>(water().plate(plate), settings);
     assert!(unevenness(&mut tied) < 1e-9);

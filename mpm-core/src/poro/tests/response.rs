@@ -4,8 +4,8 @@ use super::*;
 use crate::poro::response::Particle;
 use nalgebra::{Matrix3, Vector3};
 
-/// With F⁻¹ and J: stress V J (σ′ − p I) F⁻ᵀ, flow V J F⁻¹ κ (F⁻ᵀ ∇p − ρ_w g) at the present porosity, V (J − 1), and the
-/// mass of grains and water in V J.
+/// With F⁻¹ and J: stress V J (σ′ − p I) F⁻ᵀ, flow V J F⁻¹ κ (F⁻ᵀ ∇p − ρ_w g) at the present porosity, V (J − 1), and
+/// the mass of grains and water in V J.
 #[test]
 fn an_answer_is_pulled_back_to_the_start() {
     let f = Matrix3::new(1.05, 0.1, -0.04, 0.02, 0.93, 0.06, -0.08, 0.03, 1.1);

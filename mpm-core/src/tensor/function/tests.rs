@@ -1,4 +1,4 @@
-//! What functions of tensors must give.
+//! Properties of functions of tensors.
 
 use super::*;
 use crate::number::Eight;
@@ -10,7 +10,7 @@ fn tensors() -> impl Strategy<Value = SymmetricTensor> {
         .prop_map(|a| SymmetricTensor::symmetric_part(&Matrix3::from_row_slice(&a)))
 }
 
-/// Of a tensor whose third axis is a principal one.
+/// The tensor with its third axis made a principal one.
 fn planar(a: SymmetricTensor) -> SymmetricTensor {
     SymmetricTensor {
         yz: 0.0,

@@ -44,8 +44,8 @@ impl Kind {
     }
 }
 
-/// Waves e^{iθx/h} on the nodes of a periodic axis with `n` particles per cell. What particles carry of
-/// them is given by the particles of one cell: those of the cell `c` carry e^{iθc} times as much.
+/// Waves e^{iθx/h} on the nodes of a periodic axis with `n` particles per cell. The particles of one cell define what
+/// all carry: those of the cell `c` carry e^{iθc} times as much.
 pub(super) struct Bloch<const S: usize, B> {
     basis: B,
     nodes: Vec<f64>,
@@ -83,7 +83,7 @@ impl<const S: usize, B: Basis<S>> Bloch<S, B> {
         (0..self.n).map(see).unzip()
     }
 
-    /// What the particle with the number `id` carries of `wave`.
+    /// Value of `wave` at the particle with the number `id`.
     pub(super) fn carried(&self, wave: &Wave, id: usize) -> Complex<f64> {
         Complex::cis(self.theta * (id / self.n) as f64) * wave[id % self.n]
     }

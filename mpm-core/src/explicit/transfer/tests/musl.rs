@@ -7,7 +7,7 @@ fn noise(k: usize) -> f64 {
     (12.9898 * k as f64 + 1.0).sin()
 }
 
-/// What eight copies of a particle at `x` (m) gather.
+/// Values gathered by eight copies of a particle at `x` (m).
 fn gathered<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>>(
     transfer: &T,
     frozen: &Frozen<D, S, B>,
@@ -57,10 +57,8 @@ fn strains_are_of_the_new_velocities<const D: usize, const S: usize, B: Basis<S>
     assert_eq!(sweeps, 1);
     let flip = Flip::default();
     let places = frozen.particles.position.clone();
-    let found: Vec<Received<D>> = places
-        .iter()
-        .map(|x| gathered(&musl, &frozen, &nodes, x))
-        .collect();
+    let found = places.iter().map(|x| gathered(&musl, &frozen, &nodes, x));
+    let found: Vec<Received<D>> = found.collect();
     for (k, x) in places.iter().enumerate() {
         let half_size = frozen.particles.half_size;
         let before = frozen.particles.velocity[k];

@@ -10,17 +10,8 @@ fn elastic_volume(law: &CamClay, p: f64) -> f64 {
         let n = 1.0 - (1.0 - n0) * (-v).exp();
         -k * v / n + 0.5 * k * v * v * (1.0 - n) / (n * n) - p
     };
-    let (mut low, mut high) = ((1.0_f64 - n0).ln() * 0.99, 0.0);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if excess(middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
     assert_eq!(law.elasticity, elasticity());
-    0.5 * (low + high)
+    bisect([(1.0_f64 - n0).ln() * 0.99, 0.0], |v| excess(v) > 0.0)[0]
 }
 
 /// Volume strain since the start where the pressure is p and clay is preconsolidated to p_c.
@@ -82,16 +73,8 @@ fn undrained_shear_follows_its_stress_path() {
         let pc = |p: f64| {
             PRECONSOLIDATION * ((elastic_volume(&law, p) - law.initial_volume) / PSI).exp()
         };
-        let (mut low, mut high) = (1.0, 2.0 * PRECONSOLIDATION);
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            // p_c falls as p grows.
-            if pc(middle) > 2.0 * middle {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        // p_c falls as p grows.
+        let [low, _] = bisect([1.0, 2.0 * PRECONSOLIDATION], |p| pc(p) > 2.0 * p);
         for steps in [5, 40] {
             let mut state = law.initial_state();
             let mut flown = 0;
@@ -141,16 +124,8 @@ fn undrained_shear_strain_converges_with_first_order() {
             .sum();
         shear(to) / (3.0 * g) + flow
     };
-    let (mut low, mut high) = (law.initial_volume, law.initial_volume + 0.02);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        let beyond = pressure(middle) < 0.5 * pc(middle) * (1.0 + 1e-9) || strain(middle) > end;
-        if beyond {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
+    let before = |v| pressure(v) >= 0.5 * pc(v) * (1.0 + 1e-9) && strain(v) <= end;
+    let [low, _] = bisect([law.initial_volume, law.initial_volume + 0.02], before);
     let exact = pressure(low);
     let errors = [40, 80, 160].map(|steps| {
         let mut state = law.initial_state();
@@ -175,16 +150,8 @@ fn drained(law: &CamClay, state: &CamClayState, lateral: f64, step: f64) -> (f64
         let [p, q, _] = stresses(law, &after);
         (p - q / 3.0 - lateral, after)
     };
-    let (mut low, mut high) = (-step, step);
-    for _ in 0..80 {
-        let middle = 0.5 * (low + high);
-        // Widening lowers the lateral pressure.
-        if at(middle).0 > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    // Widening lowers the lateral pressure.
+    let [_, high] = bisect([-step, step], |side| at(side).0 > 0.0);
     (2.0 * high - step, at(high).1)
 }
 
@@ -229,14 +196,9 @@ fn shear_ends_in_the_critical_state_of_any_shape() {
                 state = law.update(&increment, 1.0, &state).1;
             }
             let [p, q, pc] = stresses(&law, &state);
-            assert!(
-                (p / (0.5 * gamma * pc) - 1.0).abs() < 1e-3,
-                "{alpha} {gamma}: {p} {pc}"
-            );
-            assert!(
-                (q / (RATIO * p) - 1.0).abs() < 1e-3,
-                "{alpha} {gamma}: {q} {p}"
-            );
+            for ratio in [p / (0.5 * gamma * pc), q / (RATIO * p)] {
+                assert!((ratio - 1.0).abs() < 1e-3, "{alpha} {gamma}: {ratio}");
+            }
             let next = law.update(&increment, 1.0, &state).1;
             assert!((next.plastic_volume - state.plastic_volume).abs() < 1e-6);
         }
@@ -248,7 +210,7 @@ fn shear_ends_in_the_critical_state_of_any_shape() {
 fn rates(law: &CamClay, v: f64, q: f64, pc: f64) -> [f64; 3] {
     let [_, mean, bulk] = law.elasticity.volumetric(v);
     let (p, g) = (-mean, law.elasticity.shear_modulus);
-    // Of the ellipse f = q²/M² + p² − p p_c.
+    // Gradient of the ellipse f = q²/M² + p² − p p_c.
     let m2 = RATIO * RATIO;
     let [by_p, by_q, by_pc] = [2.0 * p - pc, 2.0 * q / m2, -p];
     let elastic = by_p * bulk + by_q * 2.0 * g;
@@ -296,10 +258,8 @@ fn one_dimensional_compression_converges_to_its_rates() {
     });
     for i in 0..3 {
         for pair in errors.windows(2) {
-            assert!(
-                (1.8..2.3).contains(&(pair[0][i] / pair[1][i])),
-                "{errors:?}"
-            );
+            let ratio = pair[0][i] / pair[1][i];
+            assert!((1.8..2.3).contains(&ratio), "{errors:?}");
         }
         assert!(errors[2][i].abs() < 3e-3, "{errors:?}");
     }

@@ -1,4 +1,4 @@
-//! The rest of the particles' step, once ΔF is known: law, volume and place, eight particles at a time.
+//! Second half of a particle's step, once ΔF is known: law, volume and position, eight particles at a time.
 
 use super::remedy::force_stress;
 use super::{ChunkSums, check_cfl};
@@ -83,8 +83,8 @@ pub(super) fn force_stress_of<const D: usize, M: Law>(
     }
 }
 
-/// What the rest of a step needs beside the particles.
-pub(super) struct Rest<const D: usize> {
+/// Second half of the particles' step.
+pub(super) struct SecondHalf<const D: usize> {
     dt: f64,
     h: f64,
     room: Room<D>,
@@ -92,7 +92,7 @@ pub(super) struct Rest<const D: usize> {
     reach: f64,
 }
 
-impl<const D: usize> Rest<D> {
+impl<const D: usize> SecondHalf<D> {
     /// On `grid`, with steps of `dt` (s) and particles of these half sizes (m), the least dense of which have the
     /// given reference density (kg/m³).
     pub(super) fn of<const S: usize, B: Basis<S>>(
