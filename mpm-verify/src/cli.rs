@@ -1,23 +1,32 @@
-//! The syntax of the command line, and what it says.
+//! The syntax of the command line and the output of its commands.
 
+#[path = "cli/bench.rs"]
+mod bench;
+#[path = "cli/bless.rs"]
+mod bless;
+#[path = "cli/diff.rs"]
+mod diff;
+#[path = "cli/explain.rs"]
+mod explain;
+#[path = "cli/keep.rs"]
+mod keep;
 #[path = "cli/run.rs"]
-pub(crate) mod run;
+mod run;
 #[path = "cli/score.rs"]
-pub(crate) mod score;
+mod score;
+#[path = "cli/verify.rs"]
+mod verify;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
-use clap_complete::Shell;
-use mpm_verify::bench;
 use mpm_verify::case::{Case, Tier};
 use mpm_verify::cases;
-use mpm_verify::error::Error;
-use mpm_verify::run::checkpoint;
-use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use mpm_verify::study::plan::Shard;
+use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::run::checkpoint::Saving;
+use mpm_verify::scheme::Scheme;
 use std::fmt::Display;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::time::Duration;
 
 /// Verification bench of the locking-free material point method.
 ///
@@ -60,282 +69,92 @@ impl Told {
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// List the cases: what they are, their runs in each tier, what they cost
-    List {
-        /// List the runs of this tier
-        #[arg(long, value_parser = tier())]
-        tier: Option<Tier>,
-        /// As text or as JSON
-        #[arg(long, default_value = "text", value_parser = ["text", "json"])]
-        format: String,
-    },
+    List(explain::List),
     /// Parameters, schemes, levels, metrics, checks, references and limits of a case
-    Explain {
-        /// The case
-        #[arg(value_parser = case(), hide_possible_values = true)]
-        case: &'static Case,
-        /// Say it as JSON
-        #[arg(long)]
-        json: bool,
-    },
+    Explain(explain::Explain),
     /// Run one case once, judge it and, with --out, draw it
-    Run {
-        /// The case
-        #[arg(value_parser = case(), hide_possible_values = true)]
-        case: &'static Case,
-        /// Scheme by its name, as `explain` and records write it, in place of its parts
-        #[arg(long, value_parser = Schemes, hide_possible_values = true,
-            conflicts_with_all = ["solver", "basis", "remedy", "transfer"])]
-        scheme: Option<Scheme>,
-        /// Solver (explicit if the case has it)
-        #[arg(long, value_parser = Scheme::SOLVERS.to_vec())]
-        solver: Option<String>,
-        /// Basis functions (gimp; of a quasi-static run those of its first in the case)
-        #[arg(long, value_parser = one_of(BasisName::NAMES, BasisName::parse))]
-        basis: Option<BasisName>,
-        /// Locking remedy (fbar-consistent; likewise)
-        #[arg(long, value_parser = one_of(RemedyName::NAMES, RemedyName::parse))]
-        remedy: Option<RemedyName>,
-        /// Transfer of an explicit run (flip)
-        #[arg(long, value_parser = one_of(TransferName::NAMES, TransferName::parse))]
-        transfer: Option<TransferName>,
-        /// Level of refinement (the coarsest if not given)
-        #[arg(long)]
-        level: Option<String>,
-        /// Change a parameter
-        #[arg(long = "set", value_name = "NAME=VALUE")]
-        set: Vec<String>,
-        /// Perturb every initial coordinate by one unit in the last place
-        #[arg(long)]
-        perturb: bool,
-        /// Folder for record, series, particles, VTU and pictures
-        #[arg(long, group = "folder")]
-        out: Option<PathBuf>,
-        /// In place of --out: go on in this folder from the checkpoint that the same run has left there,
-        /// with the same results to the last bit; begin if there is none
-        #[arg(long, value_name = "DIR", group = "folder")]
-        resume: Option<PathBuf>,
-        /// Write a checkpoint so often, by the clock; 0: after every row of the series
-        #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
-        checkpoint_every: u64,
-        /// Threads (all cores if not given)
-        #[arg(long, value_parser = threads())]
-        threads: Option<usize>,
-        /// Refuse a scene that takes more memory at its start (what the machine has to give if not said)
-        #[arg(long, value_name = "GIB", value_parser = memory)]
-        memory: Option<f64>,
-        #[command(flatten)]
-        told: Told,
-    },
+    Run(run::Run),
     /// Run a scene of one's own that a file describes and, with --out, draw it
-    Scene {
-        /// The scene file, in TOML: docs/reference/scene-files.md
-        file: PathBuf,
-        /// Folder for record, series, particles, VTU and pictures
-        #[arg(long, group = "folder")]
-        out: Option<PathBuf>,
-        /// In place of --out: go on in this folder from the checkpoint that the same scene has left there
-        #[arg(long, value_name = "DIR", group = "folder")]
-        resume: Option<PathBuf>,
-        /// Write a checkpoint so often, by the clock; 0: after every row of the series
-        #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
-        checkpoint_every: u64,
-        /// Refuse a scene that takes more memory at its start (what the machine has to give if not said)
-        #[arg(long, value_name = "GIB", value_parser = memory)]
-        memory: Option<f64>,
-        /// Threads (all cores if not given)
-        #[arg(long, value_parser = threads())]
-        threads: Option<usize>,
-        #[command(flatten)]
-        told: Told,
-    },
+    Scene(run::Scene),
     /// Judge the result of another code, beside our runs
-    Score {
-        /// Folder with score.json and the tables that it names: docs/how-to/score.md
-        folder: PathBuf,
-        /// Folder for the verdicts as a page and as JSON
-        #[arg(long)]
-        out: Option<PathBuf>,
-        #[command(flatten)]
-        told: Told,
-    },
+    Score(score::Score),
     /// Write what another code needs to solve a case: particles, parameters, reference, a form for `score`
-    Export {
-        /// The case
-        #[arg(value_parser = scored_cases())]
-        case: String,
-        /// Level of refinement (the coarsest if not given)
-        #[arg(long)]
-        level: Option<String>,
-        /// Change a parameter
-        #[arg(long = "set", value_name = "NAME=VALUE")]
-        set: Vec<String>,
-        /// Folder for it
-        #[arg(long)]
-        out: PathBuf,
-    },
+    Export(score::Export),
     /// Run a tier of cases, judge them and write the report
-    Verify {
-        /// The cases (all if none is given)
-        #[arg(value_parser = case(), hide_possible_values = true)]
-        cases: Vec<&'static Case>,
-        /// Which runs
-        #[arg(long, default_value = "pr", value_parser = tier())]
-        tier: Tier,
-        /// Make only the i-th of n shares of the runs; `report` puts the shares together
-        #[arg(long, value_name = "I/N", value_parser = Shard::parse, default_value = "1/1", hide_default_value = true)]
-        shard: Shard,
-        /// Keep the runs that are there already, if this very program made them, and go on with those that
-        /// it has left a checkpoint of
-        #[arg(long)]
-        resume: bool,
-        /// Write a checkpoint of every run so often, by the clock; 0: after every row of its series
-        #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S)]
-        checkpoint_every: u64,
-        /// Folder of the report
-        #[arg(long, default_value = "reports/latest")]
-        out: PathBuf,
-        /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
-        #[arg(long)]
-        golden: Option<PathBuf>,
-        /// Runs side by side (as many as there are cores if not given)
-        #[arg(long, value_parser = threads())]
-        threads: Option<usize>,
-        /// Refuse scenes that take more memory at their start, side by side (not asked if not said)
-        #[arg(long, value_name = "GIB", value_parser = memory)]
-        memory: Option<f64>,
-        #[command(flatten)]
-        told: Told,
-    },
+    Verify(verify::Verify),
     /// Judge again what `verify` or `run` has left and rebuild the report, without simulating
-    Report {
-        /// The folder, or those of all shards
-        #[arg(required = true)]
-        folders: Vec<PathBuf>,
-        /// Folder of the report (that of the runs if there is one only)
-        #[arg(long)]
-        out: Option<PathBuf>,
-        /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
-        #[arg(long)]
-        golden: Option<PathBuf>,
-        /// Add this night (YYYY-MM-DD) to the report's history
-        #[arg(long, value_name = "DATE", requires = "commit")]
-        night: Option<String>,
-        /// The commit of that night
-        #[arg(long, requires = "night")]
-        commit: Option<String>,
-        #[command(flatten)]
-        told: Told,
-    },
+    Report(verify::Report),
     /// Keep a row of every run of a night's report, and its trends
-    Keep {
-        /// Folder of the report
-        report: PathBuf,
-        /// Folder that has nightly/results.csv and history.csv
-        #[arg(long, default_value = "reports")]
-        into: PathBuf,
-    },
+    Keep(keep::Keep),
     /// Fill the tables of results in README and docs from reports/nightly/results.csv
-    Tables {
-        /// Change nothing; name the tables that are stale, and fail if there are any
-        #[arg(long)]
-        check: bool,
-        /// Folder that has README.md, docs and reports
-        #[arg(long, default_value = ".")]
-        root: PathBuf,
-    },
+    Tables(keep::Tables),
     /// Draw the pictures of README and docs from the rows that are kept and from finished runs
     ///
     /// What they do not suffice for is named and left.
-    Pictures {
-        /// The folder that `verify` has written, or those of all shards
-        #[arg(long, value_name = "FOLDER", num_args = 1..)]
-        from: Vec<PathBuf>,
-        /// Folder that has docs and reports
-        #[arg(long, default_value = ".")]
-        root: PathBuf,
-    },
+    Pictures(keep::Pictures),
     /// Name the runs of a tier that no kept row is of (exit code 2), and the rows that another program made
-    Complete {
-        /// Which runs
-        #[arg(long, default_value = "nightly", value_parser = tier())]
-        tier: Tier,
-        /// The rows that `keep` has written
-        #[arg(long, default_value = "reports/nightly/results.csv")]
-        rows: PathBuf,
-    },
+    Complete(keep::Complete),
     /// Accept drift: take what `verify` has left as the new golden (refused while the truth is missed)
-    Bless {
-        /// The case
-        #[arg(value_parser = case(), hide_possible_values = true)]
-        case: &'static Case,
-        /// Why the results have changed
-        #[arg(long)]
-        reason: String,
-        /// The folder that `verify` has written, or those of all shards
-        #[arg(long, default_value = "reports/latest", num_args = 1..)]
-        from: Vec<PathBuf>,
-        /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
-        #[arg(long)]
-        golden: Option<PathBuf>,
-        /// Bless this quantity although it is doubtful
-        #[arg(long, value_name = "METRIC")]
-        allow: Vec<String>,
-        /// Runs side by side (as many as there are cores if not given)
-        #[arg(long, value_parser = threads())]
-        threads: Option<usize>,
-    },
+    Bless(bless::Bless),
     /// Compare two report folders: numbers, verdicts, pictures
-    Diff {
-        /// The old report
-        old: PathBuf,
-        /// The new report
-        new: PathBuf,
-        /// Folder for the comparison with its pictures (old | new | difference)
-        #[arg(long)]
-        out: Option<PathBuf>,
-        #[command(flatten)]
-        told: Told,
-    },
+    Diff(diff::Diff),
     /// Evaluate an exact solution at a reference point, as JSON
-    Exact {
-        /// The solution
-        name: String,
-        /// Reference coordinates (m), as many as the motion has dimensions
-        #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
-        at: String,
-        /// Time (s)
-        #[arg(long, allow_hyphen_values = true)]
-        time: String,
-        /// Change a parameter
-        #[arg(long = "set", value_name = "NAME=VALUE")]
-        set: Vec<String>,
-    },
+    Exact(explain::Exact),
     /// Measure speed: workloads, problems and laws take turns; with --peers, other programs with them
-    Bench {
-        /// Rounds, after one that isn't measured
-        #[arg(long, default_value_t = 7, value_parser = RangedU64ValueParser::<usize>::new().range(1..=1000))]
-        rounds: usize,
-        /// Numbers of threads, as 1,2 (one and all cores if not given)
-        #[arg(long, value_delimiter = ',', value_parser = threads())]
-        threads: Vec<usize>,
-        /// Measure these alone, as newton,laws (all if not given); `scaling` is the cost over the number of particles
-        #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(bench::GROUPS))]
-        only: Vec<String>,
-        /// Compare with other programs
-        #[arg(long, value_parser = ["taichi"])]
-        peers: Option<String>,
-        /// The Python interpreter that has the peers' packages
-        #[arg(long, default_value = "python3", requires = "peers")]
-        python: PathBuf,
-        /// Folder of the tables and pictures
-        #[arg(long, default_value = "reports/bench")]
-        out: PathBuf,
-    },
+    Bench(bench::Bench),
     /// Print what makes a shell complete the program's commands, options and names
-    Completions {
-        /// The shell
-        shell: Shell,
-    },
+    Completions(explain::Completions),
+}
+
+impl Command {
+    /// Number of threads asked for by a command that runs simulations.
+    pub(crate) fn threads(&self) -> Option<usize> {
+        match self {
+            Self::Run(command) => command.threads,
+            Self::Scene(command) => command.threads,
+            Self::Verify(command) => command.threads,
+            Self::Bless(command) => command.threads,
+            _ => None,
+        }
+    }
+
+    /// Executes the command.
+    ///
+    /// # Errors
+    /// Those of the command.
+    pub(crate) fn execute(self) -> Result<ExitCode, Error> {
+        match self {
+            Self::List(command) => command.execute(),
+            Self::Explain(command) => command.execute(),
+            Self::Run(command) => command.execute(),
+            Self::Scene(command) => command.execute(),
+            Self::Score(command) => command.execute(),
+            Self::Export(command) => command.execute(),
+            Self::Verify(command) => command.execute(),
+            Self::Report(command) => command.execute(),
+            Self::Keep(command) => command.execute(),
+            Self::Tables(command) => command.execute(),
+            Self::Pictures(command) => command.execute(),
+            Self::Complete(command) => command.execute(),
+            Self::Bless(command) => command.execute(),
+            Self::Diff(command) => command.execute(),
+            Self::Exact(command) => command.execute(),
+            Self::Bench(command) => command.execute(),
+            Self::Completions(command) => command.execute(),
+        }
+    }
+}
+
+/// All cores, unless it is said how many threads.
+pub(crate) fn or_all_cores(threads: Option<usize>) -> usize {
+    threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
+}
+
+fn saving(seconds: u64, resume: bool) -> Saving {
+    Saving {
+        every: Duration::from_secs(seconds),
+        resume,
+    }
 }
 
 /// One of some names, as what it stands for.
