@@ -1,9 +1,8 @@
 //! What the machine is, and what its memory gives: a triad aᵢ = bᵢ + s cᵢ over arrays that no cache holds
 //! (McCalpin 1995).
 
-use super::local::{Going, Local};
-use super::{Options, Turn};
-use crate::error::Error;
+use crate::local::{Going, Local};
+use crate::{Error, Options, Turn};
 use rayon::prelude::*;
 
 /// Numbers per array: 256 MiB each.
@@ -57,7 +56,8 @@ pub(super) fn turns(options: &Options) -> Result<Vec<Turn>, Error> {
 }
 
 /// Name, family and model of the processor, where the system tells.
-pub(super) fn processor() -> Option<String> {
+#[must_use]
+pub fn processor() -> Option<String> {
     named(&std::fs::read_to_string("/proc/cpuinfo").ok()?)
 }
 

@@ -1,8 +1,7 @@
 //! Other programs that do the same step, each a process that takes its turns on command.
 
-use super::workload::{Block, STEPS, standard};
-use super::{Options, Outcome, Sample, Timed, Turn};
-use crate::error::Error;
+use crate::workload::{Block, STEPS, standard};
+use crate::{Error, Options, Outcome, Sample, Timed, Turn};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -95,11 +94,11 @@ impl Peers {
     ) -> Result<Peer, Error> {
         require_file(&self.script)?;
         let failed = |e: std::io::Error| {
-            Error::Input(format!(
+            format!(
                 "{}: {e}; --python must name an interpreter that has what {} asks for",
                 self.python.display(),
                 self.script.with_file_name("requirements.txt").display()
-            ))
+            )
         };
         let mut command = Command::new(&self.python);
         command.arg(&self.script);
@@ -111,7 +110,7 @@ impl Peers {
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().map_err(failed)?;
         let (Some(commands), Some(answers)) = (child.stdin.take(), child.stdout.take()) else {
-            return Err(failed(std::io::ErrorKind::BrokenPipe.into()));
+            return Err(failed(std::io::ErrorKind::BrokenPipe.into()).into());
         };
         let mut peer = Peer {
             name: name.to_owned(),
@@ -128,16 +127,16 @@ impl Peers {
 fn require_file(path: &Path) -> Result<(), Error> {
     match path.is_file() {
         true => Ok(()),
-        false => Err(Error::file(
-            path,
-            "not there: run from the folder of the workspace",
-        )),
+        false => {
+            let cause = "not there: run from the folder of the workspace";
+            Err(format!("{}: {cause}", path.display()).into())
+        }
     }
 }
 
 impl Peer {
     fn broken(&self, cause: impl std::fmt::Display) -> Error {
-        Error::Input(format!("{}: {cause}", self.name))
+        format!("{}: {cause}", self.name).into()
     }
 
     /// The next line of its output that is one of JSON; other lines are its libraries' own.

@@ -14,7 +14,8 @@ const NUMBER: usize = size_of::<f64>();
 const SYMMETRIC: usize = 6;
 
 /// Bytes per particle and step.
-pub(super) fn bytes(dimension: usize, fbar: bool) -> f64 {
+#[must_use]
+pub fn bytes(dimension: usize, fbar: bool) -> f64 {
     let d = dimension;
     let place = d;
     let particle_to_grid = place + 1 + d + 1 + SYMMETRIC;
@@ -47,7 +48,8 @@ pub(super) fn bytes(dimension: usize, fbar: bool) -> f64 {
 }
 
 /// Operations per particle and step in the loops over the nodes.
-pub(super) fn operations(dimension: usize, fbar: bool) -> f64 {
+#[must_use]
+pub fn operations(dimension: usize, fbar: bool) -> f64 {
     const NODES: usize = 3;
     const FUSED: usize = 2 * 4;
     let d = dimension;
@@ -61,7 +63,8 @@ pub(super) fn operations(dimension: usize, fbar: bool) -> f64 {
 }
 
 /// Bytes per particle of the columns that the workloads need: what a particle is, not what a stage works with.
-pub(super) fn needed(dimension: usize, fbar: bool) -> f64 {
+#[must_use]
+pub fn needed(dimension: usize, fbar: bool) -> f64 {
     let d = dimension;
     // Place in the seeding order; mass, two volumes and J.
     let numbers = 4 + 3 * d + 2 * SYMMETRIC + usize::from(fbar);

@@ -1,8 +1,7 @@
 //! The laws of the problems, with their particles side by side as in a step; those that flow do so in every update.
 
-use super::local::{Going, Local};
-use super::{Options, Turn};
-use crate::error::Error;
+use crate::local::{Going, Local};
+use crate::{Error, Turn};
 use mpm_core::material::{HenckyJ2, Law, NeoHookean, NewtonianFluid, Strength};
 use mpm_core::{SymmetricTensor, space};
 use nalgebra::SMatrix;
@@ -64,7 +63,7 @@ fn turn<M: Law + 'static, const D: usize>(name: &str, law: M, shear: f64) -> Res
 }
 
 /// The laws of Cook's membrane, the footing, the slide and the dam break.
-pub(super) fn turns(_: &Options) -> Result<Vec<Turn>, Error> {
+pub(super) fn turns() -> Result<Vec<Turn>, Error> {
     let mut turns = Vec::new();
     of(
         "neo-Hookean",

@@ -1,31 +1,27 @@
 //! Where the time of a Newton iteration goes, load step by load step, on one thread: Cook's membrane of 23,072 particles,
 //! and the strip on soil full of water of 6,400.
 
-use super::local::{Going, Local};
-use super::{Options, Sample, Timed, Turn};
-use crate::case::{Case, find_level};
-use crate::cases;
-use crate::error::Error;
-use crate::job::Job;
-use crate::parameter::Parameters;
-use crate::scheme::{BasisName, RemedyName, Scheme, SpaceName};
-use crate::spec::RunSpec;
+use crate::local::{Going, Local};
+use crate::{Begin, Error, Run, Sample, Timed, Turn};
 use mpm_core::Spent;
+use mpm_solvers::scheme::{BasisName, RemedyName, Scheme, SpaceName};
 use std::sync::{Arc, Mutex};
 
-/// What is measured: a problem, its level and a scheme.
-pub(super) struct Steps {
-    pub(super) case: &'static str,
+/// Load steps of a case.
+pub struct Steps {
+    /// The case.
+    pub case: &'static str,
     level: &'static str,
-    pub(super) scheme: Scheme,
+    /// The scheme.
+    pub scheme: Scheme,
 }
 
 /// The whole of an iteration; a load step's setting-up is shared out among its own.
-pub(super) const WHOLE: &str = "iteration";
-/// Picks what a part took (s).
-type OfPart = fn(&Spent) -> f64;
+pub const WHOLE: &str = "iteration";
+/// Time of a part (s).
+pub type OfPart = fn(&Spent) -> f64;
 /// Its parts.
-pub(super) const PARTS: [(&str, OfPart); 4] = [
+pub const PARTS: [(&str, OfPart); 4] = [
     ("forces", |s| s.forces),
     ("assembly", |s| s.assembly),
     ("factorisation", |s| s.factorisation),
@@ -36,50 +32,27 @@ pub(super) const PARTS: [(&str, OfPart); 4] = [
 type Told = Arc<Mutex<(Spent, u64)>>;
 
 /// A run, a load step a slice, that begins anew after its last one.
-struct LoadSteps {
-    case: &'static Case,
-    spec: RunSpec,
-    parameters: Parameters,
-    job: Box<dyn Job>,
+struct LoadSteps<B> {
+    begin: B,
+    run: Box<dyn Run>,
     told: Told,
 }
 
-impl LoadSteps {
-    fn begin(steps: &Steps, told: Told) -> Result<Self, Error> {
-        let case = cases::find(steps.case)?;
-        let spec = RunSpec {
-            scheme: steps.scheme,
-            level: find_level(case, steps.level)?,
-            set: Vec::new(),
-            perturbed: false,
-        };
-        let parameters = Parameters::new(&case.parameters, &spec.set)?;
-        let job = (case.begin)(&spec, &parameters)?;
-        Ok(Self {
-            case,
-            spec,
-            parameters,
-            job,
-            told,
-        })
-    }
-}
-
-impl Going for LoadSteps {
+impl<B: Fn() -> Result<Box<dyn Run>, Error> + Send> Going for LoadSteps<B> {
     fn go_on(&mut self) -> Result<u64, Error> {
-        if self.job.finished() {
-            self.job = (self.case.begin)(&self.spec, &self.parameters)?;
+        if self.run.finished() {
+            self.run = (self.begin)()?;
         }
-        let (before, work) = (self.job.spent(), self.job.work());
-        self.job.advance()?;
-        let after = self.job.spent();
+        let (before, done) = (self.run.spent(), self.run.newton_iterations());
+        self.run.advance()?;
+        let after = self.run.spent();
         let spent = Spent {
             forces: after.forces - before.forces,
             assembly: after.assembly - before.assembly,
             factorisation: after.factorisation - before.factorisation,
             solution: after.solution - before.solution,
         };
-        let iterations = self.job.work().newton_iterations - work.newton_iterations;
+        let iterations = self.run.newton_iterations() - done;
         if let Ok(mut told) = self.told.lock() {
             *told = (spent, iterations);
         }
@@ -107,13 +80,15 @@ impl Timed for Part {
 
 impl Steps {
     /// The name under which a part of an iteration is measured.
-    pub(super) fn name(&self, part: &str) -> String {
+    #[must_use]
+    pub fn name(&self, part: &str) -> String {
         format!("{} {part}", self.scheme)
     }
 }
 
 /// All that is measured.
-pub(super) fn all() -> Vec<Steps> {
+#[must_use]
+pub fn all() -> Vec<Steps> {
     let cook = |scheme| Steps {
         case: "cook",
         level: "h0.5",
@@ -134,12 +109,20 @@ pub(super) fn all() -> Vec<Steps> {
 }
 
 /// Every iteration, and behind it its parts.
-pub(super) fn turns(_: &Options) -> Result<Vec<Turn>, Error> {
+pub(crate) fn turns(begin: Begin) -> Result<Vec<Turn>, Error> {
     let mut turns = Vec::new();
     for steps in all() {
         let told = Told::default();
-        let local = Local::new(1, || LoadSteps::begin(&steps, told.clone()))?;
-        let particles = local.going().job.work().particles;
+        let (case, level, scheme) = (steps.case, steps.level, steps.scheme);
+        let local = Local::new(1, || {
+            let again = move || begin(case, level, scheme);
+            Ok(LoadSteps {
+                run: again()?,
+                begin: again,
+                told: told.clone(),
+            })
+        })?;
+        let particles = local.going().run.particles();
         let mut add = |part: &str, timed: Box<dyn Timed>| {
             turns.push(Turn {
                 group: "newton",

@@ -5,13 +5,12 @@
 //! 1000 kg/m³), with a smooth velocity field; h = 1/280 m, Δt = 0.1 h/c; FLIP, quadratic B-splines. The room around it is
 //! so wide that no particle reaches an end.
 
-use super::local::{Local, Steps};
-use super::{Options, Turn, on_threads};
-use crate::error::Error;
-use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::local::{Local, Steps};
+use crate::{Error, Options, Turn, on_threads};
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Simulation};
+use mpm_solvers::scheme::{BasisName, RemedyName, Scheme};
 use mpm_solvers::{Solvable, solver};
 use std::f64::consts::TAU;
 
@@ -128,7 +127,7 @@ pub(super) fn turns(options: &Options, turns: &mut Vec<Turn>) -> Result<(), Erro
 }
 
 /// Blocks of 10⁴ to 10⁶·⁵ particles, half a decade apart, on one thread.
-pub(super) fn scaling<const D: usize>(_: &Options) -> Result<Vec<Turn>, Error>
+pub(super) fn scaling<const D: usize>() -> Result<Vec<Turn>, Error>
 where
     NeoHookean: Solvable<D>,
 {
@@ -159,8 +158,8 @@ pub(super) fn small(options: &Options, turns: &mut Vec<Turn>) -> Result<(), Erro
 
 #[cfg(test)]
 mod tests {
-    use super::super::model::needed;
     use super::*;
+    use crate::model::needed;
     use mpm_core::lattice::Weights;
     use mpm_core::nodes::NodalState;
 

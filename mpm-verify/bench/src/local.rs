@@ -1,8 +1,6 @@
 //! What of this program is timed.
 
-use super::{Outcome, Sample, Timed, timed};
-use crate::error::Error;
-use crate::job::Job;
+use crate::{Error, Outcome, Run, Sample, Timed, timed};
 use mpm_core::{Memory, Simulation};
 use rayon::ThreadPool;
 use std::collections::BTreeMap;
@@ -30,8 +28,7 @@ impl<G: Going> Local<G> {
         begin: impl FnOnce() -> Result<G, Error> + Send,
     ) -> Result<Self, Error> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool =
-            pool.map_err(|e| Error::Input(format!("{threads} threads can't be started: {e}")))?;
+        let pool = pool.map_err(|e| format!("{threads} threads can't be started: {e}"))?;
         let going = pool.install(begin)?;
         Ok(Self { pool, going })
     }
@@ -62,8 +59,7 @@ impl<G: Going> Timed for Local<G> {
 }
 
 fn checksum(memory: &(impl Memory + ?Sized)) -> Result<u32, Error> {
-    let bytes = memory.save().map_err(mpm_core::Error::from)?;
-    let bytes = postcard::to_stdvec(&bytes).map_err(|e| Error::Input(e.to_string()))?;
+    let bytes = postcard::to_stdvec(&memory.save()?)?;
     Ok(crc32fast::hash(&bytes))
 }
 
@@ -123,28 +119,28 @@ fn sums<const D: usize>(simulation: &dyn Simulation<D>) -> BTreeMap<String, f64>
 
 /// A run of a case, so many times of observation a slice.
 pub(super) struct Observations {
-    pub(super) job: Box<dyn Job>,
+    pub(super) run: Box<dyn Run>,
     pub(super) observations: usize,
 }
 
 impl Observations {
     pub(super) fn particles(&self) -> u64 {
-        self.job.work().particles
+        self.run.particles()
     }
 }
 
 impl Going for Observations {
     fn go_on(&mut self) -> Result<u64, Error> {
-        let before = self.job.work().particle_steps;
+        let before = self.run.particle_steps();
         for _ in 0..self.observations {
-            self.job.advance()?;
+            self.run.advance()?;
         }
-        Ok(self.job.work().particle_steps - before)
+        Ok(self.run.particle_steps() - before)
     }
 
     fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
         Ok(Some(Outcome {
-            bits: Some(checksum(self.job.as_ref())?),
+            bits: Some(checksum(self.run.memory())?),
             ..Outcome::default()
         }))
     }

@@ -1,17 +1,17 @@
-//! The aims and what was measured of them.
+//! The aims, with what was measured.
 
-use super::{Bench, Measured, Sample, Spread, model, newton, ratio};
+use crate::{Measured, Measurements, Sample, Spread, model, newton, ratio};
 
 /// One aim.
-pub(super) struct Aim {
-    /// Its number and what is measured.
-    pub(super) what: String,
-    /// What is wanted, in words.
-    pub(super) wanted: String,
-    /// What was measured.
-    pub(super) measured: Spread,
+pub struct Aim {
+    /// Its number and the measured quantity.
+    pub what: String,
+    /// The limit, in words.
+    pub wanted: String,
+    /// The measured value.
+    pub measured: Spread,
     /// Whether its median is within the aim.
-    pub(super) met: bool,
+    pub met: bool,
 }
 
 /// Workloads by name and dimension.
@@ -56,7 +56,8 @@ fn at_most(what: String, limit: f64, unit: &str, measured: Spread) -> Aim {
 }
 
 /// All that could be measured, in order.
-pub(super) fn of(bench: &Bench) -> Vec<Aim> {
+#[must_use]
+pub fn of(bench: &Measurements) -> Vec<Aim> {
     let mut aims = Vec::new();
     over_peers(bench, &mut aims);
     fbar_cost(bench, &mut aims);
@@ -70,7 +71,7 @@ pub(super) fn of(bench: &Bench) -> Vec<Aim> {
 }
 
 /// Only of a peer that came to the same sums is a ratio told.
-fn over_peers(bench: &Bench, aims: &mut Vec<Aim>) {
+fn over_peers(bench: &Measurements, aims: &mut Vec<Aim>) {
     for (name, dimension, _) in WORKLOADS {
         let peer = bench.find("peer", &format!("{name} Taichi tuned"), 1);
         let peer = peer.filter(|p| p.same == Some(true));
@@ -82,7 +83,7 @@ fn over_peers(bench: &Bench, aims: &mut Vec<Aim>) {
     }
 }
 
-fn fbar_cost(bench: &Bench, aims: &mut Vec<Aim>) {
+fn fbar_cost(bench: &Measurements, aims: &mut Vec<Aim>) {
     for (with, without) in [("W2F", "W2"), ("W3F", "W3")] {
         let of = |name| bench.find("workload", name, 1);
         let both = of(with).zip(of(without));
@@ -93,7 +94,7 @@ fn fbar_cost(bench: &Bench, aims: &mut Vec<Aim>) {
     }
 }
 
-fn threads(bench: &Bench, aims: &mut Vec<Aim>) {
+fn threads(bench: &Measurements, aims: &mut Vec<Aim>) {
     for (name, ..) in WORKLOADS {
         let on = |threads| bench.find("workload", name, threads);
         let Some((one, two)) = on(1).zip(on(2)) else {
@@ -104,7 +105,7 @@ fn threads(bench: &Bench, aims: &mut Vec<Aim>) {
     }
 }
 
-fn small(bench: &Bench, aims: &mut Vec<Aim>) {
+fn small(bench: &Measurements, aims: &mut Vec<Aim>) {
     let small = bench.of_group("problem").filter(|m| m.particles <= SMALL);
     for more in small.filter(|m| m.threads > 1) {
         let Measured {
@@ -132,7 +133,7 @@ fn over_one(what: String, limit: f64, one: &Measured, more: &Measured) -> Option
 }
 
 /// Greatest over least cost of a particle's step over the numbers of particles.
-fn scaling(bench: &Bench, aims: &mut Vec<Aim>) {
+fn scaling(bench: &Measurements, aims: &mut Vec<Aim>) {
     for (name, ..) in WORKLOADS {
         let sizes: Vec<&Measured> = bench
             .of_group("scaling")
@@ -151,7 +152,7 @@ fn scaling(bench: &Bench, aims: &mut Vec<Aim>) {
     }
 }
 
-fn memory(bench: &Bench, aims: &mut Vec<Aim>) {
+fn memory(bench: &Measurements, aims: &mut Vec<Aim>) {
     for (name, dimension, fbar) in WORKLOADS {
         let largest = bench
             .of_group("scaling")
@@ -168,7 +169,7 @@ fn memory(bench: &Bench, aims: &mut Vec<Aim>) {
     }
 }
 
-fn laws(bench: &Bench, aims: &mut Vec<Aim>) {
+fn laws(bench: &Measurements, aims: &mut Vec<Aim>) {
     for law in bench.of_group("law") {
         if let Some(spread) = law.cpu_ns() {
             let what = format!("5. law, {}: time per particle", law.name);
@@ -177,7 +178,7 @@ fn laws(bench: &Bench, aims: &mut Vec<Aim>) {
     }
 }
 
-fn iterations(bench: &Bench, aims: &mut Vec<Aim>) {
+fn iterations(bench: &Measurements, aims: &mut Vec<Aim>) {
     for steps in newton::all().iter().filter(|steps| steps.case == "cook") {
         let part = |(part, _): &(&str, _)| bench.find("newton", &steps.name(part), 1);
         let parts: Vec<&Measured> = newton::PARTS.iter().skip(1).filter_map(part).collect();

@@ -38,16 +38,6 @@ fn turn(begin: f64, like: Option<usize>) -> Turn {
     }
 }
 
-fn bench(measured: Vec<Measured>) -> Bench {
-    Bench {
-        schema: SCHEMA,
-        machine: Machine::here(2),
-        processor: None,
-        version: Version::current(),
-        measured,
-    }
-}
-
 #[test]
 fn the_first_slice_is_not_measured_and_outcomes_are_compared() {
     let turns = vec![turn(0.0, None), turn(0.0, Some(0)), turn(1e-9, Some(0))];
@@ -94,7 +84,7 @@ fn a_small_problem_must_lose_nothing_to_threads() {
         on(1, 20_000, 0.0, None),
         on(2, 20_000, 0.0, Some(3)),
     ];
-    let aims = aims::of(&bench(take_turns(turns, 2, &|_| ()).unwrap()));
+    let aims = aims::of(&Measurements(take_turns(turns, 2, &|_| ()).unwrap()));
     let told: Vec<(&str, bool)> = aims.iter().map(|a| (a.what.as_str(), a.met)).collect();
     let what = "3. of 3200, 3200 particles: times as fast on";
     let two = format!("{what} 2 threads as on one, same bits");
@@ -119,18 +109,18 @@ fn assembly_factors_and_solution_of_an_iteration_are_added_up() {
         ..turn(0.05 * k as f64, None)
     };
     let turns = parts.iter().enumerate().map(part).collect();
-    let mut bench = bench(take_turns(turns, 1, &|_| ()).unwrap());
-    for m in &mut bench.measured {
+    let mut bench = Measurements(take_turns(turns, 1, &|_| ()).unwrap());
+    for m in &mut bench.0 {
         m.samples[0].updates = 1;
     }
-    let aim = |bench: &Bench| {
+    let aim = |bench: &Measurements| {
         let aims = aims::of(bench);
         let aim = aims.iter().find(|a| a.what.starts_with('6')).unwrap();
         (aim.measured.median, aim.met)
     };
     let (seconds, met) = aim(&bench);
     assert!((seconds - 0.912).abs() < 1e-9 && met, "{seconds}");
-    bench.measured[2].samples[0].cpu_s += 0.1;
+    bench.0[2].samples[0].cpu_s += 0.1;
     assert!(!aim(&bench).1);
 }
 
@@ -144,8 +134,8 @@ fn two_threads_come_to_the_same_bits_and_the_aims_are_told() {
     };
     let mut turns = Vec::new();
     workload::small(&options, &mut turns).unwrap();
-    let mut bench = bench(take_turns(turns, options.rounds, &|_| ()).unwrap());
-    assert!(bench.measured.iter().all(|m| m.same != Some(false)));
+    let mut bench = Measurements(take_turns(turns, options.rounds, &|_| ()).unwrap());
+    assert!(bench.0.iter().all(|m| m.same != Some(false)));
     let told: Vec<String> = aims::of(&bench).into_iter().map(|a| a.what).collect();
     assert!(
         told.iter().any(|w| w.starts_with("2. W2F over W2")),
@@ -153,7 +143,7 @@ fn two_threads_come_to_the_same_bits_and_the_aims_are_told() {
     );
     assert!(told.iter().any(|w| w.ends_with("same bits")), "{told:?}");
     // Bits that differ are told, and the aim is missed however fast it was.
-    for m in &mut bench.measured {
+    for m in &mut bench.0 {
         m.same = m.same.map(|_| false);
     }
     let threads = aims::of(&bench)
