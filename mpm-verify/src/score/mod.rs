@@ -13,9 +13,7 @@ use crate::error::Error;
 use crate::files::require_inside;
 use crate::foreign::{Asked, Foreign, Given, Part};
 use crate::parameter::Parameters;
-use crate::record::{
-    Discretisation, Machine, Measured, Record, SCHEMA, Status, Timing, Version, WorkDone,
-};
+use crate::record::{Measured, Record};
 use crate::spec::RunSpec;
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
@@ -68,7 +66,8 @@ impl Scored {
         let unknown = given.require_heads(&asked)?;
         let missing = asked.into_iter().filter(|a| !given.has(a)).collect();
         let discretisation = given.discretisation.clone();
-        let mut record = blank(case, &given.spec, &given.parameters, discretisation);
+        let (spec, parameters) = (&given.spec, &given.parameters);
+        let mut record = Record::blank(case.name, spec, parameters, discretisation, 0);
         let seconds = |of: Option<Positive>| of.map_or(f64::NAN, |s| s.0);
         let cost = &manifest.cost;
         (record.time.wall_s, record.time.cpu_s) = (seconds(cost.wall_s), seconds(cost.cpu_s));
@@ -140,35 +139,6 @@ fn tables(
         return Err(Error::file(&folder.join(FILE), said));
     }
     Ok(tables)
-}
-
-/// A record of a run that nothing has been measured of.
-fn blank(
-    case: &Case,
-    spec: &RunSpec,
-    parameters: &Parameters,
-    discretisation: Discretisation,
-) -> Record {
-    Record {
-        schema: SCHEMA,
-        case: case.name.to_owned(),
-        scheme: spec.scheme,
-        solver: spec.scheme.solver().to_owned(),
-        level: spec.level.name.to_owned(),
-        set: spec.set.clone(),
-        perturbed: false,
-        status: Status::Ok,
-        error: None,
-        discretisation,
-        parameters: parameters.clone(),
-        metrics: BTreeMap::new(),
-        verdicts: Vec::new(),
-        work: WorkDone::default(),
-        time: Timing::default(),
-        machine: Machine::here(0),
-        version: Version::current(),
-        files: BTreeMap::new(),
-    }
 }
 
 /// The verdicts of the case's own checks on what another code can give: a known limit of our schemes excuses nobody, and
