@@ -61,6 +61,20 @@ pub struct Column {
 }
 
 impl Column {
+    /// A quantity of one number.
+    #[must_use]
+    pub fn single(quantity: String, value: f64, response: f64) -> Self {
+        let point = Point {
+            time: None,
+            value,
+            response,
+        };
+        Self {
+            quantity,
+            points: vec![point],
+        }
+    }
+
     /// The largest of its numbers.
     #[must_use]
     pub fn scale(&self) -> f64 {

@@ -358,14 +358,7 @@ fn counts_are_summed_over_the_runs_of_a_case() {
     let root = tempfile::tempdir().unwrap();
     let path = file(root.path(), "cook");
     let counted = |(k, name): (usize, String)| {
-        let count = |name: &str, value: f64| Column {
-            quantity: name.to_owned(),
-            points: vec![Point {
-                time: None,
-                value,
-                response: 0.0,
-            }],
-        };
+        let count = |name: &str, value| Column::single(name.to_owned(), value, 0.0);
         let mut columns = vec![count(PAIRS, 10.0 * (k as f64 + 1.0))];
         if k == 1 {
             columns.push(count(NONZEROS, 7.0));

@@ -46,11 +46,11 @@ impl Scored {
         let refuse = |key: &'static str| move |e: Error| Manifest::refuse(folder, key, &e);
         let (case, foreign) = find_scored(&manifest.case.0).map_err(refuse("case"))?;
         let level = find_level(case, &manifest.level.0).map_err(refuse("level"))?;
-        let set = manifest.parameters.0.clone();
+        let set = manifest.parameters.clone();
         let parameters =
             Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters")(e.into()))?;
         let spec = RunSpec {
-            scheme: (foreign.judged_as)(manifest.basis.0),
+            scheme: (foreign.judged_as)(manifest.basis),
             level,
             set,
             perturbed: false,
