@@ -1,6 +1,7 @@
 //! The aims, with what was measured.
 
-use crate::{Measured, Measurements, Sample, Spread, model, newton, ratio};
+use crate::measured::{Measured, Measurements, Sample, Spread, ratio};
+use crate::{model, newton};
 
 /// One aim.
 pub struct Aim {

@@ -1,7 +1,7 @@
 //! The laws of the problems, with their particles side by side as in a step; those that flow do so in every update.
 
 use crate::local::{Going, Local};
-use crate::{Error, Turn};
+use crate::turn::{Error, Turn};
 use mpm_core::material::{HenckyJ2, Law, NeoHookean, NewtonianFluid, Strength};
 use mpm_core::{SymmetricTensor, space};
 use nalgebra::SMatrix;

@@ -1,12 +1,13 @@
 //! What of this program is timed.
 
-use crate::{Error, Outcome, Run, Sample, Timed, timed};
+use crate::measured::Sample;
+use crate::turn::{Error, Outcome, Timed, timed};
 use mpm_core::{Memory, Simulation};
 use rayon::ThreadPool;
 use std::collections::BTreeMap;
 
 /// Something of this program that goes on.
-pub(super) trait Going: Send {
+pub(crate) trait Going: Send {
     /// Goes on by a slice and returns the updates.
     fn go_on(&mut self) -> Result<u64, Error>;
     /// What it has come to, if there is anything to compare.
@@ -16,14 +17,14 @@ pub(super) trait Going: Send {
 }
 
 /// Something of this program on threads of its own.
-pub(super) struct Local<G> {
+pub(crate) struct Local<G> {
     pool: ThreadPool,
     going: G,
 }
 
 impl<G: Going> Local<G> {
     /// `begin` on so many threads.
-    pub(super) fn new(
+    pub(crate) fn new(
         threads: usize,
         begin: impl FnOnce() -> Result<G, Error> + Send,
     ) -> Result<Self, Error> {
@@ -34,7 +35,7 @@ impl<G: Going> Local<G> {
     }
 
     /// What goes on.
-    pub(super) fn going(&self) -> &G {
+    pub(crate) fn going(&self) -> &G {
         &self.going
     }
 }
@@ -58,15 +59,15 @@ impl<G: Going> Timed for Local<G> {
     }
 }
 
-fn checksum(memory: &(impl Memory + ?Sized)) -> Result<u32, Error> {
+pub(crate) fn checksum(memory: &(impl Memory + ?Sized)) -> Result<u32, Error> {
     let bytes = postcard::to_stdvec(&memory.save()?)?;
     Ok(crc32fast::hash(&bytes))
 }
 
 /// A simulation, so many steps a slice.
-pub(super) struct Steps<const D: usize> {
-    pub(super) simulation: Box<dyn Simulation<D>>,
-    pub(super) steps: u64,
+pub(crate) struct Steps<const D: usize> {
+    pub(crate) simulation: Box<dyn Simulation<D>>,
+    pub(crate) steps: u64,
 }
 
 impl<const D: usize> Going for Steps<D> {
@@ -115,33 +116,4 @@ fn sums<const D: usize>(simulation: &dyn Simulation<D>) -> BTreeMap<String, f64>
             ]
         });
     of_body.into_iter().chain(of_axes).collect()
-}
-
-/// A run of a case, so many times of observation a slice.
-pub(super) struct Observations {
-    pub(super) run: Box<dyn Run>,
-    pub(super) observations: usize,
-}
-
-impl Observations {
-    pub(super) fn particles(&self) -> u64 {
-        self.run.particles()
-    }
-}
-
-impl Going for Observations {
-    fn go_on(&mut self) -> Result<u64, Error> {
-        let before = self.run.particle_steps();
-        for _ in 0..self.observations {
-            self.run.advance()?;
-        }
-        Ok(self.run.particle_steps() - before)
-    }
-
-    fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
-        Ok(Some(Outcome {
-            bits: Some(checksum(self.run.memory())?),
-            ..Outcome::default()
-        }))
-    }
 }

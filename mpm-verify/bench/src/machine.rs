@@ -2,7 +2,7 @@
 //! (McCalpin 1995).
 
 use crate::local::{Going, Local};
-use crate::{Error, Options, Turn};
+use crate::turn::{Error, Turn};
 use rayon::prelude::*;
 
 /// Numbers per array: 256 MiB each.
@@ -34,7 +34,7 @@ impl Going for Triad {
 }
 
 /// The triad on each number of threads.
-pub(super) fn turns(options: &Options) -> Result<Vec<Turn>, Error> {
+pub(super) fn turns(threads: &[usize]) -> Result<Vec<Turn>, Error> {
     let turn = |&threads: &usize| {
         let triad = Local::new(threads, || {
             Ok(Triad {
@@ -52,7 +52,7 @@ pub(super) fn turns(options: &Options) -> Result<Vec<Turn>, Error> {
             like: None,
         })
     };
-    options.threads.iter().map(turn).collect()
+    threads.iter().map(turn).collect()
 }
 
 /// Name, family and model of the processor, where the system tells.

@@ -2,7 +2,9 @@
 //! and the strip on soil full of water of 6,400.
 
 use crate::local::{Going, Local};
-use crate::{Begin, Error, Run, Sample, Timed, Turn};
+use crate::measured::Sample;
+use crate::run::{Begin, Run};
+use crate::turn::{Error, Timed, Turn};
 use mpm_core::Spent;
 use mpm_solvers::scheme::{BasisName, RemedyName, Scheme, SpaceName};
 use std::sync::{Arc, Mutex};

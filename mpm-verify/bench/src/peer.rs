@@ -1,7 +1,8 @@
 //! Other programs that do the same step, each a process that takes its turns on command.
 
+use crate::measured::Sample;
+use crate::turn::{Error, Outcome, Timed, Turn};
 use crate::workload::{Block, STEPS, standard};
-use crate::{Error, Options, Outcome, Sample, Timed, Turn};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -53,10 +54,10 @@ impl Peers {
     }
 
     /// Idiomatic and tuned Taichi of every workload on each number of threads, to be the same as those that are there.
-    pub(super) fn turns(&self, options: &Options, turns: &mut Vec<Turn>) -> Result<(), Error> {
+    pub(super) fn turns(&self, threads: &[usize], turns: &mut Vec<Turn>) -> Result<(), Error> {
         for fbar in [false, true] {
-            self.turns_of(standard::<2>(fbar), options, turns)?;
-            self.turns_of(standard::<3>(fbar), options, turns)?;
+            self.turns_of(standard::<2>(fbar), threads, turns)?;
+            self.turns_of(standard::<3>(fbar), threads, turns)?;
         }
         Ok(())
     }
@@ -64,12 +65,12 @@ impl Peers {
     fn turns_of<const D: usize>(
         &self,
         block: Block<D>,
-        options: &Options,
+        threads: &[usize],
         turns: &mut Vec<Turn>,
     ) -> Result<(), Error> {
         let like = turns.iter().position(|t| t.name == block.name());
         for way in ["tuned", "idiomatic"] {
-            for &threads in &options.threads {
+            for &threads in threads {
                 let name = format!("{} Taichi {way}", block.name());
                 let peer = self.start(&name, block, way == "tuned", threads)?;
                 turns.push(Turn {

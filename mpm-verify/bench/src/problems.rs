@@ -1,7 +1,8 @@
 //! The four problems, each at a level with a few thousand particles or a few ten thousand, so many observations a slice.
 
-use crate::local::{Local, Observations};
-use crate::{Begin, Error, Options, Turn, on_threads};
+use crate::local::{Going, Local, checksum};
+use crate::run::{Begin, Run};
+use crate::turn::{Error, Outcome, Turn, on_threads};
 use mpm_solvers::scheme::{BasisName, RemedyName, Scheme};
 
 /// Case, level and observations of a slice: of the cheapest scheme a third of a second on two threads, so that noise
@@ -13,8 +14,37 @@ const PROBLEMS: [(&str, &str, usize); 4] = [
     ("landslide", "slice-h0.4", 4),
 ];
 
+/// A run of a case, so many times of observation a slice.
+struct Observations {
+    run: Box<dyn Run>,
+    observations: usize,
+}
+
+impl Observations {
+    fn particles(&self) -> u64 {
+        self.run.particles()
+    }
+}
+
+impl Going for Observations {
+    fn go_on(&mut self) -> Result<u64, Error> {
+        let before = self.run.particle_steps();
+        for _ in 0..self.observations {
+            self.run.advance()?;
+        }
+        Ok(self.run.particle_steps() - before)
+    }
+
+    fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
+        Ok(Some(Outcome {
+            bits: Some(checksum(self.run.memory())?),
+            ..Outcome::default()
+        }))
+    }
+}
+
 /// Every problem with each basis and remedy, on each number of threads.
-pub(super) fn turns(options: &Options, begin: Begin) -> Result<Vec<Turn>, Error> {
+pub(super) fn turns(threads: &[usize], begin: Begin) -> Result<Vec<Turn>, Error> {
     let mut turns = Vec::new();
     for (case, level, observations) in PROBLEMS {
         for basis in [BasisName::Gimp, BasisName::Bspline2] {
@@ -25,7 +55,7 @@ pub(super) fn turns(options: &Options, begin: Begin) -> Result<Vec<Turn>, Error>
             ] {
                 let scheme = Scheme::flip(basis, remedy);
                 let name = format!("{case} {level} {scheme}");
-                on_threads(options, &mut turns, |threads| {
+                on_threads(threads, &mut turns, |threads| {
                     let local = Local::new(threads, || {
                         let run = begin(case, level, scheme)?;
                         Ok(Observations { run, observations })

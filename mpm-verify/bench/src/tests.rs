@@ -1,6 +1,8 @@
 //! Tests of what is measured and told.
 
-use super::*;
+use crate::measured::ratio;
+use crate::turn::{Error, Outcome, Timed, Turn, take_turns};
+use crate::{Measurements, Sample, Spread, aims, newton, workload};
 
 /// Takes a millisecond longer for every slice.
 struct Slow(f64);
@@ -126,15 +128,9 @@ fn assembly_factors_and_solution_of_an_iteration_are_added_up() {
 
 #[test]
 fn two_threads_come_to_the_same_bits_and_the_aims_are_told() {
-    let options = Options {
-        rounds: 1,
-        threads: vec![1, 2],
-        only: Vec::new(),
-        peers: None,
-    };
     let mut turns = Vec::new();
-    workload::small(&options, &mut turns).unwrap();
-    let mut bench = Measurements(take_turns(turns, options.rounds, &|_| ()).unwrap());
+    workload::small(&[1, 2], &mut turns).unwrap();
+    let mut bench = Measurements(take_turns(turns, 1, &|_| ()).unwrap());
     assert!(bench.0.iter().all(|m| m.same != Some(false)));
     let told: Vec<String> = aims::of(&bench).into_iter().map(|a| a.what).collect();
     assert!(

@@ -6,7 +6,7 @@
 //! so wide that no particle reaches an end.
 
 use crate::local::{Local, Steps};
-use crate::{Error, Options, Turn, on_threads};
+use crate::turn::{Error, Turn, on_threads};
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Simulation};
@@ -101,10 +101,10 @@ where
         &self,
         group: &'static str,
         steps: u64,
-        options: &Options,
+        threads: &[usize],
         turns: &mut Vec<Turn>,
     ) -> Result<(), Error> {
-        on_threads(options, turns, |threads| self.turn(group, steps, threads))
+        on_threads(threads, turns, |threads| self.turn(group, steps, threads))
     }
 }
 
@@ -118,10 +118,10 @@ fn velocity<const D: usize>(x: &[f64; D]) -> [f64; D] {
 }
 
 /// W2, W2F, W3 and W3F.
-pub(super) fn turns(options: &Options, turns: &mut Vec<Turn>) -> Result<(), Error> {
+pub(super) fn turns(threads: &[usize], turns: &mut Vec<Turn>) -> Result<(), Error> {
     for fbar in [false, true] {
-        standard::<2>(fbar).on_threads("workload", STEPS, options, turns)?;
-        standard::<3>(fbar).on_threads("workload", STEPS, options, turns)?;
+        standard::<2>(fbar).on_threads("workload", STEPS, threads, turns)?;
+        standard::<3>(fbar).on_threads("workload", STEPS, threads, turns)?;
     }
     Ok(())
 }
@@ -148,10 +148,10 @@ where
 
 /// Blocks of 400 particles on each number of threads.
 #[cfg(test)]
-pub(super) fn small(options: &Options, turns: &mut Vec<Turn>) -> Result<(), Error> {
+pub(super) fn small(threads: &[usize], turns: &mut Vec<Turn>) -> Result<(), Error> {
     for fbar in [false, true] {
         let block = Block::<2> { cells: 10, fbar };
-        block.on_threads("workload", STEPS, options, turns)?;
+        block.on_threads("workload", STEPS, threads, turns)?;
     }
     Ok(())
 }
