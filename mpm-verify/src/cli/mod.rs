@@ -1,20 +1,12 @@
 //! The syntax of the command line and the output of its commands.
 
-#[path = "cli/bench.rs"]
 mod bench;
-#[path = "cli/bless.rs"]
 mod bless;
-#[path = "cli/diff.rs"]
 mod diff;
-#[path = "cli/explain.rs"]
 mod explain;
-#[path = "cli/keep.rs"]
 mod keep;
-#[path = "cli/run.rs"]
 mod run;
-#[path = "cli/score.rs"]
 mod score;
-#[path = "cli/verify.rs"]
 mod verify;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
