@@ -72,7 +72,13 @@ impl Verify {
         let records = make_runs(&plan, &self.out, saving, workers, &listener)?;
         listener.finish();
         match plan.shard == Shard::WHOLE {
-            true => report_in(&[self.out.clone()], &self.out, &goldens, None, self.told),
+            true => report_in(
+                std::slice::from_ref(&self.out),
+                &self.out,
+                &goldens,
+                None,
+                self.told,
+            ),
             false => tell_shard(&plan, &records, self.told),
         }
     }
