@@ -2,7 +2,7 @@
 
 use crate::cases;
 use crate::error::Error;
-use crate::files::{DOCUMENT, read as read_file};
+use crate::files::{read_rows, rows_text};
 use crate::night::Night;
 use crate::parameter::Parameters;
 use crate::record::{
@@ -246,12 +246,9 @@ pub(super) fn read(path: &Path) -> Result<Vec<Row>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }
-    let bytes = read_file(path, DOCUMENT)?;
-    let mut reader = csv::Reader::from_reader(&bytes[..]);
     let mut names = Names::default();
-    let rows = reader.deserialize::<Row>();
-    rows.map(|row| {
-        let mut row = row.map_err(|e| Error::file(path, e))?;
+    let rows = read_rows::<Row>(path)?.into_iter();
+    rows.map(|mut row| {
         let cells = std::mem::take(&mut row.cells);
         let metrics = names.metrics(&row.case, &cells).ok_or_else(|| {
             let cause = format!("{}: a metric without a name or number", row.run().join(" "));
@@ -265,18 +262,12 @@ pub(super) fn read(path: &Path) -> Result<Vec<Row>, Error> {
 
 /// Rows as CSV.
 pub(super) fn text(rows: &[Row]) -> Result<Vec<u8>, Error> {
-    let failed = |e: &dyn std::fmt::Display| Error::Input(format!("rows: {e}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let mut names = Names::default();
-    for row in rows {
-        let cells = names.cells(&row.case, &row.metrics);
-        let row = Row {
-            cells,
-            ..row.clone()
-        };
-        writer.serialize(row).map_err(|e| failed(&e))?;
-    }
-    writer.into_inner().map_err(|e| failed(&e))
+    let row = |row: &Row| Row {
+        cells: names.cells(&row.case, &row.metrics),
+        ..row.clone()
+    };
+    rows_text(rows.iter().map(row)).map_err(|e| Error::Input(format!("rows: {e}")))
 }
 
 #[cfg(test)]
