@@ -257,7 +257,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// A record without results of a run by this program, on so many threads.
+    /// A record without results, of a run by this program on a number of threads.
     #[must_use]
     pub fn blank(
         case: &str,

@@ -27,7 +27,7 @@ use turn::{Turn, take_turns};
 /// Groups that can be measured by themselves.
 pub const GROUPS: [&str; 5] = ["workloads", "problems", "newton", "laws", "scaling"];
 
-/// What is to be measured.
+/// Options of a measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Rounds.

@@ -1,4 +1,4 @@
-//! What of this program is timed.
+//! Parts of this program that are timed.
 
 use crate::measured::Sample;
 use crate::turn::{Error, Outcome, Timed, timed};
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub(crate) trait Going: Send {
     /// Goes on by a slice and returns the updates.
     fn go_on(&mut self) -> Result<u64, Error>;
-    /// What it has come to, if there is anything to compare.
+    /// Its outcome, if there is anything to compare.
     fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
         Ok(None)
     }
@@ -23,7 +23,7 @@ pub(crate) struct Local<G> {
 }
 
 impl<G: Going> Local<G> {
-    /// `begin` on so many threads.
+    /// `begin` on a number of threads.
     pub(crate) fn new(
         threads: usize,
         begin: impl FnOnce() -> Result<G, Error> + Send,
@@ -34,7 +34,7 @@ impl<G: Going> Local<G> {
         Ok(Self { pool, going })
     }
 
-    /// What goes on.
+    /// The work that goes on.
     pub(crate) fn going(&self) -> &G {
         &self.going
     }
@@ -64,7 +64,7 @@ pub(crate) fn checksum(memory: &(impl Memory + ?Sized)) -> Result<u32, Error> {
     Ok(crc32fast::hash(&bytes))
 }
 
-/// A simulation, so many steps a slice.
+/// A simulation; a slice is a number of steps.
 pub(crate) struct Steps<const D: usize> {
     pub(crate) simulation: Box<dyn Simulation<D>>,
     pub(crate) steps: u64,

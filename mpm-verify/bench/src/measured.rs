@@ -14,10 +14,10 @@ pub struct Sample {
     pub cpu_s: f64,
 }
 
-/// What one thing on one number of threads has taken.
+/// Measurement of one thing on one number of threads.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// What it belongs to: `workload`, `problem`, `newton`, `law`, `scaling`, `memory`, `peer`.
+    /// Its group: `workload`, `problem`, `newton`, `law`, `scaling`, `memory`, `peer`.
     pub group: String,
     /// Its name.
     pub name: String,
@@ -29,7 +29,7 @@ pub struct Measured {
     pub samples: Vec<Sample>,
     /// Memory (bytes) that it held after its last slice, exactly; `None` of another program.
     pub memory: Option<u64>,
-    /// Whether it came to what it is compared with: on more threads the same bits as on one, of a peer the same sums.
+    /// Whether the outcome agrees: on more threads the same bits as on one, for a peer the same sums.
     pub same: Option<bool>,
     /// Sums over the body in the end, by name, of what is compared with peers.
     pub sums: BTreeMap<String, f64>,
@@ -47,7 +47,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of some values; `None` of none.
+    /// Spread of some values; `None` without any.
     #[must_use]
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let mut values: Vec<f64> = values.into_iter().collect();

@@ -30,7 +30,7 @@ pub const PARTS: [(&str, OfPart); 4] = [
     ("solution", |s| s.solution),
 ];
 
-/// What the parts of the last slice took, and its iterations.
+/// Times of the parts of the last slice, and its iterations.
 type Told = Arc<Mutex<(Spent, u64)>>;
 
 /// A run, a load step a slice, that begins anew after its last one.

@@ -1,4 +1,4 @@
-//! The four problems, each at a level with a few thousand particles or a few ten thousand, so many observations a slice.
+//! The four problems, each at a level with a few thousand particles or a few ten thousand, with a fixed number of observations a slice.
 
 use crate::local::{Going, Local, checksum};
 use crate::run::{Begin, Run};
@@ -14,7 +14,7 @@ const PROBLEMS: [(&str, &str, usize); 4] = [
     ("landslide", "slice-h0.4", 4),
 ];
 
-/// A run of a case, so many times of observation a slice.
+/// A run of a case; a slice is a number of times of observation.
 struct Observations {
     run: Box<dyn Run>,
     observations: usize,

@@ -11,17 +11,17 @@ pub type Error = Box<dyn std::error::Error + Send + Sync>;
 pub(crate) trait Timed {
     /// Runs the next slice.
     fn slice(&mut self) -> Result<Sample, Error>;
-    /// What it has come to, to be compared with another that has done the same; `None` if there is nothing to compare.
+    /// Its outcome, compared with that of another with the same work; `None` if there is nothing to compare.
     fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
         Ok(None)
     }
-    /// Ends it and tells the memory (bytes) that it held; `None` of another program.
+    /// Ends it and returns the memory (bytes) that it held; `None` for another program.
     fn held(self: Box<Self>) -> Option<u64> {
         None
     }
 }
 
-/// What something has come to.
+/// Outcome of work, by which two programs are compared.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Outcome {
     /// A checksum of all that it remembers.

@@ -40,7 +40,7 @@ fn memory(text: &str) -> Result<f64, String> {
     }
 }
 
-/// How much is said.
+/// Verbosity.
 #[derive(Args, Clone, Copy)]
 pub(crate) struct Told {
     /// Say nothing but the verdict
@@ -137,7 +137,7 @@ impl Command {
     }
 }
 
-/// All cores, unless it is said how many threads.
+/// Number of threads: all cores by default.
 pub(crate) fn or_all_cores(threads: Option<usize>) -> usize {
     threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
 }

@@ -154,13 +154,13 @@ impl Scene {
     }
 }
 
-/// The memory (bytes) that a scene may take: so many gibibytes, or what the machine has to give, if it tells.
+/// Memory (bytes) that a scene may take: `gib`, or the available memory of the machine, if that is known.
 fn memory_of(gib: Option<f64>) -> Option<f64> {
     gib.map(|gib| gib * GIBIBYTE).or_else(available_memory)
 }
 
-/// Runs `spec` of `case` on so many threads, draws it into its folder, if it has one, and says what it takes, how far it
-/// has come and what it found.
+/// Runs `spec` of `case` on `threads` threads, draws it into its folder, if it has one, and prints its size, progress and
+/// results.
 ///
 /// # Errors
 /// The case does not offer the scheme, the scene takes more bytes of memory than it may, the folder holds another run, or

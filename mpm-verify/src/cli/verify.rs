@@ -64,7 +64,7 @@ impl Verify {
         }
         let names = plan.own().map(|run| run.folder().display().to_string());
         let listener = progress::Runs::new(names.collect(), self.told.progress());
-        // A folder of goldens that is not there is told before hours of runs.
+        // A missing folder of goldens is reported before hours of runs.
         let goldens = Goldens::open(&golden::place(self.golden))?;
         let _held = hold(&self.out)?;
         discard_report(&self.out)?;

@@ -215,7 +215,7 @@ impl Golden {
         own.take(SHOWN).cloned().collect()
     }
 
-    /// Puts runs in place of those of the same name and keeps the others that are among `planned`, in its order.
+    /// Replaces runs of the same name and keeps the others that are among `planned`, in its order.
     pub fn bless(&mut self, new: Vec<Run>, planned: &[String], record: &Record, reason: &str) {
         self.runs
             .retain(|old| new.iter().all(|r| r.name != old.name));
