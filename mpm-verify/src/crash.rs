@@ -72,10 +72,8 @@ fn walk(root: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 /// [`walk`], of records without the time and the machine.
 fn content(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = walk(folder);
-    for (_, bytes) in found
-        .iter_mut()
-        .filter(|(name, _)| name.ends_with("record.json"))
-    {
+    let records = found.iter_mut();
+    for (_, bytes) in records.filter(|(name, _)| name.ends_with("record.json")) {
         let mut record: serde_json::Value = serde_json::from_slice(bytes).unwrap();
         for varying in ["time", "machine"] {
             record.as_object_mut().unwrap().remove(varying).unwrap();
@@ -85,14 +83,12 @@ fn content(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     found
 }
 
-/// What differs in two folders.
-fn difference(a: &Path, b: &Path) -> Vec<PathBuf> {
+/// Two folders have the same files.
+fn require_same(a: &Path, b: &Path, about: &str) {
     let (a, b) = (content(a), content(b));
-    let names = a.keys().chain(b.keys());
-    names
-        .filter(|name| a.get(*name) != b.get(*name))
-        .cloned()
-        .collect()
+    let differs = |name: &&PathBuf| a.get(*name) != b.get(*name);
+    let different: Vec<&PathBuf> = a.keys().chain(b.keys()).filter(differs).collect();
+    assert!(different.is_empty(), "{about}: {different:?}");
 }
 
 /// A run that is killed, or whose disk is full, at any step goes on to the same bits.
@@ -112,8 +108,11 @@ fn a_run_survives_a_failure_at_every_step() {
             let fails = fault == Fault::Kill || log[at..].iter().any(adds);
             assert_eq!(failed.is_err(), fails, "{fault:?} at {at}: {steps:?}");
             make(folder.path()).unwrap();
-            let different = difference(folder.path(), straight.path());
-            assert_eq!(different, [""; 0].map(PathBuf::from), "{fault:?} at {at}");
+            require_same(
+                folder.path(),
+                straight.path(),
+                &format!("{fault:?} at {at}"),
+            );
         }
     }
 }
@@ -185,62 +184,43 @@ impl Listener for Deaf {
     fn ended(&self, _: usize, _: &Record) {}
 }
 
-/// Makes a plan of one run and reports it.
-fn verify(out: &Path, golden: &Path) -> Result<(), Error> {
-    let (case, spec) = spec();
-    let run = PlannedRun {
-        case: case.name.to_owned(),
-        scheme: spec.scheme,
-        level: spec.level.name.to_owned(),
-        set: spec.set,
-        shard: 1,
-    };
-    let (schema, tier) = (1, "quick".to_owned());
-    let plan = Plan {
-        schema,
-        tier,
-        shard: Shard::WHOLE,
-        runs: vec![run],
-    };
-    make_runs(&plan, out, saving(), 1, &Deaf)?;
-    let gathered = Gathered::read(&[out.to_path_buf()])?;
-    let goldens = Goldens::open(golden)?;
-    let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
-    write_report(&gathered, judged, &goldens, None, out).map(drop)
+/// Makes a run and reports it.
+fn verify(root: &Path) -> Result<(), Error> {
+    one_run(root)?;
+    report(root, &["runs"], "runs", None)
 }
 
+/// A whole report has its summary at its end or not at all.
+fn require_whole_report(folder: &Path) {
+    let summary = folder.join("summary.json");
+    assert!(!summary.exists() || read_versioned::<Summary>(&summary, SCHEMA).is_ok());
+}
+
+/// Times differ, and pages show them: the report's files are compared by name, those of the run by content.
 #[test]
 fn a_verification_and_its_report_survive_failures() {
-    let [straight, golden] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-    let work = || verify(straight.path(), golden.path());
-    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, work);
+    let straight = tempfile::tempdir().unwrap();
+    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, || {
+        verify(straight.path())
+    });
     made.unwrap();
-    // Times differ: pages show them, so that the report's files are compared by name.
     let names = |folder: &Path| content(folder).into_keys().collect::<Vec<_>>();
-    for (k, fault) in [Fault::Kill, Fault::Full]
-        .into_iter()
-        .cycle()
-        .enumerate()
-        .take(8)
-    {
+    let run = Path::new("runs/cook").join(spec().1.folder());
+    assert!(straight.path().join(&run).is_dir());
+    let faults = [Fault::Kill, Fault::Full].into_iter().cycle();
+    for (k, fault) in faults.enumerate().take(8) {
         let at = (2 * k + 1) * log.len() / 16;
         let folder = tempfile::tempdir().unwrap();
-        let work = || verify(folder.path(), golden.path());
-        let (failed, _) = on_machine(folder.path(), fault, at, work);
+        let (failed, _) = on_machine(folder.path(), fault, at, || verify(folder.path()));
         assert!(failed.is_err(), "{fault:?} at {at}");
-        // The sign of a whole report is there at its end or not at all.
-        let sign = folder.path().join("summary.json");
-        assert!(!sign.exists() || read_versioned::<Summary>(&sign, SCHEMA).is_ok());
-        verify(folder.path(), golden.path()).unwrap();
+        require_whole_report(&folder.path().join("runs"));
+        verify(folder.path()).unwrap();
         assert_eq!(names(folder.path()), names(straight.path()));
-        let cook = folder.path().join("cook");
-        let run = fs::read_dir(&cook)
-            .unwrap()
-            .map(|e| e.unwrap().path())
-            .find(|p| p.is_dir());
-        let name = run.unwrap();
-        let twin = straight.path().join("cook").join(name.file_name().unwrap());
-        assert_eq!(difference(&name, &twin), [""; 0].map(PathBuf::from));
+        require_same(
+            &folder.path().join(&run),
+            &straight.path().join(&run),
+            "the run",
+        );
     }
 }
 
@@ -367,21 +347,11 @@ fn survives(deed: &Deed) {
             let adds = |(step, _): &(Step, PathBuf)| matches!(step, Step::Create | Step::Write);
             let fails = fault == Fault::Kill || log[at..].iter().any(adds);
             assert_eq!(failed.is_err(), fails, "{} {fault:?} at {at}", deed.name);
-            // The sign of a whole report is there at its end or not at all.
-            for name in ["runs", "all"] {
-                let sign = folder.path().join(name).join("summary.json");
-                assert!(!sign.exists() || read_versioned::<Summary>(&sign, SCHEMA).is_ok());
-            }
+            require_whole_report(&folder.path().join("runs"));
+            require_whole_report(&folder.path().join("all"));
             (deed.work)(folder.path()).unwrap();
-            let different = difference(folder.path(), straight.path());
-            let none = [""; 0].map(PathBuf::from);
-            assert_eq!(
-                different,
-                none,
-                "{} {fault:?} at {at}: {:?}",
-                deed.name,
-                steps.last()
-            );
+            let about = format!("{} {fault:?} at {at}: {:?}", deed.name, steps.last());
+            require_same(folder.path(), straight.path(), &about);
         }
     }
 }

@@ -245,6 +245,26 @@ fn unfit(value: &Value) -> Option<&str> {
     }
 }
 
+/// Reads CSV whose rows are of one type.
+///
+/// # Errors
+/// Those of [`read`], or a row is not of that type.
+pub fn read_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, Error> {
+    let bytes = read(path, DOCUMENT)?;
+    let rows = csv::Reader::from_reader(&bytes[..]).into_deserialize();
+    let rows: csv::Result<Vec<T>> = rows.collect();
+    rows.map_err(|e| Error::file(path, e))
+}
+
+/// Rows of one type as CSV.
+pub(crate) fn rows_text<T: Serialize>(rows: impl IntoIterator<Item = T>) -> csv::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row)?;
+    }
+    writer.into_inner().map_err(|e| e.into_error().into())
+}
+
 /// A table as CSV.
 pub(crate) fn csv_text(
     header: &[String],

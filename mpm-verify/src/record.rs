@@ -7,7 +7,7 @@ use crate::files::Mark;
 use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use crate::spec::run_folder;
+use crate::spec::{RunSpec, run_folder};
 use crate::verdict::{Outcome, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -257,6 +257,37 @@ pub struct Record {
 }
 
 impl Record {
+    /// A record without results, of a run by this program on a number of threads.
+    #[must_use]
+    pub fn blank(
+        case: &str,
+        spec: &RunSpec,
+        parameters: &Parameters,
+        discretisation: Discretisation,
+        threads: usize,
+    ) -> Self {
+        Self {
+            schema: SCHEMA,
+            case: case.to_owned(),
+            scheme: spec.scheme,
+            solver: spec.scheme.solver().to_owned(),
+            level: spec.level.name.to_owned(),
+            set: spec.set.clone(),
+            perturbed: spec.perturbed,
+            status: Status::Ok,
+            error: None,
+            discretisation,
+            parameters: parameters.clone(),
+            metrics: BTreeMap::new(),
+            verdicts: Vec::new(),
+            work: WorkDone::default(),
+            time: Timing::default(),
+            machine: Machine::here(threads),
+            version: Version::current(),
+            files: BTreeMap::new(),
+        }
+    }
+
     /// The scheme.
     #[must_use]
     pub fn scheme(&self) -> Scheme {

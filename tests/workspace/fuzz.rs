@@ -223,8 +223,11 @@ fn damaged_plans_are_refused_or_are_those_of_no_tier() {
 #[test]
 fn a_damaged_golden_is_refused_or_of_other_numbers() {
     let scene = Scene::new();
-    let path = scene.golden.join("cook.csv");
-    let (sound, again) = (Golden::read(&path).unwrap(), scene.golden.join("again.csv"));
+    let path = scene.golden.join("cook.json");
+    let (sound, again) = (
+        Golden::read(&path).unwrap(),
+        scene.golden.join("again.json"),
+    );
     damage("golden", &path, |bytes| {
         if let Ok(golden) = Golden::read(&path) {
             assert!(golden != sound);

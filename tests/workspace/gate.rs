@@ -16,7 +16,7 @@ fn a_sound_report_holds_against_its_goldens() {
 #[test]
 fn without_goldens_a_report_drifts_and_without_their_folder_it_is_refused() {
     let scene = Scene::new();
-    fs::remove_file(scene.golden.join("cook.csv")).unwrap();
+    fs::remove_file(scene.golden.join("cook.json")).unwrap();
     let output = scene.report();
     assert_eq!(code(&output), 3, "{}{}", stdout(&output), stderr(&output));
     assert!(stdout(&output).contains("FAILED [DRIFT] cook gimp-none-flip/h2"));
@@ -32,12 +32,13 @@ fn without_goldens_a_report_drifts_and_without_their_folder_it_is_refused() {
 fn drift_is_shown_named_and_accepted_with_a_reason() {
     let scene = Scene::new();
     // A golden of other numbers, as if the solver had changed since.
-    let file = scene.golden.join("cook.csv");
+    let file = scene.golden.join("cook.json");
     let sound = fs::read_to_string(&file).unwrap();
-    let (before, own) = sound.split_once(&format!("\n{RUN},")).unwrap();
-    let (head, tail) = own.split_once("metric/tip_uy (m),,").unwrap();
-    let (_, tail) = tail.split_once(',').unwrap();
-    let old = format!("{before}\n{RUN},{head}metric/tip_uy (m),,0.27,{tail}");
+    let run = sound.find(&format!("\"name\":\"{RUN}\"")).unwrap();
+    let tip = "\"metric/tip_uy (m)\",\"points\":[[null,";
+    let begin = run + sound[run..].find(tip).unwrap() + tip.len();
+    let end = begin + sound[begin..].find(',').unwrap();
+    let old = format!("{}0.27{}", &sound[..begin], &sound[end..]);
     fs::write(&file, old).unwrap();
     let output = scene.report();
     assert_eq!(code(&output), 3);
@@ -65,16 +66,11 @@ fn drift_is_shown_named_and_accepted_with_a_reason() {
     );
     // The numbers are what they were, to the last digit that is kept; the blessing has a line.
     let blessed = fs::read_to_string(&file).unwrap();
-    let numbers = |t: &str| {
-        t.lines()
-            .filter(|l| !l.starts_with('#'))
-            .collect::<Vec<_>>()
-            .join("\n")
-    };
+    let numbers = |text: &str| text.split_once("\"runs\"").unwrap().1.to_owned();
     assert_eq!(numbers(&blessed), numbers(&sound));
     let last = blessed.lines().nth(2).unwrap();
     assert!(
-        last.starts_with("# 20") && last.contains(": the load's place has changed (source "),
+        last.starts_with("\"20") && last.contains(": the load's place has changed (source "),
         "{last}"
     );
     assert_eq!(code(&scene.report()), 0);
@@ -101,7 +97,7 @@ fn work_is_compared_exactly_and_summed() {
     let error = mpm_verify::golden::pairs(&scene.golden, "cook")
         .unwrap_err()
         .to_string();
-    assert!(error.contains("cook.csv: no golden of "), "{error}");
+    assert!(error.contains("cook.json: no golden of "), "{error}");
 }
 
 #[test]

@@ -31,7 +31,7 @@ mod tables;
 mod verify;
 mod words;
 
-#[path = "../../mpm-verify/src/cli.rs"]
+#[path = "../../mpm-verify/src/cli/mod.rs"]
 #[allow(dead_code, reason = "of the program its syntax alone is tried here")]
 mod cli_syntax;
 #[path = "../../mpm-verify/src/progress.rs"]

@@ -1,7 +1,7 @@
 """The explicit step of Zhao et al. (2023) in Taichi, for `mpm-verify bench --peers taichi`.
 
 FLIP, forces from the gradients of quadratic B-splines, neo-Hookean law, stress at the end of the step; with --fbar the
-recursive F-bar remedy, Eq. (26). The scene is that of the bench's workloads W2 and W3 (`src/bench/workload.rs`).
+recursive F-bar remedy, Eq. (26). The scene is that of the bench's workloads W2 and W3 (`bench/src/workload.rs`).
 
 Two ways to write it: `idiomatic`, with `+=` on the nodes (an atomic, also on one thread) and one field for each quantity;
 `tuned`, with plain stores to one grid for each thread and all that belongs to a node side by side.

@@ -1,10 +1,11 @@
 //! Tables and pictures of what was measured.
 
-use super::{Bench, Measured, Spread, aims, model, newton};
+use super::Bench;
 use crate::draw::{Chart, Marker, Scale, Series, draw_charts};
 use crate::error::Error;
 use crate::files::{write_csv, write_whole};
 use crate::table::Sheet;
+use mpm_bench::{Measured, Measurements, Spread, aims, model, newton};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -26,19 +27,20 @@ pub(super) fn write(bench: &Bench, out: &Path) -> Result<String, Error> {
             bench.version.mpm_verify, bench.version.source
         )
     );
+    let measured = &bench.measured;
     for part in [
-        aims_table(bench),
-        workloads(bench),
-        peers(bench),
-        problems(bench),
-        iterations(bench),
-        sizes(bench),
+        aims_table(measured),
+        workloads(measured),
+        peers(measured),
+        problems(measured),
+        iterations(measured),
+        sizes(measured),
     ] {
         text += &part;
     }
     write_whole(&out.join("summary.md"), text.as_bytes())?;
-    write_rows(bench, out)?;
-    draw_scaling(bench, out)?;
+    write_rows(measured, out)?;
+    draw_scaling(measured, out)?;
     Ok(text)
 }
 
@@ -51,195 +53,160 @@ fn spread(spread: Option<Spread>, decimals: usize) -> String {
     })
 }
 
+/// A column of a table: its title and its cell of a row.
+type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
+
 /// A table, or nothing without rows.
-fn table<const N: usize>(
-    title: &str,
-    header: [&str; N],
-    rows: impl Iterator<Item = [String; N]>,
-) -> String {
-    let sheet = Sheet::new(header).with(rows.map(Vec::from));
+fn table<T>(title: &str, rows: impl IntoIterator<Item = T>, columns: &[Column<'_, T>]) -> String {
+    let cells = |row: T| columns.iter().map(|(_, cell)| cell(&row)).collect();
+    let sheet = Sheet::new(columns.iter().map(|(title, _)| *title));
+    let sheet = sheet.with(rows.into_iter().map(cells));
     match sheet.rows.is_empty() {
         true => String::new(),
         false => format!("\n## {title}\n\n{}", sheet.markdown()),
     }
 }
 
-fn aims_table(bench: &Bench) -> String {
-    let row = |aim: aims::Aim| {
-        let met = if aim.met { "met" } else { "missed" };
-        [
-            aim.what,
-            aim.wanted,
-            spread(Some(aim.measured), 2),
-            met.to_owned(),
-        ]
-    };
-    let rows = aims::of(bench).into_iter().map(row);
-    table("Aims", ["what", "aim", "measured", ""], rows)
+fn aims_table(bench: &Measurements) -> String {
+    let met = |aim: &aims::Aim| if aim.met { "met" } else { "missed" };
+    table(
+        "Aims",
+        aims::of(bench),
+        &[
+            ("what", &|aim| aim.what.clone()),
+            ("aim", &|aim| aim.wanted.clone()),
+            ("measured", &|aim| spread(Some(aim.measured), 2)),
+            ("", &|aim| met(aim).to_owned()),
+        ],
+    )
 }
 
 /// Updates per second (10⁶) by wall time.
 fn rate(measured: &Measured) -> Option<Spread> {
-    Spread::of(
-        measured
-            .samples
-            .iter()
-            .map(|s| 1e-6 * s.updates as f64 / s.wall_s),
+    let samples = measured.samples.iter();
+    Spread::of(samples.map(|s| 1e-6 * s.updates as f64 / s.wall_s))
+}
+
+fn workloads(bench: &Measurements) -> String {
+    let kind = |m: &Measured| {
+        (
+            if m.name.starts_with("W2") { 2 } else { 3 },
+            m.name.ends_with('F'),
+        )
+    };
+    let bytes = |m: &Measured| model::bytes(kind(m).0, kind(m).1);
+    let operations = |m: &Measured| model::operations(kind(m).0, kind(m).1);
+    let bandwidth = |m: &Measured| bytes(m) / m.wall_ns().map_or(f64::NAN, |s| s.median);
+    let triad = |m: &Measured| {
+        let triad = bench.find("memory", "triad", m.threads);
+        let time = triad.and_then(Measured::wall_ns);
+        time.map_or(f64::NAN, |s| 1.0 / s.median)
+    };
+    table(
+        "Workloads",
+        bench.of_group("workload"),
+        &[
+            ("workload", &|m| m.name.clone()),
+            ("threads", &|m| m.threads.to_string()),
+            ("particles", &|m| m.particles.to_string()),
+            ("CPU (ns/update)", &|m| spread(m.cpu_ns(), 1)),
+            ("wall (ns/update)", &|m| spread(m.wall_ns(), 1)),
+            ("10⁶ updates/s, wall", &|m| spread(rate(m), 1)),
+            ("bytes/update", &|m| format!("{:.0}", bytes(m))),
+            ("operations/update", &|m| format!("{:.0}", operations(m))),
+            ("GB/s", &|m| format!("{:.1}", bandwidth(m))),
+            ("triad GB/s", &|m| format!("{:.1}", triad(m))),
+            ("of the bound", &|m| {
+                format!("{:.0} %", 100.0 * bandwidth(m) / triad(m))
+            }),
+        ],
     )
 }
 
-fn workloads(bench: &Bench) -> String {
-    let row = |m: &Measured| {
-        let dimension = if m.name.starts_with("W2") { 2 } else { 3 };
-        let fbar = m.name.ends_with('F');
-        let bytes = model::bytes(dimension, fbar);
-        let operations = model::operations(dimension, fbar);
-        let ours = m.wall_ns().map_or(f64::NAN, |s| s.median);
-        let bandwidth = bytes / ours;
-        let triad = bench.find("memory", "triad", m.threads);
-        let triad = triad
-            .and_then(Measured::wall_ns)
-            .map_or(f64::NAN, |s| 1.0 / s.median);
-        [
-            m.name.clone(),
-            m.threads.to_string(),
-            m.particles.to_string(),
-            spread(m.cpu_ns(), 1),
-            spread(m.wall_ns(), 1),
-            spread(rate(m), 1),
-            format!("{bytes:.0}"),
-            format!("{operations:.0}"),
-            format!("{bandwidth:.1}"),
-            format!("{triad:.1}"),
-            format!("{:.0} %", 100.0 * bandwidth / triad),
-        ]
+fn peers(bench: &Measurements) -> String {
+    let same = |m: &Measured| match m.same {
+        Some(true) => "the same",
+        _ => "OTHER: no ratio",
     };
-    let rows = bench.of_group("workload").map(row);
-    let header = [
-        "workload",
-        "threads",
-        "particles",
-        "CPU (ns/update)",
-        "wall (ns/update)",
-        "10⁶ updates/s, wall",
-        "bytes/update",
-        "operations/update",
-        "GB/s",
-        "triad GB/s",
-        "of the bound",
-    ];
-    table("Workloads", header, rows)
+    table(
+        "Peers",
+        bench.of_group("peer"),
+        &[
+            ("peer", &|m| m.name.clone()),
+            ("threads", &|m| m.threads.to_string()),
+            ("CPU (ns/update)", &|m| spread(m.cpu_ns(), 1)),
+            ("10⁶ updates/s, wall", &|m| spread(rate(m), 1)),
+            ("sums to 10⁻⁹", &|m| same(m).to_owned()),
+        ],
+    )
 }
 
-fn peers(bench: &Bench) -> String {
-    let row = |m: &Measured| {
-        let same = match m.same {
-            Some(true) => "the same",
-            _ => "OTHER: no ratio",
-        };
-        [
-            m.name.clone(),
-            m.threads.to_string(),
-            spread(m.cpu_ns(), 1),
-            spread(rate(m), 1),
-            same.to_owned(),
-        ]
-    };
-    let rows = bench.of_group("peer").map(row);
-    let header = [
-        "peer",
-        "threads",
-        "CPU (ns/update)",
-        "10⁶ updates/s, wall",
-        "sums to 10⁻⁹",
-    ];
-    table("Peers", header, rows)
-}
-
-fn problems(bench: &Bench) -> String {
-    let row = |one: &Measured| {
+fn problems(bench: &Measurements) -> String {
+    let rates = |one: &Measured| {
         let others = bench.of_group("problem").filter(|m| m.name == one.name);
-        let rates: Vec<String> = others
-            .map(|m| format!("{} on {}", spread(rate(m), 2), m.threads))
-            .collect();
-        [
-            one.name.clone(),
-            one.particles.to_string(),
-            spread(one.cpu_ns(), 1),
-            rates.join(", "),
-        ]
+        let rates = others.map(|m| format!("{} on {}", spread(rate(m), 2), m.threads));
+        rates.collect::<Vec<String>>().join(", ")
     };
-    let ones = bench.of_group("problem").filter(|m| m.threads == 1);
-    let header = [
-        "problem",
-        "particles",
-        "CPU (ns/update), one thread",
-        "10⁶ updates/s, wall, threads",
-    ];
-    table("Problems", header, ones.map(row))
+    table(
+        "Problems",
+        bench.of_group("problem").filter(|m| m.threads == 1),
+        &[
+            ("problem", &|m| m.name.clone()),
+            ("particles", &|m| m.particles.to_string()),
+            ("CPU (ns/update), one thread", &|m| spread(m.cpu_ns(), 1)),
+            ("10⁶ updates/s, wall, threads", &|m| rates(m)),
+        ],
+    )
 }
 
-fn iterations(bench: &Bench) -> String {
-    let row = |steps: &newton::Steps| {
-        let of = |part: &str| bench.find("newton", &steps.name(part), 1);
-        let whole = of(newton::WHOLE)?;
-        let milliseconds = |m: Option<&Measured>| {
-            let per = |m: &Measured| {
-                let each = m.samples.iter();
-                Spread::of(each.map(|s| 1e3 * s.cpu_s / s.updates as f64))
-            };
-            spread(m.and_then(per), 0)
+fn iterations(bench: &Measurements) -> String {
+    let of = |steps: &newton::Steps, part: &str| bench.find("newton", &steps.name(part), 1);
+    let milliseconds = |steps: &newton::Steps, part: &str| {
+        let per = |m: &Measured| {
+            let samples = m.samples.iter();
+            Spread::of(samples.map(|s| 1e3 * s.cpu_s / s.updates as f64))
         };
-        let [forces, assembly, factors, solution] =
-            newton::PARTS.map(|(part, _)| milliseconds(of(part)));
-        let particles = whole.particles.to_string();
-        let all = milliseconds(Some(whole));
-        Some([
-            steps.case.to_owned(),
-            steps.scheme.to_string(),
-            particles,
-            all,
-            forces,
-            assembly,
-            factors,
-            solution,
-        ])
+        spread(of(steps, part).and_then(per), 0)
     };
-    let header = [
-        "load steps of",
-        "scheme",
-        "particles",
-        "iteration (ms)",
-        "forces",
-        "assembly",
-        "factorisation",
-        "solution",
-    ];
-    let title = "Newton's iterations, one thread";
-    table(title, header, newton::all().iter().filter_map(row))
+    let [forces, assembly, factors, solution] = newton::PARTS.map(|(part, _)| part);
+    let measured = newton::all().into_iter();
+    let measured = measured.filter_map(|steps| Some((of(&steps, newton::WHOLE)?.particles, steps)));
+    table(
+        "Newton's iterations, one thread",
+        measured,
+        &[
+            ("load steps of", &|(_, steps)| steps.case.to_owned()),
+            ("scheme", &|(_, steps)| steps.scheme.to_string()),
+            ("particles", &|(particles, _)| particles.to_string()),
+            ("iteration (ms)", &|(_, steps)| {
+                milliseconds(steps, newton::WHOLE)
+            }),
+            (forces, &|(_, steps)| milliseconds(steps, forces)),
+            (assembly, &|(_, steps)| milliseconds(steps, assembly)),
+            (factors, &|(_, steps)| milliseconds(steps, factors)),
+            (solution, &|(_, steps)| milliseconds(steps, solution)),
+        ],
+    )
 }
 
-fn sizes(bench: &Bench) -> String {
-    let row = |m: &Measured| {
-        let memory = m.memory.map(|bytes| bytes as f64 / m.particles as f64);
-        [
-            m.name.clone(),
-            m.particles.to_string(),
-            spread(m.cpu_ns(), 1),
-            memory.map_or("–".to_owned(), |bytes| format!("{bytes:.0}")),
-        ]
+fn sizes(bench: &Measurements) -> String {
+    let memory = |m: &Measured| match m.memory {
+        Some(bytes) => format!("{:.0}", bytes as f64 / m.particles as f64),
+        None => "–".to_owned(),
     };
-    let rows = bench.of_group("scaling").map(row);
-    let header = [
-        "block",
-        "particles",
-        "CPU (ns/update)",
-        "memory (bytes/particle)",
-    ];
-    table("Sizes, one thread", header, rows)
+    table(
+        "Sizes, one thread",
+        bench.of_group("scaling"),
+        &[
+            ("block", &|m| m.name.clone()),
+            ("particles", &|m| m.particles.to_string()),
+            ("CPU (ns/update)", &|m| spread(m.cpu_ns(), 1)),
+            ("memory (bytes/particle)", &|m| memory(m)),
+        ],
+    )
 }
 
-fn write_rows(bench: &Bench, out: &Path) -> Result<(), Error> {
+fn write_rows(bench: &Measurements, out: &Path) -> Result<(), Error> {
     let header = [
         "group",
         "name",
@@ -250,7 +217,7 @@ fn write_rows(bench: &Bench, out: &Path) -> Result<(), Error> {
         "wall (s)",
         "CPU (s)",
     ];
-    let rows = bench.measured.iter().flat_map(|m| {
+    let rows = bench.0.iter().flat_map(|m| {
         m.samples.iter().enumerate().map(move |(round, s)| {
             vec![
                 m.group.clone(),
@@ -268,7 +235,7 @@ fn write_rows(bench: &Bench, out: &Path) -> Result<(), Error> {
 }
 
 /// Draws the cost over the number of particles, if it was measured.
-pub(super) fn draw_scaling(bench: &Bench, out: &Path) -> Result<(), Error> {
+pub(super) fn draw_scaling(bench: &Measurements, out: &Path) -> Result<(), Error> {
     let names = ["W2", "W2F", "W3", "W3F"];
     let markers = [
         Marker::Circle,

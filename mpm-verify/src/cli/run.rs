@@ -1,29 +1,171 @@
-//! The command `run`: one run of a case, begun or gone on with.
+//! The commands `run` and `scene`: one run, begun or resumed.
 
-use super::{Told, say, say_json};
+use super::{Schemes, Told, case, memory, one_of, or_all_cores, saving, say, say_json, threads};
 use crate::progress::Teller;
-use mpm_verify::case::Case;
+use clap::Args;
+use mpm_verify::case::{Case, find_level};
+use mpm_verify::cases::scene::SceneFile;
 use mpm_verify::error::{Error, ExitCode, one_line};
 use mpm_verify::files::lock::hold;
 use mpm_verify::parameter::Parameters;
 use mpm_verify::record::Record;
 use mpm_verify::report::{describe, discard_report, single};
 use mpm_verify::run::checkpoint::{self, Identity, Saving};
-use mpm_verify::run::size::Size;
+use mpm_verify::run::size::{GIBIBYTE, Size, available_memory};
 use mpm_verify::run::{RECORD, require_tables};
-use mpm_verify::scheme::Scheme;
+use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
 use mpm_verify::spec::RunSpec;
 use mpm_verify::study::found::own_record;
 use mpm_verify::study::judge::{exit_code, judge, judged_run};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Runs `spec` of `case` on so many threads, draws it into its folder, if it has one, and says what it takes, how far it
-/// has come and what it found.
+#[derive(Args)]
+pub(crate) struct Run {
+    /// The case
+    #[arg(value_parser = case(), hide_possible_values = true)]
+    case: &'static Case,
+    /// Scheme by its name, as `explain` and records write it, in place of its parts
+    #[arg(long, value_parser = Schemes, hide_possible_values = true,
+            conflicts_with_all = ["solver", "basis", "remedy", "transfer"])]
+    scheme: Option<Scheme>,
+    /// Solver (explicit if the case has it)
+    #[arg(long, value_parser = Scheme::SOLVERS.to_vec())]
+    solver: Option<String>,
+    /// Basis functions (gimp; of a quasi-static run those of its first in the case)
+    #[arg(long, value_parser = one_of(BasisName::NAMES, BasisName::parse))]
+    basis: Option<BasisName>,
+    /// Locking remedy (fbar-consistent; likewise)
+    #[arg(long, value_parser = one_of(RemedyName::NAMES, RemedyName::parse))]
+    remedy: Option<RemedyName>,
+    /// Transfer of an explicit run (flip)
+    #[arg(long, value_parser = one_of(TransferName::NAMES, TransferName::parse))]
+    transfer: Option<TransferName>,
+    /// Level of refinement (the coarsest if not given)
+    #[arg(long)]
+    level: Option<String>,
+    /// Change a parameter
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Perturb every initial coordinate by one unit in the last place
+    #[arg(long)]
+    perturb: bool,
+    /// Folder for record, series, particles, VTU and pictures
+    #[arg(long, group = "folder")]
+    out: Option<PathBuf>,
+    /// In place of --out: go on in this folder from the checkpoint that the same run has left there,
+    /// with the same results to the last bit; begin if there is none
+    #[arg(long, value_name = "DIR", group = "folder")]
+    resume: Option<PathBuf>,
+    /// Write a checkpoint so often, by the clock; 0: after every row of the series
+    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
+    checkpoint_every: u64,
+    /// Threads (all cores if not given)
+    #[arg(long, value_parser = threads())]
+    pub(super) threads: Option<usize>,
+    /// Refuse a scene that takes more memory at its start (what the machine has to give if not said)
+    #[arg(long, value_name = "GIB", value_parser = memory)]
+    memory: Option<f64>,
+    #[command(flatten)]
+    told: Told,
+}
+
+impl Run {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let case = self.case;
+        let scheme = match self.scheme {
+            Some(scheme) => scheme,
+            None => self.scheme_of_parts()?,
+        };
+        let level = match &self.level {
+            Some(name) => find_level(case, name)?,
+            None => case.levels[0],
+        };
+        let spec = RunSpec {
+            scheme,
+            level,
+            set: self.set,
+            perturbed: self.perturb,
+        };
+        let saving = saving(self.checkpoint_every, self.resume.is_some());
+        let folder = self.resume.or(self.out);
+        let place = folder.as_deref().map(|folder| (folder, saving));
+        let resources = (or_all_cores(self.threads), memory_of(self.memory));
+        run_one(case, &spec, place, resources, self.told)
+    }
+
+    /// The scheme of the parts that are given, those of the case's own in place of the others.
+    fn scheme_of_parts(&self) -> Result<Scheme, Error> {
+        let own = self.case.default_scheme(self.solver.as_deref());
+        let solver = self.solver.as_deref().unwrap_or(own.solver());
+        let usual = match solver == own.solver() {
+            true => own.transfer(),
+            false => TransferName::None,
+        };
+        let remedy = match solver {
+            "poro" => RemedyName::None,
+            _ => own.remedy(),
+        };
+        Ok(Scheme::of_parts(
+            solver,
+            self.basis.unwrap_or(own.basis()),
+            self.remedy.unwrap_or(remedy),
+            self.transfer.unwrap_or(usual),
+        )?)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Scene {
+    /// The scene file, in TOML: docs/reference/scene-files.md
+    file: PathBuf,
+    /// Folder for record, series, particles, VTU and pictures
+    #[arg(long, group = "folder")]
+    out: Option<PathBuf>,
+    /// In place of --out: go on in this folder from the checkpoint that the same scene has left there
+    #[arg(long, value_name = "DIR", group = "folder")]
+    resume: Option<PathBuf>,
+    /// Write a checkpoint so often, by the clock; 0: after every row of the series
+    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
+    checkpoint_every: u64,
+    /// Refuse a scene that takes more memory at its start (what the machine has to give if not said)
+    #[arg(long, value_name = "GIB", value_parser = memory)]
+    memory: Option<f64>,
+    /// Threads (all cores if not given)
+    #[arg(long, value_parser = threads())]
+    pub(super) threads: Option<usize>,
+    #[command(flatten)]
+    told: Told,
+}
+
+impl Scene {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let scene = SceneFile::read(&self.file)?;
+        if self.told.progress() {
+            say(format!("{}\n", one_line(&scene.title)))?;
+            for line in &scene.made {
+                say(format!("{line}\n"))?;
+            }
+        }
+        let saving = saving(self.checkpoint_every, self.resume.is_some());
+        let folder = self.resume.or(self.out);
+        let place = folder.as_deref().map(|folder| (folder, saving));
+        let resources = (or_all_cores(self.threads), memory_of(self.memory));
+        run_one(&scene.case, &scene.spec, place, resources, self.told)
+    }
+}
+
+/// Memory (bytes) that a scene may take: `gib`, or the available memory of the machine, if that is known.
+fn memory_of(gib: Option<f64>) -> Option<f64> {
+    gib.map(|gib| gib * GIBIBYTE).or_else(available_memory)
+}
+
+/// Runs `spec` of `case` on `threads` threads, draws it into its folder, if it has one, and prints its size, progress and
+/// results.
 ///
 /// # Errors
 /// The case does not offer the scheme, the scene takes more bytes of memory than it may, the folder holds another run, or
 /// those of [`judged_run`].
-pub(crate) fn run_one(
+fn run_one(
     case: &Case,
     spec: &RunSpec,
     place: Option<(&Path, Saving)>,

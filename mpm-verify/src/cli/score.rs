@@ -1,6 +1,7 @@
 //! The commands `score` and `export`: other codes.
 
-use super::{Told, say, say_json};
+use super::{Told, say, say_json, scored_cases};
+use clap::Args;
 use mpm_verify::case::find_level;
 use mpm_verify::cases::find_scored;
 use mpm_verify::error::{Error, ExitCode};
@@ -10,53 +11,70 @@ use mpm_verify::scheme::BasisName;
 use mpm_verify::score::{Scored, export::export};
 use mpm_verify::spec::RunSpec;
 use mpm_verify::study::judge::exit_code;
-use std::path::Path;
+use std::path::PathBuf;
 
-/// Judges the result in a folder and says what was found; with `out`, writes it there as well.
-///
-/// # Errors
-/// The result can't be read, or nothing can be written.
-pub(crate) fn score(folder: &Path, out: Option<&Path>, told: Told) -> Result<ExitCode, Error> {
-    let found = Scored::read(folder)?;
-    let ours = scored::Ours::beside(&found)?;
-    if let Some(out) = out {
-        let _held = hold(out)?;
-        scored::write(&found, &ours, out)?;
-    }
-    match told {
-        Told { json: true, .. } => say_json(&scored::json(&found, &ours))?,
-        Told { quiet: true, .. } => say(describe::run_line(&found.record))?,
-        _ => say(scored::text(&found, &ours))?,
-    }
-    Ok(exit_code(&found.record))
+#[derive(Args)]
+pub(crate) struct Score {
+    /// Folder with score.json and the tables that it names: docs/how-to/score.md
+    folder: PathBuf,
+    /// Folder for the verdicts as a page and as JSON
+    #[arg(long)]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    told: Told,
 }
 
-/// Writes what another code needs to solve a case.
-///
-/// # Errors
-/// The case scores no codes, has no such level or parameters, or nothing can be written.
-pub(crate) fn write_export(
-    case: &str,
-    level: Option<&str>,
+impl Score {
+    /// Judges the result in a folder; with `out`, writes it there as well.
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let found = Scored::read(&self.folder)?;
+        let ours = scored::Ours::beside(&found)?;
+        if let Some(out) = &self.out {
+            let _held = hold(out)?;
+            scored::write(&found, &ours, out)?;
+        }
+        match self.told {
+            Told { json: true, .. } => say_json(&scored::json(&found, &ours))?,
+            Told { quiet: true, .. } => say(describe::run_line(&found.record))?,
+            _ => say(scored::text(&found, &ours))?,
+        }
+        Ok(exit_code(&found.record))
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Export {
+    /// The case
+    #[arg(value_parser = scored_cases())]
+    case: String,
+    /// Level of refinement (the coarsest if not given)
+    #[arg(long)]
+    level: Option<String>,
+    /// Change a parameter
+    #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    out: &Path,
-) -> Result<ExitCode, Error> {
-    let (case, foreign) = find_scored(case)?;
-    let level = match level {
-        Some(name) => find_level(case, name)?,
-        None => case.levels[0],
-    };
-    let spec = RunSpec {
-        scheme: (foreign.judged_as)(BasisName::Bspline2),
-        level,
-        set,
-        perturbed: false,
-    };
-    let _held = hold(out)?;
-    let files = export(case, foreign, &spec, out)?;
-    let lines = files
-        .iter()
-        .map(|name| format!("{}\n", out.join(name).display()));
-    say(lines.collect::<String>())?;
-    Ok(ExitCode::Good)
+    /// Folder for it
+    #[arg(long)]
+    out: PathBuf,
+}
+
+impl Export {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let (case, foreign) = find_scored(&self.case)?;
+        let level = match &self.level {
+            Some(name) => find_level(case, name)?,
+            None => case.levels[0],
+        };
+        let spec = RunSpec {
+            scheme: (foreign.judged_as)(BasisName::Bspline2),
+            level,
+            set: self.set,
+            perturbed: false,
+        };
+        let _held = hold(&self.out)?;
+        let files = export(case, foreign, &spec, &self.out)?;
+        let path = |name: &String| format!("{}\n", self.out.join(name).display());
+        say(files.iter().map(path).collect::<String>())?;
+        Ok(ExitCode::Good)
+    }
 }

@@ -62,25 +62,16 @@ impl Goldens {
             Some(Ok(golden)) => golden.clone(),
             _ => Golden::default(),
         };
-        let first_planned = new
-            .iter()
-            .find(|(run, ..)| planned.first() == Some(&run.name));
-        if let Some(((_, record, folder), view)) = first_planned.zip(case.field) {
+        let has_field = |(run, ..): &&(Run, _, _)| planned.first() == Some(&run.name);
+        if let Some(((_, record, folder), view)) = new.iter().find(has_field).zip(case.field) {
             field::bless(&field::files(&self.root, case.name), &view, record, folder)?;
         }
-        let (names, folders): (Vec<String>, Vec<&Path>) = new
-            .iter()
-            .map(|(run, _, folder)| (run.name.clone(), *folder))
-            .unzip();
-        let record = *first;
-        let blessed = new.into_iter().map(|(run, ..)| run).collect();
-        golden.bless(blessed, &planned, record, reason);
+        let runs = new.iter().map(|(run, ..)| run.clone()).collect();
+        golden.bless(runs, &planned, first, reason);
         let shown = golden.shown();
-        let drawn_anew = names
-            .iter()
-            .position(|name| shown.iter().any(|run| run.name == *name));
-        if let Some(k) = drawn_anew {
-            let series = Table::read(&folders[k].join(series::FILE))?;
+        let is_shown = |(new, ..): &&(Run, _, _)| shown.iter().any(|run| run.name == new.name);
+        if let Some((.., folder)) = new.iter().find(is_shown) {
+            let series = Table::read(&folder.join(series::FILE))?;
             let picture = curves(&shown, series.abscissa())?;
             write_small(&picture, &picture_file(&self.root, case.name))?;
         }
@@ -111,7 +102,8 @@ impl Goldens {
             let why = "the run broke down: nothing to compare";
             return Ok(vec![mismatch("run", why)]);
         }
-        if let Some(why) = why_none(cases::find(&record.case)?, record) {
+        let case = cases::find(&record.case)?;
+        if let Some(why) = why_none(case, record) {
             return Ok(vec![of_drift(Finding::not_applicable("run", why))]);
         }
         let (golden, blessing) = match self.find(record) {
@@ -121,7 +113,6 @@ impl Goldens {
         let now = Now::read(record, folder)?;
         let columns = golden.columns.iter();
         let mut verdicts: Vec<Verdict> = columns.map(|c| now.judge(c, blessing)).collect();
-        let case = cases::find(&record.case)?;
         verdicts.extend(self.judge_picture(&now, blessing));
         if let Some(view) = case.field
             && runs(case).first() == Some(&record.folder())
@@ -186,22 +177,18 @@ impl<'a> Now<'a> {
         match kind {
             "metric" => {
                 let mut metrics = self.record.metrics.iter();
-                metrics
-                    .find(|(n, m)| format!("{n} ({})", m.unit) == name)?
-                    .1
-                    .value
+                let (_, found) = metrics.find(|(n, m)| format!("{n} ({})", m.unit) == name)?;
+                found.value
             }
             "work" => {
                 let mut counts = self.record.work.counts().into_iter();
                 Some(counts.find(|(n, _)| *n == name)?.1 as f64)
             }
             _ => {
-                let (_, times) = self.series.iter().next()?;
-                let time = point.time?;
-                let near =
-                    |t: &f64| (t - time).abs() <= SAME_TIME * times.last().map_or(0.0, |t| t.abs());
-                let row = times.iter().position(near)?;
-                Some(self.series.get(name)?[row])
+                let ((_, times), time) = (self.series.iter().next()?, point.time?);
+                let latest = times.last().map_or(0.0, |t| t.abs());
+                let near = |t: &f64| (t - time).abs() <= SAME_TIME * latest;
+                Some(self.series.get(name)?[times.iter().position(near)?])
             }
         }
     }

@@ -1,16 +1,16 @@
-//! The file of a case's goldens.
+//! The file of a case's goldens: JSON, with a line per quantity.
 
 use super::{BLUNT, FLOOR, MARGIN};
-use crate::error::{Error, is_unfit};
-use crate::files::{OTHER_LAYOUT, read_text, write_whole};
+use crate::error::Error;
+use crate::files::{OTHER_LAYOUT, read_text, read_versioned, write_whole};
 use crate::record::Record;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Version of the format.
-const FORMAT: u32 = 2;
-const HEADER: [&str; 5] = ["run", "quantity", "time", "value", "response"];
-/// Blessings that a file tells of, the last ones.
+const SCHEMA: u32 = 3;
+/// Number of blessings that a file keeps, the last ones.
 const BLESSINGS: usize = 5;
 /// Largest response of a count, and the same over the count: more than a few rows, sorts or iterations say nothing.
 const LOOSE: f64 = 10.0;
@@ -21,8 +21,9 @@ const SHOWN: usize = 6;
 pub(super) const SERIES: &str = "series/";
 pub(super) const WORK: &str = "work/";
 
-/// A golden number.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A golden number; in a file the array `[time, value, response]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Cells", into = "Cells")]
 pub struct Point {
     /// Time of its row in the series (s).
     pub time: Option<f64>,
@@ -32,8 +33,26 @@ pub struct Point {
     pub response: f64,
 }
 
+type Cells = (Option<f64>, f64, f64);
+
+impl From<Cells> for Point {
+    fn from((time, value, response): Cells) -> Self {
+        Self {
+            time,
+            value,
+            response,
+        }
+    }
+}
+
+impl From<Point> for Cells {
+    fn from(point: Point) -> Self {
+        (point.time, point.value, point.response)
+    }
+}
+
 /// The golden numbers of one quantity of a run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// `metric/NAME (UNIT)`, `series/NAME (UNIT)` or `work/NAME`.
     pub quantity: String,
@@ -42,6 +61,20 @@ pub struct Column {
 }
 
 impl Column {
+    /// A quantity of one number.
+    #[must_use]
+    pub fn single(quantity: String, value: f64, response: f64) -> Self {
+        let point = Point {
+            time: None,
+            value,
+            response,
+        };
+        Self {
+            quantity,
+            points: vec![point],
+        }
+    }
+
     /// The largest of its numbers.
     #[must_use]
     pub fn scale(&self) -> f64 {
@@ -85,7 +118,7 @@ impl Column {
 }
 
 /// The golden numbers of a run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// Its folder below that of its case.
     pub name: String,
@@ -102,7 +135,7 @@ impl Run {
 }
 
 /// The goldens of a case.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 pub struct Golden {
     /// When, why and by which program the file was blessed, the last time at the end.
     pub blessings: Vec<String>,
@@ -114,112 +147,32 @@ impl Golden {
     /// Reads a file of goldens.
     ///
     /// # Errors
-    /// It is missing, not UTF-8, of another format, cut, without a blessing; or a cell is not a finite number, a
-    /// quantity is there twice, or a response is larger than that of a golden.
+    /// It is missing, damaged, of another schema or layout, or without a blessing; a quantity is there twice or has no
+    /// number; or a response is larger than that of a golden.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = read_text(path)?;
-        let golden = Self::parse(&text).map_err(|cause| Error::file(path, cause))?;
+        let golden: Self = read_versioned(path, SCHEMA)?;
+        let sound = golden.check();
+        sound.map_err(|cause| Error::file(path, cause))?;
         match golden.text() {
-            Ok(own) if own == text.as_bytes() => Ok(golden),
+            Ok(own) if own == read_text(path)? => Ok(golden),
             _ => Err(Error::file(path, OTHER_LAYOUT)),
         }
     }
 
-    fn parse(text: &str) -> Result<Self, String> {
-        if text.chars().any(|c| c != '\n' && is_unfit(c)) {
-            return Err("control characters".to_owned());
-        }
-        let mut remarks = text.lines().map_while(|line| line.strip_prefix("# "));
-        let first = remarks.next().unwrap_or_default();
-        let head = first.strip_prefix("format ").and_then(|rest| {
-            let (format, rows) = rest.split_once(", ")?;
-            let rows: usize = rows.strip_suffix(" rows")?.parse().ok()?;
-            Some((format, rows))
-        });
-        let (format, rows) = head.ok_or("no line \"# format F, N rows\"")?;
-        if format != FORMAT.to_string() {
-            return Err(format!("format {format} where {FORMAT} is expected"));
-        }
-        let mut golden = Self {
-            blessings: remarks.map(str::to_owned).collect(),
-            runs: Vec::new(),
-        };
-        if golden.blessings.is_empty() {
+    /// Checks the content of a file.
+    fn check(&self) -> Result<(), String> {
+        if self.blessings.is_empty() {
             return Err("no line of a blessing".to_owned());
         }
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
-        let header = reader.headers().map_err(|e| e.to_string())?;
-        if *header != HEADER[..] {
-            return Err(format!("columns other than {}", HEADER.join(", ")));
-        }
-        let mut found = 0;
-        for record in reader.records() {
-            let record = record.map_err(|e| e.to_string())?;
-            found += 1;
-            let cells: Vec<&str> = record.iter().collect();
-            let [run, quantity, time, value, response] = cells[..] else {
-                return Err(format!("row {found}: not {} cells", HEADER.len()));
-            };
-            let above = golden
-                .runs
-                .last()
-                .and_then(|r| Some((r, r.columns.last()?)));
-            let (run, quantity) = match (run, quantity, above) {
-                ("", "", Some((r, c))) => (r.name.clone(), c.quantity.clone()),
-                ("", quantity, Some((r, _))) => (r.name.clone(), quantity.to_owned()),
-                ("", _, None) => return Err(format!("row {found}: no run")),
-                (run, quantity, _) => (run.to_owned(), quantity.to_owned()),
-            };
-            let number = |text: &str| match text.parse::<f64>() {
-                Ok(number) if number.is_finite() => Ok(number),
-                _ => Err(format!("{run} {quantity}, row {found}: {text}")),
-            };
-            golden.add(
-                &run,
-                &quantity,
-                Point {
-                    time: (!time.is_empty()).then(|| number(time)).transpose()?,
-                    value: number(value)?,
-                    response: number(response)?,
-                },
-            );
-        }
-        if found != rows {
-            return Err(format!("{found} rows where {rows} are expected"));
-        }
-        golden.check()?;
-        Ok(golden)
-    }
-
-    /// Adds a row to the last quantity of the last run, or begins new ones.
-    fn add(&mut self, run: &str, quantity: &str, point: Point) {
-        let same_run = self.runs.pop_if(|r| r.name == run);
-        let mut last = same_run.unwrap_or_else(|| Run {
-            name: run.to_owned(),
-            columns: Vec::new(),
-        });
-        match last.columns.last_mut() {
-            Some(column) if column.quantity == quantity && point.time.is_some() => {
-                column.points.push(point);
-            }
-            _ => last.columns.push(Column {
-                quantity: quantity.to_owned(),
-                points: vec![point],
-            }),
-        }
-        self.runs.push(last);
-    }
-
-    /// What must hold of a file that was read.
-    fn check(&self) -> Result<(), String> {
         let mut seen = BTreeSet::new();
         for (run, column) in self.columns() {
             let name = format!("{run} {}", column.quantity);
             let rises = |p: &[Point]| p[0].time < p[1].time && p[0].response <= p[1].response;
             if !seen.insert(name.clone()) || !column.points.windows(2).all(rises) {
                 return Err(format!("{name} is there twice or not in order"));
+            }
+            if column.points.is_empty() {
+                return Err(format!("{name}: no number"));
             }
             if let Some(most) = column.is_loose() {
                 return Err(format!("{name}: a count responds by 0 to {most}"));
@@ -262,7 +215,7 @@ impl Golden {
         own.take(SHOWN).cloned().collect()
     }
 
-    /// Puts runs in place of those of the same name and keeps the others that are among `planned`, in its order.
+    /// Replaces runs of the same name and keeps the others that are among `planned`, in its order.
     pub fn bless(&mut self, new: Vec<Run>, planned: &[String], record: &Record, reason: &str) {
         self.runs
             .retain(|old| new.iter().all(|r| r.name != old.name));
@@ -284,28 +237,18 @@ impl Golden {
         self.blessings.drain(..surplus);
     }
 
-    /// The file. A run and a quantity stand in their first row alone.
-    fn text(&self) -> csv::Result<Vec<u8>> {
-        let rows = self.columns().map(|(_, c)| c.points.len()).sum::<usize>();
-        let mut text = format!("# format {FORMAT}, {rows} rows\n");
-        for blessing in &self.blessings {
-            text.push_str(&format!("# {blessing}\n"));
-        }
-        let mut writer = csv::Writer::from_writer(text.into_bytes());
-        writer.write_record(HEADER)?;
-        for run in &self.runs {
-            let mut name = &*run.name;
-            for column in &run.columns {
-                let mut quantity = &*column.quantity;
-                for point in &column.points {
-                    let time = point.time.map(written).unwrap_or_default();
-                    let [value, response] = [point.value, point.response].map(written);
-                    writer.write_record([name, quantity, &time, &value, &response])?;
-                    (name, quantity) = ("", "");
-                }
-            }
-        }
-        writer.into_inner().map_err(|e| e.into_error().into())
+    /// The file.
+    fn text(&self) -> serde_json::Result<String> {
+        let blessings = lines(&self.blessings)?;
+        let runs = self.runs.iter().map(|run| {
+            let (name, columns) = (serde_json::to_string(&run.name)?, lines(&run.columns)?);
+            Ok(format!("{{\"name\":{name},\"columns\":[\n{columns}\n]}}"))
+        });
+        let runs = runs.collect::<serde_json::Result<Vec<String>>>()?;
+        Ok(format!(
+            "{{\"schema\":{SCHEMA},\"blessings\":[\n{blessings}\n],\"runs\":[\n{}\n]}}\n",
+            runs.join(",\n")
+        ))
     }
 
     /// Writes the file, whole.
@@ -314,14 +257,14 @@ impl Golden {
     /// It can't be written.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
         let text = self.text().map_err(|e| Error::file(path, e))?;
-        write_whole(path, &text)
+        write_whole(path, text.as_bytes())
     }
 }
 
-/// A number as short as it reads back.
-fn written(number: f64) -> String {
-    let text = format!("{number:?}");
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+/// JSON values, a line each.
+fn lines<T: Serialize>(values: &[T]) -> serde_json::Result<String> {
+    let lines: serde_json::Result<Vec<String>> = values.iter().map(serde_json::to_string).collect();
+    Ok(lines?.join(",\n"))
 }
 
 #[cfg(test)]

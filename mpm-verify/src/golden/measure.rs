@@ -43,26 +43,17 @@ fn first(table: &Table) -> &[f64] {
     table.iter().next().map_or(&[], |(_, times)| times)
 }
 
-/// A quantity of one number.
-fn single(quantity: String, value: f64, response: f64) -> Column {
-    let (time, value, response) = (None, rounded(value, 10), rounded(response, 2));
-    Column {
-        quantity,
-        points: vec![Point {
-            time,
-            value,
-            response,
-        }],
-    }
-}
-
 /// The metrics that both have.
 fn metrics(record: &Record, twin: &Record) -> Vec<Column> {
     let both = record.metrics.iter().filter_map(|(name, metric)| {
         let value = metric.value?;
         let response = (value - twin.metrics.get(name)?.value?).abs();
         let quantity = format!("metric/{name} ({})", metric.unit);
-        Some(single(quantity, value, response))
+        Some(Column::single(
+            quantity,
+            rounded(value, 10),
+            rounded(response, 2),
+        ))
     });
     both.filter(|column| !column.is_blunt()).collect()
 }
@@ -72,14 +63,7 @@ fn counts(record: &Record, twin: &Record) -> Vec<Column> {
     let both = record.work.counts().into_iter().zip(twin.work.counts());
     let counts = both.map(|((name, count), (_, of_twin))| {
         let response = count.abs_diff(of_twin) as f64;
-        Column {
-            quantity: format!("{WORK}{name}"),
-            points: vec![Point {
-                time: None,
-                value: count as f64,
-                response,
-            }],
-        }
+        Column::single(format!("{WORK}{name}"), count as f64, response)
     });
     counts.filter(|c| c.is_loose().is_none()).collect()
 }

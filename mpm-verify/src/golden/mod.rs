@@ -1,6 +1,6 @@
 //! Goldens: blessed results, so that drift is seen. They never stand in for the truth.
 //!
-//! `golden/<case>.csv` holds, run by run, the metrics, a few rows of the watched columns of the time series and the
+//! `golden/<case>.json` holds, run by run, the metrics, a few rows of the watched columns of the time series and the
 //! counts of work, each with its measured response to a last-bit perturbation of the starting positions, below the
 //! lines of the blessings. `golden/<case>.png` shows the watched columns of a run of each scheme, and
 //! `golden/<case>-field.csv` and `.png` of some cases the particles of the first run. A number may move by [`FLOOR`] of
@@ -43,7 +43,7 @@ const NONZEROS: &str = "work/nonzeros";
 /// File of the goldens of a case.
 #[must_use]
 pub fn file(root: &Path, case: &str) -> PathBuf {
-    root.join(format!("{case}.csv"))
+    root.join(format!("{case}.json"))
 }
 
 /// The folder of the goldens: `asked`, or that of the working directory, or else of the checkout that the program was

@@ -276,7 +276,7 @@ fn without_a_golden_the_reason_is_told() {
     let made = Made::of(1);
     let file = file(&made.goldens(), "cook");
     fs::write(&file, "damaged").unwrap();
-    assert!(made.drift()[0].2.contains("cook.csv"));
+    assert!(made.drift()[0].2.contains("cook.json"));
     fs::remove_file(&file).unwrap();
     assert_eq!(made.drift()[0].2, "new: not yet blessed");
     let none = Goldens::open(&made.folder.path().join("none"));
@@ -358,14 +358,7 @@ fn counts_are_summed_over_the_runs_of_a_case() {
     let root = tempfile::tempdir().unwrap();
     let path = file(root.path(), "cook");
     let counted = |(k, name): (usize, String)| {
-        let count = |name: &str, value: f64| Column {
-            quantity: name.to_owned(),
-            points: vec![Point {
-                time: None,
-                value,
-                response: 0.0,
-            }],
-        };
+        let count = |name: &str, value| Column::single(name.to_owned(), value, 0.0);
         let mut columns = vec![count(PAIRS, 10.0 * (k as f64 + 1.0))];
         if k == 1 {
             columns.push(count(NONZEROS, 7.0));
@@ -388,7 +381,7 @@ fn counts_are_summed_over_the_runs_of_a_case() {
     golden.write(&path).unwrap();
     let said = pairs(root.path(), "cook").unwrap_err().to_string();
     assert!(
-        said.contains(&format!("cook.csv: no golden of {}", gone.name)),
+        said.contains(&format!("cook.json: no golden of {}", gone.name)),
         "{said}"
     );
     assert!(nonzeros(root.path(), "none").is_err());

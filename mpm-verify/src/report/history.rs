@@ -2,7 +2,7 @@
 
 use crate::cases;
 use crate::error::{Error, is_unfit};
-use crate::files::{DOCUMENT, read as read_file, write_whole};
+use crate::files::{read_rows, rows_text, write_whole};
 use crate::night::Night;
 use crate::scheme::Scheme;
 use crate::study::convergence::Convergence;
@@ -59,23 +59,15 @@ pub(super) fn merge(from: &Path, into: &Path) -> Result<(), Error> {
 /// Writes rows in the order of time and cases.
 fn write(rows: &mut [Row], path: &Path) -> Result<(), Error> {
     rows.sort_by_key(|row| (row.night, cases::place(&row.case)));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows.iter() {
-        writer.serialize(row).map_err(|e| Error::file(path, e))?;
-    }
-    let bytes = writer.into_inner().map_err(|e| Error::file(path, e))?;
-    write_whole(path, &bytes)
+    let text = rows_text(rows.iter()).map_err(|e| Error::file(path, e))?;
+    write_whole(path, &text)
 }
 
 fn read(path: &Path) -> Result<Vec<Row>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }
-    let bytes = read_file(path, DOCUMENT)?;
-    let mut reader = csv::Reader::from_reader(&bytes[..]);
-    let rows = reader.deserialize::<Row>();
-    let sound = |row: csv::Result<Row>| {
-        let row = row.map_err(|e| Error::file(path, e))?;
+    let sound = |row: Row| {
         // What stands here is shown and written again.
         Night::new(&row.night.to_string(), &row.commit).map_err(|e| Error::file(path, e))?;
         let acts =
@@ -88,7 +80,7 @@ fn read(path: &Path) -> Result<Vec<Row>, Error> {
         }
         Ok(row)
     };
-    rows.map(sound).collect()
+    read_rows(path)?.into_iter().map(sound).collect()
 }
 
 fn rows_of(study: &CaseStudy, ladder: &[&str], night: &Night) -> Vec<Row> {

@@ -65,7 +65,7 @@ fn rows_of(study: &CaseStudy, night: &Night, former: &[Row]) -> Result<Vec<Row>,
         former
             .iter()
             .filter(|row| row.case == study.case)
-            .flat_map(Row::names),
+            .flat_map(|row| row.metrics.keys().map(String::as_str)),
     );
     let records = study.records.iter();
     Ok(records.map(|r| Row::of(r, night, &cited)).collect())
@@ -135,12 +135,12 @@ mod tests {
     #[test]
     fn a_metric_that_a_case_has_had_is_kept() {
         let mut former = study("cook", "2026-01-01", &[("h2", 1.0)]);
-        assert!(!former[0].metrics.contains("cited_by_a_page"));
-        former[0].metrics.push_str(";cited_by_a_page=1");
+        assert!(!former[0].metrics.contains_key("cited_by_a_page"));
+        former[0].metrics.insert("cited_by_a_page".to_owned(), 1.0);
         let again = after(&former, "cook", "2026-01-02", &[("h1", 2.0)]);
-        assert!(again[0].metrics.contains("cited_by_a_page=2"));
+        assert_eq!(again[0].metrics["cited_by_a_page"], 2.0);
         let other = after(&former, "column", "2026-01-02", &[("h0.5", 2.0)]);
-        assert!(!other[0].metrics.contains("cited_by_a_page"));
+        assert!(!other[0].metrics.contains_key("cited_by_a_page"));
     }
 
     #[test]
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn rows_read_back_and_those_of_unknown_cases_go() {
         let mut rows = study("cook", "2026-01-01", &[("h2", 1.0 / 3.0)]);
-        assert!(rows[0].metrics.contains("tip_ux=0.333333"));
+        assert_eq!(rows[0].metrics["tip_ux"], 0.333_333);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("results.csv");
         write_whole(&path, &text(&rows).unwrap()).unwrap();

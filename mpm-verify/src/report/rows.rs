@@ -2,14 +2,14 @@
 
 use crate::cases;
 use crate::error::Error;
-use crate::files::{DOCUMENT, read as read_file};
+use crate::files::{read_rows, rows_text};
 use crate::night::Night;
 use crate::parameter::Parameters;
 use crate::record::{
-    BREAKS_DOWN, Discretisation, Failure, Machine, Measured, Record, SCHEMA, Status, Timing,
-    Version, WorkDone,
+    BREAKS_DOWN, Discretisation, Failure, Measured, Record, Status, Timing, Version, WorkDone,
 };
 use crate::scheme::Scheme;
+use crate::spec::RunSpec;
 use crate::verdict::{Kind, Outcome, Verdict};
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
@@ -45,8 +45,12 @@ pub(super) struct Row {
     pub(super) night: Date,
     /// Fingerprint of the sources.
     pub(super) program: String,
-    /// Those that something cites: `name=value`, apart by semicolons, to six digits, in the units of the records.
-    pub(super) metrics: String,
+    /// [`Row::metrics`] in a file.
+    #[serde(rename = "metrics")]
+    cells: String,
+    /// Those that something cites, to six digits, in the units of the records.
+    #[serde(skip)]
+    pub(super) metrics: BTreeMap<String, f64>,
 }
 
 impl Row {
@@ -58,16 +62,14 @@ impl Row {
         };
         let mut names = cited.clone();
         names.extend(record.verdicts.iter().filter(judged).map(|v| &*v.metric));
-        let metrics: Vec<String> = names
+        let metrics = names
             .into_iter()
-            .map(|name| (name, record.value(name)))
-            .filter(|(_, value)| value.is_finite())
-            .map(|(name, value)| format!("{name}={}", six_digits(value)))
-            .collect();
+            .map(|name| (name.to_owned(), six_digits(record.value(name))))
+            .filter(|(_, value)| value.is_finite());
         let status = match (record.status, &record.error) {
             (Status::Ok, _) => "ok".to_owned(),
             (Status::Failed, Some(e)) => {
-                format!("{BROKE}{}{AFTER}{}", six_digits(e.time), e.kind)
+                format!("{BROKE}{}{AFTER}{}", written(six_digits(e.time)), e.kind)
             }
             (Status::Failed, None) => "failed".to_owned(),
         };
@@ -88,7 +90,8 @@ impl Row {
             cpu_s: (1e3 * record.time.cpu_s).round() / 1e3,
             night: night.date,
             program: record.version.source.clone(),
-            metrics: metrics.join(";"),
+            cells: String::new(),
+            metrics: metrics.collect(),
         }
     }
 
@@ -99,12 +102,10 @@ impl Row {
         let scheme = Scheme::parse(&self.scheme).ok()?;
         let set: Vec<String> = self.set.split_whitespace().map(str::to_owned).collect();
         let parameters = Parameters::new(&case.parameters, &set).ok()?;
-        let metrics = self.metrics.split(';').filter_map(|metric| {
-            let (name, value) = metric.split_once('=')?;
-            let value = value.parse().ok()?;
+        let metrics = self.metrics.iter().filter_map(|(name, value)| {
             let unit = case.metrics.iter().find(|m| m.name == name)?.unit;
-            let (value, unit) = (Some(value), unit.to_owned());
-            Some((name.to_owned(), Measured { value, unit }))
+            let (value, unit) = (Some(*value), unit.to_owned());
+            Some((name.clone(), Measured { value, unit }))
         });
         let broke = self.status.strip_prefix(BROKE);
         // Rows of former programs have no kind.
@@ -117,27 +118,26 @@ impl Row {
             value: None,
             message: self.status.clone(),
         });
-        Some(Record {
-            schema: SCHEMA,
-            case: self.case.clone(),
+        let discretisation = Discretisation {
+            dim: 0,
+            h: self.h,
+            ppc: 0,
+            dt: f64::NAN,
+            wall: String::new(),
+        };
+        let spec = RunSpec {
             scheme,
-            solver: scheme.solver().to_owned(),
-            level: self.level.clone(),
+            level: case.levels[0],
             set,
             perturbed: false,
+        };
+        Some(Record {
+            level: self.level.clone(),
             status: match self.status == "ok" {
                 true => Status::Ok,
                 false => Status::Failed,
             },
             error,
-            discretisation: Discretisation {
-                dim: 0,
-                h: self.h,
-                ppc: 0,
-                dt: f64::NAN,
-                wall: String::new(),
-            },
-            parameters,
             metrics: metrics.collect(),
             verdicts: self.verdicts(),
             work: WorkDone {
@@ -150,12 +150,11 @@ impl Row {
                 wall_s: f64::NAN,
                 cpu_s: self.cpu_s,
             },
-            machine: Machine::here(0),
             version: Version {
                 mpm_verify: String::new(),
                 source: self.program.clone(),
             },
-            files: BTreeMap::new(),
+            ..Record::blank(&self.case, &spec, &parameters, discretisation, 0)
         })
     }
 
@@ -187,22 +186,20 @@ impl Row {
         some.map(verdict).collect()
     }
 
-    /// Names of its metrics.
-    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        let metrics = self.metrics.split(';');
-        metrics.filter_map(|metric| Some(metric.split_once('=')?.0))
-    }
-
     /// What tells it from other rows.
     pub(super) fn run(&self) -> [&str; 4] {
         [&self.case, &self.scheme, &self.level, &self.set]
     }
 }
 
-/// A number to six significant digits, as short as it can be written.
-fn six_digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    let text = format!("{rounded:?}");
+/// A number to six significant digits.
+fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// A number as short as it can be written.
+fn written(value: f64) -> String {
+    let text = format!("{value:?}");
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
@@ -212,37 +209,35 @@ fn six_digits(value: f64) -> String {
 struct Names(BTreeMap<String, Vec<String>>);
 
 impl Names {
-    /// The metrics of a row of `case` as the file has them: `1;2;c=3` of `a=1;b=2;c=3`, if `a` and `b` have names already.
-    fn leave_out(&mut self, case: &str, metrics: &str) -> String {
+    /// The cells of a row of `case`: `1;2;c=3` of `a=1;b=2;c=3`, if `a` and `b` have names already.
+    fn cells(&mut self, case: &str, metrics: &BTreeMap<String, f64>) -> String {
         let names = self.0.entry(case.to_owned()).or_default();
-        let mut cells = vec![String::new(); names.len()];
-        for metric in metrics.split(';').filter(|metric| !metric.is_empty()) {
-            let (name, value) = metric.split_once('=').unwrap_or((metric, ""));
-            if let Some(place) = names.iter().position(|known| known == name) {
-                value.clone_into(&mut cells[place]);
-            } else {
-                names.push(name.to_owned());
-                cells.push(metric.to_owned());
+        let cell = |name: &String| metrics.get(name).map_or(String::new(), |v| written(*v));
+        let mut cells: Vec<String> = names.iter().map(cell).collect();
+        for (name, value) in metrics {
+            if !names.contains(name) {
+                names.push(name.clone());
+                cells.push(format!("{name}={}", written(*value)));
             }
         }
         cells.join(";").trim_end_matches(';').to_owned()
     }
 
-    /// The metrics of a row, each with its name; `None` if a value has none.
-    fn put_back(&mut self, case: &str, cells: &str) -> Option<String> {
+    /// The metrics of a row; `None` if a value has no name or is no number.
+    fn metrics(&mut self, case: &str, cells: &str) -> Option<BTreeMap<String, f64>> {
         let names = self.0.entry(case.to_owned()).or_default();
-        let mut metrics = Vec::new();
-        for (place, cell) in cells.split(';').enumerate() {
-            if let Some((name, _)) = cell.split_once('=') {
-                if !names.iter().any(|known| known == name) {
-                    names.push(name.to_owned());
-                }
-                metrics.push(cell.to_owned());
-            } else if !cell.is_empty() {
-                metrics.push(format!("{}={cell}", names.get(place)?));
+        let mut metrics = BTreeMap::new();
+        for (place, cell) in cells.split(';').enumerate().filter(|(_, c)| !c.is_empty()) {
+            let (name, value) = match cell.split_once('=') {
+                Some((name, value)) => (name.to_owned(), value),
+                None => (names.get(place)?.clone(), cell),
+            };
+            if !names.contains(&name) {
+                names.push(name.clone());
             }
+            metrics.insert(name, value.parse().ok()?);
         }
-        Some(metrics.join(";"))
+        Some(metrics)
     }
 }
 
@@ -251,38 +246,28 @@ pub(super) fn read(path: &Path) -> Result<Vec<Row>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }
-    let bytes = read_file(path, DOCUMENT)?;
-    let mut reader = csv::Reader::from_reader(&bytes[..]);
     let mut names = Names::default();
-    let rows = reader.deserialize::<Row>();
-    rows.map(|row| {
-        let row = row.map_err(|e| Error::file(path, e))?;
-        let nameless = || {
-            let [case, scheme, level, set] = row.run();
-            let run = format!("{case} {scheme} {level} {set}");
-            Error::file(path, format!("{run}: a metric without a name"))
-        };
-        let metrics = names.put_back(&row.case, &row.metrics);
-        let metrics = metrics.ok_or_else(nameless)?;
-        Ok(Row { metrics, ..row })
+    let rows = read_rows::<Row>(path)?.into_iter();
+    rows.map(|mut row| {
+        let cells = std::mem::take(&mut row.cells);
+        let metrics = names.metrics(&row.case, &cells).ok_or_else(|| {
+            let cause = format!("{}: a metric without a name or number", row.run().join(" "));
+            Error::file(path, cause)
+        });
+        row.metrics = metrics?;
+        Ok(row)
     })
     .collect()
 }
 
 /// Rows as CSV.
 pub(super) fn text(rows: &[Row]) -> Result<Vec<u8>, Error> {
-    let failed = |e: &dyn std::fmt::Display| Error::Input(format!("rows: {e}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let mut names = Names::default();
-    for row in rows {
-        let metrics = names.leave_out(&row.case, &row.metrics);
-        let short = Row {
-            metrics,
-            ..row.clone()
-        };
-        writer.serialize(short).map_err(|e| failed(&e))?;
-    }
-    writer.into_inner().map_err(|e| failed(&e))
+    let row = |row: &Row| Row {
+        cells: names.cells(&row.case, &row.metrics),
+        ..row.clone()
+    };
+    rows_text(rows.iter().map(row)).map_err(|e| Error::Input(format!("rows: {e}")))
 }
 
 #[cfg(test)]
@@ -292,32 +277,33 @@ mod tests {
 
     #[test]
     fn numbers_have_six_digits() {
-        let told = [1.0, -0.148_699_4, 2.340_791e-5, 1_234_567.0].map(six_digits);
+        let told = [1.0, -0.148_699_4, 2.340_791e-5, 1_234_567.0].map(|v| written(six_digits(v)));
         assert_eq!(told, ["1", "-0.148699", "2.34079e-5", "1234570"]);
     }
 
     #[test]
     fn a_file_names_a_metric_once_a_case() {
-        let rows = [
-            ("bar", "a=1;c=3"),
-            ("bar", "a=4;b=5;c=6"),
-            ("bar", ""),
-            ("disc", "b=7"),
-            ("bar", "b=8"),
+        let rows: [(&str, &[(&str, f64)]); 5] = [
+            ("bar", &[("a", 1.0), ("c", 3.0)]),
+            ("bar", &[("a", 4.0), ("b", 5.0), ("c", 6.5)]),
+            ("bar", &[]),
+            ("disc", &[("b", 7.0)]),
+            ("bar", &[("b", 8.0)]),
         ];
-        let mut names = Names::default();
-        let cells = rows.map(|(case, metrics)| names.leave_out(case, metrics));
-        assert_eq!(cells, ["a=1;c=3", "4;6;b=5", "", "b=7", ";;8"]);
-        let mut names = Names::default();
-        let again: Vec<_> = rows
-            .iter()
-            .zip(&cells)
-            .map(|((case, _), cells)| names.put_back(case, cells).unwrap())
-            .collect();
-        assert_eq!(again, ["a=1;c=3", "a=4;c=6;b=5", "", "b=7", "b=8"]);
-        assert_eq!(names.put_back("disc", "1;2"), None);
-        // Files of former programs name all.
-        assert_eq!(names.put_back("disc", "c=1;b=2").unwrap(), "c=1;b=2");
+        let rows = rows.map(|(case, metrics)| {
+            let metrics = metrics
+                .iter()
+                .map(|(name, value)| ((*name).to_owned(), *value));
+            (case, metrics.collect::<BTreeMap<_, _>>())
+        });
+        let (mut out, mut back) = (Names::default(), Names::default());
+        let cells = ["a=1;c=3", "4;6.5;b=5", "", "b=7", ";;8"];
+        for ((case, metrics), cells) in rows.iter().zip(cells) {
+            assert_eq!(out.cells(case, metrics), cells);
+            assert_eq!(back.metrics(case, cells).as_ref(), Some(metrics));
+        }
+        assert_eq!(back.metrics("disc", "1;2"), None);
+        assert_eq!(back.metrics("disc", "b=x"), None);
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::files::{
 };
 use crate::job::{Column, Job, Snapshot};
 use crate::parameter::Parameters;
-use crate::record::{Failure, Machine, Record, SCHEMA, Status, Timing, Version};
+use crate::record::{Failure, Record, Status, Timing};
 use crate::spec::RunSpec;
 use crate::verdict::Verdict;
 use checkpoint::{Checkpoint, Identity, Keeper, Refusal, Saving};
@@ -93,32 +93,19 @@ pub fn execute(
         let clock = Clock::start(threads, before);
         let failure = drive(job.as_mut(), journal.as_mut(), &clock, &come)?;
         let time = clock.time();
+        let discretisation = job.discretisation();
+        let blank = Record::blank(case.name, spec, &parameters, discretisation, threads);
         let mut record = Record {
-            schema: SCHEMA,
-            case: case.name.to_owned(),
-            scheme: spec.scheme,
-            solver: spec.scheme.solver().to_owned(),
-            level: spec.level.name.to_owned(),
-            set: spec.set.clone(),
-            perturbed: spec.perturbed,
-            status: if failure.is_some() {
-                Status::Failed
-            } else {
-                Status::Ok
-            },
-            error: failure,
-            discretisation: job.discretisation(),
-            parameters,
-            metrics: Default::default(),
-            verdicts: Vec::new(),
             work: job.work(),
             time,
-            machine: Machine::here(threads),
-            version: Version::current(),
-            files: BTreeMap::new(),
+            ..blank
         };
-        if record.status == Status::Ok {
-            record.metrics = job.metrics();
+        match failure {
+            Some(failure) => {
+                record.status = Status::Failed;
+                record.error = Some(failure);
+            }
+            None => record.metrics = job.metrics(),
         }
         record.verdicts = judge(&record);
         if let Some(journal) = journal {

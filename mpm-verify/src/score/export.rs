@@ -1,6 +1,5 @@
 //! What another code needs to solve a case: particles, parameters, reference, and a form to fill in.
 
-use super::blank;
 use super::manifest::{FILE, SCHEMA};
 use crate::case::Case;
 use crate::error::Error;
@@ -8,6 +7,7 @@ use crate::files::{make_folder, write_csv, write_json, write_whole};
 use crate::foreign::{Foreign, Group, Part};
 use crate::parameter::{Parameter, Parameters};
 use crate::record::Measured;
+use crate::record::Record;
 use crate::spec::RunSpec;
 use crate::table::{Sheet, Table};
 use crate::verdict::{Kind, Verdict};
@@ -139,7 +139,7 @@ fn demands<'a>(
         unit: unit.to_owned(),
     };
     let discretisation = (foreign.discretisation)(spec, parameters, f64::NAN);
-    let mut record = blank(case, spec, parameters, discretisation);
+    let mut record = Record::blank(case.name, spec, parameters, discretisation, 0);
     record.metrics = metrics.map(|m| (m.name.to_owned(), zero(m.unit))).collect();
     let verdicts = case.judge(&record).into_iter();
     let demanded = verdicts.filter(|v| v.kind == Kind::Truth && v.tolerance.is_some());

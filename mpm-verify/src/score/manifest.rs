@@ -3,7 +3,7 @@
 use crate::error::{Error, is_unfit, nearest};
 use crate::files::read_text;
 use crate::scheme::BasisName;
-use serde::de::{MapAccess, Visitor};
+use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 use std::fmt;
@@ -104,50 +104,36 @@ pub struct Cost {
     pub machine: Option<Line>,
 }
 
-/// Parameters by name, in their order.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Changed(pub Vec<String>);
-
-impl<'de> Deserialize<'de> for Changed {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(Assignments)
-    }
+/// Reads names and values, in their order. A map of serde's own would hide a name that is there twice.
+fn assignments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
+    deserializer.deserialize_map(Assignments)
 }
 
-/// Reads names and values as `name=value`: a name that is there twice is there twice.
 struct Assignments;
 
 impl<'de> Visitor<'de> for Assignments {
-    type Value = Changed;
+    type Value = Vec<String>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("names of parameters with numbers, booleans or words")
     }
 
-    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Changed, M::Error> {
-        use serde::de::Error;
-        let mut changed = Vec::new();
-        while let Some((name, value)) = map.next_entry::<Line, Value>()? {
-            let Line(name) = name;
+    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Vec<String>, M::Error> {
+        let mut assignments = Vec::new();
+        while let Some((Line(name), value)) = map.next_entry::<Line, Value>()? {
             let text = match value {
-                Value::Bool(b) => b.to_string(),
-                Value::Number(x) => x.to_string(),
-                Value::String(word) => {
-                    let fit = Line::try_from(word);
-                    fit.map_err(|e| M::Error::custom(format!("{name}: {e}")))?.0
-                }
-                _ => {
-                    let said = format!("{name}: a number, boolean or word is allowed");
-                    return Err(M::Error::custom(said));
-                }
+                Value::Bool(_) | Value::Number(_) => Ok(value.to_string()),
+                Value::String(word) => Line::try_from(word).map(|word| word.0),
+                _ => Err("a number, boolean or word is allowed".to_owned()),
             };
-            if changed.len() == MOST {
+            let text = text.map_err(|e| M::Error::custom(format!("{name}: {e}")))?;
+            if assignments.len() == MOST {
                 let said = format!("more parameters than the {MOST} that are allowed");
                 return Err(M::Error::custom(said));
             }
-            changed.push(format!("{name}={text}"));
+            assignments.push(format!("{name}={text}"));
         }
-        Ok(Changed(changed))
+        Ok(assignments)
     }
 }
 
@@ -161,16 +147,16 @@ pub struct Manifest {
     pub code: Code,
     /// Its scheme, in its own words.
     pub scheme: Line,
-    /// Its functions, where a case asks for them.
-    #[serde(default)]
-    pub basis: Basis,
+    /// Its functions, where a case asks for them; quadratic splines by default.
+    #[serde(default = "bspline2")]
+    pub basis: BasisName,
     /// The case.
     pub case: Line,
     /// The level: the size of its cells.
     pub level: Line,
-    /// Parameters that are not the case's own.
-    #[serde(default)]
-    pub parameters: Changed,
+    /// Parameters that are not the case's own, as `name=value`; a name that is there twice stays so.
+    #[serde(default, deserialize_with = "assignments")]
+    pub parameters: Vec<String>,
     /// File of the particles at the end.
     pub particles: Option<FileName>,
     /// File of the series.
@@ -182,15 +168,8 @@ pub struct Manifest {
     pub cost: Cost,
 }
 
-/// Basis functions; quadratic splines unless it is said.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(transparent)]
-pub struct Basis(pub BasisName);
-
-impl Default for Basis {
-    fn default() -> Self {
-        Self(BasisName::Bspline2)
-    }
+fn bspline2() -> BasisName {
+    BasisName::Bspline2
 }
 
 impl Manifest {
@@ -237,78 +216,48 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn texts_are_lines() {
+    fn texts_files_and_numbers_are_checked() {
         let longest = "é".repeat(LONGEST);
+        let longer = longest.clone() + "e";
         for fit in ["a", " a", &longest] {
             assert_eq!(Line::try_from(fit.to_owned()), Ok(Line(fit.to_owned())));
         }
-        for unfit in ["", " ", "a\nb", "a\u{1b}", &(longest.clone() + "e")] {
+        for unfit in ["", " ", "a\nb", "a\u{1b}", &longer] {
             let said = Line::try_from(unfit.to_owned()).unwrap_err();
-            let count = unfit.chars().count();
-            assert!(
-                said.contains(&format!("a text of {count} characters")),
-                "{said}"
-            );
+            let count = format!("a text of {} characters", unfit.chars().count());
+            assert!(said.contains(&count), "{said}");
         }
-    }
-
-    #[test]
-    fn files_stand_beside_the_manifest() {
-        let longest = "é".repeat(LONGEST);
         for fit in ["a.csv", "a b", ".a", &longest] {
-            assert_eq!(
-                FileName::try_from(fit.to_owned()),
-                Ok(FileName(fit.to_owned()))
-            );
+            let name = FileName::try_from(fit.to_owned());
+            assert_eq!(name, Ok(FileName(fit.to_owned())));
         }
         for unfit in [
-            "",
-            ".",
-            "..",
-            "/",
-            "/a",
-            "../a",
-            "a/b",
-            "a/",
-            "a\\b",
-            "a\nb",
-            &(longest.clone() + "e"),
+            "", ".", "..", "/", "/a", "../a", "a/b", "a/", "a\\b", "a\nb", &longer,
         ] {
             let said = FileName::try_from(unfit.to_owned()).unwrap_err();
             assert!(said.starts_with(&format!("file {unfit:?} where")), "{said}");
         }
-        let path = Manifest::beside(Path::new("folder"), &FileName("a.csv".to_owned()));
-        assert_eq!(path, Path::new("folder/a.csv"));
-        let cause = Error::Input("wrong".to_owned());
-        let refused = Manifest::refuse(Path::new("folder"), "level", &cause).to_string();
-        assert!(
-            refused.contains("folder/score.json") && refused.contains("level: wrong"),
-            "{refused}"
-        );
-    }
-
-    #[test]
-    fn numbers_are_positive_and_finite() {
         assert_eq!(Positive::try_from(1e-300), Ok(Positive(1e-300)));
         for unfit in [0.0, -1.0, f64::INFINITY, f64::NAN] {
             let said = Positive::try_from(unfit).unwrap_err();
             assert!(said.starts_with(&unfit.to_string()), "{said}");
         }
+        let cause = Error::Input("wrong".to_owned());
+        let refused = Manifest::refuse(Path::new("folder"), "level", &cause).to_string();
+        assert_eq!(refused, "folder/score.json: level: wrong");
     }
 
     #[test]
     fn parameters_are_numbers_booleans_or_words() {
-        let read = |value: &Value| serde_json::from_str::<Changed>(&value.to_string());
+        let read_text = |text: &str| assignments(&mut serde_json::Deserializer::from_str(text));
+        let read = |value: &Value| read_text(&value.to_string());
         let sound = json!({"b": 0.5, "a": true, "c": "word", "d": 3});
-        assert_eq!(
-            read(&sound).unwrap().0,
-            ["a=true", "b=0.5", "c=word", "d=3"]
-        );
-        let twice = serde_json::from_str::<Changed>("{\"b\": 1, \"b\": 2}").unwrap();
-        assert_eq!(twice.0, ["b=1", "b=2"]);
+        assert_eq!(read(&sound).unwrap(), ["a=true", "b=0.5", "c=word", "d=3"]);
+        let twice = read_text("{\"b\": 1, \"b\": 2}").unwrap();
+        assert_eq!(twice, ["b=1", "b=2"]);
         let many =
             |count: usize| Value::Object((0..count).map(|k| (k.to_string(), json!(k))).collect());
-        assert_eq!(read(&many(MOST)).unwrap().0.len(), MOST);
+        assert_eq!(read(&many(MOST)).unwrap().len(), MOST);
         for (unfit, named) in [
             (many(MOST + 1), "more parameters than the 100"),
             (json!({"a": [1]}), "a: a number, boolean or word"),
@@ -336,18 +285,15 @@ mod tests {
             "schema": 1, "code": {"name": "a"}, "scheme": "s", "case": "cook", "level": "h2",
         });
         let manifest = read(&sound.to_string()).unwrap();
-        assert_eq!(manifest.basis, Basis(BasisName::Bspline2));
-        assert_eq!(
-            (manifest.parameters, manifest.cost),
-            (Changed::default(), Cost::default())
-        );
+        assert_eq!(manifest.basis, BasisName::Bspline2);
+        assert!(manifest.parameters.is_empty() && manifest.cost == Cost::default());
         let with = |key: &str, value: Value| {
             let mut changed = sound.clone();
             changed[key] = value;
             read(&changed.to_string()).map_err(|e| e.to_string())
         };
         let linear = with("basis", json!("linear")).unwrap();
-        assert_eq!(linear.basis, Basis(BasisName::Linear));
+        assert_eq!(linear.basis, BasisName::Linear);
         let cost = json!({"cpu_s": 2.5, "wall_s": 3.5, "steps": 4, "threads": 5, "machine": "m"});
         let costly = with("cost", cost).unwrap().cost;
         assert_eq!(

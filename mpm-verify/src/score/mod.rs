@@ -13,9 +13,7 @@ use crate::error::Error;
 use crate::files::require_inside;
 use crate::foreign::{Asked, Foreign, Given, Part};
 use crate::parameter::Parameters;
-use crate::record::{
-    Discretisation, Machine, Measured, Record, SCHEMA, Status, Timing, Version, WorkDone,
-};
+use crate::record::{Measured, Record};
 use crate::spec::RunSpec;
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
@@ -48,11 +46,11 @@ impl Scored {
         let refuse = |key: &'static str| move |e: Error| Manifest::refuse(folder, key, &e);
         let (case, foreign) = find_scored(&manifest.case.0).map_err(refuse("case"))?;
         let level = find_level(case, &manifest.level.0).map_err(refuse("level"))?;
-        let set = manifest.parameters.0.clone();
+        let set = manifest.parameters.clone();
         let parameters =
             Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters")(e.into()))?;
         let spec = RunSpec {
-            scheme: (foreign.judged_as)(manifest.basis.0),
+            scheme: (foreign.judged_as)(manifest.basis),
             level,
             set,
             perturbed: false,
@@ -68,7 +66,8 @@ impl Scored {
         let unknown = given.require_heads(&asked)?;
         let missing = asked.into_iter().filter(|a| !given.has(a)).collect();
         let discretisation = given.discretisation.clone();
-        let mut record = blank(case, &given.spec, &given.parameters, discretisation);
+        let (spec, parameters) = (&given.spec, &given.parameters);
+        let mut record = Record::blank(case.name, spec, parameters, discretisation, 0);
         let seconds = |of: Option<Positive>| of.map_or(f64::NAN, |s| s.0);
         let cost = &manifest.cost;
         (record.time.wall_s, record.time.cpu_s) = (seconds(cost.wall_s), seconds(cost.cpu_s));
@@ -140,35 +139,6 @@ fn tables(
         return Err(Error::file(&folder.join(FILE), said));
     }
     Ok(tables)
-}
-
-/// A record of a run that nothing has been measured of.
-fn blank(
-    case: &Case,
-    spec: &RunSpec,
-    parameters: &Parameters,
-    discretisation: Discretisation,
-) -> Record {
-    Record {
-        schema: SCHEMA,
-        case: case.name.to_owned(),
-        scheme: spec.scheme,
-        solver: spec.scheme.solver().to_owned(),
-        level: spec.level.name.to_owned(),
-        set: spec.set.clone(),
-        perturbed: false,
-        status: Status::Ok,
-        error: None,
-        discretisation,
-        parameters: parameters.clone(),
-        metrics: BTreeMap::new(),
-        verdicts: Vec::new(),
-        work: WorkDone::default(),
-        time: Timing::default(),
-        machine: Machine::here(0),
-        version: Version::current(),
-        files: BTreeMap::new(),
-    }
 }
 
 /// The verdicts of the case's own checks on what another code can give: a known limit of our schemes excuses nobody, and

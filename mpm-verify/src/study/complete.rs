@@ -2,7 +2,7 @@
 
 use super::plan::Plan;
 use crate::error::Error;
-use crate::files::{DOCUMENT, read};
+use crate::files::read_rows;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -46,11 +46,7 @@ impl Completeness {
     /// # Errors
     /// The file is missing or damaged.
     pub fn of(plan: &Plan, results: &Path, program: &str) -> Result<Self, Error> {
-        let bytes = read(results, DOCUMENT)?;
-        let mut reader = csv::Reader::from_reader(&bytes[..]);
-        let rows: csv::Result<Vec<Row>> = reader.deserialize().collect();
-        let rows = rows.map_err(|e| Error::file(results, e))?;
-        Ok(Self::compare(plan, &rows, program))
+        Ok(Self::compare(plan, &read_rows::<Row>(results)?, program))
     }
 
     fn compare(plan: &Plan, rows: &[Row], program: &str) -> Self {

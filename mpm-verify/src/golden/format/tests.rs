@@ -4,77 +4,67 @@ use super::*;
 use crate::record::fixture::record;
 
 fn point(time: Option<f64>, value: f64, response: f64) -> Point {
-    Point {
-        time,
-        value,
-        response,
-    }
+    (time, value, response).into()
 }
 
 fn column(quantity: &str, points: &[Point]) -> Column {
-    Column {
-        quantity: quantity.to_owned(),
-        points: points.to_vec(),
-    }
+    let (quantity, points) = (quantity.to_owned(), points.to_vec());
+    Column { quantity, points }
 }
 
 fn run(name: &str, columns: Vec<Column>) -> Run {
-    Run {
-        name: name.to_owned(),
-        columns,
-    }
+    let name = name.to_owned();
+    Run { name, columns }
 }
 
 /// Two runs, with a metric, a series of two columns of two rows, and a count.
 fn golden() -> Golden {
-    let columns = || {
-        vec![
-            column("metric/tip (m)", &[point(None, -2.5, 1e-12)]),
-            column(
-                "series/tip (m)",
-                &[point(Some(0.5), 1.0, 0.0), point(Some(1.0), 0.1, 1e-12)],
-            ),
-            column(
-                "series/gap (-)",
-                &[point(Some(0.5), 3.0, 0.0), point(Some(1.0), 1e-9, 0.0)],
-            ),
-            column("work/steps", &[point(None, 195.0, 2.0)]),
-        ]
+    let series = |quantity, values: [f64; 2], response| {
+        let [first, last] = values;
+        let points = [
+            point(Some(0.5), first, 0.0),
+            point(Some(1.0), last, response),
+        ];
+        column(quantity, &points)
     };
+    let columns = vec![
+        Column::single("metric/tip (m)".to_owned(), -2.5, 1e-12),
+        series("series/tip (m)", [1.0, 0.1], 1e-12),
+        series("series/gap (-)", [3.0, 1e-9], 0.0),
+        Column::single("work/steps".to_owned(), 195.0, 2.0),
+    ];
+    let blessings = ["2026-01-01: first", "2026-01-02: second"];
     Golden {
-        blessings: vec![
-            "2026-01-01: first".to_owned(),
-            "2026-01-02: second".to_owned(),
-        ],
-        runs: vec![run("a/h2", columns()), run("b/h2", columns())],
+        blessings: blessings.map(str::to_owned).into(),
+        runs: vec![run("a/h2", columns.clone()), run("b/h2", columns)],
     }
 }
 
-const TEXT: &str = "# format 2, 12 rows
-# 2026-01-01: first
-# 2026-01-02: second
-run,quantity,time,value,response
-a/h2,metric/tip (m),,-2.5,1e-12
-,series/tip (m),0.5,1,0
-,,1,0.1,1e-12
-,series/gap (-),0.5,3,0
-,,1,1e-9,0
-,work/steps,,195,2
-b/h2,metric/tip (m),,-2.5,1e-12
-,series/tip (m),0.5,1,0
-,,1,0.1,1e-12
-,series/gap (-),0.5,3,0
-,,1,1e-9,0
-,work/steps,,195,2
-";
+const TEXT: &str = r#"{"schema":3,"blessings":[
+"2026-01-01: first",
+"2026-01-02: second"
+],"runs":[
+{"name":"a/h2","columns":[
+{"quantity":"metric/tip (m)","points":[[null,-2.5,1e-12]]},
+{"quantity":"series/tip (m)","points":[[0.5,1.0,0.0],[1.0,0.1,1e-12]]},
+{"quantity":"series/gap (-)","points":[[0.5,3.0,0.0],[1.0,1e-9,0.0]]},
+{"quantity":"work/steps","points":[[null,195.0,2.0]]}
+]},
+{"name":"b/h2","columns":[
+{"quantity":"metric/tip (m)","points":[[null,-2.5,1e-12]]},
+{"quantity":"series/tip (m)","points":[[0.5,1.0,0.0],[1.0,0.1,1e-12]]},
+{"quantity":"series/gap (-)","points":[[0.5,3.0,0.0],[1.0,1e-9,0.0]]},
+{"quantity":"work/steps","points":[[null,195.0,2.0]]}
+]}
+]}
+"#;
 
 #[test]
 fn a_file_reads_back_as_it_was() {
     let golden = golden();
-    assert_eq!(golden.text().unwrap(), TEXT.as_bytes());
-    assert_eq!(Golden::parse(TEXT).unwrap(), golden);
+    assert_eq!(golden.text().unwrap(), TEXT);
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("case.csv");
+    let path = folder.path().join("case.json");
     golden.write(&path).unwrap();
     assert_eq!(Golden::read(&path).unwrap(), golden);
     assert_eq!(golden.run("b/h2"), Some(&golden.runs[1]));
@@ -85,96 +75,54 @@ fn a_file_reads_back_as_it_was() {
 }
 
 #[test]
-fn what_is_no_file_of_goldens_is_refused() {
-    let with = |old: &str, new: &str| {
-        assert!(TEXT.contains(old), "{old}");
-        TEXT.replacen(old, new, 1)
-    };
-    for (text, named) in [
-        (with("first", "fi\trst"), "control characters"),
-        (with("# format 2, ", "# format 2 "), "no line \"# format"),
-        (with(" rows", ""), "no line \"# format"),
-        (with("12 rows", "many rows"), "no line \"# format"),
-        (with("format 2", "format 1"), "format 1 where 2 is expected"),
-        (with("12 rows", "13 rows"), "12 rows where 13 are expected"),
-        (with("12 rows", "11 rows"), "12 rows where 11 are expected"),
-        (
-            with("time", "at"),
-            "columns other than run, quantity, time, value, response",
-        ),
-        (with("a/h2,", ","), "row 1: no run"),
-        (with(",195,2", ",195"), "found record with 4 fields"),
-        (with("-2.5", "NaN"), "a/h2 metric/tip (m), row 1: NaN"),
-        (with("0.1", "inf"), "a/h2 series/tip (m), row 3: inf"),
-        (
-            with("0.5,3,0", "-inf,3,0"),
-            "a/h2 series/gap (-), row 4: -inf",
-        ),
-        (with("195", "x"), "a/h2 work/steps, row 6: x"),
-        (with(",2\n", ",NaN\n"), "a/h2 work/steps, row 6: NaN"),
-        (
-            with("b/h2", "a/h2"),
-            "a/h2 metric/tip (m) is there twice or not in order",
-        ),
-        (
-            with("0.5,1,0", "1,1,0"),
-            "a/h2 series/tip (m) is there twice or not in order",
-        ),
-        (
-            with("0.5,3,0", "0.5,3,1e-10"),
-            "a/h2 series/gap (-) is there twice or not in order",
-        ),
-        (
-            with("195,2", "195,20"),
-            "a/h2 work/steps: a count responds by 0 to 19.5",
-        ),
-        (
-            with("195,2", "195,-1"),
-            "a/h2 work/steps: a golden responds by 0 to",
-        ),
-        (
-            with("-2.5,1e-12", "-2.5,2.6e-9"),
-            "a/h2 metric/tip (m): a golden responds by 0 to 1e-9 of its scale, 2.5e0",
-        ),
-        (
-            with("-2.5,1e-12", "-2.5,-1e-12"),
-            "a/h2 metric/tip (m): a golden responds by 0 to",
-        ),
-    ] {
-        let said = Golden::parse(&text).unwrap_err();
-        assert!(said.contains(named), "{said}\n{text}");
-    }
-    let rows: String = TEXT
-        .split_inclusive('\n')
-        .filter(|l| !l.starts_with("# 2026"))
-        .collect();
-    assert_eq!(Golden::parse(&rows).unwrap_err(), "no line of a blessing");
+fn damaged_files_of_goldens_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("case.csv");
-    let said = |bytes: &[u8]| {
-        std::fs::write(&path, bytes).unwrap();
-        Golden::read(&path).unwrap_err().to_string()
-    };
-    for (text, named) in [
-        (with("1e-9", "0.000000001"), "not laid out"),
-        (with("-2.5", "\"-2.5\""), "not laid out"),
-        (with("\n,series/tip", "\na/h2,series/tip"), "not laid out"),
-        (TEXT.to_owned() + "\n", "not laid out"),
-        (TEXT.replace('\n', "\r\n"), "control characters"),
-        (format!("\u{feff}{TEXT}"), "control characters"),
-        (
-            TEXT[..TEXT.len() - 9].to_owned(),
-            "found record with 2 fields",
-        ),
-        (String::new(), "no line \"# format"),
-    ] {
-        let said = said(text.as_bytes());
+    let path = folder.path().join("case.json");
+    let refused = |text: &str, named: &str| {
+        std::fs::write(&path, text).unwrap();
+        let error = Golden::read(&path).unwrap_err().to_string();
         assert!(
-            said.contains("case.csv") && said.contains(named),
-            "{said}\n{text}"
+            error.contains("case.json") && error.contains(named),
+            "{error}\n{text}"
         );
+    };
+    for (old, new, named) in [
+        ("first", "fi\\trst", "control characters"),
+        ("first", "fi\trst", "control character"),
+        ("\"schema\":3,", "", "no schema"),
+        ("schema\":3", "schema\":2", "schema 2 where 3 is expected"),
+        ("quantity", "name", "missing field `quantity` at line 6"),
+        ("-2.5", "null", "invalid type: null, expected f64 at line 6"),
+        ("-2.5", "NaN", "expected value at line 6"),
+        ("-2.5", "1e999", "number out of range at line 6"),
+        ("195.0", "\"x\"", "expected f64 at line 9"),
+        (",195.0,2.0", ",195.0", "invalid length 2"),
+        ("[[null,-2.5,1e-12]]", "[]", "tip (m): no number"),
+        ("b/h2", "a/h2", "a/h2 metric/tip (m) is there twice"),
+        ("0.5,1.0,0.0", "1.0,1.0,0.0", "series/tip (m) is there"),
+        ("0.5,3.0,0.0", "0.5,3.0,1e-10", "not in order"),
+        ("195.0,2.0", "195.0,20.0", "count responds by 0 to 19.5"),
+        ("195.0,2.0", "195.0,-1.0", "golden responds by 0 to"),
+        ("1e-12", "2.6e-9", "0 to 1e-9 of its scale, 2.5e0"),
+        ("-2.5,1e-12", "-2.5,-1e-12", "golden responds by 0"),
+        ("1e-9", "0.000000001", "not laid out"),
+        ("\"name\"", "\"more\":1,\"name\"", "not laid out"),
+        ("\n]}\n]}\n", "\n]}\n]}\n\n", "not laid out"),
+        ("\n]}\n", "\n]}\r\n", "not laid out"),
+        ("{\"s", "\u{feff}{\"s", "expected value at line 1"),
+    ] {
+        assert!(TEXT.contains(old), "{old}");
+        refused(&TEXT.replacen(old, new, 1), named);
     }
-    assert!(said(b"run,\xff\n").contains("UTF-8"));
+    refused(&TEXT[..TEXT.len() - 9], "EOF while parsing");
+    refused("", "EOF while parsing");
+    let none = Golden {
+        blessings: Vec::new(),
+        ..golden()
+    };
+    none.write(&path).unwrap();
+    let error = Golden::read(&path).unwrap_err().to_string();
+    assert!(error.contains("no line of a blessing"), "{error}");
 }
 
 /// A number by the floor of its column's scale, a count by ten responses.

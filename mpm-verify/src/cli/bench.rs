@@ -1,0 +1,63 @@
+//! The command `bench`: speed.
+
+use super::{or_all_cores, say, threads};
+use crate::progress;
+use clap::Args;
+use clap::builder::{PossibleValuesParser, RangedU64ValueParser};
+use mpm_verify::bench::{self, Peers};
+use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::files::lock::hold;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct Bench {
+    /// Rounds, after one that isn't measured
+    #[arg(long, default_value_t = 7, value_parser = RangedU64ValueParser::<usize>::new().range(1..=1000))]
+    rounds: usize,
+    /// Numbers of threads, as 1,2 (one and all cores if not given)
+    #[arg(long, value_delimiter = ',', value_parser = threads())]
+    threads: Vec<usize>,
+    /// Measure these alone, as newton,laws (all if not given); `scaling` is the cost over the number of particles
+    #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(bench::GROUPS))]
+    only: Vec<String>,
+    /// Compare with other programs
+    #[arg(long, value_parser = ["taichi"])]
+    peers: Option<String>,
+    /// The Python interpreter that has the peers' packages
+    #[arg(long, default_value = "python3", requires = "peers")]
+    python: PathBuf,
+    /// Folder of the tables and pictures
+    #[arg(long, default_value = "reports/bench")]
+    out: PathBuf,
+}
+
+impl Bench {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let options = bench::Options {
+            rounds: self.rounds,
+            threads: compared_threads(self.threads),
+            only: self.only,
+            peers: self.peers.map(|_| Peers::taichi(self.python)),
+        };
+        let _held = hold(&self.out)?;
+        let bar = progress::single("bench", true);
+        let text = bench::measure(&options, &self.out, &|share| {
+            bar.set_position((share * progress::SCALE) as u64);
+        })?;
+        bar.finish_and_clear();
+        say(&text)?;
+        Ok(ExitCode::Good)
+    }
+}
+
+/// One thread and the others that are asked for, all cores if none is.
+fn compared_threads(asked: Vec<usize>) -> Vec<usize> {
+    let mut threads = match asked.is_empty() {
+        true => vec![or_all_cores(None)],
+        false => asked,
+    };
+    threads.push(1);
+    threads.sort_unstable();
+    threads.dedup();
+    threads
+}

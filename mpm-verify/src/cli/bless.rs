@@ -1,0 +1,79 @@
+//! The command `bless`: drift becomes the golden.
+
+use super::{case, or_all_cores, say, threads};
+use crate::progress;
+use clap::Args;
+use mpm_verify::bless::{Blessing, Candidates};
+use mpm_verify::case::Case;
+use mpm_verify::error::{Error, ExitCode, is_unfit};
+use mpm_verify::files::lock::hold;
+use mpm_verify::golden::{self, Goldens};
+use mpm_verify::study::gather::Gathered;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct Bless {
+    /// The case
+    #[arg(value_parser = case(), hide_possible_values = true)]
+    case: &'static Case,
+    /// Why the results have changed
+    #[arg(long)]
+    reason: String,
+    /// The folder that `verify` has written, or those of all shards
+    #[arg(long, default_value = "reports/latest", num_args = 1..)]
+    from: Vec<PathBuf>,
+    /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
+    #[arg(long)]
+    golden: Option<PathBuf>,
+    /// Bless this quantity although it is doubtful
+    #[arg(long, value_name = "METRIC")]
+    allow: Vec<String>,
+    /// Runs side by side (as many as there are cores if not given)
+    #[arg(long, value_parser = threads())]
+    pub(super) threads: Option<usize>,
+}
+
+impl Bless {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let (reason, workers) = (&*self.reason, or_all_cores(self.threads));
+        let root = golden::place(self.golden);
+        let words = reason.split_whitespace().collect::<String>();
+        if !words.contains(char::is_alphanumeric) || words.contains(is_unfit) || reason.len() > 500
+        {
+            return Err(Error::Input(
+                "--reason is empty, longer than 500 bytes or has control characters; say why the results have changed"
+                    .to_owned(),
+            ));
+        }
+        let goldens = Goldens::open(&root)?;
+        let _held = hold(&root)?;
+        let gathered = Gathered::read(&self.from)?;
+        gathered.require_tier()?;
+        let study = gathered.judge_case(self.case, |r| goldens.compare(r, gathered.folder(r)?))?;
+        let candidates = Candidates::of(&study)?;
+        say(candidates.table())?;
+        if let Some(refusal) = candidates.refusal() {
+            say(&refusal)?;
+            return Ok(ExitCode::TruthFailed);
+        }
+        let listener = progress::Runs::new(candidates.twin_names(), true);
+        let blessed = candidates.bless(
+            &gathered,
+            &goldens,
+            (reason, &self.allow),
+            workers,
+            &listener,
+        )?;
+        listener.finish();
+        let (told, code) = match blessed {
+            Blessing::Done(count) => (
+                format!("{count} goldens blessed: {reason}\n"),
+                ExitCode::Good,
+            ),
+            Blessing::Broken(told) => (told, ExitCode::RunFailed),
+            Blessing::Doubtful(told) => (told, ExitCode::Input),
+        };
+        say(told)?;
+        Ok(code)
+    }
+}

@@ -1,0 +1,37 @@
+//! The command `diff`: two reports compared.
+
+use super::{Told, say, say_json};
+use clap::Args;
+use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::files::lock::hold;
+use mpm_verify::report::diff::Difference;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct Diff {
+    /// The old report
+    old: PathBuf,
+    /// The new report
+    new: PathBuf,
+    /// Folder for the comparison with its pictures (old | new | difference)
+    #[arg(long)]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    told: Told,
+}
+
+impl Diff {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let difference = Difference::between(&self.old, &self.new)?;
+        if let Some(out) = self.out {
+            let _held = hold(&out)?;
+            difference.write(&out)?;
+        }
+        match self.told {
+            Told { json: true, .. } => say_json(&difference.json())?,
+            Told { quiet: true, .. } => say(difference.counts() + "\n")?,
+            _ => say(difference.text())?,
+        }
+        Ok(difference.exit_code())
+    }
+}

@@ -1,0 +1,90 @@
+//! The commands `list`, `explain`, `exact` and `completions`: what the program knows.
+
+use super::{Cli, case, say, say_json, tier};
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+use mpm_verify::case::{Case, Tier};
+use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::report::describe;
+use mpm_verify::{cases, exact, golden};
+
+#[derive(Args)]
+pub(crate) struct List {
+    /// List the runs of this tier
+    #[arg(long, value_parser = tier())]
+    tier: Option<Tier>,
+    /// As text or as JSON
+    #[arg(long, default_value = "text", value_parser = ["text", "json"])]
+    format: String,
+}
+
+impl List {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        if self.format == "json" {
+            say_json(&describe::list_json(cases::all(), self.tier))?;
+        } else {
+            let goldens = golden::place(None);
+            let pairs = |case: &str| golden::pairs(&goldens, case).ok();
+            say(describe::list_text(cases::all(), self.tier, pairs))?;
+        }
+        Ok(ExitCode::Good)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Explain {
+    /// The case
+    #[arg(value_parser = case(), hide_possible_values = true)]
+    case: &'static Case,
+    /// Say it as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Explain {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        match self.json {
+            true => say_json(&describe::explain_json(self.case))?,
+            false => say(describe::explain(self.case))?,
+        }
+        Ok(ExitCode::Good)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Exact {
+    /// The solution
+    name: String,
+    /// Reference coordinates (m), as many as the motion has dimensions
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    at: String,
+    /// Time (s)
+    #[arg(long, allow_hyphen_values = true)]
+    time: String,
+    /// Change a parameter
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+}
+
+impl Exact {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let state = exact::State::ask(&self.name, &self.at, &self.time, &self.set)?;
+        say(state.json()?)?;
+        Ok(ExitCode::Good)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Completions {
+    /// The shell
+    shell: Shell,
+}
+
+impl Completions {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, &mut Cli::command(), "mpm-verify", &mut script);
+        say(String::from_utf8_lossy(&script))?;
+        Ok(ExitCode::Good)
+    }
+}

@@ -1,0 +1,96 @@
+//! The commands `keep`, `tables`, `pictures` and `complete`: rows of runs that are kept, and pages filled from them.
+
+use super::{say, tier};
+use clap::Args;
+use mpm_verify::case::Tier;
+use mpm_verify::cases;
+use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::files::lock::hold;
+use mpm_verify::record::Version;
+use mpm_verify::report::{keep::keep, shown, tables::Page};
+use mpm_verify::study::complete::Completeness;
+use mpm_verify::study::plan::{Plan, Shard};
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct Keep {
+    /// Folder of the report
+    report: PathBuf,
+    /// Folder that has nightly/results.csv and history.csv
+    #[arg(long, default_value = "reports")]
+    into: PathBuf,
+}
+
+impl Keep {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let _held = hold(&self.into)?;
+        let rows = keep(&self.report, &self.into)?;
+        say(format!("{rows} runs are kept in {}\n", self.into.display()))?;
+        Ok(ExitCode::Good)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Tables {
+    /// Change nothing; name the tables that are stale, and fail if there are any
+    #[arg(long)]
+    check: bool,
+    /// Folder that has README.md, docs and reports
+    #[arg(long, default_value = ".")]
+    root: PathBuf,
+}
+
+impl Tables {
+    /// Fills the tables of the pages, or, to check, names those that are stale.
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let mut code = ExitCode::Good;
+        for page in Page::all(&self.root)? {
+            for name in &page.stale {
+                let what = if self.check { "stale" } else { "filled" };
+                say(format!("{}: {name} {what}\n", page.file.display()))?;
+            }
+            if self.check && !page.stale.is_empty() {
+                code = ExitCode::TruthFailed;
+            } else {
+                page.write()?;
+            }
+        }
+        Ok(code)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Pictures {
+    /// The folder that `verify` has written, or those of all shards
+    #[arg(long, value_name = "FOLDER", num_args = 1..)]
+    from: Vec<PathBuf>,
+    /// Folder that has docs and reports
+    #[arg(long, default_value = ".")]
+    root: PathBuf,
+}
+
+impl Pictures {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        say(shown::draw(&self.root, &self.from)?)?;
+        Ok(ExitCode::Good)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Complete {
+    /// Which runs
+    #[arg(long, default_value = "nightly", value_parser = tier())]
+    tier: Tier,
+    /// The rows that `keep` has written
+    #[arg(long, default_value = "reports/nightly/results.csv")]
+    rows: PathBuf,
+}
+
+impl Complete {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let plan = Plan::new(cases::all(), self.tier, Shard::WHOLE)?;
+        let found = Completeness::of(&plan, &self.rows, &Version::current().source)?;
+        say(&found)?;
+        found.require().map(|()| ExitCode::Good)
+    }
+}

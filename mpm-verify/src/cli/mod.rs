@@ -1,0 +1,235 @@
+//! The syntax of the command line and the output of its commands.
+
+mod bench;
+mod bless;
+mod diff;
+mod explain;
+mod keep;
+mod run;
+mod score;
+mod verify;
+
+use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use mpm_verify::case::{Case, Tier};
+use mpm_verify::cases;
+use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::run::checkpoint::Saving;
+use mpm_verify::scheme::Scheme;
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::time::Duration;
+
+/// Verification bench of the locking-free material point method.
+///
+/// Begin with `mpm-verify list`, `mpm-verify run cook --out out` or `mpm-verify verify --tier quick`. Exit codes: 0 all
+/// good, 1 a check against the truth failed, 2 usage or input, 3 drift from the goldens only, 4 a run broke down and was
+/// not known to.
+#[derive(Parser)]
+#[command(version, max_term_width = 100, arg_required_else_help = true)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// A positive number of gibibytes.
+fn memory(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("a positive number of GiB is expected".to_owned()),
+    }
+}
+
+/// Verbosity.
+#[derive(Args, Clone, Copy)]
+pub(crate) struct Told {
+    /// Say nothing but the verdict
+    #[arg(long, short, conflicts_with = "json")]
+    pub(crate) quiet: bool,
+    /// Say it as JSON, without progress
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+impl Told {
+    /// Whether progress is shown.
+    pub(crate) fn progress(self) -> bool {
+        !self.quiet && !self.json
+    }
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// List the cases: what they are, their runs in each tier, what they cost
+    List(explain::List),
+    /// Parameters, schemes, levels, metrics, checks, references and limits of a case
+    Explain(explain::Explain),
+    /// Run one case once, judge it and, with --out, draw it
+    Run(run::Run),
+    /// Run a scene of one's own that a file describes and, with --out, draw it
+    Scene(run::Scene),
+    /// Judge the result of another code, beside our runs
+    Score(score::Score),
+    /// Write what another code needs to solve a case: particles, parameters, reference, a form for `score`
+    Export(score::Export),
+    /// Run a tier of cases, judge them and write the report
+    Verify(verify::Verify),
+    /// Judge again what `verify` or `run` has left and rebuild the report, without simulating
+    Report(verify::Report),
+    /// Keep a row of every run of a night's report, and its trends
+    Keep(keep::Keep),
+    /// Fill the tables of results in README and docs from reports/nightly/results.csv
+    Tables(keep::Tables),
+    /// Draw the pictures of README and docs from the rows that are kept and from finished runs
+    ///
+    /// What they do not suffice for is named and left.
+    Pictures(keep::Pictures),
+    /// Name the runs of a tier that no kept row is of (exit code 2), and the rows that another program made
+    Complete(keep::Complete),
+    /// Accept drift: take what `verify` has left as the new golden (refused while the truth is missed)
+    Bless(bless::Bless),
+    /// Compare two report folders: numbers, verdicts, pictures
+    Diff(diff::Diff),
+    /// Evaluate an exact solution at a reference point, as JSON
+    Exact(explain::Exact),
+    /// Measure speed: workloads, problems and laws take turns; with --peers, other programs with them
+    Bench(bench::Bench),
+    /// Print what makes a shell complete the program's commands, options and names
+    Completions(explain::Completions),
+}
+
+impl Command {
+    /// Number of threads asked for by a command that runs simulations.
+    pub(crate) fn threads(&self) -> Option<usize> {
+        match self {
+            Self::Run(command) => command.threads,
+            Self::Scene(command) => command.threads,
+            Self::Verify(command) => command.threads,
+            Self::Bless(command) => command.threads,
+            _ => None,
+        }
+    }
+
+    /// Executes the command.
+    ///
+    /// # Errors
+    /// Those of the command.
+    pub(crate) fn execute(self) -> Result<ExitCode, Error> {
+        match self {
+            Self::List(command) => command.execute(),
+            Self::Explain(command) => command.execute(),
+            Self::Run(command) => command.execute(),
+            Self::Scene(command) => command.execute(),
+            Self::Score(command) => command.execute(),
+            Self::Export(command) => command.execute(),
+            Self::Verify(command) => command.execute(),
+            Self::Report(command) => command.execute(),
+            Self::Keep(command) => command.execute(),
+            Self::Tables(command) => command.execute(),
+            Self::Pictures(command) => command.execute(),
+            Self::Complete(command) => command.execute(),
+            Self::Bless(command) => command.execute(),
+            Self::Diff(command) => command.execute(),
+            Self::Exact(command) => command.execute(),
+            Self::Bench(command) => command.execute(),
+            Self::Completions(command) => command.execute(),
+        }
+    }
+}
+
+/// Number of threads: all cores by default.
+pub(crate) fn or_all_cores(threads: Option<usize>) -> usize {
+    threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
+}
+
+fn saving(seconds: u64, resume: bool) -> Saving {
+    Saving {
+        every: Duration::from_secs(seconds),
+        resume,
+    }
+}
+
+/// One of some names, as what it stands for.
+fn one_of<T, E>(
+    names: &'static [&'static str],
+    parse: fn(&str) -> Result<T, E>,
+) -> impl TypedValueParser<Value = T>
+where
+    T: Clone + Send + Sync + 'static,
+    E: std::error::Error + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(names).try_map(move |name| parse(&name))
+}
+
+fn tier() -> impl TypedValueParser<Value = Tier> {
+    one_of(&Tier::NAMES, Tier::parse)
+}
+
+fn case() -> impl TypedValueParser<Value = &'static Case> {
+    let value = |case: &Case| PossibleValue::new(case.name).help(case.title);
+    let names = cases::all().iter().map(value);
+    PossibleValuesParser::new(names).try_map(|name| cases::find(&name))
+}
+
+/// The cases that score other codes.
+fn scored_cases() -> PossibleValuesParser {
+    PossibleValuesParser::new(cases::scored().map(|(case, _)| case.name))
+}
+
+/// More than four times as many threads as cores are surely a slip.
+fn threads() -> RangedU64ValueParser<usize> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    RangedU64ValueParser::new().range(1..=4 * cores as u64)
+}
+
+/// Schemes by their names, of which shells complete those of all cases.
+#[derive(Clone)]
+struct Schemes;
+
+impl TypedValueParser for Schemes {
+    type Value = Scheme;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &std::ffi::OsStr,
+    ) -> Result<Scheme, clap::Error> {
+        let parse = |name: &str| Scheme::parse(name);
+        parse.parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let schemes = cases::all().iter().flat_map(Case::schemes);
+        let names: std::collections::BTreeSet<String> = schemes.map(|s| s.to_string()).collect();
+        Some(Box::new(names.into_iter().map(PossibleValue::new)))
+    }
+}
+
+/// An error of the command line's syntax, on one line.
+pub(crate) fn of_syntax(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let lines: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .take_while(|line| !line.starts_with("Usage") && !line.starts_with("For more information"))
+        .filter(|line| !line.is_empty())
+        .collect();
+    lines.join(" ").trim_start_matches("error: ").to_owned()
+}
+
+/// Writes to standard output, which may be closed; colours stay on a terminal that shows them.
+pub(crate) fn say(text: impl Display) -> Result<(), Error> {
+    match write!(anstream::stdout().lock(), "{text}") {
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Error::Input(format!("standard output: {e}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes JSON to standard output.
+pub(crate) fn say_json(value: &impl serde::Serialize) -> Result<(), Error> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| Error::Input(e.to_string()))?;
+    say(text + "\n")
+}

@@ -1,0 +1,173 @@
+//! The commands `verify` and `report`: runs of a tier, judged and reported.
+
+use super::{Told, case, memory, or_all_cores, saving, say, say_json, threads, tier};
+use crate::progress;
+use clap::Args;
+use mpm_verify::case::{Case, Tier};
+use mpm_verify::cases;
+use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::files::lock::hold;
+use mpm_verify::golden::{self, Goldens};
+use mpm_verify::night::Night;
+use mpm_verify::record::Record;
+use mpm_verify::report::{describe, discard_report, write_report};
+use mpm_verify::run::checkpoint;
+use mpm_verify::run::size::GIBIBYTE;
+use mpm_verify::study::gather::Gathered;
+use mpm_verify::study::judge::exit_code;
+use mpm_verify::study::plan::{Plan, Shard};
+use mpm_verify::study::schedule::{make_runs, require_memory};
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+pub(crate) struct Verify {
+    /// The cases (all if none is given)
+    #[arg(value_parser = case(), hide_possible_values = true)]
+    cases: Vec<&'static Case>,
+    /// Which runs
+    #[arg(long, default_value = "pr", value_parser = tier())]
+    tier: Tier,
+    /// Make only the i-th of n shares of the runs; `report` puts the shares together
+    #[arg(long, value_name = "I/N", value_parser = Shard::parse, default_value = "1/1", hide_default_value = true)]
+    shard: Shard,
+    /// Keep the runs that are there already, if this very program made them, and go on with those that
+    /// it has left a checkpoint of
+    #[arg(long)]
+    resume: bool,
+    /// Write a checkpoint of every run so often, by the clock; 0: after every row of its series
+    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S)]
+    checkpoint_every: u64,
+    /// Folder of the report
+    #[arg(long, default_value = "reports/latest")]
+    out: PathBuf,
+    /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
+    #[arg(long)]
+    golden: Option<PathBuf>,
+    /// Runs side by side (as many as there are cores if not given)
+    #[arg(long, value_parser = threads())]
+    pub(super) threads: Option<usize>,
+    /// Refuse scenes that take more memory at their start, side by side (not asked if not said)
+    #[arg(long, value_name = "GIB", value_parser = memory)]
+    memory: Option<f64>,
+    #[command(flatten)]
+    told: Told,
+}
+
+impl Verify {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let chosen =
+            |c: &&Case| self.cases.is_empty() || self.cases.iter().any(|n| n.name == c.name);
+        let plan = Plan::new(cases::all().iter().filter(chosen), self.tier, self.shard)?;
+        let workers = or_all_cores(self.threads);
+        if let Some(gib) = self.memory {
+            require_memory(&plan, gib * GIBIBYTE, workers)?;
+        }
+        let names = plan.own().map(|run| run.folder().display().to_string());
+        let listener = progress::Runs::new(names.collect(), self.told.progress());
+        // A missing folder of goldens is reported before hours of runs.
+        let goldens = Goldens::open(&golden::place(self.golden))?;
+        let _held = hold(&self.out)?;
+        discard_report(&self.out)?;
+        let saving = saving(self.checkpoint_every, self.resume);
+        let records = make_runs(&plan, &self.out, saving, workers, &listener)?;
+        listener.finish();
+        match plan.shard == Shard::WHOLE {
+            true => report_in(
+                std::slice::from_ref(&self.out),
+                &self.out,
+                &goldens,
+                None,
+                self.told,
+            ),
+            false => tell_shard(&plan, &records, self.told),
+        }
+    }
+}
+
+/// Prints the records of a shard, or those that failed.
+fn tell_shard(plan: &Plan, records: &[Record], told: Told) -> Result<ExitCode, Error> {
+    let code = records.iter().map(exit_code).max();
+    if told.json {
+        say_json(&records)?;
+        return Ok(code.unwrap_or(ExitCode::Good));
+    }
+    for record in records.iter().filter(|r| exit_code(r) != ExitCode::Good) {
+        say(describe::record(cases::find(&record.case)?, record) + "\n")?;
+    }
+    say(format!(
+        "shard {} of tier {}: {} runs; `mpm-verify report` with the folders of all {} shards judges them together\n",
+        plan.shard,
+        plan.tier,
+        records.len(),
+        plan.shard.count
+    ))?;
+    Ok(code.unwrap_or(ExitCode::Good))
+}
+
+#[derive(Args)]
+pub(crate) struct Report {
+    /// The folder, or those of all shards
+    #[arg(required = true)]
+    folders: Vec<PathBuf>,
+    /// Folder of the report (that of the runs if there is one only)
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
+    #[arg(long)]
+    golden: Option<PathBuf>,
+    /// Add this night (YYYY-MM-DD) to the report's history
+    #[arg(long, value_name = "DATE", requires = "commit")]
+    night: Option<String>,
+    /// The commit of that night
+    #[arg(long, requires = "night")]
+    commit: Option<String>,
+    #[command(flatten)]
+    told: Told,
+}
+
+impl Report {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let out = match (self.out, &self.folders[..]) {
+            (Some(out), _) => out,
+            (None, [folder]) => folder.clone(),
+            (None, _) => {
+                return Err(Error::Input(
+                    "several folders: --out must say where the report goes".to_owned(),
+                ));
+            }
+        };
+        let night = self.night.zip(self.commit);
+        let night = night
+            .map(|(date, commit)| Night::new(&date, &commit))
+            .transpose()?;
+        let goldens = Goldens::open(&golden::place(self.golden))?;
+        let _held = hold(&out)?;
+        report_in(&self.folders, &out, &goldens, night.as_ref(), self.told)
+    }
+}
+
+/// Judges the runs of `folders` and reports them in `out`, which is held.
+fn report_in(
+    folders: &[PathBuf],
+    out: &Path,
+    goldens: &Goldens,
+    night: Option<&Night>,
+    told: Told,
+) -> Result<ExitCode, Error> {
+    discard_report(out)?;
+    let gathered = Gathered::read(folders)?;
+    let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
+    let summary = write_report(&gathered, judged, goldens, night, out)?;
+    match told {
+        Told { json: true, .. } => say_json(&describe::verification_json(&summary))?,
+        Told { quiet: true, .. } => say(describe::verification_line(&summary))?,
+        _ => {
+            say(format!("Report: {}\n", out.join("index.html").display()))?;
+            say(describe::verification(&summary))?;
+        }
+    }
+    match gathered.gap() {
+        Some(gap) => Err(Error::Input(gap.to_owned())),
+        None => Ok(summary.exit_code()),
+    }
+}
