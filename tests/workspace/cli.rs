@@ -478,7 +478,8 @@ fn every_case_runs_with_nothing_but_its_name() {
             let mut job = (case.begin)(&spec, &parameters).unwrap();
             if k == 0 {
                 let row = job.advance().unwrap();
-                let names: std::collections::BTreeSet<_> = row.0.iter().map(|(name, _)| name).collect();
+                let names: std::collections::BTreeSet<_> =
+                    row.0.iter().map(|(name, _)| name).collect();
                 assert_eq!(row.0.len(), names.len(), "{}", case.name);
             }
         }
