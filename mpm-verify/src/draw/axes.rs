@@ -1,27 +1,23 @@
 //! Axes: ranges, ticks and their labels, and the box that they make.
 
-use super::backend::{Failure, Sheet, lettering, line, placed, units};
-use super::canvas::Canvas;
 use super::colour::{INK, Rgb};
-use super::font::{Block, LABEL, SMALL};
 use super::largest;
-use super::shape::{Frame, Point};
-use plotters::chart::{ChartBuilder, ChartContext};
-use plotters::coord::cartesian::Cartesian2d;
+use super::page::{Drawn, Frame, Medium, Page, Point, corners, fine, ink, spot, stroke};
+use super::text::{Block, LABEL, SMALL};
+use plotters::chart::ChartBuilder;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use plotters::element::Rectangle;
-use plotters::style::TextStyle;
-use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::Color;
+use plotters::style::text_anchor::HPos;
 use std::ops::Range;
 
 const GRID: Rgb = 0xE2E2E2;
 const MINOR_GRID: Rgb = 0xF1F1F1;
+/// Width of the lines of axes and grid.
+pub(super) const THIN: f64 = 2.0;
 /// Length of a major tick with its gap to the label.
 pub(super) const TICK: f64 = 20.0;
 /// Distance from an axis to its label below.
 const LABEL_DROP: f64 = TICK + 33.0;
-/// Positions beyond this, in pixels, are moved to it: outside any picture.
-const FAR: f64 = 1e4;
 
 /// Ticks as positions on the axis (log axes: of the logarithm) with labels; minor ones have none.
 type Ticks = Vec<(f64, String)>;
@@ -108,22 +104,19 @@ fn log_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
     ticks
 }
 
-/// What plotters draws within the axes.
-pub(super) type Plot<'c> = ChartContext<'c, &'c mut Canvas, Cartesian2d<Axis, Axis>>;
-
 /// An axis: its range (log axes: of the logarithm), its length in pixels, and its ticks. Plotters' own logarithmic axis
-/// has ticks at decades alone, and its linear one labels of one form.
+/// has ticks at decades alone; its linear one has labels of one form, and too few ticks below a range of 10⁻¹⁵.
 #[derive(Clone)]
 pub(super) struct Axis {
     log: bool,
-    pub(super) range: (f64, f64),
+    pub(super) range: Point,
     pub(super) length: f64,
     ticks: Ticks,
 }
 
 impl Axis {
     /// Lays as many ticks as leave room between the labels along the axis.
-    pub(super) fn new(range: (f64, f64), log: bool, length: f64, upright: bool) -> Self {
+    pub(super) fn new(range: Point, log: bool, length: f64, upright: bool) -> Self {
         let lay = if log { log_ticks } else { linear_ticks };
         let size = |label: &str| if upright { 24.0 } else { SMALL.width(label) };
         let axis = |most| Self {
@@ -133,11 +126,10 @@ impl Axis {
             ticks: lay(range.0, range.1, most),
         };
         let fits = |axis: &Self| {
-            let labels: Vec<_> = axis.ticks.iter().filter(|t| !t.1.is_empty()).collect();
-            labels.windows(2).all(|w| {
-                let room = axis.pixels(w[1].0) - axis.pixels(w[0].0);
-                room >= (size(&w[0].1) + size(&w[1].1)) / 2.0 + 30.0
-            })
+            let labels: Vec<_> = axis.marks().filter(|mark| !mark.1.is_empty()).collect();
+            labels
+                .windows(2)
+                .all(|w| w[1].0 - w[0].0 >= (size(w[0].1) + size(w[1].1)) / 2.0 + 30.0)
         };
         let mut fitting = (2..=9).rev().map(axis).filter(fits);
         fitting.next().unwrap_or_else(|| axis(1))
@@ -150,16 +142,16 @@ impl Axis {
 
     /// Pixels from the start of the axis to a value; on a log axis, far before it to one that isn't positive.
     pub(super) fn at(&self, value: f64) -> f64 {
-        self.pixels(if self.log {
+        let position = if self.log {
             value.max(0.0).log10()
         } else {
             value
-        })
+        };
+        self.pixels(position).clamp(-1e5, 1e5)
     }
 
-    /// The value at a distance from the start.
-    fn value(&self, pixels: f64) -> f64 {
-        let position = self.range.0 + pixels / self.length * (self.range.1 - self.range.0);
+    /// The value at a position.
+    fn value(&self, position: f64) -> f64 {
         if self.log {
             10f64.powf(position)
         } else {
@@ -171,10 +163,9 @@ impl Axis {
         largest(self.ticks.iter().map(|t| SMALL.width(&t.1)))
     }
 
-    /// The ticks with their distances from the start of the axis, in whole pixels.
+    /// The ticks with their distances from the start of the axis.
     pub(super) fn marks(&self) -> impl Iterator<Item = (f64, &str)> {
-        let place = |t: &(f64, String)| self.pixels(t.0).round();
-        self.ticks.iter().map(move |t| (place(t), t.1.as_str()))
+        self.ticks.iter().map(|t| (self.pixels(t.0), t.1.as_str()))
     }
 }
 
@@ -182,14 +173,9 @@ impl Ranged for Axis {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
 
-    // Plotters ends an area before its last unit, on the left and at the bottom of the picture alike.
     fn map(&self, value: &f64, (start, end): (i32, i32)) -> i32 {
-        let along = units(self.at(*value).clamp(-FAR, FAR));
-        if start < end {
-            start + along
-        } else {
-            start + 1 - along
-        }
+        let along = fine(self.at(*value));
+        start + if start < end { along } else { -along }
     }
 
     fn axis_pixel_range(&self, (start, end): (i32, i32)) -> Range<i32> {
@@ -198,20 +184,20 @@ impl Ranged for Axis {
 
     fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
         let minor = hint.weight().allow_light_points();
-        let chosen = self.marks().filter(|mark| mark.1.is_empty() == minor);
-        chosen.map(|mark| self.value(mark.0)).collect()
+        let chosen = self.ticks.iter().filter(|t| t.1.is_empty() == minor);
+        chosen.map(|t| self.value(t.0)).collect()
     }
 
     fn range(&self) -> Range<f64> {
-        self.value(0.0)..self.value(self.length)
+        self.value(self.range.0)..self.value(self.range.1)
     }
 }
 
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
-        let at = self.at(*value).round();
-        let label = self.marks().find(|mark| mark.0 == at && !mark.1.is_empty());
-        label.map(|mark| mark.1.to_owned()).unwrap_or_default()
+        let mut ticks = self.ticks.iter();
+        let label = ticks.find(|t| self.value(t.0) == *value && !t.1.is_empty());
+        label.map(|t| t.1.clone()).unwrap_or_default()
     }
 }
 
@@ -276,60 +262,60 @@ impl Axes {
         let (left, top) = (left.round(), top.round());
         [left, top, left + self.x.length, top + self.y.length]
     }
-
-    /// Draws the axes of a box, labels and grid where asked for, and a title above; [`draw_box`] draws the box itself.
-    pub(super) fn draw<'c>(
+    /// Draws the axes of a box, labels and grid where asked for; [`draw_box`] draws the box itself.
+    pub(super) fn draw<B: Medium>(
         &self,
-        sheet: &Sheet<'c>,
-        [left, top, right, _]: Frame,
-        title: &Block,
+        page: &Page<B>,
+        [left, top, right, bottom]: Frame,
         labels: [bool; 2],
         grid: bool,
-    ) -> Result<Plot<'c>, Failure> {
-        let margin = LABEL.margin();
-        let (beside, below) = (units(self.left() - margin), units(self.below() - margin));
-        let (width, height) = placed((self.x.length, self.y.length));
-        let corner = (units(left) - beside, units(top));
-        let place = sheet
-            .clone()
-            .shrink(corner, (beside + width, height + below));
+    ) -> Drawn<B> {
+        let (beside, below) = (fine(self.left()), fine(self.below()));
+        let (x, y) = spot((left, top));
+        let (across, down) = spot((right, bottom));
+        // Plotters ends an area before its last pixel.
+        let size = (across - x + beside + 1, down - y + below + 1);
+        let place = page.clone().shrink((x - beside, y), size);
         let mut plot = ChartBuilder::on(&place)
             .y_label_area_size(beside)
             .x_label_area_size(below)
             .build_cartesian_2d(self.x.clone(), self.y.clone())?;
+        let line = |colour| ink(colour).stroke_width(fine(THIN).unsigned_abs());
         let blank = |_: &f64| String::new();
         let mut mesh = plot.configure_mesh();
-        mesh.light_line_style(line(MINOR_GRID, 2.0))
-            .bold_line_style(line(GRID, 2.0))
-            .axis_style(line(INK, 2.0))
-            .label_style(TextStyle::from(SMALL))
-            .axis_desc_style(TextStyle::from(LABEL))
-            .set_all_tick_mark_size(units(TICK / 2.0));
+        mesh.light_line_style(line(MINOR_GRID))
+            .bold_line_style(line(GRID))
+            .axis_style(line(INK))
+            .label_style(SMALL.style(HPos::Center))
+            .y_label_offset(fine(SMALL.lift::<B>()))
+            .set_all_tick_mark_size(fine(TICK / 2.0));
         if !grid {
             mesh.disable_mesh();
         }
-        match labels[0] {
-            true => mesh.x_desc(&*self.x_label.text),
-            false => mesh.x_label_formatter(&blank),
-        };
-        match labels[1] {
-            true => mesh.y_desc(&*self.y_label.text),
-            false => mesh.y_label_formatter(&blank),
-        };
+        if !labels[0] {
+            mesh.x_label_formatter(&blank);
+        }
+        if !labels[1] {
+            mesh.y_label_formatter(&blank);
+        }
         mesh.draw()?;
-        let above = ((left + right) / 2.0, top - 12.0 - title.font.margin());
-        let style = lettering(title.font, HPos::Center, VPos::Bottom);
-        sheet.draw_text(&title.text, &style, placed(above))?;
-        Ok(plot)
+        if labels[0] {
+            let under = ((left + right) / 2.0, bottom + LABEL_DROP);
+            self.x_label.draw(page, under, false)?;
+        }
+        if labels[1] {
+            let beside = (left - self.left(), (top + bottom) / 2.0);
+            self.y_label.draw(page, beside, true)?;
+        }
+        Ok(())
     }
 }
 
 /// Draws the box of axes, over what has been drawn within.
-pub(super) fn draw_box(plot: &Plot) -> Result<(), Failure> {
-    let area = plot.plotting_area().strip_coord_spec();
-    let (width, height) = area.dim_in_pixel();
-    let corners = [(0, 0), (width as i32, height as i32)];
-    area.draw(&Rectangle::new(corners, line(INK, 2.0)))
+pub(super) fn draw_box<B: Medium>(page: &Page<B>, frame: Frame) -> Drawn<B> {
+    let corners = corners(frame);
+    let outline = [&corners[..], &corners[..1]].concat();
+    stroke(page, &outline, THIN, INK, &[])
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Line charts: their data, and the ranges of their axes.
 
 use super::axes::{Axis, extent, tick_label, widen};
-use super::shape::{Marker, Point};
+use super::marker::Marker;
+use super::page::Point;
 use super::{PlotError, finite, nothing};
 use std::path::Path;
 

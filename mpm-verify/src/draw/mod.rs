@@ -4,23 +4,21 @@
 //! clipped and no legend can hide data. The same input gives the same bytes.
 
 mod axes;
-mod backend;
-mod bar;
-mod canvas;
+
 mod chart;
 mod colour;
 mod field;
-mod font;
 mod legend;
+mod marker;
+mod page;
+mod panels;
 mod plot;
 mod png_file;
-mod raster;
 mod ratios;
-mod shape;
 pub(crate) mod sketch;
 mod solid;
 pub(crate) mod style;
-mod svg;
+mod text;
 pub(crate) mod triptych;
 
 pub use chart::{
@@ -28,13 +26,13 @@ pub use chart::{
 };
 pub use colour::signed;
 pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
+pub use marker::Marker;
 pub use plot::draw_charts;
 pub use png_file::write_small_png;
 pub use ratios::{Ratio, Ratios, draw_ratios};
-pub use shape::Marker;
 pub use solid::{SolidFigure, SolidPanel, animate_solids, draw_solids};
 
-use shape::Point;
+use page::Point;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -100,8 +98,6 @@ impl PlotError {
 
 /// Margin of a picture, in pixels.
 const EDGE: f64 = 28.0;
-/// A line without gaps.
-const SOLID: &[f64] = &[];
 
 fn between(a: Point, b: Point, t: f64) -> Point {
     (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1))
@@ -120,6 +116,19 @@ fn nothing(path: &Path, title: &str) -> PlotError {
         path: path.into(),
         title: title.into(),
     }
+}
+
+/// Refuses a panel whose points and values differ in number.
+fn lengths(path: &Path, title: &str, points: usize, values: usize) -> Result<(), PlotError> {
+    if points == values {
+        return Ok(());
+    }
+    Err(PlotError::Lengths {
+        path: path.into(),
+        title: title.into(),
+        points,
+        values,
+    })
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! Ratios of named things on a logarithmic axis, one row a thing: which side of one they lie on is seen at a glance.
 
-use super::canvas::Canvas;
 use super::colour::{INK, PALETTE, Rgb};
-use super::font::{HEADING, SMALL, TITLE};
-use super::shape::Marker;
-use super::{EDGE, PlotError, SOLID, largest, nothing};
+use super::marker::Marker;
+use super::page::{Drawn, Medium, Page, Picture, Point, area, corners, stroke};
+use super::text::{HEADING, SMALL, TITLE, write};
+use super::{EDGE, PlotError, largest, nothing};
 use std::path::Path;
 
 /// A ratio.
@@ -48,76 +48,86 @@ pub fn draw_ratios(path: &Path, ratios: &Ratios) -> Result<(), PlotError> {
     if ratios.rows.is_empty() {
         return Err(nothing(path, &ratios.title));
     }
-    let known = ratios.rows.iter().flat_map(|(_, row)| row).flatten();
-    let reach = largest(known.filter_map(|ratio| match ratio {
-        Ratio::Of(ratio) => Some(ratio.log2().abs()),
-        _ => None,
-    }));
-    // Whole powers of four.
-    let reach = 2.0 * (reach / 2.0).ceil().max(1.0);
-    let names = largest(ratios.rows.iter().map(|(name, _)| SMALL.width(name)));
-    let (left, top) = (EDGE + names + 24.0, EDGE + 150.0);
-    let (right, bottom) = (left + WIDTH, top + ROW * ratios.rows.len() as f64);
-    let mut canvas = Canvas::new((right + EDGE, bottom + 75.0));
-    let middle = f64::midpoint(left, right);
-    let place = |ratio: Ratio| match ratio {
-        Ratio::Of(ratio) => middle + (WIDTH / 2.0 - STRIP) * ratio.log2() / reach,
-        Ratio::Least => left + STRIP / 2.0,
-        Ratio::Most => right - STRIP / 2.0,
-    };
-    canvas.text(&ratios.title, (EDGE, EDGE), HEADING, (0.0, 0.0), false);
-    let mut x = EDGE;
-    for (k, kind) in ratios.kinds.iter().enumerate() {
-        canvas.marker(MARKERS[k % 2], (x + 12.0, EDGE + 62.0), PALETTE[k], false);
-        canvas.text(kind, (x + 34.0, EDGE + 62.0), SMALL, (0.0, 0.5), false);
-        x += 80.0 + SMALL.width(kind);
+    ratios.save(path)?;
+    ratios.save_svg(path)
+}
+
+impl Ratios {
+    /// Upper left corner of the rows.
+    fn corner(&self) -> Point {
+        let names = largest(self.rows.iter().map(|(name, _)| SMALL.width(name)));
+        (EDGE + names + 24.0, EDGE + 150.0)
     }
-    for (k, [from, to]) in [[left, middle], [middle, right]].into_iter().enumerate() {
-        canvas.rectangle([from, top, to, bottom], HALVES[k], 0.12);
-        let (at, anchor) = [(from, 0.0), (to, 1.0)][k];
-        canvas.text(
-            &ratios.sides[k],
-            (at, top - 30.0),
-            TITLE,
-            (anchor, 0.5),
-            false,
-        );
-        let strip = [
-            [from, top, from + STRIP, bottom],
-            [to - STRIP, top, to, bottom],
-        ][k];
-        canvas.rectangle(strip, HALVES[k], 0.15);
-        canvas.text(
-            &ratios.ends[k],
-            (at, bottom + 56.0),
-            SMALL,
-            (anchor, 0.5),
-            false,
-        );
+
+    /// The logarithm (base two) of the largest ratio, as a whole power of four.
+    fn reach(&self) -> f64 {
+        let known = self.rows.iter().flat_map(|(_, row)| row).flatten();
+        let reach = largest(known.filter_map(|ratio| match ratio {
+            Ratio::Of(ratio) => Some(ratio.log2().abs()),
+            _ => None,
+        }));
+        2.0 * (reach / 2.0).ceil().max(1.0)
     }
-    let steps = (-(reach as i32)..=reach as i32).filter(|e| e % 2 == 0);
-    for exponent in steps {
-        let x = place(Ratio::Of(2f64.powi(exponent)));
-        let width = if exponent == 0 { 3.0 } else { 1.0 };
-        canvas.stroke(&[(x, top), (x, bottom)], width, INK, SOLID);
-        let label = match exponent {
-            e if e < 0 => format!("1/{}", 2u64.pow(e.unsigned_abs())),
-            e => 2u64.pow(e.unsigned_abs()).to_string(),
+}
+
+impl Picture for Ratios {
+    fn size(&self) -> Point {
+        let (left, top) = self.corner();
+        let height = top + ROW * self.rows.len() as f64 + 75.0;
+        (left + WIDTH + EDGE, height)
+    }
+
+    fn draw<B: Medium>(&self, page: &Page<B>) -> Drawn<B> {
+        let ((left, top), reach) = (self.corner(), self.reach());
+        let (right, bottom) = (left + WIDTH, top + ROW * self.rows.len() as f64);
+        let middle = f64::midpoint(left, right);
+        let place = |ratio: Ratio| match ratio {
+            Ratio::Of(ratio) => middle + (WIDTH / 2.0 - STRIP) * ratio.log2() / reach,
+            Ratio::Least => left + STRIP / 2.0,
+            Ratio::Most => right - STRIP / 2.0,
         };
-        canvas.text(&label, (x, bottom + 22.0), SMALL, (0.5, 0.5), false);
-    }
-    for (k, (name, row)) in ratios.rows.iter().enumerate() {
-        let y = top + (k as f64 + 0.5) * ROW;
-        canvas.stroke(&[(left, y), (right, y)], 0.5, INK, SOLID);
-        canvas.text(name, (left - 24.0, y), SMALL, (1.0, 0.5), false);
-        for (kind, ratio) in row.iter().enumerate() {
-            if let Some(ratio) = ratio {
-                // Two at the same place are both seen.
-                let y = y + 9.0 * (2.0 * kind as f64 - 1.0);
-                canvas.marker(MARKERS[kind % 2], (place(*ratio), y), PALETTE[kind], false);
+        let text = |text: &str, at, font, anchor| write(page, text, at, font, anchor, false);
+        text(&self.title, (EDGE, EDGE), HEADING, (0.0, 0.0))?;
+        let mut x = EDGE;
+        for (k, kind) in self.kinds.iter().enumerate() {
+            MARKERS[k % 2].draw(page, (x + 12.0, EDGE + 62.0), PALETTE[k], false)?;
+            text(kind, (x + 34.0, EDGE + 62.0), SMALL, (0.0, 0.5))?;
+            x += 80.0 + SMALL.width(kind);
+        }
+        let halves = [
+            (left, middle, left, left + STRIP, 0.0),
+            (middle, right, right - STRIP, right, 1.0),
+        ];
+        for (k, (from, to, begin, end, side)) in halves.into_iter().enumerate() {
+            area(page, &corners([from, top, to, bottom]), HALVES[k], 0.12)?;
+            area(page, &corners([begin, top, end, bottom]), HALVES[k], 0.15)?;
+            let outer = [left, right][k];
+            text(&self.sides[k], (outer, top - 30.0), TITLE, (side, 0.5))?;
+            text(&self.ends[k], (outer, bottom + 56.0), SMALL, (side, 0.5))?;
+        }
+        for exponent in (-(reach as i32)..=reach as i32).filter(|e| e % 2 == 0) {
+            let x = place(Ratio::Of(2f64.powi(exponent)));
+            let width = if exponent == 0 { 3.0 } else { 1.0 };
+            stroke(page, &[(x, top), (x, bottom)], width, INK, &[])?;
+            let size = 2u64.pow(exponent.unsigned_abs());
+            let label = match exponent < 0 {
+                true => format!("1/{size}"),
+                false => size.to_string(),
+            };
+            text(&label, (x, bottom + 22.0), SMALL, (0.5, 0.5))?;
+        }
+        for (k, (name, row)) in self.rows.iter().enumerate() {
+            let y = top + (k as f64 + 0.5) * ROW;
+            stroke(page, &[(left, y), (right, y)], 0.5, INK, &[])?;
+            text(name, (left - 24.0, y), SMALL, (1.0, 0.5))?;
+            for (kind, ratio) in row.iter().enumerate() {
+                if let Some(ratio) = ratio {
+                    // Two at the same place are both seen.
+                    let y = y + 9.0 * (2.0 * kind as f64 - 1.0);
+                    MARKERS[kind % 2].draw(page, (place(*ratio), y), PALETTE[kind], false)?;
+                }
             }
         }
+        Ok(())
     }
-    canvas.save(path)?;
-    canvas.save_svg(&path.with_extension("svg"))
 }

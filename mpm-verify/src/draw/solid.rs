@@ -1,21 +1,16 @@
-//! Bodies of particles in three dimensions, in panels of one scale: a particle is a sphere a little larger than its
-//! share of space, and the nearest sphere at a pixel gives its colour.
+//! Bodies of particles in three dimensions: a particle is a sphere a little larger than its share of space, and the
+//! nearest sphere at a pixel gives its colour.
 
-mod rulers;
-mod surface;
-
-use super::axes::{Axis, TICK, widen};
-use super::bar::{BAR, BAR_TIP, draw_bar};
-use super::canvas::Canvas;
-use super::colour::{Rgb, stone_of};
-use super::font::{Block, HEADING, LABEL, SMALL, TITLE};
+use super::axes::{Axis, THIN, TICK};
+use super::colour::{INK, Rgb, stone_of};
+use super::page::{Drawn, FINE, Medium, Page, Picture, Point, spot, stroke};
+use super::panels::{Bar, Panels};
 use super::png_file::save_animation;
-use super::shape::Point;
-use super::{EDGE, PlotError, largest, nothing};
+use super::text::{Block, LABEL, SMALL, write};
+use super::{EDGE, PlotError, between, largest, lengths, nothing};
+use plotters::element::BitMapElement;
 use rayon::prelude::*;
-use rulers::Ruler;
 use std::path::Path;
-use surface::{Cloud, Place, Screen};
 
 /// A body at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,14 +54,26 @@ const ELEVATION: f64 = 28.0;
 /// Widths of panels by their number in a row, and the largest height, in pixels.
 const WIDTHS: [f64; 4] = [1200.0, 760.0, 560.0, 460.0];
 const HEIGHT: f64 = 1000.0;
-/// Distance of panels, and from a panel's title to it.
-const PANEL_GAP: f64 = 24.0;
-const TITLE_GAP: f64 = 8.0;
-/// Distance of the colour bar from the panels, and height of the line that tells of the camera.
-const BAR_GAP: f64 = 20.0;
+/// Distance of panels, space within them about what is shown, and height of the line that tells of the camera.
+const GAP: f64 = 24.0;
+const MARGIN: f64 = 6.0;
 const NOTE: f64 = 40.0;
-/// Least and largest length of the colour bar.
-const BAR_LENGTH: (f64, f64) = (200.0, 700.0);
+/// Radius of a particle in distances of particles that fill space: large enough to leave no holes between them.
+const RADIUS: f64 = 0.85;
+/// Where the light comes from: left, up, and towards the eye; light from all around, and from there.
+const LIGHT: Place = [-0.25, 0.75, 0.62];
+const AMBIENT: f64 = 0.52;
+const DIRECT: f64 = 0.55;
+const GROUND: Rgb = 0xECEAE6;
+/// Height of a tick's label, distance from it to the axis' label, and height of that.
+const DIGITS: f64 = 24.0;
+const LABEL_GAP: f64 = 10.0;
+const LABEL_HEIGHT: f64 = 40.0;
+/// An axis shorter than this, in pixels, has its range in its label instead of ticks.
+const SHORT: f64 = 60.0;
+
+/// A position or direction in the axes of the problem.
+type Place = [f64; 3];
 
 /// Draws bodies as one PNG file.
 ///
@@ -74,7 +81,7 @@ const BAR_LENGTH: (f64, f64) = (200.0, 700.0);
 /// A figure without panels, a finite range or window that is not empty; a panel without a size or a particle in
 /// the window, or whose points and values differ in number; or a file that can't be written.
 pub fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
-    compose(path, figure)?.save(path)
+    Solids::new(path, figure)?.save(path)
 }
 
 /// Draws figures one after the other as an animated PNG at half the size, each shown for a `delay` of hundredths of a
@@ -83,100 +90,305 @@ pub fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
 /// # Errors
 /// As [`draw_solids`]; or there are no figures.
 pub fn animate_solids(path: &Path, figures: &[SolidFigure], delay: u16) -> Result<(), PlotError> {
-    let frame = |figure: &SolidFigure| compose(path, figure)?.pixels(path, 2);
+    let frame = |figure: &SolidFigure| Solids::new(path, figure)?.pixels(path, 2);
     let frames: Result<Vec<_>, PlotError> = figures.iter().map(frame).collect();
     save_animation(path, &frames?, delay)
 }
 
-/// The particles of a panel that lie in the window, with their colours.
-fn cloud(path: &Path, figure: &SolidFigure, panel: &SolidPanel) -> Result<Cloud, PlotError> {
-    if panel.points.len() != panel.values.len() {
-        return Err(PlotError::Lengths {
-            path: path.into(),
-            title: panel.title.clone(),
-            points: panel.points.len(),
-            values: panel.values.len(),
-        });
-    }
-    // A particle on the ground may have sunk in a little.
-    let half = panel.size / 2.0;
-    let inside = |(lo, hi): Point, v: f64| (lo - half..=hi + half).contains(&v);
-    let shown = |p: &Place| (0..3).all(|k| inside(figure.window[k], p[k]));
-    let range = widen(figure.range, 0.0);
-    let particles = panel.points.iter().zip(&panel.values);
-    let particles: Vec<(Place, Rgb)> = particles
-        .filter(|(p, _)| shown(p))
-        .map(|(p, v)| (*p, stone_of(*v, range)))
-        .collect();
-    let drawable = panel.size.is_finite() && panel.size > 0.0 && !particles.is_empty();
-    drawable
-        .then_some(Cloud {
-            particles,
-            size: panel.size,
-        })
-        .ok_or_else(|| nothing(path, &panel.title))
+fn dot(a: Place, b: Place) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn compose(path: &Path, figure: &SolidFigure) -> Result<Canvas, PlotError> {
-    let (least, most) = figure.range;
-    let sound = |(lo, hi): &Point| lo < hi && (hi - lo).is_finite();
-    let sound = figure.window.iter().all(sound) && least.is_finite() && most.is_finite();
-    if figure.panels.is_empty() || !sound {
-        return Err(nothing(path, &figure.title));
-    }
-    let columns = figure.columns.min(figure.panels.len()).max(1);
-    let rows = figure.panels.len().div_ceil(columns);
-    let width = WIDTHS[columns.min(4) - 1];
-    let screen = Screen::new((AZIMUTH, ELEVATION), &figure.window, (width, HEIGHT));
-    let draw = |panel| Ok(surface::draw(&cloud(path, figure, panel)?, &screen));
-    let images: Result<Vec<_>, PlotError> = figure.panels.par_iter().map(draw).collect();
+/// A figure, laid out, with the fine pixels of its panels.
+struct Solids {
+    panels: Panels,
+    size: Point,
+    rulers: [Ruler; 3],
+    images: Vec<Vec<u8>>,
+}
 
-    let rulers = Ruler::all(&screen, &figure.window);
-    let titles = figure.panels.iter();
-    let titles: Vec<Block> = titles.map(|p| Block::new(&p.title, TITLE, width)).collect();
-    let above = largest(titles.iter().map(Block::height)) + TITLE_GAP;
-    let (wide, high) = screen.size;
-    let room = |side: usize| largest(rulers.iter().map(|r| r.room((wide, high))[side])).ceil();
-    let (left, right, below) = (room(0), room(1), room(2));
-    let all = |count: usize, one: f64| count as f64 * (one + PANEL_GAP) - PANEL_GAP;
-    let across = left + all(columns, wide) + right;
-    let down = all(rows, above + high) + below;
-
-    let bar_length = (down - 2.0 * BAR_TIP).clamp(BAR_LENGTH.0, BAR_LENGTH.1);
-    let bar = Axis::new(widen(figure.range, 0.0), false, bar_length.floor(), true);
-    let bar_label = Block::new(&figure.label, LABEL, bar_length + 2.0 * BAR_TIP);
-    let bar_left = (EDGE + across + BAR_GAP).round();
-    let bar_label_left = bar_left + BAR + TICK + bar.label_width() + 12.0;
-    let full_width = bar_label_left + bar_label.height() + EDGE;
-    let heading = Block::new(&figure.title, HEADING, full_width - 2.0 * EDGE);
-    let head = (EDGE + heading.height() * 1.2).round();
-    let full = down.max(bar_length + 2.0 * BAR_TIP);
-    let mut canvas = Canvas::new((full_width, head + full + NOTE + EDGE));
-    canvas.block(&heading, (full_width / 2.0, EDGE), false);
-    for (k, (image, title)) in images?.into_iter().zip(&titles).enumerate() {
-        let (row, column) = (k / columns, k % columns);
-        let x = EDGE + left + column as f64 * (wide + PANEL_GAP);
-        let y = (head + above + row as f64 * (above + high + PANEL_GAP)).round();
-        canvas.image(image, (x, y));
-        let last_row = k + columns >= figure.panels.len();
-        let labelled = [last_row, column == 0, column + 1 == columns];
-        for (ruler, labelled) in rulers.iter().zip(labelled) {
-            ruler.draw(&mut canvas, (x, y), labelled);
+impl Solids {
+    fn new(path: &Path, figure: &SolidFigure) -> Result<Self, PlotError> {
+        let sound = |(lo, hi): &Point| lo < hi && (hi - lo).is_finite();
+        let finite = figure.range.0.is_finite() && figure.range.1.is_finite();
+        if figure.panels.is_empty() || !figure.window.iter().all(sound) || !finite {
+            return Err(nothing(path, &figure.title));
         }
-        let over = y - TITLE_GAP - title.height();
-        canvas.block(title, (x + wide / 2.0, over), false);
+        let columns = figure.columns.min(figure.panels.len()).max(1);
+        let screen = Screen::new(&figure.window, WIDTHS[columns.min(4) - 1]);
+        let values = figure.panels.iter().flat_map(|p| &p.values);
+        let bar = Bar::new(figure.range, &figure.label, stone_of, values);
+        let draw = |panel: &SolidPanel| {
+            let (points, values) = (panel.points.len(), panel.values.len());
+            lengths(path, &panel.title, points, values)?;
+            let image = screen.spheres(panel, bar.range);
+            image.ok_or_else(|| nothing(path, &panel.title))
+        };
+        let images: Result<Vec<_>, PlotError> = figure.panels.par_iter().map(draw).collect();
+        let rulers = [0, 1, 2].map(|axis| Ruler::new(&screen, axis));
+        let room = |side: usize| largest(rulers.iter().map(|r| r.room(screen.size)[side])).ceil();
+        let titles = figure.panels.iter().map(|p| &*p.title).collect();
+        let panel = (screen.size, [0, 1, 2].map(room));
+        Ok(Self {
+            panels: Panels::new(&figure.title, titles, columns, panel, GAP, bar),
+            size: screen.size,
+            rulers,
+            images: images?,
+        })
     }
-    let values = || figure.panels.iter().flat_map(|p| &p.values);
-    let (lo, hi) = bar.range;
-    let beyond = [values().any(|v| *v < lo), values().any(|v| *v > hi)];
-    let middle = head + full / 2.0;
-    let foot = (middle + bar.length / 2.0).round();
-    draw_bar(&mut canvas, (&bar, stone_of), beyond, (bar_left, foot));
-    canvas.block(&bar_label, (bar_label_left, middle), true);
-    let note = format!("orthographic, azimuth {AZIMUTH}°, elevation {ELEVATION}°");
-    let at = (EDGE, head + full + NOTE / 2.0);
-    canvas.text(&note, at, SMALL, (0.0, 0.5), false);
-    Ok(canvas)
+}
+
+impl Picture for Solids {
+    fn size(&self) -> Point {
+        let (width, height) = self.panels.size();
+        (width, height + NOTE)
+    }
+
+    fn draw<B: Medium>(&self, page: &Page<B>) -> Drawn<B> {
+        let side = |length: f64| FINE * length as u32;
+        let size = (side(self.size.0), side(self.size.1));
+        for (k, image) in self.images.iter().enumerate() {
+            let [left, top, ..] = self.panels.frame(k);
+            let image = BitMapElement::with_ref(spot((left, top)), size, image);
+            image.map_or(Ok(()), |image| page.draw(&image))?;
+            let [below, beside] = self.panels.labelled(k);
+            let last = k % self.panels.columns + 1 == self.panels.columns;
+            for (ruler, labelled) in self.rulers.iter().zip([below, beside, last]) {
+                ruler.draw(page, (left, top), labelled)?;
+            }
+        }
+        let note = format!("orthographic, azimuth {AZIMUTH}°, elevation {ELEVATION}°");
+        let at = (EDGE, self.panels.size().1 - EDGE + NOTE / 2.0);
+        write(page, &note, at, SMALL, (0.0, 0.5), false)?;
+        self.panels.draw(page)
+    }
+}
+
+/// Where places lie in a panel.
+struct Screen {
+    /// Unit vectors to the right, upwards, and towards the eye.
+    view: [Place; 3],
+    /// Projection of the left upper corner (m), and pixels in a metre.
+    corner: Point,
+    scale: f64,
+    /// Size in pixels.
+    size: Point,
+    window: [(f64, f64); 3],
+}
+
+impl Screen {
+    /// Of a size that holds a window and is no wider than `most`.
+    fn new(window: &[(f64, f64); 3], most: f64) -> Self {
+        let (st, ct) = AZIMUTH.to_radians().sin_cos();
+        let (se, ce) = ELEVATION.to_radians().sin_cos();
+        let view = [
+            [ct, 0.0, -st],
+            [-se * st, ce, -se * ct],
+            [ce * st, se, ce * ct],
+        ];
+        // The middle of the window's projection and its half sides.
+        let reach = |direction: Place| {
+            let of = |k: usize, sign: f64| 0.5 * (window[k].1 + sign * window[k].0) * direction[k];
+            let half: f64 = (0..3).map(|k| of(k, -1.0).abs()).sum();
+            ((0..3).map(|k| of(k, 1.0)).sum::<f64>(), half)
+        };
+        let ((middle, wide), (height, high)) = (reach(view[0]), reach(view[1]));
+        let fit = |most: f64, half: f64| (most - 2.0 * MARGIN) / (2.0 * half);
+        let scale = fit(most, wide).min(fit(HEIGHT, high));
+        let side = |half: f64| (2.0 * (scale * half + MARGIN)).ceil();
+        let margin = MARGIN / scale;
+        Self {
+            view,
+            corner: (middle - wide - margin, height + high + margin),
+            scale,
+            size: (side(wide), side(high)),
+            window: *window,
+        }
+    }
+
+    /// Pixels from the left and from above, and distance towards the eye (m).
+    fn place(&self, at: Place) -> Place {
+        let [right, up, near] = self.view.map(|axis| dot(axis, at));
+        let across = (right - self.corner.0) * self.scale;
+        [across, (self.corner.1 - up) * self.scale, near]
+    }
+
+    /// The fine pixels of the ground and of the particles in the window; `None` without any.
+    fn spheres(&self, panel: &SolidPanel, range: Point) -> Option<Vec<u8>> {
+        // A particle on the ground may have sunk in a little.
+        let half = panel.size / 2.0;
+        let inside = |k: usize, v: f64| {
+            let (lo, hi) = self.window[k];
+            (lo - half..=hi + half).contains(&v)
+        };
+        let particles = panel.points.iter().zip(&panel.values);
+        let mut particles = particles
+            .filter(|(p, _)| (0..3).all(|k| inside(k, p[k])))
+            .peekable();
+        if !(panel.size.is_finite() && panel.size > 0.0) {
+            return None;
+        }
+        particles.peek()?;
+        let scale = f64::from(FINE) * self.scale;
+        let (width, height) = (
+            self.size.0 as usize * FINE as usize,
+            self.size.1 as usize * FINE as usize,
+        );
+        let mut pixels = vec![255; 3 * width * height];
+        let mut depths = vec![f64::NEG_INFINITY; width * height];
+        self.ground(width, &mut pixels, &mut depths);
+        let radius = RADIUS * panel.size;
+        let reach = (radius * scale).ceil() as i64;
+        let lamp = LIGHT.map(|v| v / dot(LIGHT, LIGHT).sqrt());
+        for (at, value) in particles {
+            let colour = stone_of(*value, range).to_be_bytes();
+            let [across, down, depth] = self.place(*at);
+            let (across, down) = (f64::from(FINE) * across, f64::from(FINE) * down);
+            let span = |middle: f64, end: usize| {
+                let (from, to) = (middle as i64 - reach, middle as i64 + reach + 1);
+                from.clamp(0, end as i64) as usize..to.clamp(0, end as i64) as usize
+            };
+            for y in span(down, height) {
+                for x in span(across, width) {
+                    let [dx, dy] = [x as f64 + 0.5 - across, y as f64 + 0.5 - down]
+                        .map(|d| d / (scale * radius));
+                    let rest = 1.0 - dx * dx - dy * dy;
+                    let (n, front) = (y * width + x, depth + radius * rest.max(0.0).sqrt());
+                    if rest <= 0.0 || front <= depths[n] {
+                        continue;
+                    }
+                    depths[n] = front;
+                    let facing = 0.5 + 0.5 * dot([dx, -dy, rest.sqrt()], lamp);
+                    let light = AMBIENT + DIRECT * facing * facing;
+                    for k in 0..3 {
+                        let lit = f64::from(colour[k + 1]) * light;
+                        pixels[3 * n + k] = lit.round().min(255.0) as u8;
+                    }
+                }
+            }
+        }
+        Some(pixels)
+    }
+
+    /// Colours the ground within the window, with its depths.
+    fn ground(&self, width: usize, pixels: &mut [u8], depths: &mut [f64]) {
+        let ([right, up, eye], [_, colour @ ..]) = (self.view, GROUND.to_be_bytes());
+        let metres = |pixel: usize| (pixel as f64 + 0.5) / (f64::from(FINE) * self.scale);
+        for (n, depth) in depths.iter_mut().enumerate() {
+            let (x, y) = (
+                self.corner.0 + metres(n % width),
+                self.corner.1 - metres(n / width),
+            );
+            let base = [0, 1, 2].map(|k| x * right[k] + y * up[k]);
+            let near = (self.window[1].0 - base[1]) / eye[1];
+            let within = |k: usize| {
+                let value = base[k] + near * eye[k];
+                (self.window[k].0..=self.window[k].1).contains(&value)
+            };
+            if within(0) && within(2) {
+                *depth = near;
+                pixels[3 * n..3 * n + 3].copy_from_slice(&colour);
+            }
+        }
+    }
+}
+
+/// Marks in metres along an edge of the window.
+struct Ruler {
+    ends: [Point; 2],
+    /// Direction away from the body, of unit length; and that of labels from their marks.
+    away: Point,
+    side: Point,
+    /// Parts of the length, with labels.
+    ticks: Vec<(f64, String)>,
+    label: String,
+    /// Where that stands.
+    place: Point,
+}
+
+impl Ruler {
+    /// Along x below, y on the left or z on the right.
+    fn new(screen: &Screen, axis: usize) -> Self {
+        let [x, y, z] = screen.window;
+        let (from, to, side) = [
+            ([x.0, y.0, z.1], [x.1, y.0, z.1], (0.0, 1.0)),
+            ([x.0, y.0, z.1], [x.0, y.1, z.1], (-1.0, 0.0)),
+            ([x.1, y.0, z.0], [x.1, y.0, z.1], (1.0, 0.0)),
+        ][axis];
+        let ends = [from, to].map(|at| screen.place(at)).map(|p| (p[0], p[1]));
+        let along = (ends[1].0 - ends[0].0, ends[1].1 - ends[0].1);
+        let length = along.0.hypot(along.1);
+        let across = (along.1 / length, -along.0 / length);
+        let outwards = (across.0 * side.0 + across.1 * side.1).signum();
+        let scale = Axis::new(screen.window[axis], false, length, axis == 1);
+        let marks = scale.marks().filter(|_| length >= SHORT);
+        let ticks: Vec<_> = marks
+            .map(|(at, text)| (at / length, text.to_owned()))
+            .collect();
+        let (name, range) = (["x (m)", "y (m)", "z (m)"][axis], screen.window[axis]);
+        let label = match ticks.is_empty() {
+            true => format!("{name}: {} … {}", range.0, range.1),
+            false => name.to_owned(),
+        };
+        let digits = match (ticks.is_empty(), axis) {
+            (true, _) => 0.0,
+            (_, 0) => DIGITS + LABEL_GAP,
+            _ => scale.label_width() + LABEL_GAP,
+        };
+        let (middle, out) = (between(ends[0], ends[1], 0.5), TICK + digits);
+        // Below a tilted edge, clear of its ticks' labels; beside one that recedes, beyond its far end.
+        let clear = (along.1 / along.0).abs() * LABEL.width(&label) / 2.0;
+        let place = match axis {
+            0 => (middle.0, middle.1 + out + clear),
+            1 => (middle.0 - out - LABEL_HEIGHT, middle.1),
+            _ => (ends[0].0.max(ends[1].0) + out, middle.1),
+        };
+        Self {
+            ends,
+            away: (outwards * across.0, outwards * across.1),
+            side,
+            ticks,
+            label,
+            place,
+        }
+    }
+
+    /// Room for its labels left of, right of and below a panel of a size.
+    fn room(&self, (wide, high): Point) -> [f64; 3] {
+        let lowest = self.ends[0].1.max(self.ends[1].1) + TICK + DIGITS;
+        let ((x, y), width) = (self.place, LABEL.width(&self.label));
+        let right = x + (0.5 + 0.5 * self.side.0) * width;
+        [-x, right - wide, lowest.max(y + LABEL_HEIGHT) - high].map(|room| room.max(0.0))
+    }
+
+    /// Draws it into a panel whose left upper corner is given, with labels if asked for.
+    fn draw<B: Medium>(&self, page: &Page<B>, corner: Point, labelled: bool) -> Drawn<B> {
+        let at = |p: Point| (corner.0 + p.0, corner.1 + p.1);
+        let out = |p: Point, (x, y): Point, length: f64| (p.0 + length * x, p.1 + length * y);
+        let [from, to] = self.ends.map(at);
+        stroke(page, &[from, to], THIN, INK, &[])?;
+        let anchor = (0.5 - 0.5 * self.side.0, 0.5 - 0.5 * self.side.1);
+        for (part, text) in &self.ticks {
+            let foot = between(from, to, *part);
+            stroke(
+                page,
+                &[foot, out(foot, self.away, TICK / 2.0)],
+                THIN,
+                INK,
+                &[],
+            )?;
+            if labelled {
+                write(page, text, out(foot, self.side, TICK), SMALL, anchor, false)?;
+            }
+        }
+        if !labelled {
+            return Ok(());
+        }
+        match self.side.0 < 0.0 {
+            true => Block::new(&self.label, LABEL, f64::INFINITY).draw(page, at(self.place), true),
+            false => write(page, &self.label, at(self.place), LABEL, anchor, false),
+        }
+    }
 }
 
 #[cfg(test)]
