@@ -2,13 +2,8 @@
 
 use super::colour::{INK, Rgb};
 use super::largest;
-use super::page::{Drawn, Frame, Medium, Page, Point, corners, fine, ink, spot, stroke};
+use super::page::{Frame, Page, Point, corners};
 use super::text::{Block, LABEL, SMALL};
-use plotters::chart::ChartBuilder;
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use plotters::style::Color;
-use plotters::style::text_anchor::HPos;
-use std::ops::Range;
 
 const GRID: Rgb = 0xE2E2E2;
 const MINOR_GRID: Rgb = 0xF1F1F1;
@@ -105,13 +100,12 @@ fn log_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
 }
 
 /// An axis: its range (log axes: of the logarithm), its length in pixels, and its ticks. Plotters' own logarithmic axis
-/// has ticks at decades alone; its linear one has labels of one form, and too few ticks below a range of 10⁻¹⁵.
-#[derive(Clone)]
+/// has ticks at decades alone; its linear one has labels of one form, and fails below a range of 10⁻¹⁵.
 pub(super) struct Axis {
     log: bool,
     pub(super) range: Point,
     pub(super) length: f64,
-    ticks: Ticks,
+    pub(super) ticks: Ticks,
 }
 
 impl Axis {
@@ -150,15 +144,6 @@ impl Axis {
         self.pixels(position).clamp(-1e5, 1e5)
     }
 
-    /// The value at a position.
-    fn value(&self, position: f64) -> f64 {
-        if self.log {
-            10f64.powf(position)
-        } else {
-            position
-        }
-    }
-
     pub(super) fn label_width(&self) -> f64 {
         largest(self.ticks.iter().map(|t| SMALL.width(&t.1)))
     }
@@ -166,38 +151,6 @@ impl Axis {
     /// The ticks with their distances from the start of the axis.
     pub(super) fn marks(&self) -> impl Iterator<Item = (f64, &str)> {
         self.ticks.iter().map(|t| (self.pixels(t.0), t.1.as_str()))
-    }
-}
-
-impl Ranged for Axis {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, (start, end): (i32, i32)) -> i32 {
-        let along = fine(self.at(*value));
-        start + if start < end { along } else { -along }
-    }
-
-    fn axis_pixel_range(&self, (start, end): (i32, i32)) -> Range<i32> {
-        start.min(end)..start.max(end) + 1
-    }
-
-    fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
-        let minor = hint.weight().allow_light_points();
-        let chosen = self.ticks.iter().filter(|t| t.1.is_empty() == minor);
-        chosen.map(|t| self.value(t.0)).collect()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.value(self.range.0)..self.value(self.range.1)
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
-    fn format_ext(&self, value: &f64) -> String {
-        let mut ticks = self.ticks.iter();
-        let label = ticks.find(|t| self.value(t.0) == *value && !t.1.is_empty());
-        label.map(|t| t.1.clone()).unwrap_or_default()
     }
 }
 
@@ -233,89 +186,72 @@ pub(super) struct Axes {
 impl Axes {
     /// Labels are wrapped to the lengths of the axes, but not shorter than `least`.
     pub(super) fn new([x, y]: [Axis; 2], labels: [&str; 2], least: f64) -> Self {
-        let x_label = Block::new(labels[0], LABEL, x.length.max(least));
-        let y_label = Block::new(labels[1], LABEL, y.length.max(least));
         Self {
+            x_label: Block::new(labels[0], LABEL, x.length.max(least)),
+            y_label: Block::new(labels[1], LABEL, y.length.max(least)),
             x,
             y,
-            x_label,
-            y_label,
         }
     }
 
-    /// Room for the ordinate's label and tick labels.
-    pub(super) fn left(&self) -> f64 {
-        self.y_label.height() + 12.0 + self.y.label_width() + TICK
+    /// Room for the labels on the left, on the right and below.
+    pub(super) fn room(&self) -> [f64; 3] {
+        [
+            self.y_label.height() + 12.0 + self.y.label_width() + TICK,
+            16.0 + self.x.label_width() / 2.0,
+            LABEL_DROP + self.x_label.height(),
+        ]
     }
 
-    /// Room for the abscissa's label and tick labels.
-    pub(super) fn below(&self) -> f64 {
-        LABEL_DROP + self.x_label.height()
+    /// Pixels of a point within a box.
+    pub(super) fn place(&self, [left, _, _, bottom]: Frame, (x, y): Point) -> Point {
+        (left + self.x.at(x), bottom - self.y.at(y))
     }
 
-    pub(super) fn width(&self) -> f64 {
-        self.x.length.max(self.x_label.width())
-    }
-
-    /// The box, whose upper left corner lies at the next whole pixels.
-    pub(super) fn frame(&self, (left, top): Point) -> Frame {
-        let (left, top) = (left.round(), top.round());
-        [left, top, left + self.x.length, top + self.y.length]
-    }
-    /// Draws the axes of a box, labels and grid where asked for; [`draw_box`] draws the box itself.
-    pub(super) fn draw<B: Medium>(
-        &self,
-        page: &Page<B>,
-        [left, top, right, bottom]: Frame,
-        labels: [bool; 2],
-        grid: bool,
-    ) -> Drawn<B> {
-        let (beside, below) = (fine(self.left()), fine(self.below()));
-        let (x, y) = spot((left, top));
-        let (across, down) = spot((right, bottom));
-        // Plotters ends an area before its last pixel.
-        let size = (across - x + beside + 1, down - y + below + 1);
-        let place = page.clone().shrink((x - beside, y), size);
-        let mut plot = ChartBuilder::on(&place)
-            .y_label_area_size(beside)
-            .x_label_area_size(below)
-            .build_cartesian_2d(self.x.clone(), self.y.clone())?;
-        let line = |colour| ink(colour).stroke_width(fine(THIN).unsigned_abs());
-        let blank = |_: &f64| String::new();
-        let mut mesh = plot.configure_mesh();
-        mesh.light_line_style(line(MINOR_GRID))
-            .bold_line_style(line(GRID))
-            .axis_style(line(INK))
-            .label_style(SMALL.style(HPos::Center))
-            .y_label_offset(fine(SMALL.lift::<B>()))
-            .set_all_tick_mark_size(fine(TICK / 2.0));
-        if !grid {
-            mesh.disable_mesh();
+    /// Draws ticks and labels about a box, with a grid if asked for; [`Page::outline`] draws the box itself.
+    pub(super) fn draw(&self, page: &mut Page, frame: Frame, grid: bool) {
+        let [left, top, right, bottom] = frame;
+        for minor in [true, false] {
+            let marks = |axis: &'_ Axis| {
+                let marks = axis.marks().filter(|mark| mark.1.is_empty() == minor);
+                marks
+                    .map(|(at, text)| (at.round(), text.to_owned()))
+                    .collect::<Vec<_>>()
+            };
+            let (colour, out) = if minor {
+                (MINOR_GRID, 0.0)
+            } else {
+                (GRID, TICK / 2.0)
+            };
+            for (at, text) in marks(&self.x) {
+                let x = left + at;
+                if grid {
+                    page.line(&[(x, top), (x, bottom)], THIN, colour, &[]);
+                }
+                page.line(&[(x, bottom), (x, bottom + out)], THIN, INK, &[]);
+                page.text(&text, (x, bottom + TICK), SMALL, (0.5, 0.0));
+            }
+            for (at, text) in marks(&self.y) {
+                let y = bottom - at;
+                if grid {
+                    page.line(&[(left, y), (right, y)], THIN, colour, &[]);
+                }
+                page.line(&[(left - out, y), (left, y)], THIN, INK, &[]);
+                page.text(&text, (left - TICK, y), SMALL, (1.0, 0.5));
+            }
         }
-        if !labels[0] {
-            mesh.x_label_formatter(&blank);
-        }
-        if !labels[1] {
-            mesh.y_label_formatter(&blank);
-        }
-        mesh.draw()?;
-        if labels[0] {
-            let under = ((left + right) / 2.0, bottom + LABEL_DROP);
-            self.x_label.draw(page, under, false)?;
-        }
-        if labels[1] {
-            let beside = (left - self.left(), (top + bottom) / 2.0);
-            self.y_label.draw(page, beside, true)?;
-        }
-        Ok(())
+        let middle = ((left + right) / 2.0, (top + bottom) / 2.0);
+        page.block(&self.x_label, (middle.0, bottom + LABEL_DROP), false);
+        page.block(&self.y_label, (left - self.room()[0], middle.1), true);
     }
 }
 
-/// Draws the box of axes, over what has been drawn within.
-pub(super) fn draw_box<B: Medium>(page: &Page<B>, frame: Frame) -> Drawn<B> {
-    let corners = corners(frame);
-    let outline = [&corners[..], &corners[..1]].concat();
-    stroke(page, &outline, THIN, INK, &[])
+impl Page<'_> {
+    /// Draws the box of axes, over what has been drawn within.
+    pub(super) fn outline(&mut self, frame: Frame) {
+        let corners = corners(frame);
+        self.line(&[&corners[..], &corners[..1]].concat(), THIN, INK, &[]);
+    }
 }
 
 #[cfg(test)]

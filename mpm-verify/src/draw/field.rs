@@ -1,11 +1,12 @@
 //! Panels of particle fields in the plane.
 
-use super::axes::{Axes, Axis, THIN, draw_box, extent};
+use super::axes::{Axes, Axis, THIN, extent};
 use super::colour::{INK, colour_of};
-use super::page::{Drawn, Frame, Medium, Page, Picture, Point, clipped, fine, ink, stroke};
-use super::panels::{Bar, Panels};
-use super::png_file::save_animation;
+use super::page::{Frame, Page, Point, clipped, fine, ink, pixels};
+use super::png_file::{save_animation, write_small_png};
+use super::sheet::{Bar, Sheet};
 use super::{PlotError, finite, lengths, nothing};
+use image::RgbImage;
 use plotters::element::Rectangle;
 use plotters::style::Color;
 use rayon::prelude::*;
@@ -63,7 +64,7 @@ pub struct FieldFigure {
 /// A figure without finite points or range, a panel whose points and values differ in number, or a
 /// file that cannot be written.
 pub fn draw_fields(path: &Path, figure: &FieldFigure) -> Result<(), PlotError> {
-    Fields::new(path, figure)?.save(path)
+    write_small_png(path, &picture(path, figure, 1)?)
 }
 
 /// Draws figures one after the other as an animated PNG at half the size, each shown for a `delay` of hundredths of a
@@ -72,130 +73,83 @@ pub fn draw_fields(path: &Path, figure: &FieldFigure) -> Result<(), PlotError> {
 /// # Errors
 /// As [`draw_fields`]; or there are no figures.
 pub fn animate_fields(path: &Path, figures: &[FieldFigure], delay: u16) -> Result<(), PlotError> {
-    let frame = |figure: &FieldFigure| Fields::new(path, figure)?.pixels(path, 2);
-    let frames: Result<Vec<_>, PlotError> = figures.par_iter().map(frame).collect();
-    save_animation(path, &frames?, delay)
+    let frames = figures.par_iter().map(|figure| picture(path, figure, 2));
+    save_animation(path, &frames.collect::<Result<Vec<_>, _>>()?, delay)
 }
 
-/// A figure, laid out.
-struct Fields<'a> {
-    figure: &'a FieldFigure,
-    axes: Axes,
-    panels: Panels,
-    range: Point,
-}
-
-impl<'a> Fields<'a> {
-    fn new(path: &Path, figure: &'a FieldFigure) -> Result<Self, PlotError> {
-        let panels = &figure.panels;
-        for panel in panels {
-            lengths(path, &panel.title, panel.points.len(), panel.values.len())?;
-        }
-        let extents = |panel: &FieldPanel| {
-            let half = panel.size / 2.0;
-            let corners = |p: &Point| [(p.0 - half, p.1 - half), (p.0 + half, p.1 + half)];
-            let squares = panel.points.iter().flat_map(corners);
-            squares
-                .chain(panel.outline.iter().copied())
-                .collect::<Vec<_>>()
-        };
-        let all: Vec<Point> = panels.iter().flat_map(extents).filter(finite).collect();
-        let range = |pick: fn(&Point) -> f64| extent(all.iter().map(pick)).filter(|r| r.1 > r.0);
-        let values = extent([figure.range.0, figure.range.1].into_iter());
-        let (Some(xs), Some(ys), Some(values)) = (range(|p| p.0), range(|p| p.1), values) else {
-            return Err(nothing(path, &figure.title));
-        };
-        let (xs, ys) = figure.window.unwrap_or((xs, ys));
-
-        // The axes: one scale of pixels for both directions, and a margin about the particles.
-        let columns = figure.columns.min(panels.len()).max(1);
-        let widths = [1250.0, 720.0, 500.0, 400.0];
-        let heights = [850.0, 640.0, 520.0, 440.0];
-        let most = (widths[columns.min(4) - 1], heights[columns.min(4) - 1]);
-        let scale = f64::min(most.0 / (xs.1 - xs.0), most.1 / (ys.1 - ys.0));
-        let axis = |(lo, hi): Point, upright: bool| {
-            let length = (scale * (hi - lo)).ceil() + 40.0;
-            let (middle, half) = ((lo + hi) / 2.0, length / scale / 2.0);
-            Axis::new((middle - half, middle + half), false, length, upright)
-        };
-        let axes = Axes::new([axis(xs, false), axis(ys, true)], ["x (m)", "y (m)"], 200.0);
-        let bar = Bar::new(
-            values,
-            &figure.label,
-            colour_of,
-            panels.iter().flat_map(|p| &p.values),
-        );
-        let gap = 36.0_f64.max(axes.x.label_width() / 2.0 + 12.0);
-        let panels = Panels::new(
-            &figure.title,
-            panels.iter().map(|p| &*p.title).collect(),
-            columns,
-            (
-                (axes.x.length, axes.y.length),
-                [axes.left(), 0.0, axes.below()],
-            ),
-            gap,
-            bar,
-        );
-        Ok(Self {
-            figure,
-            axes,
-            panels,
-            range: values,
-        })
+fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, PlotError> {
+    let panels = &figure.panels;
+    for panel in panels {
+        lengths(path, &panel.title, panel.points.len(), panel.values.len())?;
     }
-
-    /// Draws a particle, as far as it lies in the frame.
-    fn square<B: Medium>(
-        &self,
-        page: &Page<B>,
-        frame: Frame,
-        panel: &FieldPanel,
-        (at, value): (&Point, &f64),
-    ) -> Drawn<B> {
+    let extents = |panel: &FieldPanel| {
         let half = panel.size / 2.0;
-        let [left, top, right, bottom] = frame.map(fine);
-        // A little larger, so that rounding leaves no gap between neighbours.
-        let x = |v: f64, more: f64| fine(frame[0] + self.axes.x.at(v) + more).clamp(left, right);
-        let y = |v: f64, more: f64| fine(frame[3] - self.axes.y.at(v) + more).clamp(top, bottom);
-        let corners = [
-            (x(at.0 - half, -0.15), y(at.1 + half, -0.15)),
-            (x(at.0 + half, 0.15), y(at.1 - half, 0.15)),
-        ];
-        if corners[0].0 == corners[1].0 || corners[0].1 == corners[1].1 {
-            return Ok(());
+        let corners = |p: &Point| [(p.0 - half, p.1 - half), (p.0 + half, p.1 + half)];
+        let squares = panel.points.iter().flat_map(corners);
+        squares
+            .chain(panel.outline.iter().copied())
+            .collect::<Vec<_>>()
+    };
+    let all: Vec<Point> = panels.iter().flat_map(extents).filter(finite).collect();
+    let range = |pick: fn(&Point) -> f64| extent(all.iter().map(pick)).filter(|r| r.1 > r.0);
+    let values = extent([figure.range.0, figure.range.1].into_iter());
+    let (Some(xs), Some(ys), Some(values)) = (range(|p| p.0), range(|p| p.1), values) else {
+        return Err(nothing(path, &figure.title));
+    };
+    let (xs, ys) = figure.window.unwrap_or((xs, ys));
+
+    // The axes: one scale of pixels for both directions, and a margin about the particles.
+    let columns = figure.columns.min(panels.len()).max(1);
+    let most = [
+        (1250.0, 850.0),
+        (720.0, 640.0),
+        (500.0, 520.0),
+        (400.0, 440.0),
+    ][columns.min(4) - 1];
+    let scale = f64::min(most.0 / (xs.1 - xs.0), most.1 / (ys.1 - ys.0));
+    let axis = |(lo, hi): Point, upright: bool| {
+        let length = (scale * (hi - lo)).ceil() + 40.0;
+        let (middle, half) = ((lo + hi) / 2.0, length / scale / 2.0);
+        Axis::new((middle - half, middle + half), false, length, upright)
+    };
+    let axes = Axes::new([axis(xs, false), axis(ys, true)], ["x (m)", "y (m)"], 200.0);
+    let titles = panels.iter().map(|p| &*p.title).collect();
+    let size = (axes.x.length, axes.y.length);
+    let sheet = Sheet::new(&figure.title, titles, columns, size, axes.room());
+    let shown = panels.iter().flat_map(|p| &p.values);
+    let bar = Bar::new(&sheet, (values, &figure.label), colour_of, shown);
+    pixels(path, bar.size(&sheet), coarser, |page| {
+        for (k, panel) in panels.iter().enumerate() {
+            let frame = sheet.frame(k);
+            draw_particles(page, &axes, frame, panel, values);
+            axes.draw(page, frame, false);
+            let outline = panel.outline.iter().chain(panel.outline.first());
+            let outline = outline.filter(|p| finite(p)).map(|p| axes.place(frame, *p));
+            for part in clipped(&outline.collect::<Vec<_>>(), frame) {
+                page.line(&part, THIN, INK, &[]);
+            }
+            page.outline(frame);
         }
-        let style = ink(colour_of(*value, self.range)).filled();
-        page.draw(&Rectangle::new(corners, style))
-    }
+        sheet.draw(page);
+        bar.draw(page);
+    })
 }
 
-impl Picture for Fields<'_> {
-    fn size(&self) -> Point {
-        self.panels.size()
-    }
-
-    fn draw<B: Medium>(&self, page: &Page<B>) -> Drawn<B> {
-        for (k, panel) in self.figure.panels.iter().enumerate() {
-            let (frame, labels) = (self.panels.frame(k), self.panels.labelled(k));
-            let particles = panel.points.iter().zip(&panel.values);
-            for particle in particles.filter(|(at, _)| finite(at)) {
-                self.square(page, frame, panel, particle)?;
-            }
-            self.axes.draw(page, frame, labels, false)?;
-            let outline = panel.outline.iter().chain(panel.outline.first());
-            let place = |p: &Point| {
-                (
-                    frame[0] + self.axes.x.at(p.0),
-                    frame[3] - self.axes.y.at(p.1),
-                )
-            };
-            let outline: Vec<Point> = outline.filter(|p| finite(p)).map(place).collect();
-            for part in clipped(&outline, frame) {
-                stroke(page, &part, THIN, INK, &[])?;
-            }
-            draw_box(page, frame)?;
+/// Draws particles as far as they lie in the frame.
+fn draw_particles(page: &mut Page, axes: &Axes, frame: Frame, panel: &FieldPanel, range: Point) {
+    let (half, [left, top, right, bottom]) = (panel.size / 2.0, frame.map(fine));
+    let particles = panel.points.iter().zip(&panel.values);
+    for (at, value) in particles.filter(|(at, _)| finite(at)) {
+        // A little larger, so that rounding leaves no gap between neighbours.
+        let corner = |side: f64| {
+            let (x, y) = axes.place(frame, (at.0 + side * half, at.1 - side * half));
+            let (x, y) = (fine(x + 0.15 * side), fine(y + 0.15 * side));
+            (x.clamp(left, right), y.clamp(top, bottom))
+        };
+        let [from, to] = [-1.0, 1.0].map(corner);
+        if from.0 < to.0 && from.1 < to.1 {
+            let style = ink(colour_of(*value, range), 1.0).filled();
+            page.put(&Rectangle::new([from, to], style));
         }
-        self.panels.draw(page)
     }
 }

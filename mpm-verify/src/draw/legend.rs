@@ -4,8 +4,8 @@ use super::chart::{Chart, Dash};
 use super::colour::{INK, PALETTE, Rgb};
 use super::largest;
 use super::marker::{LINE, Marker};
-use super::page::{Drawn, Medium, Page, Point, area, corners, stroke};
-use super::text::{SMALL, write};
+use super::page::{Page, Point};
+use super::text::SMALL;
 
 /// Length of a legend's line, height of its entries and gap of its columns.
 const SAMPLE: f64 = 70.0;
@@ -54,30 +54,37 @@ impl<'a> Entry<'a> {
     }
 
     /// Those that all charts have in common, if they differ in markers at most; those are left out.
-    pub(super) fn common(charts: &[Vec<Self>]) -> Option<Vec<Self>> {
+    pub(super) fn common<'e>(charts: impl Iterator<Item = &'e [Self]>) -> Option<Vec<Self>>
+    where
+        Self: 'e,
+    {
         let bare = |entry: &Self| Self {
             marker: Marker::None,
             ..*entry
         };
-        let first = charts.first()?;
-        let alike = |other: &Vec<Self>| other.iter().map(bare).eq(first.iter().map(bare));
-        let same = |k: usize| charts.iter().all(|c| c[k].marker == first[k].marker);
-        let entry = |(k, entry): (usize, &Self)| if same(k) { *entry } else { bare(entry) };
-        let entries = || first.iter().enumerate().map(entry).collect();
-        charts.iter().all(alike).then(entries)
+        let mut common: Option<Vec<Self>> = None;
+        for chart in charts {
+            let first = common.get_or_insert_with(|| chart.to_vec());
+            if !chart.iter().map(bare).eq(first.iter().map(bare)) {
+                return None;
+            }
+            for (entry, other) in first.iter_mut().zip(chart) {
+                *entry = if entry == other { *entry } else { bare(entry) };
+            }
+        }
+        common
     }
 
     /// Draws the curve through points; none if there are only markers.
-    pub(super) fn line<B: Medium>(&self, page: &Page<B>, points: &[Point]) -> Drawn<B> {
-        match self.pattern {
-            Some(pattern) => stroke(page, points, LINE, self.colour, pattern),
-            None => Ok(()),
+    pub(super) fn line(&self, page: &mut Page, points: &[Point]) {
+        if let Some(pattern) = self.pattern {
+            page.line(points, LINE, self.colour, pattern);
         }
     }
 
     /// Draws a marker at a point.
-    pub(super) fn mark<B: Medium>(&self, page: &Page<B>, at: Point) -> Drawn<B> {
-        self.marker.draw(page, at, self.colour, self.hollow)
+    pub(super) fn mark(&self, page: &mut Page, at: Point) {
+        page.marker(self.marker, at, self.colour, self.hollow);
     }
 }
 
@@ -108,19 +115,16 @@ impl<'a> Legend<'a> {
         }
     }
 
-    pub(super) fn draw<B: Medium>(&self, page: &Page<B>, (left, top): Point) -> Drawn<B> {
+    pub(super) fn draw(&self, page: &mut Page, (left, top): Point) {
         for (k, entry) in self.entries.iter().enumerate() {
             let x = left + (k / self.rows) as f64 * self.column;
             let y = top + ((k % self.rows) as f64 + 0.5) * ENTRY_HEIGHT;
             if entry.band {
-                let band = corners([x, y - 13.0, x + SAMPLE, y + 13.0]);
-                area(page, &band, INK, SHADE)?;
+                page.rectangle([x, y - 13.0, x + SAMPLE, y + 13.0], INK, SHADE);
             }
-            entry.line(page, &[(x + 2.0, y), (x + SAMPLE - 2.0, y)])?;
-            entry.mark(page, (x + SAMPLE / 2.0, y))?;
-            let beside = (x + SAMPLE + 14.0, y);
-            write(page, entry.name, beside, SMALL, (0.0, 0.5), false)?;
+            entry.line(page, &[(x + 2.0, y), (x + SAMPLE - 2.0, y)]);
+            entry.mark(page, (x + SAMPLE / 2.0, y));
+            page.text(entry.name, (x + SAMPLE + 14.0, y), SMALL, (0.0, 0.5));
         }
-        Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! Markers of series.
 
 use super::colour::{Rgb, WHITE};
-use super::page::{Drawn, Medium, Page, Point, area, fine, ink, spot, stroke};
+use super::page::{Page, Point, fine, ink, spot};
 use plotters::element::Circle;
 use plotters::style::Color;
 use std::f64::consts::TAU;
@@ -33,59 +33,47 @@ pub enum Marker {
     Ring,
 }
 
-impl Marker {
-    /// Draws it with a white rim, filled or hollow.
-    pub(super) fn draw<B: Medium>(
-        self,
-        page: &Page<B>,
-        at: Point,
-        colour: Rgb,
-        hollow: bool,
-    ) -> Drawn<B> {
+impl Page<'_> {
+    /// Draws a marker with a white rim, filled or hollow.
+    pub(super) fn marker(&mut self, marker: Marker, at: Point, colour: Rgb, hollow: bool) {
         // A regular polygon: number of corners, angle of the first, and radius; of a circle, no corners.
-        let (corners, turn, size) = match self {
-            Self::None => return Ok(()),
-            Self::Cross => {
+        let (corners, turn, size) = match marker {
+            Marker::None => return,
+            Marker::Cross => {
                 for (width, colour) in [(LINE + 2.0 * RIM, WHITE), (LINE + 0.7, colour)] {
                     for side in [8.5, -8.5] {
                         let ends = [(at.0 - 8.5, at.1 - side), (at.0 + 8.5, at.1 + side)];
-                        stroke(page, &ends, width, colour, &[])?;
+                        self.line(&ends, width, colour, &[]);
                     }
                 }
-                return Ok(());
+                return;
             }
-            Self::Ring => {
-                let style = ink(colour).stroke_width(fine(2.4).unsigned_abs());
-                return page.draw(&Circle::new(spot(at), fine(16.0), style));
+            Marker::Ring => {
+                let style = ink(colour, 1.0).stroke_width(fine(2.4).unsigned_abs());
+                return self.put(&Circle::new(spot(at), fine(16.0), style));
             }
-            Self::Dot => (0, 0.0, 5.0),
-            Self::Circle => (0, 0.0, 10.0),
-            Self::Square => (4, 45.0, 12.8),
-            Self::Triangle => (3, 90.0, 14.0),
-            Self::Diamond => (4, 90.0, 13.0),
+            Marker::Dot => (0, 0.0, 5.0),
+            Marker::Circle => (0, 0.0, 10.0),
+            Marker::Square => (4, 0.125, 12.8),
+            Marker::Triangle => (3, 0.25, 14.0),
+            Marker::Diamond => (4, 0.25, 13.0),
         };
         let layers = [(RIM, WHITE), (0.0, colour), (-OUTLINE, WHITE)];
         for (outset, colour) in layers.into_iter().take(if hollow { 3 } else { 2 }) {
             if corners == 0 {
-                let disc = Circle::new(spot(at), fine(size + outset), ink(colour).filled());
-                page.draw(&disc)?;
+                let style = ink(colour, 1.0).filled();
+                self.put(&Circle::new(spot(at), fine(size + outset), style));
                 continue;
             }
             let radius = size + outset / (0.5 * TAU / f64::from(corners)).cos();
-            let angle = |k: i32| f64::to_radians(turn) + f64::from(k) / f64::from(corners) * TAU;
+            let angle = |k: i32| (turn + f64::from(k) / f64::from(corners)) * TAU;
             let corner = |k| {
                 (
                     at.0 + radius * angle(k).cos(),
                     at.1 - radius * angle(k).sin(),
                 )
             };
-            area(
-                page,
-                &(0..corners).map(corner).collect::<Vec<_>>(),
-                colour,
-                1.0,
-            )?;
+            self.area(&(0..corners).map(corner).collect::<Vec<_>>(), colour, 1.0);
         }
-        Ok(())
     }
 }

@@ -1,80 +1,70 @@
-//! Pages that plotters draws on, in fine pixels: their lines, areas and files.
+//! Pages that plotters draws on, their pixels and their SVG.
 
-use super::PlotError;
-use super::colour::Rgb;
+use super::colour::{Rgb, channels};
 use super::png_file::write_small_png;
 use super::text::FAMILY;
+use super::{PlotError, between};
 use crate::files::write_whole;
 use image::RgbImage;
 use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
-use plotters::element::{Circle, PathElement, Polygon};
-use plotters::prelude::{BitMapBackend, DrawingBackend, SVGBackend};
-use plotters::style::{Color, RGBColor, WHITE};
+use plotters::element::{BitMapElement, Circle, Drawable, PathElement, PointCollection, Polygon};
+use plotters::prelude::{BitMapBackend, DrawingArea, IntoDrawingArea, SVGBackend};
+use plotters::style::{Color, RGBAColor, RGBColor, WHITE};
 use std::path::Path;
 
 /// A position: rightwards and downwards in pixels, or in data coordinates.
 pub(super) type Point = (f64, f64);
 /// Left, top, right and bottom.
 pub(super) type Frame = [f64; 4];
-/// A page, or a part of it.
-pub(super) type Page<B> = DrawingArea<B, Shift>;
-/// Outcome of drawing on a page.
-pub(super) type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+/// A point in fine pixels, as plotters counts it.
+pub(super) type Spot = (i32, i32);
 
-/// Fine pixels of a pixel, along each side. Plotters counts in whole ones and smooths no area.
+/// Fine pixels of a pixel, along each side: plotters counts in whole ones and smooths no area.
 pub(super) const FINE: u32 = 3;
-/// Turn of a line (cosine) beyond which plotters' outline of it may overlap itself.
-const TURN: f64 = 0.85;
 
-/// A backend of plotters.
-pub(super) trait Medium: DrawingBackend {
-    /// Whether it makes pixels: these need help with corners of lines and with text.
-    const PIXELS: bool;
+/// A white page. Its first failure is kept until it is finished.
+pub(super) struct Page<'a> {
+    medium: Medium<'a>,
+    failure: Option<String>,
 }
 
-impl Medium for BitMapBackend<'_> {
-    const PIXELS: bool = true;
+enum Medium<'a> {
+    Pixels(DrawingArea<BitMapBackend<'a>, Shift>),
+    Vector(DrawingArea<SVGBackend<'a>, Shift>),
 }
 
-impl Medium for SVGBackend<'_> {
-    const PIXELS: bool = false;
+/// The pixels over `coarser` of what is drawn on a page; `path` names it in errors.
+pub(super) fn pixels(
+    path: &Path,
+    size: Point,
+    coarser: u32,
+    draw: impl Fn(&mut Page),
+) -> Result<RgbImage, PlotError> {
+    let (width, height) = fine_size(size);
+    let mut buffer = vec![255; 3 * (width * height) as usize];
+    let backend = BitMapBackend::with_buffer(&mut buffer, (width, height));
+    Page::draw(path, Medium::Pixels(backend.into_drawing_area()), draw)?;
+    Ok(averaged(&buffer, width, FINE * coarser))
 }
 
-/// A picture of a known size.
-pub(super) trait Picture {
-    /// Width and height in pixels.
-    fn size(&self) -> Point;
-    /// Draws it on a white page.
-    fn draw<B: Medium>(&self, page: &Page<B>) -> Drawn<B>;
+/// Writes what is drawn on a page as PNG, and as SVG beside it.
+pub(super) fn save_both(
+    path: &Path,
+    size: Point,
+    draw: impl Fn(&mut Page),
+) -> Result<(), PlotError> {
+    let mut text = String::new();
+    let area = SVGBackend::with_string(&mut text, fine_size(size)).into_drawing_area();
+    Page::draw(path, Medium::Vector(area), &draw)?;
+    let svg = path.with_extension("svg");
+    let document = compact(&text, fine_size(size));
+    write_whole(&svg, document.as_bytes()).map_err(|e| PlotError::write(&svg, &e))?;
+    write_small_png(path, &pixels(path, size, 1, draw)?)
+}
 
-    /// The pixels of the picture at its size over `coarser`; `path` names it in errors.
-    fn pixels(&self, path: &Path, coarser: u32) -> Result<RgbImage, PlotError> {
-        let size = fine_size(self.size());
-        let mut buffer = vec![255; 3 * (size.0 * size.1) as usize];
-        let page = BitMapBackend::with_buffer(&mut buffer, size).into_drawing_area();
-        let drawn = self.draw(&page).and_then(|()| page.present());
-        drop(page);
-        drawn.map_err(|e| PlotError::write(path, &e))?;
-        Ok(averaged(&buffer, size.0, FINE * coarser))
-    }
-
-    /// Writes it as PNG.
-    fn save(&self, path: &Path) -> Result<(), PlotError> {
-        write_small_png(path, &self.pixels(path, 1)?)
-    }
-
-    /// Writes it as SVG beside a PNG file.
-    fn save_svg(&self, path: &Path) -> Result<(), PlotError> {
-        let (path, size) = (path.with_extension("svg"), fine_size(self.size()));
-        let mut text = String::new();
-        let page = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        let drawn = page.fill(&WHITE).and_then(|()| self.draw(&page));
-        let drawn = drawn.and_then(|()| page.present());
-        drop(page);
-        drawn.map_err(|e| PlotError::write(&path, &e))?;
-        write_whole(&path, compact(&text, size).as_bytes()).map_err(|e| PlotError::write(&path, &e))
-    }
+fn fine_size((width, height): Point) -> (u32, u32) {
+    let side = |length: f64| FINE * length.ceil() as u32;
+    (side(width), side(height))
 }
 
 /// Fine pixels of a length; what is far outside a picture stays outside.
@@ -83,106 +73,89 @@ pub(super) fn fine(length: f64) -> i32 {
 }
 
 /// Fine pixels of a point.
-pub(super) fn spot((x, y): Point) -> (i32, i32) {
+pub(super) fn spot((x, y): Point) -> Spot {
     (fine(x), fine(y))
 }
 
-fn fine_size((width, height): Point) -> (u32, u32) {
-    let side = |length: f64| FINE * (length.max(1.0).ceil() as u32);
-    (side(width), side(height))
-}
-
 /// A colour of plotters.
-pub(super) fn ink(colour: Rgb) -> RGBColor {
-    let [_, red, green, blue] = colour.to_be_bytes();
-    RGBColor(red, green, blue)
+pub(super) fn ink(colour: Rgb, opacity: f64) -> RGBAColor {
+    let [red, green, blue] = channels(colour);
+    RGBColor(red, green, blue).mix(opacity)
 }
 
-/// Draws a line through points; the pattern gives the lengths of dashes and gaps in turn, none of a solid line.
-pub(super) fn stroke<B: Medium>(
-    page: &Page<B>,
-    points: &[Point],
-    width: f64,
-    colour: Rgb,
-    pattern: &[f64],
-) -> Drawn<B> {
-    let style = ink(colour).stroke_width(fine(width).unsigned_abs());
-    for dash in dashes(points, pattern) {
-        let mut rest = &dash[..];
-        while let Some(corner) = (B::PIXELS.then(|| corner(rest))).flatten() {
-            let joint = Circle::new(spot(rest[corner]), fine(width / 2.0), style.filled());
-            page.draw(&joint)?;
-            draw_path(page, &rest[..=corner], style)?;
-            rest = &rest[corner..];
-        }
-        draw_path(page, rest, style)?;
+impl<'a> Page<'a> {
+    fn draw(path: &Path, medium: Medium<'a>, draw: impl Fn(&mut Self)) -> Result<(), PlotError> {
+        let failure = None;
+        let mut page = Self { medium, failure };
+        let done = match &page.medium {
+            Medium::Pixels(_) => Ok(()),
+            Medium::Vector(area) => area.fill(&WHITE).map_err(|e| e.to_string()),
+        };
+        draw(&mut page);
+        let done = done.and_then(|()| match &page.medium {
+            Medium::Pixels(area) => area.present().map_err(|e| e.to_string()),
+            Medium::Vector(area) => area.present().map_err(|e| e.to_string()),
+        });
+        let failure = page.failure.or(done.err());
+        failure.map_or(Ok(()), |cause| Err(PlotError::write(path, &cause)))
     }
-    Ok(())
-}
 
-fn draw_path<B: Medium>(
-    page: &Page<B>,
-    points: &[Point],
-    style: plotters::style::ShapeStyle,
-) -> Drawn<B> {
-    let mut points: Vec<_> = points.iter().copied().map(spot).collect();
-    points.dedup();
-    match points.len() {
-        0 | 1 => Ok(()),
-        _ => page.draw(&PathElement::new(points, style)),
+    /// Whether it is made of pixels.
+    pub(super) fn has_pixels(&self) -> bool {
+        matches!(self.medium, Medium::Pixels(_))
     }
-}
 
-/// The first inner point at which a line turns sharply.
-fn corner(points: &[Point]) -> Option<usize> {
-    let sharp = |w: &[Point]| {
-        let (a, b) = (
-            (w[1].0 - w[0].0, w[1].1 - w[0].1),
-            (w[2].0 - w[1].0, w[2].1 - w[1].1),
-        );
-        a.0 * b.0 + a.1 * b.1 < TURN * a.0.hypot(a.1) * b.0.hypot(b.1)
-    };
-    points.windows(3).position(sharp).map(|k| k + 1)
-}
-
-/// The dashes of a line.
-fn dashes(points: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
-    if pattern.is_empty() {
-        return vec![points.to_vec()];
+    /// Draws an element of plotters.
+    pub(super) fn put<E>(&mut self, element: &E)
+    where
+        for<'e> &'e E: PointCollection<'e, Spot>,
+        E: Drawable<BitMapBackend<'a>> + Drawable<SVGBackend<'a>>,
+    {
+        let drawn = match &self.medium {
+            Medium::Pixels(area) => area.draw(element).map_err(|e| e.to_string()),
+            Medium::Vector(area) => area.draw(element).map_err(|e| e.to_string()),
+        };
+        self.failure = self.failure.take().or(drawn.err());
     }
-    let mut parts = Vec::new();
-    let mut dash: Vec<Point> = points.first().copied().into_iter().collect();
-    let (mut turn, mut left) = (0, pattern[0]);
-    for pair in points.windows(2) {
-        let (mut from, to) = (pair[0], pair[1]);
-        loop {
-            let length = (to.0 - from.0).hypot(to.1 - from.1);
-            if length <= left {
-                left -= length;
-                dash.push(to);
-                break;
+
+    /// Draws a line through points; the pattern gives the lengths of dashes and gaps in turn, none of a solid line.
+    pub(super) fn line(&mut self, points: &[Point], width: f64, colour: Rgb, pattern: &[f64]) {
+        let style = ink(colour, 1.0).stroke_width(fine(width).unsigned_abs());
+        for dash in dashes(points, pattern) {
+            let mut dash: Vec<Spot> = dash.into_iter().map(spot).collect();
+            dash.dedup();
+            if !self.has_pixels() {
+                self.put(&PathElement::new(dash, style));
+                continue;
             }
-            from = super::between(from, to, left / length);
-            dash.push(from);
-            let done = std::mem::replace(&mut dash, vec![from]);
-            parts.extend((turn % 2 == 0).then_some(done));
-            turn += 1;
-            left = pattern[turn % pattern.len()];
+            // Plotters fills the outline of a line, which may overlap itself.
+            for (k, pair) in dash.windows(2).enumerate() {
+                self.put(&PathElement::new([pair[0], pair[1]], style));
+                if k > 0 {
+                    self.put(&Circle::new(pair[0], fine(width / 2.0), style.filled()));
+                }
+            }
         }
     }
-    parts.extend((turn % 2 == 0).then_some(dash));
-    parts
-}
 
-/// Draws a filled polygon.
-pub(super) fn area<B: Medium>(
-    page: &Page<B>,
-    corners: &[Point],
-    colour: Rgb,
-    opacity: f64,
-) -> Drawn<B> {
-    let corners: Vec<_> = corners.iter().copied().map(spot).collect();
-    page.draw(&Polygon::new(corners, ink(colour).mix(opacity)))
+    /// Draws a filled polygon.
+    pub(super) fn area(&mut self, corners: &[Point], colour: Rgb, opacity: f64) {
+        let corners: Vec<Spot> = corners.iter().copied().map(spot).collect();
+        self.put(&Polygon::new(corners, ink(colour, opacity)));
+    }
+
+    /// Draws a filled rectangle.
+    pub(super) fn rectangle(&mut self, frame: Frame, colour: Rgb, opacity: f64) {
+        self.area(&corners(frame), colour, opacity);
+    }
+
+    /// Draws an image of fine pixels whose left upper corner is given.
+    pub(super) fn image(&mut self, at: Point, width: u32, image: &[u8]) {
+        let size = (width, image.len() as u32 / 3 / width.max(1));
+        if let Some(image) = BitMapElement::with_ref(spot(at), size, image) {
+            self.put(&image);
+        }
+    }
 }
 
 /// The corners of a frame.
@@ -190,31 +163,50 @@ pub(super) fn corners([left, top, right, bottom]: Frame) -> [Point; 4] {
     [(left, top), (right, top), (right, bottom), (left, bottom)]
 }
 
+/// The dashes of a line.
+fn dashes(points: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
+    if pattern.is_empty() {
+        return vec![points.to_vec()];
+    }
+    let mut parts = vec![points.iter().take(1).copied().collect::<Vec<_>>()];
+    let mut left = pattern[0];
+    for pair in points.windows(2) {
+        let (mut from, to) = (pair[0], pair[1]);
+        let length = |from: Point| (to.0 - from.0).hypot(to.1 - from.1);
+        while length(from) > left {
+            from = between(from, to, left / length(from));
+            parts
+                .last_mut()
+                .into_iter()
+                .for_each(|part| part.push(from));
+            left = pattern[parts.len() % pattern.len()];
+            parts.push(vec![from]);
+        }
+        left -= length(from);
+        parts.last_mut().into_iter().for_each(|part| part.push(to));
+    }
+    parts.into_iter().step_by(2).collect()
+}
+
 /// The parts of a line within a frame.
-pub(super) fn clipped(points: &[Point], frame: Frame) -> Vec<Vec<Point>> {
+pub(super) fn clipped(points: &[Point], [left, top, right, bottom]: Frame) -> Vec<Vec<Point>> {
     let mut parts: Vec<Vec<Point>> = Vec::new();
     for pair in points.windows(2) {
         let (a, b) = (pair[0], pair[1]);
-        let (mut from, mut to) = (0.0, 1.0);
-        let sides = [
-            (a.0, b.0, frame[0], frame[2]),
-            (a.1, b.1, frame[1], frame[3]),
-        ];
-        for (start, end, low, high) in sides {
-            let at = |side: f64| (side - start) / (end - start);
-            let (enter, leave) = match start.total_cmp(&end) {
-                std::cmp::Ordering::Less => (at(low), at(high)),
-                std::cmp::Ordering::Greater => (at(high), at(low)),
-                std::cmp::Ordering::Equal if (low..=high).contains(&start) => continue,
-                std::cmp::Ordering::Equal => (2.0, 0.0),
-            };
-            (from, to) = (enter.max(from), leave.min(to));
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for (start, end, low, high) in [(a.0, b.0, left, right), (a.1, b.1, top, bottom)] {
+            let [first, last] = [low, high].map(|side| (side - start) / (end - start));
+            if start != end {
+                (from, to) = (from.max(first.min(last)), to.min(first.max(last)));
+            } else if !(low..=high).contains(&start) {
+                to = -1.0;
+            }
         }
         if from < to {
-            let (start, end) = (super::between(a, b, from), super::between(a, b, to));
-            match parts.last_mut() {
-                Some(part) if from == 0.0 && part.last() == Some(&a) => part.push(end),
-                _ => parts.push(vec![start, end]),
+            let (start, end) = (between(a, b, from), between(a, b, to));
+            match parts.last_mut().filter(|part| part.last() == Some(&start)) {
+                Some(part) => part.push(end),
+                None => parts.push(vec![start, end]),
             }
         }
     }
@@ -243,7 +235,6 @@ fn averaged(pixels: &[u8], width: u32, side: u32) -> RgbImage {
 
 /// An SVG document at the size of its picture. Neighbouring lines of one look, such as dashes, become one path.
 fn compact(text: &str, (width, height): (u32, u32)) -> String {
-    const POINTS: &str = " points=\"";
     let [wide, high] = [width, height].map(|side| side / FINE);
     let head = format!("width=\"{width}\" height=\"{height}\"");
     let family = format!(" font-family=\"{FAMILY}\"");
@@ -258,24 +249,19 @@ fn compact(text: &str, (width, height): (u32, u32)) -> String {
         .iter()
         .fold(text.to_owned(), |text, known| text.replace(*known, ""));
     let text = text.replacen(&head, &root, 1);
-    let mut document = String::with_capacity(text.len());
-    let mut open = None;
+    let (mut document, mut open) = (String::with_capacity(text.len()), None);
     for line in text.lines() {
         let polyline = line.strip_prefix("<polyline");
-        let parts = polyline.and_then(|rest| rest.split_once(POINTS));
+        let parts = polyline.and_then(|rest| rest.split_once(" points=\""));
         let look = parts.map(|(look, _)| look);
         if open != look {
-            document += if open.is_some() { "\"/>\n" } else { "" };
-            document += &look
-                .map(|look| format!("<path{look} d=\""))
-                .unwrap_or_default();
+            document += open.map_or("", |_| "\"/>\n");
+            document += &look.map_or_else(String::new, |look| format!("<path{look} d=\""));
         }
-        match parts {
-            Some((_, points)) => {
-                document += &format!("M{}", points.trim_end_matches([' ', '"', '/', '>']))
-            }
-            None => document += &format!("{line}\n"),
-        }
+        document += &match parts {
+            Some((_, points)) => format!("M{}", points.trim_end_matches(" \"/>")),
+            None => format!("{line}\n"),
+        };
         open = look;
     }
     document

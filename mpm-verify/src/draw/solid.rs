@@ -2,13 +2,13 @@
 //! nearest sphere at a pixel gives its colour.
 
 use super::axes::{Axis, THIN, TICK};
-use super::colour::{INK, Rgb, stone_of};
-use super::page::{Drawn, FINE, Medium, Page, Picture, Point, spot, stroke};
-use super::panels::{Bar, Panels};
-use super::png_file::save_animation;
-use super::text::{Block, LABEL, SMALL, write};
+use super::colour::{INK, Rgb, channels, stone_of};
+use super::page::{FINE, Page, Point, pixels};
+use super::png_file::{save_animation, write_small_png};
+use super::sheet::{Bar, Sheet};
+use super::text::{Block, LABEL, SMALL};
 use super::{EDGE, PlotError, between, largest, lengths, nothing};
-use plotters::element::BitMapElement;
+use image::RgbImage;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -54,8 +54,7 @@ const ELEVATION: f64 = 28.0;
 /// Widths of panels by their number in a row, and the largest height, in pixels.
 const WIDTHS: [f64; 4] = [1200.0, 760.0, 560.0, 460.0];
 const HEIGHT: f64 = 1000.0;
-/// Distance of panels, space within them about what is shown, and height of the line that tells of the camera.
-const GAP: f64 = 24.0;
+/// Space in a panel about what is shown, and height of the line that tells of the camera.
 const MARGIN: f64 = 6.0;
 const NOTE: f64 = 40.0;
 /// Radius of a particle in distances of particles that fill space: large enough to leave no holes between them.
@@ -65,12 +64,9 @@ const LIGHT: Place = [-0.25, 0.75, 0.62];
 const AMBIENT: f64 = 0.52;
 const DIRECT: f64 = 0.55;
 const GROUND: Rgb = 0xECEAE6;
-/// Height of a tick's label, distance from it to the axis' label, and height of that.
-const DIGITS: f64 = 24.0;
-const LABEL_GAP: f64 = 10.0;
-const LABEL_HEIGHT: f64 = 40.0;
-/// An axis shorter than this, in pixels, has its range in its label instead of ticks.
-const SHORT: f64 = 60.0;
+/// Height of a text, and gap between texts.
+const LINE: f64 = 40.0;
+const GAP: f64 = 10.0;
 
 /// A position or direction in the axes of the problem.
 type Place = [f64; 3];
@@ -81,7 +77,7 @@ type Place = [f64; 3];
 /// A figure without panels, a finite range or window that is not empty; a panel without a size or a particle in
 /// the window, or whose points and values differ in number; or a file that can't be written.
 pub fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
-    Solids::new(path, figure)?.save(path)
+    write_small_png(path, &picture(path, figure, 1)?)
 }
 
 /// Draws figures one after the other as an animated PNG at half the size, each shown for a `delay` of hundredths of a
@@ -90,78 +86,49 @@ pub fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
 /// # Errors
 /// As [`draw_solids`]; or there are no figures.
 pub fn animate_solids(path: &Path, figures: &[SolidFigure], delay: u16) -> Result<(), PlotError> {
-    let frame = |figure: &SolidFigure| Solids::new(path, figure)?.pixels(path, 2);
-    let frames: Result<Vec<_>, PlotError> = figures.iter().map(frame).collect();
-    save_animation(path, &frames?, delay)
+    let frames = figures.iter().map(|figure| picture(path, figure, 2));
+    save_animation(path, &frames.collect::<Result<Vec<_>, _>>()?, delay)
+}
+
+fn picture(path: &Path, figure: &SolidFigure, coarser: u32) -> Result<RgbImage, PlotError> {
+    let sound = |(lo, hi): &Point| lo < hi && (hi - lo).is_finite();
+    let finite = figure.range.0.is_finite() && figure.range.1.is_finite();
+    if figure.panels.is_empty() || !figure.window.iter().all(sound) || !finite {
+        return Err(nothing(path, &figure.title));
+    }
+    let columns = figure.columns.min(figure.panels.len()).max(1);
+    let screen = Screen::new(&figure.window, WIDTHS[columns.min(4) - 1]);
+    let rulers = [0, 1, 2].map(|axis| Ruler::new(&screen, axis));
+    let room = [0, 1, 2].map(|side| largest(rulers.iter().map(|r| r.room(screen.size)[side])));
+    let titles = figure.panels.iter().map(|p| &*p.title).collect();
+    let sheet = Sheet::new(&figure.title, titles, columns, screen.size, room);
+    let values = figure.panels.iter().flat_map(|p| &p.values);
+    let bar = Bar::new(&sheet, (figure.range, &figure.label), stone_of, values);
+    let draw = |panel: &SolidPanel| {
+        let (points, values) = (panel.points.len(), panel.values.len());
+        lengths(path, &panel.title, points, values)?;
+        let image = screen.spheres(panel, figure.range);
+        image.ok_or_else(|| nothing(path, &panel.title))
+    };
+    let images: Result<Vec<_>, PlotError> = figure.panels.par_iter().map(draw).collect();
+    let (images, (width, height)) = (images?, bar.size(&sheet));
+    pixels(path, (width, height + NOTE), coarser, |page| {
+        for (k, image) in images.iter().enumerate() {
+            let [left, top, ..] = sheet.frame(k);
+            page.image((left, top), screen.width() as u32, image);
+            for ruler in &rulers {
+                ruler.draw(page, (left, top));
+            }
+        }
+        let note = format!("orthographic, azimuth {AZIMUTH}°, elevation {ELEVATION}°");
+        page.text(&note, (EDGE, height - EDGE + NOTE / 2.0), SMALL, (0.0, 0.5));
+        sheet.draw(page);
+        bar.draw(page);
+    })
 }
 
 fn dot(a: Place, b: Place) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// A figure, laid out, with the fine pixels of its panels.
-struct Solids {
-    panels: Panels,
-    size: Point,
-    rulers: [Ruler; 3],
-    images: Vec<Vec<u8>>,
-}
-
-impl Solids {
-    fn new(path: &Path, figure: &SolidFigure) -> Result<Self, PlotError> {
-        let sound = |(lo, hi): &Point| lo < hi && (hi - lo).is_finite();
-        let finite = figure.range.0.is_finite() && figure.range.1.is_finite();
-        if figure.panels.is_empty() || !figure.window.iter().all(sound) || !finite {
-            return Err(nothing(path, &figure.title));
-        }
-        let columns = figure.columns.min(figure.panels.len()).max(1);
-        let screen = Screen::new(&figure.window, WIDTHS[columns.min(4) - 1]);
-        let values = figure.panels.iter().flat_map(|p| &p.values);
-        let bar = Bar::new(figure.range, &figure.label, stone_of, values);
-        let draw = |panel: &SolidPanel| {
-            let (points, values) = (panel.points.len(), panel.values.len());
-            lengths(path, &panel.title, points, values)?;
-            let image = screen.spheres(panel, bar.range);
-            image.ok_or_else(|| nothing(path, &panel.title))
-        };
-        let images: Result<Vec<_>, PlotError> = figure.panels.par_iter().map(draw).collect();
-        let rulers = [0, 1, 2].map(|axis| Ruler::new(&screen, axis));
-        let room = |side: usize| largest(rulers.iter().map(|r| r.room(screen.size)[side])).ceil();
-        let titles = figure.panels.iter().map(|p| &*p.title).collect();
-        let panel = (screen.size, [0, 1, 2].map(room));
-        Ok(Self {
-            panels: Panels::new(&figure.title, titles, columns, panel, GAP, bar),
-            size: screen.size,
-            rulers,
-            images: images?,
-        })
-    }
-}
-
-impl Picture for Solids {
-    fn size(&self) -> Point {
-        let (width, height) = self.panels.size();
-        (width, height + NOTE)
-    }
-
-    fn draw<B: Medium>(&self, page: &Page<B>) -> Drawn<B> {
-        let side = |length: f64| FINE * length as u32;
-        let size = (side(self.size.0), side(self.size.1));
-        for (k, image) in self.images.iter().enumerate() {
-            let [left, top, ..] = self.panels.frame(k);
-            let image = BitMapElement::with_ref(spot((left, top)), size, image);
-            image.map_or(Ok(()), |image| page.draw(&image))?;
-            let [below, beside] = self.panels.labelled(k);
-            let last = k % self.panels.columns + 1 == self.panels.columns;
-            for (ruler, labelled) in self.rulers.iter().zip([below, beside, last]) {
-                ruler.draw(page, (left, top), labelled)?;
-            }
-        }
-        let note = format!("orthographic, azimuth {AZIMUTH}°, elevation {ELEVATION}°");
-        let at = (EDGE, self.panels.size().1 - EDGE + NOTE / 2.0);
-        write(page, &note, at, SMALL, (0.0, 0.5), false)?;
-        self.panels.draw(page)
-    }
 }
 
 /// Where places lie in a panel.
@@ -206,6 +173,11 @@ impl Screen {
         }
     }
 
+    /// Fine pixels of a row.
+    fn width(&self) -> usize {
+        self.size.0 as usize * FINE as usize
+    }
+
     /// Pixels from the left and from above, and distance towards the eye (m).
     fn place(&self, at: Place) -> Place {
         let [right, up, near] = self.view.map(|axis| dot(axis, at));
@@ -217,52 +189,44 @@ impl Screen {
     fn spheres(&self, panel: &SolidPanel, range: Point) -> Option<Vec<u8>> {
         // A particle on the ground may have sunk in a little.
         let half = panel.size / 2.0;
-        let inside = |k: usize, v: f64| {
-            let (lo, hi) = self.window[k];
-            (lo - half..=hi + half).contains(&v)
-        };
-        let particles = panel.points.iter().zip(&panel.values);
-        let mut particles = particles
-            .filter(|(p, _)| (0..3).all(|k| inside(k, p[k])))
-            .peekable();
-        if !(panel.size.is_finite() && panel.size > 0.0) {
+        let inside = |(lo, hi): Point, v: f64| (lo - half..=hi + half).contains(&v);
+        let shown = |p: &Place| (0..3).all(|k| inside(self.window[k], p[k]));
+        let drawable = panel.size.is_finite() && panel.size > 0.0;
+        if !drawable || !panel.points.iter().any(shown) {
             return None;
         }
-        particles.peek()?;
-        let scale = f64::from(FINE) * self.scale;
-        let (width, height) = (
-            self.size.0 as usize * FINE as usize,
-            self.size.1 as usize * FINE as usize,
-        );
+        let width = self.width();
+        let height = self.size.1 as usize * FINE as usize;
         let mut pixels = vec![255; 3 * width * height];
-        let mut depths = vec![f64::NEG_INFINITY; width * height];
-        self.ground(width, &mut pixels, &mut depths);
+        let mut depths = self.ground(width, &mut pixels);
+        let scale = f64::from(FINE) * self.scale;
         let radius = RADIUS * panel.size;
         let reach = (radius * scale).ceil() as i64;
         let lamp = LIGHT.map(|v| v / dot(LIGHT, LIGHT).sqrt());
-        for (at, value) in particles {
-            let colour = stone_of(*value, range).to_be_bytes();
+        let particles = panel.points.iter().zip(&panel.values);
+        for (at, value) in particles.filter(|(p, _)| shown(p)) {
+            let colour = channels(stone_of(*value, range)).map(f64::from);
             let [across, down, depth] = self.place(*at);
             let (across, down) = (f64::from(FINE) * across, f64::from(FINE) * down);
             let span = |middle: f64, end: usize| {
-                let (from, to) = (middle as i64 - reach, middle as i64 + reach + 1);
-                from.clamp(0, end as i64) as usize..to.clamp(0, end as i64) as usize
+                let ends = [middle as i64 - reach, middle as i64 + reach + 1];
+                let [from, to] = ends.map(|v| v.clamp(0, end as i64) as usize);
+                from..to
             };
             for y in span(down, height) {
-                for x in span(across, width) {
-                    let [dx, dy] = [x as f64 + 0.5 - across, y as f64 + 0.5 - down]
-                        .map(|d| d / (scale * radius));
-                    let rest = 1.0 - dx * dx - dy * dy;
-                    let (n, front) = (y * width + x, depth + radius * rest.max(0.0).sqrt());
-                    if rest <= 0.0 || front <= depths[n] {
-                        continue;
-                    }
-                    depths[n] = front;
-                    let facing = 0.5 + 0.5 * dot([dx, -dy, rest.sqrt()], lamp);
-                    let light = AMBIENT + DIRECT * facing * facing;
-                    for k in 0..3 {
-                        let lit = f64::from(colour[k + 1]) * light;
-                        pixels[3 * n + k] = lit.round().min(255.0) as u8;
+                for n in span(across, width).map(|x| y * width + x) {
+                    let part = |pixel: usize, middle: f64| {
+                        (pixel as f64 + 0.5 - middle) / (scale * radius)
+                    };
+                    let (dx, dy) = (part(n % width, across), part(y, down));
+                    let rest = (1.0 - dx * dx - dy * dy).max(0.0).sqrt();
+                    let front = depth + radius * rest;
+                    if rest > 0.0 && front > depths[n] {
+                        depths[n] = front;
+                        let facing = 0.5 + 0.5 * dot([dx, -dy, rest], lamp);
+                        let light = AMBIENT + DIRECT * facing * facing;
+                        let lit = colour.map(|c| (c * light).round().min(255.0) as u8);
+                        pixels[3 * n..3 * n + 3].copy_from_slice(&lit);
                     }
                 }
             }
@@ -270,38 +234,36 @@ impl Screen {
         Some(pixels)
     }
 
-    /// Colours the ground within the window, with its depths.
-    fn ground(&self, width: usize, pixels: &mut [u8], depths: &mut [f64]) {
-        let ([right, up, eye], [_, colour @ ..]) = (self.view, GROUND.to_be_bytes());
+    /// Colours the ground within the window; returns the depth of every pixel.
+    fn ground(&self, width: usize, pixels: &mut [u8]) -> Vec<f64> {
+        let [right, up, eye] = self.view;
         let metres = |pixel: usize| (pixel as f64 + 0.5) / (f64::from(FINE) * self.scale);
-        for (n, depth) in depths.iter_mut().enumerate() {
-            let (x, y) = (
-                self.corner.0 + metres(n % width),
-                self.corner.1 - metres(n / width),
-            );
+        let depth = |(n, pixel): (usize, &mut [u8])| {
+            let x = self.corner.0 + metres(n % width);
+            let y = self.corner.1 - metres(n / width);
             let base = [0, 1, 2].map(|k| x * right[k] + y * up[k]);
             let near = (self.window[1].0 - base[1]) / eye[1];
             let within = |k: usize| {
-                let value = base[k] + near * eye[k];
-                (self.window[k].0..=self.window[k].1).contains(&value)
+                let (value, (lo, hi)) = (base[k] + near * eye[k], self.window[k]);
+                (lo..=hi).contains(&value)
             };
-            if within(0) && within(2) {
-                *depth = near;
-                pixels[3 * n..3 * n + 3].copy_from_slice(&colour);
+            if !(within(0) && within(2)) {
+                return f64::NEG_INFINITY;
             }
-        }
+            pixel.copy_from_slice(&channels(GROUND));
+            near
+        };
+        pixels.chunks_exact_mut(3).enumerate().map(depth).collect()
     }
 }
 
 /// Marks in metres along an edge of the window.
 struct Ruler {
     ends: [Point; 2],
-    /// Direction away from the body, of unit length; and that of labels from their marks.
-    away: Point,
+    scale: Axis,
+    /// Direction of labels from the edge.
     side: Point,
-    /// Parts of the length, with labels.
-    ticks: Vec<(f64, String)>,
-    label: String,
+    name: &'static str,
     /// Where that stands.
     place: Point,
 }
@@ -310,83 +272,58 @@ impl Ruler {
     /// Along x below, y on the left or z on the right.
     fn new(screen: &Screen, axis: usize) -> Self {
         let [x, y, z] = screen.window;
-        let (from, to, side) = [
-            ([x.0, y.0, z.1], [x.1, y.0, z.1], (0.0, 1.0)),
-            ([x.0, y.0, z.1], [x.0, y.1, z.1], (-1.0, 0.0)),
-            ([x.1, y.0, z.0], [x.1, y.0, z.1], (1.0, 0.0)),
+        let (from, to, side, name) = [
+            ([x.0, y.0, z.1], [x.1, y.0, z.1], (0.0, 1.0), "x (m)"),
+            ([x.0, y.0, z.1], [x.0, y.1, z.1], (-1.0, 0.0), "y (m)"),
+            ([x.1, y.0, z.0], [x.1, y.0, z.1], (1.0, 0.0), "z (m)"),
         ][axis];
         let ends = [from, to].map(|at| screen.place(at)).map(|p| (p[0], p[1]));
-        let along = (ends[1].0 - ends[0].0, ends[1].1 - ends[0].1);
-        let length = along.0.hypot(along.1);
-        let across = (along.1 / length, -along.0 / length);
-        let outwards = (across.0 * side.0 + across.1 * side.1).signum();
+        let length = (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1);
         let scale = Axis::new(screen.window[axis], false, length, axis == 1);
-        let marks = scale.marks().filter(|_| length >= SHORT);
-        let ticks: Vec<_> = marks
-            .map(|(at, text)| (at / length, text.to_owned()))
-            .collect();
-        let (name, range) = (["x (m)", "y (m)", "z (m)"][axis], screen.window[axis]);
-        let label = match ticks.is_empty() {
-            true => format!("{name}: {} … {}", range.0, range.1),
-            false => name.to_owned(),
-        };
-        let digits = match (ticks.is_empty(), axis) {
-            (true, _) => 0.0,
-            (_, 0) => DIGITS + LABEL_GAP,
-            _ => scale.label_width() + LABEL_GAP,
-        };
-        let (middle, out) = (between(ends[0], ends[1], 0.5), TICK + digits);
-        // Below a tilted edge, clear of its ticks' labels; beside one that recedes, beyond its far end.
-        let clear = (along.1 / along.0).abs() * LABEL.width(&label) / 2.0;
+        let (x, y) = between(ends[0], ends[1], 0.5);
+        let out = TICK + scale.label_width() + GAP;
+        // Those of edges that rise on the other side of their labels stand clear of these.
         let place = match axis {
-            0 => (middle.0, middle.1 + out + clear),
-            1 => (middle.0 - out - LABEL_HEIGHT, middle.1),
-            _ => (ends[0].0.max(ends[1].0) + out, middle.1),
+            0 => (x - LABEL.width(name), y + TICK + LINE),
+            1 => (x - out - LINE, y),
+            _ => (x + out + GAP, y + LINE),
         };
         Self {
             ends,
-            away: (outwards * across.0, outwards * across.1),
+            scale,
             side,
-            ticks,
-            label,
+            name,
             place,
         }
     }
 
     /// Room for its labels left of, right of and below a panel of a size.
     fn room(&self, (wide, high): Point) -> [f64; 3] {
-        let lowest = self.ends[0].1.max(self.ends[1].1) + TICK + DIGITS;
-        let ((x, y), width) = (self.place, LABEL.width(&self.label));
-        let right = x + (0.5 + 0.5 * self.side.0) * width;
-        [-x, right - wide, lowest.max(y + LABEL_HEIGHT) - high].map(|room| room.max(0.0))
+        let right = self.place.0 + LABEL.width(self.name);
+        let low = self.ends.map(|end| end.1 + TICK + LINE);
+        let below = largest(low.into_iter()).max(self.place.1 + LINE / 2.0);
+        [-self.place.0, right - wide, below - high].map(|room| room.max(0.0))
     }
 
-    /// Draws it into a panel whose left upper corner is given, with labels if asked for.
-    fn draw<B: Medium>(&self, page: &Page<B>, corner: Point, labelled: bool) -> Drawn<B> {
+    /// Draws it into a panel whose left upper corner is given.
+    fn draw(&self, page: &mut Page, corner: Point) {
         let at = |p: Point| (corner.0 + p.0, corner.1 + p.1);
-        let out = |p: Point, (x, y): Point, length: f64| (p.0 + length * x, p.1 + length * y);
         let [from, to] = self.ends.map(at);
-        stroke(page, &[from, to], THIN, INK, &[])?;
-        let anchor = (0.5 - 0.5 * self.side.0, 0.5 - 0.5 * self.side.1);
-        for (part, text) in &self.ticks {
-            let foot = between(from, to, *part);
-            stroke(
-                page,
-                &[foot, out(foot, self.away, TICK / 2.0)],
-                THIN,
-                INK,
-                &[],
-            )?;
-            if labelled {
-                write(page, text, out(foot, self.side, TICK), SMALL, anchor, false)?;
-            }
-        }
-        if !labelled {
-            return Ok(());
+        page.line(&[from, to], THIN, INK, &[]);
+        for (along, text) in self.scale.marks() {
+            let foot = between(from, to, along / self.scale.length);
+            let out = |length: f64| (foot.0 + length * self.side.0, foot.1 + length * self.side.1);
+            page.line(&[foot, out(TICK / 2.0)], THIN, INK, &[]);
+            let anchor = (0.5 - 0.5 * self.side.0, 0.5 - 0.5 * self.side.1);
+            page.text(text, out(TICK), SMALL, anchor);
         }
         match self.side.0 < 0.0 {
-            true => Block::new(&self.label, LABEL, f64::INFINITY).draw(page, at(self.place), true),
-            false => write(page, &self.label, at(self.place), LABEL, anchor, false),
+            true => page.block(
+                &Block::new(self.name, LABEL, f64::INFINITY),
+                at(self.place),
+                true,
+            ),
+            false => page.text(self.name, at(self.place), LABEL, (0.0, 0.5)),
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::colour::INK;
 use super::largest;
-use super::page::{Drawn, FINE, Medium, Page, Point, ink, spot, stroke};
+use super::page::{FINE, Page, Point, ink, spot};
+use plotters::element::Text;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{
     Color, FontDesc, FontFamily, FontStyle, FontTransform, TextStyle, register_font,
@@ -11,27 +12,22 @@ use std::sync::Once;
 
 /// A font: its size (the em, in pixels), and whether it is bold.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Font {
-    pub(super) size: f64,
-    pub(super) bold: bool,
-}
+pub(super) struct Font(f64, bool);
 
-const fn font(size: f64, bold: bool) -> Font {
-    Font { size, bold }
-}
-
-pub(super) const SMALL: Font = font(25.0, false);
-pub(super) const LABEL: Font = font(28.0, false);
-pub(super) const TITLE: Font = font(29.0, true);
-pub(super) const HEADING: Font = font(32.0, true);
+pub(super) const SMALL: Font = Font(25.0, false);
+pub(super) const LABEL: Font = Font(28.0, false);
+pub(super) const TITLE: Font = Font(29.0, true);
+pub(super) const HEADING: Font = Font(32.0, true);
 /// Distance of lines and height of a capital, in sizes of the font.
-pub(super) const LEADING: f64 = 1.35;
+const LEADING: f64 = 1.35;
 const CAPITAL: f64 = 0.73;
 /// The fonts' name here, and what a browser takes that lacks them.
 pub(super) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 /// Plotters' size of a font: from ascent to descent, in sizes of the font.
 const FULL: f64 = 1.164;
-/// Bar over the letter before, which plotters would draw over the one behind.
+/// By how much plotters draws text too high, in sizes of the font: as pixels and as SVG.
+const LIFT: [f64; 2] = [0.25, 0.09];
+/// Bar over the letter before, which plotters would draw as pixels over the one behind.
 const BAR: char = '\u{304}';
 
 impl Font {
@@ -44,24 +40,9 @@ impl Font {
             let _ = register_font(FAMILY, FontStyle::Normal, plain);
             let _ = register_font(FAMILY, FontStyle::Bold, bold);
         });
-        let style = match self.bold {
-            true => FontStyle::Bold,
-            false => FontStyle::Normal,
-        };
-        let size = FULL * f64::from(FINE) * self.size;
+        let style = [FontStyle::Normal, FontStyle::Bold][usize::from(self.1)];
+        let size = FULL * f64::from(FINE) * self.0;
         FontDesc::new(FontFamily::Name(FAMILY), size, style)
-    }
-
-    /// Plotters' style of text whose middle line lies where it is put.
-    pub(super) fn style(self, across: HPos) -> TextStyle<'static> {
-        let mut style = TextStyle::from(self.description());
-        style.color = ink(INK).to_backend_color();
-        style.pos(Pos::new(across, VPos::Center))
-    }
-
-    /// By how much plotters draws such text too high (pixels).
-    pub(super) fn lift<B: Medium>(self) -> f64 {
-        self.size * if B::PIXELS { 0.25 } else { 0.09 }
     }
 
     /// Width of a line of text (pixels).
@@ -69,52 +50,6 @@ impl Font {
         let size = self.description().box_size(text);
         size.map_or(0.0, |(width, _)| f64::from(width) / f64::from(FINE))
     }
-}
-
-/// Draws lines of text; `anchor` is the fraction of each one's width, and of the height from the first one's
-/// capitals to the last baseline, that lies at the point. Turned text reads upwards, with `anchor` turned along.
-pub(super) fn write<B: Medium>(
-    page: &Page<B>,
-    text: &str,
-    at: Point,
-    font: Font,
-    anchor: Point,
-    turned: bool,
-) -> Drawn<B> {
-    let across = match anchor.0 {
-        a if a < 0.25 => HPos::Left,
-        a if a > 0.75 => HPos::Right,
-        _ => HPos::Center,
-    };
-    let mut style = font.style(across);
-    if turned {
-        style = style.transform(FontTransform::Rotate270);
-    }
-    let more = text.lines().count().saturating_sub(1) as f64;
-    let above = anchor.1 * (more * LEADING + CAPITAL);
-    for (k, line) in text.lines().enumerate() {
-        let middle = (k as f64 * LEADING + CAPITAL / 2.0 - above) * font.size;
-        let place = |along: f64, down: f64| match turned {
-            true => (at.0 + middle + down, at.1 - along),
-            false => (at.0 + along, at.1 + middle + down),
-        };
-        let lift = font.lift::<B>();
-        if !B::PIXELS {
-            page.draw_text(line, &style, spot(place(0.0, lift)))?;
-            continue;
-        }
-        let plain = line.replace(BAR, "");
-        page.draw_text(&plain, &style, spot(place(0.0, lift)))?;
-        let start = -anchor.0 * font.width(&plain);
-        for (end, _) in line.match_indices(BAR) {
-            let before = line[..end].replace(BAR, "");
-            let letter = before.char_indices().next_back().map_or(0, |(k, _)| k);
-            let [from, to] = [&before[..letter], &before].map(|text| start + font.width(text));
-            let bar = [from, to].map(|along| place(along + 0.04 * font.size, -0.5 * font.size));
-            stroke(page, &bar, 0.07 * font.size, INK, &[])?;
-        }
-    }
-    Ok(())
 }
 
 /// Lines of text.
@@ -140,20 +75,65 @@ impl Block {
     }
 
     pub(super) fn height(&self) -> f64 {
-        self.text.lines().count() as f64 * self.font.size * LEADING
+        self.text.lines().count() as f64 * self.font.0 * LEADING
     }
 
     pub(super) fn width(&self) -> f64 {
         largest(self.text.lines().map(|line| self.font.width(line)))
     }
+}
 
-    /// Draws the lines, centred, downwards from a point (turned: rightwards).
-    pub(super) fn draw<B: Medium>(&self, page: &Page<B>, (x, y): Point, turned: bool) -> Drawn<B> {
-        let margin = (LEADING - CAPITAL) / 2.0 * self.font.size;
-        let at = match turned {
-            true => (x + margin, y),
-            false => (x, y + margin),
+impl Page<'_> {
+    /// Draws lines of text, centred, downwards from a point (turned: rightwards).
+    pub(super) fn block(&mut self, block: &Block, (x, y): Point, turned: bool) {
+        for (k, line) in block.text.lines().enumerate() {
+            let middle = (k as f64 + 0.5) * LEADING * block.font.0;
+            let at = if turned {
+                (x + middle, y)
+            } else {
+                (x, y + middle)
+            };
+            self.line_of_text(line, at, block.font, 0.5, turned);
+        }
+    }
+
+    /// Draws text; `anchor` is the fraction of its width, and of the height of its capitals, that lies at the point.
+    pub(super) fn text(&mut self, text: &str, at: Point, font: Font, anchor: Point) {
+        let middle = at.1 + (0.5 - anchor.1) * CAPITAL * font.0;
+        self.line_of_text(text, (at.0, middle), font, anchor.0, false);
+    }
+
+    /// Draws a line about its middle; turned, it reads upwards.
+    fn line_of_text(&mut self, line: &str, at: Point, font: Font, anchor: f64, turned: bool) {
+        let across = match anchor {
+            a if a < 0.25 => HPos::Left,
+            a if a > 0.75 => HPos::Right,
+            _ => HPos::Center,
         };
-        write(page, &self.text, at, self.font, (0.5, 0.0), turned)
+        let mut style = TextStyle::from(font.description()).pos(Pos::new(across, VPos::Center));
+        style.color = ink(INK, 1.0).to_backend_color();
+        if turned {
+            style = style.transform(FontTransform::Rotate270);
+        }
+        let place = |along: f64, down: f64| match turned {
+            true => (at.0 + down * font.0, at.1 - along),
+            false => (at.0 + along, at.1 + down * font.0),
+        };
+        let whole = !self.has_pixels();
+        let plain = if whole {
+            line.to_owned()
+        } else {
+            line.replace(BAR, "")
+        };
+        let start = -anchor * font.width(&plain);
+        let foot = spot(place(0.0, LIFT[usize::from(whole)]));
+        self.put(&Text::new(plain, foot, style));
+        for (end, _) in line.match_indices(BAR).filter(|_| !whole) {
+            let before = line[..end].replace(BAR, "");
+            let letter = before.char_indices().next_back().map_or(0, |(k, _)| k);
+            let ends = [&before[..letter], &before].map(|text| start + font.width(text));
+            let bar = ends.map(|along| place(along + 0.04 * font.0, -0.5));
+            self.line(&bar, 0.07 * font.0, INK, &[]);
+        }
     }
 }
