@@ -68,26 +68,22 @@ fn linear_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
 /// Ticks of a log axis from 10^lo to 10^hi: decades; over about one decade or less, 1-2-5; where
 /// these are too few, linear steps.
 fn log_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
-    // Every multiple of a power of ten, as exponent, digit and logarithm.
-    let multiple = |e: i32, d: i32| (e, d, f64::from(e) + f64::from(d).log10());
-    let decades = lo.floor() as i32..=hi.ceil() as i32;
-    let mut all: Vec<_> = decades
-        .flat_map(|e| (1..10).map(move |d| multiple(e, d)))
+    let digits = |e: i32| (1..10).map(move |d| (e, d, f64::from(e) + f64::from(d).log10()));
+    let all = (lo.floor() as i32..=hi.ceil() as i32).flat_map(digits);
+    let mut all: Vec<_> = all
         .filter(|m| (lo - 1e-9..=hi + 1e-9).contains(&m.2))
         .collect();
     let count = |digits: &[i32]| all.iter().filter(|m| digits.contains(&m.1)).count();
     let (whole, few) = (count(&[1]), count(&[1, 2, 5]));
-    let stride = whole.div_ceil(most).max(1);
+    let stride = whole.div_ceil(most).max(1) as i32;
     let wide = hi - lo >= 1.5 && whole > 1;
     let chosen = !wide && (3..=most.max(3)).contains(&few);
-    if wide && stride > 1 {
-        all.retain(|m| m.1 == 1);
-    }
+    all.retain(|m| !wide || stride == 1 || m.1 == 1);
     let label = |e: i32, d: i32| match d {
-        1 if wide && e.rem_euclid(stride as i32) == 0 => format!("10{}", superscript(e)),
+        1 if wide && e.rem_euclid(stride) == 0 => format!("10{}", superscript(e)),
         1 | 2 | 5 if chosen => {
-            let (value, step) = (f64::from(d) * 10f64.powi(e), 10f64.powi(e));
-            tick_label(value, step, value)
+            let value = f64::from(d) * 10f64.powi(e);
+            tick_label(value, 10f64.powi(e), value)
         }
         _ => String::new(),
     };
@@ -211,33 +207,38 @@ impl Axes {
     /// Draws ticks and labels about a box, with a grid if asked for; [`Page::outline`] draws the box itself.
     pub(super) fn draw(&self, page: &mut Page, frame: Frame, grid: bool) {
         let [left, top, right, bottom] = frame;
-        for minor in [true, false] {
-            let marks = |axis: &'_ Axis| {
-                let marks = axis.marks().filter(|mark| mark.1.is_empty() == minor);
-                marks
-                    .map(|(at, text)| (at.round(), text.to_owned()))
-                    .collect::<Vec<_>>()
-            };
-            let (colour, out) = if minor {
-                (MINOR_GRID, 0.0)
-            } else {
-                (GRID, TICK / 2.0)
-            };
-            for (at, text) in marks(&self.x) {
-                let x = left + at;
+        for (axis, upright, minor) in [
+            (&self.x, false, true),
+            (&self.y, true, true),
+            (&self.x, false, false),
+            (&self.y, true, false),
+        ] {
+            let colour = if minor { MINOR_GRID } else { GRID };
+            for (at, text) in axis.marks().filter(|mark| mark.1.is_empty() == minor) {
+                let (x, y) = (left + at.round(), bottom - at.round());
+                let (foot, far, tick, label, anchor) = match upright {
+                    false => (
+                        (x, bottom),
+                        (x, top),
+                        (x, bottom + 10.0),
+                        (x, bottom + TICK),
+                        (0.5, 0.0),
+                    ),
+                    true => (
+                        (left, y),
+                        (right, y),
+                        (left - 10.0, y),
+                        (left - TICK, y),
+                        (1.0, 0.5),
+                    ),
+                };
                 if grid {
-                    page.line(&[(x, top), (x, bottom)], THIN, colour, &[]);
+                    page.line(&[foot, far], THIN, colour, &[]);
                 }
-                page.line(&[(x, bottom), (x, bottom + out)], THIN, INK, &[]);
-                page.text(&text, (x, bottom + TICK), SMALL, (0.5, 0.0));
-            }
-            for (at, text) in marks(&self.y) {
-                let y = bottom - at;
-                if grid {
-                    page.line(&[(left, y), (right, y)], THIN, colour, &[]);
+                if !minor {
+                    page.line(&[foot, tick], THIN, INK, &[]);
+                    page.text(text, label, SMALL, anchor);
                 }
-                page.line(&[(left - out, y), (left, y)], THIN, INK, &[]);
-                page.text(&text, (left - TICK, y), SMALL, (1.0, 0.5));
             }
         }
         let middle = ((left + right) / 2.0, (top + bottom) / 2.0);

@@ -7,7 +7,7 @@ use super::{PlotError, between};
 use crate::files::write_whole;
 use image::RgbImage;
 use plotters::coord::Shift;
-use plotters::element::{BitMapElement, Circle, Drawable, PathElement, PointCollection, Polygon};
+use plotters::element::{Circle, Drawable, PathElement, PointCollection, Polygon};
 use plotters::prelude::{BitMapBackend, DrawingArea, IntoDrawingArea, SVGBackend};
 use plotters::style::{Color, RGBAColor, RGBColor, WHITE};
 use std::path::Path;
@@ -147,14 +147,6 @@ impl<'a> Page<'a> {
     /// Draws a filled rectangle.
     pub(super) fn rectangle(&mut self, frame: Frame, colour: Rgb, opacity: f64) {
         self.area(&corners(frame), colour, opacity);
-    }
-
-    /// Draws an image of fine pixels whose left upper corner is given.
-    pub(super) fn image(&mut self, at: Point, width: u32, image: &[u8]) {
-        let size = (width, image.len() as u32 / 3 / width.max(1));
-        if let Some(image) = BitMapElement::with_ref(spot(at), size, image) {
-            self.put(&image);
-        }
     }
 }
 

@@ -2,13 +2,14 @@
 //! nearest sphere at a pixel gives its colour.
 
 use super::axes::{Axis, THIN, TICK};
-use super::colour::{INK, Rgb, channels, stone_of};
-use super::page::{FINE, Page, Point, pixels};
+use super::colour::{INK, Rgb, stone_of};
+use super::page::{FINE, Page, Point, fine, ink, pixels, spot};
 use super::png_file::{save_animation, write_small_png};
 use super::sheet::{Bar, Sheet};
 use super::text::{Block, LABEL, SMALL};
-use super::{EDGE, PlotError, between, largest, lengths, nothing};
+use super::{EDGE, PlotError, between, lengths, nothing};
 use image::RgbImage;
+use plotters::element::Pixel;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -68,6 +69,9 @@ const GROUND: Rgb = 0xECEAE6;
 const LINE: f64 = 40.0;
 const GAP: f64 = 10.0;
 
+/// Direction of the labels on the left.
+const LEFT: Point = (-1.0, 0.0);
+
 /// A position or direction in the axes of the problem.
 type Place = [f64; 3];
 
@@ -98,8 +102,8 @@ fn picture(path: &Path, figure: &SolidFigure, coarser: u32) -> Result<RgbImage, 
     }
     let columns = figure.columns.min(figure.panels.len()).max(1);
     let screen = Screen::new(&figure.window, WIDTHS[columns.min(4) - 1]);
-    let rulers = [0, 1, 2].map(|axis| Ruler::new(&screen, axis));
-    let room = [0, 1, 2].map(|side| largest(rulers.iter().map(|r| r.room(screen.size)[side])));
+    let rulers = Ruler::all(&screen);
+    let room = [1, 2, 0].map(|side| rulers[side].room());
     let titles = figure.panels.iter().map(|p| &*p.title).collect();
     let sheet = Sheet::new(&figure.title, titles, columns, screen.size, room);
     let values = figure.panels.iter().flat_map(|p| &p.values);
@@ -115,7 +119,13 @@ fn picture(path: &Path, figure: &SolidFigure, coarser: u32) -> Result<RgbImage, 
     pixels(path, (width, height + NOTE), coarser, |page| {
         for (k, image) in images.iter().enumerate() {
             let [left, top, ..] = sheet.frame(k);
-            page.image((left, top), screen.width() as u32, image);
+            let ground = screen.ground().map(|p| (left + p.0, top + p.1));
+            page.area(&ground, GROUND, 1.0);
+            let (corner, width) = (spot((left, top)), fine(screen.size.0) as usize);
+            for (n, (_, colour)) in image.iter().enumerate().filter(|(_, p)| p.0.is_finite()) {
+                let at = (corner.0 + (n % width) as i32, corner.1 + (n / width) as i32);
+                page.put(&Pixel::new(at, ink(*colour, 1.0)));
+            }
             for ruler in &rulers {
                 ruler.draw(page, (left, top));
             }
@@ -173,11 +183,6 @@ impl Screen {
         }
     }
 
-    /// Fine pixels of a row.
-    fn width(&self) -> usize {
-        self.size.0 as usize * FINE as usize
-    }
-
     /// Pixels from the left and from above, and distance towards the eye (m).
     fn place(&self, at: Place) -> Place {
         let [right, up, near] = self.view.map(|axis| dot(axis, at));
@@ -185,8 +190,20 @@ impl Screen {
         [across, (self.corner.1 - up) * self.scale, near]
     }
 
-    /// The fine pixels of the ground and of the particles in the window; `None` without any.
-    fn spheres(&self, panel: &SolidPanel, range: Point) -> Option<Vec<u8>> {
+    fn flat(&self, at: Place) -> Point {
+        let [across, down, _] = self.place(at);
+        (across, down)
+    }
+
+    /// Corners of the ground within the window.
+    fn ground(&self) -> [Point; 4] {
+        let [x, y, z] = self.window;
+        let corners = [(x.0, z.0), (x.1, z.0), (x.1, z.1), (x.0, z.1)];
+        corners.map(|(x, z)| self.flat([x, y.0, z]))
+    }
+
+    /// Depth and colour of the nearest sphere at every fine pixel, far away where there is none; `None` without any.
+    fn spheres(&self, panel: &SolidPanel, range: Point) -> Option<Vec<(f64, Rgb)>> {
         // A particle on the ground may have sunk in a little.
         let half = panel.size / 2.0;
         let inside = |(lo, hi): Point, v: f64| (lo - half..=hi + half).contains(&v);
@@ -195,136 +212,113 @@ impl Screen {
         if !drawable || !panel.points.iter().any(shown) {
             return None;
         }
-        let width = self.width();
-        let height = self.size.1 as usize * FINE as usize;
-        let mut pixels = vec![255; 3 * width * height];
-        let mut depths = self.ground(width, &mut pixels);
+        let (width, height) = (fine(self.size.0), fine(self.size.1));
+        let mut pixels = vec![(f64::NEG_INFINITY, 0); (width * height) as usize];
         let scale = f64::from(FINE) * self.scale;
         let radius = RADIUS * panel.size;
-        let reach = (radius * scale).ceil() as i64;
+        let reach = (radius * scale).ceil() as i32;
         let lamp = LIGHT.map(|v| v / dot(LIGHT, LIGHT).sqrt());
         let particles = panel.points.iter().zip(&panel.values);
         for (at, value) in particles.filter(|(p, _)| shown(p)) {
-            let colour = channels(stone_of(*value, range)).map(f64::from);
-            let [across, down, depth] = self.place(*at);
-            let (across, down) = (f64::from(FINE) * across, f64::from(FINE) * down);
-            let span = |middle: f64, end: usize| {
-                let ends = [middle as i64 - reach, middle as i64 + reach + 1];
-                let [from, to] = ends.map(|v| v.clamp(0, end as i64) as usize);
-                from..to
+            let colour = stone_of(*value, range).to_be_bytes().map(f64::from);
+            let [across, down, depth] = self.place(*at).map(|v| v * f64::from(FINE));
+            let span = |middle: f64, end: i32| {
+                let middle = middle as i32;
+                (middle - reach).max(0)..(middle + reach + 1).min(end)
             };
-            for y in span(down, height) {
-                for n in span(across, width).map(|x| y * width + x) {
-                    let part = |pixel: usize, middle: f64| {
-                        (pixel as f64 + 0.5 - middle) / (scale * radius)
-                    };
-                    let (dx, dy) = (part(n % width, across), part(y, down));
-                    let rest = (1.0 - dx * dx - dy * dy).max(0.0).sqrt();
-                    let front = depth + radius * rest;
-                    if rest > 0.0 && front > depths[n] {
-                        depths[n] = front;
-                        let facing = 0.5 + 0.5 * dot([dx, -dy, rest], lamp);
-                        let light = AMBIENT + DIRECT * facing * facing;
-                        let lit = colour.map(|c| (c * light).round().min(255.0) as u8);
-                        pixels[3 * n..3 * n + 3].copy_from_slice(&lit);
-                    }
+            let part =
+                |pixel: i32, middle: f64| (f64::from(pixel) + 0.5 - middle) / (scale * radius);
+            for (y, x) in span(down, height).flat_map(|y| span(across, width).map(move |x| (y, x)))
+            {
+                let (dx, dy) = (part(x, across), part(y, down));
+                let rest = (1.0 - dx * dx - dy * dy).max(0.0).sqrt();
+                let front = depth / f64::from(FINE) + radius * rest;
+                let nearest = &mut pixels[(y * width + x) as usize];
+                if rest > 0.0 && front > nearest.0 {
+                    let facing = 0.5 + 0.5 * dot([dx, -dy, rest], lamp);
+                    let light = AMBIENT + DIRECT * facing * facing;
+                    let lit = colour.map(|c| (c * light).round().min(255.0) as u8);
+                    *nearest = (front, Rgb::from_be_bytes(lit));
                 }
             }
         }
         Some(pixels)
     }
-
-    /// Colours the ground within the window; returns the depth of every pixel.
-    fn ground(&self, width: usize, pixels: &mut [u8]) -> Vec<f64> {
-        let [right, up, eye] = self.view;
-        let metres = |pixel: usize| (pixel as f64 + 0.5) / (f64::from(FINE) * self.scale);
-        let depth = |(n, pixel): (usize, &mut [u8])| {
-            let x = self.corner.0 + metres(n % width);
-            let y = self.corner.1 - metres(n / width);
-            let base = [0, 1, 2].map(|k| x * right[k] + y * up[k]);
-            let near = (self.window[1].0 - base[1]) / eye[1];
-            let within = |k: usize| {
-                let (value, (lo, hi)) = (base[k] + near * eye[k], self.window[k]);
-                (lo..=hi).contains(&value)
-            };
-            if !(within(0) && within(2)) {
-                return f64::NEG_INFINITY;
-            }
-            pixel.copy_from_slice(&channels(GROUND));
-            near
-        };
-        pixels.chunks_exact_mut(3).enumerate().map(depth).collect()
-    }
 }
 
 /// Marks in metres along an edge of the window.
 struct Ruler {
+    name: &'static str,
     ends: [Point; 2],
     scale: Axis,
-    /// Direction of labels from the edge.
+    /// Direction of labels, and of ticks.
     side: Point,
-    name: &'static str,
-    /// Where that stands.
-    place: Point,
+    tick: Point,
 }
 
 impl Ruler {
-    /// Along x below, y on the left or z on the right.
-    fn new(screen: &Screen, axis: usize) -> Self {
+    /// Along x below, y on the left and z on the right.
+    fn all(screen: &Screen) -> [Self; 3] {
         let [x, y, z] = screen.window;
-        let (from, to, side, name) = [
-            ([x.0, y.0, z.1], [x.1, y.0, z.1], (0.0, 1.0), "x (m)"),
-            ([x.0, y.0, z.1], [x.0, y.1, z.1], (-1.0, 0.0), "y (m)"),
-            ([x.1, y.0, z.0], [x.1, y.0, z.1], (1.0, 0.0), "z (m)"),
-        ][axis];
-        let ends = [from, to].map(|at| screen.place(at)).map(|p| (p[0], p[1]));
-        let length = (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1);
-        let scale = Axis::new(screen.window[axis], false, length, axis == 1);
-        let (x, y) = between(ends[0], ends[1], 0.5);
-        let out = TICK + scale.label_width() + GAP;
-        // Those of edges that rise on the other side of their labels stand clear of these.
-        let place = match axis {
-            0 => (x - LABEL.width(name), y + TICK + LINE),
-            1 => (x - out - LINE, y),
-            _ => (x + out + GAP, y + LINE),
+        let along = |(lo, hi): Point, name, ends: [Place; 2], side, tick| {
+            let ends = ends.map(|at| screen.flat(at));
+            let length = (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1);
+            let scale = Axis::new((lo, hi), false, length, side == LEFT);
+            Self {
+                name,
+                ends,
+                scale,
+                side,
+                tick,
+            }
         };
-        Self {
-            ends,
-            scale,
-            side,
-            name,
-            place,
-        }
+        let (low, left) = ([x.0, y.0, z.1], [x.0, y.1, z.1]);
+        let (right, far) = ([x.1, y.0, z.1], [x.1, y.0, z.0]);
+        [
+            along(x, "x (m)", [low, right], (0.0, 1.0), (0.0, 1.0)),
+            along(y, "y (m)", [low, left], LEFT, LEFT),
+            along(z, "z (m)", [far, right], (1.0, 0.0), (0.6, 0.8)),
+        ]
     }
 
-    /// Room for its labels left of, right of and below a panel of a size.
-    fn room(&self, (wide, high): Point) -> [f64; 3] {
-        let right = self.place.0 + LABEL.width(self.name);
-        let low = self.ends.map(|end| end.1 + TICK + LINE);
-        let below = largest(low.into_iter()).max(self.place.1 + LINE / 2.0);
-        [-self.place.0, right - wide, below - high].map(|room| room.max(0.0))
+    /// Room for its labels beside a panel, or below.
+    fn room(&self) -> f64 {
+        let beyond = if self.side.0 > 0.0 {
+            LABEL.width(self.name)
+        } else {
+            LINE
+        };
+        let digits = if self.side.0 == 0.0 {
+            LINE
+        } else {
+            self.scale.label_width() + GAP
+        };
+        TICK + digits + beyond
     }
 
     /// Draws it into a panel whose left upper corner is given.
     fn draw(&self, page: &mut Page, corner: Point) {
-        let at = |p: Point| (corner.0 + p.0, corner.1 + p.1);
-        let [from, to] = self.ends.map(at);
+        let [from, to] = self.ends.map(|p| (corner.0 + p.0, corner.1 + p.1));
         page.line(&[from, to], THIN, INK, &[]);
+        let out = |p: Point, (x, y): Point, length: f64| (p.0 + length * x, p.1 + length * y);
         for (along, text) in self.scale.marks() {
             let foot = between(from, to, along / self.scale.length);
-            let out = |length: f64| (foot.0 + length * self.side.0, foot.1 + length * self.side.1);
-            page.line(&[foot, out(TICK / 2.0)], THIN, INK, &[]);
+            page.line(&[foot, out(foot, self.tick, TICK / 2.0)], THIN, INK, &[]);
             let anchor = (0.5 - 0.5 * self.side.0, 0.5 - 0.5 * self.side.1);
-            page.text(text, out(TICK), SMALL, anchor);
+            page.text(text, out(foot, self.side, TICK), SMALL, anchor);
         }
-        match self.side.0 < 0.0 {
-            true => page.block(
-                &Block::new(self.name, LABEL, f64::INFINITY),
-                at(self.place),
-                true,
-            ),
-            false => page.text(self.name, at(self.place), LABEL, (0.0, 0.5)),
+        let (x, y) = between(from, to, 0.5);
+        let beside = TICK + self.scale.label_width() + GAP;
+        if self.side == LEFT {
+            let name = Block::new(self.name, LABEL, f64::INFINITY);
+            return page.block(&name, (x - beside - LINE, y), true);
         }
+        // Clear of the ticks' labels along an edge that falls or rises.
+        let (at, anchor) = match self.side.0 == 0.0 {
+            true => ((x, y + TICK + LINE), (1.0, 0.5)),
+            false => ((x + beside, y + LINE), (0.0, 0.5)),
+        };
+        page.text(self.name, at, LABEL, anchor);
     }
 }
 
