@@ -3,7 +3,7 @@
 use super::axes::{Axis, extent, tick_label, widen};
 use super::marker::Marker;
 use super::page::Point;
-use super::{PlotError, finite, nothing};
+use super::{PlotError, finite};
 use std::path::Path;
 
 /// Scale of an axis.
@@ -168,7 +168,7 @@ impl Chart {
         let all = self.series.iter().flat_map(|s| &s.points);
         let mut shown: Vec<f64> = all.filter(|p| finite(p)).map(pick).collect();
         if shown.is_empty() && given.is_none() {
-            return Err(nothing(path, &self.title));
+            return Err(PlotError::no_data(path, &self.title));
         }
         for line in self.reference_lines.iter().filter(|_| upright) {
             let half = line.band.unwrap_or(0.0);
@@ -178,18 +178,20 @@ impl Chart {
         shown.extend(self.triangle().iter().flatten().map(pick));
         shown.extend(given.into_iter().flat_map(|(lo, hi)| [lo, hi]));
         if let Some(&value) = shown.iter().find(|v| log && **v <= 0.0) {
-            return Err(PlotError::NonPositive {
-                path: path.into(),
-                title: self.title.clone(),
-                axis: label.clone(),
-                value,
-            });
+            let cause = format!(
+                "\"{}\" has the non-positive value {value} on its log axis \"{label}\"",
+                self.title
+            );
+            return Err(PlotError::new(path, &cause));
         }
         if let Some((lo, hi)) = given {
             return Ok(widen((transform(lo), transform(hi)), 0.0));
         }
         let ends = extent(shown.into_iter().map(transform));
-        let (mut lo, mut hi) = widen(ends.ok_or_else(|| nothing(path, &self.title))?, 0.05);
+        let (mut lo, mut hi) = widen(
+            ends.ok_or_else(|| PlotError::no_data(path, &self.title))?,
+            0.05,
+        );
         if let Some([a, b, c]) = self.triangle() {
             // Room for the triangle's labels: right of it, and below or above its horizontal leg.
             let (leg, room) = (transform(pick(&b)), if upright { 44.0 } else { 80.0 });

@@ -5,7 +5,7 @@ use super::colour::{INK, colour_of};
 use super::page::{Frame, Page, Point, clipped, fine, ink, pixels};
 use super::png_file::{save_animation, write_small_png};
 use super::sheet::{Bar, Sheet};
-use super::{PlotError, finite, lengths, nothing};
+use super::{PlotError, finite, same_length};
 use image::RgbImage;
 use plotters::element::Rectangle;
 use plotters::style::Color;
@@ -80,7 +80,7 @@ pub fn animate_fields(path: &Path, figures: &[FieldFigure], delay: u16) -> Resul
 fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, PlotError> {
     let panels = &figure.panels;
     for panel in panels {
-        lengths(path, &panel.title, panel.points.len(), panel.values.len())?;
+        same_length(path, &panel.title, panel.points.len(), panel.values.len())?;
     }
     let extents = |panel: &FieldPanel| {
         let half = panel.size / 2.0;
@@ -94,7 +94,7 @@ fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, 
     let range = |pick: fn(&Point) -> f64| extent(all.iter().map(pick)).filter(|r| r.1 > r.0);
     let values = extent([figure.range.0, figure.range.1].into_iter());
     let (Some(xs), Some(ys), Some(values)) = (range(|p| p.0), range(|p| p.1), values) else {
-        return Err(nothing(path, &figure.title));
+        return Err(PlotError::no_data(path, &figure.title));
     };
     let (xs, ys) = figure.window.unwrap_or((xs, ys));
 

@@ -58,7 +58,7 @@ pub(super) fn save_both(
     Page::draw(path, Medium::Vector(area), &draw)?;
     let svg = path.with_extension("svg");
     let document = compact(&text, fine_size(size));
-    write_whole(&svg, document.as_bytes()).map_err(|e| PlotError::write(&svg, &e))?;
+    write_whole(&svg, document.as_bytes()).map_err(|e| PlotError::new(&svg, &e))?;
     write_small_png(path, &pixels(path, size, 1, draw)?)
 }
 
@@ -97,7 +97,7 @@ impl<'a> Page<'a> {
             Medium::Vector(area) => area.present().map_err(|e| e.to_string()),
         });
         let failure = page.failure.or(done.err());
-        failure.map_or(Ok(()), |cause| Err(PlotError::write(path, &cause)))
+        failure.map_or(Ok(()), |cause| Err(PlotError::new(path, &cause)))
     }
 
     /// Whether it is made of pixels.
@@ -257,4 +257,45 @@ fn compact(text: &str, (width, height): (u32, u32)) -> String {
         open = look;
     }
     document
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dashes_follow_a_line_around_its_corners() {
+        let line = [(0.0, 0.0), (3.0, 0.0), (3.0, 4.0)];
+        let parts = dashes(&line, &[2.0, 2.5]);
+        let expected = [vec![(0.0, 0.0), (2.0, 0.0)], vec![(3.0, 1.5), (3.0, 3.5)]];
+        assert_eq!(parts, expected);
+    }
+
+    #[test]
+    fn lines_are_seen_within_a_frame() {
+        let frame = [0.0, 0.0, 10.0, 10.0];
+        let line = [
+            (-5.0, 5.0),
+            (5.0, 5.0),
+            (5.0, 20.0),
+            (20.0, 5.0),
+            (8.0, 5.0),
+        ];
+        let parts = [
+            vec![(0.0, 5.0), (5.0, 5.0), (5.0, 10.0)],
+            vec![(10.0, 5.0), (8.0, 5.0)],
+        ];
+        assert_eq!(clipped(&line, frame), parts);
+        assert!(clipped(&[(-5.0, 11.0), (15.0, 11.0)], frame).is_empty());
+    }
+
+    #[test]
+    fn fine_pixels_are_averaged() {
+        let draw = |page: &mut Page| page.rectangle([2.0, 1.0, 5.0, 4.5], 0x0072B2, 1.0);
+        let image = pixels(Path::new(""), (8.0, 6.0), 1, draw).unwrap();
+        let at = |x, y| image.get_pixel(x, y).0;
+        assert_eq!((image.dimensions(), at(3, 2)), ((8, 6), [0, 0x72, 0xB2]));
+        assert_eq!((at(0, 0), at(7, 3)), ([255; 3], [255; 3]));
+        assert!((1..250).contains(&at(3, 4)[0]));
+    }
 }

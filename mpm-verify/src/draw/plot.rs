@@ -7,7 +7,7 @@ use super::legend::{Entry, Legend, SHADE};
 use super::page::{Frame, Page, Point, clipped, save_both};
 use super::sheet::Sheet;
 use super::text::SMALL;
-use super::{EDGE, PlotError, between, finite, largest, nothing};
+use super::{EDGE, PlotError, between, finite, largest};
 use std::path::Path;
 
 /// Distance of a legend from the charts, below or beside them.
@@ -111,7 +111,7 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
     let plans = charts.iter().map(|c| Plan::new(path, c, size));
     let plans = plans.collect::<Result<Vec<_>, _>>()?;
     if plans.is_empty() {
-        return Err(nothing(path, "a figure without charts"));
+        return Err(PlotError::no_data(path, "a figure without charts"));
     }
     // Every chart has the same margins, so that the axes of a grid are aligned.
     let [left, right, below] =

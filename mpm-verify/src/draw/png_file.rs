@@ -37,7 +37,7 @@ pub(super) fn save_animation(
     delay: u16,
 ) -> Result<(), PlotError> {
     let first = frames.first();
-    let size = first.ok_or_else(|| PlotError::write(path, &"no pictures"))?;
+    let size = first.ok_or_else(|| PlotError::new(path, &"no pictures"))?;
     written(path, |bytes| {
         let mut encoder = encoder(bytes, size.dimensions(), png::ColorType::Rgb);
         encoder.set_animated(frames.len() as u32, 0)?;
@@ -70,8 +70,8 @@ fn written(
     write: impl FnOnce(&mut Vec<u8>) -> Result<(), png::EncodingError>,
 ) -> Result<(), PlotError> {
     let mut bytes = Vec::new();
-    write(&mut bytes).map_err(|e| PlotError::write(path, &e))?;
-    write_whole(path, &bytes).map_err(|e| PlotError::write(path, &e))
+    write(&mut bytes).map_err(|e| PlotError::new(path, &e))?;
+    write_whole(path, &bytes).map_err(|e| PlotError::new(path, &e))
 }
 
 /// The palette of a picture of few colours, and the index of each pixel's. Neighbours of one colour, most of a chart,

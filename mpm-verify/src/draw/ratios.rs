@@ -4,7 +4,7 @@ use super::colour::{INK, PALETTE, Rgb};
 use super::marker::Marker;
 use super::page::save_both;
 use super::text::{HEADING, SMALL, TITLE};
-use super::{EDGE, PlotError, largest, nothing};
+use super::{EDGE, PlotError, largest};
 use std::path::Path;
 
 /// A ratio.
@@ -46,7 +46,7 @@ const MARKERS: [Marker; 2] = [Marker::Circle, Marker::Square];
 /// There are none, or the picture can't be written.
 pub fn draw_ratios(path: &Path, ratios: &Ratios) -> Result<(), PlotError> {
     if ratios.rows.is_empty() {
-        return Err(nothing(path, &ratios.title));
+        return Err(PlotError::no_data(path, &ratios.title));
     }
     let known = ratios.rows.iter().flat_map(|(_, row)| row).flatten();
     let reach = largest(known.filter_map(|ratio| match ratio {

@@ -7,7 +7,7 @@ use super::page::{FINE, Page, Point, fine, ink, pixels, spot};
 use super::png_file::{save_animation, write_small_png};
 use super::sheet::{Bar, Sheet};
 use super::text::{Block, LABEL, SMALL};
-use super::{EDGE, PlotError, between, lengths, nothing};
+use super::{EDGE, PlotError, between, same_length};
 use image::RgbImage;
 use plotters::element::Pixel;
 use rayon::prelude::*;
@@ -98,7 +98,7 @@ fn picture(path: &Path, figure: &SolidFigure, coarser: u32) -> Result<RgbImage, 
     let sound = |(lo, hi): &Point| lo < hi && (hi - lo).is_finite();
     let finite = figure.range.0.is_finite() && figure.range.1.is_finite();
     if figure.panels.is_empty() || !figure.window.iter().all(sound) || !finite {
-        return Err(nothing(path, &figure.title));
+        return Err(PlotError::no_data(path, &figure.title));
     }
     let columns = figure.columns.min(figure.panels.len()).max(1);
     let screen = Screen::new(&figure.window, WIDTHS[columns.min(4) - 1]);
@@ -110,9 +110,9 @@ fn picture(path: &Path, figure: &SolidFigure, coarser: u32) -> Result<RgbImage, 
     let bar = Bar::new(&sheet, (figure.range, &figure.label), stone_of, values);
     let draw = |panel: &SolidPanel| {
         let (points, values) = (panel.points.len(), panel.values.len());
-        lengths(path, &panel.title, points, values)?;
+        same_length(path, &panel.title, points, values)?;
         let image = screen.spheres(panel, figure.range);
-        image.ok_or_else(|| nothing(path, &panel.title))
+        image.ok_or_else(|| PlotError::no_data(path, &panel.title))
     };
     let images: Result<Vec<_>, PlotError> = figure.panels.par_iter().map(draw).collect();
     let (images, (width, height)) = (images?, bar.size(&sheet));
@@ -345,20 +345,48 @@ mod tests {
     }
 
     #[test]
-    fn pixels_follow_from_the_input_alone() {
+    fn a_nearer_particle_hides_a_farther_one_and_what_faces_the_light_is_lighter() {
+        let screen = Screen::new(&figure().window, 600.0);
+        let [right, up, eye] = screen.view;
+        let middle: Place = [15.0, 1.5, 1.5];
+        let moved = |along: Place, by: f64| [0, 1, 2].map(|k| middle[k] + by * along[k]);
+        for order in [[0, 1], [1, 0]] {
+            let points = [middle, moved(eye, 0.9)];
+            let panel = SolidPanel {
+                title: String::new(),
+                points: order.map(|k| points[k]).into(),
+                values: order.map(|k| k as f64).into(),
+                size: 1.0,
+            };
+            let pixels = screen.spheres(&panel, (0.0, 1.0)).unwrap();
+            let at = |place: Place| {
+                let (x, y) = screen.flat(place);
+                let (depth, colour) = pixels[(fine(y) * fine(screen.size.0) + fine(x)) as usize];
+                (depth, colour.to_be_bytes())
+            };
+            let (depth, colour) = at(middle);
+            assert!((depth - dot(moved(eye, 0.9), eye) - RADIUS).abs() < 1e-3);
+            // The colour of the nearer one, in light: dark purple.
+            assert!(colour[1] > colour[2] && colour[1] < 0x80, "{colour:?}");
+            let [lit, dark] = [0.6, -0.6].map(|by| at(moved(up, by)).1);
+            assert!(lit[1] > dark[1] && at(moved(right, 2.0)).0.is_infinite());
+        }
+    }
+
+    #[test]
+    fn solids_are_drawn_whatever_the_number_of_threads() {
         let folder = tempfile::tempdir().unwrap();
         let mut figure = figure();
         figure.panels.push(figure.panels[0].clone());
         let draw = |threads: usize| {
-            let path = folder.path().join(format!("{threads}.png"));
+            let path = folder.path().join("moving.png");
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-            let pool = pool.build().unwrap();
-            pool.install(|| draw_solids(&path, &figure)).unwrap();
+            let frames = [figure.clone(), figure.clone()];
+            let drawn = || animate_solids(&path, &frames, 8);
+            pool.build().unwrap().install(drawn).unwrap();
             std::fs::read(path).unwrap()
         };
         assert!(draw(1) == draw(3));
-        let frames = [figure.clone(), figure.clone()];
-        animate_solids(&folder.path().join("moving.png"), &frames, 8).unwrap();
     }
 
     #[test]

@@ -137,3 +137,38 @@ impl Page<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::page::pixels;
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn both_fonts_have_the_characters_of_labels() {
+        let greek = "αβγδεζηθκλμνπρστφωΓΔΘΠΣΦΩ";
+        let marks = "−–—…×·±≤≥≈≠∂∇∫√∞→°²³½¼′″⁰¹²³⁴⁵⁶⁷⁸⁹⁻₀₁₂₃\u{2009}\u{a0}\u{202f}éäöü";
+        let ascii: String = (' '..='~').collect();
+        for font in [SMALL, TITLE] {
+            let drawn = |text: &str| {
+                let draw = |page: &mut Page| page.text(text, (20.0, 20.0), font, (0.5, 0.5));
+                pixels(Path::new(""), (40.0, 40.0), 1, draw).unwrap()
+            };
+            // A character without a glyph is drawn as a blank.
+            let blank = drawn("\u{4e2d}");
+            for c in [greek, marks, &ascii].concat().chars() {
+                let seen = c.is_whitespace() || drawn(&c.to_string()) != blank;
+                assert!(seen, "no glyph of {c:?}");
+            }
+            assert!(drawn("F\u{304}") != drawn("F"));
+        }
+        let twice = SMALL.width("mm") - 2.0 * SMALL.width("m");
+        assert!(twice.abs() < 0.5 && SMALL.width("m") > 15.0);
+    }
+
+    #[test]
+    fn blocks_are_no_wider_than_asked_for() {
+        let block = Block::new("a title of many words, most of them short", TITLE, 200.0);
+        assert!(block.width() <= 200.0 && block.text.lines().count() > 2);
+    }
+}
