@@ -121,7 +121,7 @@ fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, 
     pixels(path, bar.size(&sheet), coarser, |page| {
         for (k, panel) in panels.iter().enumerate() {
             let frame = sheet.frame(k);
-            draw_particles(page, &axes, frame, panel, values);
+            draw_particles(page, &axes, frame, panel, bar.range());
             axes.draw(page, frame, false);
             let outline = panel.outline.iter().chain(panel.outline.first());
             let outline = outline.filter(|p| finite(p)).map(|p| axes.place(frame, *p));

@@ -119,6 +119,11 @@ impl Bar {
         }
     }
 
+    /// Values at the ends of its colours.
+    pub(super) fn range(&self) -> Point {
+        self.scale.range
+    }
+
     /// The place of its label.
     fn beside(&self) -> f64 {
         self.corner.0 + BAR + TICK + self.scale.label_width() + 12.0

@@ -68,7 +68,6 @@ const GROUND: Rgb = 0xECEAE6;
 /// Height of a text, and gap between texts.
 const LINE: f64 = 40.0;
 const GAP: f64 = 10.0;
-
 /// Direction of the labels on the left.
 const LEFT: Point = (-1.0, 0.0);
 
@@ -111,7 +110,7 @@ fn picture(path: &Path, figure: &SolidFigure, coarser: u32) -> Result<RgbImage, 
     let draw = |panel: &SolidPanel| {
         let (points, values) = (panel.points.len(), panel.values.len());
         same_length(path, &panel.title, points, values)?;
-        let image = screen.spheres(panel, figure.range);
+        let image = screen.spheres(panel, bar.range());
         image.ok_or_else(|| PlotError::no_data(path, &panel.title))
     };
     let images: Result<Vec<_>, PlotError> = figure.panels.par_iter().map(draw).collect();
