@@ -1,9 +1,9 @@
 //! Axes: ranges, ticks and their labels, and the box that they make.
 
 use super::colour::{INK, Rgb};
-use super::largest;
 use super::page::{Frame, Page, Point, corners};
 use super::text::{Block, LABEL, SMALL};
+use super::{between, largest};
 
 const GRID: Rgb = 0xE2E2E2;
 const MINOR_GRID: Rgb = 0xF1F1F1;
@@ -11,6 +11,10 @@ const MINOR_GRID: Rgb = 0xF1F1F1;
 pub(super) const THIN: f64 = 2.0;
 /// Length of a major tick with its gap to the label.
 pub(super) const TICK: f64 = 20.0;
+/// Directions of ticks and labels.
+pub(super) const BELOW: Point = (0.0, 1.0);
+pub(super) const LEFT: Point = (-1.0, 0.0);
+pub(super) const RIGHT: Point = (1.0, 0.0);
 /// Distance from an axis to its label below.
 const LABEL_DROP: f64 = TICK + 33.0;
 
@@ -101,7 +105,7 @@ pub(super) struct Axis {
     log: bool,
     pub(super) range: Point,
     pub(super) length: f64,
-    pub(super) ticks: Ticks,
+    ticks: Ticks,
 }
 
 impl Axis {
@@ -116,10 +120,11 @@ impl Axis {
             ticks: lay(range.0, range.1, most),
         };
         let fits = |axis: &Self| {
-            let labels: Vec<_> = axis.marks().filter(|mark| !mark.1.is_empty()).collect();
-            labels
-                .windows(2)
-                .all(|w| w[1].0 - w[0].0 >= (size(w[0].1) + size(w[1].1)) / 2.0 + 30.0)
+            let labels: Vec<_> = axis.ticks.iter().filter(|t| !t.1.is_empty()).collect();
+            labels.windows(2).all(|w| {
+                let room = axis.pixels(w[1].0) - axis.pixels(w[0].0);
+                room >= (size(&w[0].1) + size(&w[1].1)) / 2.0 + 30.0
+            })
         };
         let mut fitting = (2..=9).rev().map(axis).filter(fits);
         fitting.next().unwrap_or_else(|| axis(1))
@@ -132,21 +137,30 @@ impl Axis {
 
     /// Pixels from the start of the axis to a value; on a log axis, far before it to one that isn't positive.
     pub(super) fn at(&self, value: f64) -> f64 {
-        let position = if self.log {
-            value.max(0.0).log10()
-        } else {
-            value
-        };
-        self.pixels(position).clamp(-1e5, 1e5)
+        let logarithm = || value.max(0.0).log10();
+        self.pixels(if self.log { logarithm() } else { value })
+            .clamp(-1e5, 1e5)
     }
 
     pub(super) fn label_width(&self) -> f64 {
         largest(self.ticks.iter().map(|t| SMALL.width(&t.1)))
     }
 
-    /// The ticks with their distances from the start of the axis.
-    pub(super) fn marks(&self) -> impl Iterator<Item = (f64, &str)> {
-        self.ticks.iter().map(|t| (self.pixels(t.0), t.1.as_str()))
+    /// The ticks along a line on the page.
+    fn along(&self, [from, to]: [Point; 2]) -> impl Iterator<Item = (Point, &str)> {
+        let part = |at: f64| self.pixels(at).round() / self.length;
+        let ticks = self.ticks.iter();
+        ticks.map(move |(at, label)| (between(from, to, part(*at)), label.as_str()))
+    }
+
+    /// Draws the ticks that have labels along a line on the page, and the labels to a side.
+    pub(super) fn draw(&self, page: &mut Page, ends: [Point; 2], tick: Point, side: Point) {
+        let out = |p: Point, (x, y): Point, length: f64| (p.0 + length * x, p.1 + length * y);
+        let anchor = (0.5 - 0.5 * side.0, 0.5 - 0.5 * side.1);
+        for (foot, label) in self.along(ends).filter(|tick| !tick.1.is_empty()) {
+            page.line(&[foot, out(foot, tick, TICK / 2.0)], THIN, INK, &[]);
+            page.text(label, out(foot, side, TICK), SMALL, anchor);
+        }
     }
 }
 
@@ -205,42 +219,20 @@ impl Axes {
     }
 
     /// Draws ticks and labels about a box, with a grid if asked for; [`Page::outline`] draws the box itself.
-    pub(super) fn draw(&self, page: &mut Page, frame: Frame, grid: bool) {
-        let [left, top, right, bottom] = frame;
-        for (axis, upright, minor) in [
-            (&self.x, false, true),
-            (&self.y, true, true),
-            (&self.x, false, false),
-            (&self.y, true, false),
-        ] {
-            let colour = if minor { MINOR_GRID } else { GRID };
-            for (at, text) in axis.marks().filter(|mark| mark.1.is_empty() == minor) {
-                let (x, y) = (left + at.round(), bottom - at.round());
-                let (foot, far, tick, label, anchor) = match upright {
-                    false => (
-                        (x, bottom),
-                        (x, top),
-                        (x, bottom + 10.0),
-                        (x, bottom + TICK),
-                        (0.5, 0.0),
-                    ),
-                    true => (
-                        (left, y),
-                        (right, y),
-                        (left - 10.0, y),
-                        (left - TICK, y),
-                        (1.0, 0.5),
-                    ),
-                };
-                if grid {
+    pub(super) fn draw(&self, page: &mut Page, [left, top, right, bottom]: Frame, grid: bool) {
+        let corner = (left, bottom);
+        let x = (&self.x, [corner, (right, bottom)], (0.0, top - bottom));
+        let y = (&self.y, [corner, (left, top)], (right - left, 0.0));
+        for (minor, colour) in [(true, MINOR_GRID), (false, GRID)] {
+            for (axis, ends, across) in [x, y].into_iter().filter(|_| grid) {
+                for (foot, _) in axis.along(ends).filter(|tick| tick.1.is_empty() == minor) {
+                    let far = (foot.0 + across.0, foot.1 + across.1);
                     page.line(&[foot, far], THIN, colour, &[]);
-                }
-                if !minor {
-                    page.line(&[foot, tick], THIN, INK, &[]);
-                    page.text(text, label, SMALL, anchor);
                 }
             }
         }
+        self.x.draw(page, x.1, BELOW, BELOW);
+        self.y.draw(page, y.1, LEFT, LEFT);
         let middle = ((left + right) / 2.0, (top + bottom) / 2.0);
         page.block(&self.x_label, (middle.0, bottom + LABEL_DROP), false);
         page.block(&self.y_label, (left - self.room()[0], middle.1), true);

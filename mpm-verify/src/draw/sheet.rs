@@ -1,9 +1,9 @@
 //! Panels of one size in rows, with titles and room for labels, below a heading; and a colour bar beside them.
 
-use super::axes::{Axis, THIN, TICK, widen};
+use super::axes::{Axis, RIGHT, THIN, TICK, widen};
 use super::colour::{INK, Rgb};
 use super::page::{Frame, Page, Point};
-use super::text::{Block, HEADING, LABEL, SMALL, TITLE};
+use super::text::{Block, HEADING, LABEL, TITLE};
 use super::{EDGE, largest};
 
 /// Distance of panels with their labels, and from a title to its panel.
@@ -151,11 +151,8 @@ impl Bar {
         page.area(&upper, colour(hi), 1.0);
         let outline = [&lower[..], &upper, &lower[..1]].concat();
         page.line(&outline, THIN, INK, &[]);
-        for (along, text) in self.scale.marks() {
-            let y = bottom - along.round();
-            page.line(&[(right, y), (right + TICK / 2.0, y)], THIN, INK, &[]);
-            page.text(text, (right + TICK, y), SMALL, (0.0, 0.5));
-        }
+        let ends = [(right, bottom), (right, top)];
+        self.scale.draw(page, ends, RIGHT, RIGHT);
         page.block(&self.label, (self.beside(), bottom - length / 2.0), true);
     }
 }

@@ -1,7 +1,7 @@
 //! Bodies of particles in three dimensions: a particle is a sphere a little larger than its share of space, and the
 //! nearest sphere at a pixel gives its colour.
 
-use super::axes::{Axis, THIN, TICK};
+use super::axes::{Axis, BELOW, LEFT, RIGHT, THIN, TICK};
 use super::colour::{INK, Rgb, stone_of};
 use super::page::{FINE, Page, Point, fine, ink, pixels, spot};
 use super::png_file::{save_animation, write_small_png};
@@ -68,8 +68,6 @@ const GROUND: Rgb = 0xECEAE6;
 /// Height of a text, and gap between texts.
 const LINE: f64 = 40.0;
 const GAP: f64 = 10.0;
-/// Direction of the labels on the left.
-const LEFT: Point = (-1.0, 0.0);
 
 /// A position or direction in the axes of the problem.
 type Place = [f64; 3];
@@ -250,74 +248,65 @@ struct Ruler {
     name: &'static str,
     ends: [Point; 2],
     scale: Axis,
-    /// Direction of labels, and of ticks.
-    side: Point,
+    /// Directions of ticks and of labels.
     tick: Point,
+    side: Point,
 }
 
 impl Ruler {
     /// Along x below, y on the left and z on the right.
     fn all(screen: &Screen) -> [Self; 3] {
         let [x, y, z] = screen.window;
-        let along = |(lo, hi): Point, name, ends: [Place; 2], side, tick| {
-            let ends = ends.map(|at| screen.flat(at));
-            let length = (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1);
-            let scale = Axis::new((lo, hi), false, length, side == LEFT);
-            Self {
-                name,
-                ends,
-                scale,
-                side,
-                tick,
-            }
-        };
         let (low, left) = ([x.0, y.0, z.1], [x.0, y.1, z.1]);
         let (right, far) = ([x.1, y.0, z.1], [x.1, y.0, z.0]);
         [
-            along(x, "x (m)", [low, right], (0.0, 1.0), (0.0, 1.0)),
-            along(y, "y (m)", [low, left], LEFT, LEFT),
-            along(z, "z (m)", [far, right], (1.0, 0.0), (0.6, 0.8)),
+            ("x (m)", x, [low, right], BELOW, BELOW),
+            ("y (m)", y, [low, left], LEFT, LEFT),
+            ("z (m)", z, [far, right], (0.6, 0.8), RIGHT),
         ]
+        .map(|(name, range, ends, tick, side)| {
+            let ends = ends.map(|at| screen.flat(at));
+            let length = (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1);
+            Self {
+                name,
+                ends,
+                scale: Axis::new(range, false, length, side == LEFT),
+                tick,
+                side,
+            }
+        })
+    }
+
+    /// Distance of the name from the edge.
+    fn gap(&self) -> f64 {
+        let digits = match self.side == BELOW {
+            true => LINE / 2.0,
+            false => self.scale.label_width() + GAP,
+        };
+        TICK + digits
     }
 
     /// Room for its labels beside a panel, or below.
     fn room(&self) -> f64 {
-        let beyond = if self.side.0 > 0.0 {
-            LABEL.width(self.name)
-        } else {
-            LINE
-        };
-        let digits = if self.side.0 == 0.0 {
-            LINE
-        } else {
-            self.scale.label_width() + GAP
-        };
-        TICK + digits + beyond
+        let name = LABEL.width(self.name);
+        self.gap() + if self.side == RIGHT { name } else { LINE }
     }
 
     /// Draws it into a panel whose left upper corner is given.
     fn draw(&self, page: &mut Page, corner: Point) {
-        let [from, to] = self.ends.map(|p| (corner.0 + p.0, corner.1 + p.1));
-        page.line(&[from, to], THIN, INK, &[]);
-        let out = |p: Point, (x, y): Point, length: f64| (p.0 + length * x, p.1 + length * y);
-        for (along, text) in self.scale.marks() {
-            let foot = between(from, to, along / self.scale.length);
-            page.line(&[foot, out(foot, self.tick, TICK / 2.0)], THIN, INK, &[]);
-            let anchor = (0.5 - 0.5 * self.side.0, 0.5 - 0.5 * self.side.1);
-            page.text(text, out(foot, self.side, TICK), SMALL, anchor);
-        }
-        let (x, y) = between(from, to, 0.5);
-        let beside = TICK + self.scale.label_width() + GAP;
-        if self.side == LEFT {
-            let name = Block::new(self.name, LABEL, f64::INFINITY);
-            return page.block(&name, (x - beside - LINE, y), true);
-        }
+        let ends = self.ends.map(|p| (corner.0 + p.0, corner.1 + p.1));
+        page.line(&ends, THIN, INK, &[]);
+        self.scale.draw(page, ends, self.tick, self.side);
+        let ((x, y), gap) = (between(ends[0], ends[1], 0.5), self.gap());
         // Clear of the ticks' labels along an edge that falls or rises.
-        let (at, anchor) = match self.side.0 == 0.0 {
-            true => ((x, y + TICK + LINE), (1.0, 0.5)),
-            false => ((x + beside, y + LINE), (0.0, 0.5)),
-        };
-        page.text(self.name, at, LABEL, anchor);
+        match self.side {
+            LEFT => {
+                let name = Block::new(self.name, LABEL, f64::INFINITY);
+                page.block(&name, (x - gap - LINE, y), true);
+            }
+            RIGHT => page.text(self.name, (x + gap, y + LINE), LABEL, (0.0, 0.5)),
+            _ => page.text(self.name, (x, y + gap + LINE / 2.0), LABEL, (1.0, 0.5)),
+        }
     }
 }
 
