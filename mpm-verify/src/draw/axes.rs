@@ -1,27 +1,22 @@
 //! Axes: ranges, ticks and their labels, and the box that they make.
 
-use super::backend::{Failure, Sheet, lettering, line, placed, units};
-use super::canvas::Canvas;
 use super::colour::{INK, Rgb};
-use super::font::{Block, LABEL, SMALL};
-use super::largest;
-use super::shape::{Frame, Point};
-use plotters::chart::{ChartBuilder, ChartContext};
-use plotters::coord::cartesian::Cartesian2d;
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use plotters::element::Rectangle;
-use plotters::style::TextStyle;
-use plotters::style::text_anchor::{HPos, VPos};
-use std::ops::Range;
+use super::page::{Frame, Page, Point, corners};
+use super::text::{Block, LABEL, SMALL};
+use super::{between, largest};
 
 const GRID: Rgb = 0xE2E2E2;
 const MINOR_GRID: Rgb = 0xF1F1F1;
+/// Width of the lines of axes and grid.
+pub(super) const THIN: f64 = 2.0;
 /// Length of a major tick with its gap to the label.
 pub(super) const TICK: f64 = 20.0;
+/// Directions of ticks and labels.
+pub(super) const BELOW: Point = (0.0, 1.0);
+pub(super) const LEFT: Point = (-1.0, 0.0);
+pub(super) const RIGHT: Point = (1.0, 0.0);
 /// Distance from an axis to its label below.
 const LABEL_DROP: f64 = TICK + 33.0;
-/// Positions beyond this, in pixels, are moved to it: outside any picture.
-const FAR: f64 = 1e4;
 
 /// Ticks as positions on the axis (log axes: of the logarithm) with labels; minor ones have none.
 type Ticks = Vec<(f64, String)>;
@@ -77,26 +72,22 @@ fn linear_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
 /// Ticks of a log axis from 10^lo to 10^hi: decades; over about one decade or less, 1-2-5; where
 /// these are too few, linear steps.
 fn log_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
-    // Every multiple of a power of ten, as exponent, digit and logarithm.
-    let multiple = |e: i32, d: i32| (e, d, f64::from(e) + f64::from(d).log10());
-    let decades = lo.floor() as i32..=hi.ceil() as i32;
-    let mut all: Vec<_> = decades
-        .flat_map(|e| (1..10).map(move |d| multiple(e, d)))
+    let digits = |e: i32| (1..10).map(move |d| (e, d, f64::from(e) + f64::from(d).log10()));
+    let all = (lo.floor() as i32..=hi.ceil() as i32).flat_map(digits);
+    let mut all: Vec<_> = all
         .filter(|m| (lo - 1e-9..=hi + 1e-9).contains(&m.2))
         .collect();
     let count = |digits: &[i32]| all.iter().filter(|m| digits.contains(&m.1)).count();
     let (whole, few) = (count(&[1]), count(&[1, 2, 5]));
-    let stride = whole.div_ceil(most).max(1);
+    let stride = whole.div_ceil(most).max(1) as i32;
     let wide = hi - lo >= 1.5 && whole > 1;
     let chosen = !wide && (3..=most.max(3)).contains(&few);
-    if wide && stride > 1 {
-        all.retain(|m| m.1 == 1);
-    }
+    all.retain(|m| !wide || stride == 1 || m.1 == 1);
     let label = |e: i32, d: i32| match d {
-        1 if wide && e.rem_euclid(stride as i32) == 0 => format!("10{}", superscript(e)),
+        1 if wide && e.rem_euclid(stride) == 0 => format!("10{}", superscript(e)),
         1 | 2 | 5 if chosen => {
-            let (value, step) = (f64::from(d) * 10f64.powi(e), 10f64.powi(e));
-            tick_label(value, step, value)
+            let value = f64::from(d) * 10f64.powi(e);
+            tick_label(value, 10f64.powi(e), value)
         }
         _ => String::new(),
     };
@@ -108,22 +99,18 @@ fn log_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
     ticks
 }
 
-/// What plotters draws within the axes.
-pub(super) type Plot<'c> = ChartContext<'c, &'c mut Canvas, Cartesian2d<Axis, Axis>>;
-
 /// An axis: its range (log axes: of the logarithm), its length in pixels, and its ticks. Plotters' own logarithmic axis
-/// has ticks at decades alone, and its linear one labels of one form.
-#[derive(Clone)]
+/// has ticks at decades alone; its linear one has labels of one form, and fails below a range of 10⁻¹⁵.
 pub(super) struct Axis {
     log: bool,
-    pub(super) range: (f64, f64),
+    pub(super) range: Point,
     pub(super) length: f64,
     ticks: Ticks,
 }
 
 impl Axis {
     /// Lays as many ticks as leave room between the labels along the axis.
-    pub(super) fn new(range: (f64, f64), log: bool, length: f64, upright: bool) -> Self {
+    pub(super) fn new(range: Point, log: bool, length: f64, upright: bool) -> Self {
         let lay = if log { log_ticks } else { linear_ticks };
         let size = |label: &str| if upright { 24.0 } else { SMALL.width(label) };
         let axis = |most| Self {
@@ -150,68 +137,30 @@ impl Axis {
 
     /// Pixels from the start of the axis to a value; on a log axis, far before it to one that isn't positive.
     pub(super) fn at(&self, value: f64) -> f64 {
-        self.pixels(if self.log {
-            value.max(0.0).log10()
-        } else {
-            value
-        })
-    }
-
-    /// The value at a distance from the start.
-    fn value(&self, pixels: f64) -> f64 {
-        let position = self.range.0 + pixels / self.length * (self.range.1 - self.range.0);
-        if self.log {
-            10f64.powf(position)
-        } else {
-            position
-        }
+        let logarithm = || value.max(0.0).log10();
+        self.pixels(if self.log { logarithm() } else { value })
+            .clamp(-1e5, 1e5)
     }
 
     pub(super) fn label_width(&self) -> f64 {
         largest(self.ticks.iter().map(|t| SMALL.width(&t.1)))
     }
 
-    /// The ticks with their distances from the start of the axis, in whole pixels.
-    pub(super) fn marks(&self) -> impl Iterator<Item = (f64, &str)> {
-        let place = |t: &(f64, String)| self.pixels(t.0).round();
-        self.ticks.iter().map(move |t| (place(t), t.1.as_str()))
+    /// The ticks along a line on the page.
+    fn along(&self, [from, to]: [Point; 2]) -> impl Iterator<Item = (Point, &str)> {
+        let part = |at: f64| self.pixels(at).round() / self.length;
+        let ticks = self.ticks.iter();
+        ticks.map(move |(at, label)| (between(from, to, part(*at)), label.as_str()))
     }
-}
 
-impl Ranged for Axis {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    // Plotters ends an area before its last unit, on the left and at the bottom of the picture alike.
-    fn map(&self, value: &f64, (start, end): (i32, i32)) -> i32 {
-        let along = units(self.at(*value).clamp(-FAR, FAR));
-        if start < end {
-            start + along
-        } else {
-            start + 1 - along
+    /// Draws the ticks that have labels along a line on the page, and the labels to a side.
+    pub(super) fn draw(&self, page: &mut Page, ends: [Point; 2], tick: Point, side: Point) {
+        let out = |p: Point, (x, y): Point, length: f64| (p.0 + length * x, p.1 + length * y);
+        let anchor = (0.5 - 0.5 * side.0, 0.5 - 0.5 * side.1);
+        for (foot, label) in self.along(ends).filter(|tick| !tick.1.is_empty()) {
+            page.line(&[foot, out(foot, tick, TICK / 2.0)], THIN, INK, &[]);
+            page.text(label, out(foot, side, TICK), SMALL, anchor);
         }
-    }
-
-    fn axis_pixel_range(&self, (start, end): (i32, i32)) -> Range<i32> {
-        start.min(end)..start.max(end) + 1
-    }
-
-    fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
-        let minor = hint.weight().allow_light_points();
-        let chosen = self.marks().filter(|mark| mark.1.is_empty() == minor);
-        chosen.map(|mark| self.value(mark.0)).collect()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.value(0.0)..self.value(self.length)
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
-    fn format_ext(&self, value: &f64) -> String {
-        let at = self.at(*value).round();
-        let label = self.marks().find(|mark| mark.0 == at && !mark.1.is_empty());
-        label.map(|mark| mark.1.to_owned()).unwrap_or_default()
     }
 }
 
@@ -247,89 +196,55 @@ pub(super) struct Axes {
 impl Axes {
     /// Labels are wrapped to the lengths of the axes, but not shorter than `least`.
     pub(super) fn new([x, y]: [Axis; 2], labels: [&str; 2], least: f64) -> Self {
-        let x_label = Block::new(labels[0], LABEL, x.length.max(least));
-        let y_label = Block::new(labels[1], LABEL, y.length.max(least));
         Self {
+            x_label: Block::new(labels[0], LABEL, x.length.max(least)),
+            y_label: Block::new(labels[1], LABEL, y.length.max(least)),
             x,
             y,
-            x_label,
-            y_label,
         }
     }
 
-    /// Room for the ordinate's label and tick labels.
-    pub(super) fn left(&self) -> f64 {
-        self.y_label.height() + 12.0 + self.y.label_width() + TICK
+    /// Room for the labels on the left, on the right and below.
+    pub(super) fn room(&self) -> [f64; 3] {
+        [
+            self.y_label.height() + 12.0 + self.y.label_width() + TICK,
+            16.0 + self.x.label_width() / 2.0,
+            LABEL_DROP + self.x_label.height(),
+        ]
     }
 
-    /// Room for the abscissa's label and tick labels.
-    pub(super) fn below(&self) -> f64 {
-        LABEL_DROP + self.x_label.height()
+    /// Pixels of a point within a box.
+    pub(super) fn place(&self, [left, _, _, bottom]: Frame, (x, y): Point) -> Point {
+        (left + self.x.at(x), bottom - self.y.at(y))
     }
 
-    pub(super) fn width(&self) -> f64 {
-        self.x.length.max(self.x_label.width())
-    }
-
-    /// The box, whose upper left corner lies at the next whole pixels.
-    pub(super) fn frame(&self, (left, top): Point) -> Frame {
-        let (left, top) = (left.round(), top.round());
-        [left, top, left + self.x.length, top + self.y.length]
-    }
-
-    /// Draws the axes of a box, labels and grid where asked for, and a title above; [`draw_box`] draws the box itself.
-    pub(super) fn draw<'c>(
-        &self,
-        sheet: &Sheet<'c>,
-        [left, top, right, _]: Frame,
-        title: &Block,
-        labels: [bool; 2],
-        grid: bool,
-    ) -> Result<Plot<'c>, Failure> {
-        let margin = LABEL.margin();
-        let (beside, below) = (units(self.left() - margin), units(self.below() - margin));
-        let (width, height) = placed((self.x.length, self.y.length));
-        let corner = (units(left) - beside, units(top));
-        let place = sheet
-            .clone()
-            .shrink(corner, (beside + width, height + below));
-        let mut plot = ChartBuilder::on(&place)
-            .y_label_area_size(beside)
-            .x_label_area_size(below)
-            .build_cartesian_2d(self.x.clone(), self.y.clone())?;
-        let blank = |_: &f64| String::new();
-        let mut mesh = plot.configure_mesh();
-        mesh.light_line_style(line(MINOR_GRID, 2.0))
-            .bold_line_style(line(GRID, 2.0))
-            .axis_style(line(INK, 2.0))
-            .label_style(TextStyle::from(SMALL))
-            .axis_desc_style(TextStyle::from(LABEL))
-            .set_all_tick_mark_size(units(TICK / 2.0));
-        if !grid {
-            mesh.disable_mesh();
+    /// Draws ticks and labels about a box, with a grid if asked for; [`Page::outline`] draws the box itself.
+    pub(super) fn draw(&self, page: &mut Page, [left, top, right, bottom]: Frame, grid: bool) {
+        let corner = (left, bottom);
+        let x = (&self.x, [corner, (right, bottom)], (0.0, top - bottom));
+        let y = (&self.y, [corner, (left, top)], (right - left, 0.0));
+        for (minor, colour) in [(true, MINOR_GRID), (false, GRID)] {
+            for (axis, ends, across) in [x, y].into_iter().filter(|_| grid) {
+                for (foot, _) in axis.along(ends).filter(|tick| tick.1.is_empty() == minor) {
+                    let far = (foot.0 + across.0, foot.1 + across.1);
+                    page.line(&[foot, far], THIN, colour, &[]);
+                }
+            }
         }
-        match labels[0] {
-            true => mesh.x_desc(&*self.x_label.text),
-            false => mesh.x_label_formatter(&blank),
-        };
-        match labels[1] {
-            true => mesh.y_desc(&*self.y_label.text),
-            false => mesh.y_label_formatter(&blank),
-        };
-        mesh.draw()?;
-        let above = ((left + right) / 2.0, top - 12.0 - title.font.margin());
-        let style = lettering(title.font, HPos::Center, VPos::Bottom);
-        sheet.draw_text(&title.text, &style, placed(above))?;
-        Ok(plot)
+        self.x.draw(page, x.1, BELOW, BELOW);
+        self.y.draw(page, y.1, LEFT, LEFT);
+        let middle = ((left + right) / 2.0, (top + bottom) / 2.0);
+        page.block(&self.x_label, (middle.0, bottom + LABEL_DROP), false);
+        page.block(&self.y_label, (left - self.room()[0], middle.1), true);
     }
 }
 
-/// Draws the box of axes, over what has been drawn within.
-pub(super) fn draw_box(plot: &Plot) -> Result<(), Failure> {
-    let area = plot.plotting_area().strip_coord_spec();
-    let (width, height) = area.dim_in_pixel();
-    let corners = [(0, 0), (width as i32, height as i32)];
-    area.draw(&Rectangle::new(corners, line(INK, 2.0)))
+impl Page<'_> {
+    /// Draws the box of axes, over what has been drawn within.
+    pub(super) fn outline(&mut self, frame: Frame) {
+        let corners = corners(frame);
+        self.line(&[&corners[..], &corners[..1]].concat(), THIN, INK, &[]);
+    }
 }
 
 #[cfg(test)]

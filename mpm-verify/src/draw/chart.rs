@@ -1,8 +1,9 @@
 //! Line charts: their data, and the ranges of their axes.
 
 use super::axes::{Axis, extent, tick_label, widen};
-use super::shape::{Marker, Point};
-use super::{PlotError, finite, nothing};
+use super::marker::Marker;
+use super::page::Point;
+use super::{PlotError, finite};
 use std::path::Path;
 
 /// Scale of an axis.
@@ -157,10 +158,9 @@ impl Chart {
 
     /// The range of that axis; of its logarithm, if it is logarithmic.
     fn range(&self, path: &Path, upright: bool, length: f64) -> Result<Point, PlotError> {
-        let (given, scale, label) = if upright {
-            (self.y_range, self.y_scale, &self.y_label)
-        } else {
-            (self.x_range, self.x_scale, &self.x_label)
+        let (given, scale, label) = match upright {
+            true => (self.y_range, self.y_scale, &self.y_label),
+            false => (self.x_range, self.x_scale, &self.x_label),
         };
         let log = scale == Scale::Log10;
         let pick = |p: &Point| if upright { p.1 } else { p.0 };
@@ -168,7 +168,7 @@ impl Chart {
         let all = self.series.iter().flat_map(|s| &s.points);
         let mut shown: Vec<f64> = all.filter(|p| finite(p)).map(pick).collect();
         if shown.is_empty() && given.is_none() {
-            return Err(nothing(path, &self.title));
+            return Err(PlotError::no_data(path, &self.title));
         }
         for line in self.reference_lines.iter().filter(|_| upright) {
             let half = line.band.unwrap_or(0.0);
@@ -178,17 +178,21 @@ impl Chart {
         shown.extend(self.triangle().iter().flatten().map(pick));
         shown.extend(given.into_iter().flat_map(|(lo, hi)| [lo, hi]));
         if let Some(&value) = shown.iter().find(|v| log && **v <= 0.0) {
-            return Err(PlotError::NonPositive {
-                path: path.into(),
-                title: self.title.clone(),
-                axis: label.clone(),
-                value,
-            });
+            let cause = format!(
+                "\"{}\" has the non-positive value {value} on its log axis \"{label}\"",
+                self.title
+            );
+            return Err(PlotError::new(path, &cause));
         }
-        let (from, margin) = given.map_or((shown, 0.05), |(lo, hi)| (vec![lo, hi], 0.0));
-        let ends = extent(from.into_iter().map(transform));
-        let (mut lo, mut hi) = widen(ends.ok_or_else(|| nothing(path, &self.title))?, margin);
-        if let (Some([a, b, c]), None) = (self.triangle(), given) {
+        if let Some((lo, hi)) = given {
+            return Ok(widen((transform(lo), transform(hi)), 0.0));
+        }
+        let ends = extent(shown.into_iter().map(transform));
+        let (mut lo, mut hi) = widen(
+            ends.ok_or_else(|| PlotError::no_data(path, &self.title))?,
+            0.05,
+        );
+        if let Some([a, b, c]) = self.triangle() {
             // Room for the triangle's labels: right of it, and below or above its horizontal leg.
             let (leg, room) = (transform(pick(&b)), if upright { 44.0 } else { 80.0 });
             if upright && c.1 > a.1 {
@@ -213,29 +217,7 @@ impl Chart {
 ///
 /// A non-positive value on a log axis; `path` is that of the picture they are for.
 pub fn share_ranges(path: &Path, charts: &mut [Chart]) -> Result<(), PlotError> {
-    for upright in [false, true] {
-        let length = if upright { LEAST.1 } else { LEAST.0 };
-        let shown = charts.iter().filter(|c| c.shows_something());
-        let ranges = shown.map(|c| c.range(path, upright, length));
-        let ranges = ranges.collect::<Result<Vec<_>, _>>()?;
-        let Some(all) = extent(ranges.into_iter().flat_map(|(lo, hi)| [lo, hi])) else {
-            continue;
-        };
-        // The margin of a chart with a short range is little of the common one.
-        let (lo, hi) = widen(all, 0.03);
-        for chart in charts.iter_mut() {
-            let (range, scale) = if upright {
-                (&mut chart.y_range, chart.y_scale)
-            } else {
-                (&mut chart.x_range, chart.x_scale)
-            };
-            *range = Some(match scale {
-                Scale::Linear => (lo, hi),
-                Scale::Log10 => (10f64.powf(lo), 10f64.powf(hi)),
-            });
-        }
-    }
-    Ok(())
+    share_ranges_of_columns(path, charts, 1)
 }
 
 /// The same for each column of a grid of charts by itself.
@@ -247,11 +229,26 @@ pub fn share_ranges_of_columns(
     charts: &mut [Chart],
     columns: usize,
 ) -> Result<(), PlotError> {
-    for k in 0..columns {
-        let mut column: Vec<Chart> = charts.iter().skip(k).step_by(columns).cloned().collect();
-        share_ranges(path, &mut column)?;
-        for (chart, ranged) in charts.iter_mut().skip(k).step_by(columns).zip(column) {
-            *chart = ranged;
+    for (column, upright) in (0..columns).flat_map(|k| [(k, false), (k, true)]) {
+        let length = if upright { LEAST.1 } else { LEAST.0 };
+        let shown = charts.iter().skip(column).step_by(columns);
+        let ranges = shown.filter(|c| c.shows_something());
+        let ranges = ranges.map(|c| c.range(path, upright, length));
+        let ranges = ranges.collect::<Result<Vec<_>, _>>()?;
+        let Some(all) = extent(ranges.into_iter().flat_map(|(lo, hi)| [lo, hi])) else {
+            continue;
+        };
+        // The margin of a chart with a short range is little of the common one.
+        let (lo, hi) = widen(all, 0.03);
+        for chart in charts.iter_mut().skip(column).step_by(columns) {
+            let (range, scale) = match upright {
+                true => (&mut chart.y_range, chart.y_scale),
+                false => (&mut chart.x_range, chart.x_scale),
+            };
+            *range = Some(match scale {
+                Scale::Linear => (lo, hi),
+                Scale::Log10 => (10f64.powf(lo), 10f64.powf(hi)),
+            });
         }
     }
     Ok(())

@@ -1,23 +1,18 @@
 //! How the curves of a chart look, and the legends that tell.
 
-use super::backend::{Failure, Own, Sheet, lettering, placed, shade};
-use super::canvas::Canvas;
 use super::chart::{Chart, Dash};
 use super::colour::{INK, PALETTE, Rgb};
-use super::font::SMALL;
-use super::shape::{LINE, Marker, Point};
-use super::{SOLID, largest};
-use plotters::element::Rectangle;
-use plotters::style::text_anchor::{HPos, VPos};
+use super::largest;
+use super::marker::{LINE, Marker};
+use super::page::{Page, Point};
+use super::text::SMALL;
 
 /// Length of a legend's line, height of its entries and gap of its columns.
 const SAMPLE: f64 = 70.0;
 const ENTRY_HEIGHT: f64 = 40.0;
 const COLUMN_GAP: f64 = 40.0;
-/// Lengths of dashes and gaps.
-const DASHED: &[f64] = &[16.0, 10.0];
-const DOTTED: &[f64] = &[1.0, 8.0];
-const DASH_DOT: &[f64] = &[20.0, 9.0, 1.0, 9.0];
+/// Opacity of a band about a line.
+pub(super) const SHADE: f64 = 0.12;
 
 /// An entry of a legend, with all that shows how its curve is drawn.
 #[derive(Clone, Copy, PartialEq)]
@@ -39,9 +34,9 @@ impl<'a> Entry<'a> {
             colour: PALETTE[series.colour % PALETTE.len()],
             marker: series.marker,
             pattern: match series.dash {
-                Dash::Solid => Some(SOLID),
-                Dash::Dashed => Some(DASHED),
-                Dash::Dotted => Some(DOTTED),
+                Dash::Solid => Some(&[]),
+                Dash::Dashed => Some(&[18.0, 10.0]),
+                Dash::Dotted => Some(&[4.0, 7.0]),
                 Dash::None => None,
             },
             hollow: matches!(series.dash, Dash::Dashed | Dash::Dotted),
@@ -51,7 +46,7 @@ impl<'a> Entry<'a> {
             name: &line.name,
             colour: INK,
             marker: Marker::None,
-            pattern: Some(DASH_DOT),
+            pattern: Some(&[22.0, 8.0, 4.0, 8.0]),
             hollow: false,
             band: line.band.is_some(),
         });
@@ -59,44 +54,43 @@ impl<'a> Entry<'a> {
     }
 
     /// Those that all charts have in common, if they differ in markers at most; those are left out.
-    pub(super) fn common(charts: &[Vec<Self>]) -> Option<Vec<Self>> {
+    pub(super) fn common<'e>(charts: impl Iterator<Item = &'e [Self]>) -> Option<Vec<Self>>
+    where
+        Self: 'e,
+    {
         let bare = |entry: &Self| Self {
             marker: Marker::None,
             ..*entry
         };
-        let first = charts.first()?;
-        let alike = |other: &Vec<Self>| other.iter().map(bare).eq(first.iter().map(bare));
-        let same = |k: usize| charts.iter().all(|c| c[k].marker == first[k].marker);
-        let entry = |(k, entry): (usize, &Self)| if same(k) { *entry } else { bare(entry) };
-        let entries = || first.iter().enumerate().map(entry).collect();
-        charts.iter().all(alike).then(entries)
-    }
-
-    /// The curve through points; none if there are only markers.
-    pub(super) fn line<C>(
-        &self,
-        points: Vec<C>,
-    ) -> Own<C, impl Fn(&mut Canvas, &[Point]) + use<C>> {
-        let (colour, pattern) = (self.colour, self.pattern);
-        Own::new(points, move |canvas, points| {
-            if let Some(pattern) = pattern {
-                canvas.stroke(points, LINE, colour, pattern);
+        let mut common: Option<Vec<Self>> = None;
+        for chart in charts {
+            let first = common.get_or_insert_with(|| chart.to_vec());
+            if !chart.iter().map(bare).eq(first.iter().map(bare)) {
+                return None;
             }
-        })
+            for (entry, other) in first.iter_mut().zip(chart) {
+                *entry = if entry == other { *entry } else { bare(entry) };
+            }
+        }
+        common
     }
 
-    /// A marker at a point.
-    pub(super) fn mark<C>(&self, at: C) -> Own<C, impl Fn(&mut Canvas, &[Point]) + use<C>> {
-        let (marker, colour, hollow) = (self.marker, self.colour, self.hollow);
-        Own::new(vec![at], move |canvas, at| {
-            canvas.marker(marker, at[0], colour, hollow)
-        })
+    /// Draws the curve through points; none if there are only markers.
+    pub(super) fn line(&self, page: &mut Page, points: &[Point]) {
+        if let Some(pattern) = self.pattern {
+            page.line(points, LINE, self.colour, pattern);
+        }
+    }
+
+    /// Draws a marker at a point.
+    pub(super) fn mark(&self, page: &mut Page, at: Point) {
+        page.marker(self.marker, at, self.colour, self.hollow);
     }
 }
 
 /// Entries laid out in columns, filled one by one.
 pub(super) struct Legend<'a> {
-    entries: Vec<&'a Entry<'a>>,
+    entries: Vec<Entry<'a>>,
     rows: usize,
     column: f64,
     pub(super) width: f64,
@@ -105,8 +99,9 @@ pub(super) struct Legend<'a> {
 
 impl<'a> Legend<'a> {
     /// At most `room` pixels wide, if one column allows it.
-    pub(super) fn new(entries: &'a [Entry<'a>], room: f64) -> Self {
-        let entries: Vec<_> = entries.iter().filter(|e| !e.name.is_empty()).collect();
+    pub(super) fn new(entries: &[Entry<'a>], room: f64) -> Self {
+        let named = entries.iter().filter(|e| !e.name.is_empty());
+        let entries: Vec<_> = named.copied().collect();
         let widest = largest(entries.iter().map(|e| SMALL.width(e.name)));
         let column = SAMPLE + 14.0 + widest + COLUMN_GAP;
         let columns = (((room + COLUMN_GAP) / column) as usize).max(1);
@@ -120,22 +115,16 @@ impl<'a> Legend<'a> {
         }
     }
 
-    pub(super) fn draw(&self, sheet: &Sheet, (left, top): Point) -> Result<(), Failure> {
+    pub(super) fn draw(&self, page: &mut Page, (left, top): Point) {
         for (k, entry) in self.entries.iter().enumerate() {
             let x = left + (k / self.rows) as f64 * self.column;
             let y = top + ((k % self.rows) as f64 + 0.5) * ENTRY_HEIGHT;
-            let at = |across: f64, down: f64| placed((x + across, y + down));
             if entry.band {
-                sheet.draw(&Rectangle::new(
-                    [at(0.0, -13.0), at(SAMPLE, 13.0)],
-                    shade(INK),
-                ))?;
+                page.rectangle([x, y - 13.0, x + SAMPLE, y + 13.0], INK, SHADE);
             }
-            sheet.draw(&entry.line(vec![at(2.0, 0.0), at(SAMPLE - 2.0, 0.0)]))?;
-            sheet.draw(&entry.mark(at(SAMPLE / 2.0, 0.0)))?;
-            let style = lettering(SMALL, HPos::Left, VPos::Center);
-            sheet.draw_text(entry.name, &style, at(SAMPLE + 14.0, 0.0))?;
+            entry.line(page, &[(x + 2.0, y), (x + SAMPLE - 2.0, y)]);
+            entry.mark(page, (x + SAMPLE / 2.0, y));
+            page.text(entry.name, (x + SAMPLE + 14.0, y), SMALL, (0.0, 0.5));
         }
-        Ok(())
     }
 }

@@ -1,27 +1,27 @@
-//! Charts in a grid, drawn by plotters.
+//! Charts in a grid.
 
-use super::axes::{Axes, Plot, draw_box};
-use super::backend::{Failure, Own, Sheet, lettering, line, pixel, placed, shade};
-use super::canvas::Canvas;
+use super::axes::Axes;
 use super::chart::{Chart, LEAST};
 use super::colour::INK;
-use super::font::{Block, SMALL, TITLE};
-use super::legend::{Entry, Legend};
-use super::shape::{Frame, Point};
-use super::{EDGE, PlotError, between, finite, largest, nothing};
-use plotters::drawing::IntoDrawingArea;
-use plotters::element::{PathElement, Rectangle};
-use plotters::style::text_anchor::{HPos, VPos};
+use super::legend::{Entry, Legend, SHADE};
+use super::page::{Frame, Page, Point, clipped, save_both};
+use super::sheet::Sheet;
+use super::text::SMALL;
+use super::{EDGE, PlotError, between, finite, largest};
 use std::path::Path;
 
-/// Distance of the charts in a grid, in pixels.
-const CELL_GAP: f64 = 30.0;
+/// Distance of a legend from the charts, below or beside them.
+const BELOW: f64 = 16.0;
+const BESIDE: f64 = 24.0;
+/// A curve of more points than this has markers at this distance (pixels) or more.
+const MANY: usize = 40;
+const APART: f64 = 60.0;
 
-/// A chart with its axes and title.
+/// A chart with its axes and curves' looks.
 struct Plan<'a> {
     chart: &'a Chart,
     axes: Axes,
-    title: Block,
+    entries: Vec<Entry<'a>>,
 }
 
 impl<'a> Plan<'a> {
@@ -33,71 +33,66 @@ impl<'a> Plan<'a> {
         Ok(Self {
             chart,
             axes: Axes::new(axes, [&chart.x_label, &chart.y_label], 0.0),
-            title: Block::new(&chart.title, TITLE, width),
+            entries: Entry::all(chart),
         })
     }
 
-    /// Draws everything but the legend about the axes' box.
-    fn draw(&self, sheet: &Sheet, entries: &[Entry], frame: Frame) -> Result<(), Failure> {
-        let mut plot = self.axes.draw(sheet, frame, &self.title, [true; 2], true)?;
-        let clip = |frame: Option<Frame>| {
-            sheet.draw(&Own::new(Vec::new(), move |canvas, _| canvas.clip(frame)))
-        };
-        clip(Some(frame))?;
-        let (chart, across) = (self.chart, plot.x_range());
-        let (curves, lines) = entries.split_at(chart.series.len());
+    /// Draws axes, bands, curves and markers.
+    fn draw(&self, page: &mut Page, frame: Frame) {
+        self.axes.draw(page, frame, true);
+        let [left, top, right, bottom] = frame;
+        let down = |y: f64| bottom - self.axes.y.at(y);
+        let place = |p: &Point| self.axes.place(frame, *p);
+        let chart = self.chart;
+        let (curves, lines) = self.entries.split_at(chart.series.len());
         for (line, entry) in chart.reference_lines.iter().zip(lines) {
-            let [low, high] = [-1.0, 1.0].map(|side| line.value + side * line.band.unwrap_or(0.0));
-            if line.band.is_some() && high.is_finite() {
-                let corners = [(across.start, low), (across.end, high)];
-                plot.draw_series([Rectangle::new(corners, shade(INK))])?;
+            if let Some(half) = line.band.filter(|half| half.is_finite()) {
+                let [low, high] = [line.value - half, line.value + half].map(down);
+                page.rectangle([left, high.max(top), right, low.min(bottom)], INK, SHADE);
             }
-            let ends = [across.start, across.end].map(|x| (x, line.value));
-            plot.draw_series([entry.line(ends.into())])?;
+            let y = down(line.value);
+            for part in clipped(&[(left, y), (right, y)], frame) {
+                entry.line(page, &part);
+            }
         }
         let curves = || chart.series.iter().zip(curves);
         for (series, entry) in curves() {
-            let parts = series.points.split(|p| p.0.is_nan() || p.1.is_nan());
-            let parts = parts.filter(|part| part.len() > 1);
-            plot.draw_series(parts.map(|part| entry.line(part.to_vec())))?;
+            for part in series.points.split(|p| p.0.is_nan() || p.1.is_nan()) {
+                for part in clipped(&part.iter().map(place).collect::<Vec<_>>(), frame) {
+                    entry.line(page, &part);
+                }
+            }
         }
-        self.draw_triangle(sheet, &mut plot)?;
-        clip(None)?;
-        draw_box(&plot)?;
+        if let Some([a, b, c]) = chart.triangle() {
+            let [a, b, c] = [a, b, c].map(|p| place(&p));
+            for part in clipped(&[a, b, c, a], frame) {
+                page.line(&part, 2.4, INK, &[]);
+            }
+            let slope = chart.slope_triangle.map_or(0.0, |t| t.slope);
+            let label = slope.to_string().replace('-', "−");
+            page.text(
+                &label,
+                (b.0 + 10.0, between(b, c, 0.5).1),
+                SMALL,
+                (0.0, 0.5),
+            );
+            let (gap, anchor) = if c.1 < b.1 { (9.0, 0.0) } else { (-9.0, 1.0) };
+            page.text("1", (between(a, b, 0.5).0, a.1 + gap), SMALL, (0.5, anchor));
+        }
+        page.outline(frame);
         for (series, entry) in curves() {
-            let thin = entry.pattern.is_some() && series.points.len() > 40;
+            let thin = entry.pattern.is_some() && series.points.len() > MANY;
             let mut drawn: Vec<Point> = Vec::new();
-            let mut shown = |point: &&Point| {
-                let (x, y) = pixel(plot.backend_coord(point));
-                let across = (frame[0] - 1.0..=frame[2] + 1.0).contains(&x);
-                let inside = across && (frame[1] - 1.0..=frame[3] + 1.0).contains(&y);
-                let near = |d: &Point| (x - d.0).hypot(y - d.1) < 60.0;
-                let shown = finite(point) && inside && !(thin && drawn.iter().any(near));
-                drawn.extend(shown.then_some((x, y)));
-                shown
-            };
-            let points: Vec<Point> = series.points.iter().filter(&mut shown).copied().collect();
-            plot.draw_series(points.into_iter().map(|point| entry.mark(point)))?;
+            for (x, y) in series.points.iter().filter(|p| finite(p)).map(place) {
+                let across = (left - 1.0..=right + 1.0).contains(&x);
+                let inside = across && (top - 1.0..=bottom + 1.0).contains(&y);
+                let near = |d: &Point| (x - d.0).hypot(y - d.1) < APART;
+                if inside && !(thin && drawn.iter().any(near)) {
+                    drawn.push((x, y));
+                    entry.mark(page, (x, y));
+                }
+            }
         }
-        Ok(())
-    }
-
-    fn draw_triangle(&self, sheet: &Sheet, plot: &mut Plot) -> Result<(), Failure> {
-        let Some([a, b, c]) = self.chart.triangle() else {
-            return Ok(());
-        };
-        plot.draw_series([PathElement::new([a, b, c, a], line(INK, 2.4))])?;
-        let [a, b, c] = [a, b, c].map(|p| pixel(plot.backend_coord(&p)));
-        let slope = self.chart.slope_triangle.map_or(0.0, |t| t.slope);
-        let (label, side) = (slope.to_string().replace('-', "−"), between(b, c, 0.5));
-        let style = lettering(SMALL, HPos::Left, VPos::Center);
-        sheet.draw_text(&label, &style, placed((b.0 + 10.0, side.1)))?;
-        let (gap, edge) = match c.1 < b.1 {
-            true => (9.0, VPos::Top),
-            false => (-9.0, VPos::Bottom),
-        };
-        let below = (between(a, b, 0.5).0, a.1 + gap);
-        sheet.draw_text("1", &lettering(SMALL, HPos::Center, edge), placed(below))
     }
 }
 
@@ -116,64 +111,63 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
     let plans = charts.iter().map(|c| Plan::new(path, c, size));
     let plans = plans.collect::<Result<Vec<_>, _>>()?;
     if plans.is_empty() {
-        return Err(nothing(path, "a figure without charts"));
+        return Err(PlotError::no_data(path, "a figure without charts"));
     }
-
     // Every chart has the same margins, so that the axes of a grid are aligned.
-    let most = |extent: &dyn Fn(&Plan) -> f64| largest(plans.iter().map(extent));
-    let left = most(&|p| p.axes.left());
-    let right = 16.0 + most(&|p| p.axes.x.label_width()) / 2.0;
-    let top = 16.0 + most(&|p| p.title.height());
-    let bottom = most(&|p| p.axes.below());
-    let entries: Vec<_> = charts.iter().map(Entry::all).collect();
-    let common = Entry::common(&entries);
-    let shared = common.is_some();
-    let named = entries[0].iter().filter(|e| !e.name.is_empty());
-    let beside = shared && named.count() > 6 && columns < 3;
-
-    let (rows, natural) = (charts.len().div_ceil(columns), left + size.0 + right);
-    let grid_width = |cell: f64| columns as f64 * (cell + CELL_GAP) - CELL_GAP;
-    let room = match (shared, beside) {
-        (_, true) => 0.0,
-        (true, _) => grid_width(natural),
-        _ => natural,
-    };
-    let legend = |own| Legend::new(common.as_ref().unwrap_or(own), room);
-    let legends: Vec<_> = entries.iter().map(legend).collect();
-    let widest = largest(legends.iter().map(|l| l.width));
-    let highest = largest(legends.iter().map(|l| l.height)) + 16.0;
-    let cell = if shared { natural } else { natural.max(widest) };
-    let row = top + size.1 + bottom + if shared { 0.0 } else { highest };
-    let (width, height) = (grid_width(cell), rows as f64 * (row + CELL_GAP) - CELL_GAP);
-    let (full_width, full_height) = match (shared, beside) {
-        (true, true) => (width + 24.0 + widest, height.max(top + highest)),
-        (true, false) => (width.max(widest), height + highest),
-        _ => (width, height),
-    };
-    let mut canvas = Canvas::new((full_width + 2.0 * EDGE, full_height + 2.0 * EDGE));
-    let draw = |sheet: Sheet| -> Result<(), Failure> {
-        for (k, (plan, legend)) in plans.iter().zip(&legends).enumerate() {
-            let x = EDGE + (k % columns) as f64 * (cell + CELL_GAP);
-            let y = EDGE + (k / columns) as f64 * (row + CELL_GAP);
-            let frame = plan.axes.frame((x + left, y + top));
-            plan.draw(&sheet, &entries[k], frame)?;
-            let inset = |left: f64, right: f64, room: f64| {
-                let centred = (left + right - legend.width) / 2.0;
-                centred.min(room - legend.width).max(0.0)
-            };
-            if !shared {
-                let inset = inset(left, left + size.0, cell);
-                legend.draw(&sheet, (x + inset, frame[3] + bottom + 16.0))?;
-            } else if beside && k == 0 {
-                legend.draw(&sheet, (EDGE + width + 24.0, EDGE + top))?;
-            } else if k == 0 {
-                let inset = inset(left, width - right, full_width);
-                legend.draw(&sheet, (EDGE + inset, EDGE + height + 16.0))?;
+    let [left, right, below] =
+        [0, 1, 2].map(|side| largest(plans.iter().map(|p| p.axes.room()[side])));
+    let titles = || charts.iter().map(|c| &*c.title).collect();
+    let sheet = |room| Sheet::new("", titles(), columns, size, room);
+    let common = Entry::common(plans.iter().map(|p| &p.entries[..]));
+    let Some(common) = common else {
+        let natural = left + size.0 + right;
+        let legends = plans.iter().map(|p| Legend::new(&p.entries, natural));
+        let legends: Vec<Legend> = legends.collect();
+        let wider = largest(legends.iter().map(|l| l.width - natural));
+        let under = below + BELOW + largest(legends.iter().map(|l| l.height));
+        let sheet = sheet([left, right + wider, under]);
+        return save_both(path, (sheet.end.0 + EDGE, sheet.end.1 + EDGE), |page| {
+            sheet.draw(page);
+            for ((k, plan), legend) in plans.iter().enumerate().zip(&legends) {
+                let frame = sheet.frame(k);
+                plan.draw(page, frame);
+                let first = frame[0] - left;
+                let centred = frame[0] + (size.0 - legend.width) / 2.0;
+                let last = first + natural + wider - legend.width;
+                let at = centred.min(last).max(first);
+                legend.draw(page, (at, frame[3] + below + BELOW));
             }
-        }
-        Ok(())
+        });
     };
-    draw((&mut canvas).into_drawing_area()).map_err(|e| PlotError::write(path, &e))?;
-    canvas.save_svg(&path.with_extension("svg"))?;
-    canvas.save(path)
+    let sheet = sheet([left, right, below]);
+    let (width, height) = sheet.end;
+    let named = common.iter().filter(|e| !e.name.is_empty()).count();
+    let beside = named > 6 && columns < 3;
+    let legend = Legend::new(&common, if beside { 0.0 } else { width - EDGE });
+    let first = sheet.frame(0);
+    let (at, size) = match beside {
+        true => (
+            (width + BESIDE, first[1]),
+            (
+                width + BESIDE + legend.width,
+                height.max(first[1] + legend.height),
+            ),
+        ),
+        false => {
+            let centred = (first[0] + width - right - legend.width) / 2.0;
+            let at = centred.min(width - legend.width).max(EDGE);
+            let size = (
+                width.max(EDGE + legend.width),
+                height + BELOW + legend.height,
+            );
+            ((at, height + BELOW), size)
+        }
+    };
+    save_both(path, (size.0 + EDGE, size.1 + EDGE), |page| {
+        sheet.draw(page);
+        for (k, plan) in plans.iter().enumerate() {
+            plan.draw(page, sheet.frame(k));
+        }
+        legend.draw(page, at);
+    })
 }

@@ -1,21 +1,17 @@
-//! Bodies of particles in three dimensions, in panels of one scale: a particle is a sphere a little larger than its
-//! share of space, and the nearest sphere at a pixel gives its colour.
+//! Bodies of particles in three dimensions: a particle is a sphere a little larger than its share of space, and the
+//! nearest sphere at a pixel gives its colour.
 
-mod rulers;
-mod surface;
-
-use super::axes::{Axis, TICK, widen};
-use super::bar::{BAR, BAR_TIP, draw_bar};
-use super::canvas::Canvas;
-use super::colour::{Rgb, stone_of};
-use super::font::{Block, HEADING, LABEL, SMALL, TITLE};
-use super::png_file::save_animation;
-use super::shape::Point;
-use super::{EDGE, PlotError, largest, nothing};
+use super::axes::{Axis, BELOW, LEFT, RIGHT, THIN, TICK};
+use super::colour::{INK, Rgb, stone_of};
+use super::page::{FINE, Page, Point, fine, ink, pixels, spot};
+use super::png_file::{save_animation, write_small_png};
+use super::sheet::{Bar, Sheet};
+use super::text::{Block, LABEL, SMALL};
+use super::{EDGE, PlotError, between, same_length};
+use image::RgbImage;
+use plotters::element::Pixel;
 use rayon::prelude::*;
-use rulers::Ruler;
 use std::path::Path;
-use surface::{Cloud, Place, Screen};
 
 /// A body at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,14 +55,22 @@ const ELEVATION: f64 = 28.0;
 /// Widths of panels by their number in a row, and the largest height, in pixels.
 const WIDTHS: [f64; 4] = [1200.0, 760.0, 560.0, 460.0];
 const HEIGHT: f64 = 1000.0;
-/// Distance of panels, and from a panel's title to it.
-const PANEL_GAP: f64 = 24.0;
-const TITLE_GAP: f64 = 8.0;
-/// Distance of the colour bar from the panels, and height of the line that tells of the camera.
-const BAR_GAP: f64 = 20.0;
+/// Space in a panel about what is shown, and height of the line that tells of the camera.
+const MARGIN: f64 = 6.0;
 const NOTE: f64 = 40.0;
-/// Least and largest length of the colour bar.
-const BAR_LENGTH: (f64, f64) = (200.0, 700.0);
+/// Radius of a particle in distances of particles that fill space: large enough to leave no holes between them.
+const RADIUS: f64 = 0.85;
+/// Where the light comes from: left, up, and towards the eye; light from all around, and from there.
+const LIGHT: Place = [-0.25, 0.75, 0.62];
+const AMBIENT: f64 = 0.52;
+const DIRECT: f64 = 0.55;
+const GROUND: Rgb = 0xECEAE6;
+/// Height of a text, and gap between texts.
+const LINE: f64 = 40.0;
+const GAP: f64 = 10.0;
+
+/// A position or direction in the axes of the problem.
+type Place = [f64; 3];
 
 /// Draws bodies as one PNG file.
 ///
@@ -74,7 +78,7 @@ const BAR_LENGTH: (f64, f64) = (200.0, 700.0);
 /// A figure without panels, a finite range or window that is not empty; a panel without a size or a particle in
 /// the window, or whose points and values differ in number; or a file that can't be written.
 pub fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
-    compose(path, figure)?.save(path)
+    write_small_png(path, &picture(path, figure, 1)?)
 }
 
 /// Draws figures one after the other as an animated PNG at half the size, each shown for a `delay` of hundredths of a
@@ -83,100 +87,227 @@ pub fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
 /// # Errors
 /// As [`draw_solids`]; or there are no figures.
 pub fn animate_solids(path: &Path, figures: &[SolidFigure], delay: u16) -> Result<(), PlotError> {
-    let frame = |figure: &SolidFigure| compose(path, figure)?.pixels(path, 2);
-    let frames: Result<Vec<_>, PlotError> = figures.iter().map(frame).collect();
-    save_animation(path, &frames?, delay)
+    let frames = figures.iter().map(|figure| picture(path, figure, 2));
+    save_animation(path, &frames.collect::<Result<Vec<_>, _>>()?, delay)
 }
 
-/// The particles of a panel that lie in the window, with their colours.
-fn cloud(path: &Path, figure: &SolidFigure, panel: &SolidPanel) -> Result<Cloud, PlotError> {
-    if panel.points.len() != panel.values.len() {
-        return Err(PlotError::Lengths {
-            path: path.into(),
-            title: panel.title.clone(),
-            points: panel.points.len(),
-            values: panel.values.len(),
-        });
-    }
-    // A particle on the ground may have sunk in a little.
-    let half = panel.size / 2.0;
-    let inside = |(lo, hi): Point, v: f64| (lo - half..=hi + half).contains(&v);
-    let shown = |p: &Place| (0..3).all(|k| inside(figure.window[k], p[k]));
-    let range = widen(figure.range, 0.0);
-    let particles = panel.points.iter().zip(&panel.values);
-    let particles: Vec<(Place, Rgb)> = particles
-        .filter(|(p, _)| shown(p))
-        .map(|(p, v)| (*p, stone_of(*v, range)))
-        .collect();
-    let drawable = panel.size.is_finite() && panel.size > 0.0 && !particles.is_empty();
-    drawable
-        .then_some(Cloud {
-            particles,
-            size: panel.size,
-        })
-        .ok_or_else(|| nothing(path, &panel.title))
-}
-
-fn compose(path: &Path, figure: &SolidFigure) -> Result<Canvas, PlotError> {
-    let (least, most) = figure.range;
+fn picture(path: &Path, figure: &SolidFigure, coarser: u32) -> Result<RgbImage, PlotError> {
     let sound = |(lo, hi): &Point| lo < hi && (hi - lo).is_finite();
-    let sound = figure.window.iter().all(sound) && least.is_finite() && most.is_finite();
-    if figure.panels.is_empty() || !sound {
-        return Err(nothing(path, &figure.title));
+    let finite = figure.range.0.is_finite() && figure.range.1.is_finite();
+    if figure.panels.is_empty() || !figure.window.iter().all(sound) || !finite {
+        return Err(PlotError::no_data(path, &figure.title));
     }
     let columns = figure.columns.min(figure.panels.len()).max(1);
-    let rows = figure.panels.len().div_ceil(columns);
-    let width = WIDTHS[columns.min(4) - 1];
-    let screen = Screen::new((AZIMUTH, ELEVATION), &figure.window, (width, HEIGHT));
-    let draw = |panel| Ok(surface::draw(&cloud(path, figure, panel)?, &screen));
+    let screen = Screen::new(&figure.window, WIDTHS[columns.min(4) - 1]);
+    let rulers = Ruler::all(&screen);
+    let room = [1, 2, 0].map(|side| rulers[side].room());
+    let titles = figure.panels.iter().map(|p| &*p.title).collect();
+    let sheet = Sheet::new(&figure.title, titles, columns, screen.size, room);
+    let values = figure.panels.iter().flat_map(|p| &p.values);
+    let bar = Bar::new(&sheet, (figure.range, &figure.label), stone_of, values);
+    let draw = |panel: &SolidPanel| {
+        let (points, values) = (panel.points.len(), panel.values.len());
+        same_length(path, &panel.title, points, values)?;
+        let image = screen.spheres(panel, bar.range());
+        image.ok_or_else(|| PlotError::no_data(path, &panel.title))
+    };
     let images: Result<Vec<_>, PlotError> = figure.panels.par_iter().map(draw).collect();
-
-    let rulers = Ruler::all(&screen, &figure.window);
-    let titles = figure.panels.iter();
-    let titles: Vec<Block> = titles.map(|p| Block::new(&p.title, TITLE, width)).collect();
-    let above = largest(titles.iter().map(Block::height)) + TITLE_GAP;
-    let (wide, high) = screen.size;
-    let room = |side: usize| largest(rulers.iter().map(|r| r.room((wide, high))[side])).ceil();
-    let (left, right, below) = (room(0), room(1), room(2));
-    let all = |count: usize, one: f64| count as f64 * (one + PANEL_GAP) - PANEL_GAP;
-    let across = left + all(columns, wide) + right;
-    let down = all(rows, above + high) + below;
-
-    let bar_length = (down - 2.0 * BAR_TIP).clamp(BAR_LENGTH.0, BAR_LENGTH.1);
-    let bar = Axis::new(widen(figure.range, 0.0), false, bar_length.floor(), true);
-    let bar_label = Block::new(&figure.label, LABEL, bar_length + 2.0 * BAR_TIP);
-    let bar_left = (EDGE + across + BAR_GAP).round();
-    let bar_label_left = bar_left + BAR + TICK + bar.label_width() + 12.0;
-    let full_width = bar_label_left + bar_label.height() + EDGE;
-    let heading = Block::new(&figure.title, HEADING, full_width - 2.0 * EDGE);
-    let head = (EDGE + heading.height() * 1.2).round();
-    let full = down.max(bar_length + 2.0 * BAR_TIP);
-    let mut canvas = Canvas::new((full_width, head + full + NOTE + EDGE));
-    canvas.block(&heading, (full_width / 2.0, EDGE), false);
-    for (k, (image, title)) in images?.into_iter().zip(&titles).enumerate() {
-        let (row, column) = (k / columns, k % columns);
-        let x = EDGE + left + column as f64 * (wide + PANEL_GAP);
-        let y = (head + above + row as f64 * (above + high + PANEL_GAP)).round();
-        canvas.image(image, (x, y));
-        let last_row = k + columns >= figure.panels.len();
-        let labelled = [last_row, column == 0, column + 1 == columns];
-        for (ruler, labelled) in rulers.iter().zip(labelled) {
-            ruler.draw(&mut canvas, (x, y), labelled);
+    let (images, (width, height)) = (images?, bar.size(&sheet));
+    pixels(path, (width, height + NOTE), coarser, |page| {
+        for (k, image) in images.iter().enumerate() {
+            let [left, top, ..] = sheet.frame(k);
+            let ground = screen.ground().map(|p| (left + p.0, top + p.1));
+            page.area(&ground, GROUND, 1.0);
+            let (corner, width) = (spot((left, top)), fine(screen.size.0) as usize);
+            for (n, (_, colour)) in image.iter().enumerate().filter(|(_, p)| p.0.is_finite()) {
+                let at = (corner.0 + (n % width) as i32, corner.1 + (n / width) as i32);
+                page.put(&Pixel::new(at, ink(*colour, 1.0)));
+            }
+            for ruler in &rulers {
+                ruler.draw(page, (left, top));
+            }
         }
-        let over = y - TITLE_GAP - title.height();
-        canvas.block(title, (x + wide / 2.0, over), false);
+        let note = format!("orthographic, azimuth {AZIMUTH}°, elevation {ELEVATION}°");
+        page.text(&note, (EDGE, height - EDGE + NOTE / 2.0), SMALL, (0.0, 0.5));
+        sheet.draw(page);
+        bar.draw(page);
+    })
+}
+
+fn dot(a: Place, b: Place) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Where places lie in a panel.
+struct Screen {
+    /// Unit vectors to the right, upwards, and towards the eye.
+    view: [Place; 3],
+    /// Projection of the left upper corner (m), and pixels in a metre.
+    corner: Point,
+    scale: f64,
+    /// Size in pixels.
+    size: Point,
+    window: [(f64, f64); 3],
+}
+
+impl Screen {
+    /// Of a size that holds a window and is no wider than `most`.
+    fn new(window: &[(f64, f64); 3], most: f64) -> Self {
+        let (st, ct) = AZIMUTH.to_radians().sin_cos();
+        let (se, ce) = ELEVATION.to_radians().sin_cos();
+        let view = [
+            [ct, 0.0, -st],
+            [-se * st, ce, -se * ct],
+            [ce * st, se, ce * ct],
+        ];
+        // The middle of the window's projection and its half sides.
+        let reach = |direction: Place| {
+            let of = |k: usize, sign: f64| 0.5 * (window[k].1 + sign * window[k].0) * direction[k];
+            let half: f64 = (0..3).map(|k| of(k, -1.0).abs()).sum();
+            ((0..3).map(|k| of(k, 1.0)).sum::<f64>(), half)
+        };
+        let ((middle, wide), (height, high)) = (reach(view[0]), reach(view[1]));
+        let fit = |most: f64, half: f64| (most - 2.0 * MARGIN) / (2.0 * half);
+        let scale = fit(most, wide).min(fit(HEIGHT, high));
+        let side = |half: f64| (2.0 * (scale * half + MARGIN)).ceil();
+        let margin = MARGIN / scale;
+        Self {
+            view,
+            corner: (middle - wide - margin, height + high + margin),
+            scale,
+            size: (side(wide), side(high)),
+            window: *window,
+        }
     }
-    let values = || figure.panels.iter().flat_map(|p| &p.values);
-    let (lo, hi) = bar.range;
-    let beyond = [values().any(|v| *v < lo), values().any(|v| *v > hi)];
-    let middle = head + full / 2.0;
-    let foot = (middle + bar.length / 2.0).round();
-    draw_bar(&mut canvas, (&bar, stone_of), beyond, (bar_left, foot));
-    canvas.block(&bar_label, (bar_label_left, middle), true);
-    let note = format!("orthographic, azimuth {AZIMUTH}°, elevation {ELEVATION}°");
-    let at = (EDGE, head + full + NOTE / 2.0);
-    canvas.text(&note, at, SMALL, (0.0, 0.5), false);
-    Ok(canvas)
+
+    /// Pixels from the left and from above, and distance towards the eye (m).
+    fn place(&self, at: Place) -> Place {
+        let [right, up, near] = self.view.map(|axis| dot(axis, at));
+        let across = (right - self.corner.0) * self.scale;
+        [across, (self.corner.1 - up) * self.scale, near]
+    }
+
+    fn flat(&self, at: Place) -> Point {
+        let [across, down, _] = self.place(at);
+        (across, down)
+    }
+
+    /// Corners of the ground within the window.
+    fn ground(&self) -> [Point; 4] {
+        let [x, y, z] = self.window;
+        let corners = [(x.0, z.0), (x.1, z.0), (x.1, z.1), (x.0, z.1)];
+        corners.map(|(x, z)| self.flat([x, y.0, z]))
+    }
+
+    /// Depth and colour of the nearest sphere at every fine pixel, far away where there is none; `None` without any.
+    fn spheres(&self, panel: &SolidPanel, range: Point) -> Option<Vec<(f64, Rgb)>> {
+        // A particle on the ground may have sunk in a little.
+        let half = panel.size / 2.0;
+        let inside = |(lo, hi): Point, v: f64| (lo - half..=hi + half).contains(&v);
+        let shown = |p: &Place| (0..3).all(|k| inside(self.window[k], p[k]));
+        let drawable = panel.size.is_finite() && panel.size > 0.0;
+        if !drawable || !panel.points.iter().any(shown) {
+            return None;
+        }
+        let (width, height) = (fine(self.size.0), fine(self.size.1));
+        let mut pixels = vec![(f64::NEG_INFINITY, 0); (width * height) as usize];
+        let scale = f64::from(FINE) * self.scale;
+        let radius = RADIUS * panel.size;
+        let reach = (radius * scale).ceil() as i32;
+        let lamp = LIGHT.map(|v| v / dot(LIGHT, LIGHT).sqrt());
+        let particles = panel.points.iter().zip(&panel.values);
+        for (at, value) in particles.filter(|(p, _)| shown(p)) {
+            let colour = stone_of(*value, range).to_be_bytes().map(f64::from);
+            let [across, down, depth] = self.place(*at).map(|v| v * f64::from(FINE));
+            let span = |middle: f64, end: i32| {
+                let middle = middle as i32;
+                (middle - reach).max(0)..(middle + reach + 1).min(end)
+            };
+            let part =
+                |pixel: i32, middle: f64| (f64::from(pixel) + 0.5 - middle) / (scale * radius);
+            for (y, x) in span(down, height).flat_map(|y| span(across, width).map(move |x| (y, x)))
+            {
+                let (dx, dy) = (part(x, across), part(y, down));
+                let rest = (1.0 - dx * dx - dy * dy).max(0.0).sqrt();
+                let front = depth / f64::from(FINE) + radius * rest;
+                let nearest = &mut pixels[(y * width + x) as usize];
+                if rest > 0.0 && front > nearest.0 {
+                    let facing = 0.5 + 0.5 * dot([dx, -dy, rest], lamp);
+                    let light = AMBIENT + DIRECT * facing * facing;
+                    let lit = colour.map(|c| (c * light).round().min(255.0) as u8);
+                    *nearest = (front, Rgb::from_be_bytes(lit));
+                }
+            }
+        }
+        Some(pixels)
+    }
+}
+
+/// Marks in metres along an edge of the window.
+struct Ruler {
+    name: &'static str,
+    ends: [Point; 2],
+    scale: Axis,
+    /// Directions of ticks and of labels.
+    tick: Point,
+    side: Point,
+}
+
+impl Ruler {
+    /// Along x below, y on the left and z on the right.
+    fn all(screen: &Screen) -> [Self; 3] {
+        let [x, y, z] = screen.window;
+        let (low, left) = ([x.0, y.0, z.1], [x.0, y.1, z.1]);
+        let (right, far) = ([x.1, y.0, z.1], [x.1, y.0, z.0]);
+        [
+            ("x (m)", x, [low, right], BELOW, BELOW),
+            ("y (m)", y, [low, left], LEFT, LEFT),
+            ("z (m)", z, [far, right], (0.6, 0.8), RIGHT),
+        ]
+        .map(|(name, range, ends, tick, side)| {
+            let ends = ends.map(|at| screen.flat(at));
+            let length = (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1);
+            Self {
+                name,
+                ends,
+                scale: Axis::new(range, false, length, side == LEFT),
+                tick,
+                side,
+            }
+        })
+    }
+
+    /// Distance of the name from the edge.
+    fn gap(&self) -> f64 {
+        let digits = match self.side == BELOW {
+            true => LINE / 2.0,
+            false => self.scale.label_width() + GAP,
+        };
+        TICK + digits
+    }
+
+    /// Room for its labels beside a panel, or below.
+    fn room(&self) -> f64 {
+        let name = LABEL.width(self.name);
+        self.gap() + if self.side == RIGHT { name } else { LINE }
+    }
+
+    /// Draws it into a panel whose left upper corner is given.
+    fn draw(&self, page: &mut Page, corner: Point) {
+        let ends = self.ends.map(|p| (corner.0 + p.0, corner.1 + p.1));
+        page.line(&ends, THIN, INK, &[]);
+        self.scale.draw(page, ends, self.tick, self.side);
+        let ((x, y), gap) = (between(ends[0], ends[1], 0.5), self.gap());
+        // Clear of the ticks' labels along an edge that falls or rises.
+        match self.side {
+            LEFT => {
+                let name = Block::new(self.name, LABEL, f64::INFINITY);
+                page.block(&name, (x - gap - LINE, y), true);
+            }
+            RIGHT => page.text(self.name, (x + gap, y + LINE), LABEL, (0.0, 0.5)),
+            _ => page.text(self.name, (x, y + gap + LINE / 2.0), LABEL, (1.0, 0.5)),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -202,20 +333,48 @@ mod tests {
     }
 
     #[test]
-    fn pixels_follow_from_the_input_alone() {
+    fn a_nearer_particle_hides_a_farther_one_and_what_faces_the_light_is_lighter() {
+        let screen = Screen::new(&figure().window, 600.0);
+        let [right, up, eye] = screen.view;
+        let middle: Place = [15.0, 1.5, 1.5];
+        let moved = |along: Place, by: f64| [0, 1, 2].map(|k| middle[k] + by * along[k]);
+        for order in [[0, 1], [1, 0]] {
+            let points = [middle, moved(eye, 0.9)];
+            let panel = SolidPanel {
+                title: String::new(),
+                points: order.map(|k| points[k]).into(),
+                values: order.map(|k| k as f64).into(),
+                size: 1.0,
+            };
+            let pixels = screen.spheres(&panel, (0.0, 1.0)).unwrap();
+            let at = |place: Place| {
+                let (x, y) = screen.flat(place);
+                let (depth, colour) = pixels[(fine(y) * fine(screen.size.0) + fine(x)) as usize];
+                (depth, colour.to_be_bytes())
+            };
+            let (depth, colour) = at(middle);
+            assert!((depth - dot(moved(eye, 0.9), eye) - RADIUS).abs() < 1e-3);
+            // The colour of the nearer one, in light: dark purple.
+            assert!(colour[1] > colour[2] && colour[1] < 0x80, "{colour:?}");
+            let [lit, dark] = [0.6, -0.6].map(|by| at(moved(up, by)).1);
+            assert!(lit[1] > dark[1] && at(moved(right, 2.0)).0.is_infinite());
+        }
+    }
+
+    #[test]
+    fn solids_are_drawn_whatever_the_number_of_threads() {
         let folder = tempfile::tempdir().unwrap();
         let mut figure = figure();
         figure.panels.push(figure.panels[0].clone());
         let draw = |threads: usize| {
-            let path = folder.path().join(format!("{threads}.png"));
+            let path = folder.path().join("moving.png");
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-            let pool = pool.build().unwrap();
-            pool.install(|| draw_solids(&path, &figure)).unwrap();
+            let frames = [figure.clone(), figure.clone()];
+            let drawn = || animate_solids(&path, &frames, 8);
+            pool.build().unwrap().install(drawn).unwrap();
             std::fs::read(path).unwrap()
         };
         assert!(draw(1) == draw(3));
-        let frames = [figure.clone(), figure.clone()];
-        animate_solids(&folder.path().join("moving.png"), &frames, 8).unwrap();
     }
 
     #[test]
