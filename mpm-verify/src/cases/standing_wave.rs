@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 
 /// The linear wave on top of the exact state of rest of a compressible liquid: to first order in the
 /// wave's steepness and in gH/c² an exact solution.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct CompressibleWave {
     wave: StandingWave,
     rest: Hydrostatic,
@@ -38,10 +38,6 @@ impl CompressibleWave {
 }
 
 impl Exact for CompressibleWave {
-    fn dimension(&self) -> usize {
-        2
-    }
-
     fn material(&self) -> Material {
         self.rest.material()
     }
@@ -89,10 +85,7 @@ const HELD: &str = "duration=24 hold=10 relaxation=0";
 /// Compression by the weight that counts as slight.
 const SLIGHT: f64 = 0.01;
 
-#[derive(Debug, Clone)]
-struct Water;
-
-impl Known for Water {
+impl Known for CompressibleWave {
     const SOLUTION: Solution = |p| Ok(Box::new(CompressibleWave::new(p)?));
     const BOUNDARY: Boundary = Boundary::Vessel;
     const FLUID: bool = true;
@@ -178,7 +171,7 @@ pub(super) fn case() -> Case {
             disordered.then_some("what Π can't see has next to no stiffness: particles lose their order, until sound in one outruns the step, J falls to zero or a wall is passed (docs/modes.md)")
         },
         pictures,
-        ..known_case::<2, Water>([
+        ..known_case::<2, CompressibleWave>([
             "standing-wave",
             "Standing wave",
             "Half a metre of water sways in a box for twenty periods without viscosity: the frequency is known, the energy must not grow, and particles have time to lose their order.",
