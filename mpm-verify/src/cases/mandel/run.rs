@@ -13,7 +13,7 @@ pub(super) const WIDTH: f64 = 1.0;
 pub(super) const HEIGHT: f64 = 0.25;
 /// T = c t/a² at the end.
 pub(super) const END: f64 = 0.3;
-/// From this T on errors are measured: a first step does nothing yet of what an exact solution would do.
+/// T from which on errors are measured: a first step is still far from any exact solution.
 const FROM: f64 = 0.01;
 /// Particles a cell along an axis.
 const PER_CELL: usize = 2;

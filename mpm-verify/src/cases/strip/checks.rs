@@ -123,11 +123,7 @@ fn ladders(
 }
 
 /// The order of a metric over h by the three finest runs of each kind.
-fn orders(
-    records: &[Record],
-    own: impl Fn(&Record) -> bool,
-    metric: Metric,
-) -> Vec<(String, f64)> {
+fn orders(records: &[Record], own: impl Fn(&Record) -> bool, metric: Metric) -> Vec<(String, f64)> {
     let order = move |(kind, runs): (String, Vec<&Record>)| {
         let order = observed_order(finest(&runs)?, |r| r.discretisation.h, metric);
         Some((format!("order in h of {} of {kind}", metric.name), order))
