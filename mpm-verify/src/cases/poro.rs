@@ -56,3 +56,9 @@ pub(super) fn outflow<const D: usize>(run: &dyn Simulation<D>) -> f64 {
 pub(super) fn over_outflow<const D: usize>(run: &dyn Simulation<D>, volume: f64) -> f64 {
     run.water().map_or(f64::NAN, |w| (volume / w.outflow).abs())
 }
+
+/// Change of the volume and outflow together, over the outflow, at least [`ROUNDING`].
+pub(super) fn mass_error<const D: usize>(run: &dyn Simulation<D>) -> f64 {
+    let imbalance = run.water().map_or(f64::NAN, |w| w.imbalance);
+    above_rounding(over_outflow(run, imbalance))
+}

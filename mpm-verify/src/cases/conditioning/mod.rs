@@ -16,7 +16,7 @@ const LEVELS: [Level; 1] = [Level {
 }];
 /// Unknowns of the displacement, at most.
 const UNKNOWNS: f64 = 500.0;
-/// Rounding of what two runs have in common.
+/// Rounding of equal values of two runs.
 const ROUNDING: f64 = 1e-9;
 /// Places from which on a spread is judged.
 const PLACES: usize = 40;

@@ -77,7 +77,7 @@ fn not_comparable(c: &Run<Consolidation>) -> Option<String> {
 }
 
 /// Rest of the balance that Newton's method and rounding leave, over the outflow. A node balances at most three times the outflow
-/// of a step (the fluxes of its two cells, and what they store), so that the norm over n + 1 nodes is at most 3 √(n + 1) of it, and
+/// of a step (the fluxes of its two cells, and their storage), so that the norm over n + 1 nodes is at most 3 √(n + 1) of it, and
 /// their sum √(n + 1) times the norm of the rest.
 fn balance_error(c: &Run<Consolidation>) -> f64 {
     let nodes = HEIGHT / c.h + 1.0;

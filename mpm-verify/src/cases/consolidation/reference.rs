@@ -128,7 +128,7 @@ mod tests {
     }
 
     /// At a small load it is the linear theory's: q H/M₀ times the degree of consolidation under a load that grows
-    /// until T = 0.05, less what a load of 0.003 is finite.
+    /// until T = 0.05, less the finite part of a load of 0.003.
     #[test]
     fn a_small_load_settles_as_the_linear_theory_says() {
         let (ramp, parts) = (0.05, 2000);

@@ -3,7 +3,7 @@
 use super::reference::between;
 use super::*;
 use crate::cases::growth;
-use crate::cases::poro::{above_rounding, base_pressure, matrix_entries, over_outflow};
+use crate::cases::poro::{base_pressure, mass_error, matrix_entries, over_outflow};
 use mpm_core::material::ImprovedHencky;
 use mpm_core::poro::{Conductivity, Face, Settings, Tangent, VolumeRate, Water};
 
@@ -219,11 +219,10 @@ impl Problem<1> for Setup<Consolidation> {
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {
         let run = phase.run.as_ref();
-        let lost = over_outflow(run, run.water().map_or(f64::NAN, |w| w.imbalance));
         let mut values = self.settlement_metrics(&seen.rows);
         values.extend(self.base_pressure_metrics(&seen.rows));
         values.extend([
-            (MASS_ERROR, above_rounding(lost)),
+            (MASS_ERROR, mass_error(run)),
             (RATE_LOSS, over_outflow(run, seen.rate_loss)),
             (VOLUME_STEP, seen.volume_step),
             (NEWTON_ITERATIONS, run.work().newton_iterations as f64),

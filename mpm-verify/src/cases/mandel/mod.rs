@@ -174,7 +174,7 @@ fn checks() -> Vec<Check> {
         Check::truth("water", "volume and outflow change together but for what Newton's method and rounding of J̃ leave in every step")
             .at_most(MASS_ERROR, |c| {
                 let cells = WIDTH / c.h;
-                // Each node stores and moves at most (1 + 2 n) times what leaves, over all of them.
+                // Each node stores and moves at most (1 + 2 n) times the outflow, over all of them.
                 let left = c.nodes().sqrt() * (1.0 + 2.0 * cells) * c.tolerance;
                 let end = c.exact().at(END);
                 let outflow = HEIGHT * c.strain() * (end.settlement - end.bulge);

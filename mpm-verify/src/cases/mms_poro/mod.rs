@@ -3,44 +3,86 @@
 //! Set-up, choices and tolerances: `docs/mms-poro.md`.
 
 mod checks;
-mod metrics;
-mod parameters;
-mod scene;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::{family, levels};
-use crate::case::{Case, Family, Tier};
-use crate::metric::error;
-use crate::results::headline;
-use crate::scheme::{BasisName, Scheme, SpaceName};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::Level;
-use metrics::{DISPLACEMENT_L2, ENTRIES, NEWTON_ITERATIONS, PRESSURE_L2, STRESS_L2};
-use parameters::DIMENSION;
-use watch::Motion;
-
-use BasisName::{Gimp, Linear};
-use SpaceName::{Equal, Ppp, TwoGrid};
-use Tier::{Nightly, Pr, Quick};
-
-/// Particles cross cells, and hardly any water flows.
-const CROSSING: &[&str] = &["amplitude=0.04"];
-const TIGHT: &[&str] = &["conductivity=1e-6"];
-/// Steps that err in time.
-const TIMES: [&[&str]; 3] = [
-    &["source=rates"],
-    &["source=rates", "steps=8"],
-    &["source=rates", "steps=16"],
-];
+use super::family::levels;
+use super::parameters as common;
+use super::poro::spaces;
+use crate::exact::common as solutions;
+use crate::parameter::ParameterSet;
+use crate::prelude::*;
+use run::Moving;
 
 const LEVELS: [(&str, f64); 4] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)];
+/// Particles cross cells, and hardly any water flows.
+const CROSSING: &str = "amplitude=0.04";
+const TIGHT: &str = "conductivity=1e-6";
+/// Steps that err in time.
+const TIMES: [&str; 3] = [
+    "source=rates",
+    "source=rates steps=8",
+    "source=rates steps=16",
+];
+
+choices! {
+    /// Dependence of the conductivity on the porosity.
+    enum Law { KozenyCarman = "kozeny-carman", Constant = "constant" }
+}
+
+choices! {
+    /// Source of water.
+    enum Source { Steps = "steps", Rates = "rates" }
+}
+
+choices! {
+    /// Start of Newton's method.
+    enum Start { Particles = "particles", Zero = "zero" }
+}
+
+parameters! {
+    /// Parameters of the motion.
+    struct Motion {
+        dimension: i32 = whole("-", "2", 1, 2), "dimension: 1 uniaxial strain, 2 plane strain";
+        young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e5");
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");
+        porosity: f64 = real("-", "0.4", 0.05, 0.95), "porosity of the undeformed body";
+        conductivity: f64 = real("m/s", "1e-4", 1e-12, 1.0),
+            "hydraulic conductivity k of the undeformed body, of water of 9810 N/m³";
+        conductivity_law: Law = Law::KozenyCarman.by_default(), "how it depends on the porosity";
+        gravity: f64 = solutions::GRAVITY;
+        amplitude: f64 = solutions::AMPLITUDE.with_default("0.005"),
+            "amplitude A of u: particles cross cells where it exceeds h/4; F needs A < 0.07 m to keep its pores open";
+        pressure: f64 = real("Pa", "1e4", 0.0, 1e6), "amplitude P of the pressure beside that of the water's weight";
+        angular_frequency: f64 = solutions::ANGULAR_FREQUENCY.with_default("0.015707963267948967"),
+            "angular frequency ω: the default duration is a quarter of a period";
+        duration: f64 = real("s", "100", 1e-3, 1e6), "time to run";
+        steps: i32 = whole("-", "4", 1, 10_000), "equal steps";
+        source: Source = Source::Steps.by_default(),
+            "steps: the water that backward Euler needs to be exact, so that only the error of space is left; rates: that of the rates at a step's end";
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        predictor: Start = Start::Particles.by_default(),
+            "where Newton's method begins to look for pressures: at the volume average of the particles', or at zero";
+        projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
+        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-2), "residual of a converged step over what it balances";
+    }
+}
+
+metrics! { ALL:
+    DISPLACEMENT_L2 = "displacement_l2", "m", "rms over the particles of |u − exact u| at the end";
+    DISPLACEMENT_LINF = "displacement_linf", "m", "largest |u − exact u| at the end";
+    DISPLACEMENT_SCALE = "displacement_scale", "m", "rms over the particles of the exact u at the end";
+    PRESSURE_L2 = "pressure_l2", "-",
+        "rms over the particles of p less the exact one at the end, over that of the exact p";
+    PRESSURE_LINF = "pressure_linf", "-", "largest such error, likewise";
+    PRESSURE_SCALE = "pressure_scale", "Pa", "rms over the particles of the exact p at the end";
+    STRESS_L2 = "stress_l2", "Pa", "rms of the Frobenius norm of the error of the effective Cauchy stress";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
+    ENTRIES = "matrix_entries", "-", "entries of a matrix";
+}
 
 pub(super) fn case() -> Case {
     let levels = levels(1.0, LEVELS);
     Case {
-        name: "mms-poro",
-        title: "Manufactured motion of solid and water",
         description: "A body full of water between rollers, drained at its top, is deformed by a body force and a source of water \
                       that make motion and pressure known, at finite strain and with gravity. Orders in space and time of the \
                       displacement and the pressure, for each space of the pressure, with and without crossing of cells.",
@@ -52,10 +94,8 @@ pub(super) fn case() -> Case {
             "The body fills its grid: no cell is cut, and no surface moves.",
             "Linear functions stall once particles have moved, as elsewhere.",
         ],
-        parameters: parameters::ALL.to_vec(),
         plan: plan(&levels),
         levels,
-        metrics: metrics::ALL.to_vec(),
         checks: checks::checks(),
         headlines: vec![
             headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 7),
@@ -69,54 +109,40 @@ pub(super) fn case() -> Case {
             error(PRESSURE_L2, "rms error of p").of_order(2.0),
             error(STRESS_L2, "rms error of σ′ (Pa)").of_order(1.0),
         ],
-        sweeps: Vec::new(),
         watched: &["displacement_l2", "pressure_l2"],
-        field: None,
         sketch: sketch(),
         cost: Box::new(|spec| 1e-4 * spec.level.h.powi(-3)),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, p| {
-            Ok(match p.number(DIMENSION) as usize {
-                1 => Box::new(Motion::<1>::drive(spec, p)?),
-                _ => Box::new(Motion::<2>::drive(spec, p)?),
-            })
+        begin: Box::new(|spec, parameters| match Motion::read(parameters)?.dimension {
+            1 => crate::problem::begin::<1, Moving>(spec, parameters),
+            _ => crate::problem::begin::<2, Moving>(spec, parameters),
         }),
-        pictures: |_| Ok(()),
-        tables: tables::all(),
-        breaks_down: |_| None,
+        tables: tables(),
+        ..Case::of::<2, Moving>("mms-poro", "Manufactured motion of solid and water", ALL)
     }
 }
 
-fn schemes(bases: &[BasisName]) -> Vec<Scheme> {
-    let of = |basis: &BasisName| [TwoGrid, Equal, Ppp].map(|space| Scheme::poro(*basis, space));
-    bases.iter().flat_map(of).collect()
-}
-
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let (gimp, linear) = (schemes(&[Gimp]), schemes(&[Linear]));
-    let (two, three, fine) = (&levels[..2], &levels[..3], &levels[1..]);
-    let (n16, n32) = (&levels[1..2], &levels[2..3]);
-    let mut all = vec![
-        family(Quick, &levels[..1], &gimp[..1], &[]),
-        family(Pr, three, &gimp, &[]),
-        family(Pr, three, &linear[..1], &[]),
-        family(Pr, three, &linear, &["steps=1"]),
-        family(Pr, three, &gimp[..1], CROSSING),
-        family(Pr, n16, &gimp[..1], &["predictor=zero"]),
-        family(Nightly, &levels[3..], &linear, &["steps=1"]),
-        family(Nightly, fine, &gimp, CROSSING),
-        family(Nightly, three, &linear, &[]),
-        family(Nightly, three, &linear, CROSSING),
-        family(Nightly, three, &gimp, TIGHT),
-        family(Nightly, three, &gimp, &["conductivity_law=constant"]),
-        family(Nightly, two, &gimp, &["dimension=1"]),
-        family(Nightly, n16, &gimp, &["predictor=zero"]),
-        family(Nightly, n16, &gimp, &["amplitude=0.04", "predictor=zero"]),
-    ];
-    all.extend(TIMES.map(|set| family(Pr, n16, &gimp[1..2], set)));
-    all.extend(TIMES.map(|set| family(Nightly, n32, &gimp, set)));
-    all
+    const THREE: &str = "n8 n16 n32";
+    let (gimp, linear) = (spaces(Gimp), spaces(Linear));
+    Plan::of(levels)
+        .runs(Quick, "n8", &gimp[..1], "")
+        .runs(Pr, THREE, &gimp, "")
+        .runs(Pr, THREE, &linear[..1], "")
+        .runs(Pr, THREE, &linear, "steps=1")
+        .runs(Pr, THREE, &gimp[..1], CROSSING)
+        .runs(Pr, "n16", &gimp[..1], "predictor=zero")
+        .runs(Nightly, "n64", &linear, "steps=1")
+        .runs(Nightly, "n16 n32 n64", &gimp, CROSSING)
+        .runs(Nightly, THREE, &linear, "")
+        .runs(Nightly, THREE, &linear, CROSSING)
+        .runs(Nightly, THREE, &gimp, TIGHT)
+        .runs(Nightly, THREE, &gimp, "conductivity_law=constant")
+        .runs(Nightly, "n8 n16", &gimp, "dimension=1")
+        .runs(Nightly, "n16", &gimp, "predictor=zero")
+        .runs(Nightly, "n16", &gimp, "amplitude=0.04 predictor=zero")
+        .each(Pr, "n16", &gimp[1..2], TIMES)
+        .each(Nightly, "n32", &gimp, TIMES)
+        .done()
 }
 
 fn sketch() -> Sketch {
@@ -132,4 +158,61 @@ fn sketch() -> Sketch {
         ],
         description: "A body full of water that slides along its sides but doesn't leave them, drained at its top.",
     }
+}
+
+fn tables() -> Vec<ResultTable> {
+    let errors = |metric: Metric, title: &'static str, levels: usize| {
+        let titles = LEVELS[..levels]
+            .iter()
+            .map(|(level, n)| (*level, format!("{title}, n = {n}")));
+        let mut columns = Column::levels(titles, metric, scientific(2));
+        columns.push(Column::row(format!("order of {title}"), move |runs, _| {
+            let found = order(runs.iter().copied(), metric.name);
+            found.map_or_else(|| "–".to_owned(), |o| o.to_string())
+        }));
+        columns
+    };
+    // Errors of u and p over the cells.
+    let cells = |name: &str, set: &'static str, levels: usize| {
+        let columns = [
+            errors(DISPLACEMENT_L2, "u", levels),
+            errors(PRESSURE_L2, "p", levels),
+        ];
+        let shows = move |r: &Record| r.set.iter().map(String::as_str).eq(set.split_whitespace());
+        ResultTable::new(name, shows, &[SCHEME], columns.into_iter().flatten())
+    };
+    let counts = [4.0, 8.0, 16.0].map(|count| (count, format!("{count} steps")));
+    let steps = |r: &Record| Setup::<Motion>::number_of(r, |m| f64::from(m.steps));
+    let predictors = [0.005, 0.04].into_iter().flat_map(|amplitude| {
+        [(Start::Particles, "particles"), (Start::Zero, "zero")].map(|(predictor, word)| {
+            let at = move |m: &Setup<Motion>| m.amplitude == amplitude && m.predictor == predictor;
+            let title = format!("A = {amplitude} m, from {word}");
+            Column::metric(title, NEWTON_ITERATIONS, fixed(0)).of(move |r| Setup::holds(r, at))
+        })
+    });
+    vec![
+        cells("mms-poro", "", 3),
+        cells("mms-poro-one-step", "steps=1", 4),
+        cells("mms-poro-crossing", CROSSING, 4),
+        cells("mms-poro-tight", TIGHT, 3),
+        ResultTable::new(
+            "mms-poro-steps",
+            |r| {
+                let changed = r.set.iter().any(|s| s.starts_with("source"));
+                r.level == "n32" && changed && r.changes_none_but(&["source", "steps"])
+            },
+            &[SCHEME],
+            Column::over(counts, steps, PRESSURE_L2, scientific(2)),
+        ),
+        // Small and large motions.
+        ResultTable::new(
+            "mms-poro-predictor",
+            |r| {
+                let own = r.level == "n16" && r.basis() == Gimp;
+                own && r.changes_none_but(&["predictor", "amplitude"])
+            },
+            &[SCHEME],
+            predictors,
+        ),
+    ]
 }

@@ -43,7 +43,7 @@ choices! {
 }
 
 choices! {
-    /// What is prescribed.
+    /// The prescribed quantity.
     enum Control { Load = "load", Settlement = "settlement" }
 }
 

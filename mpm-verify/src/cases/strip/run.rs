@@ -19,7 +19,7 @@ const PER_CELL: usize = 2;
 const ROOM: f64 = 1.0;
 /// The base, among the scene's constraints.
 const BASE: Part = Part::Constraint(0);
-/// What is nearer to the strip's edge than this share of its half width is not smooth.
+/// Distance from the strip's edge, over its half width, within which the solution is not smooth.
 const NEAR: f64 = 0.5;
 /// Particles are kept after each of this number of parts of the steps.
 const QUARTERS: u64 = 4;
@@ -124,7 +124,7 @@ impl Setup<Strip> {
         }
     }
 
-    /// Pressure over the load of the particles, row by row as they were at the start; NaN where there is none.
+    /// Pressure over the load of the particles, row by row as they were at the start; NaN without a particle.
     fn pressures<const D: usize>(&self, run: &mut dyn Simulation<D>, over: f64) -> Vec<f64> {
         let field = run.field(Field::PorePressure);
         let row = self.row();

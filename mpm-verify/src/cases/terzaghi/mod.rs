@@ -6,6 +6,7 @@ mod run;
 
 use super::family::levels;
 use super::parameters as common;
+use super::poro::spaces;
 use crate::exact::terzaghi as exact;
 use crate::prelude::*;
 use run::{FINITE, HEIGHT};
@@ -109,7 +110,6 @@ fn sketch() -> Sketch {
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let spaces = |basis| [TwoGrid, Equal, Ppp].map(|space| Scheme::poro(basis, space));
     let (gimp, linear) = (spaces(Gimp), spaces(Linear));
     let both = [gimp, linear].concat();
     Plan::of(levels)

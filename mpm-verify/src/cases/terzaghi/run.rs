@@ -3,10 +3,13 @@
 use super::*;
 use crate::cases::growth;
 use crate::cases::parameters::{least_strain, require_quotient};
+use crate::cases::poro::{
+    ROUNDING, WATER_WEIGHT, base_pressure, mass_error, matrix_entries, outflow,
+};
 use crate::exact::terzaghi::FirstStep;
 use crate::statistics::rms;
 use mpm_core::material::Hencky;
-use mpm_core::poro::{Conductivity, Face, PressureSpace, Settings, Water};
+use mpm_core::poro::{Conductivity, Face, Settings, Water};
 
 /// Height of the column (m).
 pub(super) const HEIGHT: f64 = 1.0;
@@ -14,14 +17,10 @@ pub(super) const HEIGHT: f64 = 1.0;
 const PER_CELL: usize = 2;
 /// Empty cells above it.
 const ROOM: usize = 2;
-/// Weight of water (N/m³).
-const WATER_WEIGHT: f64 = 9810.0;
 /// Largest q/M: the finite part of the strain changes a distance by ten times as much.
 const SMALL: f64 = 1e-6;
 /// Largest change of an overshoot or a settlement by finite strain and Newton's tolerance.
 pub(super) const FINITE: f64 = 10.0 * SMALL;
-/// Smaller values are rounding.
-const ROUNDING: f64 = 1e-9;
 
 impl Setup<Terzaghi> {
     /// Shear modulus G (Pa).
@@ -127,13 +126,6 @@ impl Setup<Terzaghi> {
         let volume = |of: &[f64]| of.iter().sum::<f64>();
         (volume(&p.reference_volume) - volume(&p.volume)) * self.modulus() / (self.load * HEIGHT)
     }
-
-    /// Pressure at the lowest node over the load.
-    fn base_pressure(&self, run: &dyn Simulation<1>) -> f64 {
-        let nodes = run.pressure_nodes();
-        let lowest = nodes.iter().min_by(|a, b| a.0[0].total_cmp(&b.0[0]));
-        lowest.map_or(f64::NAN, |(_, p)| p / self.load)
-    }
 }
 
 /// Observations of the column: the overshoot of the first step.
@@ -181,17 +173,9 @@ impl Problem<1> for Setup<Terzaghi> {
             .drained(move |x| x[0] > HEIGHT - 0.25 * h)
             .face(top);
         let (first, growth) = self.first_and_growth();
-        let pressure_space = match self.space() {
-            Some(TwoGrid) => PressureSpace::TwoGrid,
-            Some(Ppp) => PressureSpace::Projected {
-                strength: self.strength() / self.modulus(),
-            },
-            // No other kind of scheme has a solver.
-            _ => PressureSpace::Equal,
-        };
         let settings = Settings {
             growth,
-            pressure_space,
+            pressure_space: self.pressure_space(self.strength() / self.modulus()),
             tolerance: self.tolerance,
             ..Settings::new(first * self.time_scale())
         };
@@ -211,10 +195,10 @@ impl Problem<1> for Setup<Terzaghi> {
             "time_factor (-)": t,
             "settlement (-)": self.settlement(run),
             "settlement_exact (-)": exact::settlement(t),
-            "base_pressure (-)": self.base_pressure(run),
+            "base_pressure (-)": base_pressure(run) / self.load,
             "base_pressure_exact (-)": exact::pressure(1.0, t),
             "overshoot (-)": self.overshoot(run),
-            "outflow (m)": run.water().map_or(f64::NAN, |w| w.outflow),
+            "outflow (m)": outflow(run),
             "newton_iterations (-)": (run.work().newton_iterations - before) as f64,
         })
     }
@@ -240,10 +224,6 @@ impl Problem<1> for Setup<Terzaghi> {
             let pairs = pressure.iter().zip(&run.particles().reference);
             rms(pairs.map(|(p, x)| p / self.load - exact(1.0 - x[0] / HEIGHT)))
         };
-        let lost = run
-            .water()
-            .map_or(f64::NAN, |w| (w.imbalance / w.outflow).abs());
-        let work = run.work();
         vec![
             (PRESSURE_L2, error(&|z| exact::pressure(z, t))),
             (
@@ -255,13 +235,9 @@ impl Problem<1> for Setup<Terzaghi> {
                 SETTLEMENT_ERROR,
                 (self.settlement(run) - exact::settlement(t)).abs(),
             ),
-            // NaN stays NaN.
-            (MASS_ERROR, if lost < ROUNDING { ROUNDING } else { lost }),
-            (NEWTON_ITERATIONS, work.newton_iterations as f64),
-            (
-                ENTRIES,
-                work.nonzeros as f64 / work.factorisations.max(1) as f64,
-            ),
+            (MASS_ERROR, mass_error(run)),
+            (NEWTON_ITERATIONS, run.work().newton_iterations as f64),
+            (ENTRIES, matrix_entries(run)),
         ]
     }
 }
