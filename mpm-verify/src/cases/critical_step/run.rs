@@ -231,8 +231,13 @@ impl<const D: usize, M: Solvable<D> + Material> Problem<D> for Trials<D, M> {
 
     fn discretisation(&self) -> Discretisation {
         let longest = courant_time_step(MOST, self.setup.h, self.speed);
-        self.setup
-            .discretisation(D, self.setup.ppc_per_direction.pow(D as u32), longest)
+        let ppc = self.setup.ppc_per_direction.pow(D as u32);
+        // The lattice has no walls.
+        let wall = String::new();
+        Discretisation {
+            wall,
+            ..self.setup.discretisation(D, ppc, longest)
+        }
     }
 
     fn begin(&self, seen: &Grown) -> Result<Box<dyn Simulation<D>>, Fault> {
