@@ -44,6 +44,7 @@ mod poro;
 mod rest;
 pub mod scene;
 mod shock;
+mod slope;
 mod slope_stability;
 mod sparse;
 mod spin;

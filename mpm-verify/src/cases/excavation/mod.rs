@@ -2,35 +2,141 @@
 //!
 //! Section 3.3 of Wang, Vardon, Hicks & Chen (2016). Set-up, choices and tolerances: `docs/excavation.md`.
 
-mod checks;
-mod look;
-mod metrics;
-mod parameters;
-mod pictures;
-mod reference;
+mod run;
 mod scene;
-mod sketch;
-mod tables;
-mod watch;
 
-use super::family::{family, implicit};
-use crate::case::{Case, Family, Tier};
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, RuleName};
-use crate::spec::{Level, RunSpec};
-use metrics as m;
-use watch::Excavation;
-
-use BasisName::{Bspline2, Gimp};
+use super::family::implicit;
+use super::parameters::{self as common, Wall as WallTreatment};
+use crate::draw::{FieldFigure, FieldPanel, draw_fields};
+use crate::parameter::number;
+use crate::prelude::*;
 use RuleName::{Midpoint, Newmark, QuasiStatic};
-use Tier::{Long, Nightly, Pr, Quick};
+use scene::{Ground, HEIGHT};
+
+const LEVELS: [Level; 3] = [
+    Level {
+        name: "h0.1",
+        h: 0.1,
+    },
+    Level {
+        name: "h0.05",
+        h: 0.05,
+    },
+    Level {
+        name: "h0.025",
+        h: 0.025,
+    },
+];
+/// Newton's tolerance times the root of the number of nodes that its norm is of.
+const EQUILIBRIUM: f64 = 1e-8;
+/// Newton's tolerance times the number of steps and the forces that swing over those that drive.
+const BALANCED: f64 = 1e-6;
+/// Largest gain of a rule that conserves energy.
+const NO_GAIN: f64 = 1e-4;
+/// Rounding of a friction force.
+const ROUNDING: f64 = 1e-9;
+/// Excess of arcs over the collapse load: the gap to finite-element limit analysis.
+const ARCS: f64 = 0.012;
+/// Run-outs of two levels that differ by less are the same.
+const SAME: f64 = 0.01;
+
+choices! {
+    /// Contact with the base.
+    enum Base { Rough = "rough", Frictional = "friction" }
+}
+
+choices! {
+    /// Application of gravity.
+    enum Raising { Ramp = "ramp", Step = "step" }
+}
+
+choices! {
+    /// Constitutive law.
+    enum LawName { Hencky = "hencky-j2", Jaumann = "jaumann-j2" }
+}
+
+parameters! {
+    /// Parameters of the excavation.
+    struct Excavation {
+        young_modulus: f64 = common::YOUNG_MODULUS.with_default("2e5");
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.33");
+        peak: f64 = real("Pa", "5e3", 1.0, 1e9), "peak of the strength c in plane-strain shear; κ = √2 c";
+        residual: f64 = real("Pa", "1e3", 1.0, 1e9), "residual strength c, at most the peak; the peak: no softening";
+        softening: f64 = real("Pa", "5e4", 1.0, 9e4).below(), "−H = −dc/dε of the equivalent plastic strain";
+        unit_weight: f64 = real("N/m³", "2e4", 1.0, 1e6), "unit weight γ";
+        crest: f64 = real("m", "1.5", 1.0, 10.0), "length of the crest, up to the rollers";
+        cut: f64 = real("m", "0.2", 0.0, 0.9), "height of the vertical cut at the toe";
+        base: Base = Base::Rough.by_default(),
+            "rough: the nodes of the base are held; friction: Coulomb's law beneath the particles";
+        friction: f64 = real("-", "0.5", 0.0, 10.0), "base=friction: the coefficient μ";
+        gravity: Raising = Raising::Ramp.by_default(),
+            "ramp: in load_steps equal steps, each cut into parts if it has to; step: at once, and never cut";
+        load_steps: i32 = whole("-", "20", 1, 1000), "gravity=ramp: steps";
+        law: LawName = LawName::Hencky.by_default(), "hyperelastic, or the paper's small strains in rate form";
+        cfl: f64 = real("-", "2", 0.01, 1000.0), "after the excavation: CFL number c Δt / h of pressure waves";
+        duration: f64 = real("s", "3", 0.01, 60.0), "time after the excavation";
+        ghost: f64 = real("-", "0.01", 0.0, 1.0), "ghost penalty, in shares of Young's modulus; 0: none";
+        // By β the eigenvalues of M_l⁻¹ M_β lie within β and 1: 500 iterations of conjugate gradients, which are all that a mass
+        // gets, come to 10⁻¹⁰ for certain if β ≥ (ln(2·10¹⁰)/1000)² = 0.0006. Ground that flows has nodes that are nearly empty.
+        lumped: f64 = common::LUMPED.within(number(1e-3, 1.0, false));
+        alpha: f64 = common::ALPHA;
+        delta: f64 = common::DELTA;
+        tolerance: f64 = common::TOLERANCE;
+        wall: WallTreatment = common::WALL;
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+    }
+}
+
+metrics! { ALL:
+    FACTOR_UNCUT = "factor_uncut", "-",
+        "factor of safety of the whole slope at the peak strength, by limit analysis: an upper bound";
+    FACTOR_CUT = "factor_cut", "-", "likewise of the slope whose toe is cut away";
+    FACTOR_CUT_RESIDUAL = "factor_cut_residual", "-", "likewise at the residual strength";
+    GRAVITY_CARRIED = "gravity_carried", "-",
+        "share of gravity under which the whole slope has its last equilibrium";
+    STANDS_UNCUT = "stands_uncut", "-",
+        "1 if the whole slope comes to rest under full gravity and no particle moves by a tenth of the height in the last phase; 0 if one does; none where it still moves";
+    STANDS_CUT = "stands_cut", "-",
+        "likewise of the cut slope, quasi-static or moving; none if it fails uncut";
+    FORCE_RATIO_UNCUT = "force_ratio_uncut", "-",
+        "the paper's out-of-balance ratio, Eq. (37), of the equilibrium before the excavation";
+    ENERGY_RATIO_UNCUT = "energy_ratio_uncut", "-",
+        "in the place of its ratio of energies, Eq. (38), the residual's work on Newton's last correction over that of the load";
+    REACTION_ERROR = "reaction_error", "-",
+        "the base's vertical reaction to the whole slope over its weight, less one";
+    SIDE_ERROR = "side_error", "-",
+        "sum of the horizontal reactions of base and rollers to the whole slope, over the weight";
+    FRICTION_RATIO = "friction_ratio", "-",
+        "base=friction: largest ratio of the base's tangential reaction to its normal one, over all rows";
+    PLASTIC_STRAIN_UNCUT = "plastic_strain_uncut", "-",
+        "largest equivalent plastic strain before the excavation";
+    PLASTIC_STRAIN_END = "plastic_strain_end", "-", "likewise at the end";
+    SOFTENED_END = "softened_end", "m²", "area whose strength is residual at the end";
+    BAND_WIDTH = "band_width", "m", "that area over the length of the arc of limit analysis";
+    HANDED_OVER = "handed_over", "-",
+        "largest change of a stress from one phase to the next, of what stays, over γH: none";
+    FLOW_LEAST = "flow_least", "-",
+        "least change of a particle's plastic strain from row to row: none is negative";
+    MOVED_CUT = "moved_cut", "m", "largest displacement of a particle since the last phase began";
+    RUNOUT_END = "runout_end", "m",
+        "distance of the farthest particle's edge, at the end, from the foot of the cut face";
+    CREST_DROP = "crest_drop", "m", "largest settlement of the crest since the last phase began";
+    KINETIC_PEAK = "kinetic_peak", "J/m", "largest kinetic energy in the last phase";
+    KINETIC_END = "kinetic_end", "-", "kinetic energy at the end over the work of the load since the last phase began: Eq. (38)";
+    DISSIPATED = "dissipated", "J/m", "what flow has dissipated since the last phase began";
+    LOAD_WORK = "load_work", "J/m", "work of gravity, and of a base with friction, since the last phase began";
+    BALANCE_ERROR = "balance_error", "-",
+        "midpoint: kinetic energy and work of the stresses since the last phase began, with what the lumped mass and the ghost penalty took, less the work of the load, over its magnitude: largest";
+    MOMENTUM_ERROR = "momentum_error", "-",
+        "vertical momentum in the last phase, with the impulse that the base took, less that of the weight, over it: largest";
+    ENERGY_GAIN = "energy_gain", "-",
+        "kinetic, stored and dissipated energy since the last phase began less the work of the load, over its magnitude: largest";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
+    MASS = "mass", "kg/m", "mass of the whole slope";
+}
 
 pub(super) fn case() -> Case {
-    let levels =
-        [("h0.1", 0.1), ("h0.05", 0.05), ("h0.025", 0.025)].map(|(name, h)| Level { name, h });
     Case {
-        name: "excavation",
-        title: "Slope whose toe is cut away",
         description: "A slope of clay that softens stands under its weight; a wedge at its toe is taken away at once. The geotechnical case \
                       of the implicit paper. By limit analysis it stands at the peak strength, whole and cut, and at the residual \
                       strength it can't: what fails is progressive, and depends on the cells.",
@@ -43,104 +149,328 @@ pub(super) fn case() -> Case {
             "The paper gives neither the friction of its base nor the length of its crest.",
             "Local damping, by which the paper comes to rest, is refused in implicit steps; static steps take its place.",
         ],
-        parameters: parameters::ALL.to_vec(),
-        plan: plan(levels),
-        levels: levels.to_vec(),
-        metrics: m::ALL.to_vec(),
-        checks: checks::checks(),
+        plan: plan(),
+        levels: LEVELS.to_vec(),
+        checks: checks(),
         headlines: vec![
-            headline(m::FACTOR_UNCUT, "factor, whole (–)", 1.0, 3),
-            headline(m::FACTOR_CUT, "cut (–)", 1.0, 3),
-            headline(m::GRAVITY_CARRIED, "gravity carried (–)", 1.0, 3),
-            headline(m::STANDS_UNCUT, "stands whole", 1.0, 0),
-            headline(m::STANDS_CUT, "cut", 1.0, 0),
-            headline(m::RUNOUT_END, "run-out (m)", 1.0, 3),
-            headline(m::CREST_DROP, "crest sinks (m)", 1.0, 3),
-            headline(m::BAND_WIDTH, "band (m)", 1.0, 3),
-            headline(m::KINETIC_END, "E_kin at the end (%)", 100.0, 2),
-            headline(m::FORCE_RATIO_UNCUT, "(37) before the cut (10⁻¹²)", 1e12, 1),
-            headline(m::BALANCE_ERROR, "energy off by (%)", 100.0, 2),
+            headline(FACTOR_UNCUT, "factor, whole (–)", 1.0, 3),
+            headline(FACTOR_CUT, "cut (–)", 1.0, 3),
+            headline(GRAVITY_CARRIED, "gravity carried (–)", 1.0, 3),
+            headline(STANDS_UNCUT, "stands whole", 1.0, 0),
+            headline(STANDS_CUT, "cut", 1.0, 0),
+            headline(RUNOUT_END, "run-out (m)", 1.0, 3),
+            headline(CREST_DROP, "crest sinks (m)", 1.0, 3),
+            headline(BAND_WIDTH, "band (m)", 1.0, 3),
+            headline(KINETIC_END, "E_kin at the end (%)", 100.0, 2),
+            headline(FORCE_RATIO_UNCUT, "(37) before the cut (10⁻¹²)", 1e12, 1),
+            headline(BALANCE_ERROR, "energy off by (%)", 100.0, 2),
         ],
-        quantities: Vec::new(),
-        sweeps: Vec::new(),
         watched: &["moved", "front"],
-        field: None,
-        sketch: sketch::sketch(),
+        sketch: sketch(),
         cost: Box::new(cost),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Excavation::drive(spec, parameters)?))),
-        pictures: pictures::draw,
-        tables: tables::all(),
-        breaks_down: |_| None,
+        pictures,
+        tables: vec![equilibria(), collapses(), balances()],
+        ..Case::of::<2, Ground>("excavation", "Slope whose toe is cut away", ALL)
     }
 }
 
-/// Steps, and what a factorisation takes.
+/// Cost of the steps and of a factorisation.
 fn cost(spec: &RunSpec) -> f64 {
     let steps = match spec.scheme.rule() {
-        Some(RuleName::QuasiStatic) => 0.1,
+        Some(QuasiStatic) => 0.1,
         _ => 1.0,
     };
     steps * 2.0 * (0.1 / spec.level.h).powi(3)
 }
 
-/// Without softening, at the peak and at the residual strength.
-const PERFECT: &[&str] = &["residual=5e3"];
-const WEAK: &[&str] = &["peak=1e3", "residual=1e3", "load_steps=4"];
-const WEAK_AT_ONCE: &[&str] = &["peak=1e3", "residual=1e3", "gravity=step"];
-const AT_ONCE: &[&str] = &["gravity=step"];
-const SLIDING: &[&str] = &["base=friction"];
-const SLIPPERY_PERFECT: &[&str] = &["base=friction", "friction=0.05", "residual=5e3"];
-/// Of the pull request.
-const BRIEF: &[&str] = &["duration=0.5"];
-const BRIEF_PERFECT: &[&str] = &["duration=0.5", "residual=5e3"];
-const BRIEF_SLIDING: &[&str] = &["base=friction", "duration=0.25"];
-const SLIPPERY: &[&str] = &["base=friction", "friction=0.05"];
-/// Ground whose weight alone lets none of it flow.
-const LATERAL: &[&str] = &["poisson_ratio=0.45"];
-/// Other bases of the same slope.
-const FRICTIONS: [&[&str]; 4] = [
-    &["base=friction", "friction=0.1"],
-    &["base=friction", "friction=0.2"],
-    &["base=friction", "friction=0.3"],
-    &["base=friction", "friction=1"],
-];
+fn sketch() -> Sketch {
+    Sketch {
+        shapes: vec![
+            Shape::Body(vec![
+                [0.0, 0.0],
+                [2.3, 0.0],
+                [2.3, 0.2],
+                [1.5, 1.0],
+                [0.0, 1.0],
+            ]),
+            Shape::Body(vec![[2.3, 0.0], [2.5, 0.0], [2.3, 0.2]]),
+            Shape::Held([3.5, 0.0], [0.0, 0.0]),
+            Shape::Held([0.0, 0.0], [0.0, 1.0]),
+            Shape::length([0.0, 1.12], [1.5, 1.12], "1.5 m"),
+            Shape::length([1.5, 1.12], [2.5, 1.12], "1 m"),
+            Shape::length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
+            Shape::note([0.9, 0.5], "clay"),
+            Shape::note([2.85, 0.2], "taken away"),
+        ],
+        description: "A slope of clay one metre high with a face at 45° and a crest of 1.5 m, up to rollers that let it \
+                      move up and down. The wedge of the lowest 0.2 m at its toe is taken away.",
+    }
+}
 
-fn plan([h1, h2, h3]: [Level; 3]) -> Vec<Family> {
+fn plan() -> Vec<Family> {
+    const SLIPPERY: &str = "base=friction friction=0.05";
+    const SLIPPERY_PERFECT: &str = "base=friction friction=0.05 residual=5e3";
+    /// Ground that does not yield under its weight alone.
+    const LATERAL: &str = "poisson_ratio=0.45";
     let none = [RemedyName::None];
     let moving = implicit(&[Midpoint, Newmark], &[Gimp], &none);
     let midpoint = &moving[..1];
     let resting = implicit(&[QuasiStatic], &[Gimp, Bspline2], &none);
     let means = &resting[..1];
-    let mut all = vec![
-        family(Pr, &[h1], midpoint, &[]),
-        family(Quick, &[h1], means, &[]),
-        family(Pr, &[h1], &moving[1..], BRIEF),
-        family(Pr, &[h1], midpoint, BRIEF_PERFECT),
-        family(Pr, &[h1], midpoint, BRIEF_SLIDING),
-        family(Pr, &[h1], means, PERFECT),
-        family(Pr, &[h1], means, WEAK_AT_ONCE),
-        family(Pr, &[h1], means, SLIPPERY_PERFECT),
-        family(Nightly, &[h1, h2], &moving, &[]),
-        family(Nightly, &[h1, h2, h3], &resting, &[]),
-        family(Nightly, &[h1, h2, h3], &resting, AT_ONCE),
-        family(Nightly, &[h1, h2], &resting, PERFECT),
-        family(Nightly, &[h1, h2], midpoint, PERFECT),
-        family(Nightly, &[h1, h2], midpoint, AT_ONCE),
-        family(Nightly, &[h1, h2], midpoint, SLIDING),
-        family(Nightly, &[h2], &moving[1..], SLIDING),
-        family(Nightly, &[h1, h2, h3], means, SLIDING),
-        family(Nightly, &[h1, h2, h3], means, LATERAL),
-        family(Nightly, &[h1, h2], midpoint, LATERAL),
-        family(Nightly, &[h1], means, WEAK),
-        family(Nightly, &[h1], means, SLIPPERY),
-        family(Nightly, &[h2], means, SLIPPERY_PERFECT),
-        family(Nightly, &[h1, h2], midpoint, &["law=jaumann-j2"]),
-        family(Nightly, &[h1], midpoint, &["ghost=0.001"]),
-        family(Nightly, &[h1], midpoint, &["cfl=1"]),
-        family(Long, &[h3], &moving, &[]),
+    let two = "h0.1 h0.05";
+    let three = "h0.1 h0.05 h0.025";
+    Plan::of(&LEVELS)
+        .runs(Pr, "h0.1", midpoint, "")
+        .runs(Quick, "h0.1", means, "")
+        .runs(Pr, "h0.1", &moving[1..], "duration=0.5")
+        .runs(Pr, "h0.1", midpoint, "duration=0.5 residual=5e3")
+        .runs(Pr, "h0.1", midpoint, "base=friction duration=0.25")
+        .runs(Pr, "h0.1", means, "residual=5e3")
+        .runs(Pr, "h0.1", means, "peak=1e3 residual=1e3 gravity=step")
+        .runs(Pr, "h0.1", means, SLIPPERY_PERFECT)
+        .runs(Nightly, two, &moving, "")
+        .runs(Nightly, three, &resting, "")
+        .runs(Nightly, three, &resting, "gravity=step")
+        .runs(Nightly, two, &resting, "residual=5e3")
+        .each(
+            Nightly,
+            two,
+            midpoint,
+            ["residual=5e3", "gravity=step", "base=friction"],
+        )
+        .runs(Nightly, "h0.05", &moving[1..], "base=friction")
+        .each(Nightly, three, means, ["base=friction", LATERAL])
+        .runs(Nightly, two, midpoint, LATERAL)
+        .runs(Nightly, "h0.1", means, "peak=1e3 residual=1e3 load_steps=4")
+        .runs(Nightly, "h0.1", means, SLIPPERY)
+        .runs(Nightly, "h0.05", means, SLIPPERY_PERFECT)
+        .runs(Nightly, two, midpoint, "law=jaumann-j2")
+        .each(Nightly, "h0.1", midpoint, ["ghost=0.001", "cfl=1"])
+        .runs(Long, "h0.025", &moving, "")
+        .each(
+            Nightly,
+            two,
+            means,
+            [0.1, 0.2, 0.3, 1.0].map(|f| format!("base=friction friction={f}")),
+        )
+        .done()
+}
+
+/// Factors of limit analysis, each with whether the slope stands.
+const LIMITS: [(Metric, Metric); 2] = [(FACTOR_UNCUT, STANDS_UNCUT), (FACTOR_CUT, STANDS_CUT)];
+
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Excavation>;
+    type Demand = crate::demand::Demand<Excavation>;
+    vec![
+        Check::truth("reaction", "in equilibrium before the excavation the base bears the weight, and base and rollers push each other alone")
+            // The whole slope has an equilibrium under full gravity.
+            .when(|c| c.metric(GRAVITY_CARRIED) > 1.0 - 1e-9 && c.metric(STANDS_UNCUT) == 1.0)
+            .at_most(REACTION_ERROR, |_| EQUILIBRIUM)
+            .at_most(SIDE_ERROR, |_| EQUILIBRIUM)
+            .because("equilibrium, to Newton's tolerance"),
+        Check::truth("taken-over", "what stays keeps its stress from phase to phase, bit for bit: the cut is made in ground that rests")
+            .when(|c| !c.metric(HANDED_OVER).is_nan())
+            .at_most(HANDED_OVER, |_| 0.0)
+            .because("a phase begins as the one before it ended"),
+        Check::truth("stands-below-the-limit", "without softening, on a rough base: a slope that limit analysis lets stand by more than arcs are above the collapse load stands, whole and cut")
+            .when(|c| !c.softens() && !c.slides())
+            .each(LIMITS.map(|(factor, stands)| {
+                Demand::within(stands, |_| 1.0, |_| 0.0).when(move |c| c.metric(factor) > 1.0 + ARCS)
+            }))
+            .because("finite-element limit analysis: docs/excavation.md"),
+        Check::truth("falls-above-the-limit", "a slope whose factor of safety at the peak strength is below one does not stand, whole or cut")
+            .each(LIMITS.map(|(factor, stands)| {
+                Demand::within(stands, |_| 0.0, |_| 0.0)
+                    .when(move |c| c.metric(factor) < 1.0 && !c.metric(stands).is_nan())
+            }))
+            .because("arcs and sliding feet are upper bounds: docs/excavation.md"),
+        Check::truth("balance", "midpoint: kinetic energy, the stresses' work and what the lumped mass and the ghost penalty took are the work of the load")
+            .when(moves_by_midpoint)
+            .at_most(BALANCE_ERROR, |_| BALANCED)
+            .because("Eq. (21) of docs/implicit.md, to Newton's tolerance"),
+        Check::truth("no-energy-gain", "midpoint, hencky-j2: kinetic, stored and dissipated energy never exceed the work of the load by more than 10⁻⁴ of it")
+            .when(|c| c.law == LawName::Hencky && moves_by_midpoint(c))
+            .at_most(ENERGY_GAIN, |_| NO_GAIN)
+            .because("the rule gives none, flow takes: docs/implicit.md"),
+        Check::truth("momentum", "midpoint, base=friction: vertical momentum is the impulse of the weight less that of the base")
+            .when(|c| c.slides() && moves_by_midpoint(c))
+            .at_most(MOMENTUM_ERROR, |_| ROUNDING)
+            .because("internal forces sum to zero, as the functions sum to one"),
+        Check::truth("flow", "plastic strain never falls, of no particle")
+            .above(FLOW_LEAST, |_| -f64::EPSILON)
+            .because("flow dissipates"),
+        Check::truth("coulomb", "base=friction: the base never holds more than μ times its pressure")
+            .when(|c| c.slides())
+            .at_most(FRICTION_RATIO, |c| c.friction * (1.0 + ROUNDING))
+            .because("Coulomb's law, which holds of every particle"),
+        Check::truth("peak-does-not-fail", "rough base: with softening the cut slope does not stand, and at the peak strength without softening it does")
+            .when(|c| c.record.status == Status::Ok && c.changes_none_but(&["residual"]) && !c.softens())
+            .pairs(|perfect, own| {
+                let alike = own.record.status == Status::Ok && own.is_default() && own.scheme == perfect.scheme && own.level == perfect.level;
+                alike && !own.is_static() && !(own.metric(STANDS_CUT) + perfect.metric(STANDS_CUT)).is_nan()
+            })
+            .within(
+                |_, _| STANDS_CUT.name.to_owned(),
+                |perfect, own| perfect.metric(STANDS_CUT) - own.metric(STANDS_CUT),
+                |_| 1.0,
+                |_| 0.0,
+            )
+            .because_of(|c| format!("{} {}", c.scheme, c.level)),
+        Check::known_limit("run-out-by-level", "rough base, softening: the run-outs of two levels differ by more than a hundredth, as softening has no length")
+            .study(differs_by_level)
+            .because(""),
+    ]
+}
+
+/// Whether a run moved, after the excavation, by the midpoint rule.
+fn moves_by_midpoint(run: &Run<Excavation>) -> bool {
+    run.rule() == Some(Midpoint) && !run.metric(KINETIC_PEAK).is_nan()
+}
+
+/// Run-outs of all pairs of levels of a scheme.
+fn differs_by_level(records: &[Record]) -> Vec<Finding> {
+    let own = |r: &Run<Excavation>| {
+        r.record.status == Status::Ok && r.is_default() && moves_by_midpoint(r)
+    };
+    let own: Vec<Run<Excavation>> = records.iter().filter_map(Run::of).filter(own).collect();
+    let pairs = own
+        .iter()
+        .enumerate()
+        .flat_map(|(k, coarse)| own[k + 1..].iter().map(move |fine| (coarse, fine)));
+    let alike =
+        pairs.filter(|(coarse, fine)| coarse.scheme == fine.scheme && coarse.level != fine.level);
+    alike
+        .map(|(coarse, fine)| {
+            let ratio = coarse.metric(RUNOUT_END) / fine.metric(RUNOUT_END);
+            let levels = format!("{}: {} against {}", coarse.scheme, coarse.level, fine.level);
+            Finding::above(RUNOUT_END, (ratio - 1.0).abs(), SAME, levels)
+        })
+        .collect()
+}
+
+const CHANGED: Label = ("changed", |r| match r.set.is_empty() {
+    true => "–".to_owned(),
+    false => r.set.join(", "),
+});
+
+fn is_static(r: &Record) -> bool {
+    r.scheme().rule() == Some(RuleName::QuasiStatic)
+}
+
+/// Whether a slope stands, in words.
+fn stands(r: &Record) -> String {
+    let carried = r.metric(GRAVITY_CARRIED);
+    match [STANDS_UNCUT, STANDS_CUT].map(|metric| r.metric(metric)) {
+        [0.0, _] if carried == 0.0 => "not in one step".to_owned(),
+        [uncut, _] if uncut != 1.0 && carried < 1.0 => format!("up to {carried:.3} γ"),
+        [0.0, _] => "falls whole".to_owned(),
+        [1.0, 1.0] => "stands whole and cut".to_owned(),
+        [1.0, 0.0] => "stands whole, falls cut".to_owned(),
+        _ => "not told".to_owned(),
+    }
+}
+
+/// Which slope has an equilibrium.
+fn equilibria() -> ResultTable {
+    let of = |level: &'static str| move |r: &Record| r.level == level;
+    let columns = [
+        ("h0.1", "h = 0.1 m"),
+        ("h0.05", "0.05 m"),
+        ("h0.025", "0.025 m"),
+    ]
+    .map(|(level, title)| Column::text(title, stands).of(of(level)));
+    ResultTable::new(
+        "excavation-equilibria",
+        is_static,
+        &[SCHEME, CHANGED],
+        columns,
+    )
+}
+
+/// What follows the excavation.
+fn collapses() -> ResultTable {
+    let columns = [
+        Column::text("stands", stands),
+        Column::metric("run-out (m)", RUNOUT_END, fixed(3)),
+        Column::metric("crest sinks (m)", CREST_DROP, fixed(3)),
+        Column::metric("band (m)", BAND_WIDTH, fixed(3)),
+        Column::metric("E_kin at the end", KINETIC_END, share(2)),
+        Column::cpu(),
     ];
-    all.extend(FRICTIONS.map(|set| family(Nightly, &[h1, h2], means, set)));
-    all
+    let moving = |r: &Record| !is_static(r);
+    ResultTable::new(
+        "excavation-collapses",
+        moving,
+        &[SCHEME, CHANGED, CELLS],
+        columns,
+    )
+}
+
+/// What is conserved.
+fn balances() -> ResultTable {
+    let columns = [
+        Column::metric("(37) before the cut", FORCE_RATIO_UNCUT, SHORT),
+        Column::metric("reaction off by", REACTION_ERROR, SHORT),
+        Column::metric("energy off by", BALANCE_ERROR, SHORT),
+        Column::metric("gained", ENERGY_GAIN, SHORT),
+        Column::metric("momentum off by", MOMENTUM_ERROR, SHORT),
+    ];
+    let moving = |r: &Record| !is_static(r) && r.level == "h0.05";
+    ResultTable::new("excavation-balances", moving, &[SCHEME, CHANGED], columns)
+}
+
+/// Plastic strain of the finest run of the midpoint rule with the default parameters, beside Figure 9 of the paper.
+fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
+    /// Upper end of the scale of the plastic strain: strength is residual from 0.08 on.
+    const STRAIN: f64 = 1.0;
+    /// Times after the excavation (s).
+    const TIMES: [f64; 2] = [0.5, 1.0];
+    /// Length of the plane shown beyond the foot of the cut (m).
+    const BEYOND: f64 = 3.5;
+    let own = |r: &&Record| {
+        r.scheme().rule() == Some(Midpoint) && r.is_default() && r.status == Status::Ok
+    };
+    let runs = gallery.records.iter().filter(own);
+    let Some(record) = runs.min_by(|a, b| a.discretisation.h.total_cmp(&b.discretisation.h)) else {
+        return Ok(());
+    };
+    let slope = Setup::<Excavation>::of_record(record)?;
+    let (crest, cut, foot) = (slope.crest, slope.cut, slope.foot());
+    let mut tables = Vec::new();
+    for time in TIMES {
+        let kept = gallery.snapshot(record, time)?;
+        tables.extend(kept.map(|table| (format!("{time} s after the excavation"), table)));
+    }
+    tables.push((
+        "at the end".to_owned(),
+        gallery.table(record, "particles.csv")?,
+    ));
+    let panel = |(title, table): (String, Table)| FieldPanel {
+        title,
+        points: table.points("x", "y"),
+        values: table.column("plastic_strain").to_vec(),
+        size: slope.spacing(),
+        outline: vec![
+            (0.0, 0.0),
+            (foot, 0.0),
+            (foot, cut),
+            (crest, HEIGHT),
+            (0.0, HEIGHT),
+        ],
+    };
+    let figure = FieldFigure {
+        title: String::new(),
+        columns: 1,
+        panels: tables.into_iter().map(panel).collect(),
+        range: (0.0, STRAIN),
+        label: "equivalent plastic strain (–)".to_owned(),
+        window: Some(((0.0, foot + BEYOND), (-0.05, 1.1 * HEIGHT))),
+    };
+    draw_fields(&gallery.place("plastic-strain.png"), &figure)?;
+    gallery.hang(
+        "plastic-strain.png",
+        "Equivalent plastic strain after the toe was taken away; the paper's Figure 9. The outline is that of the cut slope.",
+    );
+    Ok(())
 }

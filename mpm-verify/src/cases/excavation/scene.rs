@@ -1,21 +1,13 @@
-//! The scenes of the excavation: ground, base, rollers, and the order in which one takes over from another.
+//! Scenes of the excavation: ground, base, rollers, and what follows from the parameters.
 
-use super::parameters::{
-    BASE, CFL, CREST, CUT, DURATION, FRICTION, FRICTIONAL, GHOST, GRAVITY, JAUMANN, LAW,
-    LOAD_STEPS, PEAK, POISSON_RATIO, PPC_PER_DIRECTION, RESIDUAL, SOFTENING, STEP, UNIT_WEIGHT,
-    YOUNG_MODULUS,
-};
-use crate::cases::observe::implicit_settings;
-use crate::parameter::Parameters;
-use crate::spec::RunSpec;
+use super::*;
+use crate::exact::slope::Slope;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::implicit::{Settings, Stabilisation, TimeRule};
 use mpm_core::material::{HenckyJ2, HypoelasticJ2, JaumannUpdate, Law, Strength};
-use mpm_core::stage::{End, Gravity, Wall, WallKind};
-use mpm_core::{Axis, Body, Error, Grid, Particles, Scene, Side, Simulation};
+use mpm_core::stage::Gravity;
 use mpm_solvers::{Solved, implicit};
-use serde::{Deserialize, Serialize};
-use std::f64::consts::SQRT_2;
+use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
 /// Height (m) of the slope, and its run, at 45°.
 pub(super) const HEIGHT: f64 = 1.0;
@@ -30,27 +22,26 @@ const REACH: f64 = 0.25;
 const GIVES_WAY: f64 = 0.1;
 /// Time (s) between two rows after the excavation, of which there is one at least, as nearly as they fit.
 const ROW: f64 = 0.05;
-
-/// Places of the constraints in the scene's list; a base with friction is the first contact instead.
+/// Indices of the constraints of the scene; a base with friction is the first contact instead.
 pub(super) const ROLLERS: usize = 0;
 pub(super) const HELD_BASE: usize = 1;
-
-/// What comes after what.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Phase {
+/// The stages of a run, each of which takes over the ground of the one before.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Stage {
     /// Gravity rises on the whole slope; equilibrium in every step.
+    #[default]
     Gravity,
-    /// What found none goes on moving under full gravity, uncut.
+    /// Motion of the whole slope under full gravity, where there was no equilibrium.
     Settling,
-    /// The wedge at the toe is gone: equilibrium again, of the scheme that knows no other.
+    /// Equilibrium of the cut slope, of a static scheme.
     Cut,
-    /// The wedge is gone: motion.
+    /// Motion of the cut slope.
     Collapse,
-    /// Nothing comes any more.
+    /// End.
     Over,
 }
 
-impl Phase {
+impl Stage {
     /// Whether the wedge at the toe is there.
     pub(super) fn is_whole(self) -> bool {
         matches!(self, Self::Gravity | Self::Settling)
@@ -62,61 +53,89 @@ impl Phase {
     }
 }
 
-/// The ground in particles.
-pub(super) struct Ground {
-    h: f64,
-    spacing: f64,
-    /// Places (m); the wedge that will be cut away comes last.
-    places: Vec<[f64; 2]>,
-    /// Of the particles on the face, half a one each, their places in the list.
-    halves: Vec<usize>,
-    /// Particles that stay.
-    kept: usize,
-}
+impl Setup<Excavation> {
+    pub(super) fn is_static(&self) -> bool {
+        self.rule() == Some(QuasiStatic)
+    }
 
-impl Ground {
-    /// On cells of size `h` (m).
-    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Self {
-        let h = spec.level.h;
-        let number = |p| parameters.number(p);
-        let spacing = h / number(PPC_PER_DIRECTION);
-        let (toe, cut) = (number(CREST) + HEIGHT, number(CUT));
-        let [across, up] = [toe, HEIGHT].map(|l| (l / spacing).round() as usize);
-        let rows = (0..across).flat_map(|i| (0..up).map(move |j| (i, j)));
-        // Centres on the face have i + j + 1 = `across`.
-        let inside = rows.filter(|(i, j)| i + j < across);
-        let foot = ((toe - cut) / spacing).round() as usize;
-        let (kept, wedge): (Vec<_>, Vec<_>) = inside.partition(|(i, _)| *i < foot);
-        let all = [kept.as_slice(), wedge.as_slice()].concat();
-        let on_face = |(k, (i, j)): (usize, &(usize, usize))| (i + j + 1 == across).then_some(k);
-        let centre = |k: usize| (k as f64 + 0.5) * spacing;
-        Self {
-            h,
-            spacing,
-            halves: all.iter().enumerate().filter_map(on_face).collect(),
-            places: spec.start_at(all.iter().map(|(i, j)| [centre(*i), centre(*j)]).collect()),
-            kept: kept.len(),
+    pub(super) fn slides(&self) -> bool {
+        self.base == Base::Frictional
+    }
+
+    pub(super) fn softens(&self) -> bool {
+        self.residual < self.peak
+    }
+
+    /// Distance of particles (m).
+    pub(super) fn spacing(&self) -> f64 {
+        self.h / self.ppc_per_direction as f64
+    }
+
+    /// Coordinate of the foot of the cut face (m).
+    pub(super) fn foot(&self) -> f64 {
+        self.crest + HEIGHT - self.cut
+    }
+
+    fn density(&self) -> f64 {
+        self.unit_weight / GRAVITATION
+    }
+
+    /// # Errors
+    /// A residual strength above the peak.
+    fn strength(&self) -> Result<Strength, mpm_core::Error> {
+        let [peak, residual, slope] =
+            [self.peak, self.residual, self.softening].map(|c| SQRT_2 * c);
+        Strength::softening_linearly(peak, residual, slope)
+    }
+
+    fn hencky(&self) -> Result<HenckyJ2, mpm_core::Error> {
+        HenckyJ2::new(self.young_modulus, self.poisson_ratio, self.strength()?)
+    }
+
+    /// Rows of a stage, if it comes to its end.
+    pub(super) fn rows(&self, stage: Stage) -> u64 {
+        match stage {
+            Stage::Gravity if self.gravity == Raising::Step => 1,
+            Stage::Gravity => self.load_steps as u64,
+            Stage::Cut => 1,
+            Stage::Settling | Stage::Collapse => (self.duration / ROW).round().max(1.0) as u64,
+            Stage::Over => 0,
         }
     }
 
-    fn particles(&self, parameters: &Parameters, whole: bool) -> Result<Particles<2>, Error> {
-        let count = if whole { self.places.len() } else { self.kept };
-        let density = parameters.number(UNIT_WEIGHT) / GRAVITATION;
-        let places = self.places[..count].to_vec();
-        let volume = self.spacing * self.spacing;
-        let mut particles = Particles::new(places, volume, density, [0.5 * self.spacing; 2])?;
-        for half in self.halves.iter().filter(|k| **k < count) {
-            particles.mass[*half] *= 0.5;
-            particles.reference_volume[*half] *= 0.5;
-        }
-        Ok(particles)
+    /// Time step (s) after the excavation, and number of steps in a row.
+    fn timing(&self) -> Result<(f64, u64), mpm_core::Error> {
+        let speed = self.hencky()?.wave_speed(self.density());
+        let row = self.duration / self.rows(Stage::Collapse) as f64;
+        let steps = (row * speed / (self.cfl * self.h)).ceil().max(1.0);
+        Ok((row / steps, steps as u64))
     }
 
-    fn grid(&self, parameters: &Parameters) -> Result<Grid<2>, Error> {
+    /// Least factor of safety of limit analysis, and the length (m) of the arc or path along which the slope slides: of arcs,
+    /// which a rough base allows, and of a foot that slides on its base.
+    pub(super) fn factor(&self, cut: f64, cohesion: f64) -> (f64, f64) {
+        let slope = Slope::new(HEIGHT, FRAC_PI_4, 1.0).and_then(|s| s.cut(cut));
+        let Ok(slope) = slope else {
+            return (f64::NAN, f64::NAN);
+        };
+        let arc = slope.critical();
+        let length = arc.circle.radius * arc.circle.angle();
+        let turning = arc.factor_of_safety(cohesion, self.unit_weight);
+        if !self.slides() {
+            return (turning, length);
+        }
+        let sliding = slope.sliding(self.friction, cohesion, self.unit_weight);
+        if sliding.factor < turning {
+            return (sliding.factor, HEIGHT / sliding.angle.sin());
+        }
+        (turning, length)
+    }
+
+    fn grid(&self) -> Result<Grid<2>, mpm_core::Error> {
         let cells = |length: f64| (length / self.h).round() as usize;
-        let along = cells(parameters.number(CREST) + HEIGHT + ROOM);
+        let along = cells(self.crest + HEIGHT + ROOM);
         let up = cells(HEIGHT) + MARGIN;
-        let upward = if parameters.is(BASE, FRICTIONAL) {
+        let upward = if self.slides() {
             Axis::open(-(MARGIN as f64) * self.h, up + MARGIN)
         } else {
             Axis::bounded(0.0, up, (Side::Wall, Side::Open))
@@ -126,128 +145,162 @@ impl Ground {
     }
 
     /// Coulomb's friction beneath the particles, with a barrier that just touches the lowest ones.
-    fn base(&self, parameters: &Parameters) -> Result<RigidContact<2>, Error> {
+    fn contact(&self) -> Result<RigidContact<2>, mpm_core::Error> {
         let reach = REACH * self.h;
-        let weight = parameters.number(UNIT_WEIGHT) * HEIGHT * self.spacing;
+        let weight = self.unit_weight * HEIGHT * self.spacing();
         let gap = (1.0 - GIVES_WAY) * reach;
         let barrier = Barrier::carrying_at(weight, gap, reach)?;
-        let lowest = 0.5 * self.spacing;
+        let lowest = 0.5 * self.spacing();
         let face = RigidFace::half_space(1, End::Lo, lowest - 0.5 * (gap + reach))?;
-        let friction = Friction::new(parameters.number(FRICTION), barrier.stiffness(gap))?;
+        let friction = Friction::new(self.friction, barrier.stiffness(gap))?;
         Ok(RigidContact::new(face, barrier).with_friction(friction))
     }
-}
 
-/// How strength falls.
-///
-/// # Errors
-/// A residual strength above the peak.
-pub(super) fn strength(parameters: &Parameters) -> Result<Strength, Error> {
-    let [peak, residual, slope] =
-        [PEAK, RESIDUAL, SOFTENING].map(|p| SQRT_2 * parameters.number(p));
-    Strength::softening_linearly(peak, residual, slope)
-}
-
-/// Step (s) after the excavation on cells of size `h` (m), and how many there are in a row.
-///
-/// # Errors
-/// Parameters that make no law.
-pub(super) fn timing(h: f64, parameters: &Parameters) -> Result<(f64, u64), Error> {
-    let density = parameters.number(UNIT_WEIGHT) / GRAVITATION;
-    let speed = hencky(parameters)?.wave_speed(density);
-    let row = parameters.number(DURATION) / rows(Phase::Collapse, parameters) as f64;
-    let steps = (row * speed / (parameters.number(CFL) * h)).ceil().max(1.0);
-    Ok((row / steps, steps as u64))
-}
-
-fn hencky(parameters: &Parameters) -> Result<HenckyJ2, Error> {
-    let [young, poisson] = [YOUNG_MODULUS, POISSON_RATIO].map(|p| parameters.number(p));
-    HenckyJ2::new(young, poisson, strength(parameters)?)
-}
-
-/// Rows of a phase, if it comes to its end.
-pub(super) fn rows(phase: Phase, parameters: &Parameters) -> u64 {
-    match phase {
-        Phase::Gravity if parameters.is(GRAVITY, STEP) => 1,
-        Phase::Gravity => parameters.number(LOAD_STEPS) as u64,
-        Phase::Cut => 1,
-        Phase::Settling | Phase::Collapse => {
-            (parameters.number(DURATION) / ROW).round().max(1.0) as u64
-        }
-        Phase::Over => 0,
+    /// Settings of a stage.
+    fn stage_settings(&self, stage: Stage) -> Result<Settings, mpm_core::Error> {
+        let (dt, _) = self.timing()?;
+        let settings = self.implicit_settings(dt).ok_or(mpm_core::Error::Input {
+            what: "solvers of the excavation other than quasi-static, midpoint and newmark",
+            value: 1.0,
+            allowed: "none",
+        })?;
+        let settings = if stage.moves() {
+            settings
+        } else {
+            let once = stage == Stage::Gravity && self.gravity == Raising::Step;
+            Settings {
+                rule: TimeRule::Static,
+                dt: 1.0 / self.rows(stage) as f64,
+                most_halvings: if once { 0 } else { settings.most_halvings },
+                ..settings
+            }
+        };
+        Ok(match self.ghost {
+            0.0 => settings,
+            factor => settings.stabilised(Stabilisation::Ghost(factor)),
+        })
     }
 }
 
-/// The simulation of a phase at its start.
-///
-/// # Errors
-/// The parameters don't make a scene, or the scheme doesn't solve it.
-pub(super) fn begin(
-    spec: &RunSpec,
-    parameters: &Parameters,
-    ground: &Ground,
-    phase: Phase,
-) -> Result<Box<dyn Simulation<2>>, Error> {
-    if !parameters.is(LAW, JAUMANN) {
-        return build(spec, parameters, ground, phase, hencky(parameters)?);
-    }
-    let [young, poisson] = [YOUNG_MODULUS, POISSON_RATIO].map(|p| parameters.number(p));
-    let strength = strength(parameters)?;
-    let law = HypoelasticJ2::new(young, poisson, JaumannUpdate::Split, strength)?;
-    build(spec, parameters, ground, phase, law)
+/// The ground in particles.
+pub(super) struct Ground {
+    pub(super) setup: Setup<Excavation>,
+    /// Places (m); the wedge that will be cut away comes last.
+    places: Vec<[f64; 2]>,
+    /// Indices of the particles on the face, which are half ones.
+    halves: Vec<usize>,
+    /// Number of particles that stay.
+    kept: usize,
+    pub(super) strength: Strength,
+    pub(super) dt: f64,
+    pub(super) steps_in_row: u64,
 }
 
-fn build<M: Law + Solved<2>>(
-    spec: &RunSpec,
-    parameters: &Parameters,
-    ground: &Ground,
-    phase: Phase,
-    law: M,
-) -> Result<Box<dyn Simulation<2>>, Error> {
-    let body = Body::new(law, ground.particles(parameters, phase.is_whole())?)?;
-    let rises = phase == Phase::Gravity;
-    let gravity = move |time: f64| {
-        let share = if rises { time } else { 1.0 };
-        [0.0, -GRAVITATION * share]
-    };
-    let wall = |axis, kind| Wall {
-        axis,
-        end: End::Lo,
-        kind,
-    };
-    let scene = Scene::new(ground.grid(parameters)?, body)
-        .load(Gravity(Box::new(gravity)))
-        .constrain(wall(0, WallKind::Roller));
-    let scene = if parameters.is(BASE, FRICTIONAL) {
-        scene.contact(ground.base(parameters)?)
-    } else {
-        scene.constrain(wall(1, WallKind::Fixed))
-    };
-    let (dt, _) = timing(ground.h, parameters)?;
-    let settings = implicit_settings(spec, parameters, dt).ok_or(Error::Input {
-        what: "solvers of the excavation other than quasi-static, midpoint and newmark",
-        value: 1.0,
-        allowed: "none",
-    })?;
-    let settings = if phase.moves() {
-        settings
-    } else {
-        let once = phase == Phase::Gravity && parameters.is(GRAVITY, STEP);
-        Settings {
-            rule: TimeRule::Static,
-            dt: 1.0 / rows(phase, parameters) as f64,
-            most_halvings: if once { 0 } else { settings.most_halvings },
-            ..settings
+impl Ground {
+    /// The ground of a setup.
+    ///
+    /// # Errors
+    /// Parameters that make no scene; a parameter that has no meaning with the scheme, base or gravity is changed.
+    pub(super) fn of(setup: Setup<Excavation>) -> Result<Self, Error> {
+        let mut foreign = match setup.rule() {
+            Some(Midpoint) => vec!["alpha", "delta"],
+            Some(Newmark) => vec!["lumped"],
+            Some(QuasiStatic) => vec!["alpha", "delta", "lumped", "cfl", "duration"],
+            None => {
+                let solvers = ["quasi-static", "midpoint", "newmark"];
+                let kind = "solver of the excavation";
+                return Err(Error::unknown(kind, setup.scheme.solver(), solvers));
+            }
+        };
+        foreign.push("wall");
+        if !setup.slides() {
+            foreign.push("friction");
         }
-    };
-    let settings = match parameters.number(GHOST) {
-        0.0 => settings,
-        factor => settings.stabilised(Stabilisation::Ghost(factor)),
-    };
-    implicit(spec.scheme, scene, settings)
-}
+        if setup.gravity == Raising::Step {
+            foreign.push("load_steps");
+        }
+        setup.forbid(&foreign)?;
+        let (dt, steps_in_row) = setup.timing()?;
+        let spacing = setup.spacing();
+        let [across, up, foot] = [setup.crest + HEIGHT, HEIGHT, setup.foot()]
+            .map(|length| (length / spacing).round() as usize);
+        let rows = (0..across).flat_map(|i| (0..up).map(move |j| (i, j)));
+        // Centres on the face have i + j + 1 = `across`.
+        let inside = rows.filter(|(i, j)| i + j < across);
+        let (kept, wedge): (Vec<_>, Vec<_>) = inside.partition(|(i, _)| *i < foot);
+        let all = [kept.as_slice(), wedge.as_slice()].concat();
+        let on_face = |(k, (i, j)): (usize, &(usize, usize))| (i + j + 1 == across).then_some(k);
+        let centre = |k: usize| (k as f64 + 0.5) * spacing;
+        Ok(Self {
+            halves: all.iter().enumerate().filter_map(on_face).collect(),
+            places: setup.start_at(all.iter().map(|(i, j)| [centre(*i), centre(*j)])),
+            kept: kept.len(),
+            strength: setup.strength()?,
+            dt,
+            steps_in_row,
+            setup,
+        })
+    }
 
-/// Where the foot of the cut face is (m).
-pub(super) fn foot(parameters: &Parameters) -> f64 {
-    parameters.number(CREST) + HEIGHT - parameters.number(CUT)
+    fn particles_of(&self, stage: Stage) -> Result<Particles<2>, mpm_core::Error> {
+        let count = if stage.is_whole() {
+            self.places.len()
+        } else {
+            self.kept
+        };
+        let (places, spacing) = (self.places[..count].to_vec(), self.setup.spacing());
+        let (density, half_size) = (self.setup.density(), [0.5 * spacing; 2]);
+        let mut particles = Particles::new(places, spacing * spacing, density, half_size)?;
+        for half in self.halves.iter().filter(|k| **k < count) {
+            particles.mass[*half] *= 0.5;
+            particles.reference_volume[*half] *= 0.5;
+        }
+        Ok(particles)
+    }
+
+    /// The simulation of a stage at its start.
+    pub(super) fn simulation(
+        &self,
+        stage: Stage,
+    ) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        let setup = &self.setup;
+        if setup.law == LawName::Hencky {
+            return self.solved(stage, setup.hencky()?);
+        }
+        let law = HypoelasticJ2::new(
+            setup.young_modulus,
+            setup.poisson_ratio,
+            JaumannUpdate::Split,
+            setup.strength()?,
+        )?;
+        self.solved(stage, law)
+    }
+
+    fn solved<M: Law + Solved<2>>(
+        &self,
+        stage: Stage,
+        law: M,
+    ) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        let body = Body::new(law, self.particles_of(stage)?)?;
+        let rises = stage == Stage::Gravity;
+        let gravity = move |time: f64| {
+            let share = if rises { time } else { 1.0 };
+            [0.0, -GRAVITATION * share]
+        };
+        let wall = |axis, kind| Wall {
+            axis,
+            end: End::Lo,
+            kind,
+        };
+        let scene = Scene::new(self.setup.grid()?, body)
+            .load(Gravity(Box::new(gravity)))
+            .constrain(wall(0, WallKind::Roller));
+        let scene = if self.setup.slides() {
+            scene.contact(self.setup.contact()?)
+        } else {
+            scene.constrain(wall(1, WallKind::Fixed))
+        };
+        let settings = self.setup.stage_settings(stage)?;
+        implicit(self.setup.scheme, scene, settings)
+    }
 }

@@ -3,47 +3,144 @@
 //! Section 4.4 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/landslide.md`.
 
 mod checks;
-mod ground;
-mod metrics;
-mod observation;
-pub(super) mod parameters;
-mod pictures;
+mod figures;
+mod look;
 mod plane_strain;
-mod section;
-mod sketch;
+mod run;
 mod tables;
-mod watch;
 
-pub(super) use ground::{Ground, RISE, STABILITY, STAGE, STAGE_DAMPING, factor_of_safety};
-pub(super) use section::GRAVITY;
-pub(super) use sketch::sketch;
-
-use super::family::{family, more_particles, other_transfers, pairs};
-use crate::case::{Begin, Case, Family, FieldView, Tier};
-use crate::metric::{Sweep, value};
-use crate::parameter::Parameter;
-use crate::scheme::{BasisName, RemedyName, Scheme};
-use crate::spec::{Level, RunSpec};
-use metrics::{METRICS, RUNOUT_2_5S, headlines};
-use parameters::{CFL, PARAMETERS, REDUCTION, parameters_3d};
+use super::family::{more_particles, other_transfers, pairs};
+use super::parameters::{self as common, Wall as WallTreatment};
+use super::slope;
+use crate::case::Begin;
+use crate::parameter::{Parameter, ParameterSet};
+use crate::prelude::*;
+use crate::problem;
 use plane_strain::Beside;
-use watch::Slide;
+use run::Slide;
 
-use Tier::{Long, Nightly, Pr};
+const LEVELS_2D: [Level; 4] = [
+    Level {
+        name: "h0.4",
+        h: 0.4,
+    },
+    Level {
+        name: "h0.2",
+        h: 0.2,
+    },
+    Level {
+        name: "h0.1",
+        h: 0.1,
+    },
+    Level {
+        name: "h0.05",
+        h: 0.05,
+    },
+];
+const LEVELS_3D: [Level; 4] = [
+    Level {
+        name: "h0.5",
+        h: 0.5,
+    },
+    Level {
+        name: "slice-h0.4",
+        h: 0.4,
+    },
+    Level {
+        name: "h0.25",
+        h: 0.25,
+    },
+    Level {
+        name: "h0.2",
+        h: 0.2,
+    },
+];
+/// Standard, the paper's, ours.
+const REMEDIES: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];
+const REDUCTION: Parameter = real("-", "1.65", 1.0, 100.0)
+    .named("reduction")
+    .meaning("factor by which the peak strength is divided after the gravity stage");
 
-fn levels_2d() -> [Level; 4] {
-    let names = [("h0.4", 0.4), ("h0.2", 0.2), ("h0.1", 0.1), ("h0.05", 0.05)];
-    names.map(|(name, h)| Level { name, h })
+parameters! {
+    /// Parameters of the landslide.
+    struct Landslide {
+        young_modulus: f64 = slope::YOUNG_MODULUS;
+        poisson_ratio: f64 = slope::POISSON_RATIO;
+        peak_strength: f64 = real("Pa", "40.82e3", 1.0, 1e12),
+            "peak strength κ_p = ‖s‖, √2 times the undrained shear strength";
+        residual_strength: f64 = real("Pa", "2.45e3", 1e-3, 1e12),
+            "residual strength κ_r = ‖s‖; at most the reduced peak";
+        softening: f64 = real("-", "5", 0.0, 1e3),
+            "softening coefficient η of κ = κ_r + (κ_p − κ_r) exp(−η ε)";
+        reduction: f64 = REDUCTION;
+        release: f64 = real("s", "0", 0.0, 60.0), "time over which that factor rises from one; 0: at once";
+        density: f64 = slope::DENSITY;
+        height: f64 = slope::HEIGHT;
+        crest: f64 = slope::CREST;
+        face_angle: f64 = slope::FACE_ANGLE;
+        floor: f64 = slope::FLOOR;
+        duration: f64 = real("s", "5.5", 0.01, 60.0), "time after the reduction, or from where it begins";
+        damping: f64 = common::DAMPING, "local damping after the reduction: with it the slope moves without inertia";
+        cfl: f64 = slope::CFL;
+        wall: WallTreatment = slope::WALL;
+        ppc_per_direction: usize = slope::PPC_PER_DIRECTION;
+        width: f64 = real("m", "0", 0.0, 1000.0),
+            "width, a whole number of cells; 0 stands for that of the level: 5 m, of a slice four cells";
+    }
 }
 
-fn levels_3d() -> [Level; 4] {
-    let names = [
-        ("h0.5", 0.5),
-        ("slice-h0.4", 0.4),
-        ("h0.25", 0.25),
-        ("h0.2", 0.2),
-    ];
-    names.map(|(name, h)| Level { name, h })
+metrics! { ALL:
+    PARTICLES = "particles", "-", "number of particles";
+    PARTICLES_ACROSS = "particles_across", "-", "of them across the width";
+    MASS = "mass", "kg/m", "mass at the end, per metre of width";
+    BASE_REACTION_RATIO = "base_reaction_ratio", "-",
+        "force on the base over the weight, in the last 0.01 s of the gravity stage";
+    KINETIC_SHARE_AT_REST = "kinetic_share_at_rest", "-",
+        "kinetic energy of the nodes over the stored energy at the end of the gravity stage";
+    OVERBURDEN_ERROR = "overburden_error", "-",
+        "rms over the particles within H/2 of the back wall of the vertical stress less the weight above, over γ H, then";
+    CHECKERBOARD_AT_REST = "checkerboard_at_rest", "-", "rms of σ_m − Πσ_m over γ H, then";
+    CHECKERBOARD_2_5S = "checkerboard_2.5s", "-", "likewise 2.5 s after the reduction";
+    YIELDED_AT_REST = "yielded_at_rest", "-", "share of the particles that have yielded, then";
+    SETTLEMENT_AT_REST = "settlement_at_rest", "m", "how far the crest's edge has sunk, then";
+    RUNOUT_1S = "runout_1s", "m",
+        "distance of the outermost particle, and half its spacing, from the first toe, 1 s after the reduction";
+    RUNOUT_2_5S = "runout_2.5s", "m", "likewise at 2.5 s";
+    RUNOUT_END = "runout_end", "m", "likewise at the end";
+    BULK_RUNOUT_2_5S = "bulk_runout_2.5s", "m",
+        "distance from the first toe beyond which a hundredth of the ground lies, at 2.5 s";
+    BULK_RUNOUT_END = "bulk_runout_end", "m", "likewise at the end";
+    SETTLEMENT_2_5S = "settlement_2.5s", "m", "how far the crest's edge has sunk at 2.5 s";
+    SETTLEMENT_END = "settlement_end", "m", "likewise at the end";
+    FAILED_SHARE_2_5S = "failed_share_2.5s", "-",
+        "share of the ground that has moved by more than H/20 since the reduction, at 2.5 s";
+    FAILED_SHARE_END = "failed_share_end", "-", "likewise at the end";
+    FAILURE_TIME = "failure_time", "s", "when a hundredth of the ground has moved so far";
+    RETROGRESSION_END = "retrogression_end", "m",
+        "distance behind the crest's edge to which its surface has moved so far, at the end";
+    SHEAR_BANDS_END = "shear_bands_end", "-",
+        "peaks of the plastic strain above one half through the particles from half the height, at the end";
+    REARMOST_BAND_END = "rearmost_band_end", "m",
+        "how far behind the crest's edge the rearmost of them is, before any motion";
+    PLASTIC_DISSIPATION = "plastic_dissipation", "J/m", "energy that flow has dissipated since the reduction";
+    KINETIC_ENERGY_MAX = "kinetic_energy_max", "J/m", "largest kinetic energy";
+    ENERGY_GAIN = "energy_gain", "-",
+        "largest growth of kinetic and potential energy and stress work in 0.01 s, over the potential energy at the reduction";
+    UNACCOUNTED_ENERGY = "unaccounted_energy", "-",
+        "kinetic, potential and stored energy and dissipation at the end less those at the reduction, over the potential energy then";
+    FALLEN_ENERGY = "fallen_energy", "-", "potential energy lost since the reduction, over that then";
+    JACOBIAN_MIN = "jacobian_min", "-", "least J of a particle at any time";
+    JACOBIAN_MAX = "jacobian_max", "-", "greatest J of a particle at any time";
+    LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
+    WIDTH_SPREAD_AT_REST = "width_spread_at_rest", "-",
+        "largest range over the width of the displacement of what was in one place of the section, over the largest displacement, at the end of the gravity stage";
+    WIDTH_SPREAD_0_5S = "width_spread_0.5s", "-", "likewise 0.5 s after the reduction";
+    WIDTH_SPREAD_END = "width_spread_end", "-", "likewise at the end";
+    OFF_PLANE_STRAIN_AT_REST = "off_plane_strain_at_rest", "-",
+        "relative difference of the crest's settlement from that in plane strain, at the end of the gravity stage";
+    OFF_PLANE_STRAIN_0_5S = "off_plane_strain_0.5s", "-", "likewise 0.5 s after the reduction";
+    OFF_PLANE_STRAIN_END = "off_plane_strain_end", "m",
+        "difference of the outermost particle from that in plane strain at the end";
 }
 
 const LIMITS: &[&str] = &[
@@ -57,16 +154,6 @@ fn references() -> Vec<String> {
         "Zhao, Jiang & Choo (2023), section 4.4, Figures 14 to 16: in kind; the paper gives no numbers but those of the set-up".to_owned(),
         "Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base, so the slope's factor of safety is 1.65 before and 1.00 after the reduction".to_owned(),
     ]
-}
-
-/// What every level is solved with.
-fn schemes() -> Vec<Scheme> {
-    let remedies = [
-        RemedyName::None,
-        RemedyName::FbarRecursive,
-        RemedyName::FbarConsistent,
-    ];
-    pairs(&[BasisName::Gimp, BasisName::Bspline2], &remedies)
 }
 
 fn cost(spec: &RunSpec, dimension: i32) -> f64 {
@@ -85,26 +172,30 @@ fn cost(spec: &RunSpec, dimension: i32) -> f64 {
 }
 
 /// A case of the slope.
-fn slope(
+fn case_of(
     [name, title, description, size]: [&'static str; 4],
-    parameters: Vec<Parameter>,
-    levels: &[Level],
-    plan: Vec<Family>,
     dimension: i32,
+    parameters: Vec<Parameter>,
     begin: Begin,
 ) -> Case {
     Case {
-        name,
-        title,
         description,
         references: references(),
         limits: LIMITS,
-        parameters,
-        levels: levels.to_vec(),
-        plan,
-        metrics: METRICS.to_vec(),
         checks: checks::checks(),
-        headlines: headlines(),
+        headlines: vec![
+            headline(RUNOUT_2_5S, "run-out at 2.5 s (m)", 1.0, 2),
+            headline(RUNOUT_END, "run-out at the end (m)", 1.0, 2),
+            headline(BULK_RUNOUT_END, "of the bulk (m)", 1.0, 2),
+            headline(SETTLEMENT_END, "settlement (m)", 1.0, 2),
+            headline(FAILED_SHARE_END, "failed (%)", 100.0, 1),
+            headline(FAILURE_TIME, "fails at (s)", 1.0, 2),
+            headline(RETROGRESSION_END, "retrogression (m)", 1.0, 2),
+            headline(SHEAR_BANDS_END, "shear bands", 1.0, 0),
+            headline(CHECKERBOARD_AT_REST, "σ_m − Πσ_m at rest (γH)", 1.0, 4),
+            headline(UNACCOUNTED_ENERGY, "unaccounted energy (%)", 100.0, 2),
+            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4),
+        ],
         quantities: vec![value(RUNOUT_2_5S, "run-out at 2.5 s (m)")],
         sweeps: vec![
             Sweep {
@@ -114,109 +205,101 @@ fn slope(
                 logarithmic: false,
             },
             Sweep {
-                parameter: CFL,
+                parameter: slope::CFL,
                 label: "CFL number (–)",
                 abscissa: |cfl| cfl,
                 logarithmic: true,
             },
         ],
         watched: &["toe", "settlement", "kinetic_energy", "failed_share"],
-        field: (dimension == 2).then_some(FieldView {
+        sketch: slope::sketch(size),
+        cost: Box::new(move |spec| cost(spec, dimension)),
+        pictures: figures::draw,
+        breaks_down: checks::breaks_down,
+        ..Case::begun_by(name, title, ALL, parameters, begin)
+    }
+}
+
+/// The landslide in plane strain.
+pub(super) fn plane_case() -> Case {
+    const TEXTS: [&str; 4] = [
+        "landslide-2d",
+        "Landslide in plane strain",
+        "A slope of clay, 5 m high at 45°, under its weight. Its peak strength is divided by 1.65; it softens as it flows. \
+         The section of the landslide in three dimensions, for studies of cell size, remedy and time step.",
+        "5 m",
+    ];
+    let in_plane = |p: &Parameter| p.name != "width";
+    let parameters = Landslide::list().into_iter().filter(in_plane).collect();
+    let begin = Box::new(problem::begin::<2, Slide<2>>);
+    Case {
+        levels: LEVELS_2D.to_vec(),
+        plan: plan_2d(),
+        field: Some(FieldView {
             time: Some(1.0),
             value: "plastic_strain",
             label: "plastic strain after 1 s (-)",
             range: (0.0, 0.004),
             window: [(0.0, 16.0), (0.0, 5.0)],
         }),
-        sketch: sketch(size),
-        cost: Box::new(move |spec| cost(spec, dimension)),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin,
-        pictures: pictures::draw,
-        tables: tables::all(dimension),
-        breaks_down: checks::breaks_down,
+        tables: tables::in_plane(),
+        ..case_of(TEXTS, 2, parameters, begin)
     }
-}
-
-/// The landslide in plane strain.
-pub(super) fn plane_case() -> Case {
-    slope(
-        [
-            "landslide-2d",
-            "Landslide in plane strain",
-            "A slope of clay, 5 m high at 45°, under its weight. Its peak strength is divided by 1.65; it softens as it flows. \
-             The section of the landslide in three dimensions, for studies of cell size, remedy and time step.",
-            "5 m",
-        ],
-        PARAMETERS.to_vec(),
-        &levels_2d(),
-        plan_2d(),
-        2,
-        Box::new(|spec, parameters| Ok(Box::new(Slide::<2>::drive(spec, parameters)?))),
-    )
 }
 
 /// The landslide in three dimensions.
 pub(super) fn case() -> Case {
-    slope(
-        [
-            "landslide",
-            "Landslide",
-            "A slope of clay, 5 m high at 45° and 5 m wide between smooth walls, under its weight. Its peak strength is divided by \
-             1.65; it softens as it flows and slides out onto a rough floor. Standard MPM locks: with GIMP it stands.",
-            "5 m, 5 m wide",
-        ],
-        parameters_3d(),
-        &levels_3d(),
-        plan_3d(),
-        3,
-        Box::new(|spec, parameters| Ok(Box::new(Beside::new(spec, parameters)?))),
-    )
+    const TEXTS: [&str; 4] = [
+        "landslide",
+        "Landslide",
+        "A slope of clay, 5 m high at 45° and 5 m wide between smooth walls, under its weight. Its peak strength is divided by \
+         1.65; it softens as it flows and slides out onto a rough floor. Standard MPM locks: with GIMP it stands.",
+        "5 m, 5 m wide",
+    ];
+    let begin: Begin = Box::new(|spec, values| Ok(Box::new(Beside::new(spec, values)?)));
+    Case {
+        levels: LEVELS_3D.to_vec(),
+        plan: plan_3d(),
+        tables: vec![tables::in_space()],
+        ..case_of(TEXTS, 3, Landslide::list(), begin)
+    }
 }
 
 fn plan_2d() -> Vec<Family> {
-    let levels = levels_2d();
-    let [h40, h20, h10, h05] = levels;
-    let all = schemes();
-    let [three, four] = more_particles(Long, &[h40]);
-    vec![
-        family(Pr, &[h40], &all, &["duration=1"]),
-        family(Nightly, &[h40, h20, h10], &all, &[]),
-        family(Nightly, &[h40], &all, &["reduction=1", "duration=2.5"]),
-        family(Nightly, &[h40, h20], &all, &["reduction=1.8"]),
-        family(Nightly, &[h40, h20], &all, &["reduction=2"]),
-        family(Nightly, &[h40, h20], &all, &["cfl=0.175"]),
-        family(Nightly, &[h40], &all, &["damping=0.7"]),
-        family(Nightly, &[h40, h20], &all, &["release=2"]),
-        family(Long, &[h20], &all, &["damping=0.7"]),
-        family(Long, &[h05], &all, &[]),
-        family(Long, &levels, &other_transfers(), &[]),
-        three,
-        four,
-    ]
+    let all = pairs(&[Gimp, Bspline2], &REMEDIES);
+    let levels = "h0.4 h0.2 h0.1 h0.05";
+    let mut plan = Plan::of(&LEVELS_2D)
+        .runs(Pr, "h0.4", &all, "duration=1")
+        .runs(Nightly, "h0.4 h0.2 h0.1", &all, "")
+        .runs(Nightly, "h0.4", &all, "reduction=1 duration=2.5")
+        .each(
+            Nightly,
+            "h0.4 h0.2",
+            &all,
+            ["reduction=1.8", "reduction=2", "cfl=0.175"],
+        )
+        .runs(Nightly, "h0.4", &all, "damping=0.7")
+        .runs(Nightly, "h0.4 h0.2", &all, "release=2")
+        .runs(Long, "h0.2", &all, "damping=0.7")
+        .runs(Long, "h0.05", &all, "")
+        .runs(Long, levels, &other_transfers(), "")
+        .done();
+    plan.extend(more_particles(Long, &LEVELS_2D[..1]));
+    plan
 }
 
 fn plan_3d() -> Vec<Family> {
-    let [h50, slice, h25, h20] = levels_3d();
-    let all = schemes();
-    let early = pairs(
-        &[BasisName::Gimp],
-        &[RemedyName::None, RemedyName::FbarConsistent],
-    );
-    vec![
-        family(Pr, &[h50], &early, SHORT),
-        family(Nightly, &[slice], &early, &["duration=0.5"]),
-        family(Nightly, &[slice], &all, &[]),
-        family(Nightly, &[slice], &early, &["reduction=1", "duration=1"]),
-        family(Nightly, &[slice], &early, &["reduction=2", "duration=2.5"]),
-        family(Nightly, &[h50], &all, &[]),
-        family(Nightly, &[h50], &all, &["width=2"]),
-        family(Nightly, &[h25], &early, &[]),
-        family(Long, &[h25, h20], &all, &[]),
-    ]
+    let all = pairs(&[Gimp, Bspline2], &REMEDIES);
+    let early = pairs(&[Gimp], &[RemedyName::None, FbarConsistent]);
+    Plan::of(&LEVELS_3D)
+        // A narrow slice before a short floor, from under rising gravity to just after the reduction, by long steps.
+        .runs(Pr, "h0.5", &early, "width=2 floor=3 duration=0.06 cfl=0.6")
+        .runs(Nightly, "slice-h0.4", &early, "duration=0.5")
+        .runs(Nightly, "slice-h0.4", &all, "")
+        .runs(Nightly, "slice-h0.4", &early, "reduction=1 duration=1")
+        .runs(Nightly, "slice-h0.4", &early, "reduction=2 duration=2.5")
+        .each(Nightly, "h0.5", &all, ["", "width=2"])
+        .runs(Nightly, "h0.25", &early, "")
+        .runs(Long, "h0.25 h0.2", &all, "")
+        .done()
 }
-
-/// Of the pull request in three dimensions: a narrow slice before a short floor, from under rising gravity to just
-/// after the reduction, by long steps.
-const SHORT: &[&str] = &["width=2", "floor=3", "duration=0.06", "cfl=0.6"];

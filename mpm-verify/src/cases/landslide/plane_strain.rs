@@ -1,13 +1,10 @@
 //! A slide in three dimensions with the same section in plane strain beside it.
 
-use super::metrics as m;
-use super::watch::Slide;
-use crate::drive::{Drive, measured};
-use crate::error::Error;
-use crate::job::{Column, Job, Pulse, Row, Snapshot};
+use super::*;
+use crate::job::{Column, Job, Pulse};
 use crate::parameter::Parameters;
-use crate::record::{Discretisation, Measured, WorkDone};
-use crate::spec::RunSpec;
+use crate::problem::{Driver, measured};
+use crate::record::{Measured, WorkDone};
 use mpm_core::memory::{Memory, MemoryError, Saved};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,20 +15,20 @@ const SETTLEMENT: usize = 3;
 
 /// A slide and its section; work and particles are the slide's.
 pub(super) struct Beside {
-    slide: Drive<3, Slide<3>>,
-    plane: Drive<2, Slide<2>>,
+    slide: Driver<3, Slide<3>>,
+    plane: Driver<2, Slide<2>>,
 }
 
 impl Beside {
     /// Both at their start.
     ///
     /// # Errors
-    /// The parameters don't make a scene.
-    pub(super) fn new(spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
-        Ok(Self {
-            slide: Slide::<3>::drive(spec, parameters)?,
-            plane: Slide::<2>::drive(spec, parameters)?,
-        })
+    /// Parameters that make no scene.
+    pub(super) fn new(spec: &RunSpec, values: &Parameters) -> Result<Self, Error> {
+        let setup = Setup::<Landslide>::of_spec(spec, values)?;
+        let slide = Driver::new(Slide::new(setup.clone())?)?;
+        let plane = Driver::new(Slide::new(setup)?)?;
+        Ok(Self { slide, plane })
     }
 }
 
@@ -84,9 +81,9 @@ impl Job for Beside {
         let relative = |a: f64, b: f64| (a - b) / b;
         let toes = [slide, plane].map(|seen| seen.series.rows.last().map_or(f64::NAN, |r| r.toe));
         let off = [
-            (m::OFF_PLANE_STRAIN_AT_REST, relative(rest, plane_rest)),
-            (m::OFF_PLANE_STRAIN_0_5S, relative(early, plane_early)),
-            (m::OFF_PLANE_STRAIN_END, toes[0] - toes[1]),
+            (OFF_PLANE_STRAIN_AT_REST, relative(rest, plane_rest)),
+            (OFF_PLANE_STRAIN_0_5S, relative(early, plane_early)),
+            (OFF_PLANE_STRAIN_END, toes[0] - toes[1]),
         ];
         let mut metrics = self.slide.metrics();
         metrics.extend(off.map(measured));

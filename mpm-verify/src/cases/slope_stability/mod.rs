@@ -3,64 +3,57 @@
 //! The section and the elasticity of the landslide with perfect plasticity: no softening, so that limit analysis says what
 //! is right. Set-up, choices and tolerances: `docs/slope-stability.md`.
 
-mod checks;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::{family, implicit, pairs};
-use super::landslide::STABILITY;
-use super::landslide::parameters::{
-    CFL, CREST, DENSITY, FACE_ANGLE, FLOOR, HEIGHT, POISSON_RATIO, PPC_PER_DIRECTION, WALL,
-    YOUNG_MODULUS,
-};
-use super::parameters as common;
-use crate::case::{Case, Tier};
-use crate::metric::{error, metrics};
-use crate::parameter::{Domain, Parameter, number, parameters};
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, RuleName};
-use crate::spec::Level;
-use watch::Trials;
+use super::family::{implicit, pairs};
+use super::parameters::{self as common, Wall as WallTreatment};
+use super::slope::{self, STABILITY};
+use crate::prelude::*;
+use run::Trials;
 
-use BasisName::{Bspline2, Gimp};
-use RemedyName::{FbarConsistent, FbarRecursive};
-use Tier::{Long, Nightly, Pr};
+const LEVELS: [Level; 3] = [
+    Level {
+        name: "h0.4",
+        h: 0.4,
+    },
+    Level {
+        name: "h0.2",
+        h: 0.2,
+    },
+    Level {
+        name: "h0.1",
+        h: 0.1,
+    },
+];
+const REMEDIES: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];
+/// Excess over its limit up to which a slope may be called standing.
+const SLOW: f64 = 0.005;
+/// Cells (m) up to which standard quadratic splines no longer lock beyond what a band of cells explains.
+const FINE: f64 = 0.2;
 
-parameters! { const:
-    STRENGTH = "strength", "Pa", "40.82e3", number(1.0, 1e12, false),
-        "strength κ = ‖s‖, √2 times the undrained shear strength";
-    MOST = "most", "-", "3", number(1.1, 100.0, false), "largest factor that is tried";
-    TRIALS = "trials", "-", "8", Domain::Integer { least: 1, most: 20 },
-        "trials: the largest factor, then bisection";
+parameters! {
+    /// Parameters of the slope.
+    struct Stability {
+        young_modulus: f64 = slope::YOUNG_MODULUS;
+        poisson_ratio: f64 = slope::POISSON_RATIO;
+        strength: f64 = real("Pa", "40.82e3", 1.0, 1e12),
+            "strength κ = ‖s‖, √2 times the undrained shear strength";
+        density: f64 = slope::DENSITY;
+        height: f64 = slope::HEIGHT;
+        crest: f64 = slope::CREST;
+        face_angle: f64 = slope::FACE_ANGLE;
+        floor: f64 = slope::FLOOR.with_default("5");
+        most: f64 = real("-", "3", 1.1, 100.0), "largest factor that is tried";
+        trials: i32 = whole("-", "8", 1, 20), "trials: the largest factor, then bisection";
+        cfl: f64 = slope::CFL;
+        wall: WallTreatment = slope::WALL;
+        ppc_per_direction: usize = slope::PPC_PER_DIRECTION;
+        load_steps: i32 = common::LOAD_STEPS, "quasi-static: equal steps in which the weight is raised";
+        tolerance: f64 = common::TOLERANCE.with_default("1e-8");
+    }
 }
 
-const LOAD_STEPS: Parameter =
-    common::LOAD_STEPS.meaning("quasi-static: equal steps in which the weight is raised");
-const TOLERANCE: Parameter = common::TOLERANCE.with_default("1e-8");
-/// What only an explicit run has.
-const OF_EXPLICIT: [&str; 2] = [CFL.name, WALL.name];
-/// What only a quasi-static run has.
-const OF_QUASI_STATIC: [&str; 2] = [LOAD_STEPS.name, TOLERANCE.name];
-
-const PARAMETERS: [Parameter; 15] = [
-    YOUNG_MODULUS,
-    POISSON_RATIO,
-    STRENGTH,
-    DENSITY,
-    HEIGHT,
-    CREST,
-    FACE_ANGLE,
-    FLOOR.with_default("5"),
-    MOST,
-    TRIALS,
-    CFL,
-    WALL,
-    PPC_PER_DIRECTION,
-    LOAD_STEPS,
-    TOLERANCE,
-];
-
-metrics! { METRICS:
+metrics! { ALL:
     STRENGTH_REDUCTION_FACTOR = "strength_reduction_factor", "-",
         "middle of the factors between which the slope first fails; the largest tried, if it stands";
     FACTOR_ERROR = "factor_error", "-",
@@ -73,33 +66,8 @@ metrics! { METRICS:
     NEWTON_ITERATIONS = "newton_iterations", "-", "quasi-static: Newton's iterations of all trials";
 }
 
-fn levels() -> [Level; 3] {
-    [("h0.4", 0.4), ("h0.2", 0.2), ("h0.1", 0.1)].map(|(name, h)| Level { name, h })
-}
-
-/// Of the pull request: three trials of softer ground, whose steps are longer. The limit load doesn't ask for stiffness.
-const SHORT: &[&str] = &["young_modulus=6.25e6", "most=2", "trials=3"];
-
-/// Likewise of equilibrium, for which stiffness costs nothing.
-const QUICK: &[&str] = &["most=2", "trials=3"];
-
 pub(super) fn case() -> Case {
-    let levels = levels();
-    let none = RemedyName::None;
-    let remedies = [none, FbarRecursive, FbarConsistent];
-    let remedied = implicit(&[RuleName::QuasiStatic], &[Gimp], &[FbarConsistent]);
-    let statics = implicit(
-        &[RuleName::QuasiStatic],
-        &[Gimp, Bspline2],
-        &[none, FbarConsistent],
-    );
-    let (gimp, all) = (
-        pairs(&[Gimp], &remedies),
-        pairs(&[Gimp, Bspline2], &remedies),
-    );
     Case {
-        name: "slope-stability",
-        title: "Stability of the slope",
         description: "The slope of the landslide, without softening, under its weight. Its strength is divided by factors between which it first fails, \
                       found by bisection; limit analysis gives the factor. Standard MPM locks and stands where it should fail.",
         references: vec!["Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base at the level of the toe".to_owned()],
@@ -107,18 +75,9 @@ pub(super) fn case() -> Case {
             "Failure is a displacement of H/50 within 4 s: a slope within half a per cent of its limit is called standing.",
             "A shear band is as wide as the cells and can't come nearer to the fixed base: the slope is too strong by about h/H.",
         ],
-        parameters: PARAMETERS.to_vec(),
-        plan: vec![
-            family(Pr, &levels[..1], &gimp, SHORT),
-            family(Nightly, &levels[..2], &all, &[]),
-            family(Long, &levels[2..], &all, &[]),
-            family(Pr, &levels[..1], &remedied, QUICK),
-            family(Nightly, &levels[..2], &statics, &[]),
-            family(Long, &levels[2..], &statics, &[]),
-        ],
-        levels: levels.to_vec(),
-        metrics: METRICS.to_vec(),
-        checks: checks::checks(),
+        plan: plan(),
+        levels: LEVELS.to_vec(),
+        checks: checks(),
         headlines: vec![
             headline(STRENGTH_REDUCTION_FACTOR, "factor (–)", 1.0, 3),
             headline(STANDS_AT, "stands at", 1.0, 3),
@@ -129,19 +88,152 @@ pub(super) fn case() -> Case {
         quantities: vec![error(FACTOR_ERROR, "relative error of the factor").known_to(
             (STABILITY.2 - STABILITY.1) / (2.0 * STABILITY.0),
         )],
-        sweeps: Vec::new(),
         watched: &["factor", "moved"],
-        field: None,
-        sketch: super::landslide::sketch("5 m"),
+        sketch: slope::sketch("5 m"),
         cost: Box::new(|spec| {
             let solver = if spec.scheme.rule().is_some() { 0.05 } else { 1.0 };
             solver * spec.level.h.powi(-3)
         }),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Trials::drive(spec, parameters)?))),
-        pictures: |_| Ok(()),
-        tables: tables::all(),
-        breaks_down: |_| None,
+        tables: tables(),
+        ..Case::of::<2, Trials>("slope-stability", "Stability of the slope", ALL)
     }
+}
+
+fn plan() -> Vec<Family> {
+    let remedies = [RemedyName::None, FbarConsistent];
+    let statics = implicit(&[RuleName::QuasiStatic], &[Gimp, Bspline2], &remedies);
+    let all = pairs(&[Gimp, Bspline2], &REMEDIES);
+    Plan::of(&LEVELS)
+        // Three trials of softer ground, whose steps are longer. The limit load does not depend on stiffness.
+        .runs(
+            Pr,
+            "h0.4",
+            &pairs(&[Gimp], &REMEDIES),
+            "young_modulus=6.25e6 most=2 trials=3",
+        )
+        .runs(Nightly, "h0.4 h0.2", &all, "")
+        .runs(Long, "h0.1", &all, "")
+        .runs(Pr, "h0.4", &statics[1..2], "most=2 trials=3")
+        .runs(Nightly, "h0.4 h0.2", &statics, "")
+        .runs(Long, "h0.1", &statics, "")
+        .done()
+}
+
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Stability>;
+    let bound = |place: usize| {
+        move |c: &Run<Stability>| c.bounds().map_or(f64::NAN, |bounds| bounds[place])
+    };
+    let (lower, upper) = (bound(0), bound(1));
+    vec![
+        Check::truth("lower-bound", "all: the factor is above the lower bound of limit analysis less half the last bracket")
+            .when(|c| c.bounds().is_some())
+            .above(STRENGTH_REDUCTION_FACTOR, lower)
+            .because("lower bound of limit analysis: docs/exact.md"),
+        Check::truth("limit-load", "F̄, and standard quadratic splines at h ≤ 0.2 m in motion: the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure")
+            .unless(|c| c.bounds().is_none().then(|| "the bounds of limit analysis are those for 45°".to_owned()))
+            .when(|c| !c.locks())
+            .within(STRENGTH_REDUCTION_FACTOR, move |c| 0.5 * (lower(c) + upper(c)), move |c| 0.5 * (upper(c) - lower(c)))
+            .because("limit analysis: docs/exact.md"),
+        Check::known_limit("locked", "none with GIMP, and with quadratic splines at h > 0.2 m or in equilibrium: the slope still stands at a factor above all that")
+            .when(|c| c.bounds().is_some() && c.locks())
+            .above(STANDS_AT, move |c| upper(c) - c.resolution())
+            .because("standard MPM locks: Zhao et al. 2023, Figure 14"),
+        Check::truth("factor-converges", "fbar-consistent: from level to level the factor comes nearer to that of limit analysis, or stays within the uncertainty of both")
+            .study(converges)
+            .because(""),
+        Check::truth("solvers-agree", "fbar-consistent: the factor of equilibrium is that of the explicit run, within half of both brackets and the half per cent of a slow failure")
+            .study(agrees)
+            .because(""),
+    ]
+}
+
+/// Runs of fbar-consistent with the default parameters that came to their end.
+fn ours(records: &[Record]) -> Vec<Run<'_, Stability>> {
+    let ours = |r: &Run<Stability>| {
+        r.remedy() == FbarConsistent && r.record.status == Status::Ok && r.is_default()
+    };
+    records.iter().filter_map(Run::of).filter(ours).collect()
+}
+
+/// Trials of equilibrium against those of motion.
+fn agrees(records: &[Record]) -> Vec<Finding> {
+    let ours = ours(records);
+    let found = |r: &Run<Stability>| {
+        let moving = ours.iter().find(|moving| {
+            let same = moving.basis() == r.basis() && moving.level == r.level;
+            same && !moving.is_implicit()
+        })?;
+        let expected = moving.metric(STRENGTH_REDUCTION_FACTOR);
+        let tolerance = r.resolution() + moving.resolution() + SLOW * expected;
+        let why = format!("{} {}: the explicit run", r.scheme, r.level);
+        let value = r.metric(STRENGTH_REDUCTION_FACTOR);
+        Some(Finding::within(
+            STRENGTH_REDUCTION_FACTOR,
+            value,
+            expected,
+            tolerance,
+            why,
+        ))
+    };
+    ours.iter()
+        .filter(|r| r.is_implicit())
+        .filter_map(found)
+        .collect()
+}
+
+/// Each level against the coarser one.
+fn converges(records: &[Record]) -> Vec<Finding> {
+    let ours = ours(records);
+    let mut found = Vec::new();
+    for scheme in crate::distinct(ours.iter().map(|r| r.scheme)) {
+        let mut runs: Vec<_> = ours.iter().filter(|r| r.scheme == scheme).collect();
+        runs.sort_by(|a, b| b.h.total_cmp(&a.h));
+        for pair in runs.windows(2) {
+            let (coarse, fine) = (pair[0], pair[1]);
+            let off = |r: &Run<Stability>| {
+                (r.metric(STRENGTH_REDUCTION_FACTOR) - r.factor(STABILITY.0)).abs()
+            };
+            let known_to = fine.resolution() + fine.factor(STABILITY.2 - STABILITY.0);
+            found.push(Finding::at_most(
+                STRENGTH_REDUCTION_FACTOR,
+                off(fine),
+                off(coarse).max(known_to),
+                format!("{scheme}: {} against {}", fine.level, coarse.level),
+            ));
+        }
+    }
+    found
+}
+
+fn tables() -> Vec<ResultTable> {
+    let bounds = |r: &Record| {
+        let [stands, fails] = [STANDS_AT, FAILS_AT].map(|at| r.metric(at));
+        if !fails.is_finite() {
+            return format!("stands at {stands}");
+        }
+        let factor = r.metric(STRENGTH_REDUCTION_FACTOR);
+        format!("{factor:.3} ({stands:.3} … {fails:.3})")
+    };
+    let levels = [("h0.4", "h = 0.4 m"), ("h0.2", "0.2 m"), ("h0.1", "0.1 m")];
+    let of_level =
+        levels.map(|(level, title)| Column::text(title, bounds).of(move |r| r.level == level));
+    let cpu = levels.map(|(level, title)| {
+        let text = |r: &Record| SHORT.text(r.time.cpu_s);
+        Column::text(format!("CPU (s), {title}"), text).of(move |r| r.level == level)
+    });
+    vec![
+        ResultTable::by_remedy(
+            "slope",
+            &REMEDIES,
+            |r| r.is_default() && is_flip(r) && r.level == "h0.2",
+            |r| fixed(2).text(r.metric(STRENGTH_REDUCTION_FACTOR)),
+        ),
+        ResultTable::new(
+            "slope-stability",
+            Record::is_default,
+            &[SCHEME],
+            of_level.into_iter().chain(cpu),
+        ),
+    ]
 }

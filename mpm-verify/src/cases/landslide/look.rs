@@ -1,10 +1,7 @@
-//! What is observed of a slide, and the metrics made of it.
+//! Observations of a slide, and the metrics that follow from them.
 
-use super::metrics as m;
-use super::section::{GRAVITY, Section};
-use crate::metric::Metric;
-use mpm_core::Particles;
-use serde::{Deserialize, Serialize};
+use super::*;
+use crate::cases::slope::section::{GRAVITY, Section};
 
 /// Ground that has moved by this share of the height since the release has failed.
 const MOVED: f64 = 0.05;
@@ -17,7 +14,7 @@ const BAND: (f64, f64) = (0.5, 0.5);
 
 /// One observation: sums per metre of width; forces are means since the one before.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct Row {
+pub(super) struct State {
     /// Time (s) since the strength was reduced.
     pub(super) time: f64,
     /// The outermost particle and half its spacing (m).
@@ -46,68 +43,49 @@ pub(super) struct Row {
     pub(super) log_jacobian_gap: f64,
 }
 
-/// A column of the series: its name with unit, and its value in a row.
-type Column = (&'static str, fn(&Row) -> f64);
-
-impl Row {
-    /// Columns of the series, with units.
-    pub(super) const COLUMNS: [Column; 18] = [
-        ("time (s)", |r| r.time),
-        ("toe (m)", |r| r.toe),
-        ("bulk_toe (m)", |r| r.bulk_toe),
-        ("settlement (m)", |r| r.settlement),
-        ("kinetic_energy (J/m)", |r| r.kinetic),
-        ("potential_energy (J/m)", |r| r.potential),
-        ("stress_work (J/m)", |r| r.stress_work),
-        ("stored_energy (J/m)", |r| r.stored),
-        ("plastic_dissipation (J/m)", |r| r.dissipated),
-        ("base_force (N/m)", |r| r.base_force),
-        ("failed_share (-)", |r| r.failed),
-        ("retrogression (m)", |r| r.retrogression),
-        ("shear_bands (-)", |r| r.bands),
-        ("jacobian_min (-)", |r| r.jacobian.0),
-        ("jacobian_max (-)", |r| r.jacobian.1),
-        ("log_jacobian_gap_rms (-)", |r| r.log_jacobian_gap),
-        ("energy (J/m)", Self::energy),
-        ("accounted_energy (J/m)", Self::accounted),
-    ];
-
-    pub(super) fn values(&self) -> Vec<f64> {
-        Self::COLUMNS.iter().map(|(_, of)| of(self)).collect()
+impl State {
+    /// The row of the series.
+    pub(super) fn row(&self) -> Row {
+        row! {
+            "time (s)": self.time,
+            "toe (m)": self.toe,
+            "bulk_toe (m)": self.bulk_toe,
+            "settlement (m)": self.settlement,
+            "kinetic_energy (J/m)": self.kinetic,
+            "potential_energy (J/m)": self.potential,
+            "stress_work (J/m)": self.stress_work,
+            "stored_energy (J/m)": self.stored,
+            "plastic_dissipation (J/m)": self.dissipated,
+            "base_force (N/m)": self.base_force,
+            "failed_share (-)": self.failed,
+            "retrogression (m)": self.retrogression,
+            "shear_bands (-)": self.bands,
+            "jacobian_min (-)": self.jacobian.0,
+            "jacobian_max (-)": self.jacobian.1,
+            "log_jacobian_gap_rms (-)": self.log_jacobian_gap,
+            "energy (J/m)": self.energy(),
+            "accounted_energy (J/m)": self.accounted(),
+        }
     }
 
     /// What a step may lose and never gain (J/m): kinetic and potential energy and the work of the stress.
-    pub(super) fn energy(&self) -> f64 {
+    fn energy(&self) -> f64 {
         self.kinetic + self.potential + self.stress_work
     }
 
     /// Kinetic, potential and stored energy and what flow has dissipated (J/m).
-    pub(super) fn accounted(&self) -> f64 {
+    fn accounted(&self) -> f64 {
         self.kinetic + self.potential + self.stored + self.dissipated
     }
 }
 
-/// The ground when its strength is reduced, in seeding order.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct Released {
-    /// Positions (m) in the section.
-    pub(super) positions: Vec<[f64; 2]>,
+/// Distance (m) of every particle, now at `positions` (m), from its place at the release.
+fn moved_since(released: &[[f64; 2]], positions: &[[f64; 2]]) -> Vec<f64> {
+    let distance = |(x, before): (&[f64; 2], &[f64; 2])| (x[0] - before[0]).hypot(x[1] - before[1]);
+    positions.iter().zip(released).map(distance).collect()
 }
 
-impl Released {
-    /// How far (m) every particle, now at `positions` (m), has moved.
-    fn moved(&self, positions: &[[f64; 2]]) -> Vec<f64> {
-        let distance =
-            |(x, before): (&[f64; 2], &[f64; 2])| (x[0] - before[0]).hypot(x[1] - before[1]);
-        positions
-            .iter()
-            .zip(&self.positions)
-            .map(distance)
-            .collect()
-    }
-}
-
-/// What the slope looks like at one time: places (m) in the section and equivalent plastic strains in seeding order,
+/// The slope at one time: places (m) in the section and equivalent plastic strains in seeding order,
 /// columns from x = 0 and in each from the base up, `across` particles at every place.
 pub(super) struct Look<'a> {
     pub(super) section: &'a Section,
@@ -159,15 +137,15 @@ impl Look<'_> {
     }
 
     /// Share of the particles that have failed since the release.
-    pub(super) fn failed(&self, released: &Released) -> f64 {
-        let moved = released.moved(self.positions);
+    pub(super) fn failed(&self, released: &[[f64; 2]]) -> f64 {
+        let moved = moved_since(released, self.positions);
         let failed = moved.iter().filter(|d| **d > MOVED * self.section.height);
         failed.count() as f64 / self.positions.len().max(1) as f64
     }
 
     /// Distance (m) behind the crest's edge to which the surface of the crest has failed.
-    pub(super) fn retrogression(&self, released: &Released) -> f64 {
-        let moved = released.moved(self.positions);
+    pub(super) fn retrogression(&self, released: &[[f64; 2]]) -> f64 {
+        let moved = moved_since(released, self.positions);
         let top = self.section.height - 0.75 * self.spacing;
         let surface = self.in_the_middle(|x| x[1] > top && x[0] < self.section.crest);
         let failed = surface
@@ -217,65 +195,59 @@ fn peaks(values: &[f64]) -> Vec<usize> {
 /// The series since the release.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Series {
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<State>,
 }
 
 impl Series {
     /// The observation at `time` (s), if the slide has got there.
-    pub(super) fn at(&self, time: f64) -> Option<&Row> {
+    pub(super) fn at(&self, time: f64) -> Option<&State> {
         self.rows.iter().find(|row| (row.time - time).abs() < 1e-6)
     }
 
     /// Metrics of a slide of `section` that begins with `start`.
-    pub(super) fn metrics(&self, section: &Section, start: &Row) -> Vec<(Metric, f64)> {
-        let runout = |row: &Row| row.toe - section.toe();
-        let bulk = |row: &Row| row.bulk_toe - section.toe();
-        let at = |time: f64, f: &dyn Fn(&Row) -> f64| self.at(time).map_or(f64::NAN, f);
-        let end = |f: &dyn Fn(&Row) -> f64| self.rows.last().map_or(f64::NAN, f);
-        let all = |f: fn(&Row) -> f64| self.rows.iter().map(f);
+    pub(super) fn metrics(&self, section: &Section, start: &State) -> Vec<(Metric, f64)> {
+        let runout = |row: &State| row.toe - section.toe();
+        let bulk = |row: &State| row.bulk_toe - section.toe();
+        let at = |time: f64, f: &dyn Fn(&State) -> f64| self.at(time).map_or(f64::NAN, f);
+        let end = |f: &dyn Fn(&State) -> f64| self.rows.last().map_or(f64::NAN, f);
+        let all = |f: fn(&State) -> f64| self.rows.iter().map(f);
         let failure = self.rows.iter().find(|row| row.failed >= FAILED);
-        let energies = || std::iter::once(start).chain(&self.rows).map(Row::energy);
+        let energies = || std::iter::once(start).chain(&self.rows).map(State::energy);
         let falls = end(&|row| start.potential - row.potential);
         let gains = || energies().zip(energies().skip(1)).map(|(a, b)| b - a);
         vec![
-            (m::RUNOUT_1S, at(1.0, &runout)),
-            (m::RUNOUT_2_5S, at(2.5, &runout)),
-            (m::RUNOUT_END, end(&runout)),
-            (m::BULK_RUNOUT_2_5S, at(2.5, &bulk)),
-            (m::BULK_RUNOUT_END, end(&bulk)),
-            (m::SETTLEMENT_2_5S, at(2.5, &|row| row.settlement)),
-            (m::SETTLEMENT_END, end(&|row| row.settlement)),
-            (m::FAILED_SHARE_2_5S, at(2.5, &|row| row.failed)),
-            (m::FAILED_SHARE_END, end(&|row| row.failed)),
-            (m::FAILURE_TIME, failure.map_or(f64::NAN, |row| row.time)),
-            (m::RETROGRESSION_END, end(&|row| row.retrogression)),
-            (m::SHEAR_BANDS_END, end(&|row| row.bands)),
+            (RUNOUT_1S, at(1.0, &runout)),
+            (RUNOUT_2_5S, at(2.5, &runout)),
+            (RUNOUT_END, end(&runout)),
+            (BULK_RUNOUT_2_5S, at(2.5, &bulk)),
+            (BULK_RUNOUT_END, end(&bulk)),
+            (SETTLEMENT_2_5S, at(2.5, &|row| row.settlement)),
+            (SETTLEMENT_END, end(&|row| row.settlement)),
+            (FAILED_SHARE_2_5S, at(2.5, &|row| row.failed)),
+            (FAILED_SHARE_END, end(&|row| row.failed)),
+            (FAILURE_TIME, failure.map_or(f64::NAN, |row| row.time)),
+            (RETROGRESSION_END, end(&|row| row.retrogression)),
+            (SHEAR_BANDS_END, end(&|row| row.bands)),
             (
-                m::PLASTIC_DISSIPATION,
+                PLASTIC_DISSIPATION,
                 end(&|row| row.dissipated - start.dissipated),
             ),
             (
-                m::KINETIC_ENERGY_MAX,
+                KINETIC_ENERGY_MAX,
                 all(|row| row.kinetic).fold(0.0, f64::max),
             ),
+            (ENERGY_GAIN, gains().fold(0.0, f64::max) / start.potential),
             (
-                m::ENERGY_GAIN,
-                gains().fold(0.0, f64::max) / start.potential,
-            ),
-            (
-                m::UNACCOUNTED_ENERGY,
+                UNACCOUNTED_ENERGY,
                 end(&|row| (row.accounted() - start.accounted()) / start.potential),
             ),
-            (m::FALLEN_ENERGY, falls / start.potential),
+            (FALLEN_ENERGY, falls / start.potential),
             (
-                m::JACOBIAN_MIN,
+                JACOBIAN_MIN,
                 all(|row| row.jacobian.0).fold(f64::INFINITY, f64::min),
             ),
-            (
-                m::JACOBIAN_MAX,
-                all(|row| row.jacobian.1).fold(0.0, f64::max),
-            ),
-            (m::LOG_JACOBIAN_GAP, end(&|row| row.log_jacobian_gap)),
+            (JACOBIAN_MAX, all(|row| row.jacobian.1).fold(0.0, f64::max)),
+            (LOG_JACOBIAN_GAP, end(&|row| row.log_jacobian_gap)),
         ]
     }
 }
@@ -332,9 +304,7 @@ mod tests {
     #[test]
     fn a_corner_that_slides_off_is_what_has_failed() {
         let (section, reference) = slope();
-        let released = Released {
-            positions: reference.clone(),
-        };
+        let released = reference.clone();
         // Everything right of x = 8 m goes down and out; along that line it is sheared.
         let slides = |x: &[f64; 2]| x[0] > 8.0;
         let positions: Vec<[f64; 2]> = (reference.iter())

@@ -1,39 +1,27 @@
 //! The section of the slope, and the particles in it.
 
-use super::parameters::{CREST, FACE_ANGLE, HEIGHT};
-use crate::parameter::Parameters;
-
 /// Gravity (m/s²).
-pub(crate) const GRAVITY: f64 = 9.81;
+pub(in crate::cases) const GRAVITY: f64 = 9.81;
 
 /// A slope with a level crest on a firm base; the toe is at (`crest` + `run`, 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Section {
+pub(in crate::cases) struct Section {
     /// Height H (m).
-    pub(crate) height: f64,
+    pub(in crate::cases) height: f64,
     /// Length of the crest (m), from the roller at x = 0.
-    pub(crate) crest: f64,
+    pub(in crate::cases) crest: f64,
     /// Horizontal extent of the face (m).
-    pub(crate) run: f64,
+    pub(in crate::cases) run: f64,
 }
 
 impl Section {
-    pub(crate) fn of(parameters: &Parameters) -> Self {
-        let height = parameters.number(HEIGHT);
-        Self {
-            height,
-            crest: parameters.number(CREST),
-            run: height / parameters.number(FACE_ANGLE).to_radians().tan(),
-        }
-    }
-
     /// Coordinate of the toe (m).
-    pub(crate) fn toe(&self) -> f64 {
+    pub(in crate::cases) fn toe(&self) -> f64 {
         self.crest + self.run
     }
 
     /// Corners (m), counterclockwise from the origin.
-    pub(crate) fn corners(&self) -> [[f64; 2]; 4] {
+    pub(in crate::cases) fn corners(&self) -> [[f64; 2]; 4] {
         [
             [0.0, 0.0],
             [self.toe(), 0.0],
@@ -51,7 +39,7 @@ impl Section {
     }
 
     /// Centres (m) of the particles, `spacing` (m) apart: columns from x = 0, each from the base up.
-    pub(crate) fn seed(&self, spacing: f64) -> Vec<[f64; 2]> {
+    pub(in crate::cases) fn seed(&self, spacing: f64) -> Vec<[f64; 2]> {
         let count = |length: f64| (length / spacing).round() as usize;
         let coordinate = |k: usize| (k as f64 + 0.5) * spacing;
         (0..count(self.toe()))

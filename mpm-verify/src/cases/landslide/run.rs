@@ -1,24 +1,18 @@
-//! What is seen of a slide in plane strain or in three dimensions: gravity, then the reduced strength.
+//! A slide in plane strain or in three dimensions: gravity, then the reduced strength.
 
-use super::ground::{BASE, Ground, RISE, ROW, STAGE, STAGE_DAMPING, strength};
-use super::metrics as m;
-use super::observation::{Look, Released, Row, Series, potential, spread_over_width};
-use super::parameters::{DAMPING, DURATION, REDUCTION, RELEASE};
-use super::section::GRAVITY;
-use crate::cases::observe::{checkerboard, column, discretisation, position_columns};
-use crate::drive::{Drive, Stage, Watch};
-use crate::error::Error;
-use crate::job::{Column, Snapshot};
-use crate::metric::Metric;
-use crate::parameter::Parameters;
-use crate::record::Discretisation;
-use crate::spec::RunSpec;
+use super::look::{Look, Series, State, potential, spread_over_width};
+use super::*;
+use crate::cases::observe::checkerboard;
+use crate::cases::slope::ground::{BASE, Ground, RISE, ROW, STAGE, STAGE_DAMPING};
+use crate::cases::slope::section::GRAVITY;
 use crate::statistics::rms;
+use mpm_core::Part;
 use mpm_core::material::{HenckyJ2, Strength};
-use mpm_core::{Field, Part, Simulation};
-use mpm_solvers::{Solvable, solver};
-use serde::{Deserialize, Serialize};
+use mpm_solvers::Solvable;
 
+/// Width (m) in full, and cells across a slice.
+const FULL: f64 = 5.0;
+const SLICE: f64 = 4.0;
 /// Distance from the back wall, over the height, within which the stress is that of level ground.
 const FAR: f64 = 0.5;
 /// Times (s) of the snapshots.
@@ -30,10 +24,10 @@ const ANIMATED: usize = 20_000;
 const EARLY: f64 = 0.5;
 const FLOWING: f64 = 2.5;
 
-/// What is measured at the end of the gravity stage.
+/// Observations at the end of the gravity stage.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 struct AtRest {
-    row: Row,
+    state: State,
     /// Nodal kinetic energy over stored energy.
     kinetic_share: f64,
     /// Rms error of the vertical stress far from the face, over γ H.
@@ -46,7 +40,7 @@ struct AtRest {
     width_spread: f64,
 }
 
-/// What came before the strength that holds now.
+/// Sums up to the moment when the current strength began to hold.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 struct Before {
     /// Time (s) and steps since the reduction began.
@@ -54,19 +48,20 @@ struct Before {
     steps: u64,
     /// Stress work (J) since then.
     stress_work: f64,
-    /// Of every particle, in seeding order: what flow had dissipated (J/m³), and the plastic strain.
+    /// Energy that flow had dissipated (J/m³), and the plastic strain, of every particle in seeding order.
     dissipated: Vec<f64>,
     plastic_strain: Vec<f64>,
 }
 
-/// What has been seen of a slide.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+/// Observations of a slide.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     /// Factor by which the peak has been divided; none under rising gravity.
     reduction: Option<f64>,
     before: Before,
     at_rest: AtRest,
-    released: Released,
+    /// Places (m) in the section when the strength is reduced, in seeding order.
+    released: Vec<[f64; 2]>,
     pub(super) series: Series,
     early_spread: f64,
     /// Rms of σ_m − Πσ_m over γ H in the flow.
@@ -74,36 +69,52 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Of `particles` at the start.
-    fn nothing(particles: usize) -> Self {
-        Self {
-            reduction: None,
-            before: Before {
-                dissipated: vec![0.0; particles],
-                plastic_strain: vec![0.0; particles],
-                ..Before::default()
-            },
-            at_rest: AtRest::default(),
-            released: Released::default(),
-            series: Series::default(),
-            early_spread: f64::NAN,
-            checkerboard: f64::NAN,
-        }
-    }
-
     /// The crest's settlement (m) at the end of the gravity stage, and 0.5 s after the reduction.
     pub(super) fn settlements(&self) -> [f64; 2] {
         let early = self.series.at(EARLY);
-        let early = early.map_or(f64::NAN, |row| row.settlement);
-        [self.at_rest.row.settlement, early]
+        let early = early.map_or(f64::NAN, |state| state.settlement);
+        [self.at_rest.state.settlement, early]
+    }
+}
+
+impl Setup<Landslide> {
+    /// Distance of particles (m).
+    pub(super) fn spacing(&self) -> f64 {
+        self.h / self.ppc_per_direction as f64
+    }
+
+    /// Width (m) in three dimensions.
+    ///
+    /// # Errors
+    /// It is not a whole number of cells.
+    fn whole_width(&self) -> Result<f64, Error> {
+        let (h, given) = (self.h, self.width);
+        let width = match self.level.starts_with("slice") {
+            _ if given > 0.0 => given,
+            true => SLICE * h,
+            false => FULL,
+        };
+        let cells = width / h;
+        if (cells - cells.round()).abs() > 1e-9 || cells < SLICE - 0.5 {
+            return Err(Error::Input(format!(
+                "parameter width: {width} m is {cells} cells of {h} m; allowed: a whole number of cells, four or more"
+            )));
+        }
+        Ok(width)
+    }
+
+    /// The strength with its peak, and only that, divided by `reduction`.
+    fn strength(&self, reduction: f64) -> Result<Strength, mpm_core::Error> {
+        let peak = self.peak_strength / reduction;
+        Strength::softening(peak, self.residual_strength.min(peak), self.softening)
     }
 }
 
 /// A slide: first under rising gravity with its full strength, then with the reduced one.
 pub(super) struct Slide<const D: usize> {
-    spec: RunSpec,
-    parameters: Parameters,
+    setup: Setup<Landslide>,
     ground: Ground<D>,
+    /// Places (m) of the particles in the section.
     reference: Vec<[f64; 2]>,
 }
 
@@ -111,41 +122,20 @@ impl<const D: usize> Slide<D>
 where
     HenckyJ2: Solvable<D>,
 {
-    /// A run at its start.
-    ///
-    /// # Errors
-    /// The parameters don't make a scene.
-    pub(super) fn drive(spec: &RunSpec, parameters: &Parameters) -> Result<Drive<D, Self>, Error> {
-        let ground = Ground::new(spec, parameters)?;
-        // What is wrong with the reduced strength is said before anything moves.
-        strength(parameters, parameters.number(REDUCTION))?;
-        let places = spec.start_at(ground.seed());
-        let slide = Self {
-            spec: spec.clone(),
-            parameters: parameters.clone(),
-            ground,
-            reference: places.iter().map(section_of).collect(),
-        };
-        let seen = Seen::nothing(places.len());
-        Ok(Drive::new(slide, seen)?)
-    }
-
     /// Ends the gravity stage.
-    fn release(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<(), mpm_core::Error> {
-        self.measure_rest(seen, stage.run.as_mut());
-        seen.released = Released {
-            positions: positions(stage.run.as_ref()),
-        };
-        self.reduce(seen, stage)?;
-        // All count anew from here.
-        seen.at_rest.row.stress_work = 0.0;
+    fn release(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<(), mpm_core::Error> {
+        self.measure_rest(seen, phase.run.as_mut());
+        seen.released = positions(phase.run.as_ref());
+        self.reduce(seen, phase)?;
+        // Sums begin anew here.
+        seen.at_rest.state.stress_work = 0.0;
         (seen.before.time, seen.before.steps, seen.before.stress_work) = (0.0, 0, 0.0);
         Ok(())
     }
 
     /// Reduces the strength to that of the next row.
-    fn reduce(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<(), mpm_core::Error> {
-        let run = stage.run.as_mut();
+    fn reduce(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<(), mpm_core::Error> {
+        let run = phase.run.as_mut();
         let (time, steps, totals) = (run.time(), run.work().steps, run.totals());
         let plastic_strain = plastic_strain(run);
         seen.before = Before {
@@ -157,30 +147,29 @@ where
         };
         let body = run.body()?;
         seen.reduction = Some(self.next_reduction(seen));
-        stage.enter(self.scene(seen)?, Some(&body))
+        phase.enter(self.begin(seen)?, Some(&body))
     }
 }
 
 impl<const D: usize> Slide<D> {
     /// The strength that holds now.
     fn strength(&self, seen: &Seen) -> Result<Strength, mpm_core::Error> {
-        strength(&self.parameters, seen.reduction.unwrap_or(1.0))
+        self.setup.strength(seen.reduction.unwrap_or(1.0))
     }
 
     /// The factor by which the peak strength is divided during the next row.
     fn next_reduction(&self, seen: &Seen) -> f64 {
-        let number = |p| self.parameters.number(p);
-        let share = (seen.series.rows.len() + 1) as f64 * ROW / number(RELEASE).max(ROW);
-        match number(REDUCTION) {
+        let share = (seen.series.rows.len() + 1) as f64 * ROW / self.setup.release.max(ROW);
+        match self.setup.reduction {
             whole if share > 1.0 - 1e-9 => whole,
             whole => 1.0 + (whole - 1.0) * share,
         }
     }
 
-    /// What the slope looks like with these places (m) and plastic strains.
+    /// The slope with these places (m) and plastic strains.
     fn look<'a>(&'a self, positions: &'a [[f64; 2]], plastic_strain: &'a [f64]) -> Look<'a> {
         Look {
-            section: &self.ground.section,
+            section: &self.ground.slope.section,
             spacing: self.ground.spacing,
             across: self.ground.across,
             reference: &self.reference,
@@ -189,14 +178,14 @@ impl<const D: usize> Slide<D> {
         }
     }
 
-    fn observe(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Result<Row, mpm_core::Error> {
+    fn observe(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Result<State, mpm_core::Error> {
         let (positions, plastic_strain) = (positions(run), plastic_strain(run));
         let look = self.look(&positions, &plastic_strain);
         let totals = run.totals();
         let per_metre = 1.0 / self.ground.width;
         let volume = self.ground.spacing.powi(D as i32);
         let dissipated = self.dissipated(seen, &plastic_strain)?;
-        Ok(Row {
+        Ok(State {
             time: seen.before.time + run.time(),
             toe: look.toe(),
             bulk_toe: look.bulk_toe(),
@@ -215,7 +204,7 @@ impl<const D: usize> Slide<D> {
         })
     }
 
-    /// What flow has dissipated (J/m³) at every particle: with strengths that were, then with that of now.
+    /// Energy that flow has dissipated (J/m³) at every particle: with former strengths, then with the current one.
     fn dissipated(&self, seen: &Seen, now: &[f64]) -> Result<Vec<f64>, mpm_core::Error> {
         let strength = self.strength(seen)?;
         let work = |strain: f64| strength.plastic_work(strain);
@@ -234,22 +223,20 @@ impl<const D: usize> Slide<D> {
     fn checkerboard(&self, run: &mut dyn Simulation<D>) -> f64 {
         let mean = run.field(Field::MeanStress);
         let averaged = run.field(Field::AveragedMeanStress);
-        let scale = self.ground.density * GRAVITY * self.ground.section.height;
-        checkerboard(&mean, &averaged) / scale
+        checkerboard(&mean, &averaged) / self.ground.overburden()
     }
 
     fn measure_rest(&self, seen: &mut Seen, run: &mut dyn Simulation<D>) {
-        let weight = self.ground.density * GRAVITY;
-        let scale = weight * self.ground.section.height;
-        let (section, stress) = (self.ground.section, run.force_stress());
+        let weight = self.ground.slope.density * GRAVITY;
+        let (section, stress) = (self.ground.slope.section, run.force_stress());
         let p = run.particles();
         let far = |k: &usize| p.reference[*k][0] < FAR * section.height;
         let error = |k: usize| stress[k].get(1, 1) + weight * (section.height - p.reference[k][1]);
-        let overburden_error = rms((0..p.len()).filter(far).map(error)) / scale;
+        let overburden_error = rms((0..p.len()).filter(far).map(error)) / self.ground.overburden();
         let strain = plastic_strain(run);
         let yielded = strain.iter().filter(|e| **e > 0.0).count();
         seen.at_rest = AtRest {
-            row: seen.at_rest.row,
+            state: seen.at_rest.state,
             kinetic_share: run.residual().kinetic_energy / run.totals().stored_energy,
             overburden_error,
             checkerboard: self.checkerboard(run),
@@ -304,78 +291,97 @@ fn since_release(before: &Before, error: mpm_core::Error) -> mpm_core::Error {
     }
 }
 
-/// Positions, plastic strain and mean stress.
-fn columns<const D: usize>(run: &mut dyn Simulation<D>) -> Vec<Column> {
-    let plastic_strain = plastic_strain(run);
-    let mean_stress = run.field(Field::MeanStress);
-    let p = run.particles();
-    let mut columns = position_columns(p);
-    columns.push(column("plastic_strain", "-", plastic_strain));
-    columns.push(column("mean_stress", "Pa", p.seeded(|k| mean_stress[k])));
+/// Plastic strain and mean stress.
+fn fields<const D: usize>(columns: Columns<D>) -> Columns<D> {
     columns
+        .field("plastic_strain", "-", Field::PlasticStrain)
+        .field("mean_stress", "Pa", Field::MeanStress)
 }
 
-impl<const D: usize> Watch<D> for Slide<D>
+impl<const D: usize> Problem<D> for Slide<D>
 where
     HenckyJ2: Solvable<D>,
 {
+    type Parameters = Landslide;
     type Seen = Seen;
 
+    fn new(setup: Setup<Landslide>) -> Result<Self, Error> {
+        let width = if D == 3 { setup.whole_width()? } else { 1.0 };
+        let ground = Ground::new(&setup, width)?;
+        // A wrong reduced strength is an error before anything moves.
+        setup.strength(setup.reduction)?;
+        let places = setup.start_at(ground.seed());
+        Ok(Self {
+            setup,
+            ground,
+            reference: places.iter().map(section_of).collect(),
+        })
+    }
+
+    fn unseen(&self) -> Seen {
+        let particles = self.reference.len();
+        Seen {
+            before: Before {
+                dissipated: vec![0.0; particles],
+                plastic_strain: vec![0.0; particles],
+                ..Before::default()
+            },
+            early_spread: f64::NAN,
+            checkerboard: f64::NAN,
+            ..Seen::default()
+        }
+    }
+
     fn discretisation(&self) -> Discretisation {
-        discretisation(D, &self.spec, &self.parameters, self.ground.dt)
+        let ppc = self.setup.ppc_per_direction.pow(D as u32);
+        self.setup.discretisation(D, ppc, self.ground.dt)
     }
 
-    fn scene(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
-        let stages = match seen.reduction {
+    fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+        let (rise, damping) = match seen.reduction {
             None => (RISE, STAGE_DAMPING),
-            Some(_) => (0.0, self.parameters.number(DAMPING)),
+            Some(_) => (0.0, self.setup.damping),
         };
-        let strength = self.strength(seen)?;
-        let (scene, settings) =
-            self.ground
-                .scene(&self.spec, &self.parameters, strength, stages)?;
-        solver(self.spec.scheme, scene, settings)
+        let scene = self.ground.scene(&self.setup, self.strength(seen)?, rise)?;
+        let settings = self.setup.settings(self.ground.dt, damping)?;
+        mpm_solvers::solver(self.setup.scheme, scene, settings)
     }
 
-    fn columns(&self) -> Vec<&'static str> {
-        Row::COLUMNS.map(|(name, _)| name).to_vec()
-    }
-
-    fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, mpm_core::Error> {
-        let base = |stage: &Stage<D>| stage.run.on(Part::Constraint(BASE)).impulse[1];
-        let before = base(stage);
-        stage
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
+        let base = |phase: &Phase<D>| phase.run.on(Part::Constraint(BASE)).impulse[1];
+        let before = base(phase);
+        phase
             .steps(self.ground.steps_per_row)
             .map_err(|e| since_release(&seen.before, e))?;
-        let mut row = self.observe(seen, stage.run.as_mut())?;
-        row.base_force = -(base(stage) - before) / ROW / self.ground.width;
+        let mut state = self.observe(seen, phase.run.as_mut())?;
+        state.base_force = -(base(phase) - before) / ROW / self.ground.width;
         if seen.reduction.is_none() {
-            row.time -= STAGE;
-            seen.at_rest.row = row;
-            if row.time > -0.5 * ROW {
-                self.release(seen, stage)?;
+            state.time -= STAGE;
+            seen.at_rest.state = state;
+            if state.time > -0.5 * ROW {
+                self.release(seen, phase)?;
             }
-            return Ok(row.values());
+            return Ok(state.row());
         }
-        seen.series.rows.push(row);
+        seen.series.rows.push(state);
         if seen.reduction != Some(self.next_reduction(seen)) {
-            self.reduce(seen, stage)?;
+            self.reduce(seen, phase)?;
         }
-        if (row.time - EARLY).abs() < 0.5 * ROW {
-            seen.early_spread = spread_over_width(&moved(stage.run.as_ref()), self.ground.across);
+        if (state.time - EARLY).abs() < 0.5 * ROW {
+            seen.early_spread = spread_over_width(&moved(phase.run.as_ref()), self.ground.across);
         }
-        if (row.time - FLOWING).abs() < 0.5 * ROW {
-            seen.checkerboard = self.checkerboard(stage.run.as_mut());
+        if (state.time - FLOWING).abs() < 0.5 * ROW {
+            seen.checkerboard = self.checkerboard(phase.run.as_mut());
         }
-        Ok(row.values())
+        Ok(state.row())
     }
 
-    fn progress(&self, _: &Seen, stage: &Stage<D>) -> f64 {
-        let rows = ((STAGE + self.parameters.number(DURATION)) / ROW).round();
-        (stage.work().steps / self.ground.steps_per_row) as f64 / rows
+    fn progress(&self, _: &Seen, phase: &Phase<D>) -> f64 {
+        let rows = ((STAGE + self.setup.duration) / ROW).round();
+        (phase.work().steps / self.ground.steps_per_row) as f64 / rows
     }
 
-    fn snapshot(&self, seen: &Seen, stage: &mut Stage<D>) -> Option<Snapshot> {
+    fn snapshot(&self, seen: &Seen, phase: &mut Phase<D>) -> Option<Snapshot> {
         let rows = seen.series.rows.len();
         let time = seen.series.rows.last()?.time;
         let shown = SNAPSHOTS.iter().any(|t| (t - time).abs() < 0.5 * ROW);
@@ -383,49 +389,41 @@ where
         let kept = shown || few && rows.is_multiple_of(FRAME);
         kept.then(|| Snapshot {
             time,
-            columns: columns(stage.run.as_mut()),
+            columns: fields(Columns::positions(phase.run.as_mut())).done(),
         })
     }
 
-    fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {
-        let mut columns = columns(stage.run.as_mut());
-        let p = stage.run.particles();
-        let mut push = |name, unit, values| columns.push(Column { name, unit, values });
-        let axes = ["reference_x", "reference_y", "reference_z"].into_iter();
-        for (a, name) in axes.take(D).enumerate() {
-            push(name, "m", p.seeded(|k| p.reference[k][a]));
-        }
-        push("jacobian", "-", p.seeded(|k| p.jacobian[k]));
-        columns
+    fn particles<'a>(&self, _: &Seen, columns: Columns<'a, D>) -> Columns<'a, D> {
+        fields(columns).references().jacobian()
     }
 
-    fn metrics(&self, seen: &Seen, stage: &mut Stage<D>) -> Vec<(Metric, f64)> {
-        let run = stage.run.as_mut();
+    fn metrics(&self, seen: &Seen, phase: &mut Phase<D>) -> Vec<(Metric, f64)> {
+        let run = phase.run.as_mut();
         let (rest, totals) = (&seen.at_rest, run.totals());
         let weight = totals.mass * GRAVITY / self.ground.width;
         let (positions, plastic_strain) = (positions(run), plastic_strain(run));
         let bands = self.look(&positions, &plastic_strain).bands();
-        let mut values = seen.series.metrics(&self.ground.section, &rest.row);
+        let mut values = seen.series.metrics(&self.ground.slope.section, &rest.state);
         let rearmost = bands.into_iter().fold(f64::NAN, f64::max);
         values.extend([
-            (m::REARMOST_BAND_END, rearmost),
-            (m::PARTICLES, self.reference.len() as f64),
-            (m::PARTICLES_ACROSS, self.ground.across as f64),
-            (m::MASS, totals.mass / self.ground.width),
-            (m::BASE_REACTION_RATIO, rest.row.base_force / weight),
-            (m::KINETIC_SHARE_AT_REST, rest.kinetic_share),
-            (m::OVERBURDEN_ERROR, rest.overburden_error),
-            (m::CHECKERBOARD_AT_REST, rest.checkerboard),
-            (m::CHECKERBOARD_2_5S, seen.checkerboard),
-            (m::YIELDED_AT_REST, rest.yielded),
-            (m::SETTLEMENT_AT_REST, rest.row.settlement),
+            (REARMOST_BAND_END, rearmost),
+            (PARTICLES, self.reference.len() as f64),
+            (PARTICLES_ACROSS, self.ground.across as f64),
+            (MASS, totals.mass / self.ground.width),
+            (BASE_REACTION_RATIO, rest.state.base_force / weight),
+            (KINETIC_SHARE_AT_REST, rest.kinetic_share),
+            (OVERBURDEN_ERROR, rest.overburden_error),
+            (CHECKERBOARD_AT_REST, rest.checkerboard),
+            (CHECKERBOARD_2_5S, seen.checkerboard),
+            (YIELDED_AT_REST, rest.yielded),
+            (SETTLEMENT_AT_REST, rest.state.settlement),
         ]);
         if D == 3 {
             let end = spread_over_width(&moved(run), self.ground.across);
             values.extend([
-                (m::WIDTH_SPREAD_AT_REST, rest.width_spread),
-                (m::WIDTH_SPREAD_0_5S, seen.early_spread),
-                (m::WIDTH_SPREAD_END, end),
+                (WIDTH_SPREAD_AT_REST, rest.width_spread),
+                (WIDTH_SPREAD_0_5S, seen.early_spread),
+                (WIDTH_SPREAD_END, end),
             ]);
         }
         values

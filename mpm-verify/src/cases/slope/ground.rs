@@ -1,0 +1,182 @@
+//! The ground of the slope: clay, particles, floor and walls, and the stage in which gravity rises.
+
+use super::section::{GRAVITY, Section};
+use super::*;
+use crate::parameter::ParameterSet;
+use crate::prelude::*;
+use mpm_core::explicit::courant_time_step;
+use mpm_core::material::{HenckyJ2, Law, Strength};
+use mpm_core::stage::{Gravity, smooth_rise};
+use std::f64::consts::SQRT_2;
+
+/// Time (s) between two rows of the series.
+pub(in crate::cases) const ROW: f64 = 0.01;
+/// Duration (s) of the gravity stage, and of the part in which gravity rises: three and one of the longest periods of
+/// shear waves in the slope, 4H/c_s = 0.32 s.
+pub(in crate::cases) const STAGE: f64 = 1.0;
+pub(in crate::cases) const RISE: f64 = 0.4;
+/// Local damping of the gravity stage.
+pub(in crate::cases) const STAGE_DAMPING: f64 = 0.7;
+/// Height (m) of the grid above the crest.
+const ROOM: f64 = 1.0;
+/// Index of the base among the constraints of the scene.
+pub(in crate::cases) const BASE: usize = 0;
+
+/// Section and clay of a slope.
+pub(in crate::cases) struct Slope {
+    pub(in crate::cases) section: Section,
+    /// Young's modulus (Pa), Poisson's ratio, density (kg/m³).
+    young_modulus: f64,
+    poisson_ratio: f64,
+    pub(in crate::cases) density: f64,
+}
+
+impl<P: ParameterSet> Setup<P> {
+    /// The slope of the parameters.
+    pub(in crate::cases) fn slope(&self) -> Slope {
+        let number = |p| self.values.number(p);
+        let height = number(HEIGHT);
+        Slope {
+            section: Section {
+                height,
+                crest: number(CREST),
+                run: height / number(FACE_ANGLE).to_radians().tan(),
+            },
+            young_modulus: number(YOUNG_MODULUS),
+            poisson_ratio: number(POISSON_RATIO),
+            density: number(DENSITY),
+        }
+    }
+}
+
+impl Slope {
+    /// Factor of safety with the strength κ (Pa), by a stability number.
+    pub(in crate::cases) fn factor_of_safety(&self, strength: f64, stability: f64) -> f64 {
+        stability * strength / SQRT_2 / (self.density * GRAVITY * self.section.height)
+    }
+
+    /// The longest period (s) of shear waves, 4H/c_s.
+    pub(in crate::cases) fn longest_period(&self) -> f64 {
+        let shear_modulus = 0.5 * self.young_modulus / (1.0 + self.poisson_ratio);
+        4.0 * self.section.height / (shear_modulus / self.density).sqrt()
+    }
+
+    fn law(&self, strength: Strength) -> Result<HenckyJ2, mpm_core::Error> {
+        HenckyJ2::new(self.young_modulus, self.poisson_ratio, strength)
+    }
+}
+
+/// The ground, its floor and its walls, on a grid with room for the slide.
+pub(in crate::cases) struct Ground<const D: usize> {
+    pub(in crate::cases) slope: Slope,
+    /// Width (m); one metre in plane strain.
+    pub(in crate::cases) width: f64,
+    /// Distance of particles (m).
+    pub(in crate::cases) spacing: f64,
+    /// Particles across the width.
+    pub(in crate::cases) across: usize,
+    /// Time step (s), and number of steps in a row.
+    pub(in crate::cases) dt: f64,
+    pub(in crate::cases) steps_per_row: u64,
+    h: f64,
+    /// Length of the floor (m).
+    floor: f64,
+}
+
+impl<const D: usize> Ground<D> {
+    /// The ground of a setup, of this width (m).
+    ///
+    /// # Errors
+    /// Parameters that make no law.
+    pub(in crate::cases) fn new<P: ParameterSet>(
+        setup: &Setup<P>,
+        width: f64,
+    ) -> Result<Self, mpm_core::Error> {
+        let (slope, h) = (setup.slope(), setup.h);
+        let number = |p| setup.values.number(p);
+        let spacing = h / number(PPC_PER_DIRECTION);
+        // The speed of waves does not depend on the strength.
+        let wave_speed = slope
+            .law(Strength::perfect(1.0)?)?
+            .wave_speed(slope.density);
+        // The largest step of the CFL number of which a whole number makes a row.
+        let steps_per_row = (ROW / courant_time_step(number(CFL), h, wave_speed))
+            .ceil()
+            .max(1.0);
+        Ok(Self {
+            slope,
+            width,
+            spacing,
+            across: if D == 3 {
+                (width / spacing).round() as usize
+            } else {
+                1
+            },
+            dt: ROW / steps_per_row,
+            steps_per_row: steps_per_row as u64,
+            h,
+            floor: number(FLOOR),
+        })
+    }
+
+    /// Vertical stress (Pa) under the full height.
+    pub(in crate::cases) fn overburden(&self) -> f64 {
+        self.slope.density * GRAVITY * self.slope.section.height
+    }
+
+    fn grid(&self) -> Result<Grid<D>, mpm_core::Error> {
+        let cells = |length: f64| (length / self.h - 1e-9).ceil() as usize;
+        let open = |length| Axis::bounded(0.0, cells(length), (Side::Wall, Side::Open));
+        let along = open(self.slope.section.toe() + self.floor);
+        let upward = open(self.slope.section.height + ROOM);
+        let across = Axis::walls(0.0, cells(self.width));
+        Grid::new(self.h, std::array::from_fn(|a| [along, upward, across][a]))
+    }
+
+    /// The particles: places of the section in their order, at each those across the width.
+    pub(in crate::cases) fn seed(&self) -> Vec<[f64; D]> {
+        let coordinate = |k: usize| (k as f64 + 0.5) * self.spacing;
+        let section = self.slope.section.seed(self.spacing).into_iter();
+        section
+            .flat_map(|[x, y]| {
+                (0..self.across).map(move |k| std::array::from_fn(|a| [x, y, coordinate(k)][a]))
+            })
+            .collect()
+    }
+
+    /// A scene of the ground at rest and without stress, under gravity that rises over `rise` (s).
+    pub(in crate::cases) fn scene<P: ParameterSet>(
+        &self,
+        setup: &Setup<P>,
+        strength: Strength,
+        rise: f64,
+    ) -> Result<Scene<D, HenckyJ2>, mpm_core::Error> {
+        let volume = self.spacing.powi(D as i32);
+        let half_size = [0.5 * self.spacing; D];
+        let places = setup.start_at(self.seed());
+        let particles = Particles::new(places, volume, self.slope.density, half_size)?;
+        let weight = Gravity(Box::new(move |time| {
+            let mut g = [0.0; D];
+            g[1] = -GRAVITY * smooth_rise(time, rise);
+            g
+        }));
+        let body = Body::new(self.slope.law(strength)?, particles)?;
+        Ok(Scene::new(self.grid()?, body)
+            .load(weight)
+            .constrain_all(walls::<D>()))
+    }
+}
+
+/// The fixed base, then rollers at the back and, in three dimensions, at the sides.
+fn walls<const D: usize>() -> Vec<Wall> {
+    let wall = |axis, end, kind| Wall { axis, end, kind };
+    let mut walls = vec![
+        wall(1, End::Lo, WallKind::Fixed),
+        wall(0, End::Lo, WallKind::Roller),
+    ];
+    if D == 3 {
+        walls.push(wall(2, End::Lo, WallKind::Roller));
+        walls.push(wall(2, End::Hi, WallKind::Roller));
+    }
+    walls
+}

@@ -1,0 +1,56 @@
+//! The slope of clay that `landslide` and `slope-stability` share: parameters, section, ground and sketch.
+
+pub(super) mod ground;
+pub(super) mod section;
+
+use super::parameters as common;
+use crate::parameter::{Domain, Parameter, number, parameters};
+use crate::sketch::{Shape, Sketch};
+use section::Section;
+
+/// Stability number γH/c of a slope at 45° on a firm base and its bounds: docs/exact.md.
+pub(super) const STABILITY: (f64, f64, f64) = (6.04, 6.015, 6.078);
+
+pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS
+    .with_default("25e6")
+    .within(number(1e3, 1e12, false));
+pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.499");
+pub(super) const DENSITY: Parameter = common::DENSITY
+    .with_default("2150")
+    .within(number(1e-3, 1e5, false));
+parameters! { pub(super) const:
+    HEIGHT = "height", "m", "5", number(0.5, 100.0, false), "height H";
+    CREST = "crest", "m", "10", number(0.5, 200.0, false), "length of the crest behind the face";
+    FACE_ANGLE = "face_angle", "°", "45", number(5.0, 90.0, false),
+        "angle of the face against the horizontal";
+    FLOOR = "floor", "m", "30", number(1.0, 500.0, false), "length of the fixed floor before the toe";
+}
+pub(super) const CFL: Parameter = common::CFL.with_default("0.35").meaning(
+    "largest CFL number c Δt / h of pressure waves; Δt is a whole fraction of 0.01 s, 5·10⁻⁵ s at h = 0.2 m",
+);
+pub(super) const WALL: Parameter = common::WALL.meaning("how B-splines meet floor and walls");
+pub(super) const PPC_PER_DIRECTION: Parameter =
+    common::PPC_PER_DIRECTION.within(Domain::Integer { least: 1, most: 8 });
+
+/// The section, with its height (and width) as labelled.
+pub(super) fn sketch(height: &str) -> Sketch {
+    let section = Section {
+        height: 5.0,
+        crest: 10.0,
+        run: 5.0,
+    };
+    let shapes = vec![
+        Shape::Body(section.corners().to_vec()),
+        Shape::Held([24.0, 0.0], [0.0, 0.0]),
+        Shape::Held([0.0, 0.0], [0.0, 5.0]),
+        Shape::length([0.0, 5.7], [10.0, 5.7], "10 m"),
+        Shape::length([10.0, 5.7], [15.0, 5.7], "5 m"),
+        Shape::length([-0.7, 0.0], [-0.7, 5.0], height),
+        Shape::note([5.0, 2.5], "clay"),
+        Shape::note([19.0, 0.8], "fixed floor"),
+    ];
+    Sketch {
+        shapes,
+        description: "A slope of clay five metres high with a face at 45°; its crest is ten metres long, up to a smooth wall. The floor is fixed and runs on thirty metres past the toe.",
+    }
+}
