@@ -16,6 +16,7 @@ mod crash;
 pub mod draw;
 pub mod drive;
 pub mod error;
+pub(crate) mod figure;
 pub mod files;
 pub mod foreign;
 pub mod gallery;

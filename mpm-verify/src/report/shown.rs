@@ -8,7 +8,7 @@ use crate::cases;
 use crate::draw::write_small_png;
 use crate::error::Error;
 use crate::files::{DOCUMENT, discard, make_folder, read, write_whole};
-use crate::gallery::Picture;
+use crate::gallery::{Gallery, Picture};
 use crate::record::Record;
 use crate::study::convergence::convergence;
 use crate::study::gather::Gathered;
@@ -127,7 +127,9 @@ fn wanted(source: Source) -> String {
 fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
     let kept = rows::read(results)?;
     let mut records: Vec<Record> = kept.iter().filter_map(rows::Row::record).collect();
-    together::draw(&records, &out.join("results"))?;
+    let none = |_: &Record| Err(Error::Input("a kept row has no folder".to_owned()));
+    let mut gallery = Gallery::new("results", &records, &none, out);
+    together::draw(&mut gallery)?;
     for record in &mut records {
         record
             .metrics

@@ -1,20 +1,19 @@
 //! Pictures of several cases, a panel each: those that pages of cases share.
 
-use super::convergence::below_the_curves;
 use crate::case::Case;
 use crate::cases;
-use crate::draw::style::series;
-use crate::draw::{Chart, Dash, ReferenceLine, Scale, Series, draw_charts};
+use crate::draw::{Dash, ReferenceLine, Series};
 use crate::error::Error;
+use crate::figure::{Figure, Panel};
+use crate::gallery::Gallery;
 use crate::record::Record;
 use crate::scheme::{NameError, Scheme};
-use std::path::Path;
 
 /// Colour of what is predicted.
 const PREDICTION: usize = 7;
-const COLUMNS: usize = 3;
 
 /// What a panel has on its abscissa.
+#[derive(Clone, Copy)]
 enum Over {
     /// The size of cells.
     CellSize,
@@ -27,7 +26,8 @@ enum Over {
 use Over::{CellSize, Parameter, Prediction};
 
 /// What one case measures.
-struct Panel {
+#[derive(Clone, Copy)]
+struct Plot {
     case: &'static str,
     schemes: &'static [&'static str],
     /// What else is changed, where it is not what the convergence of the case has.
@@ -35,21 +35,44 @@ struct Panel {
     over: Over,
     metric: &'static str,
     label: &'static str,
-    scale: Scale,
+    linear: bool,
     /// What the metric should be.
     exact: Option<f64>,
 }
 
-const PANEL: Panel = Panel {
-    case: "",
-    schemes: &[],
-    set: None,
-    over: CellSize,
-    metric: "displacement_l2",
-    label: "rms error of u (m)",
-    scale: Scale::Log10,
-    exact: None,
-};
+/// A metric of a case over the size of cells.
+const fn plot(
+    case: &'static str,
+    schemes: &'static [&'static str],
+    (metric, label): (&'static str, &'static str),
+) -> Plot {
+    let (set, over, linear, exact) = (None, CellSize, false, None);
+    Plot {
+        case,
+        schemes,
+        set,
+        over,
+        metric,
+        label,
+        linear,
+        exact,
+    }
+}
+
+impl Plot {
+    const fn over(self, over: Over) -> Self {
+        Self { over, ..self }
+    }
+
+    const fn linear(self) -> Self {
+        Self {
+            linear: true,
+            ..self
+        }
+    }
+}
+
+const DISPLACEMENT: (&str, &str) = ("displacement_l2", "rms error of u (m)");
 
 /// Explicit FLIP: nothing, F̄ as printed, from rates and consistent.
 const REMEDIES: &[&str] = &[
@@ -83,228 +106,190 @@ const QUASI_STATIC: &[&str] = &[
     "quasi-static-bspline2-fbar-consistent",
 ];
 
-const MANUFACTURED: [Panel; 6] = {
-    const fn of(case: &'static str) -> Panel {
-        Panel {
-            case,
-            schemes: REMEDIES,
-            ..PANEL
-        }
-    }
-    [
-        of("mms-axis"),
-        of("mms-double-shear"),
-        of("mms-swirl"),
-        of("mms-vortex-pressure"),
-        of("mms-vortex-ring"),
-        of("mms-wall-pressure"),
-    ]
-};
-
-const OVER_CELLS: [Panel; 6] = [
-    Panel {
-        case: "mms-static",
-        schemes: QUASI_STATIC,
-        ..PANEL
-    },
-    Panel {
-        case: "mms-poro",
-        schemes: &[
-            "poro-gimp-two-grid",
-            "poro-gimp-equal",
-            "poro-gimp-ppp",
-            "poro-linear-two-grid",
-            "poro-linear-equal",
-            "poro-linear-ppp",
-        ],
-        metric: "pressure_l2",
-        label: "rms error of p (Pa)",
-        ..PANEL
-    },
-    Panel {
-        case: "vibrating-bar",
-        schemes: REMEDIES,
-        metric: "frequency_error",
-        label: "|relative error of the frequency|",
-        ..PANEL
-    },
-    Panel {
-        case: "thin",
-        schemes: &[
-            "linear-none-flip",
-            "linear-fbar-consistent-flip",
-            "gimp-none-flip",
-            "gimp-fbar-consistent-flip",
-            "bspline2-none-flip",
-            "bspline2-fbar-consistent-flip",
-        ],
-        metric: "frequency_ratio",
-        label: "frequency over the exact one",
-        scale: Scale::Linear,
-        exact: Some(1.0),
-        ..PANEL
-    },
-    Panel {
-        case: "sparse",
-        schemes: QUASI_STATIC,
-        set: Some(&["ppc_per_direction=2"]),
-        metric: "error_median",
-        label: "median error of the displacement",
-        ..PANEL
-    },
-    Panel {
-        case: "undrained",
-        schemes: &[
-            "poro-gimp-two-grid",
-            "poro-gimp-equal",
-            "poro-bspline2-two-grid",
-        ],
-        metric: "inf_sup",
-        label: "inf–sup constant",
-        ..PANEL
-    },
+const POROUS: &[&str] = &[
+    "poro-gimp-two-grid",
+    "poro-gimp-equal",
+    "poro-gimp-ppp",
+    "poro-linear-two-grid",
+    "poro-linear-equal",
+    "poro-linear-ppp",
 ];
-
-const HARD: [Panel; 6] = [
-    Panel {
-        case: "critical-step",
-        schemes: BASES,
-        over: Prediction("predicted_cfl"),
-        metric: "critical_cfl",
-        label: "largest stable CFL number, up to one",
-        ..PANEL
-    },
-    Panel {
-        case: "stretch",
-        schemes: BASES,
-        over: Prediction("predicted_noise"),
-        metric: "stress_noise",
-        label: "noise of the stress",
-        ..PANEL
-    },
-    Panel {
-        case: "spin",
-        schemes: &[
-            "gimp-none-flip",
-            "gimp-none-apic",
-            "gimp-none-xpic2",
-            "gimp-none-musl",
-            "bspline2-none-flip",
-            "bspline2-none-apic",
-            "bspline2-none-xpic2",
-        ],
-        over: Parameter("turns", "turns", "r4"),
-        metric: "angular_momentum_error",
-        label: "loss of angular momentum",
-        ..PANEL
-    },
-    Panel {
-        case: "shock",
-        schemes: NONE_AND_OURS,
-        over: Parameter("mach", "Mach number", "n64"),
-        metric: "overshoot",
-        label: "overshoot of the stress",
-        ..PANEL
-    },
-    Panel {
-        case: "newton",
-        schemes: QUASI_STATIC,
-        over: Parameter("load_steps", "load steps", "n8"),
-        metric: "equilibrium_error",
-        label: "error of equilibrium",
-        ..PANEL
-    },
-    Panel {
-        case: "conditioning",
-        schemes: &["poro-gimp-two-grid", "poro-linear-two-grid"],
-        over: Parameter("alpha", "ghost penalty α", "h0.1"),
-        metric: "log10_cond_uu",
-        label: "log₁₀ of the condition number",
-        scale: Scale::Linear,
-        ..PANEL
-    },
+const INF_SUP: &[&str] = &[
+    "poro-gimp-two-grid",
+    "poro-gimp-equal",
+    "poro-bspline2-two-grid",
 ];
+const THIN: &[&str] = &[
+    "linear-none-flip",
+    "linear-fbar-consistent-flip",
+    "gimp-none-flip",
+    "gimp-fbar-consistent-flip",
+    "bspline2-none-flip",
+    "bspline2-fbar-consistent-flip",
+];
+const TRANSFERS: &[&str] = &[
+    "gimp-none-flip",
+    "gimp-none-apic",
+    "gimp-none-xpic2",
+    "gimp-none-musl",
+    "bspline2-none-flip",
+    "bspline2-none-apic",
+    "bspline2-none-xpic2",
+];
+const TWO_GRIDS: &[&str] = &["poro-gimp-two-grid", "poro-linear-two-grid"];
 
 /// Names of the pictures, without their ending, and their panels.
-const PICTURES: [(&str, &[Panel; 6]); 3] = [
-    ("manufactured", &MANUFACTURED),
-    ("over-cells", &OVER_CELLS),
-    ("hard-cases", &HARD),
+const PICTURES: [(&str, [Plot; 6]); 3] = [
+    (
+        "manufactured",
+        [
+            plot("mms-axis", REMEDIES, DISPLACEMENT),
+            plot("mms-double-shear", REMEDIES, DISPLACEMENT),
+            plot("mms-swirl", REMEDIES, DISPLACEMENT),
+            plot("mms-vortex-pressure", REMEDIES, DISPLACEMENT),
+            plot("mms-vortex-ring", REMEDIES, DISPLACEMENT),
+            plot("mms-wall-pressure", REMEDIES, DISPLACEMENT),
+        ],
+    ),
+    (
+        "over-cells",
+        [
+            plot("mms-static", QUASI_STATIC, DISPLACEMENT),
+            plot("mms-poro", POROUS, ("pressure_l2", "rms error of p (Pa)")),
+            plot(
+                "vibrating-bar",
+                REMEDIES,
+                ("frequency_error", "|relative error of the frequency|"),
+            ),
+            Plot {
+                exact: Some(1.0),
+                ..plot(
+                    "thin",
+                    THIN,
+                    ("frequency_ratio", "frequency over the exact one"),
+                )
+                .linear()
+            },
+            Plot {
+                set: Some(&["ppc_per_direction=2"]),
+                ..plot(
+                    "sparse",
+                    QUASI_STATIC,
+                    ("error_median", "median error of the displacement"),
+                )
+            },
+            plot("undrained", INF_SUP, ("inf_sup", "inf–sup constant")),
+        ],
+    ),
+    (
+        "hard-cases",
+        [
+            plot(
+                "critical-step",
+                BASES,
+                ("critical_cfl", "largest stable CFL number, up to one"),
+            )
+            .over(Prediction("predicted_cfl")),
+            plot("stretch", BASES, ("stress_noise", "noise of the stress"))
+                .over(Prediction("predicted_noise")),
+            plot(
+                "spin",
+                TRANSFERS,
+                ("angular_momentum_error", "loss of angular momentum"),
+            )
+            .over(Parameter("turns", "turns", "r4")),
+            plot(
+                "shock",
+                NONE_AND_OURS,
+                ("overshoot", "overshoot of the stress"),
+            )
+            .over(Parameter("mach", "Mach number", "n64")),
+            plot(
+                "newton",
+                QUASI_STATIC,
+                ("equilibrium_error", "error of equilibrium"),
+            )
+            .over(Parameter("load_steps", "load steps", "n8")),
+            plot(
+                "conditioning",
+                TWO_GRIDS,
+                ("log10_cond_uu", "log₁₀ of the condition number"),
+            )
+            .over(Parameter("alpha", "ghost penalty α", "h0.1"))
+            .linear(),
+        ],
+    ),
 ];
 
-/// Draws them into `out`, each if there are runs for all of its panels.
+/// Draws them, each if there are runs for all of its panels.
 ///
 /// # Errors
 /// A picture can't be written.
-pub(super) fn draw(records: &[Record], out: &Path) -> Result<(), Error> {
-    for (name, panels) in PICTURES {
-        let charts = panels.iter().map(|panel| panel.chart(records));
-        let charts = charts.collect::<Result<Vec<Chart>, Error>>()?;
-        if charts.iter().all(Chart::shows_something) {
-            draw_charts(&out.join(format!("{name}.png")), &charts, COLUMNS)?;
-        }
+pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
+    for (name, plots) in PICTURES {
+        let panels = plots.iter().map(|plot| plot.panel(gallery.records));
+        let panels = panels.collect::<Result<Vec<_>, Error>>()?;
+        Figure::new(name, "", panels).whole().draw(gallery)?;
     }
     Ok(())
 }
 
-impl Panel {
-    fn chart(&self, records: &[Record]) -> Result<Chart, Error> {
+impl Plot {
+    fn panel<'a>(&self, records: &'a [Record]) -> Result<Panel<'a>, Error> {
         let case = cases::find(self.case)?;
-        let (x_label, joined) = match self.over {
-            CellSize => ("cell size h (m)", true),
-            Parameter(_, label, _) => (label, true),
-            Prediction(_) => ("predicted", false),
+        let x = match self.over {
+            CellSize => "cell size h (m)",
+            Parameter(_, label, _) => label,
+            Prediction(_) => "predicted",
         };
-        // One without runs too, so that panels may share a legend.
-        let curve = |name: &&str| {
-            let scheme = Scheme::parse(name)?;
-            let own = records
-                .iter()
-                .filter(|r| r.case == self.case && r.scheme() == scheme);
-            let points = own.filter_map(|r| self.point(case, r));
-            let mut points: Vec<(f64, f64)> = points.collect();
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let curve = series(scheme, points);
-            let dash = if joined { curve.dash } else { Dash::None };
-            Ok(Series { dash, ..curve })
+        let schemes = self.schemes.iter().map(|name| Scheme::parse(name));
+        let schemes = schemes.collect::<Result<Vec<Scheme>, NameError>>()?;
+        let is_own = |r: &&Record| r.case == self.case && self.abscissa(case, r).is_some();
+        let runs: Vec<&Record> = records.iter().filter(is_own).collect();
+        let point = |r: &Record| {
+            let (x, y) = (
+                self.abscissa(case, r).unwrap_or(f64::NAN),
+                r.value(self.metric),
+            );
+            (x, if self.linear { y } else { y.abs() })
         };
-        let curves = self.schemes.iter().map(curve);
-        let mut curves = curves.collect::<Result<Vec<Series>, NameError>>()?;
-        let mut quantities = case.quantities.iter();
-        let quantity = quantities.find(|q| q.metric.name == self.metric);
-        let slope = quantity
-            .and_then(|q| q.order)
-            .filter(|_| matches!(self.over, CellSize));
-        let triangle =
-            slope.and_then(|slope| below_the_curves(slope, curves.iter().map(|c| &c.points[..])));
-        if !joined {
-            let all = curves.iter().flat_map(|c| &c.points);
-            let ends = all.fold((f64::INFINITY, 0.0_f64), |(lo, hi), p| {
-                (lo.min(p.0), hi.max(p.0))
-            });
-            let line = vec![(ends.0, ends.0), (ends.1, ends.1)];
-            curves.insert(0, Series::line("as predicted", line, PREDICTION));
+        let panel = Panel::new(case.title, [x, self.label]).log_x();
+        let panel = if self.linear { panel } else { panel.log_y() };
+        let mut panel = panel.points_of(schemes, &runs, point);
+        if let Prediction(_) = self.over {
+            panel = panel
+                .styled(|_, curve| Series {
+                    dash: Dash::None,
+                    ..curve
+                })
+                .identity("as predicted", PREDICTION);
         }
-        let exact = self.exact.map(|value| ReferenceLine {
-            name: "exact".to_owned(),
-            value,
-            band: None,
-        });
-        Ok(Chart {
-            x_scale: Scale::Log10,
-            y_scale: self.scale,
-            reference_lines: exact.into_iter().collect(),
-            slope_triangle: triangle,
-            ..Chart::new(case.title, [x_label, self.label], curves)
-        })
+        if let CellSize = self.over {
+            let mut own = case
+                .quantities
+                .iter()
+                .filter(|q| q.metric.name == self.metric);
+            panel = own
+                .next()
+                .and_then(|q| q.order)
+                .into_iter()
+                .fold(panel, Panel::order);
+        }
+        Ok(self.exact.into_iter().fold(panel, |panel, value| {
+            panel.level(ReferenceLine {
+                name: "exact".to_owned(),
+                value,
+                band: None,
+            })
+        }))
     }
 
-    /// The point of a run, if it is on the curve of its scheme.
-    fn point(&self, case: &Case, run: &Record) -> Option<(f64, f64)> {
+    /// Where a run stands, if it is on the curve of its scheme.
+    fn abscissa(&self, case: &Case, run: &Record) -> Option<f64> {
         let fixed = self.set.unwrap_or(case.ladder);
-        let x = match self.over {
-            CellSize => (run.set == fixed).then_some(run.discretisation.h)?,
-            Prediction(metric) => run.value(metric),
+        match self.over {
+            CellSize => (run.set == fixed).then_some(run.discretisation.h),
+            Prediction(metric) => Some(run.value(metric)),
             Parameter(name, _, level) => {
                 let value = |assignment: &String| {
                     let (changed, value) = assignment.split_once('=')?;
@@ -314,17 +299,11 @@ impl Panel {
                 let own = run.level == level && others.eq(fixed.iter());
                 let changed = run.set.iter().find_map(value);
                 let default = || case.parameters.iter().find(|p| p.name == name);
-                let x = changed.or_else(|| default()?.default.parse().ok());
-                x.filter(|_| own)?
+                changed
+                    .or_else(|| default()?.default.parse().ok())
+                    .filter(|_| own)
             }
-        };
-        let y = match self.scale {
-            Scale::Log10 => run.value(self.metric).abs(),
-            Scale::Linear => run.value(self.metric),
-        };
-        let shown =
-            x > 0.0 && x.is_finite() && y.is_finite() && (y > 0.0 || self.scale == Scale::Linear);
-        shown.then_some((x, y))
+        }
     }
 }
 
@@ -336,7 +315,7 @@ mod tests {
 
     #[test]
     fn panels_name_what_there_is() {
-        for panel in PICTURES.iter().flat_map(|(_, panels)| panels.iter()) {
+        for panel in PICTURES.iter().flat_map(|(_, plots)| plots.iter()) {
             let case = cases::find(panel.case).unwrap();
             let metric = |name: &str| case.metrics.iter().any(|m| m.name == name);
             assert!(metric(panel.metric), "{}: {}", panel.case, panel.metric);
@@ -358,7 +337,7 @@ mod tests {
 
     #[test]
     fn a_curve_has_the_runs_that_differ_in_its_abscissa_alone() {
-        let [.., shock, _, _] = &HARD;
+        let [.., (_, [.., shock, _, _])] = &PICTURES;
         let case = cases::find(shock.case).unwrap();
         let run = |level: &str, set: &[&str], overshoot: f64| {
             let mut run = record(level, Vec::new());
@@ -378,7 +357,7 @@ mod tests {
         ];
         let mach = case.parameters.iter().find(|p| p.name == "mach").unwrap();
         let own: f64 = mach.default.parse().unwrap();
-        let chart = shock.chart(&runs).unwrap();
+        let chart = shock.panel(&runs).unwrap().chart().unwrap();
         assert_eq!(chart.series.len(), shock.schemes.len());
         assert_eq!(chart.series[0].points, [(own, 0.7), (2.0, 6.0)]);
     }
