@@ -175,3 +175,28 @@ pub(super) fn nearest<'a>(case: &Case, study: &'a CaseStudy) -> Option<Nearest<'
         run: name(run),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases;
+    use crate::check::Finding;
+    use crate::record::fixture::record;
+
+    #[test]
+    fn the_nearest_value_is_of_a_run_that_is_right() {
+        let edge = |distance: f64| {
+            Finding::within("fem_edge_mean_error", 1.0 + distance, 1.0, 0.1, "")
+                .verdict("edge", Kind::Truth)
+        };
+        let wrong = Finding::within("at_rest", 0.0, 1.0, 0.0, "").verdict("at-rest", Kind::Truth);
+        let runs = vec![
+            record("h2", vec![edge(0.05)]),
+            record("h1", vec![edge(0.025)]),
+            record("h0.5", vec![edge(0.0125), wrong]),
+        ];
+        let study = CaseStudy::new("cook", runs);
+        let found = nearest(cases::find("cook").unwrap(), &study).unwrap();
+        assert!(found.run.contains("h1") && found.error.contains("0.025"));
+    }
+}

@@ -1,14 +1,13 @@
-//! A document as a tree of sections, paragraphs, tables and figures, and what writes it: Markdown here, HTML by a template.
+//! A document as a tree of sections, paragraphs, tables and figures, which is written in Markdown, in HTML and on the terminal.
+
+mod markdown;
+mod page;
+pub(super) mod terminal;
 
 use super::words;
-use crate::error::Error;
-use crate::files::write_whole;
 use crate::gallery::Picture;
 use crate::table::Sheet;
 use crate::verdict::Outcome;
-use minijinja::syntax::SyntaxConfig;
-use minijinja::value::{Serde, Value};
-use minijinja::{AutoEscape, Environment, UndefinedBehavior};
 use serde::Serialize;
 use std::path::Path;
 
@@ -83,6 +82,11 @@ impl Text {
         Self::default().span("image", caption, file)
     }
 
+    /// The words alone.
+    fn words(&self) -> String {
+        self.0.iter().map(|span| &*span.text).collect()
+    }
+
     /// Without the targets of links.
     pub(super) fn unlinked(mut self) -> Self {
         for span in self.0.iter_mut().filter(|span| span.kind == "link") {
@@ -113,18 +117,6 @@ impl Text {
         let texts = texts.into_iter();
         let all = texts.reduce(|all, next| all.then(between).then(next));
         all.unwrap_or_default()
-    }
-
-    pub(super) fn markdown(&self) -> String {
-        let span = |Span { kind, text, to }: &Span| match *kind {
-            "code" => format!("`{text}`"),
-            "strong" => format!("**{text}**"),
-            "link" => format!("[{text}]({to})"),
-            "image" => format!("![{text}]({to})"),
-            "break" => "  \n".to_owned(),
-            _ => text.replace('&', "&amp;").replace('<', "&lt;"),
-        };
-        self.0.iter().map(span).collect()
     }
 }
 
@@ -229,15 +221,6 @@ impl From<Sheet> for Table {
     }
 }
 
-impl Table {
-    pub(super) fn markdown(&self) -> String {
-        let text = |cell: &Cell| cell.text.markdown().replace('\n', " ") + &cell.aside;
-        let row = |row: &Row| row.cells.iter().map(text).collect();
-        let sheet = Sheet::new(self.head.iter().map(text));
-        sheet.with(self.rows.iter().map(row)).markdown()
-    }
-}
-
 /// A picture with its caption and, if they are there, its SVG and the still of an animation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Shown {
@@ -307,14 +290,6 @@ enum Block {
         summary: String,
         blocks: Vec<Block>,
     },
-}
-
-/// What the template of a page is given.
-#[derive(Serialize)]
-struct Page<'a> {
-    title: &'a str,
-    links: Vec<Text>,
-    blocks: &'a [Block],
 }
 
 /// A document.
@@ -402,73 +377,6 @@ impl Document {
     pub(super) fn unfold(&mut self) {
         if let Some(Block::Folded { open, .. }) = self.blocks.last_mut() {
             *open = true;
-        }
-    }
-
-    /// In Markdown.
-    pub(super) fn markdown(&self) -> String {
-        let blocks: Vec<String> = self.blocks.iter().map(Block::markdown).collect();
-        blocks.join("\n")
-    }
-
-    /// Writes it as a page with links to others at its head.
-    pub(super) fn write_page(
-        &self,
-        title: &str,
-        links: Vec<Text>,
-        path: &Path,
-    ) -> Result<(), Error> {
-        let text = self.page(title, links).map_err(|e| Error::file(path, e))?;
-        write_whole(path, text.as_bytes())
-    }
-
-    fn page(&self, title: &str, links: Vec<Text>) -> Result<String, minijinja::Error> {
-        let mut environment = Environment::new();
-        environment.set_undefined_behavior(UndefinedBehavior::Strict);
-        environment.set_auto_escape_callback(|_| AutoEscape::Html);
-        let syntax = SyntaxConfig::builder()
-            .trim_blocks(true)
-            .lstrip_blocks(true)
-            .build()?;
-        environment.set_syntax(syntax);
-        environment.add_template("style.css", include_str!("../../templates/style.css"))?;
-        environment.add_template("page.html", include_str!("../../templates/page.html"))?;
-        let page = environment.get_template("page.html")?;
-        let blocks = &self.blocks;
-        page.render(Value::from(Serde(Page {
-            title,
-            links,
-            blocks,
-        })))
-    }
-}
-
-impl Block {
-    fn markdown(&self) -> String {
-        match self {
-            Self::Heading { level, text, .. } => {
-                format!("{} {}\n", "#".repeat(*level), text.markdown())
-            }
-            Self::Paragraph { text, .. } => text.markdown() + "\n",
-            Self::Table { table, .. } => table.markdown(),
-            Self::Picture {
-                picture: Shown { file, caption, .. },
-            } => format!("![{caption}]({file})\n"),
-            Self::Drawing { caption, .. } => format!("{caption}\n"),
-            Self::List { items } => items
-                .iter()
-                .map(|item| format!("- {}\n", item.markdown()))
-                .collect(),
-            Self::Facts { facts } => facts
-                .iter()
-                .map(|[name, value]| format!("- {name}: {value}\n"))
-                .collect(),
-            Self::Folded {
-                summary, blocks, ..
-            } => {
-                let blocks: Vec<String> = blocks.iter().map(Self::markdown).collect();
-                format!("### {summary}\n\n{}", blocks.join("\n"))
-            }
         }
     }
 }
