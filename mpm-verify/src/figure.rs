@@ -444,3 +444,27 @@ pub(crate) fn below_the_curves<'a>(
         decades,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_triangle_lies_below_all_curves() {
+        let steep = [(1.0, 0.1), (0.5, 0.025), (0.25, 0.006)];
+        let flat = [(1.0, 0.04), (0.25, 0.03)];
+        let triangle = below_the_curves(2.0, [&steep[..], &flat[..]].into_iter()).unwrap();
+        let (left, bottom) = triangle.at;
+        let right = left * 10f64.powf(triangle.decades);
+        let top = bottom * (right / left).powi(2);
+        assert!(
+            (right - 1.0).abs() < 1e-12 && top < 0.04 / 1.2,
+            "{triangle:?}"
+        );
+    }
+
+    #[test]
+    fn one_level_has_no_triangle() {
+        assert_eq!(below_the_curves(1.0, [&[(1.0, 0.1)][..]].into_iter()), None);
+    }
+}

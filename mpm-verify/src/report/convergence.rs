@@ -4,8 +4,9 @@ use super::price;
 use crate::cases;
 use crate::distinct;
 use crate::draw::style::{Panel, Panels};
-use crate::draw::{Chart, Dash, Marker, ReferenceLine, Scale, Series, SlopeTriangle};
+use crate::draw::{Chart, Dash, Marker, ReferenceLine, Scale, Series};
 use crate::error::Error;
+use crate::figure::{Points, below_the_curves};
 use crate::files::{write_csv, write_json};
 use crate::gallery::Picture;
 use crate::metric::Quantity;
@@ -13,7 +14,7 @@ use crate::scheme::Scheme;
 use crate::study::convergence::{Convergence, Point, precision};
 use crate::study::summary::CaseStudy;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The picture that shows times taken.
 pub(super) const CPU_PICTURE: &str = "cpu-precision.png";
@@ -22,10 +23,6 @@ pub(super) const CPU_PICTURE: &str = "cpu-precision.png";
 const GAIN: f64 = 0.9;
 /// Colour of the front.
 const FRONT: usize = 7;
-/// Room between a slope triangle and the curves above it, as a ratio of errors.
-const CLEARANCE: f64 = 1.3;
-/// Width of a slope triangle, as a share of that of the curves.
-const SHARE: f64 = 0.22;
 
 /// Writes the numbers of the study and draws every error against cell size and every quantity of the case's own problem
 /// against cost.
@@ -36,48 +33,62 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
 
     let case = cases::find(&study.case)?;
     let mut pictures = Vec::new();
-    let mut draw = |diagram: &Diagram, name: &str, against: Against, caption: String| {
-        let file = format!("{}/{name}", study.case);
-        let files = diagram.draw(&out.join(&file), against)?;
-        pictures.extend(Picture::of_files(&study.case, files, &caption));
-        Ok::<(), Error>(())
-    };
     let errors = || study.convergence.iter().filter(|c| c.is_error);
     for set in distinct(errors().map(|c| &c.set[..])) {
-        let diagram = Diagram {
-            entries: errors().filter(|c| c.set == set).collect(),
-            quantities: &case.quantities,
-        };
-        let changed = if set.is_empty() {
-            String::new()
-        } else {
-            format!(" with {}", set.join(", "))
-        };
-        let name = if set == case.ladder {
-            "convergence.png".to_owned()
-        } else if set.is_empty() {
-            "convergence-own.png".to_owned()
-        } else {
-            format!("convergence-{}.png", slug(set))
+        let (changed, name) = match (set.is_empty(), set == case.ladder) {
+            (true, true) => (String::new(), "convergence.png".to_owned()),
+            (true, false) => (String::new(), "convergence-own.png".to_owned()),
+            (false, is_ladder) => (
+                format!(" with {}", set.join(", ")),
+                match is_ladder {
+                    true => "convergence.png".to_owned(),
+                    false => format!("convergence-{}.png", slug(set)),
+                },
+            ),
         };
         let caption = format!(
             "Error against cell size{changed}, for every scheme, converging or not. Both axes are logarithmic; a triangle shows the order that theory gives, a dashed line the uncertainty of the reference."
         );
-        draw(&diagram, &name, Against::Size, caption)?;
+        let entries: Vec<&Convergence> = errors().filter(|c| c.set == set).collect();
+        let schemes = entries.iter().map(|c| c.scheme).collect();
+        let chart = |q: &&Quantity, panel: &Panel| by_size(&entries, q, panel);
+        pictures.extend(draw_errors(study, &schemes, chart, (&name, &caption), out)?);
     }
     let costs = precision(case, &study.records);
-    let diagram = Diagram {
-        entries: costs.iter().collect(),
-        quantities: &case.quantities,
-    };
-    for (cost, name) in [(&PAIRS, "work-precision.png"), (&TIME, CPU_PICTURE)] {
-        let what = cost.what;
+    let costs: Vec<&Convergence> = costs.iter().collect();
+    let schemes = costs.iter().map(|c| c.scheme).collect();
+    for cost in [&PAIRS, &TIME] {
         let caption = format!(
-            "Error against its cost in {what}. Each line joins a scheme's best runs at rising cost, each at least a tenth more accurate than the last, whatever their time step and number of particles per cell; dots are its other runs. The grey staircase is the front over all schemes, the same in every panel of an error; runs on it are ringed."
+            "Error against its cost in {}. Each line joins a scheme's best runs at rising cost, each at least a tenth more accurate than the last, whatever their time step and number of particles per cell; dots are its other runs. The grey staircase is the front over all schemes, the same in every panel of an error; runs on it are ringed.",
+            cost.what
         );
-        draw(&diagram, name, Against::Cost(cost), caption)?;
+        let chart = |q: &&Quantity, panel: &Panel| by_cost(&costs, q, cost, panel);
+        pictures.extend(draw_errors(
+            study,
+            &schemes,
+            chart,
+            (cost.file, &caption),
+            out,
+        )?);
     }
     Ok(pictures)
+}
+
+/// Draws a row of panels for every error of a case that has something to show.
+pub(super) fn draw_errors(
+    study: &CaseStudy,
+    schemes: &BTreeSet<Scheme>,
+    chart: impl Fn(&&Quantity, &Panel) -> Chart,
+    (name, caption): (&str, &str),
+    out: &Path,
+) -> Result<Vec<Picture>, Error> {
+    let errors = cases::find(&study.case)?
+        .quantities
+        .iter()
+        .filter(|q| q.is_error);
+    let place = out.join(&study.case).join(name);
+    let files = Panels::new(schemes).draw(&place, errors, chart)?;
+    Ok(Picture::of_files(&study.case, files, caption))
 }
 
 /// The changed parameters as part of a file's name.
@@ -118,6 +129,7 @@ fn write_points(convergence: &[Convergence], path: &Path) -> Result<(), Error> {
 
 /// What a run costs.
 struct Cost {
+    file: &'static str,
     /// In words.
     what: &'static str,
     label: &'static str,
@@ -125,158 +137,104 @@ struct Cost {
 }
 
 const PAIRS: Cost = Cost {
+    file: "work-precision.png",
     what: "particle–node pairs visited",
     label: "particle–node pairs",
     of: |p| p.particle_node_pairs as f64,
 };
 const TIME: Cost = Cost {
+    file: CPU_PICTURE,
     what: "CPU time (one thread)",
     label: "CPU time (s)",
     of: |p| p.cpu_s,
 };
 
-/// What is drawn against what.
-#[derive(Clone, Copy)]
-enum Against {
-    /// Errors against cell size.
-    Size,
-    /// Errors against cost.
-    Cost(&'static Cost),
+/// The sizes of an error of some schemes. One of zero has no logarithm.
+fn points(
+    entries: &[&Convergence],
+    quantity: &Quantity,
+    x: fn(&Point) -> f64,
+    is_shown: impl Fn(Scheme) -> bool,
+) -> Points {
+    let own = entries
+        .iter()
+        .filter(|c| c.metric == quantity.metric.name && is_shown(c.scheme));
+    let points = own.flat_map(|c| &c.points).map(|p| (x(p), p.value.abs()));
+    points.filter(|(x, y)| *x > 0.0 && *y > 0.0).collect()
 }
 
-/// Quantities that share their axes.
-struct Diagram<'a> {
-    entries: Vec<&'a Convergence>,
-    quantities: &'a [Quantity],
-}
-
-impl Diagram<'_> {
-    /// Draws every quantity that has something to show; returns the files.
-    fn draw(&self, path: &Path, against: Against) -> Result<Vec<PathBuf>, Error> {
-        let schemes: BTreeSet<Scheme> = self.entries.iter().map(|c| c.scheme).collect();
-        let quantities = self.quantities.iter().filter(|q| q.is_error);
-        let chart = |quantity: &&Quantity, panel: &Panel| match against {
-            Against::Size => self.by_size(quantity, panel),
-            Against::Cost(cost) => self.error_by_cost(quantity, cost, panel),
-        };
-        Ok(Panels::new(&schemes).draw(path, quantities, chart)?)
-    }
-
-    /// The curves of a quantity.
-    fn of(&self, quantity: &Quantity) -> impl Iterator<Item = &Convergence> {
-        let metric = quantity.metric.name;
-        let own = self.entries.iter().filter(move |c| c.metric == metric);
-        own.copied()
-    }
-
-    fn by_size(&self, quantity: &Quantity, panel: &Panel) -> Chart {
-        let series = panel.curves(|scheme| {
-            let own = self.of(quantity).filter(|c| c.scheme == scheme);
-            own.flat_map(|c| positive(c, |p| p.h)).collect()
-        });
-        let slope_triangle = quantity
-            .order
-            .and_then(|slope| below_the_curves(slope, series.iter().map(|s| &s.points[..])));
-        Chart {
-            slope_triangle,
-            ..self.axes(quantity, "cell size h (m)", panel, series)
-        }
-    }
-
-    fn error_by_cost(&self, quantity: &Quantity, cost: &Cost, panel: &Panel) -> Chart {
-        let runs = |of: &dyn Fn(Scheme) -> bool| -> Vec<(f64, f64)> {
-            let own = self.of(quantity).filter(|c| of(c.scheme));
-            own.flat_map(|c| positive(c, cost.of)).collect()
-        };
-        let own = |scheme| runs(&|s| s == scheme);
-        let dots = panel.curves(own).into_iter().map(|curve| Series {
-            name: String::new(),
-            marker: Marker::Dot,
-            dash: Dash::None,
-            ..curve
-        });
-        let curves = panel.curves(|scheme| price::front(own(scheme), GAIN));
-        let front = price::front(runs(&|_| true), 1.0);
-        let here = runs(&|s| panel.schemes.contains(&s));
-        let line = Series::line("front", price::steps(&front), FRONT);
-        let rings = Series {
-            name: "on the front".to_owned(),
-            points: front.into_iter().filter(|p| here.contains(p)).collect(),
-            marker: Marker::Ring,
-            dash: Dash::None,
-            ..line.clone()
-        };
-        let series = [line].into_iter().chain(dots).chain(curves).chain([rings]);
-        self.axes(quantity, cost.label, panel, series.collect())
-    }
-
-    /// A chart of `series`, with logarithmic axes.
-    fn axes(&self, quantity: &Quantity, x: &str, panel: &Panel, series: Vec<Series>) -> Chart {
-        let negative = |c: &Convergence| c.points.iter().any(|p| p.value < 0.0);
-        let signed = self.of(quantity).any(negative);
-        let labels = [x, &error_label(quantity, signed)];
-        let uncertainty = quantity.uncertainty.map(|value| ReferenceLine {
-            name: "uncertainty of the reference".to_owned(),
-            value,
-            band: None,
-        });
-        Chart {
-            x_scale: Scale::Log10,
-            y_scale: Scale::Log10,
-            reference_lines: uncertainty.into_iter().collect(),
-            ..Chart::new(panel.title.clone(), labels, series)
-        }
+fn by_size(entries: &[&Convergence], quantity: &Quantity, panel: &Panel) -> Chart {
+    let series = panel.curves(|scheme| points(entries, quantity, |p| p.h, |s| s == scheme));
+    let curves = || series.iter().map(|s| &s.points[..]);
+    let slope_triangle = quantity
+        .order
+        .and_then(|slope| below_the_curves(slope, curves()));
+    Chart {
+        slope_triangle,
+        ..chart(entries, quantity, "cell size h (m)", panel, series)
     }
 }
 
-/// The magnitudes of an error. One of zero has no logarithm.
-fn positive(curve: &Convergence, of: fn(&Point) -> f64) -> impl Iterator<Item = (f64, f64)> {
-    let points = curve.points.iter().map(move |p| (of(p), p.value.abs()));
-    points.filter(|(x, y)| *x > 0.0 && *y > 0.0)
-}
-
-/// How the axis of an error is labelled on which its magnitude is drawn.
-pub(super) fn error_label(quantity: &Quantity, signed: bool) -> String {
-    if signed {
-        format!("|{}|", quantity.label)
-    } else {
-        quantity.label.to_owned()
-    }
-}
-
-/// A triangle at the right end, below every curve that passes there.
-pub(super) fn below_the_curves<'a>(
-    slope: f64,
-    curves: impl Iterator<Item = &'a [(f64, f64)]> + Clone,
-) -> Option<SlopeTriangle> {
-    let xs = || curves.clone().flatten().map(|p| p.0);
-    let (least, most) = (xs().fold(f64::INFINITY, f64::min), xs().fold(0.0, f64::max));
-    let decades = SHARE * (most / least).log10();
-    if !(decades > 0.0 && decades.is_finite()) {
-        return None;
-    }
-    let left = most / 10f64.powf(decades);
-    let at_left = |pair: &[(f64, f64)]| {
-        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
-        let share = (left / x0).ln() / (x1 / x0).ln();
-        (0.0..=1.0)
-            .contains(&share)
-            .then(|| y0 * (y1 / y0).powf(share))
+fn by_cost(entries: &[&Convergence], quantity: &Quantity, cost: &Cost, panel: &Panel) -> Chart {
+    let own = |scheme| points(entries, quantity, cost.of, |s| s == scheme);
+    let dots = panel.curves(own).into_iter().map(|curve| Series {
+        name: String::new(),
+        marker: Marker::Dot,
+        dash: Dash::None,
+        ..curve
+    });
+    let curves = panel.curves(|scheme| price::front(own(scheme), GAIN));
+    let front = price::front(points(entries, quantity, cost.of, |_| true), 1.0);
+    let here = points(entries, quantity, cost.of, |s| panel.schemes.contains(&s));
+    let line = Series::line("front", price::steps(&front), FRONT);
+    let rings = Series {
+        name: "on the front".to_owned(),
+        points: front.into_iter().filter(|p| here.contains(p)).collect(),
+        marker: Marker::Ring,
+        dash: Dash::None,
+        ..line.clone()
     };
-    let crossing = curves
-        .clone()
-        .flat_map(|c| c.windows(2).filter_map(at_left));
-    let inside = curves
-        .clone()
-        .flatten()
-        .filter(|p| p.0 >= left)
-        .map(|p| p.1);
-    let lowest = crossing.chain(inside).fold(f64::INFINITY, f64::min);
-    Some(SlopeTriangle {
-        slope,
-        at: (left, lowest / CLEARANCE / 10f64.powf(slope * decades)),
-        decades,
-    })
+    let series = [line].into_iter().chain(dots).chain(curves).chain([rings]);
+    chart(entries, quantity, cost.label, panel, series.collect())
+}
+
+fn chart(
+    entries: &[&Convergence],
+    quantity: &Quantity,
+    x: &str,
+    panel: &Panel,
+    series: Vec<Series>,
+) -> Chart {
+    let own = entries.iter().filter(|c| c.metric == quantity.metric.name);
+    let has_sign = own.flat_map(|c| &c.points).any(|p| p.value < 0.0);
+    let uncertainty = quantity.uncertainty.map(|value| ReferenceLine {
+        name: "uncertainty of the reference".to_owned(),
+        value,
+        band: None,
+    });
+    Chart {
+        x_scale: Scale::Log10,
+        reference_lines: uncertainty.into_iter().collect(),
+        ..error_chart(quantity, has_sign, x, panel, series)
+    }
+}
+
+/// Curves of the size of an error on a logarithmic axis.
+pub(super) fn error_chart(
+    quantity: &Quantity,
+    has_sign: bool,
+    x: &str,
+    panel: &Panel,
+    series: Vec<Series>,
+) -> Chart {
+    let label = match has_sign {
+        true => format!("|{}|", quantity.label),
+        false => quantity.label.to_owned(),
+    };
+    Chart {
+        y_scale: Scale::Log10,
+        ..Chart::new(panel.title.clone(), [x, &label], series)
+    }
 }
 
 #[cfg(test)]
@@ -317,14 +275,11 @@ mod tests {
             curve(RemedyName::None, &[(20, 0.6), (50, -0.2), (200, 0.099)]),
             curve(RemedyName::FbarRate, &[(40, 0.3), (400, 0.02)]),
         ];
-        let diagram = Diagram {
-            entries: curves.iter().collect(),
-            quantities: &[],
-        };
+        let entries: Vec<&Convergence> = curves.iter().collect();
         let charts = RefCell::new(Vec::new());
         let folder = tempfile::tempdir().unwrap();
         let chart = |quantity: &Quantity, panel: &Panel| {
-            let chart = diagram.error_by_cost(quantity, &PAIRS, panel);
+            let chart = by_cost(&entries, quantity, &PAIRS, panel);
             charts.borrow_mut().push(chart.clone());
             chart
         };
@@ -360,24 +315,5 @@ mod tests {
         let slug = |set: &[&str]| slug(&set.iter().map(|s| (*s).to_owned()).collect::<Vec<_>>());
         assert_eq!(slug(&["poisson_ratio=0.4999"]), "poisson_ratio-0.4999");
         assert_eq!(slug(&["load=-2", "wall=a/b"]), "load--2+wall-a-b");
-    }
-
-    #[test]
-    fn the_triangle_lies_below_all_curves() {
-        let steep = [(1.0, 0.1), (0.5, 0.025), (0.25, 0.006)];
-        let flat = [(1.0, 0.04), (0.25, 0.03)];
-        let triangle = below_the_curves(2.0, [&steep[..], &flat[..]].into_iter()).unwrap();
-        let (left, bottom) = triangle.at;
-        let right = left * 10f64.powf(triangle.decades);
-        let top = bottom * (right / left).powi(2);
-        assert!(
-            (right - 1.0).abs() < 1e-12 && top < 0.04 / 1.2,
-            "{triangle:?}"
-        );
-    }
-
-    #[test]
-    fn one_level_has_no_triangle() {
-        assert_eq!(below_the_curves(1.0, [&[(1.0, 0.1)][..]].into_iter()), None);
     }
 }

@@ -1,6 +1,8 @@
 //! Text for the terminal: lists, explanations, verdicts. Lines fit 100 columns; colours are for whoever prints to keep or
 //! to drop.
 
+use super::document::terminal::{WIDTH, cut, painted, wrapped};
+use super::document::{Document, Text};
 use super::words::{bless_commands, demand, kind, number, outcome, quantity, sentence};
 use crate::case::{Case, Tier};
 use crate::error::ExitCode;
@@ -8,48 +10,13 @@ use crate::record::Record;
 use crate::study::judge::{exit_code, outcome_of_run};
 use crate::study::summary::Summary;
 use crate::verdict::{Kind, Outcome, Verdict};
-use anstyle::{AnsiColor, Style};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Columns of a line.
-pub(super) const WIDTH: usize = 100;
 /// Columns of the meaning of a metric, beside its name and value.
 const MEANING: usize = 47;
 /// Particle–node pairs that a core visits in a second, roughly: 1.5·10⁸ to 1.5·10⁹, by dimension, basis and remedy.
 const PAIRS_PER_SECOND: f64 = 8e8;
-
-/// How an outcome is coloured.
-fn style(of: Outcome) -> Style {
-    match of {
-        Outcome::Right => AnsiColor::Green.on_default(),
-        Outcome::WrongAsKnown => AnsiColor::Yellow.on_default(),
-        Outcome::NotJudged => Style::new().dimmed(),
-        Outcome::Failed => AnsiColor::Red.on_default().bold(),
-    }
-}
-
-/// A text in the colour of an outcome.
-pub(super) fn painted(of: Outcome, text: &str) -> String {
-    let style = style(of);
-    format!("{style}{text}{style:#}")
-}
-
-/// A text in lines that begin with `indent`.
-pub(super) fn wrapped(text: &str, first: &str, indent: &str) -> String {
-    let options = textwrap::Options::new(WIDTH)
-        .initial_indent(first)
-        .subsequent_indent(indent);
-    textwrap::fill(text, options) + "\n"
-}
-
-/// The start of a text that fits so many columns.
-pub(super) fn cut(text: &str, columns: usize) -> String {
-    match text.chars().count() > columns {
-        true => text.chars().take(columns - 1).collect::<String>() + "…",
-        false => text.to_owned(),
-    }
-}
 
 /// The cases, a line each: what they are, how many runs each tier has, and what the runs of tier pr cost as far as
 /// `pairs` gives their particle–node pairs; with a tier, its runs.
@@ -113,44 +80,43 @@ pub fn list_json(cases: &[Case], tier: Option<Tier>) -> Value {
 /// Everything about a case.
 #[must_use]
 pub fn explain(case: &Case) -> String {
-    let mut t = format!("{}: {}\n\n", case.name, case.title);
-    t += &wrapped(case.description, "", "");
-    t += "\nParameters (--set name=value)\n";
-    for p in &case.parameters {
-        let head = format!(
-            "{} ({})  default {}, allowed {}",
-            p.name, p.unit, p.default, p.domain
-        );
-        t += &wrapped(&head, "  ", "      ");
-        t += &wrapped(p.meaning, "      ", "      ");
-    }
-    t += "\nSchemes (--scheme NAME, or its parts: --basis, --remedy, --transfer)\n";
+    let mut document = Document::new(format!("{}: {}", case.name, case.title));
+    document.paragraph(case.description);
+    let mut list = |title: &str, entries: Vec<Text>| {
+        document.section("", title);
+        document.list(entries);
+    };
+    let parameters = case.parameters.iter().map(|p| {
+        let allowed = format!("default {}, allowed {}", p.default, p.domain);
+        Text::from(format!("{} ({})  {allowed}", p.name, p.unit)).then_below(p.meaning)
+    });
+    list("Parameters (--set name=value)", parameters.collect());
     let names: Vec<String> = case.schemes().iter().map(ToString::to_string).collect();
-    for pair in names.chunks(2) {
-        let line: String = pair.iter().map(|name| format!("  {name:40}")).collect();
-        t += line.trim_end();
-        t += "\n";
-    }
-    t += "\nLevels (--level L)\n";
-    for l in &case.levels {
-        let _ = writeln!(t, "  {}  cells of {} m", l.name, l.h);
-    }
+    let lines = names.chunks(2).map(|pair| match pair {
+        [first, second] => format!("{first:40}  {second}").into(),
+        rest => rest.concat().into(),
+    });
+    let title = "Schemes (--scheme NAME, or its parts: --basis, --remedy, --transfer)";
+    list(title, lines.collect());
+    let levels = case.levels.iter();
+    let levels = levels.map(|l| format!("{}  cells of {} m", l.name, l.h).into());
+    list("Levels (--level L)", levels.collect());
     let metrics = case.metrics.iter();
-    let metrics = metrics.map(|m| format!("{} ({})  {}", m.name, m.unit, m.meaning));
+    let metrics = metrics.map(|m| format!("{} ({})  {}", m.name, m.unit, m.meaning).into());
+    list("Metrics", metrics.collect());
     let checks = case.checks.iter();
-    let checks = checks.map(|c| format!("{} [{}]  {}", c.name, kind(c.kind), c.statement));
-    let limits = case.limits.iter().map(|l| (*l).to_owned());
-    let lists: [(&str, Vec<String>); 4] = [
-        ("Metrics", metrics.collect()),
-        ("Checks", checks.collect()),
-        ("References", case.references.clone()),
-        ("Limits", limits.collect()),
-    ];
-    for (title, entries) in lists {
-        let _ = writeln!(t, "\n{title}");
-        t.extend(entries.iter().map(|entry| wrapped(entry, "  ", "      ")));
-    }
-    t
+    let checks = checks.map(|c| format!("{} [{}]  {}", c.name, kind(c.kind), c.statement).into());
+    list("Checks", checks.collect());
+    let references = case
+        .references
+        .iter()
+        .map(|reference| reference.as_str().into());
+    list("References", references.collect());
+    list(
+        "Limits",
+        case.limits.iter().map(|&limit| limit.into()).collect(),
+    );
+    document.terminal()
 }
 
 /// The same as JSON.

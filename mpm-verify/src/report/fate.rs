@@ -57,17 +57,13 @@ impl Fate {
 
     /// Symbol, words, and the class that gives its colour.
     pub(super) fn shown(self) -> [&'static str; 3] {
-        let of = |outcome| {
-            let text = words::outcome(outcome);
-            [words::symbol(outcome), text, words::class(outcome)]
-        };
         match self {
-            Self::NotJudged => of(Outcome::NotJudged),
-            Self::Right => of(Outcome::Right),
-            Self::WrongAsKnown => of(Outcome::WrongAsKnown),
+            Self::NotJudged => words::shown(Outcome::NotJudged),
+            Self::Right => words::shown(Outcome::Right),
+            Self::WrongAsKnown => words::shown(Outcome::WrongAsKnown),
             Self::Noisy => ["∿", "noisy", "noisy"],
             Self::BreaksDown => ["↯", "breaks down as known", "broken"],
-            Self::Failed => of(Outcome::Failed),
+            Self::Failed => words::shown(Outcome::Failed),
         }
     }
 }

@@ -4,6 +4,7 @@
 #[cfg(test)]
 mod tests;
 
+use super::document::{self, Table, Text};
 use super::fate::Fate;
 use super::speed::Speed;
 use crate::cases;
@@ -11,7 +12,6 @@ use crate::distinct;
 use crate::record::Record;
 use crate::results::fixed;
 use crate::scheme::Scheme;
-use crate::table::Sheet;
 
 /// The kinds of solvers that have a panel of their own.
 pub(super) const PANELS: [&str; 3] = ["explicit", "implicit", "poro"];
@@ -158,35 +158,58 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// In Markdown, the cases in columns that `title` names, with what the marks of errors say below it.
-    pub(super) fn markdown(&self, title: impl Fn(&str) -> String) -> String {
-        let numbers = self.numbers.iter().map(|number| (*number).to_owned());
-        let cases = self.cases.iter().map(|case| title(case));
-        let head = ["scheme".to_owned()]
-            .into_iter()
-            .chain(numbers)
-            .chain(cases);
-        let row = |line: &Line| {
-            let text = |cell: &Option<Cell>| {
-                cell.as_ref()
-                    .map_or_else(String::new, |c| c.mark.clone() + &c.share)
-            };
-            let first = [line.scheme.clone()]
+    /// The table, with the cases in columns whose titles `title` links; on a page, cells have links too.
+    pub(super) fn table(&self, title: impl Fn(&str) -> Text, is_page: bool) -> Table {
+        let number = |text: &str| document::Cell::of(text, "number");
+        let first = |name: &str, numbers: Vec<&str>| {
+            let numbers = numbers.into_iter().map(number);
+            [document::Cell::head(name)]
                 .into_iter()
-                .chain(line.numbers.iter().cloned());
-            first.chain(line.cells.iter().map(text)).collect()
+                .chain(numbers)
+                .collect::<Vec<_>>()
         };
-        let sheet = Sheet::new(head).with(self.lines.iter().map(row));
+        let cases = self
+            .cases
+            .iter()
+            .map(|case| document::Cell::of(title(case), "steep"));
+        let cell = |cell: &Option<Cell>| match cell {
+            None => document::Cell::default(),
+            Some(c) => {
+                let mark = match is_page {
+                    true => Text::link(&*c.mark, format!("{}.html", c.case)),
+                    false => Text::from(&*c.mark),
+                };
+                document::Cell::of(mark, &c.class)
+                    .titled(&*c.words)
+                    .aside(&*c.share)
+            }
+        };
+        let row = |line: &Line| {
+            let numbers = line.numbers.iter().map(String::as_str).collect();
+            first(&line.scheme, numbers)
+                .into_iter()
+                .chain(line.cells.iter().map(cell))
+                .into()
+        };
+        Table {
+            class: "map",
+            head: first("scheme", self.numbers.clone())
+                .into_iter()
+                .chain(cases)
+                .collect(),
+            rows: self.lines.iter().map(row).collect(),
+        }
+    }
+
+    /// What the marks of errors say; empty where there are none.
+    pub(super) fn marks(&self) -> Text {
         let marks = self.errors.iter().zip('a'..='z');
-        let marks: Vec<String> = marks
-            .map(|(kind, mark)| format!("{mark}: `{kind}`"))
-            .collect();
-        let below = if marks.is_empty() {
-            String::new()
-        } else {
-            format!("\n{}.\n", marks.join(", "))
-        };
-        sheet.markdown() + &below
+        let marks =
+            marks.map(|(kind, mark)| Text::from(format!("{mark}: ")).then(Text::code(*kind)));
+        match self.errors.is_empty() {
+            true => Text::default(),
+            false => Text::joined(marks, ", ").then("."),
+        }
     }
 }
 

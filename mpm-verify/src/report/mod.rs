@@ -4,33 +4,34 @@
 
 mod advice;
 mod convergence;
+mod criteria;
 pub mod describe;
 pub mod diff;
+mod document;
 mod drift;
 mod fate;
 mod faults;
 #[cfg(test)]
 mod fixture;
 pub mod history;
-mod html;
 mod junit;
 pub mod keep;
 mod map;
+mod pages;
 mod price;
-mod remedies;
 mod rivals;
 mod rows;
 pub mod scored;
 pub mod shown;
 pub mod single;
 mod solvers;
-mod spaces;
 mod speed;
 mod summary;
 mod sweep;
 pub mod tables;
 mod together;
 mod values;
+mod verdicts;
 mod words;
 
 use crate::case::Case;
@@ -68,13 +69,13 @@ pub fn write_report(
         for study in &mut judged.cases {
             study.night = night.cloned();
             study.pictures = draw(study, gathered, goldens, out)?;
-            summary::write_verdicts(study, out)?;
+            verdicts::write(study, out)?;
         }
         let speed = Speed::of(&judged.cases);
         let picture = speed.draw(out)?;
         summary::write(&judged, &speed, out)?;
         junit::write(&judged, out)?;
-        html::write(&judged, &speed, picture, out)?;
+        pages::write(&judged, &speed, picture, out)?;
         // The sign that the report is whole.
         write_dense_json(&out.join(SUMMARY), &judged)
     })?;

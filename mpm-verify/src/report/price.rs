@@ -196,7 +196,7 @@ impl Price {
         let parts = std::iter::once(self.scheme.title()).chain(self.set.iter().cloned());
         let mark = self
             .is_wrong
-            .then(|| words::symbol(Outcome::WrongAsKnown).to_owned());
+            .then(|| words::shown(Outcome::WrongAsKnown)[0].to_owned());
         parts.chain(mark).collect::<Vec<_>>().join(" ")
     }
 

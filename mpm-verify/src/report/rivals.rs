@@ -1,9 +1,12 @@
 //! Explicit and implicit runs of what both can solve, at equal error: cost, steps and iterations.
 
+use super::words::list;
 use crate::cases;
 use crate::record::{Record, Status};
 use crate::results::{SHORT, fixed};
-use crate::scheme::{BasisName, RemedyName, TransferName};
+use crate::scheme::BasisName::{self, Bspline2, Gimp};
+use crate::scheme::RemedyName::{self, FbarConsistent, None as Standard};
+use crate::scheme::TransferName;
 use crate::table::Sheet;
 use std::f64::consts::PI;
 
@@ -14,109 +17,98 @@ const STEPS: [&str; 4] = ["cfl=", "step_factor=", "load_steps=", "step_scaling="
 /// An error this much larger is still the same.
 const EQUAL: f64 = 1.1;
 
-type OfRun = fn(&Record) -> f64;
-
 /// A problem, with the functions and the remedy to take for it.
 struct Problem {
     case: &'static str,
     /// Parameters changed from the case's own.
     set: &'static [&'static str],
-    basis: BasisName,
-    remedy: RemedyName,
-    /// What the errors are equal in.
-    motion: (&'static str, OfRun),
-    pressure: OfRun,
+    schemes: (BasisName, RemedyName),
+    /// What the errors are equal in: what it is called, the metric.
+    motion: (&'static str, &'static str),
+    pressure: fn(&Record) -> f64,
 }
 
-const DISPLACEMENT: (&str, OfRun) = ("u (m)", |r| r.value("displacement_l2"));
-const STRESS: OfRun = |r| r.value("mean_stress_l2");
-const NO_PRESSURE: OfRun = |_| f64::NAN;
+const fn problem(
+    case: &'static str,
+    schemes: (BasisName, RemedyName),
+    motion: (&'static str, &'static str),
+    pressure: fn(&Record) -> f64,
+) -> Problem {
+    Problem {
+        case,
+        set: &[],
+        schemes,
+        motion,
+        pressure,
+    }
+}
+
+const DISPLACEMENT: (&str, &str) = ("u (m)", "displacement_l2");
+const FREQUENCY: (&str, &str) = ("frequency", "frequency_error");
+
+fn stress(r: &Record) -> f64 {
+    r.value("mean_stress_l2")
+}
+
+fn no_pressure(_: &Record) -> f64 {
+    f64::NAN
+}
 
 const PROBLEMS: [Problem; 9] = [
+    problem("mms-axis", (Bspline2, Standard), DISPLACEMENT, stress),
+    problem(
+        "mms-wall-pressure",
+        (Bspline2, Standard),
+        DISPLACEMENT,
+        stress,
+    ),
+    problem(
+        "mms-vortex-box",
+        (Gimp, FbarConsistent),
+        DISPLACEMENT,
+        stress,
+    ),
+    problem("vibrating-bar", (Bspline2, Standard), FREQUENCY, stress),
     Problem {
-        case: "mms-axis",
-        set: &[],
-        basis: BasisName::Bspline2,
-        remedy: RemedyName::None,
-        motion: DISPLACEMENT,
-        pressure: STRESS,
-    },
-    Problem {
-        case: "mms-wall-pressure",
-        set: &[],
-        basis: BasisName::Bspline2,
-        remedy: RemedyName::None,
-        motion: DISPLACEMENT,
-        pressure: STRESS,
-    },
-    Problem {
-        case: "mms-vortex-box",
-        set: &[],
-        basis: BasisName::Gimp,
-        remedy: RemedyName::FbarConsistent,
-        motion: DISPLACEMENT,
-        pressure: STRESS,
-    },
-    Problem {
-        case: "vibrating-bar",
-        set: &[],
-        basis: BasisName::Bspline2,
-        remedy: RemedyName::None,
-        motion: ("frequency", |r| r.value("frequency_error")),
-        pressure: STRESS,
-    },
-    Problem {
-        case: "standing-wave",
         set: &["duration=24"],
-        basis: BasisName::Bspline2,
-        remedy: RemedyName::None,
-        motion: ("frequency", |r| r.value("frequency_error")),
-        pressure: STRESS,
+        ..problem("standing-wave", (Bspline2, Standard), FREQUENCY, stress)
     },
-    Problem {
-        case: "discs",
-        set: &[],
-        basis: BasisName::Gimp,
-        remedy: RemedyName::None,
-        motion: ("energy", |r| r.value("energy_error_accumulated")),
-        pressure: NO_PRESSURE,
-    },
-    Problem {
-        case: "cook",
-        set: &[],
-        basis: BasisName::Gimp,
-        remedy: RemedyName::FbarConsistent,
-        motion: ("deflection", |r| r.value("fem_tip_error")),
-        pressure: |r| r.value("mean_stress_rms_error"),
-    },
-    Problem {
-        case: "footing",
-        set: &[],
-        basis: BasisName::Gimp,
-        remedy: RemedyName::FbarConsistent,
-        motion: ("N_c by B", |r| r.value("prandtl_error")),
-        // Prandtl's mean stress under the footing is −(1 + π) s_u.
-        pressure: |r| r.value("mean_stress_0.25_0.25") / (1.0 + PI) + 1.0,
-    },
-    Problem {
-        case: "slope-stability",
-        set: &[],
-        basis: BasisName::Gimp,
-        remedy: RemedyName::FbarConsistent,
-        motion: ("factor", |r| r.value("factor_error")),
-        pressure: NO_PRESSURE,
-    },
+    problem(
+        "discs",
+        (Gimp, Standard),
+        ("energy", "energy_error_accumulated"),
+        no_pressure,
+    ),
+    problem(
+        "cook",
+        (Gimp, FbarConsistent),
+        ("deflection", "fem_tip_error"),
+        |r| r.value("mean_stress_rms_error"),
+    ),
+    // Prandtl's mean stress under the footing is −(1 + π) s_u.
+    problem(
+        "footing",
+        (Gimp, FbarConsistent),
+        ("N_c by B", "prandtl_error"),
+        |r| r.value("mean_stress_0.25_0.25") / (1.0 + PI) + 1.0,
+    ),
+    problem(
+        "slope-stability",
+        (Gimp, FbarConsistent),
+        ("factor", "factor_error"),
+        no_pressure,
+    ),
 ];
 
 impl Problem {
     /// The size of the error of motion of a run.
     fn error(&self, r: &Record) -> f64 {
-        (self.motion.1)(r).abs()
+        r.value(self.motion.1).abs()
     }
 
     /// Whether a run is of it, however divided in time.
     fn is_of(&self, r: &Record) -> bool {
-        let own = r.case == self.case && r.basis() == self.basis && r.remedy() == self.remedy;
+        let own = r.case == self.case && (r.basis(), r.remedy()) == self.schemes;
         let is_set = |s: &String| self.set.contains(&&**s);
         let only = |s: &String| is_set(s) || STEPS.iter().any(|p| s.starts_with(p));
         let set = r.set.iter().filter(|s| is_set(s)).count() == self.set.len();
@@ -126,7 +118,7 @@ impl Problem {
 
     fn title(&self) -> String {
         let title = cases::find(self.case).map_or(self.case, |case| case.title);
-        format!("{title} ({} {})", self.basis, self.remedy)
+        format!("{title} ({} {})", self.schemes.0, self.schemes.1)
     }
 
     /// The cheapest run of each kind of solver among those whose error is that which both reach.
@@ -213,10 +205,6 @@ pub(super) fn table<'a>(records: &[&'a Record]) -> (Sheet, Vec<&'a Record>, Stri
         };
         side.push(format!("{} {}", problem.case, SHORT.text(ratio)));
     }
-    let list = |names: Vec<String>| match names.is_empty() {
-        true => "none".to_owned(),
-        false => names.join(", "),
-    };
     let advice = format!(
         "At equal error implicit steps cost this share of explicit ones where they are cheaper: {}; and this many times as much \
          where they are dearer: {}.",
@@ -236,7 +224,7 @@ mod tests {
     fn run(rule: Option<RuleName>, level: &str, set: &[&str], error: f64, cpu: f64) -> Record {
         let mut r = record(level, Vec::new());
         r.set = set.iter().map(|s| (*s).to_owned()).collect();
-        let (basis, remedy) = (BasisName::Gimp, RemedyName::FbarConsistent);
+        let (basis, remedy) = (Gimp, FbarConsistent);
         r.scheme = match rule {
             Some(rule) => Scheme::implicit(rule, basis, remedy),
             None => Scheme::flip(basis, remedy),

@@ -1,8 +1,11 @@
 //! A result of another code, beside ours.
 
-use super::describe::{WIDTH, cut, judged, measured, run_line, wrapped};
+use super::describe::{judged, measured, run_line};
+use super::document::Document;
+use super::document::terminal::{aligned, cut, wrapped};
 use super::rows;
 use super::tables::RESULTS;
+use super::verdicts;
 use super::words::{outcome, sentence};
 use crate::error::Error;
 use crate::files::{make_folder, write_json, write_whole};
@@ -16,10 +19,6 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Narrowest column of a table on the terminal, whose titles take several lines.
-const NARROW: usize = 9;
-/// Blanks before a column.
-const GAP: usize = 2;
 /// Longest name of a code in the table.
 const LONGEST: usize = 36;
 
@@ -93,61 +92,6 @@ fn table(scored: &Scored, ours: &Ours) -> Sheet {
     Sheet::new(head).with(std::iter::once(own).chain(others))
 }
 
-/// Widths of the columns of a table, whose titles are broken.
-fn widths(sheet: &Sheet) -> Vec<usize> {
-    let width = |k: usize| {
-        let cells = sheet.rows.iter().map(|row| row[k].chars().count());
-        cells.max().unwrap_or(0).max(NARROW)
-    };
-    (0..sheet.head.len()).map(width).collect()
-}
-
-/// As many columns as fit the terminal: of those between the first and the last two, the first ones.
-fn fitting(mut sheet: Sheet) -> Sheet {
-    let whole = |sheet: &Sheet| widths(sheet).iter().map(|width| width + GAP).sum::<usize>();
-    while whole(&sheet) > WIDTH && sheet.head.len() > 4 {
-        let last = sheet.head.len() - 3;
-        sheet.head.remove(last);
-        for row in &mut sheet.rows {
-            row.remove(last);
-        }
-    }
-    sheet
-}
-
-/// A table in columns of blanks.
-fn aligned(sheet: &Sheet) -> String {
-    let widths = widths(sheet);
-    let titles = sheet.head.iter().zip(&widths);
-    let titles: Vec<Vec<String>> = titles
-        .map(|(title, width)| {
-            let lines = textwrap::wrap(title, *width);
-            lines.iter().map(ToString::to_string).collect()
-        })
-        .collect();
-    let height = titles.iter().map(Vec::len).max().unwrap_or(0);
-    let line = |cells: Vec<&str>| {
-        let cells = cells.iter().zip(&widths).enumerate();
-        let cells = cells.map(|(k, (cell, width))| match k {
-            0 => format!("{:GAP$}{cell:<width$}", ""),
-            _ => format!("{:GAP$}{cell:>width$}", ""),
-        });
-        cells.collect::<String>().trim_end().to_owned() + "\n"
-    };
-    let head = (0..height).map(|k| {
-        let cell = |title: &'_ Vec<String>| (k + title.len()).checked_sub(height);
-        let cells = titles
-            .iter()
-            .map(|t| cell(t).map_or("", |place| &*t[place]));
-        line(cells.collect())
-    });
-    let rows = sheet
-        .rows
-        .iter()
-        .map(|row| line(row.iter().map(String::as_str).collect()));
-    head.chain(rows).collect()
-}
-
 /// What the result is of: code, scheme, case, level, parameters.
 fn title(scored: &Scored) -> String {
     let code = &scored.manifest.code;
@@ -166,20 +110,12 @@ fn title(scored: &Scored) -> String {
 
 /// What is not there, and what is not asked for.
 fn notes(scored: &Scored) -> Vec<String> {
-    let names = |columns: &[Asked]| {
-        let names = columns
-            .iter()
-            .map(|c| format!("{} of the {}", c.header(), c.part.name()));
-        names.collect::<Vec<_>>().join(", ")
-    };
-    let mut notes = Vec::new();
-    if !scored.missing.is_empty() {
-        notes.push(format!("Not given: {}.", names(&scored.missing)));
-    }
-    if !scored.unknown.is_empty() {
-        notes.push(format!("Not asked for: {}.", scored.unknown.join(", ")));
-    }
-    notes
+    let name = |c: &Asked| format!("{} of the {}", c.header(), c.part.name());
+    let missing: Vec<String> = scored.missing.iter().map(name).collect();
+    let told = [("Not given", &missing), ("Not asked for", &scored.unknown)];
+    let told = told.into_iter().filter(|(_, names)| !names.is_empty());
+    told.map(|(what, names)| format!("{what}: {}.", names.join(", ")))
+        .collect()
 }
 
 /// On the terminal: what is measured, verdicts, our runs, and the verdict in one line.
@@ -191,7 +127,7 @@ pub fn text(scored: &Scored, ours: &Ours) -> String {
     t += "\n";
     t += &judged(record);
     t.extend(notes(scored).iter().map(|note| wrapped(note, "", "  ")));
-    let _ = writeln!(t, "\n{}", aligned(&fitting(table(scored, ours))));
+    let _ = writeln!(t, "\n{}", aligned(table(scored, ours)));
     if let Some(absent) = &ours.absent {
         t += &wrapped(absent, "", "  ");
     }
@@ -228,34 +164,19 @@ pub fn json(scored: &Scored, ours: &Ours) -> Value {
 /// A file can't be written.
 pub fn write(scored: &Scored, ours: &Ours, folder: &Path) -> Result<(), Error> {
     let record = &scored.record;
-    let mut t = format!("# {}\n\n{}.\n\n", title(scored), sentence(record));
-    t += &table(scored, ours).markdown();
+    let mut document = Document::new(title(scored));
+    document.paragraph(sentence(record) + ".");
+    document.table("", table(scored, ours));
     if let Some(absent) = &ours.absent {
-        let _ = writeln!(t, "\n{absent}");
+        document.paragraph(&**absent);
     }
-    t += "\n## Verdicts\n\n";
-    let number = |x: Option<f64>| super::words::number(x);
-    let rows = record.verdicts.iter().map(|v| {
-        let numbers = [v.value, v.reference, v.tolerance].map(number);
-        let [value, reference, tolerance] = numbers;
-        let (check, metric, why) = (v.check.clone(), v.metric.clone(), v.source.clone());
-        let found = outcome(v.outcome).to_owned();
-        vec![check, found, metric, value, reference, tolerance, why]
-    });
-    let head = [
-        "check",
-        "found",
-        "of",
-        "value",
-        "reference",
-        "tolerance",
-        "why",
-    ];
-    t += &Sheet::new(head).with(rows).markdown();
+    document.section("", "Verdicts");
+    let verdicts = record.verdicts.iter().map(|v| (None, v));
+    document.table("", verdicts::table(verdicts));
     for note in notes(scored) {
-        let _ = writeln!(t, "\n{note}");
+        document.paragraph(note);
     }
     make_folder(folder)?;
     write_json(&folder.join("verdicts.json"), &json(scored, ours))?;
-    write_whole(&folder.join("score.md"), t.as_bytes())
+    write_whole(&folder.join("score.md"), document.markdown().as_bytes())
 }

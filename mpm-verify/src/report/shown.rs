@@ -130,6 +130,7 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
     let none = |_: &Record| Err(Error::Input("a kept row has no folder".to_owned()));
     let mut gallery = Gallery::new("results", &records, &none, out);
     together::draw(&mut gallery)?;
+    solvers::draw(&mut gallery)?;
     for record in &mut records {
         record
             .metrics
@@ -146,7 +147,6 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
         }
         studies.push(study);
     }
-    solvers::draw(&records, &out.join("results"))?;
     Speed::of(&studies).draw(&out.join("results"))?;
     Ok(())
 }

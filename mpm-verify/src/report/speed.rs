@@ -1,6 +1,7 @@
 //! Speed against error of all problems: what a target error costs with each remedy, and when F̄ is worth its price.
 
 use super::price::{Price, Prices};
+use super::words::list;
 use crate::cases;
 use crate::distinct;
 use crate::draw::{Ratio, Ratios, draw_ratios};
@@ -212,15 +213,6 @@ fn is_worth_it(ratio: Ratio) -> bool {
         Ratio::Of(ratio) => ratio < 1.0,
         Ratio::Least => true,
         Ratio::Most => false,
-    }
-}
-
-/// Names in a sentence.
-fn list(names: impl Iterator<Item = impl Into<String>>) -> String {
-    let names: Vec<String> = names.map(Into::into).collect();
-    match names.is_empty() {
-        true => "none".to_owned(),
-        false => names.join(", "),
     }
 }
 

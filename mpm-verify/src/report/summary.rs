@@ -1,36 +1,43 @@
 //! The summary in Markdown.
 
+use super::document::{Document, Table, Text};
 use super::speed::Speed;
-use super::words::{self, bless_commands, kind, local_orders, number, order, outcome};
-use super::{map, remedies};
+use super::words::{self, bless_commands, local_orders, number, order};
+use super::{criteria, map, verdicts};
 use crate::cases;
 use crate::error::Error;
-use crate::files::{write_csv, write_whole};
+use crate::files::write_whole;
 use crate::metric::Metric;
 use crate::record::Record;
 use crate::study::convergence::Convergence;
 use crate::study::summary::{CaseStudy, Summary};
 use crate::table::Sheet;
-use crate::verdict::{Kind, Verdict};
-use std::fmt::Write;
+use crate::verdict::Verdict;
 use std::path::Path;
 
-/// Writes `summary.md` into `out`.
-pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), Error> {
-    let path = out.join("summary.md");
-    write_whole(&path, text(summary, speed)?.as_bytes())
-}
-
-/// What failed and drifted, tables over all cases, and of each case the orders of what its table of results shows, at the
-/// parameters that have the most levels.
+/// Writes `summary.md` into `out`: what failed and drifted, tables over all cases, and of each case the orders of what its
+/// table of results shows, at the parameters that have the most levels.
 ///
 /// # Errors
 /// A case that is not known.
-fn text(summary: &Summary, speed: &Speed) -> Result<String, Error> {
-    let counts = summary.counts.to_string().replace('\n', "  \n");
-    let title = format!("tier {}", summary.tier);
-    let begin = counts + "\n" + &of_map(summary, speed);
-    body(summary, speed, [&title, &begin], &programs(summary))
+pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), Error> {
+    let mut document = Document::new(format!("Verification, tier {}", summary.tier));
+    document.paragraph(lines(&summary.counts.to_string(), 4));
+    let panels = map::panels(runs(summary), speed);
+    if !panels.is_empty() {
+        document.section("", "Map");
+        let symbols = map::legend().map(|[symbol, text, _]| format!("{symbol} {text}"));
+        document.paragraph(symbols.join(", "));
+    }
+    for panel in panels {
+        document.heading(3, "", panel.name);
+        document.table("", panel.table(|case| case.into(), false));
+        if !panel.errors.is_empty() {
+            document.paragraph(panel.marks());
+        }
+    }
+    body(&mut document, summary, speed, &programs(summary))?;
+    write_whole(&out.join("summary.md"), document.markdown().as_bytes())
 }
 
 /// The same of rows that are kept, of any night; `nights` says of which.
@@ -39,21 +46,49 @@ fn text(summary: &Summary, speed: &Speed) -> Result<String, Error> {
 /// A case that is not known.
 pub(super) fn of_rows(studies: Vec<CaseStudy>, nights: &Sheet) -> Result<String, Error> {
     let summary = Summary::new("", studies);
-    let speed = Speed::of(&summary.cases);
+    let mut document = Document::new("Verification, all runs that are kept");
     // Of its checks a row counts those alone that judge.
-    let counts = summary.counts.to_string();
-    let counts: Vec<&str> = counts.lines().take(2).collect();
-    let begin = counts.join("  \n") + "\n\nThe map of schemes and cases: `docs/hard-cases.md`.\n";
-    body(&summary, &speed, ["all runs that are kept", &begin], nights)
+    document.paragraph(lines(&summary.counts.to_string(), 2));
+    document.paragraph(Text::marked(
+        "The map of schemes and cases: `docs/hard-cases.md`.",
+    ));
+    body(&mut document, &summary, &Speed::of(&summary.cases), nights)?;
+    Ok(document.markdown())
+}
+
+fn lines(text: &str, most: usize) -> Text {
+    let lines = text.lines().take(most).map(Text::from);
+    lines.reduce(Text::then_below).unwrap_or_default()
+}
+
+fn runs(summary: &Summary) -> impl Iterator<Item = &Record> {
+    summary.cases.iter().flat_map(|study| &study.records)
 }
 
 fn body(
+    document: &mut Document,
     summary: &Summary,
     speed: &Speed,
-    said: [&str; 2],
     programs: &Sheet,
-) -> Result<String, Error> {
-    let mut t = head(summary, speed, said, programs);
+) -> Result<(), Error> {
+    if !speed.is_empty() {
+        document.section("", "Speed against error");
+        document.paragraph(speed.advice());
+        document.table("", speed.table());
+    }
+    for command in bless_commands(summary) {
+        let text = Text::from("If the drift is meant, accept it with ");
+        document.paragraph(text.then(Text::code(command)).then("."));
+    }
+    document.table("", programs.clone());
+    failures(document, summary);
+    for basis in criteria::BASES {
+        let (table, _) = criteria::remedies(basis).fill(runs(summary));
+        if !table.rows.is_empty() {
+            document.section("", format!("Remedies against criteria, {basis}"));
+            document.table("", table);
+        }
+    }
     for study in &summary.cases {
         let case = cases::find(&study.case)?;
         let shown = |c: &&Convergence| {
@@ -61,48 +96,13 @@ fn body(
             let shows = |m: Metric| m.name == c.metric;
             c.set == case.ladder && headlines.any(|h| h.metric.is_some_and(shows))
         };
-        orders(&study.case, study.convergence.iter().filter(shown), &mut t);
-    }
-    Ok(t)
-}
-
-/// What is said of all cases together.
-fn head(summary: &Summary, speed: &Speed, [title, begin]: [&str; 2], programs: &Sheet) -> String {
-    let mut t = format!("# Verification, {title}\n\n{begin}");
-    if !speed.is_empty() {
-        let (advice, table) = (speed.advice(), speed.table().markdown());
-        let _ = write!(t, "\n## Speed against error\n\n{advice}\n\n{table}");
-    }
-    for command in bless_commands(summary) {
-        let _ = writeln!(t, "\nIf the drift is meant, accept it with `{command}`.");
-    }
-    let _ = write!(t, "\n{}", programs.markdown());
-    failures(summary, &mut t);
-    for basis in remedies::BASES {
-        let records = summary.cases.iter().flat_map(|s| &s.records);
-        let (table, _) = remedies::criteria(basis).fill(records);
+        let table = orders(study.convergence.iter().filter(shown));
         if !table.rows.is_empty() {
-            let table = table.markdown();
-            let _ = writeln!(t, "\n## Remedies against criteria, {basis}\n\n{table}");
+            document.section("", format!("Orders, {}", study.case));
+            document.table("", table);
         }
     }
-    t
-}
-
-/// How every scheme comes out in every case.
-fn of_map(summary: &Summary, speed: &Speed) -> String {
-    let mut t = String::new();
-    let records = summary.cases.iter().flat_map(|s| &s.records);
-    let panels = map::panels(records, speed);
-    if !panels.is_empty() {
-        let symbols = map::legend().map(|[symbol, text, _]| format!("{symbol} {text}"));
-        let _ = writeln!(t, "\n## Map\n\n{}", symbols.join(", "));
-    }
-    for panel in panels {
-        let table = panel.markdown(str::to_owned);
-        let _ = write!(t, "\n### {}\n\n{table}", panel.name);
-    }
-    t
+    Ok(())
 }
 
 /// What made the runs, case by case.
@@ -115,62 +115,38 @@ pub(super) fn programs(summary: &Summary) -> Sheet {
     Sheet::new(head).with(summary.cases.iter().map(row))
 }
 
-fn failures(summary: &Summary, t: &mut String) {
-    for record in summary.cases.iter().flat_map(|s| &s.records) {
-        if let Some(error) = record.error.as_ref().filter(|_| record.broke_down()) {
-            let _ = writeln!(
-                t,
-                "\n**Broke down**: {} {} {}: {}",
-                record.case,
-                record.scheme(),
-                record.level,
-                plain(&error.message)
-            );
-        }
+fn failures(document: &mut Document, summary: &Summary) {
+    for (_, record, message) in verdicts::broken(summary) {
+        let run = format!(
+            ": {} {} {}: {message}",
+            record.case,
+            record.scheme(),
+            record.level
+        );
+        document.paragraph(Text::marked("**Broke down**").then(run));
     }
-    if summary.failures() > 0 {
-        let _ = writeln!(t, "\n## Failed checks\n");
-        table(summary, t, Verdict::misses_the_truth);
-    }
-    if summary.counts.drifted > 0 {
-        drift(summary, t);
-    }
-}
-
-/// Words of a file that Markdown shall show as they are.
-fn plain(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
-}
-
-/// What differs from the goldens, run by run.
-fn drift(summary: &Summary, t: &mut String) {
-    let records = summary.cases.iter().flat_map(|s| &s.records);
-    let rows = records.flat_map(|record| {
-        let drifting = record.verdicts.iter().filter(|v| v.drifts());
-        drifting.map(move |v| {
-            let difference = v.value.zip(v.reference).map(|(now, golden)| now - golden);
-            let exact = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| x.to_string());
-            let what = match difference {
-                Some(_) => v.metric.clone(),
-                None => plain(&format!("{}: {}", v.metric, v.source)),
-            };
-            vec![
-                format!("{} {}", record.case, record.folder()),
-                what,
-                exact(v.reference),
-                exact(v.value),
-                difference.map_or_else(|| "–".to_owned(), |d| format!("{d:.3e}")),
-                number(v.tolerance),
-            ]
+    let failed = summary.verdicts().filter(|(.., v)| v.misses_the_truth());
+    let failed: Vec<(Option<Text>, &Verdict)> = failed
+        .map(|(study, run, v)| {
+            let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
+            (Some(format!("{} {run}", study.case).into()), v)
         })
-    });
-    let head = ["run", "quantity", "golden", "now", "difference", "allowed"];
-    let sheet = Sheet::new(head).with(rows);
-    let _ = write!(t, "\n## Drift\n\n{}", sheet.markdown());
+        .collect();
+    let drift = verdicts::drift(summary);
+    let mut section = |title: &str, table: Table| {
+        document.section("", title);
+        document.table("", table);
+    };
+    if !failed.is_empty() {
+        section("Failed checks", verdicts::table(failed));
+    }
+    if !drift.rows.is_empty() {
+        section("Drift", drift.into());
+    }
 }
 
 /// The order of every error, if there is one.
-fn orders<'a>(case: &str, convergence: impl Iterator<Item = &'a Convergence>, t: &mut String) {
+fn orders<'a>(convergence: impl Iterator<Item = &'a Convergence>) -> Sheet {
     let row = |c: &Convergence| {
         let levels = match &c.points[..] {
             [] => String::new(),
@@ -196,54 +172,7 @@ fn orders<'a>(case: &str, convergence: impl Iterator<Item = &'a Convergence>, t:
         "order ± uncertainty (95 %)",
         "local orders",
     ];
-    let sheet = Sheet::new(head).with(convergence.filter(|c| c.is_error).map(row));
-    if !sheet.rows.is_empty() {
-        let _ = write!(t, "\n## Orders, {case}\n\n{}", sheet.markdown());
-    }
-}
-
-const VERDICT: [&str; 9] = [
-    "outcome",
-    "kind",
-    "check",
-    "run",
-    "metric",
-    "value",
-    "reference",
-    "tolerance",
-    "source",
-];
-
-/// The cells of a verdict: numbers as `shown`.
-fn cells(run: Option<&Record>, v: &Verdict, shown: fn(Option<f64>) -> String) -> Vec<String> {
-    let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
-    let words = [outcome(v.outcome), kind(v.kind), &v.check, &run, &v.metric].map(str::to_owned);
-    let numbers = [v.value, v.reference, v.tolerance].map(shown);
-    [&words[..], &numbers, std::slice::from_ref(&v.source)].concat()
-}
-
-/// Writes every verdict of a case, those of drift apart, into `verdicts.csv` of its folder.
-pub(super) fn write_verdicts(study: &CaseStudy, out: &Path) -> Result<(), Error> {
-    let of_runs = study
-        .records
-        .iter()
-        .flat_map(|r| r.verdicts.iter().map(move |v| (Some(r), v)));
-    let all = of_runs.chain(study.verdicts.iter().map(|v| (None, v)));
-    let exact = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
-    let told = all.filter(|(_, v)| v.kind != Kind::Drift);
-    let rows = told.map(|(run, v)| cells(run, v, exact));
-    let path = out.join(&study.case).join("verdicts.csv");
-    write_csv(&path, &VERDICT.map(str::to_owned), rows)
-}
-
-fn table(summary: &Summary, t: &mut String, keep: impl Fn(&Verdict) -> bool) {
-    let shown = summary.verdicts().filter(|(_, _, v)| keep(v));
-    let rows = shown.map(|(study, run, v)| {
-        let mut cells = cells(run, v, number);
-        cells[3] = format!("{} {}", study.case, cells[3]);
-        cells
-    });
-    t.push_str(&Sheet::new(VERDICT).with(rows).markdown());
+    Sheet::new(head).with(convergence.filter(|c| c.is_error).map(row))
 }
 
 #[cfg(test)]
@@ -269,18 +198,14 @@ mod tests {
                 records.push(run);
             }
         }
-        let mut t = String::new();
         let all = convergence(cases::find("cook").unwrap(), &records);
-        orders("cook", all.iter(), &mut t);
-        let rows: Vec<&str> = t.lines().skip(5).collect();
+        let text = orders(all.iter()).markdown();
+        let rows: Vec<&str> = text.lines().skip(2).collect();
         let row = |changed: &str| {
             format!(
                 "| mean_stress_rms_error | gimp none | {changed} | h2–h0.5 | -0.25 | 2.00 ± 0.00 | 2.00, 2.00 |"
             )
         };
         assert_eq!(rows, [row(""), row("load=2")]);
-        let mut none = String::new();
-        orders("cook", [].iter(), &mut none);
-        assert!(none.is_empty());
     }
 }

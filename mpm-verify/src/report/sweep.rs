@@ -1,9 +1,9 @@
 //! Errors over the values of a parameter.
 
-use super::convergence::error_label;
+use super::convergence::{draw_errors, error_chart};
 use crate::case::Case;
 use crate::cases;
-use crate::draw::style::{Panel, Panels};
+use crate::draw::style::Panel;
 use crate::draw::{Chart, Scale};
 use crate::error::Error;
 use crate::files::write_csv;
@@ -12,7 +12,7 @@ use crate::metric::{Quantity, Sweep};
 use crate::record::Record;
 use crate::scheme::Scheme;
 use crate::study::summary::CaseStudy;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Values of a parameter that make a sweep, at least.
@@ -31,16 +31,16 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         if errors.is_empty() {
             continue;
         }
-        let file = |extension| format!("{}/sweep-{}.{extension}", study.case, sweep.parameter.name);
-        runs.write(&errors, &out.join(file("csv")))?;
-        let schemes: BTreeSet<Scheme> = runs.of_scheme.keys().copied().collect();
-        let chart = |quantity: &&Quantity, panel: &Panel| runs.chart(quantity, panel);
-        let files = Panels::new(&schemes).draw(&out.join(file("png")), errors, chart)?;
+        let name = format!("sweep-{}", sweep.parameter.name);
+        runs.write(&errors, &out.join(&study.case).join(format!("{name}.csv")))?;
         let caption = format!(
             "Error at level {} over the values of {}, for every scheme that ran at least {LEAST_VALUES} of them.",
             runs.level, sweep.parameter.name
         );
-        pictures.extend(Picture::of_files(&study.case, files, &caption));
+        let schemes = runs.of_scheme.keys().copied().collect();
+        let chart = |quantity: &&Quantity, panel: &Panel| runs.chart(quantity, panel);
+        let shown = (&*format!("{name}.png"), &*caption);
+        pictures.extend(draw_errors(study, &schemes, chart, shown, out)?);
     }
     Ok(pictures)
 }
@@ -100,25 +100,22 @@ impl<'a> Runs<'a> {
             label,
             "value",
         ];
-        let mut rows = Vec::new();
-        for metric in errors.iter().map(|q| q.metric) {
-            for (scheme, runs) in &self.of_scheme {
-                let finite = runs.iter().filter(|(_, r)| r.metric(metric).is_finite());
-                rows.extend(finite.map(|(value, record)| {
-                    vec![
-                        metric.name.to_owned(),
-                        scheme.to_string(),
-                        self.level.to_owned(),
-                        value.to_string(),
-                        (self.sweep.abscissa)(*value).to_string(),
-                        record.metric(metric).to_string(),
-                    ]
-                }));
-            }
-        }
+        let rows = errors.iter().flat_map(|q| {
+            let runs = self
+                .of_scheme
+                .iter()
+                .flat_map(|(s, runs)| runs.iter().map(move |run| (s, run)));
+            runs.filter_map(|(scheme, (value, record))| {
+                let found = Some(record.metric(q.metric)).filter(|x| x.is_finite())?;
+                let words = [q.metric.name, &scheme.to_string(), self.level].map(str::to_owned);
+                let numbers = [*value, (self.sweep.abscissa)(*value), found].map(|x| x.to_string());
+                Some([words, numbers].concat())
+            })
+        });
         write_csv(path, &header.map(str::to_owned), rows)
     }
 
+    /// Empty for an error that is not measured.
     fn chart(&self, quantity: &Quantity, panel: &Panel) -> Chart {
         let Sweep {
             label,
@@ -127,26 +124,24 @@ impl<'a> Runs<'a> {
             ..
         } = self.sweep;
         let error = |record: &Record| record.metric(quantity.metric);
+        let is_measured = self.measure(quantity);
         let series = panel.curves(|scheme| {
             let runs = self.of_scheme.get(&scheme).into_iter().flatten();
             runs.map(|(value, record)| (abscissa(*value), error(record).abs()))
                 // What is not positive has no logarithm.
-                .filter(|(x, y)| (*x > 0.0 || !logarithmic) && *y > 0.0)
+                .filter(|(x, y)| is_measured && (*x > 0.0 || !logarithmic) && *y > 0.0)
                 .collect()
         });
-        let mut records = self.of_scheme.values().flatten().map(|(_, record)| record);
-        let labels = [
-            *label,
-            &error_label(quantity, records.any(|r| error(r) < 0.0)),
-        ];
+        let mut records = self.of_scheme.values().flatten();
+        let has_sign = records.any(|(_, r)| error(r) < 0.0);
+        let x_scale = if *logarithmic {
+            Scale::Log10
+        } else {
+            Scale::Linear
+        };
         Chart {
-            x_scale: if *logarithmic {
-                Scale::Log10
-            } else {
-                Scale::Linear
-            },
-            y_scale: Scale::Log10,
-            ..Chart::new(panel.title.clone(), labels, series)
+            x_scale,
+            ..error_chart(quantity, has_sign, label, panel, series)
         }
     }
 }

@@ -4,10 +4,11 @@
 //! A table stands between `<!-- table NAME -->` and `<!-- end -->`, each on a line of its own; that of speed against error
 //! may begin with its name alone.
 
+use super::document::Text;
 use super::map;
 use super::speed::{self, Speed};
 use super::values::Values;
-use super::{remedies, rivals, rows, spaces, summary};
+use super::{criteria, rivals, rows, summary};
 use crate::cases;
 use crate::distinct;
 use crate::error::Error;
@@ -176,26 +177,26 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
         .iter()
         .filter_map(|row| Some((row.record()?, row.night)));
     let kept: Vec<(Record, Date)> = kept.collect();
+    let records = || kept.iter().map(|(r, _)| r);
     let oldest = |told: &[&Record]| {
-        let told = kept
+        let is_told = |r: &Record| told.iter().any(|t| std::ptr::eq(*t, r));
+        let oldest = kept
             .iter()
-            .filter(|(r, _)| told.iter().any(|t| std::ptr::eq(*t, r)));
-        let oldest = told.min_by_key(|(_, night)| *night).map(|(r, night)| {
+            .filter(|(r, _)| is_told(r))
+            .min_by_key(|(_, night)| *night);
+        oldest.map_or_else(String::new, |(r, night)| {
             let program = &r.version.source;
             format!("\n*Oldest run: night of {night}, program {program}.*\n")
-        });
-        oldest.unwrap_or_default()
+        })
     };
     let table = |table: &ResultTable, case: Option<&str>| {
-        let of_case = kept
-            .iter()
-            .filter(|(r, _)| case.is_none_or(|case| r.case == case));
-        let (sheet, told) = table.fill(of_case.map(|(r, _)| r));
+        let of_case = records().filter(|r| case.is_none_or(|case| r.case == case));
+        let (sheet, told) = table.fill(of_case);
         (table.name.clone(), sheet.markdown() + &oldest(&told))
     };
     let studies = cases::all().iter().map(|case| {
-        let own = kept.iter().filter(|(r, _)| r.case == case.name);
-        CaseStudy::new(case.name, own.map(|(r, _)| r.clone()).collect())
+        let own = records().filter(|r| r.case == case.name);
+        CaseStudy::new(case.name, own.cloned().collect())
     });
     let speed = Speed::of(&studies.collect::<Vec<_>>());
     let wrapped = |text: &str| {
@@ -203,39 +204,45 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
         let options = options.word_splitter(textwrap::WordSplitter::NoHyphenation);
         textwrap::fill(text, options)
     };
-    let told = match speed.is_empty() {
+    let prices = match speed.is_empty() {
         true => String::new(),
-        false => {
-            let advice = wrapped(&speed.advice());
-            format!("{}\n{advice}\n", speed.table().markdown())
-        }
+        false => format!(
+            "{}\n{}\n",
+            speed.table().markdown(),
+            wrapped(&speed.advice())
+        ),
     };
-    let records: Vec<&Record> = kept.iter().map(|(r, _)| r).collect();
-    let (sheet, of, advice) = rivals::table(&records);
-    let rivals = match of.is_empty() {
+    let (sheet, told, advice) = rivals::table(&records().collect::<Vec<_>>());
+    let rivals = match told.is_empty() {
         true => String::new(),
         false => format!(
             "{}\n{}\n{}",
             sheet.markdown(),
             wrapped(&advice),
-            oldest(&of)
+            oldest(&told)
         ),
     };
-    let of_cases = cases::all().iter();
-    let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
-    let over_cases = remedies::all().into_iter().chain([spaces::table()]);
-    let over_cases = over_cases.map(|t| table(&t, None));
-    let panels = map::panels(kept.iter().map(|(r, _)| r), &speed);
+    let panels = map::panels(records(), &speed);
     let map = map::PANELS.map(|name| {
-        let panel = panels.iter().find(|panel| panel.name == name);
-        let page = |case: &str| format!("[{case}]({case}.md)");
-        let text = panel.map(|panel| panel.markdown(page) + &oldest(&panel.told));
+        let text = panels.iter().find(|panel| panel.name == name).map(|panel| {
+            let page = |case: &str| Text::link(case, format!("{case}.md"));
+            let marks = panel.marks().markdown();
+            let below = if marks.is_empty() {
+                marks
+            } else {
+                format!("\n{marks}\n")
+            };
+            panel.table(page, false).markdown() + &below + &oldest(&panel.told)
+        });
         (format!("map-{name}"), text.unwrap_or_default())
     });
-    let speed = [(speed::NAME, told), (rivals::NAME, rivals)];
-    let speed = speed.map(|(name, text)| (name.to_owned(), text));
-    let over_cases = over_cases.chain(speed).chain(map);
-    of_cases.chain(over_cases).collect()
+    let of_cases = cases::all().iter();
+    let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
+    let over_cases = criteria::all();
+    let over_cases = over_cases.iter().map(|t| table(t, None)).chain(map);
+    let costs = [(speed::NAME, prices), (rivals::NAME, rivals)];
+    let costs = costs.map(|(name, text)| (name.to_owned(), text));
+    of_cases.chain(over_cases).chain(costs).collect()
 }
 
 #[cfg(test)]

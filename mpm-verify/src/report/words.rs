@@ -33,33 +33,46 @@ pub(super) fn kind(kind: Kind) -> &'static str {
     }
 }
 
-/// An outcome in a word or two.
+/// Symbol and words of an outcome, and the class that gives its colour.
+pub(super) fn shown(outcome: Outcome) -> [&'static str; 3] {
+    match outcome {
+        Outcome::Right => ["✓", "right", "pass"],
+        Outcome::WrongAsKnown => ["≈", "wrong as known", "known"],
+        Outcome::NotJudged => ["–", "not judged", "none"],
+        Outcome::Failed => ["✗", "FAILED", "fail"],
+    }
+}
+
+/// Its words.
 pub(super) fn outcome(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Right => "right",
-        Outcome::WrongAsKnown => "wrong as known",
-        Outcome::NotJudged => "not judged",
-        Outcome::Failed => "FAILED",
-    }
+    shown(outcome)[1]
 }
 
-/// Its symbol.
-pub(super) fn symbol(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Right => "✓",
-        Outcome::WrongAsKnown => "≈",
-        Outcome::NotJudged => "–",
-        Outcome::Failed => "✗",
-    }
+/// All outcomes, in the order of counts.
+pub(super) const OUTCOMES: [Outcome; 4] = [
+    Outcome::Right,
+    Outcome::WrongAsKnown,
+    Outcome::NotJudged,
+    Outcome::Failed,
+];
+
+/// A run in words.
+pub(super) fn name(record: &Record) -> String {
+    let set = record.set.iter().map(|assignment| format!(" {assignment}"));
+    format!(
+        "{} {}{}",
+        record.scheme(),
+        record.level,
+        set.collect::<String>()
+    )
 }
 
-/// The class of the style that gives its colour.
-pub(super) fn class(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Right => "pass",
-        Outcome::WrongAsKnown => "known",
-        Outcome::NotJudged => "none",
-        Outcome::Failed => "fail",
+/// Names in a sentence.
+pub(super) fn list(names: impl IntoIterator<Item = impl Into<String>>) -> String {
+    let names: Vec<String> = names.into_iter().map(Into::into).collect();
+    match names.is_empty() {
+        true => "none".to_owned(),
+        false => names.join(", "),
     }
 }
 

@@ -1,0 +1,382 @@
+//! A document as a tree of sections, paragraphs, tables and figures, which is written in Markdown, in HTML and on the terminal.
+
+mod markdown;
+mod page;
+pub(super) mod terminal;
+
+use super::words;
+use crate::gallery::Picture;
+use crate::table::Sheet;
+use crate::verdict::Outcome;
+use serde::Serialize;
+use std::path::Path;
+
+/// A part of a text: its kind, words, and target of a link or class of a mark.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Span {
+    kind: &'static str,
+    text: String,
+    to: String,
+}
+
+/// Words on one line.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct Text(Vec<Span>);
+
+impl<T: Into<String>> From<T> for Text {
+    fn from(text: T) -> Self {
+        Self::default().span("plain", text, "")
+    }
+}
+
+impl Text {
+    fn span(mut self, kind: &'static str, text: impl Into<String>, to: impl Into<String>) -> Self {
+        let (text, to) = (text.into(), to.into());
+        if !text.is_empty() {
+            self.0.push(Span { kind, text, to });
+        }
+        self
+    }
+
+    /// Words with `code`, **strong** ones and [links](target) in them.
+    pub(super) fn marked(words: &str) -> Self {
+        let marks = [
+            ("`", "`", "code"),
+            ("**", "**", "strong"),
+            ("[", ")", "link"),
+        ];
+        let (mut text, mut rest) = (Self::default(), words);
+        loop {
+            let found = marks
+                .iter()
+                .filter_map(|mark| Some((rest.find(mark.0)?, mark)));
+            let first = found.min_by_key(|(place, _)| *place);
+            let parts = first.and_then(|(place, (open, close, kind))| {
+                let (inner, after) = rest[place + open.len()..].split_once(close)?;
+                Some((&rest[..place], inner, *kind, after))
+            });
+            let Some((before, inner, kind, after)) = parts else {
+                return text.span("plain", rest, "");
+            };
+            let (inner, to) = inner.split_once("](").unwrap_or((inner, ""));
+            text = text.span("plain", before, "").span(kind, inner, to);
+            rest = after;
+        }
+    }
+
+    pub(super) fn code(text: impl Into<String>) -> Self {
+        Self::default().span("code", text, "")
+    }
+
+    pub(super) fn link(text: impl Into<String>, to: impl Into<String>) -> Self {
+        Self::default().span("link", text, to)
+    }
+
+    /// A mark with a class that gives its colour.
+    pub(super) fn mark(text: impl Into<String>, class: &str) -> Self {
+        Self::default().span("mark", text, class)
+    }
+
+    /// A small picture.
+    pub(super) fn thumb(caption: impl Into<String>, file: impl Into<String>) -> Self {
+        Self::default().span("image", caption, file)
+    }
+
+    /// The words alone.
+    fn words(&self) -> String {
+        self.0.iter().map(|span| &*span.text).collect()
+    }
+
+    /// Without the targets of links.
+    pub(super) fn unlinked(mut self) -> Self {
+        for span in self.0.iter_mut().filter(|span| span.kind == "link") {
+            span.kind = "plain";
+        }
+        self
+    }
+
+    /// An outcome in words, with a symbol.
+    pub(super) fn badge(outcome: Outcome) -> Self {
+        let [symbol, words, class] = words::shown(outcome);
+        Self::mark(format!("{symbol} {words}"), &format!("badge {class}"))
+    }
+
+    /// What goes on behind it.
+    pub(super) fn then(mut self, next: impl Into<Self>) -> Self {
+        self.0.extend(next.into().0);
+        self
+    }
+
+    /// What goes on in a new line.
+    pub(super) fn then_below(self, next: impl Into<Self>) -> Self {
+        self.span("break", "\n", "").then(next)
+    }
+
+    /// Several with something between them.
+    pub(super) fn joined(texts: impl IntoIterator<Item = Self>, between: &str) -> Self {
+        let texts = texts.into_iter();
+        let all = texts.reduce(|all, next| all.then(between).then(next));
+        all.unwrap_or_default()
+    }
+}
+
+/// A cell of a table.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct Cell {
+    text: Text,
+    class: String,
+    /// What a page says of it when it is pointed at.
+    title: String,
+    /// What is behind the text in Markdown, where nothing can be pointed at.
+    aside: String,
+    is_head: bool,
+}
+
+impl<T: Into<Text>> From<T> for Cell {
+    fn from(text: T) -> Self {
+        let text = text.into();
+        Self {
+            text,
+            ..Self::default()
+        }
+    }
+}
+
+impl Cell {
+    pub(super) fn of(text: impl Into<Text>, class: &str) -> Self {
+        let class = class.to_owned();
+        Self {
+            class,
+            ..Self::from(text)
+        }
+    }
+
+    /// What a row is about.
+    pub(super) fn head(text: impl Into<Text>) -> Self {
+        Self {
+            is_head: true,
+            ..Self::from(text)
+        }
+    }
+
+    pub(super) fn titled(self, title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            ..self
+        }
+    }
+
+    pub(super) fn aside(self, aside: impl Into<String>) -> Self {
+        Self {
+            aside: aside.into(),
+            ..self
+        }
+    }
+
+    /// A text that is a number, if it looks like one, to the right.
+    fn of_sheet(text: &str) -> Self {
+        let is_number = text.starts_with(|c| "0123456789-−–≤≥~".contains(c)) || text == "never";
+        Self::of(text, if is_number { "number" } else { "" })
+    }
+}
+
+/// A row of a table; links lead to its id.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct Row {
+    pub(super) id: String,
+    pub(super) cells: Vec<Cell>,
+}
+
+impl<T: IntoIterator<Item = Cell>> From<T> for Row {
+    fn from(cells: T) -> Self {
+        let (id, cells) = (String::new(), cells.into_iter().collect());
+        Self { id, cells }
+    }
+}
+
+/// A table.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct Table {
+    pub(super) class: &'static str,
+    pub(super) head: Vec<Cell>,
+    pub(super) rows: Vec<Row>,
+}
+
+impl From<Sheet> for Table {
+    fn from(sheet: Sheet) -> Self {
+        let row = |row: &Vec<String>| {
+            let rest = row.iter().skip(1).map(|cell| Cell::of_sheet(cell));
+            row.first()
+                .map(|cell| Cell::head(cell.as_str()))
+                .into_iter()
+                .chain(rest)
+                .into()
+        };
+        let head = sheet.head.iter().map(|title| title.as_str().into());
+        Self {
+            class: "",
+            head: head.collect(),
+            rows: sheet.rows.iter().map(row).collect(),
+        }
+    }
+}
+
+/// A picture with its caption and, if they are there, its SVG and the still of an animation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Shown {
+    pub(super) file: String,
+    pub(super) caption: String,
+    pub(super) svg: String,
+    pub(super) still: String,
+}
+
+impl Shown {
+    /// Of a report in `out`.
+    pub(super) fn of(picture: &Picture, out: &Path) -> Self {
+        let Picture { file, caption } = picture.clone();
+        let stem = file.rsplit_once('.').map_or(&*file, |(stem, _)| stem);
+        let [svg, still] = ["svg", "still.png"].map(|ending| {
+            let beside = format!("{stem}.{ending}");
+            if out.join(&beside).exists() {
+                beside
+            } else {
+                String::new()
+            }
+        });
+        Self {
+            file,
+            caption,
+            svg,
+            still,
+        }
+    }
+}
+
+/// A part of a document.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "is", rename_all = "kebab-case")]
+enum Block {
+    Heading {
+        level: usize,
+        id: String,
+        text: Text,
+    },
+    Paragraph {
+        class: &'static str,
+        text: Text,
+    },
+    Table {
+        caption: String,
+        table: Table,
+    },
+    Picture {
+        picture: Shown,
+    },
+    /// A drawing as SVG.
+    Drawing {
+        svg: String,
+        caption: String,
+    },
+    List {
+        items: Vec<Text>,
+    },
+    Facts {
+        facts: Vec<[String; 2]>,
+    },
+    /// What a page shows when its summary is clicked on.
+    Folded {
+        id: String,
+        open: bool,
+        summary: String,
+        blocks: Vec<Block>,
+    },
+}
+
+/// A document.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct Document {
+    blocks: Vec<Block>,
+}
+
+impl Document {
+    /// Without anything below its title.
+    pub(super) fn new(title: impl Into<Text>) -> Self {
+        let mut document = Self::default();
+        document.heading(1, "", title);
+        document
+    }
+
+    pub(super) fn heading(&mut self, level: usize, id: &str, text: impl Into<Text>) {
+        let (id, text) = (id.to_owned(), text.into());
+        self.blocks.push(Block::Heading { level, id, text });
+    }
+
+    pub(super) fn section(&mut self, id: &str, title: impl Into<Text>) {
+        self.heading(2, id, title);
+    }
+
+    pub(super) fn paragraph(&mut self, text: impl Into<Text>) {
+        self.classed("", text);
+    }
+
+    /// What is small.
+    pub(super) fn note(&mut self, text: impl Into<Text>) {
+        self.classed("note", text);
+    }
+
+    pub(super) fn classed(&mut self, class: &'static str, text: impl Into<Text>) {
+        let text = text.into();
+        self.blocks.push(Block::Paragraph { class, text });
+    }
+
+    pub(super) fn table(&mut self, caption: impl Into<String>, table: impl Into<Table>) {
+        let (caption, table) = (caption.into(), table.into());
+        self.blocks.push(Block::Table { caption, table });
+    }
+
+    pub(super) fn picture(&mut self, picture: Shown) {
+        self.blocks.push(Block::Picture { picture });
+    }
+
+    pub(super) fn drawing(&mut self, svg: String, caption: &str) {
+        let caption = caption.to_owned();
+        self.blocks.push(Block::Drawing { svg, caption });
+    }
+
+    pub(super) fn list(&mut self, items: impl IntoIterator<Item = impl Into<Text>>) {
+        let items = items.into_iter().map(Into::into).collect();
+        self.blocks.push(Block::List { items });
+    }
+
+    pub(super) fn facts(&mut self, facts: impl IntoIterator<Item = (&'static str, String)>) {
+        let facts = facts
+            .into_iter()
+            .map(|(name, value)| [name.to_owned(), value])
+            .collect();
+        self.blocks.push(Block::Facts { facts });
+    }
+
+    pub(super) fn folded(
+        &mut self,
+        id: &str,
+        summary: impl Into<String>,
+        fill: impl FnOnce(&mut Self),
+    ) {
+        let mut inner = Self::default();
+        fill(&mut inner);
+        let (id, summary) = (id.to_owned(), summary.into());
+        self.blocks.push(Block::Folded {
+            id,
+            open: false,
+            summary,
+            blocks: inner.blocks,
+        });
+    }
+
+    /// Shows what was folded last.
+    pub(super) fn unfold(&mut self) {
+        if let Some(Block::Folded { open, .. }) = self.blocks.last_mut() {
+            *open = true;
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! The page of a case: its verdict in a sentence, a picture, errors by scheme and level, what they cost; the rest is
+//! folded.
+
+use super::{anchor, pictures, run};
+use crate::case::Case;
+use crate::distinct;
+use crate::draw::sketch;
+use crate::metric::Quantity;
+use crate::record::Record;
+use crate::report::document::{Cell, Document, Row, Table, Text};
+use crate::report::faults::{self, Fault};
+use crate::report::price::Prices;
+use crate::report::verdicts::{self, nearest};
+use crate::report::words::{OUTCOMES, kind, local_orders, made_by, number, order};
+use crate::spec::Level;
+use crate::study::convergence::Convergence;
+use crate::study::judge::outcome_of_run;
+use crate::study::summary::CaseStudy;
+use crate::table::Sheet;
+use crate::verdict::{Kind, Outcome, Verdict};
+use std::path::Path;
+
+pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path) -> Document {
+    let mut page = Document::new(case.title);
+    let mut lead = Text::from(sentence(study));
+    if let Some(best) = nearest(case, study) {
+        lead = lead
+            .then(format!(
+                " Best error: {} where {} is allowed (",
+                best.error, best.tolerance
+            ))
+            .then(Text::code(best.metric))
+            .then(format!(", {}).", best.run));
+    }
+    page.classed("lead", lead);
+    page.paragraph(case.description);
+    let failed = verdicts::of_case(study).filter(|(_, v)| v.failed());
+    let failed: Vec<_> = failed
+        .map(|(record, v)| (Some(run(study, record)), v))
+        .collect();
+    let has_failed = !failed.is_empty();
+    if has_failed {
+        page.section("failed", "What failed");
+        page.table("Failed checks", verdicts::table(failed));
+    }
+    let mut pictures = pictures(study, out).into_iter();
+    if let Some(first) = pictures.next() {
+        page.picture(first);
+    }
+    errors(&mut page, case, study);
+    let prices = Prices::of(study);
+    if !prices.is_empty() {
+        page.section("cost", "Cost of an error");
+    }
+    for p in prices {
+        let (target, label) = (p.aim(), p.label);
+        page.paragraph(format!(
+            "To reach {target} in {label}, the least error that half of the schemes reach:"
+        ));
+        page.table(format!("Cost of {label}"), p.table());
+    }
+    if pictures.len() > 0 {
+        page.section("pictures", "Pictures");
+    }
+    for picture in pictures {
+        page.picture(picture);
+    }
+    page.section("more", "More");
+    let runs = study.records.len();
+    page.folded(
+        "runs",
+        format!("Runs ({runs}), and what decides their verdicts"),
+        |page| {
+            let file = format!("{}/verdicts.csv", case.name);
+            page.note(Text::marked(&format!(
+                "Every verdict, with its source: [verdicts.csv]({file})."
+            )));
+            page.table("Runs", of_runs(case, study));
+        },
+    );
+    page.folded("checks", "Checks, and how often each came out how", |page| {
+        page.note(Text::marked(&format!(
+            "Faults seen: of {} put into the code on purpose, those that turn the check red ([which](faults.html)).",
+            seeded.len()
+        )));
+        page.table("Checks", checks(case, study, seeded));
+    });
+    if !study.verdicts.is_empty() {
+        let title = "Verdicts on runs together";
+        page.folded(
+            "together",
+            format!("{title} ({})", study.verdicts.len()),
+            |page| {
+                page.table(
+                    title,
+                    verdicts::table(study.verdicts.iter().map(|v| (None, v))),
+                );
+            },
+        );
+        if has_failed {
+            page.unfold();
+        }
+    }
+    set_up(&mut page, case);
+    page.folded("limits", "What the case does not show", |page| {
+        page.list(case.limits.iter().copied());
+    });
+    page.folded("metrics", "Metrics, and what made the runs", |page| {
+        let metrics = case.metrics.iter();
+        let metrics = metrics.map(|m| [m.name, m.unit, m.meaning].map(str::to_owned).into());
+        page.table(
+            "Metrics",
+            Sheet::new(["metric", "unit", "what it measures"]).with(metrics),
+        );
+        page.facts(
+            ["program", "night", "commit"]
+                .into_iter()
+                .zip(made_by(study)),
+        );
+    });
+    page
+}
+
+/// How the runs of a case came out, in a sentence.
+fn sentence(study: &CaseStudy) -> String {
+    let [right, known, not_judged, failed] = OUTCOMES.map(|outcome| {
+        let runs = study.records.iter();
+        runs.filter(|r| outcome_of_run(r) == outcome).count()
+    });
+    let limits = verdicts::of_case(study).filter(|(_, v)| v.outcome == Outcome::WrongAsKnown);
+    let limits = distinct(limits.map(|(_, v)| &*v.check));
+    let seen = match limits.is_empty() {
+        true => String::new(),
+        false => format!(" Known limits seen: {}.", limits.join(", ")),
+    };
+    let all = match study.records.len() {
+        1 => "Of one run,".to_owned(),
+        several => format!("Of {several} runs,"),
+    };
+    format!(
+        "{all} {right} right, {known} wrong as known, {not_judged} not judged, {failed} FAILED.{seen}"
+    )
+}
+
+/// The quantities of the case, scheme by level; of more than two the others are folded.
+fn errors(page: &mut Document, case: &Case, study: &CaseStudy) {
+    let tables = case.quantities.iter().filter_map(|q| {
+        let own = study.convergence.iter();
+        let own: Vec<_> = own
+            .filter(|c| c.set == case.ladder && c.metric == q.metric.name)
+            .collect();
+        (!own.is_empty()).then(|| (q, by_level(case, &own)))
+    });
+    let mut tables: Vec<(&Quantity, Sheet)> = tables.collect();
+    if tables.is_empty() {
+        return;
+    }
+    let ladder = case
+        .ladder
+        .iter()
+        .map(|set| (*set).to_owned())
+        .collect::<Vec<_>>()
+        .join(" ");
+    let changed = if ladder.is_empty() {
+        String::new()
+    } else {
+        format!(", {ladder}")
+    };
+    page.section("errors", format!("Errors by scheme and level{changed}"));
+    let others = tables.split_off(tables.len().min(2));
+    let show = |page: &mut Document, tables: Vec<(&Quantity, Sheet)>| {
+        for (quantity, table) in tables {
+            page.heading(3, "", quantity.label);
+            page.table(quantity.label, table);
+        }
+    };
+    show(page, tables);
+    if !others.is_empty() {
+        page.folded("", format!("{} more", others.len()), |page| {
+            show(page, others)
+        });
+    }
+    let name = case.name;
+    page.note(Text::marked(&format!(
+        "Orders by least squares, with 95 % confidence (Student's t); of a value without a reference, Richardson's. All sets of \
+         parameters: [convergence.csv]({name}/convergence.csv), [study.json]({name}/study.json)."
+    )));
+}
+
+/// A quantity, scheme by level.
+fn by_level(case: &Case, own: &[&Convergence]) -> Sheet {
+    let mut levels = distinct(own.iter().flat_map(|c| &c.points).map(|p| &*p.level));
+    levels.sort_by_key(|level| case.levels.iter().position(|l| l.name == *level));
+    let row = |c: &&Convergence| {
+        let value = |level: &&str| {
+            let point = c.points.iter().find(|p| p.level == *level);
+            point.map_or(String::new(), |p| number(Some(p.value)))
+        };
+        let cells = levels.iter().map(value).chain([order(c), local_orders(c)]);
+        [c.scheme.to_string()].into_iter().chain(cells).collect()
+    };
+    let head = ["scheme"].into_iter().chain(levels.iter().copied());
+    Sheet::new(head.chain(["order", "between levels"])).with(own.iter().map(row))
+}
+
+/// A run on a line: what decides its verdict, what the case shows of it, what it cost.
+fn of_runs(case: &Case, study: &CaseStudy) -> Table {
+    let row = |r: &Record| {
+        let outcome = outcome_of_run(r);
+        let own = r
+            .verdicts
+            .iter()
+            .filter(|v| v.outcome == outcome && outcome != Outcome::Right);
+        let deciding = distinct(own.filter(|v| v.judges() || v.failed()).map(|v| &*v.check));
+        let why = match &r.error {
+            Some(e) => format!("broke down at {} s", number(Some(e.time))),
+            None => deciding.join(", "),
+        };
+        let (level, set) = (r.level.clone(), r.set.join(" "));
+        let first = [Cell::head(r.scheme().to_string()), level.into(), set.into()];
+        let verdict = [Text::badge(outcome).into(), why.into()];
+        let values = case.headlines.iter().map(|h| h.of_run(r));
+        let values = values.chain([number(Some(r.time.cpu_s))]).map(Cell::from);
+        let cells = first.into_iter().chain(verdict).chain(values).collect();
+        Row {
+            id: anchor(r),
+            cells,
+        }
+    };
+    let head = ["scheme", "level", "changed", "verdict", "for"].map(Cell::from);
+    let values = case.headlines.iter().map(|h| Cell::from(&*h.title));
+    Table {
+        class: "numbers",
+        head: head
+            .into_iter()
+            .chain(values)
+            .chain(["CPU (s)".into()])
+            .collect(),
+        rows: study.records.iter().map(row).collect(),
+    }
+}
+
+/// Every check with its outcomes and the number of seeded faults that it sees: those that the case declares, then those that
+/// every case has.
+fn checks(case: &Case, study: &CaseStudy, seeded: &[Fault]) -> Table {
+    let all = || verdicts::of_case(study).map(|(_, v)| v);
+    let is_declared = |v: &Verdict| case.checks.iter().any(|c| c.name == v.check);
+    let others = all().filter(|v| v.kind != Kind::Drift && !is_declared(v));
+    let others = distinct(others.map(|v| (&*v.check, v.kind, &*v.source)));
+    let declared = case.checks.iter().map(|c| (c.name, c.kind, c.statement));
+    let row = |(name, of, statement): (&str, Kind, &str)| -> Row {
+        let count = |outcome| {
+            let own = all().filter(|v| v.check == name && v.outcome == outcome);
+            Cell::of(own.count().to_string(), "number")
+        };
+        let seen = match faults::seen(seeded, case.name, name) {
+            0 => String::new(),
+            n => n.to_string(),
+        };
+        let first = [Cell::head(name), Cell::of(kind(of), "tight")];
+        let last = [Cell::of(seen, "number"), Cell::of(statement, "wordy")];
+        first
+            .into_iter()
+            .chain(OUTCOMES.map(count))
+            .chain(last)
+            .into()
+    };
+    let head = [
+        "check",
+        "kind",
+        "right",
+        "wrong as known",
+        "not judged",
+        "FAILED",
+        "faults seen",
+        "statement",
+    ];
+    Table {
+        class: "",
+        head: head.map(Cell::from).to_vec(),
+        rows: declared.chain(others).map(row).collect(),
+    }
+}
+
+fn set_up(page: &mut Document, case: &Case) {
+    let title = "Set-up: geometry, parameters, schemes, levels, references";
+    page.folded("set-up", title, |page| {
+        page.drawing(
+            sketch::svg(&case.sketch, case.title),
+            case.sketch.description,
+        );
+        let parameters = case.parameters.iter().map(|p| {
+            let allowed = p.domain.to_string();
+            [p.name, p.unit, p.default, &allowed, p.meaning]
+                .map(str::to_owned)
+                .into()
+        });
+        let head = ["name", "unit", "default", "allowed", "meaning"];
+        page.table("Parameters", Sheet::new(head).with(parameters));
+        page.heading(3, "", "Schemes");
+        let schemes = case
+            .schemes()
+            .into_iter()
+            .map(|s| Text::code(s.to_string()));
+        page.paragraph(Text::joined(schemes, ", "));
+        page.heading(3, "", "Levels");
+        let level = |l: &Level| Text::code(l.name).then(format!(": cells of {} m", l.h));
+        page.paragraph(Text::joined(case.levels.iter().map(level), ", "));
+        page.heading(3, "", "References");
+        page.list(case.references.iter().cloned());
+    });
+}

@@ -1,0 +1,72 @@
+//! The page of the seeded faults: which check of which case sees which.
+
+use crate::cases;
+use crate::report::document::{Cell, Document, Row, Table, Text};
+use crate::report::faults::Fault;
+use crate::study::summary::Summary;
+
+/// A line a fault and a column a case that sees any, in the order of the cases; a case has a link where it has a page.
+pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
+    let sees = |case: &str| {
+        faults
+            .iter()
+            .filter(|f| f.seen_by.contains_key(case))
+            .count()
+    };
+    let names = cases::all().iter().map(|case| case.name);
+    let names: Vec<&str> = names.filter(|name| sees(name) > 0).collect();
+    let title = |name: &&str| match summary.cases.iter().any(|study| study.case == **name) {
+        true => Cell::of(Text::link(*name, format!("{name}.html#checks")), "steep"),
+        false => Cell::of(*name, "steep"),
+    };
+    let line = |fault: &Fault| -> Row {
+        let class = if fault.hangs_on_one() {
+            "known"
+        } else {
+            "pass"
+        };
+        let cells = names.iter().map(|name| match fault.seen_by.get(*name) {
+            Some(checks) => Cell::of(checks.len().to_string(), class).titled(checks.join(", ")),
+            None => Cell::default(),
+        });
+        [Cell::head(&*fault.name)].into_iter().chain(cells).into()
+    };
+    let seen = names.iter().map(|name| sees(name).to_string().into());
+    let last = [Cell::head("faults that a case sees")]
+        .into_iter()
+        .chain(seen)
+        .into();
+    let table = Table {
+        class: "map faults",
+        head: ["fault".into()]
+            .into_iter()
+            .chain(names.iter().map(title))
+            .collect(),
+        rows: faults.iter().map(line).chain([last]).collect(),
+    };
+    let alone = faults.iter().filter(|f| f.hangs_on_one()).count();
+    let mut page = Document::new("Seeded faults: which check sees which");
+    page.classed(
+        "lead",
+        format!(
+            "{} faults of physics were put into the code on purpose, one at a time. Every one turns a check red; {alone} hang \
+             on one check alone.",
+            faults.len()
+        ),
+    );
+    let key =
+        Text::from("A number is that of the checks of a case that go red, which its title names. ");
+    page.paragraph(
+        key.then(Text::mark("3", "key pass"))
+            .then(" others see the fault too · ")
+            .then(Text::mark("1", "key known"))
+            .then(" nothing else sees it: what would be lost with that check."),
+    );
+    page.table("Faults and cases", table);
+    page.note(Text::marked(
+        "The faults are those of the last run of `just mutants` and not of this report. A fault is tried in all runs that reach \
+         its line, but for three sets that take seconds each and are made for their own faults only. Every check by name: \
+         `docs/kill-matrix.md`.",
+    ));
+    page
+}

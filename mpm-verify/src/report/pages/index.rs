@@ -1,0 +1,290 @@
+//! The index: which scheme to take, how every scheme comes out in every case, at what price, and the cases.
+
+use super::{docs, file_of, in_repository, pictures, run};
+use crate::cases;
+use crate::distinct;
+use crate::error::Error;
+use crate::gallery::Picture;
+use crate::record::Record;
+use crate::report::advice::advice;
+use crate::report::document::{Cell, Document, Row, Shown, Table, Text};
+use crate::report::speed::Speed;
+use crate::report::summary::programs;
+use crate::report::verdicts::{self, nearest};
+use crate::report::{map, words::OUTCOMES};
+use crate::study::judge::outcome_of_run;
+use crate::study::summary::{CaseStudy, Summary};
+use crate::verdict::{Outcome, Verdict};
+use std::path::Path;
+
+/// The sections and the other files of a report.
+pub(super) fn links() -> Vec<Text> {
+    let sections = [
+        ("Which scheme to take", "#advice"),
+        ("Map", "#map"),
+        ("Speed against error", "#speed"),
+        ("Cases", "#cases"),
+        ("Legend", "#legend"),
+        ("What failed", "#failed"),
+        ("What ran", "#programs"),
+        ("Seeded faults", "faults.html"),
+    ];
+    let files = ["summary.md", "summary.json", "junit.xml"].map(|file| (file, file));
+    let links = sections.into_iter().chain(files);
+    links.map(|(name, to)| Text::link(name, to)).collect()
+}
+
+pub(super) fn page(
+    summary: &Summary,
+    speed: &Speed,
+    picture: Option<Picture>,
+    out: &Path,
+) -> Result<Document, Error> {
+    let mut page =
+        Document::new(Text::from("Verification, tier ").then(Text::code(&*summary.tier)));
+    let counts = summary.counts.to_string();
+    let result = match summary.exit_code() as u8 {
+        0 => Text::mark("✓ nothing failed", "badge pass"),
+        _ => Text::mark("✗", "badge fail")
+            .then(" ")
+            .then(Text::link("something failed", "#failed")),
+    };
+    let about = "The locking-free material point method against exact solutions, independent references and published results. ";
+    let first = counts.lines().next().unwrap_or_default();
+    page.paragraph(Text::from(about).then(result).then_below(first));
+    schemes(&mut page);
+    of_map(&mut page, summary, speed);
+    price(
+        &mut page,
+        summary,
+        speed,
+        picture.map(|p| Shown::of(&p, out)),
+    );
+    page.section("cases", "Cases");
+    page.table("Cases", of_cases(summary, out)?);
+    for line in counts.lines() {
+        page.note(line);
+    }
+    page.note(Text::marked(
+        "What a case is, what is known of it and why its tolerances are what they are: `docs/CASE.md`.",
+    ));
+    legend(&mut page);
+    failed(&mut page, summary);
+    page.section("programs", "What ran");
+    let machines = summary.cases.iter().flat_map(|s| &s.records).map(|r| {
+        let m = &r.machine;
+        format!(
+            "{} {}, {} cores, threads per run: {}",
+            m.os, m.arch, m.cores, m.threads
+        )
+    });
+    page.facts(
+        distinct(machines)
+            .into_iter()
+            .map(|machine| ("machine", machine)),
+    );
+    page.table("What ran", programs(summary));
+    Ok(page)
+}
+
+/// The table of the README.
+fn schemes(page: &mut Document) {
+    page.section("advice", "Which scheme to take");
+    let readme = in_repository("README.md", "README.md#which-scheme-to-take", "HEAD");
+    let Some(table) = advice() else {
+        return page.paragraph(
+            Text::from("The table of ")
+                .then(readme)
+                .then(" is not at hand."),
+        );
+    };
+    page.table("Which scheme to take", table);
+    page.note(Text::from("The table of ").then(readme).then(Text::marked(
+        ". Its numbers are of the last nights, seconds of one core; standard MPM with the same functions and solver. Everything \
+         below is of this tier's runs, which are fewer. `docs/remedy.md`, `docs/implicit.md` and `docs/poromechanics.md` say why.",
+    )));
+}
+
+fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
+    page.section("map", "Map: how every scheme comes out");
+    let panels = map::panels(summary.cases.iter().flat_map(|s| &s.records), speed);
+    if panels.is_empty() {
+        return page.paragraph("There is no run.");
+    }
+    let key = |[symbol, text, class]: [&str; 3]| {
+        Text::mark(symbol, &format!("key {class}")).then(format!(" {text}"))
+    };
+    page.paragraph(Text::joined(map::legend().map(key), " · "));
+    page.note(Text::marked(
+        "A cell shows the worst outcome of a scheme's runs in a case; it is pale if less than half of them came out so, and blank if \
+         there are none. Hover over it for the counts, follow it to the case. **Noisy**: more than half of the mean square of the \
+         stress is noise, where that is measured, be the run right or wrong as known. **CFL**: the largest stable Courant number \
+         (tested up to 1) of particles that lie regularly, and of a body that fills a hundredth of its last cell. **Cost**: \
+         particle–node pairs for the target error of the motion (next table), over those of the cheapest scheme; the median over \
+         three motions or more, and in brackets in how many of those that were run the scheme gets there. A scheme is named by \
+         basis, remedy and transfer, and without a transfer it is FLIP; `static`, `midpoint` and `newmark` are implicit solvers \
+         ([legend](#legend)).",
+    ));
+    for panel in panels {
+        page.heading(3, "", panel.name);
+        let title = |case: &str| Text::link(case, format!("{case}.html"));
+        page.table(format!("Map, {}", panel.name), panel.table(title, true));
+        if !panel.errors.is_empty() {
+            page.note(Text::from("Errors of runs that broke down: ").then(panel.marks()));
+        }
+    }
+}
+
+fn price(page: &mut Document, summary: &Summary, speed: &Speed, picture: Option<Shown>) {
+    page.section("speed", "Speed against error: at what price");
+    if speed.is_empty() {
+        return page.paragraph(Text::marked(
+            "The runs of this tier have too few levels for a comparison; that of all nights is in `docs/remedy.md`.",
+        ));
+    }
+    match ["nightly", "long"].contains(&&*summary.tier) {
+        true => page.classed("lead", speed.advice()),
+        false => page.paragraph(Text::marked(
+            "What the runs of this tier show; they are few. Those of the last night are in `docs/remedy.md`.",
+        )),
+    }
+    if let Some(picture) = picture {
+        page.picture(picture);
+    }
+    page.table("Speed against error", speed.table());
+    page.note(Text::marked(
+        "Target: the least error that half of the schemes reach. Pairs and CPU time: what the cheapest scheme needs for it, \
+         interpolated between levels; **≈** behind a scheme: one of those runs is wrong as known. Last columns: the cheapest scheme \
+         of each remedy, in multiples of these pairs; ≤ and ≥ are bounds, where the coarsest level reaches the target already; \
+         **never**: no run reaches it; –: not run at two levels.",
+    ));
+}
+
+/// The cases: how their runs came out, their best errors, what they cost.
+fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
+    let row = |study: &CaseStudy| -> Result<Row, Error> {
+        let case = cases::find(&study.case)?;
+        let name = Text::link(case.title, file_of(study));
+        let name = name
+            .then_below(Text::code(case.name))
+            .then(" · ")
+            .then(docs(study));
+        let thumb = pictures(study, out).into_iter().next();
+        let thumb = thumb.map(|p| {
+            let still = if p.still.is_empty() { p.file } else { p.still };
+            Text::thumb(p.caption, still)
+        });
+        let best = nearest(case, study).map_or_else(
+            || Text::from("–"),
+            |b| {
+                let of = Text::mark(format!("{}, {}", b.metric, b.run), "note");
+                Text::from(format!("{} of {}", b.error, b.tolerance)).then_below(of)
+            },
+        );
+        let together = study.verdicts.iter().filter(|v| v.failed()).count();
+        let counts = OUTCOMES.map(|outcome| {
+            let runs = study
+                .records
+                .iter()
+                .filter(|r| outcome_of_run(r) == outcome)
+                .count();
+            match (outcome, runs + together) {
+                (Outcome::Failed, n) if n > 0 => Text::mark(format!("✗ {n}"), "badge fail"),
+                _ => runs.to_string().into(),
+            }
+        });
+        let sum = |of: fn(&Record) -> f64| study.records.iter().fold(0.0, |sum, r| sum + of(r));
+        let pairs = format!("{:.2}", 1e-9 * sum(|r| r.work.particle_node_pairs as f64));
+        let cpu = format!("{:.1}", sum(|r| r.time.cpu_s));
+        let numbers = counts.into_iter().chain([pairs.into(), cpu.into()]);
+        let first = [
+            Cell::head(name),
+            thumb.unwrap_or_default().into(),
+            best.into(),
+        ];
+        Ok(first
+            .into_iter()
+            .chain(numbers.map(|n| Cell::of(n, "number")))
+            .into())
+    };
+    let head = [
+        "case",
+        "",
+        "best of the runs that are right: error, tolerance",
+    ]
+    .map(Cell::from);
+    let numbers = [
+        "right",
+        "wrong as known",
+        "not judged",
+        "FAILED",
+        "10⁹ pairs",
+        "CPU (s)",
+    ];
+    let numbers = numbers.map(|title| Cell::of(title, "number"));
+    Ok(Table {
+        class: "",
+        head: head.into_iter().chain(numbers).collect(),
+        rows: summary
+            .cases
+            .iter()
+            .map(row)
+            .collect::<Result<_, Error>>()?,
+    })
+}
+
+fn legend(page: &mut Document) {
+    page.section("legend", "Legend");
+    let says = [
+        " a check against an exact value, an independent reference or a law of physics holds, and no known limit is seen.",
+        " the run shows a known limit of its scheme, such as locking; the check fails when the limit vanishes.",
+        " no check against the truth applies. Bookkeeping (mass, counts, completion) judges nothing.",
+        " a check does not hold, or the run broke down and was not known to.",
+    ];
+    let outcomes = OUTCOMES.into_iter().zip(says);
+    page.list(outcomes.map(|(outcome, says)| Text::badge(outcome).then(says)));
+    page.paragraph(Text::marked(
+        "An explicit scheme is `basis-remedy-transfer`, in tables without `flip`; an implicit one `rule-basis-remedy`; one of solid \
+         and water `poro-basis-space`.",
+    ));
+    let names = [
+        "Bases: `linear` hats, `gimp` (hats averaged over a particle's domain), `bspline2` and `bspline3` (quadratic and cubic \
+         splines), `q8` (elements of eight nodes).",
+        "Remedies for volumetric locking: `none` (standard MPM), `fbar-recursive` (as Zhao, Jiang & Choo print it, \
+         doi:10.1002/nme.7347), `fbar-total` and `fbar-rate` (variants for comparison), `fbar-consistent` (this project's: it keeps \
+         the balance of energy).",
+        "Transfers: `flip`, `apic`, `xpic2`, `musl` (FLIP that maps velocities back once more before the stress).",
+        "Rules of the implicit solver: `quasi-static` (in tables `static`), `midpoint`, `newmark`.",
+        "Spaces of the pore pressure: `two-grid` (cells twice as large as those of the displacement), `equal` (the same cells), \
+         `ppp` (the same, stabilised by a projection of the pressure).",
+        "Levels name the cells: `n16` per side, `h0.5` metres, `b20` per width. Tiers are sets of runs: `quick`, `pr` (of every pull \
+         request), `nightly`, `long`.",
+        "In pictures, colour is the remedy, marker the basis, a hollow marker a transfer other than FLIP.",
+    ];
+    page.list(names.map(Text::marked));
+}
+
+fn failed(page: &mut Document, summary: &Summary) {
+    page.section("failed", "What failed");
+    let broken = verdicts::broken(summary).map(|(study, record, message)| {
+        let mark = Text::marked("**⚠ Broke down:** ");
+        mark.then(run(study, Some(record)))
+            .then(format!(": {message}"))
+    });
+    let broken: Vec<Text> = broken.collect();
+    let failures = |which: fn(&Verdict) -> bool| {
+        let failed = summary.verdicts().filter(move |(.., v)| which(v));
+        failed.map(|(study, record, v)| (Some(run(study, record)), v))
+    };
+    let failures = failures(Verdict::misses_the_truth).chain(failures(Verdict::drifts));
+    let table = verdicts::table(failures);
+    if broken.is_empty() && table.rows.is_empty() {
+        page.paragraph("Nothing.");
+    }
+    for text in broken {
+        page.classed("error", text);
+    }
+    if !table.rows.is_empty() {
+        page.table("Failed checks", table);
+    }
+}

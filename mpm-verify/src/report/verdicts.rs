@@ -1,0 +1,202 @@
+//! Verdicts as tables: on pages, in the summary and as CSV.
+
+use super::document::{Cell, Row, Table, Text};
+use super::words::{kind, name, number, outcome, quantity};
+use crate::case::Case;
+use crate::error::Error;
+use crate::files::write_csv;
+use crate::record::Record;
+use crate::study::judge::outcome_of_run;
+use crate::study::summary::{CaseStudy, Summary};
+use crate::table::Sheet;
+use crate::verdict::{Kind, Outcome, Verdict};
+use std::path::Path;
+
+const HEAD: [&str; 8] = [
+    "outcome",
+    "kind",
+    "check",
+    "metric",
+    "value",
+    "reference",
+    "tolerance",
+    "source",
+];
+
+/// A number as it is, which drift may need.
+fn exact(value: Option<f64>) -> String {
+    value.map_or_else(|| number(None), |x| x.to_string())
+}
+
+/// Verdicts with the runs that they are on, if these are named.
+pub(super) fn table<'a>(verdicts: impl IntoIterator<Item = (Option<Text>, &'a Verdict)>) -> Table {
+    let row = |(run, v): (Option<Text>, &Verdict)| -> Row {
+        let shown = if v.kind == Kind::Drift { exact } else { number };
+        let cells = [
+            Cell::from(Text::badge(v.outcome)),
+            Cell::of(kind(v.kind), "tight"),
+            Cell::head(&*v.check),
+            Cell::from(&*v.metric),
+            Cell::of(shown(v.value), "number"),
+            Cell::of(shown(v.reference), "number"),
+            Cell::of(number(v.tolerance), "number"),
+            Cell::of(&*v.source, "wordy"),
+        ];
+        run.map(Cell::from).into_iter().chain(cells).into()
+    };
+    let rows: Vec<Row> = verdicts.into_iter().map(row).collect();
+    let named = rows.first().is_some_and(|row| row.cells.len() > HEAD.len());
+    let run = named.then(|| Cell::from("run"));
+    let head = HEAD.map(|title| match title {
+        "value" | "reference" | "tolerance" => Cell::of(title, "number"),
+        _ => Cell::from(title),
+    });
+    Table {
+        class: "",
+        head: run.into_iter().chain(head).collect(),
+        rows,
+    }
+}
+
+/// What differs from the goldens, run by run.
+pub(super) fn drift(summary: &Summary) -> Sheet {
+    let records = summary.cases.iter().flat_map(|s| &s.records);
+    let rows = records.flat_map(|record| {
+        let drifting = record.verdicts.iter().filter(|v| v.drifts());
+        drifting.map(move |v| {
+            let difference = v.value.zip(v.reference).map(|(now, golden)| now - golden);
+            let what = match difference {
+                Some(_) => v.metric.clone(),
+                None => format!("{}: {}", v.metric, v.source),
+            };
+            vec![
+                format!("{} {}", record.case, record.folder()),
+                what,
+                exact(v.reference),
+                exact(v.value),
+                difference.map_or_else(|| number(None), |d| format!("{d:.3e}")),
+                number(v.tolerance),
+            ]
+        })
+    });
+    Sheet::new(["run", "quantity", "golden", "now", "difference", "allowed"]).with(rows)
+}
+
+/// Writes every verdict of a case, those of drift apart, into `verdicts.csv` of its folder.
+pub(super) fn write(study: &CaseStudy, out: &Path) -> Result<(), Error> {
+    let mut head = HEAD.map(str::to_owned).to_vec();
+    head.insert(3, "run".to_owned());
+    let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
+    let rows = of_case(study)
+        .filter(|(_, v)| v.kind != Kind::Drift)
+        .map(|(run, v)| {
+            let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
+            let words = [outcome(v.outcome), kind(v.kind), &v.check, &run, &v.metric];
+            let numbers = [v.value, v.reference, v.tolerance].map(number);
+            [
+                &words.map(str::to_owned)[..],
+                &numbers,
+                std::slice::from_ref(&v.source),
+            ]
+            .concat()
+        });
+    write_csv(&out.join(&study.case).join("verdicts.csv"), &head, rows)
+}
+
+/// The verdicts on the runs of a case, then those on runs together.
+pub(super) fn of_case(
+    study: &CaseStudy,
+) -> impl Iterator<Item = (Option<&Record>, &Verdict)> + Clone {
+    let single = study
+        .records
+        .iter()
+        .flat_map(|r| r.verdicts.iter().map(move |v| (Some(r), v)));
+    single.chain(study.verdicts.iter().map(|v| (None, v)))
+}
+
+/// The runs that broke down and were not known to, each with the message.
+pub(super) fn broken(summary: &Summary) -> impl Iterator<Item = (&CaseStudy, &Record, &str)> {
+    let runs = summary
+        .cases
+        .iter()
+        .flat_map(|study| study.records.iter().map(move |r| (study, r)));
+    runs.filter_map(|(study, r)| {
+        let error = r.error.as_ref().filter(|_| r.broke_down())?;
+        Some((study, r, &*error.message))
+    })
+}
+
+/// A value beside its reference.
+pub(super) struct Nearest<'a> {
+    /// Distance from the reference, and what is allowed, with units.
+    pub(super) error: String,
+    pub(super) tolerance: String,
+    pub(super) metric: &'a str,
+    pub(super) run: String,
+}
+
+/// The value that comes nearest to its reference, in tolerances, of the first error of a case that a check judges, or
+/// else of its first check; of runs that are right.
+pub(super) fn nearest<'a>(case: &Case, study: &'a CaseStudy) -> Option<Nearest<'a>> {
+    let right = |r: &&Record| outcome_of_run(r) == Outcome::Right;
+    let distance = |v: &Verdict| Some((v.value? - v.reference.unwrap_or(0.0)).abs());
+    let share = |v: &Verdict| {
+        let (distance, tolerance) = (distance(v)?, v.tolerance.filter(|t| *t > 0.0)?);
+        let is_bound_from_below = v.reference.is_none() && v.holds() == Some(distance > tolerance);
+        let shown = v.kind == Kind::Truth && !is_bound_from_below;
+        shown.then_some(distance / tolerance)
+    };
+    let all = study.records.iter().filter(right);
+    let all = all.flat_map(|r| {
+        r.verdicts
+            .iter()
+            .filter_map(move |v| Some((r, v, share(v)?)))
+    });
+    let judged: Vec<(&Record, &Verdict, f64)> = all.collect();
+    let errors = case
+        .quantities
+        .iter()
+        .filter(|q| q.is_error)
+        .map(|q| q.metric);
+    let mut metrics = errors.chain(case.metrics.iter().copied());
+    let (run, v, _) = metrics.find_map(|metric| {
+        let own = judged.iter().filter(|(_, v, _)| v.metric == metric.name);
+        own.min_by(|a, b| a.2.total_cmp(&b.2))
+    })?;
+    let unit = case
+        .metrics
+        .iter()
+        .find(|m| m.name == v.metric)
+        .map_or("-", |m| m.unit);
+    Some(Nearest {
+        error: quantity(distance(v), unit),
+        tolerance: quantity(v.tolerance, unit),
+        metric: &v.metric,
+        run: name(run),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases;
+    use crate::check::Finding;
+    use crate::record::fixture::record;
+
+    #[test]
+    fn the_nearest_value_is_of_a_run_that_is_right() {
+        let edge = |distance: f64| {
+            Finding::within("fem_edge_mean_error", 1.0 + distance, 1.0, 0.1, "")
+                .verdict("edge", Kind::Truth)
+        };
+        let wrong = Finding::within("at_rest", 0.0, 1.0, 0.0, "").verdict("at-rest", Kind::Truth);
+        let runs = vec![
+            record("h2", vec![edge(0.05)]),
+            record("h1", vec![edge(0.025)]),
+            record("h0.5", vec![edge(0.0125), wrong]),
+        ];
+        let study = CaseStudy::new("cook", runs);
+        let found = nearest(cases::find("cook").unwrap(), &study).unwrap();
+        assert!(found.run.contains("h1") && found.error.contains("0.025"));
+    }
+}
