@@ -55,11 +55,6 @@ impl Check {
         Self::new(Kind::KnownLimit, name, statement, on)
     }
 
-    /// That what was once observed is observed still: no theory demands it.
-    pub(crate) fn regression(name: &'static str, statement: &'static str, on: On) -> Self {
-        Self::new(Kind::Regression, name, statement, on)
-    }
-
     /// Of what a wrong solution fulfils as well, such as its mass: it makes no run judged.
     pub(crate) fn bookkeeping(name: &'static str, statement: &'static str, on: On) -> Self {
         Self::new(Kind::Bookkeeping, name, statement, on)

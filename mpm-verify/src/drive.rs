@@ -59,19 +59,6 @@ impl<const D: usize, W: Watch<D>> Drive<D, W> {
     }
 }
 
-impl<const D: usize, W: Watch<D>> Drive<D, W> {
-    /// What has been seen so far.
-    pub(crate) fn seen(&self) -> &W::Seen {
-        &self.seen
-    }
-
-    /// What a test looks into.
-    #[cfg(test)]
-    pub(crate) fn parts(&mut self) -> (&W, &mut W::Seen, &mut Stage<D>) {
-        (&self.watch, &mut self.seen, &mut self.stage)
-    }
-}
-
 impl<const D: usize, W: Watch<D>> Memory for Drive<D, W> {
     fn save(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(&self.seen, self.stage.before(), self.stage.run.save()?))

@@ -12,7 +12,6 @@ mod column;
 mod conditioning;
 mod consolidation;
 mod cook;
-mod course;
 mod critical_step;
 mod dam_break;
 mod discs;

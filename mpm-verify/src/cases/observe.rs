@@ -197,40 +197,6 @@ pub(super) fn forbid(
     Ok(())
 }
 
-/// What only other kinds of solver have than the one of a run of bodies that move.
-///
-/// # Errors
-/// A parameter that has no meaning with it is changed; equilibrium, which moves nothing.
-pub(super) fn check_rule(
-    spec: &RunSpec,
-    parameters: &Parameters,
-    all: &[Parameter],
-) -> Result<(), Error> {
-    let refused = |solver: &str| {
-        let solvers = ["explicit", "midpoint", "newmark"];
-        let kind = "solver of bodies that move";
-        Err(Error::unknown(kind, solver, solvers))
-    };
-    let foreign: &[&str] = match spec.scheme {
-        Scheme::Poro(_) => return refused(spec.scheme.solver()),
-        Scheme::Explicit(_) => &["step_factor", "lumped", "alpha", "delta", "tolerance"],
-        Scheme::Implicit(parts) => match parts.rule {
-            RuleName::Midpoint => &[
-                "alpha",
-                "delta",
-                "wall",
-                "flip",
-                "relaxation",
-                "hold",
-                "time_step",
-            ],
-            RuleName::Newmark => &["lumped", "wall", "flip", "relaxation", "hold", "time_step"],
-            RuleName::QuasiStatic => return refused(spec.scheme.solver()),
-        },
-    };
-    forbid(spec, parameters, all, foreign)
-}
-
 /// How an implicit run takes steps of `dt` (s); none of an explicit one.
 pub(super) fn implicit_settings(
     spec: &RunSpec,

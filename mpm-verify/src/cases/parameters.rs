@@ -63,20 +63,6 @@ parameters! { pub(super) const:
 /// Those that the implicit solvers of bodies that move have.
 pub(super) const DYNAMIC: [Parameter; 4] = [LUMPED, ALPHA, DELTA, TOLERANCE];
 
-/// The CFL number of a run in `dimension` dimensions: its own, or that of the step which is stable however particles lie,
-/// the smallest of them `half_size` cells from centre to face.
-///
-/// # Errors
-/// No step is, with its functions.
-pub(super) fn cfl(
-    spec: &RunSpec,
-    parameters: &Parameters,
-    dimension: usize,
-    half_size: f64,
-) -> Result<f64, Error> {
-    cfl_number(spec.scheme.basis(), parameters, dimension, half_size)
-}
-
 /// See [`Setup::cfl_number`](crate::setup::Setup::cfl_number).
 pub(super) fn cfl_number(
     basis: crate::scheme::BasisName,

@@ -1,18 +1,11 @@
-//! What is checked of the clouds. The bounds are derived in `docs/sparse.md`.
+//! Checks of the clouds. The bounds are derived in `docs/sparse.md`.
 
-use super::metrics as m;
-use super::parameters::{
-    HOLES, JITTERED, LATTICE, LAYOUT, POISSON_RATIO, PPC_PER_DIRECTION, RANDOM,
-};
+use super::*;
 use crate::accuracy::fit_order;
 use crate::cases::manufactured::checks::VORTEX;
-use crate::check::{Check, Finding, judge, run, study};
-use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName, RuleName};
 
-/// Formal order of functions that reproduce linear fields, and what an observed one may lack of it.
+/// Formal order of functions that reproduce linear fields.
 const FORMAL: f64 = 2.0;
-const SLACK: f64 = 0.15;
 /// Order of a noise of the strain that stays as cells shrink.
 const OF_NOISE: f64 = 1.0;
 /// Relative error of what is linear in the noise: twice the softening of the cloud that others are held against, which is
@@ -27,198 +20,175 @@ const LOST: f64 = 1.0;
 /// Above this cell size (m) the vortex has too few cells for a mean over them.
 const COARSE: f64 = 0.1;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check::truth(
-            "lattice-second-order",
-            "quadratic splines in equilibrium on a lattice of at least four a cell: order of the error of u over the three levels at least 2 − 0.15",
-            study(|records| {
-                let judged = |r: &Record| is_plain(r) && r.parameters.is(LAYOUT, LATTICE);
-                orders(records, judged)
-                    .map(|(about, order)| {
-                        let why = "linear fields are reproduced, and the quadrature error of a lattice is of second order";
-                        Finding::above(about, order, FORMAL - SLACK, why)
-                    })
-                    .collect()
-            }),
-        ),
-        Check::truth(
-            "noise",
-            "quadratic splines in equilibrium, n16 and finer: the median noise of the stress of each layout is to that of random, four a cell, as the root of the variances of a cell's centre of mass, within a quarter",
-            study(|records| {
-                let found = records.iter().filter_map(|r| {
-                    let ratio = (centre(r)? / centre_of(RANDOM, 2.0)?).sqrt();
-                    let own = noise(r, records)? / noise(like(r, records, RANDOM, 2.0)?, records)?;
-                    let why = "a force on nodes is off by the stress times how far the centre of a cell's particles is from its own";
-                    Some(Finding::within(about("noise", r), own, ratio, LEFT_OUT * ratio, why))
-                });
-                found.collect()
-            }),
-        ),
-        Check::truth(
-            "softens",
-            "quadratic splines in equilibrium, random, n16 and finer: the median displacement along the exact one is larger than on a lattice with as many",
-            study(|records| {
-                let judged = records
-                    .iter()
-                    .filter(|r| is_judged(r) && r.parameters.is(LAYOUT, RANDOM));
-                let found = judged.filter_map(|r| {
-                    let n = r.parameters.number(PPC_PER_DIRECTION);
-                    let lattice = like(r, records, LATTICE, n)?;
-                    let why = "strains that answer the noise store less than none: the mean stiffness is that of exact quadrature less their energy";
-                    let bound = lattice.metric(m::SOFTENING);
-                    Some(Finding::above(about(m::SOFTENING.name, r), r.metric(m::SOFTENING), bound, why))
-                });
-                found.collect()
-            }),
-        ),
-        Check::known_limit(
-            "no-second-order",
-            "quadratic splines in equilibrium, random, four a cell: order of the median error of u over the three levels at most 1 + 0.15",
-            study(|records| {
-                let four = |r: &Record| {
-                    let random = r.parameters.is(LAYOUT, RANDOM);
-                    is_plain(r) && random && r.parameters.number(PPC_PER_DIRECTION) == 2.0
-                };
-                orders(records, four)
-                    .map(|(about, order)| {
-                        let why = "the noise of the strain is that of a cell, whatever its size; what it softens is a share of the motion";
-                        Finding::at_most(about, order, OF_NOISE + SLACK, why)
-                    })
-                    .collect()
-            }),
-        ),
-        Check::truth(
-            "error-bound",
-            "on a lattice of at least four a cell: the error of u is at most 0.8 (kh)², k = 6.5/m the wave number of the vortex; of a body that moves 1/(1 − (ω/kc)²) times that, c the speed of shear waves",
-            run(|r| {
-                let four = r.parameters.number(PPC_PER_DIRECTION) >= 2.0;
-                let why =
-                    "the largest dispersion among functions and remedies, docs/manufactured.md";
-                (four && r.parameters.is(LAYOUT, LATTICE))
-                    .then(|| judge(r, m::ERROR_MEDIAN).at_most(bound(r), why))
-            }),
-        ),
-        Check::known_limit(
-            "beyond-bound",
-            "quadratic splines in equilibrium, random, four a cell, n16 and finer: the median error of u is above that",
-            run(|r| {
-                let four = r.parameters.number(PPC_PER_DIRECTION) == 2.0;
-                let why = "noise and softening, which fall with h once or not at all";
-                (is_judged(r) && four && r.parameters.is(LAYOUT, RANDOM))
-                    .then(|| judge(r, m::ERROR_MEDIAN).above(bound(r), why))
-            }),
-        ),
-        Check::known_limit(
-            "one-a-cell",
-            "in equilibrium, random, one a cell, all but linear functions: the median error of u is larger than u, or half of the clouds break down",
-            run(|r| {
-                let one = r.parameters.number(PPC_PER_DIRECTION) == 1.0;
-                let judged = is_static(r) && one && r.parameters.is(LAYOUT, RANDOM);
-                let why = "more unknowns than a point a cell gives strains: soft patterns answer any force";
-                let error = r.metric(m::ERROR_MEDIAN);
-                let error = if error.is_nan() { f64::INFINITY } else { error };
-                (judged && r.basis() != BasisName::Linear)
-                    .then(|| Finding::above(m::ERROR_MEDIAN.name, error, LOST, why))
-            }),
-        ),
-    ]
-}
+type Cloud<'a> = Run<'a, Sparse>;
 
-/// What the dispersion of functions leaves of the motion.
-fn bound(r: &Record) -> f64 {
-    let number = (VORTEX.number)(&r.parameters);
-    let of_cells = DISPERSION * (number * r.discretisation.h).powi(2);
-    // E/ρ is 1 m²/s².
-    let speed = (0.5 / (1.0 + r.parameters.number(POISSON_RATIO))).sqrt();
-    let driven = FREQUENCY / (number * speed);
-    match is_static(r) {
-        true => of_cells,
-        false => of_cells / (1.0 - driven * driven).abs(),
+impl Cloud<'_> {
+    fn is_static(&self) -> bool {
+        self.rule() == Some(RuleName::QuasiStatic)
+    }
+
+    /// Whether theory applies to the scheme.
+    fn is_plain(&self) -> bool {
+        let four = self.ppc_per_direction >= 2;
+        self.is_static() && four && self.basis() == Bspline2 && self.remedy() == RemedyName::None
+    }
+
+    fn is_judged(&self) -> bool {
+        self.is_plain() && self.h < COARSE
+    }
+
+    fn per_direction(&self) -> f64 {
+        self.ppc_per_direction as f64
+    }
+
+    /// Error of the motion by the dispersion of functions.
+    fn bound(&self) -> f64 {
+        let number = (VORTEX.number)(&self.record.parameters);
+        let of_cells = DISPERSION * (number * self.h).powi(2);
+        // E/ρ is 1 m²/s².
+        let speed = (0.5 / (1.0 + self.poisson_ratio)).sqrt();
+        let driven = FREQUENCY / (number * speed);
+        match self.is_static() {
+            true => of_cells,
+            false => of_cells / (1.0 - driven * driven).abs(),
+        }
+    }
+
+    fn about(&self, name: &str) -> String {
+        let text = format!(
+            "{name} of {} {} {}",
+            self.scheme,
+            self.level,
+            self.set.join(" ")
+        );
+        text.trim_end().to_owned()
+    }
+
+    /// Twelve times the variance of the centre of mass of a cell, of a judged run.
+    fn centre(&self) -> Option<f64> {
+        self.is_judged()
+            .then(|| centre_of(self.layout, self.per_direction()))?
+    }
+
+    /// The run of the same scheme and level with another layout and number of particles, all else the same.
+    fn like<'a, 'r>(
+        &self,
+        runs: &'a [Cloud<'r>],
+        layout: Layout,
+        per_direction: usize,
+    ) -> Option<&'a Cloud<'r>> {
+        let others = |run: &Cloud| -> Vec<String> {
+            let changed =
+                |s: &&String| !s.starts_with("layout=") && !s.starts_with("ppc_per_direction=");
+            run.set.iter().filter(changed).cloned().collect()
+        };
+        runs.iter().find(|other| {
+            (other.scheme, &other.level) == (self.scheme, &self.level)
+                && (other.layout, other.ppc_per_direction) == (layout, per_direction)
+                && others(other) == others(self)
+        })
+    }
+
+    /// The error of the stress that a lattice with as many particles does not have.
+    fn noise(&self, runs: &[Cloud]) -> Option<f64> {
+        let lattice = self.like(runs, Layout::Lattice, self.ppc_per_direction)?;
+        let [own, floor] = [self, lattice].map(|c| c.metric(STRESS_MEDIAN).powi(2));
+        Some((own - floor).sqrt())
     }
 }
 
-fn is_static(r: &Record) -> bool {
-    r.scheme().rule() == Some(RuleName::QuasiStatic)
-}
-
-/// Runs of the scheme that theory speaks of.
-fn is_plain(r: &Record) -> bool {
-    let four = r.parameters.number(PPC_PER_DIRECTION) >= 2.0;
-    is_static(r) && four && r.basis() == BasisName::Bspline2 && r.remedy() == RemedyName::None
-}
-
-fn is_judged(r: &Record) -> bool {
-    is_plain(r) && r.discretisation.h < COARSE
-}
-
-fn about(what: &str, r: &Record) -> String {
-    let text = format!("{what} of {} {} {}", r.scheme(), r.level, r.set.join(" "));
-    text.trim_end().to_owned()
+pub(super) fn checks() -> Vec<Check> {
+    type Check = CheckOf<Sparse>;
+    let is_random = |c: &Cloud| c.layout == Layout::Random;
+    vec![
+        Check::truth("lattice-second-order", "quadratic splines in equilibrium on a lattice of at least four a cell: order of the error of u over the three levels at least 2 − 0.15")
+            .study(|records| {
+                let why = "linear fields are reproduced, and the quadrature error of a lattice is of second order";
+                let found = orders(records, |c| c.is_plain() && c.layout == Layout::Lattice).into_iter();
+                found.map(|(about, order)| Finding::above(about, order, FORMAL - SLACK, why)).collect()
+            })
+            .because(""),
+        Check::truth("noise", "quadratic splines in equilibrium, n16 and finer: the median noise of the stress of each layout is to that of random, four a cell, as the root of the variances of a cell's centre of mass, within a quarter").study(noise).because(""),
+        Check::truth("softens", "quadratic splines in equilibrium, random, n16 and finer: the median displacement along the exact one is larger than on a lattice with as many").study(softens).because(""),
+        Check::known_limit("no-second-order", "quadratic splines in equilibrium, random, four a cell: order of the median error of u over the three levels at most 1 + 0.15")
+            .study(move |records| {
+                let why = "the noise of the strain is that of a cell, whatever its size; what it softens is a share of the motion";
+                let four = |c: &Cloud| c.is_plain() && is_random(c) && c.ppc_per_direction == 2;
+                let found = orders(records, four).into_iter();
+                found.map(|(about, order)| Finding::at_most(about, order, OF_NOISE + SLACK, why)).collect()
+            })
+            .because(""),
+        Check::truth("error-bound", "on a lattice of at least four a cell: the error of u is at most 0.8 (kh)², k = 6.5/m the wave number of the vortex; of a body that moves 1/(1 − (ω/kc)²) times that, c the speed of shear waves")
+            .when(|c| c.ppc_per_direction >= 2 && c.layout == Layout::Lattice)
+            .at_most(ERROR_MEDIAN, |c| c.bound())
+            .because("the largest dispersion among functions and remedies, docs/manufactured.md"),
+        Check::known_limit("beyond-bound", "quadratic splines in equilibrium, random, four a cell, n16 and finer: the median error of u is above that")
+            .when(move |c| c.is_judged() && c.ppc_per_direction == 2 && is_random(c))
+            .above(ERROR_MEDIAN, |c| c.bound())
+            .because("noise and softening, which fall with h once or not at all"),
+        Check::known_limit("one-a-cell", "in equilibrium, random, one a cell, all but linear functions: the median error of u is larger than u, or half of the clouds break down")
+            .when(move |c| c.is_static() && c.ppc_per_direction == 1 && is_random(c) && c.basis() != Linear)
+            .above(
+                Quantity::new(ERROR_MEDIAN.name, |c: &Cloud| {
+                    let error = c.metric(ERROR_MEDIAN);
+                    if error.is_nan() { f64::INFINITY } else { error }
+                }),
+                |_| LOST,
+            )
+            .because("more unknowns than a point a cell gives strains: soft patterns answer any force"),
+    ]
 }
 
 /// Twelve times the variance of the centre of mass of a cell's particles along an axis, in cells; none where numbers
 /// differ from cell to cell, or where it is fixed.
-fn centre_of(layout: &str, per_direction: f64) -> Option<f64> {
+fn centre_of(layout: Layout, per_direction: f64) -> Option<f64> {
     let n = per_direction * per_direction;
     match layout {
-        RANDOM => Some(1.0 / n),
-        JITTERED => Some(1.0 / (n * n)),
-        HOLES => Some(1.0 / (n * (n - 1.0))),
-        _ => None,
+        Layout::Random => Some(1.0 / n),
+        Layout::Jittered => Some(1.0 / (n * n)),
+        Layout::Holes => Some(1.0 / (n * (n - 1.0))),
+        Layout::Lattice | Layout::Scattered => None,
     }
 }
 
-/// That of a judged run.
-fn centre(r: &Record) -> Option<f64> {
-    let layout = r.parameters.text(LAYOUT);
-    let judged = is_judged(r).then(|| r.parameters.number(PPC_PER_DIRECTION))?;
-    centre_of(&layout, judged)
+fn noise(records: &[Record]) -> Vec<Finding> {
+    let runs: Vec<Cloud> = records.iter().filter_map(Run::of).collect();
+    let found = runs.iter().filter_map(|run| {
+        let ratio = (run.centre()? / centre_of(Layout::Random, 2.0)?).sqrt();
+        let own = run.noise(&runs)? / run.like(&runs, Layout::Random, 2)?.noise(&runs)?;
+        let why = "a force on nodes is off by the stress times how far the centre of a cell's particles is from its own";
+        Some(Finding::within(run.about("noise"), own, ratio, LEFT_OUT * ratio, why))
+    });
+    found.collect()
 }
 
-/// The run of the same scheme and level with another layout and number of particles, all else the same.
-fn like<'a>(
-    r: &Record,
-    records: &'a [Record],
-    layout: &str,
-    per_direction: f64,
-) -> Option<&'a Record> {
-    let others = |r: &Record| -> Vec<String> {
-        let changed =
-            |s: &&String| !s.starts_with("layout=") && !s.starts_with("ppc_per_direction=");
-        r.set.iter().filter(changed).cloned().collect()
-    };
-    records.iter().find(|o| {
-        o.scheme() == r.scheme()
-            && o.level == r.level
-            && o.parameters.is(LAYOUT, layout)
-            && o.parameters.number(PPC_PER_DIRECTION) == per_direction
-            && others(o) == others(r)
-    })
+fn softens(records: &[Record]) -> Vec<Finding> {
+    let runs: Vec<Cloud> = records.iter().filter_map(Run::of).collect();
+    let judged = runs
+        .iter()
+        .filter(|c| c.is_judged() && c.layout == Layout::Random);
+    let found = judged.filter_map(|run| {
+        let lattice = run.like(&runs, Layout::Lattice, run.ppc_per_direction)?;
+        let why = "strains that answer the noise store less than none: the mean stiffness is that of exact quadrature less their energy";
+        let bound = lattice.metric(SOFTENING);
+        Some(Finding::above(run.about(SOFTENING.name), run.metric(SOFTENING), bound, why))
+    });
+    found.collect()
 }
 
-/// The error of the stress that a lattice with as many particles doesn't have.
-fn noise(r: &Record, records: &[Record]) -> Option<f64> {
-    let lattice = like(r, records, LATTICE, r.parameters.number(PPC_PER_DIRECTION))?;
-    let [own, floor] = [r, lattice].map(|r| r.metric(m::STRESS_MEDIAN).powi(2));
-    Some((own - floor).sqrt())
-}
-
-/// The orders of the error over the levels of runs that are alike.
-fn orders<'a>(
-    records: &'a [Record],
-    judged: impl Fn(&Record) -> bool + 'a,
-) -> impl Iterator<Item = (String, f64)> + 'a {
-    let firsts = records.iter().filter(move |r| judged(r) && r.level == "n8");
-    firsts.filter_map(|first| {
-        let same = |r: &&Record| r.scheme() == first.scheme() && r.set == first.set;
-        let runs: Vec<&Record> = records.iter().filter(same).collect();
-        let points = runs
+/// The orders of the error over the levels of runs that are alike, by name.
+fn orders(records: &[Record], judged: impl Fn(&Cloud) -> bool) -> Vec<(String, f64)> {
+    let runs: Vec<Cloud> = records.iter().filter_map(Run::of).collect();
+    let firsts = runs.iter().filter(|c| judged(c) && c.level == "n8");
+    let found = firsts.filter_map(|first| {
+        let ladder = runs
             .iter()
-            .map(|r| (r.discretisation.h, r.metric(m::ERROR_MEDIAN)));
-        let order = fit_order(&points.collect::<Vec<_>>())?.order;
-        (runs.len() >= 3).then(|| (about("order", first), order))
-    })
+            .filter(|c| c.scheme == first.scheme && c.set == first.set);
+        let points: Vec<_> = ladder.map(|c| (c.h, c.metric(ERROR_MEDIAN))).collect();
+        let order = fit_order(&points)?.order;
+        (points.len() >= 3).then(|| (first.about("order"), order))
+    });
+    found.collect()
 }
 
 #[cfg(test)]
@@ -243,21 +213,25 @@ mod tests {
             let exact = centre_of(layout, n).unwrap();
             assert!(
                 (found / exact - 1.0).abs() < 0.05,
-                "{layout}: {found} {exact}"
+                "{layout:?}: {found} {exact}"
             );
         };
-        near(tried(4, |c, k| Some(chance(4 * c + k))), RANDOM, 2.0);
+        near(
+            tried(4, |c, k| Some(chance(4 * c + k))),
+            Layout::Random,
+            2.0,
+        );
         // A line of two parts stands for the square: along an axis each part has two of the four.
         let part = |k: usize| 0.5 * (k % 2) as f64 - 0.25;
         near(
             tried(4, |c, k| Some(part(k) + 0.5 * chance(4 * c + k))),
-            JITTERED,
+            Layout::Jittered,
             2.0,
         );
         let lacks = |c: usize| ((chance(c) + 0.5) * 4.0) as usize;
         near(
             tried(4, |c, k| (k != lacks(c)).then(|| part(k))),
-            HOLES,
+            Layout::Holes,
             2.0,
         );
     }

@@ -1,29 +1,45 @@
-//! A vortex in a box on few particles without order: what an error is worth that is a matter of luck.
+//! A vortex in a box on few particles without order: the error of a cloud that is a matter of chance.
 //!
 //! Set-up, choices and tolerances: `docs/sparse.md`.
 
 mod checks;
-mod look;
-mod metrics;
-mod parameters;
-mod tables;
+mod run;
 
-use super::family::{family, implicit, levels, pairs};
-use crate::case::{Case, Family, Tier};
-use crate::results::headline;
-use crate::scheme::{BasisName, RemedyName, RuleName};
-use crate::sketch::{Shape, Sketch};
-use crate::spec::Level;
-use look::Clouds;
-use metrics as m;
+use super::analysis::case_of;
+use super::family::{implicit, levels, pairs};
+use super::parameters as common;
+use crate::prelude::*;
 
-use Tier::{Nightly, Pr, Quick};
+choices! {
+    /// Arrangement of the particles.
+    enum Layout { Lattice = "lattice", Jittered = "jittered", Random = "random", Scattered = "scattered", Holes = "holes" }
+}
+
+parameters! {
+    /// Parameters of the clouds.
+    struct Sparse {
+        layout: Layout = Layout::Random.by_default(),
+            "lattice; jittered: anywhere in its own part of a cell; random: anywhere in its cell; scattered: anywhere in the body; holes: a lattice that lacks one particle of every cell";
+        seeds: usize = whole("-", "20", 1, 1000), "clouds that are tried, of the same kind";
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION.with_default("1");
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
+        cfl: f64 = common::CFL.with_default("0.3");
+    }
+}
+
+metrics! { ALL:
+    ERROR_MEDIAN = "error_median", "-",
+        "median over the clouds of the rms error of the displacement over the rms of the exact one; a cloud that breaks down counts as the worst";
+    ERROR_HIGH = "error_high", "-", "likewise, what nine clouds in ten stay below; none if more than that break down";
+    STRESS_MEDIAN = "stress_error_median", "-", "likewise, the median for the stress";
+    SOFTENING = "softening", "-",
+        "median over the clouds of the displacement along the exact one, over it, less one: more than exact is soft";
+    BROKEN = "broken", "-", "share of the clouds that break down";
+}
 
 pub(super) fn case() -> Case {
     let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)]);
     Case {
-        name: "sparse",
-        title: "Few particles without order",
         description: "A small turn in a box, whose exact solution is known, on twenty clouds each of one to sixteen particles a cell: \
                       where particles lie anywhere, smaller cells hardly help; where one lies in each part of a cell, more particles do.",
         references: vec![
@@ -35,85 +51,69 @@ pub(super) fn case() -> Case {
             "Particles of equal volume, which stay where they are: no cloud here is of a motion's own making.",
             "The motion ends within the box: half-empty cells at a free face are in thin.",
         ],
-        parameters: parameters::ALL.to_vec(),
         plan: plan(&levels),
         levels,
-        metrics: m::ALL.to_vec(),
         checks: checks::checks(),
         headlines: vec![
-            headline(m::ERROR_MEDIAN, "error of u, median (%)", 100.0, 2),
-            headline(m::ERROR_HIGH, "nine in ten below (%)", 100.0, 2),
-            headline(m::STRESS_MEDIAN, "error of σ (%)", 100.0, 1),
-            headline(m::SOFTENING, "softening (%)", 100.0, 2),
-            headline(m::BROKEN, "break down (%)", 100.0, 0),
+            headline(ERROR_MEDIAN, "error of u, median (%)", 100.0, 2),
+            headline(ERROR_HIGH, "nine in ten below (%)", 100.0, 2),
+            headline(STRESS_MEDIAN, "error of σ (%)", 100.0, 1),
+            headline(SOFTENING, "softening (%)", 100.0, 2),
+            headline(BROKEN, "break down (%)", 100.0, 0),
         ],
-        quantities: Vec::new(),
-        sweeps: Vec::new(),
         watched: &["displacement_error"],
-        field: None,
         sketch: sketch(),
         cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-2)),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin: Box::new(super::analysis::begin::<Clouds>),
-        pictures: |_| Ok(()),
-        tables: tables::all(),
-        breaks_down: |_| None,
+        tables: tables(),
+        ..case_of::<run::Clouds>("sparse", "Few particles without order", ALL)
     }
 }
 
-const LATTICE: [&[&str]; 2] = [
-    &["layout=lattice", "ppc_per_direction=2"],
-    &["layout=lattice", "ppc_per_direction=3"],
-];
-const RANDOM: [&[&str]; 2] = [&["ppc_per_direction=2"], &["ppc_per_direction=3"]];
-const BETTER: [&[&str]; 4] = [
-    &["layout=jittered", "ppc_per_direction=2"],
-    &["layout=jittered", "ppc_per_direction=3"],
-    &["layout=holes", "ppc_per_direction=2"],
-    &["layout=holes", "ppc_per_direction=3"],
-];
-const SCATTERED: &[&str] = &["layout=scattered", "ppc_per_direction=2"];
-const SIXTEEN: [&[&str]; 4] = [
-    &["layout=lattice", "ppc_per_direction=4"],
-    &["ppc_per_direction=4"],
-    &["layout=jittered", "ppc_per_direction=4"],
-    &["layout=holes", "ppc_per_direction=4"],
-];
-
 fn plan(levels: &[Level]) -> Vec<Family> {
-    use BasisName::{Bspline2, Bspline3, Gimp, Linear};
-    let remedies = [RemedyName::None, RemedyName::FbarConsistent];
+    let remedies = [RemedyName::None, FbarConsistent];
     let of = |bases: &[BasisName]| implicit(&[RuleName::QuasiStatic], bases, &remedies);
     let all = of(&[Linear, Gimp, Bspline2, Bspline3]);
     let few = of(&[Linear, Gimp, Bspline2]);
     let splines = implicit(&[RuleName::QuasiStatic], &[Bspline2], &remedies[..1]);
     let moving = pairs(&[Linear, Gimp, Bspline2], &remedies);
-    let [coarse, middle] = [&levels[..1], &levels[1..2]];
-    let mut plan = vec![
-        family(Quick, coarse, &splines, RANDOM[0]),
-        family(Pr, coarse, &few, &[]),
-        family(Pr, coarse, &few, RANDOM[0]),
-        family(Pr, levels, &splines, LATTICE[0]),
-        family(Pr, levels, &splines, RANDOM[0]),
-        family(Pr, middle, &splines, LATTICE[1]),
-        family(Pr, middle, &splines, RANDOM[1]),
-        family(Nightly, &levels[..2], &few, &[]),
-        family(Nightly, coarse, &all, &[]),
-        family(Nightly, levels, &all, RANDOM[0]),
-        family(Nightly, levels, &all, LATTICE[0]),
-        family(Nightly, middle, &moving, &[]),
-        family(Nightly, levels, &moving, RANDOM[0]),
-        family(Nightly, levels, &moving, LATTICE[0]),
-        family(Nightly, levels, &splines, SCATTERED),
+    let [two, three, four] = [2, 3, 4].map(|n| format!("ppc_per_direction={n}"));
+    let layout = |name: &str, number: &String| format!("layout={name} {number}");
+    let lattice = [layout("lattice", &two), layout("lattice", &three)];
+    let random = [two.clone(), three.clone()];
+    let better = [
+        layout("jittered", &two),
+        layout("jittered", &three),
+        layout("holes", &two),
+        layout("holes", &three),
     ];
-    plan.extend(BETTER.map(|set| family(Pr, middle, &splines, set)));
-    for sets in [LATTICE, RANDOM] {
-        plan.extend(sets.map(|set| family(Nightly, &levels[1..], &splines, set)));
-    }
-    plan.extend(BETTER.map(|set| family(Nightly, &levels[1..], &splines, set)));
-    plan.extend(SIXTEEN.map(|set| family(Nightly, &levels[1..], &splines, set)));
-    plan
+    let sixteen = [
+        layout("lattice", &four),
+        four.clone(),
+        layout("jittered", &four),
+        layout("holes", &four),
+    ];
+    Plan::of(levels)
+        .runs(Quick, "n8", &splines, &two)
+        .runs(Pr, "n8", &few, "")
+        .runs(Pr, "n8", &few, &two)
+        .runs(Pr, "n8 n16 n32", &splines, &lattice[0])
+        .runs(Pr, "n8 n16 n32", &splines, &two)
+        .runs(Pr, "n16", &splines, &lattice[1])
+        .runs(Pr, "n16", &splines, &three)
+        .runs(Nightly, "n8 n16", &few, "")
+        .runs(Nightly, "n8", &all, "")
+        .runs(Nightly, "n8 n16 n32", &all, &two)
+        .runs(Nightly, "n8 n16 n32", &all, &lattice[0])
+        .runs(Nightly, "n16", &moving, "")
+        .runs(Nightly, "n8 n16 n32", &moving, &two)
+        .runs(Nightly, "n8 n16 n32", &moving, &lattice[0])
+        .runs(Nightly, "n8 n16 n32", &splines, &layout("scattered", &two))
+        .each(Pr, "n16", &splines, &better)
+        .each(Nightly, "n16 n32", &splines, &lattice)
+        .each(Nightly, "n16 n32", &splines, &random)
+        .each(Nightly, "n16 n32", &splines, &better)
+        .each(Nightly, "n16 n32", &splines, &sixteen)
+        .done()
 }
 
 fn sketch() -> Sketch {
@@ -138,4 +138,40 @@ fn sketch() -> Sketch {
         shapes,
         description: "A square of 1 m between slippery walls, whose middle turns.",
     }
+}
+
+fn tables() -> Vec<ResultTable> {
+    const LAYOUTS: Label = ("layout", |r| {
+        let own = r.set.iter().find_map(|set| set.strip_prefix("layout="));
+        own.unwrap_or("random").to_owned()
+    });
+    const NUMBER: Label = ("a cell", |r| format!("{}", per_direction(r).powi(2)));
+    fn per_direction(r: &Record) -> f64 {
+        Setup::<Sparse>::number_of(r, |c| c.ppc_per_direction as f64)
+    }
+    let columns = || {
+        [
+            Column::metric("error of u, median", ERROR_MEDIAN, share(1)),
+            Column::metric("nine in ten below", ERROR_HIGH, share(1)),
+            Column::metric("error of σ, median", STRESS_MEDIAN, share(1)),
+            Column::metric("softening", SOFTENING, share(1).signed()),
+            Column::metric("break down", BROKEN, share(0)),
+        ]
+    };
+    let splines =
+        |r: &Record| r.level == "n16" && r.scheme().to_string() == "quasi-static-bspline2-none";
+    let ones = |r: &Record| r.level == "n16" && r.is_default();
+    let order = Column::levels(
+        ["n8", "n16", "n32"].map(|level| (level, level)),
+        ERROR_MEDIAN,
+        fixed(4),
+    );
+    let four = |r: &Record| {
+        r.changes_none_but(&["layout", "ppc_per_direction"]) && per_direction(r) == 2.0
+    };
+    vec![
+        ResultTable::new("sparse-layouts", splines, &[LAYOUTS, NUMBER], columns()),
+        ResultTable::new("sparse-one", ones, &[SCHEME], columns()),
+        ResultTable::new("sparse-levels", four, &[SCHEME, LAYOUTS], order).least(2),
+    ]
 }

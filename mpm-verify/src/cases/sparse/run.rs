@@ -1,27 +1,17 @@
-//! A vortex in a box on clouds of particles without order: a row for each cloud.
+//! Scene and errors of the clouds: a row for each cloud.
 
-use super::metrics as m;
-use super::parameters::{
-    CFL, HOLES, JITTERED, LATTICE, LAYOUT, POISSON_RATIO, PPC_PER_DIRECTION, SCATTERED, SEEDS,
-};
+use super::*;
 use crate::cases::analysis::Analysis;
 use crate::cases::manufactured::{errors, forcing, vector};
 use crate::cases::noise::noise;
-use crate::error::Error;
 use crate::exact::vortex_box::ENTRY;
 use crate::exact::{Exact, Material};
-use crate::job::{Row, row};
-use crate::metric::Metric;
 use crate::parameter::Parameters;
-use crate::record::{Discretisation, WorkDone};
-use crate::scheme::{RuleName, Scheme};
-use crate::setup::Setup;
+use crate::record::WorkDone;
 use crate::statistics::rms;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::stage::{End, Wall, WallKind};
-use mpm_core::{Axis, Body, Error as Fault, Grid, Particles, Scene, Simulation, implicit};
-use serde::{Deserialize, Serialize};
+use mpm_core::{Error as Fault, implicit};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -31,7 +21,7 @@ const ANGLE: f64 = 0.01;
 const MOVING: f64 = 0.5;
 const SLOW: f64 = 1e6;
 
-/// What is found of a cloud.
+/// Findings of a cloud.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Cloud {
     /// Relative errors of displacement and stress, and the displacement along the exact one; none of a cloud that breaks
@@ -42,7 +32,7 @@ pub(super) struct Cloud {
 
 /// Clouds of one kind.
 pub(super) struct Clouds {
-    setup: Setup<()>,
+    setup: Setup<Sparse>,
     solution: Arc<dyn Exact>,
     law: NeoHookean,
     dt: f64,
@@ -50,11 +40,10 @@ pub(super) struct Clouds {
 }
 
 impl Analysis for Clouds {
-    type Parameters = ();
+    type Parameters = Sparse;
     type Found = Cloud;
 
-    fn new(setup: Setup<()>) -> Result<Self, Error> {
-        let parameters = &setup.values;
+    fn new(setup: Setup<Sparse>) -> Result<Self, Error> {
         let slow = match setup.scheme {
             Scheme::Explicit(_) => false,
             Scheme::Implicit(parts) if parts.rule == RuleName::QuasiStatic => true,
@@ -63,7 +52,7 @@ impl Analysis for Clouds {
                 return Err(Error::unknown("solver of clouds", other.solver(), solvers));
             }
         };
-        if parameters.is(LAYOUT, HOLES) && parameters.number(PPC_PER_DIRECTION) < 2.0 {
+        if setup.layout == Layout::Holes && setup.ppc_per_direction < 2 {
             return Err(Error::Input(
                 "ppc_per_direction = 1 with layout = holes leaves no particle; allowed: from 2 on"
                     .to_owned(),
@@ -71,7 +60,7 @@ impl Analysis for Clouds {
         }
         let duration = if slow { SLOW } else { MOVING };
         let set = [
-            format!("poisson_ratio={}", parameters.number(POISSON_RATIO)),
+            format!("poisson_ratio={}", setup.poisson_ratio),
             format!("angle={ANGLE}"),
             format!("angular_frequency={}", 0.5 * PI / duration),
         ];
@@ -85,7 +74,7 @@ impl Analysis for Clouds {
         let law = NeoHookean { mu, lambda };
         let longest = match slow {
             true => duration,
-            false => courant_time_step(parameters.number(CFL), setup.h, law.wave_speed(density)),
+            false => courant_time_step(setup.cfl, setup.h, law.wave_speed(density)),
         };
         let steps = (duration / longest).ceil();
         Ok(Self {
@@ -102,7 +91,7 @@ impl Analysis for Clouds {
         Discretisation {
             dim: 2,
             h: self.setup.h,
-            ppc: full - u32::from(self.setup.values.is(LAYOUT, HOLES)),
+            ppc: full - u32::from(self.setup.layout == Layout::Holes),
             dt: self.dt,
             wall: "open-knot".to_owned(),
         }
@@ -110,7 +99,7 @@ impl Analysis for Clouds {
 
     fn rows(&self) -> usize {
         match self.varies() {
-            true => self.setup.values.number(SEEDS) as usize,
+            true => self.setup.seeds,
             false => 1,
         }
     }
@@ -148,11 +137,11 @@ impl Analysis for Clouds {
         };
         let broken = rows.iter().filter(|row| row.found.is_none()).count();
         vec![
-            (m::ERROR_MEDIAN, of(0, 0.5)),
-            (m::ERROR_HIGH, of(0, 0.9)),
-            (m::STRESS_MEDIAN, of(1, 0.5)),
-            (m::SOFTENING, of(2, 0.5) - 1.0),
-            (m::BROKEN, broken as f64 / rows.len() as f64),
+            (ERROR_MEDIAN, of(0, 0.5)),
+            (ERROR_HIGH, of(0, 0.9)),
+            (STRESS_MEDIAN, of(1, 0.5)),
+            (SOFTENING, of(2, 0.5) - 1.0),
+            (BROKEN, broken as f64 / rows.len() as f64),
         ]
     }
 
@@ -172,7 +161,7 @@ impl Clouds {
     }
 
     fn per_direction(&self) -> usize {
-        self.setup.values.number(PPC_PER_DIRECTION) as usize
+        self.setup.ppc_per_direction
     }
 
     /// Places (m) of the `k`-th cloud.
@@ -181,17 +170,17 @@ impl Clouds {
         let count = cells * cells * n * n;
         // A number from 0 to 1, of its own for every cloud, particle and axis.
         let chance = |p: usize, axis: usize| 0.5 + 0.5 * noise((k * count + p) * 3 + axis);
-        let is = |word| self.setup.values.is(LAYOUT, word);
+        let is = |layout| self.setup.layout == layout;
         let cell_of = |p: usize| [p / (n * n) % cells, p / (n * n) / cells];
         let part_of = |p: usize| [p % (n * n) % n, p % (n * n) / n];
         let place = |p: usize| {
             std::array::from_fn(|a| {
                 let (cell, part) = (cell_of(p)[a] as f64, part_of(p)[a] as f64);
-                if is(SCATTERED) {
+                if is(Layout::Scattered) {
                     chance(p, a)
-                } else if is(JITTERED) {
+                } else if is(Layout::Jittered) {
                     h * (cell + (part + chance(p, a)) / n as f64)
-                } else if is(LATTICE) || is(HOLES) {
+                } else if is(Layout::Lattice) || is(Layout::Holes) {
                     h * (cell + (part + 0.5) / n as f64)
                 } else {
                     h * (cell + chance(p, a))
@@ -200,14 +189,14 @@ impl Clouds {
         };
         let stays = |p: &usize| {
             let lacks = (chance(p / (n * n), 2) * (n * n) as f64) as usize;
-            !is(HOLES) || p % (n * n) != lacks
+            !is(Layout::Holes) || p % (n * n) != lacks
         };
         (0..count).filter(stays).map(place).collect()
     }
 
     /// Whether the next cloud is another one.
     fn varies(&self) -> bool {
-        !self.setup.values.is(LAYOUT, LATTICE)
+        self.setup.layout != Layout::Lattice
     }
 
     fn particles_of(&self, k: usize) -> Result<Particles<2>, Fault> {
