@@ -197,32 +197,6 @@ pub(super) fn forbid(
     Ok(())
 }
 
-/// How an implicit run takes steps of `dt` (s); none of an explicit one.
-pub(super) fn implicit_settings(
-    spec: &RunSpec,
-    parameters: &Parameters,
-    dt: f64,
-) -> Option<implicit::Settings> {
-    let Scheme::Implicit(parts) = spec.scheme else {
-        return None;
-    };
-    let number = |p| parameters.number(p);
-    let rule = match parts.rule {
-        RuleName::QuasiStatic => TimeRule::Static,
-        RuleName::Midpoint => TimeRule::Midpoint {
-            lumped: number(LUMPED),
-        },
-        RuleName::Newmark => TimeRule::Newmark {
-            alpha: number(ALPHA),
-            delta: number(DELTA),
-        },
-    };
-    Some(implicit::Settings {
-        tolerance: number(TOLERANCE),
-        ..implicit::Settings::new(dt).rule(rule)
-    })
-}
-
 /// Whether a static step has found equilibrium. One that has not leaves the body as it was.
 ///
 /// # Errors

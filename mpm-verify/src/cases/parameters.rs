@@ -3,7 +3,6 @@
 use crate::error::Error;
 use crate::parameter::{Domain, Parameter, Parameters, choices, number, parameters};
 use crate::record::Record;
-use crate::spec::RunSpec;
 use std::ops::RangeInclusive;
 
 pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};

@@ -45,9 +45,3 @@ pub(crate) fn run(
     }
     record
 }
-
-/// The outcomes of a check, in their order.
-pub(crate) fn outcomes(verdicts: &[Verdict], check: &str) -> Vec<Option<bool>> {
-    let of_check = verdicts.iter().filter(|v| v.check == check);
-    of_check.map(|v| v.holds()).collect()
-}

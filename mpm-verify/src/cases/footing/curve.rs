@@ -1,11 +1,9 @@
 //! The load over the penetration and the motion of the surface, and what is measured of them, whoever computed them.
 
-use super::geometry::{WIDTH, mechanism_extent};
-use super::metrics::{self as m, CURVE};
 use super::reference::EXACT;
-use crate::metric::Metric;
+use super::run::mechanism_extent;
+use super::*;
 use crate::statistics::fit_line;
-use serde::{Deserialize, Serialize};
 
 /// The part of the surface (m from the axis) that is well inside of what Prandtl's mechanism pushes up.
 const BESIDE: (f64, f64) = (0.75 * WIDTH, 1.25 * WIDTH);
@@ -16,7 +14,7 @@ pub(super) const WINDOW: f64 = 5e-5;
 
 /// One observation.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(super) struct Row {
+pub(super) struct Load {
     /// Penetration over B; through a barrier, less how much that gives way in the mean.
     pub(super) penetration: f64,
     /// Force of the ground on the footing per metre of depth, upward (N/m).
@@ -38,7 +36,7 @@ pub(super) fn plateau(end: f64) -> f64 {
 
 /// The load of a footing on ground of a strength.
 pub(super) struct LoadCurve<'a> {
-    pub(super) rows: &'a [Row],
+    pub(super) rows: &'a [Load],
     /// Undrained strength (Pa).
     pub(super) strength: f64,
     /// Penetration over B at the end, and at the end of the start.
@@ -57,12 +55,12 @@ impl LoadCurve<'_> {
     }
 
     /// Mean of a quantity of the rows of which `keep` holds; NaN if there are none.
-    fn mean(&self, keep: impl Fn(&Row) -> bool, f: impl Fn(&Row) -> f64) -> f64 {
+    fn mean(&self, keep: impl Fn(&Load) -> bool, f: impl Fn(&Load) -> f64) -> f64 {
         let kept: Vec<f64> = self.rows.iter().filter(|r| keep(r)).map(f).collect();
         kept.iter().sum::<f64>() / kept.len() as f64
     }
 
-    fn on_plateau(&self, row: &Row) -> bool {
+    fn on_plateau(&self, row: &Load) -> bool {
         row.penetration > plateau(self.end)
     }
 
@@ -91,16 +89,16 @@ impl LoadCurve<'_> {
         let most = self.rows.iter().map(|r| r.force).fold(0.0, f64::max);
         let by_width = self.factor(force, WIDTH);
         let mut values = vec![
-            (m::NC_B, by_width),
-            (m::NC_B_PLUS_H, self.factor(force, WIDTH + self.h)),
-            (m::NC_EFFECTIVE, self.factor(force, self.effective)),
-            (m::PRANDTL_ERROR, by_width / EXACT - 1.0),
-            (m::NC_PEAK, self.factor(most, WIDTH)),
-            (m::PLATEAU_RISE, self.rise(force)),
-            (m::ELASTIC_SLOPE, self.slope()),
+            (NC_B, by_width),
+            (NC_B_PLUS_H, self.factor(force, WIDTH + self.h)),
+            (NC_EFFECTIVE, self.factor(force, self.effective)),
+            (PRANDTL_ERROR, by_width / EXACT - 1.0),
+            (NC_PEAK, self.factor(most, WIDTH)),
+            (PLATEAU_RISE, self.rise(force)),
+            (ELASTIC_SLOPE, self.slope()),
         ];
         for &(metric, penetration) in CURVE {
-            let near = |r: &Row| (r.penetration - penetration).abs() <= self.window;
+            let near = |r: &Load| (r.penetration - penetration).abs() <= self.window;
             let reached = penetration + self.window <= self.end * (1.0 + 1e-9);
             let force = if reached {
                 self.mean(near, |r| r.force)
@@ -115,7 +113,7 @@ impl LoadCurve<'_> {
     /// Force on the base over that on the footing, less one.
     pub(super) fn imbalance(&self) -> f64 {
         let [force, base] =
-            [|r: &Row| r.force, |r: &Row| r.base].map(|of| self.mean(|r| self.on_plateau(r), of));
+            [|r: &Load| r.force, |r: &Load| r.base].map(|of| self.mean(|r| self.on_plateau(r), of));
         base / force - 1.0
     }
 }
@@ -164,8 +162,8 @@ impl Surface {
     /// What is measured of it.
     pub(super) fn metrics(&self, rough: bool) -> Vec<(Metric, f64)> {
         vec![
-            (m::MECHANISM_WIDTH, self.mechanism_width(rough)),
-            (m::HEAVE, self.heave()),
+            (MECHANISM_WIDTH, self.mechanism_width(rough)),
+            (HEAVE, self.heave()),
         ]
     }
 }

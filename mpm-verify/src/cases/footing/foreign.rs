@@ -1,16 +1,10 @@
-//! What another code gives of the footing.
+//! Columns that another code supplies, and the metrics computed from them.
 
-use super::curve::{LoadCurve, Row, Surface, WINDOW};
-use super::geometry::effective_width;
-use super::metrics::{self as m, CURVE, MEAN_STRESSES};
-use super::parameters::{PENETRATION, PPC_PER_DIRECTION, ROUGH, UNDRAINED_STRENGTH};
+use super::curve::{Load, LoadCurve, WINDOW};
 use super::reference::limit_curve;
-use super::scene::{Pace, Press, begin};
-use super::watch::of_stress;
+use super::*;
 use crate::cases::observe::{discretisation, start_columns};
 use crate::foreign::{Asked, Foreign, Given, Group, Measured};
-use crate::metric::Metric;
-use crate::scheme::{RemedyName, Scheme};
 
 const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
 const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
@@ -41,16 +35,16 @@ pub(in crate::cases) fn foreign() -> Foreign {
     let curve = CURVE.iter().map(|(metric, _)| *metric);
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
     let of_load = [
-        m::NC_B,
-        m::NC_B_PLUS_H,
-        m::NC_EFFECTIVE,
-        m::PRANDTL_ERROR,
-        m::NC_PEAK,
-        m::PLATEAU_RISE,
-        m::ELASTIC_SLOPE,
+        NC_B,
+        NC_B_PLUS_H,
+        NC_EFFECTIVE,
+        PRANDTL_ERROR,
+        NC_PEAK,
+        PLATEAU_RISE,
+        ELASTIC_SLOPE,
     ];
     Foreign {
-        judged_as: |basis| Scheme::flip(basis, RemedyName::FbarConsistent),
+        judged_as: |basis| Scheme::flip(basis, FbarConsistent),
         discretisation: |spec, parameters, dt| discretisation(2, spec, parameters, dt),
         groups: vec![
             Group {
@@ -60,40 +54,33 @@ pub(in crate::cases) fn foreign() -> Foreign {
             },
             Group {
                 columns: &[PENETRATED, FORCE, BASE],
-                metrics: vec![m::FORCE_IMBALANCE],
+                metrics: vec![FORCE_IMBALANCE],
                 measure: |given| {
-                    let imbalance = |c: &LoadCurve| vec![(m::FORCE_IMBALANCE, c.imbalance())];
+                    let imbalance = |c: &LoadCurve| vec![(FORCE_IMBALANCE, c.imbalance())];
                     of_rows(given, Some(&BASE), imbalance)
                 },
             },
             Group {
                 columns: &[START_X, START_Y, FLOW_X, FLOW_Y],
-                metrics: vec![m::MECHANISM_WIDTH, m::HEAVE],
+                metrics: vec![MECHANISM_WIDTH, HEAVE],
                 measure: |given| {
                     let start = given.points([&START_X, &START_Y]);
                     let flow = given.points([&FLOW_X, &FLOW_Y]);
-                    let spacing = given.spec.level.h / given.parameters.number(PPC_PER_DIRECTION);
-                    let surface = Surface::new(&start, &flow, spacing);
-                    Ok(surface.metrics(given.parameters.boolean(ROUGH)))
+                    Ok(setup(given)?.of_surface(&start, &flow))
                 },
             },
             Group {
                 columns: &[START_X, START_Y, MEAN_STRESS],
-                metrics: std::iter::once(m::MEAN_STRESS_RMS)
-                    .chain(stresses)
-                    .collect(),
+                metrics: std::iter::once(MEAN_STRESS_RMS).chain(stresses).collect(),
                 measure: |given| {
                     let start = given.points([&START_X, &START_Y]);
-                    let strength = given.parameters.number(UNDRAINED_STRENGTH);
-                    let h = given.spec.level.h;
-                    Ok(of_stress(&start, given.column(&MEAN_STRESS), (h, strength)))
+                    Ok(setup(given)?.of_stress(&start, given.column(&MEAN_STRESS)))
                 },
             },
         ],
         start: |spec, parameters| {
-            let press = Press::new(spec.level.h, parameters)?;
-            let pace = Pace::new(spec, parameters)?;
-            let run = begin(spec, parameters, &press, &pace)?;
+            let pressing = Pressing::new(Setup::of_spec(spec, parameters)?)?;
+            let run = pressing.begin(&pressing.unseen())?;
             Ok(start_columns(run.particles()))
         },
         setup: &[
@@ -114,32 +101,24 @@ pub(in crate::cases) fn foreign() -> Foreign {
     }
 }
 
-/// What is measured of the load that a code gives.
+fn setup(given: &Given) -> Result<Setup<Footing>, Error> {
+    Setup::of_spec(&given.spec, &given.parameters)
+}
+
+/// Metrics of the load that a code supplies.
 fn of_rows(
     given: &Given,
     base: Option<&Asked>,
     of: fn(&LoadCurve<'_>) -> Vec<(Metric, f64)>,
 ) -> Measured {
     let (forces, bases) = (given.column(&FORCE), base.map(|b| given.column(b)));
-    let row = |(k, penetration): (usize, &f64)| Row {
+    let penetrations = given.column(&PENETRATED).iter().enumerate();
+    let row = |(k, penetration): (usize, &f64)| Load {
         penetration: *penetration,
         force: forces[k],
         base: bases.map_or(f64::NAN, |base| base[k]),
     };
-    let rows: Vec<Row> = given
-        .column(&PENETRATED)
-        .iter()
-        .enumerate()
-        .map(row)
-        .collect();
-    let (h, parameters) = (given.spec.level.h, &given.parameters);
-    Ok(of(&LoadCurve {
-        rows: &rows,
-        strength: parameters.number(UNDRAINED_STRENGTH),
-        end: parameters.number(PENETRATION),
-        begun: Pace::new(&given.spec, parameters)?.begun(),
-        h,
-        effective: effective_width(given.spec.scheme.basis(), h).0,
-        window: WINDOW,
-    }))
+    let rows: Vec<Load> = penetrations.map(row).collect();
+    let setup = setup(given)?;
+    Ok(of(&setup.load_curve(&rows, setup.pace()?.begun(), WINDOW)))
 }

@@ -4,42 +4,117 @@
 
 mod checks;
 mod curve;
+mod figures;
 pub(super) mod foreign;
-mod geometry;
-mod metrics;
-mod own;
-mod parameters;
-mod pictures;
 mod reference;
-mod scene;
-mod sketch;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::{family, implicit, other_transfers, pairs};
-use crate::case::{Case, Family, FieldView, Tier};
-use crate::metric::{Sweep, error};
-use crate::scheme::{BasisName, RemedyName, RuleName};
-use crate::spec::{Level, RunSpec};
-use metrics::{PRANDTL_ERROR, headlines};
-use own::{SMALL, own_runs};
-use parameters::PENETRATION_RATE;
-use watch::Pressing;
-
-use BasisName::{Bspline2, Bspline3, Gimp};
-use RemedyName::{FbarConsistent, FbarRate, FbarRecursive};
+use super::family::{REMEDIES, implicit, levels, other_transfers, pairs, transfers};
+use super::parameters as common;
+use crate::parameter::Parameter;
+use crate::prelude::*;
+use crate::record::of_defaults;
 use RuleName::QuasiStatic;
-use Tier::{Long, Nightly, Pr};
+use reference::{EXACT, mean_stress_at, strength_ratio};
+use run::{Pressing, WIDTH};
+
+const COMPARED: [RemedyName; 4] = [RemedyName::None, FbarRecursive, FbarRate, FbarConsistent];
+
+choices! {
+    /// How the footing presses.
+    enum Contact { RigidNodes = "rigid-nodes", Barrier = "barrier" }
+}
+
+const PENETRATION_RATE: Parameter = real("m/s", "2e-3", 1e-6, 1.0)
+    .named("penetration_rate")
+    .meaning("speed of the footing after its start");
+
+parameters! {
+    /// Parameters of the footing.
+    struct Footing {
+        young_modulus: f64 = common::YOUNG_MODULUS;
+        poisson_ratio: f64 = common::POISSON_RATIO;
+        density: f64 = common::DENSITY, "density ρ; it only matters for how slowly the footing must move";
+        undrained_strength: f64 = real("Pa", "100", 1e-6, 1e12),
+            "undrained shear strength s_u of plane strain: the ground yields at ‖s‖ = √2 s_u";
+        domain_width: i32 = whole("B", "6", 2, 40), "width of the right half of the ground, in widths of the footing";
+        domain_depth: i32 = whole("B", "6", 1, 40), "depth of the ground, likewise";
+        penetration_rate: f64 = PENETRATION_RATE;
+        penetration: f64 = real("B", "0.004", 1e-4, 0.1), "penetration at the end, in widths of the footing";
+        ramp: f64 = real("s", "0.8", 1e-6, 1e3), "time over which the footing's speed rises from zero";
+        damping: f64 = common::DAMPING.with_default("0.002");
+        cfl: f64 = common::CFL;
+        flip: f64 = common::FLIP;
+        wall: common::Wall = common::WALL, "how B-splines meet the sides and the base";
+        contact: Contact = Contact::RigidNodes.by_default(),
+            "how the footing presses: nodes that move with it, or a barrier on particles that come near it";
+        rough: bool = flag(true), "whether the ground sticks to the footing; if not, it slides freely";
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        load_steps: i32 = common::LOAD_STEPS.with_default("16"),
+            "quasi-static: equal steps of the penetration; one that finds no equilibrium is halved";
+        tolerance: f64 = common::TOLERANCE.with_default("1e-8");
+    }
+}
+
+metrics! { OWN:
+    NC_B = "nc_b", "-",
+        "bearing capacity factor q/s_u with the pressure q = F/(B/2), mean over the last quarter of the penetration";
+    NC_B_PLUS_H = "nc_b_plus_h", "-",
+        "likewise with q = F/((B + h)/2): a footing of held nodes on grid lines ends between a held and a free node";
+    NC_EFFECTIVE = "nc_effective", "-",
+        "likewise with the width that the held nodes of the scheme act with: B for quadratic splines, whose nodes lie in the middle of cells, B + h for GIMP, B + h/2 for cubic ones";
+    PRANDTL_ERROR = "prandtl_error", "-",
+        "relative distance of nc_b from 2 + π: the error of the contact pressure";
+    NC_PEAK = "nc_peak", "-", "largest q/s_u of the run, by B";
+    PLATEAU_RISE = "plateau_rise", "-",
+        "relative growth of the load per 10⁻³ of s/B over the last quarter of the penetration";
+    ELASTIC_SLOPE = "elastic_slope", "-",
+        "d(q/s_u)/d(s/B) by B, a straight line fitted to all rows after the start; elastic in runs of great strength";
+    FORCE_IMBALANCE = "force_imbalance", "-",
+        "force on the base over that on the footing, less one, mean over the last quarter: inertia";
+    MECHANISM_WIDTH = "mechanism_width", "B",
+        "half the width of the ground that rises while the footing sinks: where the surface rises by half of what it does in Prandtl's mechanism (Hill's, if smooth)";
+    HEAVE = "heave", "-",
+        "mean rise of the surface from 0.75 B to 1.25 B while the footing sinks by one: one half in Prandtl's mechanism";
+    MEAN_STRESS_RMS = "mean_stress_rms", "Pa", "rms over all particles of the mean normal stress";
+    CHECKERBOARD_RMS = "checkerboard_rms", "Pa", "rms over all particles of σ_m − Πσ_m";
+    CHECKERBOARD_RATIO = "checkerboard_ratio", "-", "checkerboard_rms over mean_stress_rms";
+    PLASTIC_STRAIN_MAX = "plastic_strain_max", "-", "largest equivalent plastic strain of a particle";
+    LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
+    MASS = "mass", "kg/m", "mass of the particles";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "quasi-static: Newton's iterations";
+    LINEAR_ITERATIONS = "linear_iterations", "-", "quasi-static: those of linear solutions";
+}
+
+metrics! {
+    /// The load on the way, with the penetrations over B at which it is measured.
+    CURVE at f64:
+    3e-4 => "nc_0.0003", "-", "q/s_u by B at s/B = 0.0003";
+    5e-4 => "nc_0.0005", "-", "q/s_u by B at s/B = 0.0005";
+    1e-3 => "nc_0.001", "-", "q/s_u by B at s/B = 0.001";
+    1.5e-3 => "nc_0.0015", "-", "q/s_u by B at s/B = 0.0015";
+    2e-3 => "nc_0.002", "-", "q/s_u by B at s/B = 0.002";
+    3e-3 => "nc_0.003", "-", "q/s_u by B at s/B = 0.003";
+}
+
+metrics! {
+    /// The mean normal stress at material points (in B, the surface at zero).
+    MEAN_STRESSES at [f64; 2]:
+    [0.25, -0.25] => "mean_stress_0.25_0.25", "-",
+        "mean normal stress over s_u at the end at the material point 0.25 B from the axis and 0.25 B deep, by a linear fit over the particles within 2h";
+    [0.25, -0.5] => "mean_stress_0.25_0.5", "-", "likewise at 0.25 B from the axis and 0.5 B deep";
+    [0.75, -0.25] => "mean_stress_0.75_0.25", "-", "likewise at 0.75 B from the axis and 0.25 B deep";
+    [1.0, -0.25] => "mean_stress_1_0.25", "-", "likewise at 1 B from the axis and 0.25 B deep";
+    [0.25, -1.0] => "mean_stress_0.25_1", "-", "likewise at 0.25 B from the axis and 1 B deep";
+}
 
 pub(super) fn case() -> Case {
     let cells = [("b10", 10.0), ("b20", 20.0), ("b40", 40.0), ("b80", 80.0)];
-    let levels = cells.map(|(name, cells)| Level {
-        name,
-        h: 1.0 / cells,
-    });
+    let levels = levels(WIDTH, cells);
+    let curve = CURVE.iter().map(|(metric, _)| *metric);
+    let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
+    let metrics: Vec<Metric> = OWN.iter().copied().chain(curve).chain(stresses).collect();
     Case {
-        name: "footing",
-        title: "Strip footing",
         description: "A rough rigid strip footing pressed slowly into weightless ground, a Hencky solid with J2 plasticity \
                       (plane strain, ν = 0.49). Its bearing capacity is (2 + π) s_u (Prandtl). Standard MPM locks and finds \
                       no limit load; the F̄ remedies do, the recursive one depends on the rate.",
@@ -50,12 +125,21 @@ pub(super) fn case() -> Case {
             "The inertia of the start shows below s/B = 0.0003; the elastic slope is measured in runs of great strength.",
             "At B/80 three checks fail: the load swings, the mechanism ends a cell early, a mean stress is off by 5 % (docs/footing.md).",
         ],
-        parameters: parameters::ALL.to_vec(),
-        plan: plan(levels),
-        levels: levels.to_vec(),
-        metrics: metrics::all(),
+        plan: plan(&levels),
+        levels,
         checks: checks::checks(),
-        headlines: headlines(),
+        headlines: vec![
+            headline(NC_B, "N_c by B (–)", 1.0, 3),
+            headline(NC_B_PLUS_H, "N_c by B + h (–)", 1.0, 3),
+            headline(NC_EFFECTIVE, "N_c by effective width (–)", 1.0, 3),
+            headline(PLATEAU_RISE, "rise (%/10⁻³)", 100.0, 2),
+            headline(ELASTIC_SLOPE, "slope (–)", 1.0, 0),
+            headline(FORCE_IMBALANCE, "imbalance (%)", 100.0, 2),
+            headline(MECHANISM_WIDTH, "mechanism (B)", 1.0, 2),
+            headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2),
+            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (10⁻⁶)", 1e6, 2),
+            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
+        ],
         quantities: vec![error(
             PRANDTL_ERROR,
             "relative error of the contact pressure",
@@ -74,73 +158,76 @@ pub(super) fn case() -> Case {
             range: (0.0, 0.004),
             window: [(0.0, 2.0), (-1.5, 0.0)],
         }),
-        sketch: sketch::sketch(),
+        sketch: sketch(),
         cost: Box::new(cost),
-        ladder: &[],
         own_runs,
-        begin: Box::new(|spec, parameters| Ok(Box::new(Pressing::drive(spec, parameters)?))),
-        pictures: pictures::draw,
-        tables: tables::all(),
-        breaks_down: |_| None,
+        pictures: figures::draw,
+        tables: tables(),
+        ..Case::of::<2, Pressing>("footing", "Strip footing", &metrics)
     }
 }
 
 /// A strength beyond reach: the ground stays elastic.
-const ELASTIC: &[&str] = &["undrained_strength=1e6"];
-/// Steps of equilibrium at which the finite elements are tabulated, too.
-const FINER: &[&str] = &["load_steps=40"];
+const ELASTIC: &str = "undrained_strength=1e6";
+/// Ground just large enough for the limit load, and a penetration just long enough.
+const SMALL: [&str; 3] = ["domain_width=3", "domain_depth=3", "penetration=0.0025"];
 
-fn plan([b10, b20, b40, b80]: [Level; 4]) -> Vec<Family> {
+/// The runs at the case's own parameters; where there are none, those on small ground, whose limit load is the same.
+fn own_runs(records: &[Record]) -> Vec<&Record> {
+    let own = of_defaults(records);
+    let small = |r: &&Record| r.set == SMALL;
+    match own.is_empty() {
+        true => records.iter().filter(small).collect(),
+        false => own,
+    }
+}
+
+fn plan(levels: &[Level]) -> Vec<Family> {
     let none = RemedyName::None;
     let both = |remedies: &[RemedyName]| pairs(&[Gimp, Bspline2], remedies);
-    let all = both(&[none, FbarRecursive, FbarRate, FbarConsistent]);
     let three = both(&[none, FbarRecursive, FbarConsistent]);
-    let two = both(&[none, FbarConsistent]);
+    let (two, ours) = (both(&[none, FbarConsistent]), both(&[FbarConsistent]));
     let rates = both(&[FbarRecursive, FbarConsistent]);
-    let ours = both(&[FbarConsistent]);
     let cubic = pairs(&[Bspline3], &[FbarConsistent]);
     let smooth = pairs(&[Gimp], &[FbarRate, FbarConsistent]);
     let averaged = implicit(&[QuasiStatic], &[Gimp, Bspline2], &[FbarConsistent]);
     let statics = implicit(&[QuasiStatic], &[Gimp, Bspline2], &[none, FbarConsistent]);
-    let dense: &[&str] = &["ppc_per_direction=4"];
-    vec![
-        family(Pr, &[b10], &three, SMALL),
-        family(Pr, &[b20], &pairs(&[Gimp], &[none, FbarConsistent]), SMALL),
-        family(Nightly, &[b20], &two, SMALL),
-        family(Nightly, &[b10, b20], &all, &[]),
-        family(Nightly, &[b20], &all, dense),
-        family(Nightly, &[b20], &cubic, &[]),
-        family(Nightly, &[b40], &three, &[]),
-        family(Nightly, &[b20], &three, &["contact=barrier"]),
-        family(Nightly, &[b10], &rates, &["penetration_rate=4e-3"]),
-        family(Nightly, &[b10], &rates, &["penetration_rate=1e-3"]),
-        family(
+    let small = &SMALL.join(" ");
+    let dense = "ppc_per_direction=4";
+    Plan::of(levels)
+        .runs(Pr, "b10", &three, small)
+        .runs(Pr, "b20", &pairs(&[Gimp], &[none, FbarConsistent]), small)
+        .runs(Nightly, "b20", &two, small)
+        .runs(Nightly, "b10 b20", &both(&COMPARED), "")
+        .runs(Nightly, "b20", &both(&COMPARED), dense)
+        .runs(Nightly, "b20", &cubic, "")
+        .runs(Nightly, "b40", &three, "")
+        .runs(Nightly, "b20", &three, "contact=barrier")
+        .runs(Nightly, "b10", &rates, "penetration_rate=4e-3")
+        .runs(Nightly, "b10", &rates, "penetration_rate=1e-3")
+        .runs(
             Nightly,
-            &[b10],
+            "b10",
             &both(&[none, FbarRate, FbarConsistent]),
             ELASTIC,
-        ),
-        family(Nightly, &[b20], &ours, ELASTIC),
-        family(Nightly, &[b10], &smooth, &["rough=false"]),
-        family(
-            Long,
-            &[b40],
-            &ours,
-            &["ppc_per_direction=4", "penetration=0.003"],
-        ),
-        family(Long, &[b80], &ours, &["penetration=0.003"]),
-        family(Long, &[b40], &both(&[FbarRate]), &[]),
-        family(Long, &[b80], &all, &[]),
-        family(Long, &[b10, b40, b80], &cubic, &[]),
-        family(Long, &[b10, b20, b40, b80], &other_transfers(), &[]),
-        family(Long, &[b10], &two, dense),
-        family(Pr, &[b10], &averaged[1..], SMALL),
-        family(Nightly, &[b10, b20], &statics, &[]),
-        family(Nightly, &[b10], &averaged, FINER),
-        family(Nightly, &[b20], &averaged, &["contact=barrier"]),
-        family(Nightly, &[b10], &averaged, ELASTIC),
-        family(Long, &[b40, b80], &statics, &[]),
-    ]
+        )
+        .runs(Nightly, "b20", &ours, ELASTIC)
+        .runs(Nightly, "b10", &smooth, "rough=false")
+        .runs(Long, "b40", &ours, "ppc_per_direction=4 penetration=0.003")
+        .runs(Long, "b80", &ours, "penetration=0.003")
+        .runs(Long, "b40", &both(&[FbarRate]), "")
+        .runs(Long, "b80", &both(&COMPARED), "")
+        .runs(Long, "b10 b40 b80", &cubic, "")
+        .runs(Long, "b10 b20 b40 b80", &other_transfers(), "")
+        .runs(Long, "b10", &two, dense)
+        .runs(Pr, "b10", &averaged[1..], small)
+        .runs(Nightly, "b10 b20", &statics, "")
+        // Steps of equilibrium at which the finite elements are tabulated, too.
+        .runs(Nightly, "b10", &averaged, "load_steps=40")
+        .runs(Nightly, "b20", &averaged, "contact=barrier")
+        .runs(Nightly, "b10", &averaged, ELASTIC)
+        .runs(Long, "b40 b80", &statics, "")
+        .done()
 }
 
 fn cost(spec: &RunSpec) -> f64 {
@@ -156,4 +243,196 @@ fn cost(spec: &RunSpec) -> f64 {
         1.0
     };
     solver * sweep * if dense { 4.0 } else { 1.0 } / spec.level.h.powi(3)
+}
+
+fn sketch() -> Sketch {
+    let extent = 6.0 * WIDTH;
+    let half = 0.5 * WIDTH;
+    let shapes = vec![
+        Shape::Body(vec![
+            [0.0, -extent],
+            [extent, -extent],
+            [extent, 0.0],
+            [0.0, 0.0],
+        ]),
+        Shape::Body(vec![[0.0, 0.0], [half, 0.0], [half, 0.25], [0.0, 0.25]]),
+        Shape::Held([extent, -extent], [0.0, -extent]),
+        Shape::Load([0.25 * WIDTH, 1.0], [0.25 * WIDTH, 0.3]),
+        Shape::length([0.0, -extent - 0.7], [extent, -extent - 0.7], "6B"),
+        Shape::length([extent + 0.5, -extent], [extent + 0.5, 0.0], "6B"),
+        Shape::note([1.6 * WIDTH, 0.45], "footing, B/2 = 0.5 m"),
+        Shape::note([-0.6, -0.5 * extent], "symmetry"),
+        Shape::note([extent - 0.6, -0.5 * extent], "roller"),
+    ];
+    Sketch {
+        shapes,
+        description: "A square of ground six footing widths wide and deep, its base fixed, its sides on rollers, the left one the axis of symmetry; a rigid footing half a metre wide presses on the upper left corner.",
+    }
+}
+
+const OF_WIDTH: Label = ("h", |r| r.level.replace('b', "B/"));
+
+fn changed(r: &Record) -> String {
+    let word = |set: &String| {
+        match &**set {
+            "contact=barrier" => "barrier",
+            "ppc_per_direction=4" => "4 × 4",
+            "rough=false" => "smooth",
+            "domain_width=3" => "3B × 3B",
+            "domain_depth=3" => "",
+            "penetration=0.0025" => "to 0.0025",
+            "load_steps=40" => "40 steps",
+            other => other,
+        }
+        .to_owned()
+    };
+    let words = r.set.iter().map(word).filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// N_c by its own width, which a barrier does not let know.
+fn own(r: &Record) -> f64 {
+    let known = |c: &Setup<Footing>| match c.presses_by_barrier() {
+        true => f64::NAN,
+        false => r.metric(NC_EFFECTIVE),
+    };
+    Setup::number_of(r, known)
+}
+
+fn from_exact(r: &Record) -> f64 {
+    own(r) / EXACT - 1.0
+}
+
+/// rms ln(J/J̄) of a remedy that makes J̄.
+fn gap(r: &Record) -> f64 {
+    match r.remedy() {
+        RemedyName::None => f64::NAN,
+        _ => r.metric(LOG_JACOBIAN_GAP),
+    }
+}
+
+fn is_main(r: &Record) -> bool {
+    r.basis() != Bspline3 && is_flip(r) && r.is_default() && r.level == "b20"
+}
+
+fn tables() -> Vec<ResultTable> {
+    vec![
+        ResultTable::by_remedy("footing", &COMPARED, is_main, |r| fixed(3).text(own(r))),
+        table_of_results(),
+        table_of_mean_stresses(),
+        table_of_rates(),
+        table_of_slopes(),
+        transfers("footing-transfers", &[PAIR, OF_WIDTH], &["4"], |r| {
+            percent(2).text(from_exact(r))
+        }),
+        table_of_orders(),
+    ]
+}
+
+fn table_of_results() -> ResultTable {
+    ResultTable::new(
+        "footing-results",
+        |r| r.set != [ELASTIC] && !r.changes_only("penetration_rate"),
+        &[SCHEME, OF_WIDTH, ("changed", changed)],
+        [
+            Column::metric("N_c by B", NC_B, fixed(3)),
+            Column::metric("by B + h", NC_B_PLUS_H, fixed(3)),
+            Column::value("by its own width", own, fixed(3)),
+            Column::value("from 2 + π", from_exact, percent(1)),
+            Column::metric("rise per 10⁻³", PLATEAU_RISE, percent(1)),
+            Column::metric("mechanism (B)", MECHANISM_WIDTH, fixed(2)),
+            Column::metric("heave", HEAVE, fixed(2)),
+            Column::metric("checkerboard", CHECKERBOARD_RATIO, fixed(2)),
+            Column::value("ln(J/J̄) rms (10⁻⁴)", gap, fixed(1).times(1e4)),
+            Column::cpu(),
+        ],
+    )
+}
+
+fn table_of_mean_stresses() -> ResultTable {
+    let column = |(metric, point): (_, [f64; 2])| {
+        let elements = mean_stress_at(point).map_or(String::new(), |s| {
+            let value = fixed(2).text(s.value);
+            format!("; elements: {value} ± {:.2}", s.uncertainty)
+        });
+        let title = format!("({}, {}) B{elements}", point[0], -point[1]);
+        Column::metric(title, metric, fixed(2))
+    };
+    ResultTable::new(
+        "footing-mean-stress",
+        |r| is_flip(r) && r.is_default() && ["b20", "b40"].contains(&&*r.level),
+        &[PAIR, OF_WIDTH],
+        MEAN_STRESSES.iter().copied().map(column),
+    )
+}
+
+/// Half and twice the case's own rate beside it.
+fn table_of_rates() -> ResultTable {
+    let rates = [("4", 4e-3), ("2", 2e-3), ("1", 1e-3)];
+    let rate = |r: &Record| Setup::<Footing>::number_of(r, |c| c.penetration_rate);
+    let loads = rates.map(|(name, rate)| (rate, format!("{name}·10⁻³ m/s")));
+    let imbalances = rates.map(|(name, rate)| (rate, format!("imbalance of forces at {name}")));
+    let mut columns = Column::over(loads, rate, NC_B, fixed(3));
+    columns.extend(Column::over(imbalances, rate, FORCE_IMBALANCE, percent(1)));
+    ResultTable::new(
+        "footing-rates",
+        |r| {
+            let compared = [FbarRecursive, FbarConsistent];
+            let own = r.is_default() || r.changes_only("penetration_rate");
+            let main = r.basis() != Bspline3 && compared.contains(&r.remedy());
+            own && main && is_flip(r) && r.level == "b10"
+        },
+        &[("scheme, B/10", SCHEME.1)],
+        columns,
+    )
+}
+
+fn table_of_slopes() -> ResultTable {
+    /// From q/s_u of a strength beyond reach to that of the reference.
+    fn scale(r: &Record) -> f64 {
+        Setup::<Footing>::number_of(r, |c| c.strength_ratio() / strength_ratio())
+    }
+    let found = |r: &Record| scale(r) * r.metric(ELASTIC_SLOPE);
+    let expected = |r: &Record| {
+        let slope = |c: &Setup<Footing>| {
+            c.reference_slope()
+                .map_or(f64::NAN, |s| s / strength_ratio())
+        };
+        Setup::number_of(r, slope)
+    };
+    ResultTable::new(
+        "footing-slopes",
+        |r| r.set == [ELASTIC],
+        &[SCHEME, OF_WIDTH],
+        [
+            Column::value("slope d(q/s_u)/d(s/B)", found, fixed(0)),
+            Column::value("finite elements that act as wide", expected, fixed(0)),
+            Column::value(
+                "difference",
+                move |r| found(r) / expected(r) - 1.0,
+                percent(1),
+            ),
+        ],
+    )
+}
+
+fn table_of_orders() -> ResultTable {
+    // Errors on splines with F̄ are too small to fall with an order.
+    let text = |runs: &[&Record], _: &[&Record]| {
+        let gimp = runs.iter().copied().filter(|r| r.basis() == Gimp);
+        let found = order(gimp, PRANDTL_ERROR.name);
+        found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
+    };
+    let levels = [("b10", "B/10"), ("b20", "B/20"), ("b40", "B/40")];
+    let levels = Column::levels(levels, PRANDTL_ERROR, percent(1));
+    let order = Column::row("order (between levels)", text);
+    ResultTable::new(
+        "footing-orders",
+        |r| {
+            let main = r.basis() != Bspline3 && REMEDIES[1..].contains(&r.remedy());
+            main && is_flip(r) && r.is_default()
+        },
+        &[SCHEME],
+        levels.into_iter().chain([order]),
+    )
 }

@@ -1,13 +1,6 @@
 //! The references: Prandtl's limit load and an independent finite-element solution.
 
-use super::geometry::{WIDTH, effective_width};
-use super::parameters::{
-    BARRIER, CONTACT, DOMAIN_DEPTH, DOMAIN_WIDTH, POISSON_RATIO, ROUGH, UNDRAINED_STRENGTH,
-    YOUNG_MODULUS,
-};
-use crate::parameter::Parameters;
-use crate::record::Record;
-use serde::Deserialize;
+use super::*;
 use std::sync::LazyLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/footing.json");
@@ -143,117 +136,113 @@ enum Elements {
     OfCells,
 }
 
-fn elements(record: &Record) -> Result<Elements, String> {
-    let h = record.discretisation.h;
-    if record.parameters.is(CONTACT, BARRIER) {
-        return Err("no elements press through a barrier: see contacts-agree".to_owned());
-    }
-    match effective_width(record.basis(), h).0 {
-        width if width == WIDTH => Ok(Elements::Vanishing),
-        width if width == WIDTH + h => Ok(Elements::OfCells),
-        _ => Err("no elements act as wide as cubic splines".to_owned()),
-    }
-}
-
 /// The least domain (in B) that leaves Prandtl's mechanism room.
-const ROOM: f64 = 3.0;
+const ROOM: i32 = 3;
 
-/// The finite-element curve for a run; that of other parameters has the same limit load.
-pub(super) fn curve(record: &Record) -> Result<Curve, String> {
-    let document = document()?;
-    for extent in [DOMAIN_WIDTH, DOMAIN_DEPTH] {
-        if record.parameters.number(extent) < ROOM {
+impl Setup<Footing> {
+    fn elements(&self) -> Result<Elements, String> {
+        if self.presses_by_barrier() {
+            return Err("no elements press through a barrier: see contacts-agree".to_owned());
+        }
+        match self.effective_width().0 {
+            width if width == WIDTH => Ok(Elements::Vanishing),
+            width if width == WIDTH + self.h => Ok(Elements::OfCells),
+            _ => Err("no elements act as wide as cubic splines".to_owned()),
+        }
+    }
+
+    /// The finite-element curve; that of other parameters has the same limit load.
+    pub(super) fn reference_curve(&self) -> Result<Curve, String> {
+        let document = document()?;
+        if self.domain_width < ROOM || self.domain_depth < ROOM {
             return Err(format!("the ground is less than {ROOM} B wide or deep"));
         }
-    }
-    let h = record.discretisation.h;
-    let rough = record.parameters.boolean(ROUGH);
-    if let Elements::Vanishing = elements(record)? {
-        if !rough {
-            return Err("the extrapolated reference is that of a rough footing".to_owned());
+        if let Elements::Vanishing = self.elements()? {
+            if !self.rough {
+                return Err("the extrapolated reference is that of a rough footing".to_owned());
+            }
+            return Ok(Curve {
+                limit: document.extrapolated.limit,
+                points: limit_curve(),
+                name: "finite elements of vanishing size".to_owned(),
+            });
         }
-        let limit = &document.extrapolated;
-        return Ok(Curve {
-            limit: limit.limit,
-            points: (limit.curve.iter())
-                .map(|p| (p.settlement, p.pressure))
-                .collect(),
-            name: "finite elements of vanishing size".to_owned(),
+        let h = self.h;
+        let contact = if self.rough { "rough" } else { "smooth" };
+        let found = document.meshes.iter().find_map(|s| {
+            let same = close(s.cells * h, WIDTH)
+                && s.formulation == "mean_dilatation"
+                && s.contact == contact;
+            s.limit.filter(|_| same).map(|limit| (s, limit))
         });
+        let Some((solution, limit)) = found else {
+            return Err(format!("no {contact} reference with elements of {h} m"));
+        };
+        Ok(Curve {
+            limit,
+            points: (document.settlements.iter().copied())
+                .zip(solution.pressures.iter().copied())
+                .collect(),
+            name: format!(
+                "B-bar finite elements of the same size, {} mesh",
+                solution.mesh
+            ),
+        })
     }
-    let contact = if rough { "rough" } else { "smooth" };
-    let found = document.meshes.iter().find_map(|s| {
-        let same =
-            close(s.cells * h, WIDTH) && s.formulation == "mean_dilatation" && s.contact == contact;
-        s.limit.filter(|_| same).map(|limit| (s, limit))
-    });
-    let Some((solution, limit)) = found else {
-        return Err(format!("no {contact} reference with elements of {h} m"));
-    };
-    Ok(Curve {
-        limit,
-        points: (document.settlements.iter().copied())
-            .zip(solution.pressures.iter().copied())
-            .collect(),
-        name: format!(
-            "B-bar finite elements of the same size, {} mesh",
-            solution.mesh
-        ),
-    })
-}
 
-/// Whether the whole curve of the reference, not its limit load alone, is that of the run's parameters.
-pub(super) fn has_the_curve_of(parameters: &Parameters) -> Result<(), String> {
-    let document = document()?;
-    let number = |p| parameters.number(p);
-    let wanted = [
-        (POISSON_RATIO, document.poisson_ratio),
-        (DOMAIN_WIDTH, document.domain),
-        (DOMAIN_DEPTH, document.domain),
-    ];
-    for (of, value) in wanted {
-        let (own, name) = (number(of), of.name);
-        if !close(own, value) {
-            return Err(format!("the curve is for {name} = {value}, not {own}"));
+    /// The finite-element curve if all of it, not its limit load alone, is that of the parameters.
+    pub(super) fn whole_reference_curve(&self) -> Result<Curve, String> {
+        let (curve, document) = (self.reference_curve()?, document()?);
+        let wanted = [
+            ("poisson_ratio", self.poisson_ratio, document.poisson_ratio),
+            (
+                "domain_width",
+                f64::from(self.domain_width),
+                document.domain,
+            ),
+            (
+                "domain_depth",
+                f64::from(self.domain_depth),
+                document.domain,
+            ),
+        ];
+        for (name, own, value) in wanted {
+            if !close(own, value) {
+                return Err(format!("the curve is for {name} = {value}, not {own}"));
+            }
+        }
+        let (ratio, known) = (self.strength_ratio(), strength_ratio());
+        match close(ratio, known) {
+            true => Ok(curve),
+            false => Err(format!("the curve is for s_u/E = {known}, not {ratio}")),
         }
     }
-    let ratio = number(UNDRAINED_STRENGTH) / number(YOUNG_MODULUS);
-    if close(ratio, strength_ratio()) {
-        Ok(())
-    } else {
-        Err(format!(
-            "the curve is for s_u/E = {}, not {ratio}",
-            strength_ratio()
-        ))
-    }
-}
 
-/// d(q/E)/d(s/B) of an elastic ground for a run.
-pub(super) fn elastic_slope(record: &Record) -> Result<f64, String> {
-    let document = document()?;
-    let number = |p| record.parameters.number(p);
-    if !record.parameters.boolean(ROUGH) {
-        return Err("the slopes are those of a rough footing".to_owned());
-    }
-    let (ratio, width) = (number(POISSON_RATIO), number(DOMAIN_WIDTH));
-    let found = document.slopes.iter().find(|s| {
-        close(s.poisson_ratio, ratio)
-            && close(s.domain, width)
-            && close(s.domain, number(DOMAIN_DEPTH))
-    });
-    let Some(slopes) = found else {
-        return Err(format!("no slope for ν = {ratio} and this domain"));
-    };
-    let h = record.discretisation.h;
-    let slope = match elements(record)? {
-        Elements::Vanishing => slopes.slope,
-        Elements::OfCells => {
-            let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
-            same.ok_or_else(|| format!("no slope with elements of {h} m"))?
-                .slope
+    /// d(q/E)/d(s/B) of an elastic ground.
+    pub(super) fn reference_slope(&self) -> Result<f64, String> {
+        let document = document()?;
+        if !self.rough {
+            return Err("the slopes are those of a rough footing".to_owned());
         }
-    };
-    Ok(slope * strength_ratio())
+        let (ratio, h) = (self.poisson_ratio, self.h);
+        let found = document.slopes.iter().find(|s| {
+            close(s.poisson_ratio, ratio)
+                && close(s.domain, f64::from(self.domain_width))
+                && close(s.domain, f64::from(self.domain_depth))
+        });
+        let Some(slopes) = found else {
+            return Err(format!("no slope for ν = {ratio} and this domain"));
+        };
+        let slope = match self.elements()? {
+            Elements::Vanishing => slopes.slope,
+            Elements::OfCells => {
+                let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
+                same.ok_or_else(|| format!("no slope with elements of {h} m"))?
+                    .slope
+            }
+        };
+        Ok(slope * strength_ratio())
+    }
 }
 
 /// The references in words.
@@ -285,4 +274,41 @@ pub(super) fn describe() -> Vec<String> {
         e.limit, e.limit_uncertainty, e.slope, e.slope_uncertainty
     ));
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameter::ParameterSet;
+    use crate::record::fixture::run;
+
+    #[test]
+    fn the_finite_elements_agree_with_prandtl_and_are_found() {
+        let of = |basis, h, set: &[&str]| {
+            let record = run(
+                &Footing::list(),
+                (basis, FbarConsistent),
+                ("b20", h),
+                set,
+                &[],
+            );
+            Setup::<Footing>::of_record(&record).unwrap()
+        };
+        let vanishing = of(Bspline2, 0.05, &[]).reference_curve().unwrap();
+        assert!((vanishing.limit - EXACT).abs() < 0.003);
+        let elements = of(Gimp, 0.05, &[]).reference_curve().unwrap();
+        assert!((elements.limit / 1.05 - EXACT).abs() < 0.01 * EXACT);
+        for curve in [vanishing, elements] {
+            assert!(CURVE.iter().all(|(_, s)| curve.at(*s).is_some()));
+            assert_eq!(curve.at(0.0123), None);
+        }
+        assert!(
+            MEAN_STRESSES
+                .iter()
+                .all(|(_, x)| mean_stress_at(*x).is_some())
+        );
+        assert!(of(Gimp, 0.03, &[]).reference_curve().is_err());
+        let other = of(Gimp, 0.05, &["poisson_ratio=0.3"]);
+        assert!(other.reference_curve().is_ok() && other.whole_reference_curve().is_err());
+    }
 }

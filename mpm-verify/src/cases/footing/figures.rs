@@ -1,32 +1,17 @@
-//! The pictures of the strip footing: the paper's Figures 8 and 10, and Prandtl's mechanism.
+//! The figures of the strip footing: the paper's Figures 8 and 10, and Prandtl's mechanism.
 
-use super::own::own_runs;
-use super::parameters::PENETRATION;
-use super::reference::{EXACT, limit_curve, limit_uncertainty};
+use super::reference::{limit_curve, limit_uncertainty};
+use super::*;
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
-use crate::draw::{
-    Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_charts, share_ranges,
-    signed,
-};
-use crate::error::Error;
-use crate::gallery::Gallery;
-use crate::record::Record;
-use crate::scheme::{BasisName, RemedyName};
-use crate::table::Table;
+use crate::draw::{FieldFigure, FieldPanel, signed};
 
-const BASES: [BasisName; 2] = [BasisName::Gimp, BasisName::Bspline2];
-const REMEDIES: [RemedyName; 4] = [
-    RemedyName::None,
-    RemedyName::FbarRecursive,
-    RemedyName::FbarRate,
-    RemedyName::FbarConsistent,
-];
+const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Finest first.
 const LEVELS: [&str; 4] = ["b80", "b40", "b20", "b10"];
 /// Largest pressure over strength drawn; and the range about Prandtl's that is drawn larger.
 const MOST: f64 = 10.0;
 const ABOUT: (f64, f64) = (4.8, 5.8);
-/// What is drawn of the ground (m): so far to the right and down.
+/// Part of the ground (m) that is drawn: to the right and down.
 const NEAR: (f64, f64) = (2.5, 2.0);
 /// Least mean normal stress (kPa) that is drawn.
 const LEAST_STRESS: f64 = -0.6;
@@ -35,9 +20,9 @@ const STRAINS: (f64, f64) = (-5.0, -2.0);
 /// The footing (m).
 const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.08), (0.0, 0.08)];
 
-/// Draws everything there are runs for.
+/// Draws all figures that have runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
-    let shorter = |r: &&Record| r.changes_only(PENETRATION.name);
+    let shorter = |r: &&Record| r.changes_only("penetration");
     let records = own_runs(gallery.records).into_iter();
     let records = records.chain(gallery.records.iter().filter(shorter));
     let mut runs = Exhibit::new(gallery, records);
@@ -57,99 +42,88 @@ fn level_title(level: &str) -> String {
     format!("h = B/{}", &level[1..])
 }
 
-fn curve(runs: &Exhibit, record: &Record) -> Result<Vec<(f64, f64)>, Error> {
-    let points = runs.history(record, ["penetration", "pressure_over_strength"])?;
-    // What rings at the start is inertia, and would hide the elastic branch.
-    let shown = points.into_iter().filter(|(_, q)| *q <= MOST);
-    Ok(shown.map(|(s, q)| (1e3 * s, q)).collect())
+/// Pressure over strength over penetration. What rings at the start is inertia, and would hide the elastic branch.
+fn load(_: &Record, series: &Table) -> Vec<(f64, f64)> {
+    let mut points = series.pairs(["penetration", "pressure_over_strength"], |s, q| {
+        (1e3 * s, q)
+    });
+    points.retain(|(_, q)| *q <= MOST);
+    points
 }
 
 /// Above: standard and consistent at all levels, whole and about the limit load. Below: all remedies at one.
 fn curves(runs: &mut Exhibit) -> Result<(), Error> {
-    let (mut charts, mut all_remedies) = (Vec::new(), Vec::new());
-    for basis in BASES {
-        let mut curves = Vec::new();
-        for (colour, level) in LEVELS.into_iter().enumerate() {
-            for (remedy, dash) in [
-                (RemedyName::None, Dash::Dotted),
-                (RemedyName::FbarConsistent, Dash::Solid),
-            ] {
-                let points = match runs.find(basis, remedy, level) {
-                    Some(record) => curve(runs, record)?,
-                    None => Vec::new(),
-                };
-                let name = format!("{remedy} B/{}", &level[1..]);
-                curves.push(Series {
-                    dash,
-                    ..Series::line(name, points, colour)
-                });
-            }
-        }
-        let title = basis_title(basis);
-        charts.push(chart(runs, title.to_owned(), curves));
-        if let Some(level) = runs.level(basis, &REMEDIES, &LEVELS) {
-            let curves = runs.by_remedy((basis, level), &REMEDIES, |r| curve(runs, r))?;
-            let title = format!("{title}, {}", level_title(level));
-            all_remedies.push(chart(runs, title, curves));
-        }
-    }
+    let remedies = [
+        (RemedyName::None, Dash::Dotted),
+        (FbarConsistent, Dash::Solid),
+    ];
     // A curve that no basis has needs no entry in the legend.
-    for k in (0..2 * LEVELS.len()).rev() {
-        if charts.iter().all(|c| c.series[k].points.is_empty()) {
-            for chart in &mut charts {
-                chart.series.remove(k);
+    let has = |remedy, level: &str| {
+        BASES
+            .iter()
+            .any(|&basis| runs.find(basis, remedy, level).is_some())
+    };
+    let (mut whole, mut by_remedy) = (Vec::new(), Vec::new());
+    for basis in BASES {
+        let title = basis_title(basis);
+        let mut panel = panel_of_loads(title.to_owned());
+        for (colour, level) in LEVELS.into_iter().enumerate() {
+            for (remedy, dash) in remedies.into_iter().filter(|(r, _)| has(*r, level)) {
+                let name = format!("{remedy} B/{}", &level[1..]);
+                let line = |points| Series {
+                    dash,
+                    ..Series::line(name.clone(), points, colour)
+                };
+                panel = match runs.find(basis, remedy, level) {
+                    Some(record) => panel
+                        .histories(runs.gallery, [record], load)?
+                        .styled(|_, s| line(s.points)),
+                    None => panel.curve(line(Vec::new())),
+                };
             }
         }
+        whole.push(with_elements(runs, panel));
+        if let Some(level) = runs.level(basis, &COMPARED, &LEVELS) {
+            let all = COMPARED.iter().filter_map(|r| runs.find(basis, *r, level));
+            let panel = panel_of_loads(format!("{title}, {}", level_title(level)))
+                .histories(runs.gallery, all, load)?
+                .by_run(|r, s| Series {
+                    name: remedy_title(r.remedy()),
+                    ..s
+                });
+            by_remedy.push(with_elements(runs, panel));
+        }
     }
-    charts.retain(Chart::shows_something);
-    let bases = charts.len();
-    all_remedies.retain(Chart::shows_something);
-    charts.extend(all_remedies);
-    if charts.is_empty() {
-        return Ok(());
-    }
-    let (name, path) = ("load-settlement", runs.place("load-settlement"));
-    share_ranges(&path, &mut charts)?;
-    runs.gallery.write_curves("load-settlement.csv", &charts)?;
-    let about = |chart: &Chart| Chart {
-        y_range: Some(ABOUT),
-        ..chart.clone()
-    };
-    let about: Vec<Chart> = charts.iter().take(bases).map(about).collect();
-    charts.splice(bases..bases, about);
-    draw_charts(&path, &charts, 2)?;
-    runs.hang(
-        name,
+    let about: Vec<Panel> = whole.iter().map(|p| p.zoomed(ABOUT.0, ABOUT.1)).collect();
+    Figure::new(
+        "load-settlement",
         "Pressure over undrained strength against penetration over the footing's width: above, standard MPM (dotted) and fbar-consistent (full) at all levels, whole and about the limit load; below, all remedies at one level; with Prandtl's limit load and, on ground of the full size, the finite elements of vanishing size. The paper's Figure 8.",
-    );
-    Ok(())
+        whole.into_iter().chain(about).chain(by_remedy),
+    )
+    .columns(2)
+    .share_axes()
+    .draw(runs.gallery)
 }
 
-fn chart(runs: &Exhibit, title: String, mut curves: Vec<Series>) -> Chart {
-    // Smaller ground is stiffer on the way to the same limit load.
-    let full_size = |r: &&Record| r.changes_none_but(&[PENETRATION.name]);
-    if runs.records.iter().all(full_size) {
-        let points = limit_curve().into_iter().map(|(s, q)| (1e3 * s, q));
-        let points = points.filter(|(s, _)| *s <= 4.0).collect();
-        curves.push(Series {
-            marker: Marker::Circle,
-            dash: Dash::Dashed,
-            ..Series::line(
-                format!("finite elements, h → 0, ± {}", limit_uncertainty()),
-                points,
-                7,
-            )
-        });
-    }
-    Chart {
-        reference_lines: vec![ReferenceLine {
+fn panel_of_loads<'a>(title: String) -> Panel<'a> {
+    Panel::new(title, ["s/B (10⁻³)", "q / s_u"])
+        .y_range(0.0, MOST)
+        .level(ReferenceLine {
             name: "2 + π".to_owned(),
             value: EXACT,
             band: None,
-        }],
-        y_range: Some((0.0, MOST)),
-        ..Chart::new(title, ["s/B (10⁻³)", "q / s_u"], curves)
+        })
+}
+
+/// The curve of vanishing elements beside. Smaller ground is stiffer on the way to the same limit load.
+fn with_elements<'a>(runs: &Exhibit, panel: Panel<'a>) -> Panel<'a> {
+    let full_size = |r: &&Record| r.changes_none_but(&["penetration"]);
+    if !runs.records.iter().all(full_size) {
+        return panel;
     }
+    let points = limit_curve().into_iter().map(|(s, q)| (1e3 * s, q));
+    let name = format!("finite elements, h → 0, ± {}", limit_uncertainty());
+    panel.reference(name, points.filter(|(s, _)| *s <= 4.0).collect())
 }
 
 fn panel(
@@ -182,7 +156,7 @@ fn figure(title: String, panels: Vec<FieldPanel>, range: (f64, f64), label: &str
 }
 
 fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
-    let remedies = [RemedyName::None, RemedyName::FbarConsistent];
+    let remedies = [RemedyName::None, FbarConsistent];
     let Some(level) = runs.level(basis, &remedies, &LEVELS) else {
         return Ok(());
     };
@@ -204,14 +178,14 @@ fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
 
 /// Velocity while the load stands still, and plastic strain.
 fn mechanism(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
-    let remedy = RemedyName::FbarConsistent;
+    let remedy = FbarConsistent;
     let level = runs.level(basis, &[remedy], &LEVELS);
     let Some(record) = level.and_then(|level| runs.find(basis, remedy, level)) else {
         return Ok(());
     };
     let of = basis_title(basis);
     let title = format!("{of}, {}", level_title(&record.level));
-    let stroke = 0.25 * record.parameters.number(PENETRATION);
+    let stroke = 0.25 * Setup::<Footing>::number_of(record, |c| c.penetration);
     let speed = |table: &Table, k: usize| {
         table.column("plateau_ux")[k].hypot(table.column("plateau_uy")[k]) / stroke
     };
