@@ -388,7 +388,7 @@ fn equilibria() -> ResultTable {
     )
 }
 
-/// What follows the excavation.
+/// Collapses after the excavation.
 fn collapses() -> ResultTable {
     let columns = [
         Column::text("stands", stands),
@@ -407,7 +407,7 @@ fn collapses() -> ResultTable {
     )
 }
 
-/// What is conserved.
+/// Errors of what is conserved.
 fn balances() -> ResultTable {
     let columns = [
         Column::metric("(37) before the cut", FORCE_RATIO_UNCUT, SHORT),

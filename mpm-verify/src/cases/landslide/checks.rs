@@ -42,7 +42,7 @@ pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
     (printed && flat && Setup::holds(record, far)).then_some(THROWS)
 }
 
-/// How a ground is known to keep moving under its weight.
+/// Known motions of a ground under its weight.
 #[derive(Clone, Copy, PartialEq)]
 enum Moves {
     Creeps,
