@@ -14,18 +14,9 @@ use RuleName::{Midpoint, Newmark, QuasiStatic};
 use scene::{Ground, HEIGHT};
 
 const LEVELS: [Level; 3] = [
-    Level {
-        name: "h0.1",
-        h: 0.1,
-    },
-    Level {
-        name: "h0.05",
-        h: 0.05,
-    },
-    Level {
-        name: "h0.025",
-        h: 0.025,
-    },
+    Level::new("h0.1", 0.1),
+    Level::new("h0.05", 0.05),
+    Level::new("h0.025", 0.025),
 ];
 /// Newton's tolerance times the root of the number of nodes that its norm is of.
 const EQUILIBRIUM: f64 = 1e-8;

@@ -1,8 +1,7 @@
 //! Checks of the landslide. The tolerances are derived in `docs/landslide.md`.
 
 use super::*;
-use crate::cases::slope::STABILITY;
-use crate::cases::slope::ground::RISE;
+use crate::cases::slope::ground::{RISE, STABILITY};
 
 /// Relative tolerance of the force on the base.
 const WEIGHT: f64 = 5e-3;
