@@ -11,6 +11,13 @@ pub struct Level {
     pub h: f64,
 }
 
+impl Level {
+    /// A level by name and cell size (m).
+    pub(crate) const fn new(name: &'static str, h: f64) -> Self {
+        Self { name, h }
+    }
+}
+
 /// One run of a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunSpec {

@@ -243,6 +243,19 @@ pub(super) fn start_columns<const D: usize>(particles: &Particles<D>) -> Vec<Col
     columns
 }
 
+/// Places (m) of the particles in seeding order.
+pub(super) fn places(run: &dyn Simulation<2>) -> Vec<[f64; 2]> {
+    let p = run.particles();
+    p.seeded(|k| p.position[k])
+}
+
+/// Largest distance (m) between places and those before.
+pub(super) fn farthest(before: &[[f64; 2]], now: &[[f64; 2]]) -> f64 {
+    let pairs = before.iter().zip(now);
+    let distance = pairs.map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
+    distance.fold(0.0, f64::max)
+}
+
 /// A named particle column; values in seeding order.
 pub(super) fn column(name: &'static str, unit: &'static str, values: Vec<f64>) -> Column {
     Column { name, unit, values }
@@ -269,6 +282,12 @@ mod tests {
     fn what_is_its_own_average_does_not_oscillate_and_a_checkerboard_does() {
         assert_eq!(checkerboard(&[3.0, -1.0], &[3.0, -1.0]), 0.0);
         assert_eq!(checkerboard(&[3.0, -1.0], &[1.0, 1.0]), 2.0);
+    }
+
+    #[test]
+    fn the_particle_that_moved_farthest_decides() {
+        let moved = farthest(&[[0.0, 0.0], [1.0, 1.0]], &[[0.1, 0.0], [4.0, 5.0]]);
+        assert!((moved - 5.0).abs() < 1e-12);
     }
 
     #[test]

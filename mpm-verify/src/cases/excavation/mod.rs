@@ -14,18 +14,9 @@ use RuleName::{Midpoint, Newmark, QuasiStatic};
 use scene::{Ground, HEIGHT};
 
 const LEVELS: [Level; 3] = [
-    Level {
-        name: "h0.1",
-        h: 0.1,
-    },
-    Level {
-        name: "h0.05",
-        h: 0.05,
-    },
-    Level {
-        name: "h0.025",
-        h: 0.025,
-    },
+    Level::new("h0.1", 0.1),
+    Level::new("h0.05", 0.05),
+    Level::new("h0.025", 0.025),
 ];
 /// Newton's tolerance times the root of the number of nodes that its norm is of.
 const EQUILIBRIUM: f64 = 1e-8;
@@ -388,7 +379,7 @@ fn equilibria() -> ResultTable {
     )
 }
 
-/// What follows the excavation.
+/// Collapses after the excavation.
 fn collapses() -> ResultTable {
     let columns = [
         Column::text("stands", stands),
@@ -407,7 +398,7 @@ fn collapses() -> ResultTable {
     )
 }
 
-/// What is conserved.
+/// Errors of what is conserved.
 fn balances() -> ResultTable {
     let columns = [
         Column::metric("(37) before the cut", FORCE_RATIO_UNCUT, SHORT),

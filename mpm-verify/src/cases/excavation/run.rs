@@ -2,7 +2,7 @@
 
 use super::scene::{GRAVITATION, HELD_BASE, ROLLERS, Stage};
 use super::*;
-use crate::cases::observe::finds_equilibrium;
+use crate::cases::observe::{farthest, finds_equilibrium, places};
 use mpm_core::monitor::Convergence;
 use mpm_core::{Part, Reaction};
 
@@ -69,15 +69,6 @@ impl Setup<Excavation> {
             Stage::Collapse
         }
     }
-}
-
-/// Largest displacement (m) from the places `start`, in seeding order.
-fn moved(start: &[[f64; 2]], run: &dyn Simulation<2>) -> f64 {
-    let p = run.particles();
-    let now = p.seeded(|k| p.position[k]);
-    let pairs = start.iter().zip(&now);
-    let distance = pairs.map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
-    distance.fold(0.0, f64::max)
 }
 
 /// Largest settlement (m), from the places `start`, of the crest's layer of particles.
@@ -200,8 +191,7 @@ impl Ground {
 
     fn note_start(&self, seen: &mut Seen, phase: &mut Phase<2>) {
         seen.energies = self.energies(phase.run.as_mut());
-        let p = phase.run.particles();
-        seen.start = p.seeded(|k| p.position[k]);
+        seen.start = places(phase.run.as_ref());
     }
 
     /// Steps through a row; false where there is no equilibrium: the ground is then as it was before the row.
@@ -291,7 +281,7 @@ impl Problem<2> for Ground {
         let changes = flowed.iter().zip(&seen.flowed).map(|(a, b)| a - b);
         seen.flow_least = changes.fold(seen.flow_least, f64::min);
         seen.flowed = flowed;
-        let moved = moved(&seen.start, run);
+        let moved = farthest(&seen.start, &places(run));
         let base = self.setup.reaction(run).force;
         if self.setup.slides() && base[1] < 0.0 {
             seen.friction_ratio = seen.friction_ratio.max(base[0].abs() / -base[1]);
@@ -391,7 +381,7 @@ impl Problem<2> for Ground {
             (MASS, of(|u| u.mass)),
             (FLOW_LEAST, seen.flow_least),
             (PLASTIC_STRAIN_END, largest(&seen.flowed)),
-            (MOVED_CUT, moved(&seen.start, run)),
+            (MOVED_CUT, farthest(&seen.start, &places(run))),
             (RUNOUT_END, self.setup.run_out(run)),
             (CREST_DROP, crest_drop(&seen.start, run)),
             (NEWTON_ITERATIONS, phase.work().newton_iterations as f64),

@@ -1,8 +1,7 @@
 //! Checks of the landslide. The tolerances are derived in `docs/landslide.md`.
 
 use super::*;
-use crate::cases::slope::STABILITY;
-use crate::cases::slope::ground::RISE;
+use crate::cases::slope::ground::{RISE, STABILITY};
 
 /// Relative tolerance of the force on the base.
 const WEIGHT: f64 = 5e-3;
@@ -42,7 +41,7 @@ pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
     (printed && flat && Setup::holds(record, far)).then_some(THROWS)
 }
 
-/// How a ground is known to keep moving under its weight.
+/// Known motions of a ground under its weight.
 #[derive(Clone, Copy, PartialEq)]
 enum Moves {
     Creeps,

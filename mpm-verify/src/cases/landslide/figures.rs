@@ -75,7 +75,7 @@ impl Shown {
         values.map(|v| field.factor * v).collect()
     }
 
-    /// Of values in seeding order those in the middle of the width.
+    /// Values in seeding order of the particles in the middle of the width.
     fn in_the_middle<T: Copy>(&self, values: &[T]) -> Vec<T> {
         let from = self.across / 2;
         values
@@ -88,12 +88,12 @@ impl Shown {
 }
 
 /// The runs that are shown.
-struct Shows<'a> {
+struct ShownRuns<'a> {
     records: Vec<&'a Record>,
 }
 
-impl<'a> Shows<'a> {
-    /// Of several runs alike the one that changes least, and the finest first.
+impl<'a> ShownRuns<'a> {
+    /// The runs of the case itself, those that change least and the finest first.
     fn of(records: &'a [Record]) -> Self {
         let own = |r: &&Record| r.is_default() || r.changes_only("duration");
         let mut records: Vec<_> = records.iter().filter(own).filter(is_shown).collect();
@@ -151,7 +151,7 @@ impl<'a> Shows<'a> {
 
 /// Draws all figures of which there are runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
-    let runs = Shows::of(gallery.records);
+    let runs = ShownRuns::of(gallery.records);
     for basis in BASES {
         let compared = runs.levels(basis).first().copied();
         // The finest level of all, if other remedies have yet to run on it.
@@ -181,7 +181,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
 /// A field at all times, a row for each remedy: in three dimensions the solid and the section in its middle.
 fn snapshots(
     gallery: &mut Gallery,
-    runs: &Shows,
+    runs: &ShownRuns,
     (basis, level): (BasisName, &str),
     field: &Field,
     name: &str,
@@ -223,7 +223,7 @@ fn snapshots(
 }
 
 /// Run-out, settlement and kinetic energy against time: remedies at the finest common level, levels of F̄.
-fn run_out(gallery: &mut Gallery, runs: &Shows) -> Result<(), Error> {
+fn run_out(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
     let quantities = [
         ("toe", (1.0, TOE), "run-out (m)"),
         ("settlement", (1.0, 0.0), "settlement of the crest (m)"),
@@ -285,7 +285,7 @@ fn run_out(gallery: &mut Gallery, runs: &Shows) -> Result<(), Error> {
 }
 
 /// The plastic strain with GIMP, frame by frame, of the finest level that has kept frames.
-fn animation(gallery: &mut Gallery, runs: &Shows) -> Result<(), Error> {
+fn animation(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
     let field = &FIELDS[0];
     for level in runs.levels(Gimp) {
         let mut frames = Vec::new();

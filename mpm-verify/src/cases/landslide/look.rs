@@ -21,7 +21,7 @@ pub(super) struct State {
     pub(super) toe: f64,
     /// Beyond here (m) lies a hundredth of the ground.
     pub(super) bulk_toe: f64,
-    /// How far (m) the particle at the crest's edge has sunk.
+    /// Settlement (m) of the particle at the crest's edge.
     pub(super) settlement: f64,
     /// Energies (J/m).
     pub(super) kinetic: f64,
@@ -68,7 +68,7 @@ impl State {
         }
     }
 
-    /// What a step may lose and never gain (J/m): kinetic and potential energy and the work of the stress.
+    /// Kinetic and potential energy and the work of the stress (J/m), which a step may lose and never gain.
     fn energy(&self) -> f64 {
         self.kinetic + self.potential + self.stress_work
     }
@@ -122,7 +122,7 @@ impl Look<'_> {
             .collect()
     }
 
-    /// How far (m) the particle nearest to the crest's edge has sunk.
+    /// Settlement (m) of the particle nearest to the crest's edge.
     pub(super) fn settlement(&self) -> f64 {
         let edge = [self.section.crest, self.section.height];
         let distance = |k: &usize| {
@@ -157,8 +157,8 @@ impl Look<'_> {
         (self.section.crest - rearmost + 0.5 * self.spacing).max(0.0)
     }
 
-    /// How far (m) behind the crest's edge shear bands pass through the ground that was at half the height, from the
-    /// rear: peaks of the plastic strain.
+    /// Distances (m) behind the crest's edge at which shear bands pass through the ground that was at half the height, from
+    /// the rear: peaks of the plastic strain.
     pub(super) fn bands(&self) -> Vec<f64> {
         let half = 0.5 * self.section.height;
         let row = self.in_the_middle(|x| {
@@ -258,8 +258,8 @@ pub(super) fn potential<const D: usize>(particles: &Particles<D>) -> f64 {
     heights.map(|(m, x)| m * GRAVITY * x[1]).sum()
 }
 
-/// Largest range, over the width, of how far the particles of one place have moved from `before` (m), over the largest
-/// of these distances. Zero in plane strain.
+/// Largest range, over the width, of the distances `moved` (m) of the particles of one place, over the largest of these
+/// distances. Zero in plane strain.
 pub(super) fn spread_over_width(moved: &[f64], across: usize) -> f64 {
     let most = moved.iter().copied().fold(0.0, f64::max);
     let range = |place: &[f64]| {

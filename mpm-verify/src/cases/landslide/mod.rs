@@ -20,40 +20,16 @@ use plane_strain::Beside;
 use run::Slide;
 
 const LEVELS_2D: [Level; 4] = [
-    Level {
-        name: "h0.4",
-        h: 0.4,
-    },
-    Level {
-        name: "h0.2",
-        h: 0.2,
-    },
-    Level {
-        name: "h0.1",
-        h: 0.1,
-    },
-    Level {
-        name: "h0.05",
-        h: 0.05,
-    },
+    Level::new("h0.4", 0.4),
+    Level::new("h0.2", 0.2),
+    Level::new("h0.1", 0.1),
+    Level::new("h0.05", 0.05),
 ];
 const LEVELS_3D: [Level; 4] = [
-    Level {
-        name: "h0.5",
-        h: 0.5,
-    },
-    Level {
-        name: "slice-h0.4",
-        h: 0.4,
-    },
-    Level {
-        name: "h0.25",
-        h: 0.25,
-    },
-    Level {
-        name: "h0.2",
-        h: 0.2,
-    },
+    Level::new("h0.5", 0.5),
+    Level::new("slice-h0.4", 0.4),
+    Level::new("h0.25", 0.25),
+    Level::new("h0.2", 0.2),
 ];
 /// Standard, the paper's, ours.
 const REMEDIES: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];

@@ -257,7 +257,7 @@ fn plastic_strain<const D: usize>(run: &mut dyn Simulation<D>) -> Vec<f64> {
     run.particles().seeded(|k| strain[k])
 }
 
-/// How far (m) every particle is from its reference position, in seeding order.
+/// Distance (m) of every particle from its reference position, in seeding order.
 fn moved<const D: usize>(run: &dyn Simulation<D>) -> Vec<f64> {
     let p = run.particles();
     let distance = |k: usize| {

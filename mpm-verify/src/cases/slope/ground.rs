@@ -22,6 +22,9 @@ const ROOM: f64 = 1.0;
 /// Index of the base among the constraints of the scene.
 pub(in crate::cases) const BASE: usize = 0;
 
+/// Stability number γH/c of a slope at 45° on a firm base and its bounds: docs/exact.md.
+pub(in crate::cases) const STABILITY: (f64, f64, f64) = (6.04, 6.015, 6.078);
+
 /// Section and clay of a slope.
 pub(in crate::cases) struct Slope {
     pub(in crate::cases) section: Section,

@@ -8,9 +8,6 @@ use crate::parameter::{Domain, Parameter, number, parameters};
 use crate::sketch::{Shape, Sketch};
 use section::Section;
 
-/// Stability number γH/c of a slope at 45° on a firm base and its bounds: docs/exact.md.
-pub(super) const STABILITY: (f64, f64, f64) = (6.04, 6.015, 6.078);
-
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS
     .with_default("25e6")
     .within(number(1e3, 1e12, false));

@@ -7,23 +7,14 @@ mod run;
 
 use super::family::{implicit, pairs};
 use super::parameters::{self as common, Wall as WallTreatment};
-use super::slope::{self, STABILITY};
+use super::slope::{self, ground::STABILITY};
 use crate::prelude::*;
 use run::Trials;
 
 const LEVELS: [Level; 3] = [
-    Level {
-        name: "h0.4",
-        h: 0.4,
-    },
-    Level {
-        name: "h0.2",
-        h: 0.2,
-    },
-    Level {
-        name: "h0.1",
-        h: 0.1,
-    },
+    Level::new("h0.4", 0.4),
+    Level::new("h0.2", 0.2),
+    Level::new("h0.1", 0.1),
 ];
 const REMEDIES: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];
 /// Excess over its limit up to which a slope may be called standing.

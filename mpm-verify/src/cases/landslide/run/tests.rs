@@ -73,7 +73,8 @@ fn only_the_peak_is_reduced() {
 #[test]
 fn the_reduced_slope_is_at_its_limit() {
     let slope = setup(LEVELS_2D[0], &[]).slope();
-    let factor = |strength| slope.factor_of_safety(strength, crate::cases::slope::STABILITY.0);
+    let factor =
+        |strength| slope.factor_of_safety(strength, crate::cases::slope::ground::STABILITY.0);
     assert!((factor(40.82e3) - 1.653).abs() < 5e-4);
     assert!((factor(40.82e3 / 1.65) - 1.002).abs() < 5e-4);
     assert!((slope.longest_period() - 0.321).abs() < 5e-4);
