@@ -1,19 +1,18 @@
 //! Convergence and work–precision of every case.
 
+use super::errors::{Entry, Errors};
 use super::price;
 use crate::cases;
 use crate::distinct;
-use crate::draw::style::{Panel, Panels};
-use crate::draw::{Chart, Dash, Marker, ReferenceLine, Scale, Series};
+use crate::draw::style::Panel;
+use crate::draw::{Chart, Dash, Marker, ReferenceLine, Series};
 use crate::error::Error;
-use crate::figure::{Points, below_the_curves};
+use crate::figure::below_the_curves;
 use crate::files::{write_csv, write_json};
 use crate::gallery::Picture;
 use crate::metric::Quantity;
-use crate::scheme::Scheme;
 use crate::study::convergence::{Convergence, Point, precision};
 use crate::study::summary::CaseStudy;
-use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The picture that shows times taken.
@@ -33,62 +32,43 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
 
     let case = cases::find(&study.case)?;
     let mut pictures = Vec::new();
-    let errors = || study.convergence.iter().filter(|c| c.is_error);
-    for set in distinct(errors().map(|c| &c.set[..])) {
-        let (changed, name) = match (set.is_empty(), set == case.ladder) {
-            (true, true) => (String::new(), "convergence.png".to_owned()),
-            (true, false) => (String::new(), "convergence-own.png".to_owned()),
-            (false, is_ladder) => (
-                format!(" with {}", set.join(", ")),
-                match is_ladder {
-                    true => "convergence.png".to_owned(),
-                    false => format!("convergence-{}.png", slug(set)),
-                },
-            ),
+    let all = || study.convergence.iter().filter(|c| c.is_error);
+    for set in distinct(all().map(|c| &c.set[..])) {
+        let changed = match set.is_empty() {
+            true => String::new(),
+            false => format!(" with {}", set.join(", ")),
+        };
+        let name = match set {
+            _ if set == case.ladder => "convergence.png".to_owned(),
+            [] => "convergence-own.png".to_owned(),
+            _ => format!("convergence-{}.png", slug(set)),
         };
         let caption = format!(
             "Error against cell size{changed}, for every scheme, converging or not. Both axes are logarithmic; a triangle shows the order that theory gives, a dashed line the uncertainty of the reference."
         );
-        let entries: Vec<&Convergence> = errors().filter(|c| c.set == set).collect();
-        let schemes = entries.iter().map(|c| c.scheme).collect();
-        let chart = |q: &&Quantity, panel: &Panel| by_size(&entries, q, panel);
-        pictures.extend(draw_errors(study, &schemes, chart, (&name, &caption), out)?);
+        let errors = errors(all().filter(|c| c.set == set), "cell size h (m)", |p| p.h);
+        let finish = |quantity: &Quantity, _: &Panel, chart: Chart| {
+            let curves = || chart.series.iter().map(|s| &s.points[..]);
+            let slope_triangle = quantity
+                .order
+                .and_then(|slope| below_the_curves(slope, curves()));
+            Chart {
+                slope_triangle,
+                ..with_uncertainty(quantity, chart)
+            }
+        };
+        pictures.extend(errors.draw(case, (&name, &caption), out, finish)?);
     }
     let costs = precision(case, &study.records);
-    let costs: Vec<&Convergence> = costs.iter().collect();
-    let schemes = costs.iter().map(|c| c.scheme).collect();
-    for cost in [&PAIRS, &TIME] {
+    for (name, what, label, cost) in COSTS {
         let caption = format!(
-            "Error against its cost in {}. Each line joins a scheme's best runs at rising cost, each at least a tenth more accurate than the last, whatever their time step and number of particles per cell; dots are its other runs. The grey staircase is the front over all schemes, the same in every panel of an error; runs on it are ringed.",
-            cost.what
+            "Error against its cost in {what}. Each line joins a scheme's best runs at rising cost, each at least a tenth more accurate than the last, whatever their time step and number of particles per cell; dots are its other runs. The grey staircase is the front over all schemes, the same in every panel of an error; runs on it are ringed."
         );
-        let chart = |q: &&Quantity, panel: &Panel| by_cost(&costs, q, cost, panel);
-        pictures.extend(draw_errors(
-            study,
-            &schemes,
-            chart,
-            (cost.file, &caption),
-            out,
-        )?);
+        let errors = errors(costs.iter(), label, cost);
+        let finish = |q: &Quantity, panel: &Panel, chart| by_cost(&errors, q, panel, chart);
+        pictures.extend(errors.draw(case, (name, &caption), out, finish)?);
     }
     Ok(pictures)
-}
-
-/// Draws a row of panels for every error of a case that has something to show.
-pub(super) fn draw_errors(
-    study: &CaseStudy,
-    schemes: &BTreeSet<Scheme>,
-    chart: impl Fn(&&Quantity, &Panel) -> Chart,
-    (name, caption): (&str, &str),
-    out: &Path,
-) -> Result<Vec<Picture>, Error> {
-    let errors = cases::find(&study.case)?
-        .quantities
-        .iter()
-        .filter(|q| q.is_error);
-    let place = out.join(&study.case).join(name);
-    let files = Panels::new(schemes).draw(&place, errors, chart)?;
-    Ok(Picture::of_files(&study.case, files, caption))
 }
 
 /// The changed parameters as part of a file's name.
@@ -127,65 +107,69 @@ fn write_points(convergence: &[Convergence], path: &Path) -> Result<(), Error> {
     write_csv(path, &header.map(str::to_owned), rows)
 }
 
-/// What a run costs.
-struct Cost {
-    file: &'static str,
-    /// In words.
-    what: &'static str,
+/// What a run costs: file of the picture, in words, label of the axis, and of a point.
+type Cost = (&'static str, &'static str, &'static str, fn(&Point) -> f64);
+
+const COSTS: [Cost; 2] = [
+    (
+        "work-precision.png",
+        "particle–node pairs visited",
+        "particle–node pairs",
+        |p| p.particle_node_pairs as f64,
+    ),
+    (CPU_PICTURE, "CPU time (one thread)", "CPU time (s)", |p| {
+        p.cpu_s
+    }),
+];
+
+fn errors<'a>(
+    curves: impl Iterator<Item = &'a Convergence>,
     label: &'static str,
-    of: fn(&Point) -> f64,
-}
-
-const PAIRS: Cost = Cost {
-    file: "work-precision.png",
-    what: "particle–node pairs visited",
-    label: "particle–node pairs",
-    of: |p| p.particle_node_pairs as f64,
-};
-const TIME: Cost = Cost {
-    file: CPU_PICTURE,
-    what: "CPU time (one thread)",
-    label: "CPU time (s)",
-    of: |p| p.cpu_s,
-};
-
-/// The sizes of an error of some schemes. One of zero has no logarithm.
-fn points(
-    entries: &[&Convergence],
-    quantity: &Quantity,
     x: fn(&Point) -> f64,
-    is_shown: impl Fn(Scheme) -> bool,
-) -> Points {
-    let own = entries
-        .iter()
-        .filter(|c| c.metric == quantity.metric.name && is_shown(c.scheme));
-    let points = own.flat_map(|c| &c.points).map(|p| (x(p), p.value.abs()));
-    points.filter(|(x, y)| *x > 0.0 && *y > 0.0).collect()
-}
-
-fn by_size(entries: &[&Convergence], quantity: &Quantity, panel: &Panel) -> Chart {
-    let series = panel.curves(|scheme| points(entries, quantity, |p| p.h, |s| s == scheme));
-    let curves = || series.iter().map(|s| &s.points[..]);
-    let slope_triangle = quantity
-        .order
-        .and_then(|slope| below_the_curves(slope, curves()));
-    Chart {
-        slope_triangle,
-        ..chart(entries, quantity, "cell size h (m)", panel, series)
+) -> Errors<'a> {
+    let entry = |c: &'a Convergence| {
+        let (scheme, metric) = (c.scheme, &*c.metric);
+        let points = c.points.iter();
+        points.map(move |p| Entry {
+            scheme,
+            metric,
+            x: x(p),
+            value: p.value,
+        })
+    };
+    Errors {
+        entries: curves.flat_map(entry).collect(),
+        label,
+        is_logarithmic: true,
     }
 }
 
-fn by_cost(entries: &[&Convergence], quantity: &Quantity, cost: &Cost, panel: &Panel) -> Chart {
-    let own = |scheme| points(entries, quantity, cost.of, |s| s == scheme);
-    let dots = panel.curves(own).into_iter().map(|curve| Series {
+fn with_uncertainty(quantity: &Quantity, chart: Chart) -> Chart {
+    let uncertainty = quantity.uncertainty.map(|value| ReferenceLine {
+        name: "uncertainty of the reference".to_owned(),
+        value,
+        band: None,
+    });
+    Chart {
+        reference_lines: uncertainty.into_iter().collect(),
+        ..chart
+    }
+}
+
+/// The runs of the schemes of a panel as dots, their best ones joined, and the front over all schemes.
+fn by_cost(errors: &Errors, quantity: &Quantity, panel: &Panel, chart: Chart) -> Chart {
+    let dots = chart.series.iter().cloned().map(|curve| Series {
         name: String::new(),
         marker: Marker::Dot,
         dash: Dash::None,
         ..curve
     });
-    let curves = panel.curves(|scheme| price::front(own(scheme), GAIN));
-    let front = price::front(points(entries, quantity, cost.of, |_| true), 1.0);
-    let here = points(entries, quantity, cost.of, |s| panel.schemes.contains(&s));
+    let curves = chart.series.iter().cloned().map(|curve| Series {
+        points: price::front(curve.points, GAIN),
+        ..curve
+    });
+    let front = price::front(errors.points(quantity, |_| true), 1.0);
+    let here = errors.points(quantity, |s| panel.schemes.contains(&s));
     let line = Series::line("front", price::steps(&front), FRONT);
     let rings = Series {
         name: "on the front".to_owned(),
@@ -194,55 +178,20 @@ fn by_cost(entries: &[&Convergence], quantity: &Quantity, cost: &Cost, panel: &P
         dash: Dash::None,
         ..line.clone()
     };
-    let series = [line].into_iter().chain(dots).chain(curves).chain([rings]);
-    chart(entries, quantity, cost.label, panel, series.collect())
-}
-
-fn chart(
-    entries: &[&Convergence],
-    quantity: &Quantity,
-    x: &str,
-    panel: &Panel,
-    series: Vec<Series>,
-) -> Chart {
-    let own = entries.iter().filter(|c| c.metric == quantity.metric.name);
-    let has_sign = own.flat_map(|c| &c.points).any(|p| p.value < 0.0);
-    let uncertainty = quantity.uncertainty.map(|value| ReferenceLine {
-        name: "uncertainty of the reference".to_owned(),
-        value,
-        band: None,
-    });
-    Chart {
-        x_scale: Scale::Log10,
-        reference_lines: uncertainty.into_iter().collect(),
-        ..error_chart(quantity, has_sign, x, panel, series)
-    }
-}
-
-/// Curves of the size of an error on a logarithmic axis.
-pub(super) fn error_chart(
-    quantity: &Quantity,
-    has_sign: bool,
-    x: &str,
-    panel: &Panel,
-    series: Vec<Series>,
-) -> Chart {
-    let label = match has_sign {
-        true => format!("|{}|", quantity.label),
-        false => quantity.label.to_owned(),
-    };
-    Chart {
-        y_scale: Scale::Log10,
-        ..Chart::new(panel.title.clone(), [x, &label], series)
-    }
+    let series = [line]
+        .into_iter()
+        .chain(dots)
+        .chain(curves)
+        .chain([rings])
+        .collect();
+    with_uncertainty(quantity, Chart { series, ..chart })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::metric::{error, metric};
-    use crate::scheme::{BasisName, RemedyName};
-    use std::cell::RefCell;
+    use crate::scheme::{BasisName, RemedyName, Scheme};
 
     /// A curve of a scheme with GIMP through errors and the pairs that they cost.
     fn curve(remedy: RemedyName, runs: &[(u64, f64)]) -> Convergence {
@@ -275,22 +224,14 @@ mod tests {
             curve(RemedyName::None, &[(20, 0.6), (50, -0.2), (200, 0.099)]),
             curve(RemedyName::FbarRate, &[(40, 0.3), (400, 0.02)]),
         ];
-        let entries: Vec<&Convergence> = curves.iter().collect();
-        let charts = RefCell::new(Vec::new());
-        let folder = tempfile::tempdir().unwrap();
-        let chart = |quantity: &Quantity, panel: &Panel| {
-            let chart = by_cost(&entries, quantity, &PAIRS, panel);
-            charts.borrow_mut().push(chart.clone());
-            chart
-        };
+        let errors = errors(curves.iter(), COSTS[0].2, COSTS[0].3);
+        let quantity = error(metric("e", "-", ""), "error");
         let schemes = curves.iter().map(|c| c.scheme).collect();
-        let picture = folder.path().join("a.png");
-        let drawn =
-            Panels::new(&schemes).draw(&picture, [error(metric("e", "-", ""), "error")], chart);
-        assert!(drawn.unwrap() == [picture.clone()] && picture.exists());
-        let [chart] = &charts.borrow()[..] else {
-            panic!("one panel");
+        let panel = Panel {
+            title: String::new(),
+            schemes,
         };
+        let chart = by_cost(&errors, &quantity, &panel, errors.chart(&quantity, &panel));
         let points = |name: &str| {
             let own = chart.series.iter().filter(|s| s.name.contains(name));
             own.map(|s| s.points.clone()).collect::<Vec<_>>()

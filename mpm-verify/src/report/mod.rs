@@ -9,6 +9,7 @@ pub mod describe;
 pub mod diff;
 mod document;
 mod drift;
+mod errors;
 mod fate;
 mod faults;
 #[cfg(test)]

@@ -1,10 +1,8 @@
 //! Errors over the values of a parameter.
 
-use super::convergence::{draw_errors, error_chart};
+use super::errors::{Entry, Errors};
 use crate::case::Case;
 use crate::cases;
-use crate::draw::style::Panel;
-use crate::draw::{Chart, Scale};
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::gallery::Picture;
@@ -27,27 +25,47 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
             continue;
         };
         let shown = |q: &&Quantity| q.is_error && runs.measure(q);
-        let errors: Vec<&Quantity> = case.quantities.iter().filter(shown).collect();
-        if errors.is_empty() {
+        let (mut entries, mut rows) = (Vec::new(), Vec::new());
+        for metric in case.quantities.iter().filter(shown).map(|q| q.metric) {
+            for (&scheme, value, run) in runs.all() {
+                let (x, error) = ((sweep.abscissa)(value), run.metric(metric));
+                if error.is_finite() {
+                    let words = [metric.name, &scheme.to_string(), runs.level].map(str::to_owned);
+                    rows.push([words, [value, x, error].map(|x| x.to_string())].concat());
+                    entries.push(Entry {
+                        scheme,
+                        metric: metric.name,
+                        x,
+                        value: error,
+                    });
+                }
+            }
+        }
+        if entries.is_empty() {
             continue;
         }
-        let name = format!("sweep-{}", sweep.parameter.name);
-        runs.write(&errors, &out.join(&study.case).join(format!("{name}.csv")))?;
+        let (parameter, label) = (sweep.parameter.name, sweep.label);
+        let name = format!("sweep-{parameter}");
+        let header = ["quantity", "scheme", "level", parameter, label, "value"];
+        let place = out.join(case.name).join(format!("{name}.csv"));
+        write_csv(&place, &header.map(str::to_owned), rows)?;
         let caption = format!(
-            "Error at level {} over the values of {}, for every scheme that ran at least {LEAST_VALUES} of them.",
-            runs.level, sweep.parameter.name
+            "Error at level {} over the values of {parameter}, for every scheme that ran at least {LEAST_VALUES} of them.",
+            runs.level
         );
-        let schemes = runs.of_scheme.keys().copied().collect();
-        let chart = |quantity: &&Quantity, panel: &Panel| runs.chart(quantity, panel);
+        let errors = Errors {
+            entries,
+            label,
+            is_logarithmic: sweep.logarithmic,
+        };
         let shown = (&*format!("{name}.png"), &*caption);
-        pictures.extend(draw_errors(study, &schemes, chart, shown, out)?);
+        pictures.extend(errors.draw(case, shown, out, |_, _, chart| chart)?);
     }
     Ok(pictures)
 }
 
 /// The runs of a sweep, all at one level.
 struct Runs<'a> {
-    sweep: &'a Sweep,
     level: &'static str,
     /// By rising value of the parameter.
     of_scheme: BTreeMap<Scheme, Vec<(f64, &'a Record)>>,
@@ -56,7 +74,7 @@ struct Runs<'a> {
 impl<'a> Runs<'a> {
     /// The runs that differ in the parameter alone, of the schemes that ran enough of its values at the
     /// finest level at which any has; `None` if there is no such level.
-    fn select(case: &Case, sweep: &'a Sweep, records: &'a [Record]) -> Option<Self> {
+    fn select(case: &Case, sweep: &Sweep, records: &'a [Record]) -> Option<Self> {
         let at_level = |level: &'static str| {
             let mut of_scheme: BTreeMap<Scheme, Vec<(f64, &Record)>> = BTreeMap::new();
             for record in records.iter().filter(|r| r.level == level) {
@@ -71,11 +89,7 @@ impl<'a> Runs<'a> {
                 runs.dedup_by_key(|run| run.0);
                 runs.len() >= LEAST_VALUES
             });
-            (!of_scheme.is_empty()).then_some(Self {
-                sweep,
-                level,
-                of_scheme,
-            })
+            (!of_scheme.is_empty()).then_some(Self { level, of_scheme })
         };
         case.levels.iter().rev().find_map(|l| at_level(l.name))
     }
@@ -88,61 +102,9 @@ impl<'a> Runs<'a> {
         })
     }
 
-    fn write(&self, errors: &[&Quantity], path: &Path) -> Result<(), Error> {
-        let Sweep {
-            parameter, label, ..
-        } = self.sweep;
-        let header = [
-            "quantity",
-            "scheme",
-            "level",
-            parameter.name,
-            label,
-            "value",
-        ];
-        let rows = errors.iter().flat_map(|q| {
-            let runs = self
-                .of_scheme
-                .iter()
-                .flat_map(|(s, runs)| runs.iter().map(move |run| (s, run)));
-            runs.filter_map(|(scheme, (value, record))| {
-                let found = Some(record.metric(q.metric)).filter(|x| x.is_finite())?;
-                let words = [q.metric.name, &scheme.to_string(), self.level].map(str::to_owned);
-                let numbers = [*value, (self.sweep.abscissa)(*value), found].map(|x| x.to_string());
-                Some([words, numbers].concat())
-            })
-        });
-        write_csv(path, &header.map(str::to_owned), rows)
-    }
-
-    /// Empty for an error that is not measured.
-    fn chart(&self, quantity: &Quantity, panel: &Panel) -> Chart {
-        let Sweep {
-            label,
-            abscissa,
-            logarithmic,
-            ..
-        } = self.sweep;
-        let error = |record: &Record| record.metric(quantity.metric);
-        let is_measured = self.measure(quantity);
-        let series = panel.curves(|scheme| {
-            let runs = self.of_scheme.get(&scheme).into_iter().flatten();
-            runs.map(|(value, record)| (abscissa(*value), error(record).abs()))
-                // What is not positive has no logarithm.
-                .filter(|(x, y)| is_measured && (*x > 0.0 || !logarithmic) && *y > 0.0)
-                .collect()
-        });
-        let mut records = self.of_scheme.values().flatten();
-        let has_sign = records.any(|(_, r)| error(r) < 0.0);
-        let x_scale = if *logarithmic {
-            Scale::Log10
-        } else {
-            Scale::Linear
-        };
-        Chart {
-            x_scale,
-            ..error_chart(quantity, has_sign, label, panel, series)
-        }
+    fn all(&self) -> impl Iterator<Item = (&Scheme, f64, &Record)> {
+        let runs = self.of_scheme.iter();
+        runs.flat_map(|(scheme, runs)| runs.iter().map(move |(value, run)| (scheme, *value, *run)))
     }
 }
 
