@@ -3,6 +3,8 @@
 //! Everything here is made from records and CSV files on disk, never from a running simulation.
 
 mod advice;
+#[cfg(test)]
+mod bite;
 mod convergence;
 mod criteria;
 pub mod describe;
