@@ -107,7 +107,7 @@ def kept_records(path, metrics):
                 values[name or known[place]] = float(value)
         error, ok = None, row["status"] == "ok"
         if not ok:
-            time, kind = re.fullmatch(r"failed at (\S+) s: (.*)", row["status"]).groups()
+            time, kind = re.fullmatch(r"failed at (\S+) s(?:: (.*))?", row["status"]).groups("")
             error = {"kind": kind, "time": float(time), "message": row["status"], "step": 0, "particle": 0, "value": None}
         records.append({
             "schema": 2, "case": row["case"], "scheme": row["scheme"], "solver": "", "level": row["level"],
