@@ -19,10 +19,7 @@ fn main() -> io::Result<()> {
         digest.update(file.to_string_lossy().as_bytes());
         digest.update(fs::read(file)?);
     }
-    let fingerprint: String = digest.finalize()[..6]
-        .iter()
-        .map(|b| format!("{b:02x}"))
-        .collect();
+    let fingerprint: String = digest.finalize()[..6].iter().map(|b| format!("{b:02x}")).collect();
     println!("cargo:rustc-env=MPM_SOURCE_FINGERPRINT={fingerprint}");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=sources.rs");

@@ -31,10 +31,8 @@ const CASES: &str = "src/cases";
 
 /// Files and folders of a case that judge, plan, say or draw. `mod` has its parameters, which a record keeps; every other
 /// name determines numbers.
-const WORDING: [&str; 10] = [
-    "checks", "family", "figures", "foreign", "metrics", "mod", "pictures", "sketch", "tables",
-    "tests",
-];
+const WORDING: [&str; 10] =
+    ["checks", "family", "figures", "foreign", "metrics", "mod", "pictures", "sketch", "tables", "tests"];
 
 /// Whether a source determines numbers, by where it lies and the names of its file and folders.
 pub(crate) fn makes_numbers(source: &Path) -> bool {
@@ -42,9 +40,7 @@ pub(crate) fn makes_numbers(source: &Path) -> bool {
         return true;
     };
     let stem = place.with_extension("");
-    !stem
-        .iter()
-        .any(|name| WORDING.iter().any(|word| name == *word))
+    !stem.iter().any(|name| WORDING.iter().any(|word| name == *word))
 }
 
 /// Adds `path`, or the files below it that determine numbers.

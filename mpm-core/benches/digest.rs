@@ -28,30 +28,18 @@ fn instructions() -> String {
         ("avx2", cfg!(target_feature = "avx2")),
         ("avx512f", cfg!(target_feature = "avx512f")),
     ];
-    let names = built_for
-        .iter()
-        .filter(|(_, has)| *has)
-        .map(|(name, _)| *name);
+    let names = built_for.iter().filter(|(_, has)| *has).map(|(name, _)| *name);
     names.collect::<Vec<_>>().join(" ")
 }
 
 /// FNV-1a of the bits, a word at a time.
 fn checksum<const D: usize>(p: &Particles<D>) -> u64 {
-    let stress = p
-        .stress
-        .iter()
-        .map(|s| [s.xx, s.yy, s.zz, s.xy, s.yz, s.xz]);
-    let moved = p
-        .position
-        .iter()
-        .flatten()
-        .chain(p.velocity.iter().flatten());
+    let stress = p.stress.iter().map(|s| [s.xx, s.yy, s.zz, s.xy, s.yz, s.xz]);
+    let moved = p.position.iter().flatten().chain(p.velocity.iter().flatten());
     moved
         .copied()
         .chain(stress.flatten())
-        .fold(0xcbf2_9ce4_8422_2325, |sum, value| {
-            (sum ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3)
-        })
+        .fold(0xcbf2_9ce4_8422_2325, |sum, value| (sum ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3))
 }
 
 fn run<const D: usize, const S: usize, B: Basis<S>>(
@@ -103,11 +91,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     run::<3, 4, CubicBSpline>("3d-solid-bspline3", solid, Standard, flip)?;
     run::<3, 3, Gimp>("3d-soil-gimp", soil, Standard, flip)?;
     run::<3, 3, QuadraticBSpline>("3d-soil-bspline2-consistent-apic", soil, consistent(), Apic)?;
-    run::<3, 3, QuadraticBSpline>(
-        "3d-soil-bspline2-recursive-xpic3",
-        soil,
-        recursive(),
-        xpic()?,
-    )?;
+    run::<3, 3, QuadraticBSpline>("3d-soil-bspline2-recursive-xpic3", soil, recursive(), xpic()?)?;
     run::<3, 3, Gimp>("3d-fluid-gimp-total", fluid, total(), flip)
 }

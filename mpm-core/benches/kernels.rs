@@ -28,24 +28,16 @@ type Body<const S: usize, B> = (Lattice<2, S, B>, Particles<2>, Vec<std::ops::Ra
 fn body<const S: usize, B: Basis<S>>() -> Body<S, B> {
     let grid = Grid::new(1.0, [Axis::open(0.0, CELLS); 2]);
     let n = 2 * (CELLS - 8);
-    let positions = (0..n * n)
-        .map(|k| [4.25 + 0.5 * (k / n) as f64, 4.25 + 0.5 * (k % n) as f64])
-        .collect();
+    let positions = (0..n * n).map(|k| [4.25 + 0.5 * (k / n) as f64, 4.25 + 0.5 * (k % n) as f64]).collect();
     let particles = Particles::new(positions, 0.25, 1.0, [0.25; 2]);
-    let (Ok(grid), Ok(mut particles)) = (grid, particles) else {
-        unreachable!("the scene is fixed and valid")
-    };
+    let (Ok(grid), Ok(mut particles)) = (grid, particles) else { unreachable!("the scene is fixed and valid") };
     let lattice = Lattice::new(grid, WallTreatment::OpenKnot);
     let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
     particles.permute(&order);
     (lattice, particles, slabs)
 }
 
-fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
-    c: &mut Criterion,
-    name: &str,
-    mut transfer: T,
-) {
+fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(c: &mut Criterion, name: &str, mut transfer: T) {
     let (lattice, mut p, slabs) = body::<S, B>();
     transfer.attach(&mut p);
     let mut nodes = vec![NodalState::default(); lattice.len()];
@@ -90,13 +82,7 @@ fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(
                 let gives = transfer.give(&lattice, &functions, &x, Eight::ZERO, None);
                 for l in 0..EIGHT {
                     let stencil = stencils.at(l);
-                    transfer.grid_to_particle(
-                        stencil,
-                        &gives,
-                        &nodes,
-                        &mut received,
-                        &mut receives,
-                    );
+                    transfer.grid_to_particle(stencil, &gives, &nodes, &mut received, &mut receives);
                 }
                 let mut v = components(block(&velocity, k, &mut None));
                 black_box(transfer.receive(&received, &receives, &mut v, &mut affine));
@@ -126,13 +112,8 @@ fn passes<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
         if !again {
             averaging.expire();
         }
-        let mut projection = Projection {
-            lattice: &lattice,
-            slabs: &slabs,
-            reach: &reach,
-            averaging,
-            count: &mut count,
-        };
+        let mut projection =
+            Projection { lattice: &lattice, slabs: &slabs, reach: &reach, averaging, count: &mut count };
         projection.average(&p, &mut field);
     };
     group.bench_function("first average of a step", |b| {
@@ -161,46 +142,26 @@ fn law<M: Law>(c: &mut Criterion, name: &str, law: &M, delta_f: &Matrix2<f64>) {
     let mut stresses = vec![SymmetricTensor::default(); n];
     group.bench_function(format!("{name}, side by side"), |b| {
         b.iter(|| {
-            law.update_all(
-                |_| embed(black_box(delta_f)),
-                1e-3,
-                &mut states,
-                &mut stresses,
-            );
+            law.update_all(|_| embed(black_box(delta_f)), 1e-3, &mut states, &mut stresses);
         });
     });
     group.finish();
 }
 
 fn laws(c: &mut Criterion) {
-    let solid = NeoHookean {
-        lambda: 1e4,
-        mu: 20.0,
-    };
-    law(
-        c,
-        "neo-hookean",
-        &solid,
-        &Matrix2::new(1.0, 1e-6, -1e-6, 1.0),
-    );
+    let solid = NeoHookean { lambda: 1e4, mu: 20.0 };
+    law(c, "neo-hookean", &solid, &Matrix2::new(1.0, 1e-6, -1e-6, 1.0));
     let strengths = [
         ("hencky-j2 elastic", Strength::perfect(1e9)),
         ("hencky-j2 perfect", Strength::undrained(100.0)),
-        (
-            "hencky-j2 softening",
-            Strength::softening(40.82e3, 2.45e3, 5.0),
-        ),
+        ("hencky-j2 softening", Strength::softening(40.82e3, 2.45e3, 5.0)),
     ];
     for (name, strength) in strengths {
         if let Ok(strength) = strength
             && let Ok(soil) = HenckyJ2::new(1e6, 0.49, strength)
         {
             // Small enough that elastic strains stay small; once yielding, every step flows.
-            let shear = if name.ends_with("elastic") {
-                1e-9
-            } else {
-                1e-5
-            };
+            let shear = if name.ends_with("elastic") { 1e-9 } else { 1e-5 };
             law(c, name, &soil, &Matrix2::new(1.0, shear, 0.0, 1.0));
         }
     }

@@ -23,26 +23,18 @@ fn sag(remedy: Box<dyn Remedy<2>>) -> Result<(f64, f64), Error> {
     // Two particles per direction and cell, in the middle of the grid.
     let size = 0.5 * CELL;
     let place = |k: usize| (k as f64 + 0.5) * size;
-    let positions: Vec<[f64; 2]> = (0..PER_SIDE * PER_SIDE)
-        .map(|k| [1.0 + place(k % PER_SIDE), place(k / PER_SIDE)])
-        .collect();
+    let positions: Vec<[f64; 2]> =
+        (0..PER_SIDE * PER_SIDE).map(|k| [1.0 + place(k % PER_SIDE), place(k / PER_SIDE)]).collect();
     let particles = Particles::new(positions, size * size, DENSITY, [0.5 * size; 2])?;
     let law = NeoHookean::new(1e5, 0.499)?;
 
     // The floor holds the lower end of the second axis; two cells are spare above.
     let grid = Grid::new(CELL, [Axis::walls(0.0, 24), Axis::walls(0.0, 10)])?;
-    let floor = Wall {
-        axis: 1,
-        end: End::Lo,
-        kind: WallKind::Fixed,
-    };
+    let floor = Wall { axis: 1, end: End::Lo, kind: WallKind::Fixed };
     let dt = courant_time_step(0.3, CELL, law.wave_speed(DENSITY));
-    let scene = Scene::new(grid, Body::new(law, particles)?)
-        .load(BodyForce(Box::new(|_, _| [0.0, -GRAVITY])))
-        .constrain(floor);
-    let settings = Settings::new(dt)
-        .remedy(remedy)
-        .filter_forces(LocalDamping::new(0.1)?);
+    let scene =
+        Scene::new(grid, Body::new(law, particles)?).load(BodyForce(Box::new(|_, _| [0.0, -GRAVITY]))).constrain(floor);
+    let settings = Settings::new(dt).remedy(remedy).filter_forces(LocalDamping::new(0.1)?);
 
     // Three functions of a quadratic spline are non-zero at a point.
     let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings)?;
@@ -55,33 +47,19 @@ fn sag(remedy: Box<dyn Remedy<2>>) -> Result<(f64, f64), Error> {
         let [x, y] = particles.reference[p];
         (x - 1.5).abs() < CELL && y > 1.0 - size
     });
-    let sunk: Vec<f64> = top
-        .map(|p| particles.reference[p][1] - particles.position[p][1])
-        .collect();
+    let sunk: Vec<f64> = top.map(|p| particles.reference[p][1] - particles.position[p][1]).collect();
     let [stress, smooth] = [Field::MeanStress, Field::AveragedMeanStress].map(|f| solver.field(f));
-    let rough: f64 = stress
-        .iter()
-        .zip(&smooth)
-        .map(|(s, a)| (s - a).powi(2))
-        .sum();
+    let rough: f64 = stress.iter().zip(&smooth).map(|(s, a)| (s - a).powi(2)).sum();
     let all: f64 = stress.iter().map(|s| s * s).sum();
-    Ok((
-        sunk.iter().sum::<f64>() / sunk.len() as f64,
-        (rough / all).sqrt(),
-    ))
+    Ok((sunk.iter().sum::<f64>() / sunk.len() as f64, (rough / all).sqrt()))
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    for (name, remedy) in [
-        ("none", Box::new(Standard) as Box<dyn Remedy<2>>),
-        ("fbar-consistent", Box::new(FbarConsistent::default())),
-    ] {
+    for (name, remedy) in
+        [("none", Box::new(Standard) as Box<dyn Remedy<2>>), ("fbar-consistent", Box::new(FbarConsistent::default()))]
+    {
         let (sunk, rough) = sag(remedy)?;
-        writeln!(
-            stdout(),
-            "{name:16} sinks by {:.2} mm, noise {rough:.2}",
-            1e3 * sunk
-        )?;
+        writeln!(stdout(), "{name:16} sinks by {:.2} mm, noise {rough:.2}", 1e3 * sunk)?;
     }
     Ok(())
 }

@@ -29,20 +29,11 @@ impl<const D: usize, M: Law> Body<D, M> {
     /// # Errors
     /// [`Error::Breakdown`] of a particle whose J is not positive and finite.
     pub fn new(law: M, particles: Particles<D>) -> Result<Self, Error> {
-        let mut body = Self {
-            states: Vec::with_capacity(particles.len()),
-            law,
-            particles,
-        };
+        let mut body = Self { states: Vec::with_capacity(particles.len()), law, particles };
         let p = &mut body.particles;
         for (k, f) in p.delta_f.iter().enumerate() {
             let j = space::determinant(f);
-            check_jacobian(j).map_err(|fault| Error::Breakdown {
-                time: 0.0,
-                step: 0,
-                particle: p.id[k],
-                fault,
-            })?;
+            check_jacobian(j).map_err(|fault| Error::Breakdown { time: 0.0, step: 0, particle: p.id[k], fault })?;
             let (stress, state) = body.law.at_rest(&space::embed(f));
             body.states.push(state);
             (p.jacobian[k], p.stress[k]) = (j, stress);
@@ -286,10 +277,7 @@ pub(crate) fn check_jacobian(j: f64) -> Result<(), Fault> {
         return Ok(());
     }
     if !j.is_finite() {
-        return Err(Fault::NotFinite {
-            quantity: "Jacobian J",
-            value: j,
-        });
+        return Err(Fault::NotFinite { quantity: "Jacobian J", value: j });
     }
     Err(Fault::NonPositiveJacobian(j))
 }

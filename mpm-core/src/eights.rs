@@ -76,11 +76,7 @@ pub fn entries(n: usize, k: usize) -> usize {
 /// The `k`-th block of a column that changes. An incomplete last block is filled with the column's last entry, in
 /// `spare`.
 #[inline(always)]
-pub fn block<'a, T: Copy>(
-    column: &'a [T],
-    k: usize,
-    spare: &'a mut Option<[T; EIGHT]>,
-) -> &'a [T; EIGHT] {
+pub fn block<'a, T: Copy>(column: &'a [T], k: usize, spare: &'a mut Option<[T; EIGHT]>) -> &'a [T; EIGHT] {
     let rest = &column[k * EIGHT..];
     match rest.first_chunk() {
         Some(whole) => whole,

@@ -72,9 +72,7 @@ impl Fault {
             Self::NotFinite { value, .. } | Self::OffGrid { value, .. } => value,
             Self::NonPositiveJacobian(j) => j,
             Self::GapClosed(gap) => gap,
-            Self::NonPositivePorosity(share) | Self::EmptyCell(share) | Self::WideDomain(share) => {
-                share
-            }
+            Self::NonPositivePorosity(share) | Self::EmptyCell(share) | Self::WideDomain(share) => share,
             Self::UnstableTimeStep { cfl, .. } => cfl,
         }
     }
@@ -153,21 +151,8 @@ pub enum Error {
 }
 
 /// Checks that `value` is finite and satisfies `ok`.
-pub(crate) fn require(
-    ok: bool,
-    what: &'static str,
-    value: f64,
-    allowed: &'static str,
-) -> Result<(), Error> {
-    if ok && value.is_finite() {
-        Ok(())
-    } else {
-        Err(Error::Input {
-            what,
-            value,
-            allowed,
-        })
-    }
+pub(crate) fn require(ok: bool, what: &'static str, value: f64, allowed: &'static str) -> Result<(), Error> {
+    if ok && value.is_finite() { Ok(()) } else { Err(Error::Input { what, value, allowed }) }
 }
 
 /// Checks that `value` is positive and finite.

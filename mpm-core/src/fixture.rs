@@ -71,11 +71,7 @@ pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
 
 /// Particles at the places of a lattice: `count` along every axis, the first of which varies fastest, `spacing` (m)
 /// apart from `origin` (m) on.
-pub(crate) fn lattice<const D: usize>(
-    count: [usize; D],
-    spacing: f64,
-    origin: f64,
-) -> Vec<[f64; D]> {
+pub(crate) fn lattice<const D: usize>(count: [usize; D], spacing: f64, origin: f64) -> Vec<[f64; D]> {
     let place = |mut k: usize| {
         count.map(|along| {
             let i = k % along;

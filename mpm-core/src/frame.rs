@@ -28,12 +28,7 @@ impl<const D: usize> Frame<D> {
     /// The frame whose axis `k` lies along the scene's axis `axes[k].0`, with the sign `axes[k].1`.
     #[must_use]
     pub fn along(axes: [(usize, f64); D]) -> Self {
-        Self {
-            axes,
-            origin: [0.0; D],
-            length: 1.0,
-            stress: 1.0,
-        }
+        Self { axes, origin: [0.0; D], length: 1.0, stress: 1.0 }
     }
 
     /// The scene's own axes.
@@ -51,11 +46,7 @@ impl<const D: usize> Frame<D> {
     /// In units of which a metre is `length` and a pascal `stress`.
     #[must_use]
     pub fn in_units(self, length: f64, stress: f64) -> Self {
-        Self {
-            length,
-            stress,
-            ..self
-        }
+        Self { length, stress, ..self }
     }
 
     /// Factor of a quantity of the unit Paᵃ mᵇ.
@@ -139,14 +130,7 @@ impl<const D: usize> Frame<D> {
             let [(i, s), (j, t)] = [a, b].map(|axis| self.axis(axis));
             s * t * stress.get(i, j) / self.stress
         };
-        SymmetricTensor {
-            xx: of(0, 0),
-            yy: of(1, 1),
-            zz: of(2, 2),
-            xy: of(0, 1),
-            yz: of(1, 2),
-            xz: of(0, 2),
-        }
+        SymmetricTensor { xx: of(0, 0), yy: of(1, 1), zz: of(2, 2), xy: of(0, 1), yz: of(1, 2), xz: of(0, 2) }
     }
 
     /// The grid.
@@ -160,16 +144,9 @@ impl<const D: usize> Frame<D> {
                 AxisKind::Bounded { lo, hi } if sign < 0.0 => AxisKind::Bounded { lo: hi, hi: lo },
                 kind => kind,
             };
-            Axis {
-                lo: ends[k][0],
-                kind,
-                ..own
-            }
+            Axis { lo: ends[k][0], kind, ..own }
         });
-        Grid {
-            h: self.length * of_scene.h,
-            axes,
-        }
+        Grid { h: self.length * of_scene.h, axes }
     }
 }
 
@@ -178,9 +155,7 @@ mod tests {
     use super::*;
 
     fn turned() -> Frame<2> {
-        Frame::along([(1, -1.0), (0, 1.0)])
-            .shifted([5.0, -3.0])
-            .in_units(8.0, 0.25)
+        Frame::along([(1, -1.0), (0, 1.0)]).shifted([5.0, -3.0]).in_units(8.0, 0.25)
     }
 
     #[test]
@@ -188,10 +163,7 @@ mod tests {
         let (frame, x) = (turned(), [0.75, 2.5]);
         assert_eq!(frame.place(&x), [5.0 - 20.0, -3.0 + 6.0]);
         assert_eq!(frame.place_of_scene(&frame.place(&x)), x);
-        assert_eq!(
-            frame.vector_of_scene(&frame.vector(&x, frame.force()), 2.0),
-            x
-        );
+        assert_eq!(frame.vector_of_scene(&frame.vector(&x, frame.force()), 2.0), x);
         assert_eq!(frame.axis(0), (1, 1.0));
         assert_eq!(frame.axis(1), (0, -1.0));
         assert_eq!(frame.axis(2), (2, 1.0));
@@ -199,10 +171,7 @@ mod tests {
 
     #[test]
     fn ends_change_sides_with_their_axis() {
-        let axes = [
-            Axis::bounded(-1.0, 4, (crate::Side::Wall, crate::Side::Open)),
-            Axis::open(2.0, 6),
-        ];
+        let axes = [Axis::bounded(-1.0, 4, (crate::Side::Wall, crate::Side::Open)), Axis::open(2.0, 6)];
         let grid = turned().grid(&Grid { h: 0.5, axes });
         assert_eq!(grid.h, 4.0);
         assert_eq!((grid.axes[0].lo, grid.axes[0].cells), (5.0 - 40.0, 6));
@@ -226,10 +195,7 @@ mod tests {
         };
         let back = turned().stress_of_scene(&square(m));
         let expected = square(n);
-        assert_eq!(
-            (back.xx, back.yy, back.xy),
-            (4.0 * expected.xx, 4.0 * expected.yy, 4.0 * expected.xy)
-        );
+        assert_eq!((back.xx, back.yy, back.xy), (4.0 * expected.xx, 4.0 * expected.yy, 4.0 * expected.xy));
         assert_eq!(back.zz, 28.0);
     }
 
@@ -245,10 +211,7 @@ mod tests {
     #[test]
     fn a_node_far_away_is_the_node_it_was() {
         let h = 0.05;
-        let grid = Grid {
-            h,
-            axes: [Axis::open(0.0, 8)],
-        };
+        let grid = Grid { h, axes: [Axis::open(0.0, 8)] };
         let frame = Frame::own().shifted([1e6]);
         for sixths in 0..48 {
             let x = f64::from(sixths) / 6.0 * h;

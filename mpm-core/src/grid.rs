@@ -41,11 +41,7 @@ impl Axis {
     #[must_use]
     pub fn bounded(lo: f64, cells: usize, ends: (Side, Side)) -> Self {
         let (low, high) = ends;
-        Self {
-            lo,
-            cells,
-            kind: AxisKind::Bounded { lo: low, hi: high },
-        }
+        Self { lo, cells, kind: AxisKind::Bounded { lo: low, hi: high } }
     }
 
     /// An axis open at both ends.
@@ -63,11 +59,7 @@ impl Axis {
     /// A periodic axis.
     #[must_use]
     pub fn periodic(lo: f64, cells: usize) -> Self {
-        Self {
-            lo,
-            cells,
-            kind: AxisKind::Periodic,
-        }
+        Self { lo, cells, kind: AxisKind::Periodic }
     }
 
     /// Coordinate of the upper end (m) for cells of size `h` (m).
@@ -110,12 +102,7 @@ impl<const D: usize> Grid<D> {
         positive(h, "cell size", "positive and finite (m)")?;
         for axis in &axes {
             require(true, "grid origin", axis.lo, "finite (m)")?;
-            require(
-                axis.cells >= MIN_CELLS,
-                "cells of an axis",
-                axis.cells as f64,
-                "at least 4",
-            )?;
+            require(axis.cells >= MIN_CELLS, "cells of an axis", axis.cells as f64, "at least 4")?;
         }
         Ok(Self { h, axes })
     }

@@ -36,13 +36,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         for a in (0..D - 1).rev() {
             strides[a] = strides[a + 1] * nodes[a + 1].position.len();
         }
-        let mut lattice = Self {
-            grid,
-            bases,
-            nodes,
-            strides,
-            images: Vec::new(),
-        };
+        let mut lattice = Self { grid, bases, nodes, strides, images: Vec::new() };
         lattice.images = lattice.periodic_images();
         lattice
     }
@@ -79,21 +73,13 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         for a in 0..D {
             axis[a] = self.bases[a].weights(x[a], half_size[a]);
         }
-        Stencil {
-            first: self.node(&axis.map(|axis| axis.first)),
-            axis,
-            strides: self.strides,
-        }
+        Stencil { first: self.node(&axis.map(|axis| axis.first)), axis, strides: self.strides }
     }
 
     /// The functions that see a point `x` (m), a particle without size.
     pub fn stencil_of_point(&self, x: &[f64; D]) -> Stencil<D, S> {
         let axis: [AxisWeights<S>; D] = std::array::from_fn(|a| self.bases[a].at_point(x[a]));
-        Stencil {
-            first: self.node(&axis.each_ref().map(|axis| axis.first)),
-            axis,
-            strides: self.strides,
-        }
+        Stencil { first: self.node(&axis.each_ref().map(|axis| axis.first)), axis, strides: self.strides }
     }
 
     /// The node of these indices along the axes.
@@ -269,10 +255,7 @@ pub struct Weights<const D: usize, const S: usize> {
 
 impl<const D: usize, const S: usize> Default for Weights<D, S> {
     fn default() -> Self {
-        Self {
-            first: 0,
-            w: [[0.0; S]; D],
-        }
+        Self { first: 0, w: [[0.0; S]; D] }
     }
 }
 
@@ -321,11 +304,7 @@ impl<const D: usize, const S: usize> Stencil<D, S> {
     /// of `last.w[k]` in the last direction.
     #[inline(always)]
     pub fn row(&self, slow: usize, fast: usize) -> Row<D> {
-        let mut row = Row {
-            node: self.first() + row_offset(&self.strides, slow, fast),
-            w: 1.0,
-            gradient: [1.0; D],
-        };
+        let mut row = Row { node: self.first() + row_offset(&self.strides, slow, fast), w: 1.0, gradient: [1.0; D] };
         if D == 2 {
             let outer = &self.axis[0];
             row.w = outer.w[fast];

@@ -30,11 +30,7 @@ impl Ledger {
     pub(crate) fn new(particles: usize, nodes: usize, constraints: usize) -> Self {
         Self {
             reactions: vec![Reaction::default(); constraints],
-            work: Work {
-                particles: particles as u64,
-                nodes: nodes as u64,
-                ..Work::default()
-            },
+            work: Work { particles: particles as u64, nodes: nodes as u64, ..Work::default() },
             ..Self::default()
         }
     }

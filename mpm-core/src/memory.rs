@@ -70,11 +70,7 @@ impl MemoryError {
         if saved == expected {
             return Ok(());
         }
-        Err(Self::Size {
-            what,
-            saved,
-            expected,
-        })
+        Err(Self::Size { what, saved, expected })
     }
 }
 
@@ -84,9 +80,7 @@ impl Saved {
     /// # Errors
     /// A value that has no bytes, such as a sequence of unknown length.
     pub fn of(value: &impl Serialize) -> Result<Self, MemoryError> {
-        postcard::to_stdvec(value)
-            .map(Self)
-            .map_err(MemoryError::Write)
+        postcard::to_stdvec(value).map(Self).map_err(MemoryError::Write)
     }
 
     /// From bytes that were [saved](Self::bytes).
@@ -105,15 +99,11 @@ impl Saved {
     /// # Errors
     /// The bytes are not those of one such value.
     pub fn read<T: DeserializeOwned>(&self, part: &'static str) -> Result<T, MemoryError> {
-        let (value, rest) = postcard::take_from_bytes(&self.0)
-            .map_err(|cause| MemoryError::Read { part, cause })?;
+        let (value, rest) = postcard::take_from_bytes(&self.0).map_err(|cause| MemoryError::Read { part, cause })?;
         if rest.is_empty() {
             return Ok(value);
         }
-        Err(MemoryError::Surplus {
-            part,
-            surplus: rest.len(),
-        })
+        Err(MemoryError::Surplus { part, surplus: rest.len() })
     }
 }
 
@@ -146,20 +136,11 @@ impl<T: Memoryless + ?Sized> Memory for T {
 }
 
 /// Checks that a value in a memory is allowed.
-pub(crate) fn require(
-    ok: bool,
-    what: &'static str,
-    value: f64,
-    allowed: &'static str,
-) -> Result<(), MemoryError> {
+pub(crate) fn require(ok: bool, what: &'static str, value: f64, allowed: &'static str) -> Result<(), MemoryError> {
     if ok {
         return Ok(());
     }
-    Err(MemoryError::Value {
-        what,
-        value,
-        allowed,
-    })
+    Err(MemoryError::Value { what, value, allowed })
 }
 
 /// Memories of the parts of a list.

@@ -73,10 +73,7 @@ pub struct Reaction {
 
 impl Reaction {
     /// Reaction of a part that does not exist.
-    pub const NONE: Self = Self {
-        force: [f64::NAN; 3],
-        impulse: [f64::NAN; 3],
-    };
+    pub const NONE: Self = Self { force: [f64::NAN; 3], impulse: [f64::NAN; 3] };
 }
 
 /// Sums over a body. The potential energy of the loads is −`accumulated.load_work` where they are
@@ -160,10 +157,7 @@ mod tests {
         let (_, strained) = law.response(&stretched, 1.0, &law.initial_state());
         let states = [law.initial_state(), strained];
         let energy = law.energy(&strained);
-        let done = Accumulated {
-            damping: 7.0,
-            ..Accumulated::default()
-        };
+        let done = Accumulated { damping: 7.0, ..Accumulated::default() };
         let totals = Totals::of(&law, &particles, &states, done);
         assert_eq!((totals.mass, totals.momentum), (7.0, [11.0, -10.0, 0.0]));
         assert_eq!(totals.kinetic_energy, 0.5 * (2.0 * 9.0 + 5.0 * 5.0));

@@ -209,8 +209,7 @@ impl Real for Eight {
 
     #[inline(always)]
     fn clamped(self, low: f64, high: f64) -> Self {
-        self.fast_max(f64x8::splat(low))
-            .fast_min(f64x8::splat(high))
+        self.fast_max(f64x8::splat(low)).fast_min(f64x8::splat(high))
     }
 
     #[inline(always)]

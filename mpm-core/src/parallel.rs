@@ -83,11 +83,7 @@ pub fn map<T: Send>(n: usize, size: usize, of: impl Fn(usize) -> T + Sync) -> Ve
 }
 
 /// Results of `of` for every piece of `size` numbers below `n`, in their order: one instance a type.
-fn of_pieces<T: Send>(
-    n: usize,
-    size: usize,
-    of: &(dyn Fn(Range<usize>) -> Vec<T> + Sync),
-) -> Vec<T> {
+fn of_pieces<T: Send>(n: usize, size: usize, of: &(dyn Fn(Range<usize>) -> Vec<T> + Sync)) -> Vec<T> {
     // One thread has no one to share with, and nothing to put together.
     if rayon::current_num_threads() == 1 {
         return of(0..n);
@@ -106,12 +102,7 @@ fn of_pieces<T: Send>(
     all
 }
 
-fn in_pieces<P: Front>(
-    mut all: P,
-    pieces: Range<usize>,
-    size: usize,
-    visit: &(impl Fn(usize, P) + Sync),
-) {
+fn in_pieces<P: Front>(mut all: P, pieces: Range<usize>, size: usize, visit: &(impl Fn(usize, P) + Sync)) {
     if pieces.len() > AT_ONCE {
         let middle = pieces.start + pieces.len() / 2;
         let mut before = Some(all.front(middle - pieces.start, size));
@@ -136,11 +127,7 @@ fn in_pieces<P: Front>(
 }
 
 /// `visit(piece, sums)` for pieces of [`CHUNK`] particles and what is summed over each.
-pub fn for_each_chunk<P: Front, T: Send>(
-    all: P,
-    sums: &mut [T],
-    visit: &(impl Fn(P, &mut T) + Sync),
-) {
+pub fn for_each_chunk<P: Front, T: Send>(all: P, sums: &mut [T], visit: &(impl Fn(P, &mut T) + Sync)) {
     let n = sums.len() * CHUNK;
     for_each_piece((all, PerPiece(sums)), n, CHUNK, &|_, (piece, sums)| {
         if let Some(sums) = sums.0.first_mut() {
@@ -182,10 +169,10 @@ fn run_by_run<T: Send>(
         let (before, after) = nodes.split_at_mut(nodes.len().min(half * run));
         let (slabs_before, slabs_after) = slabs.split_at(2 * half);
         let particles = slabs.last().map_or(0, |s| s.end) - slabs.first().map_or(0, |s| s.start);
-        let parts: [&mut (dyn FnMut() + Send); 2] = [
-            &mut || run_by_run(before, first, run, slabs_before, kernel),
-            &mut || run_by_run(after, first + half * run, run, slabs_after, kernel),
-        ];
+        let parts: [&mut (dyn FnMut() + Send); 2] =
+            [&mut || run_by_run(before, first, run, slabs_before, kernel), &mut || {
+                run_by_run(after, first + half * run, run, slabs_after, kernel)
+            }];
         match parts {
             [a, b] if particles > AT_ONCE * CHUNK => join(a, b),
             parts => parts.into_iter().for_each(|part| part()),

@@ -62,12 +62,7 @@ impl<const D: usize> Particles<D> {
     ///
     /// # Errors
     /// A volume, density or half size that is not positive and finite, or a position that is not finite.
-    pub fn new(
-        positions: Vec<[f64; D]>,
-        volume: f64,
-        density: f64,
-        half_size: [f64; D],
-    ) -> Result<Self, Error> {
+    pub fn new(positions: Vec<[f64; D]>, volume: f64, density: f64, half_size: [f64; D]) -> Result<Self, Error> {
         positive(volume, "particle volume", "positive (m³)")?;
         positive(density, "density", "positive (kg/m³)")?;
         for l in half_size {
@@ -117,12 +112,8 @@ impl<const D: usize> Particles<D> {
         let vectors = |column: &[[f64; D]], scale: f64| -> Vec<[f64; D]> {
             column.iter().map(|v| frame.vector(v, scale)).collect()
         };
-        let places = |column: &[[f64; D]]| -> Vec<[f64; D]> {
-            column.iter().map(|x| frame.place(x)).collect()
-        };
-        let scaled = |column: &[f64], scale: f64| -> Vec<f64> {
-            column.iter().map(|value| scale * value).collect()
-        };
+        let places = |column: &[[f64; D]]| -> Vec<[f64; D]> { column.iter().map(|x| frame.place(x)).collect() };
+        let scaled = |column: &[f64], scale: f64| -> Vec<f64> { column.iter().map(|value| scale * value).collect() };
         let matrices = |column: &[SMatrix<f64, D, D>], scale: f64| -> Vec<_> {
             column.iter().map(|m| frame.matrix(m, scale)).collect()
         };
@@ -225,9 +216,7 @@ impl<const D: usize> Particles<D> {
     /// Those that were seeded before `count`, in their order: what was seeded later is taken away.
     pub(crate) fn first(&self, count: usize) -> Vec<u32> {
         let places = 0..self.len() as u32;
-        places
-            .filter(|k| (self.id[*k as usize] as usize) < count)
-            .collect()
+        places.filter(|k| (self.id[*k as usize] as usize) < count).collect()
     }
 
     /// Makes these, of a run that ended, the particles of one that begins as `scene`: motion that only one of the two

@@ -38,12 +38,7 @@ impl<const D: usize, const S: usize> Averaging<D, S> {
     /// Workspace for a lattice with this number of nodes.
     #[must_use]
     pub fn new(nodes: usize) -> Self {
-        Self {
-            weights: Vec::new(),
-            volumes: vec![0.0; nodes + ROW],
-            values: vec![0.0; nodes + ROW],
-            current: false,
-        }
+        Self { weights: Vec::new(), volumes: vec![0.0; nodes + ROW], values: vec![0.0; nodes + ROW], current: false }
     }
 
     /// Forgets all nodal values: call it when nodes may have left the particles' reach.
@@ -105,11 +100,7 @@ fn gather_values<const D: usize, const S: usize, B: Basis<S>>(
     nodes: &[f64],
     field: &mut [f64],
 ) {
-    for_each_piece((field, weights), weights.len(), CHUNK, &|_,
-                                                             (
-        field,
-        weights,
-    )| {
+    for_each_piece((field, weights), weights.len(), CHUNK, &|_, (field, weights)| {
         let mut p = 0;
         while p < field.len() {
             let first = weights[p].first();
@@ -135,18 +126,14 @@ impl<const D: usize, const S: usize, B: Basis<S>> Projection<'_, D, S, B> {
     /// Weights and nodal volumes of the particles.
     fn prepare(&mut self, particles: &Particles<D>) {
         let (lattice, averaging) = (self.lattice, &mut *self.averaging);
-        averaging
-            .weights
-            .resize(particles.len(), Weights::default());
+        averaging.weights.resize(particles.len(), Weights::default());
         let columns = (&mut averaging.weights[..], &particles.position[..]);
         for_each_piece(columns, particles.len(), CHUNK, &|_, (weights, x)| {
             lattice.weights(x, &particles.half_size, weights);
         });
         let volume = &particles.volume;
         let (weights, volumes) = (&averaging.weights, &mut averaging.volumes);
-        scatter_values(lattice, self.slabs, weights, self.reach, volumes, |p| {
-            volume[p]
-        });
+        scatter_values(lattice, self.slabs, weights, self.reach, volumes, |p| volume[p]);
         averaging.current = true;
     }
 }
@@ -159,9 +146,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, 
         let (lattice, averaging) = (self.lattice, &mut *self.averaging);
         let (weights, values) = (&averaging.weights, &mut averaging.values);
         let (volume, given): (&[f64], &[f64]) = (&particles.volume, field);
-        scatter_values(lattice, self.slabs, weights, self.reach, values, |p| {
-            volume[p] * given[p]
-        });
+        scatter_values(lattice, self.slabs, weights, self.reach, values, |p| volume[p] * given[p]);
         let fields = (&mut values[..], &averaging.volumes[..]);
         let (reach, n) = (self.reach, averaging.volumes.len());
         for_each_piece(fields, n, NODE_CHUNK, &|begin, (values, volumes)| {

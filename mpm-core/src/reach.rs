@@ -57,12 +57,8 @@ impl Reach {
 
     /// All nodes of a lattice.
     #[must_use]
-    pub fn everything<const D: usize, const S: usize, B: Basis<S>>(
-        lattice: &Lattice<D, S, B>,
-    ) -> Self {
-        Self {
-            runs: std::iter::once(0..lattice.len()).collect(),
-        }
+    pub fn everything<const D: usize, const S: usize, B: Basis<S>>(lattice: &Lattice<D, S, B>) -> Self {
+        Self { runs: std::iter::once(0..lattice.len()).collect() }
     }
 
     /// Whether `node` is one of them.
@@ -144,8 +140,7 @@ mod tests {
             assert_eq!(reach.contains(node), *value == 0);
         }
         for (x, place) in positions.iter().zip(places) {
-            let moved =
-                std::array::from_fn(|a| (x[a] + H * (2.0 * place[3 + a] - 1.0)).clamp(-1.0, end));
+            let moved = std::array::from_fn(|a| (x[a] + H * (2.0 * place[3 + a] - 1.0)).clamp(-1.0, end));
             for x in [*x, moved] {
                 let stencil = lattice.stencil(&x, &[0.25 * H; D]);
                 let (lines, rows) = crate::lattice::Stencil::<D, S>::OUTER;

@@ -43,21 +43,13 @@ impl<const D: usize> Room<D> {
                 continue;
             }
             if !value.is_finite() {
-                return Err(Fault::NotFinite {
-                    quantity: "position",
-                    value: *value,
-                });
+                return Err(Fault::NotFinite { quantity: "position", value: *value });
             }
             if self.periodic[axis] {
                 *value = lo + (*value - lo).rem_euclid(hi - lo);
                 wrapped = true;
             } else if *value != hi {
-                return Err(Fault::OffGrid {
-                    axis,
-                    value: *value,
-                    lo,
-                    hi,
-                });
+                return Err(Fault::OffGrid { axis, value: *value, lo, hi });
             }
         }
         Ok(wrapped)

@@ -39,13 +39,7 @@ impl<const D: usize, M: Law> Scene<D, M> {
     /// `body` on `grid`, left to itself.
     #[must_use]
     pub fn new(grid: Grid<D>, body: Body<D, M>) -> Self {
-        Self {
-            grid,
-            body,
-            loads: Vec::new(),
-            constraints: Vec::new(),
-            contacts: Vec::new(),
-        }
+        Self { grid, body, loads: Vec::new(), constraints: Vec::new(), contacts: Vec::new() }
     }
 
     /// With another load.
@@ -63,10 +57,7 @@ impl<const D: usize, M: Law> Scene<D, M> {
 
     /// With several constraints, in their order.
     #[must_use]
-    pub fn constrain_all<C: Constraint<D> + 'static>(
-        mut self,
-        constraints: impl IntoIterator<Item = C>,
-    ) -> Self {
+    pub fn constrain_all<C: Constraint<D> + 'static>(mut self, constraints: impl IntoIterator<Item = C>) -> Self {
         for constraint in constraints {
             self.constraints.push(Box::new(constraint));
         }
@@ -83,11 +74,7 @@ impl<const D: usize, M: Law> Scene<D, M> {
     /// Memories of the stages.
     pub(crate) fn save_stages(&self) -> Result<SavedStages, MemoryError> {
         let contacts: Result<_, _> = self.contacts.iter().map(Memory::save).collect();
-        Ok((
-            save_all(&self.loads)?,
-            save_all(&self.constraints)?,
-            contacts?,
-        ))
+        Ok((save_all(&self.loads)?, save_all(&self.constraints)?, contacts?))
     }
 
     /// Restores the stages from their memories.

@@ -79,9 +79,7 @@ fn cube_root<T: Lanes>(x: T) -> T {
 fn near_one<T: Real>(x: T) -> T {
     let excess = x - T::splat(1.0);
     let terms = [5.0 / 81.0, -1.0 / 9.0, 1.0 / 3.0, 1.0].map(T::splat);
-    let root = terms[1..]
-        .iter()
-        .fold(terms[0], |sum, term| *term + excess * sum);
+    let root = terms[1..].iter().fold(terms[0], |sum, term| *term + excess * sum);
     let cube = root * root * root;
     root + root * (x - cube) / (cube + cube + x)
 }
@@ -93,8 +91,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn is_completed_with_the_identity<const D: usize>() {
-        let entries: [[f64; D]; D] =
-            std::array::from_fn(|a| std::array::from_fn(|b| (2 + a + 3 * b) as f64));
+        let entries: [[f64; D]; D] = std::array::from_fn(|a| std::array::from_fn(|b| (2 + a + 3 * b) as f64));
         let matrix = SMatrix::<f64, D, D>::from_fn(|a, b| entries[a][b]);
         let expected = Matrix3::from_fn(|i, j| match i < D && j < D {
             true => (2 + i + 3 * j) as f64,

@@ -33,9 +33,7 @@ pub struct SymmetricTensor<T = f64> {
 impl SymmetricTensor {
     /// As a full matrix.
     pub fn to_matrix(&self) -> Matrix3<f64> {
-        Matrix3::new(
-            self.xx, self.xy, self.xz, self.xy, self.yy, self.yz, self.xz, self.yz, self.zz,
-        )
+        Matrix3::new(self.xx, self.xy, self.xz, self.xy, self.yy, self.yz, self.xz, self.yz, self.zz)
     }
 }
 
@@ -87,12 +85,7 @@ impl<T: Real> SymmetricTensor<T> {
     /// The identity.
     #[must_use]
     pub fn identity() -> Self {
-        Self {
-            xx: T::splat(1.0),
-            yy: T::splat(1.0),
-            zz: T::splat(1.0),
-            ..Self::default()
-        }
+        Self { xx: T::splat(1.0), yy: T::splat(1.0), zz: T::splat(1.0), ..Self::default() }
     }
 
     /// Component (`i`, `j`), counted from zero and below three.
@@ -125,25 +118,19 @@ impl<T: Real> SymmetricTensor<T> {
     pub fn greatest_at_most(&self) -> T {
         let (xy, yz, xz) = (self.xy.abs(), self.yz.abs(), self.xz.abs());
         let greater = |a: T, b: T| (a - b).if_positive(a, b);
-        greater(
-            greater(self.xx + (xy + xz), self.yy + (xy + yz)),
-            self.zz + (xz + yz),
-        )
+        greater(greater(self.xx + (xy + xz), self.yy + (xy + yz)), self.zz + (xz + yz))
     }
 
     /// A number that no eigenvalue falls below, and the least one where the axes are principal.
     #[inline]
     pub fn least_at_least(&self) -> T {
-        -self
-            .scale_add_identity(T::splat(-1.0), T::default())
-            .greatest_at_most()
+        -self.scale_add_identity(T::splat(-1.0), T::default()).greatest_at_most()
     }
 
     /// Determinant.
     #[inline]
     pub fn determinant(&self) -> T {
-        self.xx * (self.yy * self.zz - self.yz * self.yz)
-            - self.xy * (self.xy * self.zz - self.yz * self.xz)
+        self.xx * (self.yy * self.zz - self.yz * self.yz) - self.xy * (self.xy * self.zz - self.yz * self.xz)
             + self.xz * (self.xy * self.yz - self.yy * self.xz)
     }
 
@@ -184,9 +171,7 @@ impl<T: Real> SymmetricTensor<T> {
         if self.is_planar() && out_of_plane == [T::default(); 4] {
             return self.push_forward_in_plane(f);
         }
-        let dot = |i: usize, b: [T; 3]| {
-            f[(i, 2)].mul_add(b[2], f[(i, 1)].mul_add(b[1], f[(i, 0)] * b[0]))
-        };
+        let dot = |i: usize, b: [T; 3]| f[(i, 2)].mul_add(b[2], f[(i, 1)].mul_add(b[1], f[(i, 0)] * b[0]));
         let half = |i: usize| {
             [
                 dot(i, [self.xx, self.xy, self.xz]),
@@ -196,14 +181,7 @@ impl<T: Real> SymmetricTensor<T> {
         };
         let rows = [half(0), half(1), half(2)];
         let entry = |i: usize, j: usize| dot(j, rows[i]);
-        Self {
-            xx: entry(0, 0),
-            yy: entry(1, 1),
-            zz: entry(2, 2),
-            xy: entry(0, 1),
-            yz: entry(1, 2),
-            xz: entry(0, 2),
-        }
+        Self { xx: entry(0, 0), yy: entry(1, 1), zz: entry(2, 2), xy: entry(0, 1), yz: entry(1, 2), xz: entry(0, 2) }
     }
 
     /// The same in plane strain, bit for bit.

@@ -39,17 +39,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let own = records.iter().filter(|r| r.case == case.name);
         let own: Vec<Record> = own.cloned().collect();
         for record in &own {
-            write(Judged {
-                case: case.name,
-                run: Some(record.folder()),
-                verdicts: &record.verdicts,
-            })?;
+            write(Judged { case: case.name, run: Some(record.folder()), verdicts: &record.verdicts })?;
         }
-        write(Judged {
-            case: case.name,
-            run: None,
-            verdicts: &case.judge_study(&own),
-        })?;
+        write(Judged { case: case.name, run: None, verdicts: &case.judge_study(&own) })?;
     }
     Ok(())
 }

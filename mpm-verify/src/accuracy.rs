@@ -61,16 +61,11 @@ pub fn fit_order(points: &[(f64, f64)]) -> Option<Order> {
     let logs: Vec<(f64, f64)> = points.iter().map(|(h, e)| (h.ln(), e.abs().ln())).collect();
     let line = fit_line(&logs)?;
     let freedom = points.len() as f64 - 2.0;
-    let quantile = StudentsT::new(0.0, 1.0, freedom)
-        .ok()?
-        .inverse_cdf(0.5 * (1.0 + CONFIDENCE));
+    let quantile = StudentsT::new(0.0, 1.0, freedom).ok()?.inverse_cdf(0.5 * (1.0 + CONFIDENCE));
     Some(Order {
         order: line.slope,
         uncertainty: quantile * line.slope_error,
-        local: logs
-            .windows(2)
-            .map(|pair| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0))
-            .collect(),
+        local: logs.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0)).collect(),
     })
 }
 
@@ -119,9 +114,7 @@ pub fn richardson(points: [(f64, f64); 3]) -> Result<Richardson, String> {
         }
     }
     let order = 0.5 * (low + high);
-    let index = |fine: f64, coarse: f64, r: f64| {
-        SAFETY * ((fine - coarse) / fine).abs() / (r.powf(order) - 1.0)
-    };
+    let index = |fine: f64, coarse: f64, r: f64| SAFETY * ((fine - coarse) / fine).abs() / (r.powf(order) - 1.0);
     Ok(Richardson {
         order,
         extrapolated: f1 + (f1 - f2) / (r21.powf(order) - 1.0),
@@ -183,10 +176,7 @@ mod tests {
     fn there_is_no_order_without_a_power_law() {
         assert_eq!(fit_order(&[(1.0, 0.1), (0.5, 0.05)]), None);
         assert_eq!(fit_order(&[(1.0, 0.1), (0.5, -0.05), (0.25, 0.02)]), None);
-        assert_eq!(
-            fit_order(&[(1.0, 0.1), (0.5, f64::NAN), (0.25, 0.02)]),
-            None
-        );
+        assert_eq!(fit_order(&[(1.0, 0.1), (0.5, f64::NAN), (0.25, 0.02)]), None);
         assert_eq!(fit_order(&[(1.0, 0.1), (0.5, 0.0), (0.25, 0.02)]), None);
         assert_eq!(fit_order(&[(1.0, 0.1), (0.5, 0.05), (0.0, 0.02)]), None);
     }
@@ -225,12 +215,7 @@ mod tests {
         refused(values([1.0, 1.0, 1.0]), "monotonically");
         refused(values([1.0, 1.1, 1.1]), "monotonically");
         refused(values([1.0, 1.1, 1.3]), "don't approach a limit");
-        for cells in [
-            [1.0, 2.0, 4.0],
-            [2.0, 1.0, 1.0],
-            [2.0, 2.0, 1.0],
-            [2.0, 1.0, 2.0],
-        ] {
+        for cells in [[1.0, 2.0, 4.0], [2.0, 1.0, 1.0], [2.0, 2.0, 1.0], [2.0, 1.0, 2.0]] {
             let [a, b, c] = cells;
             refused([(a, 1.0), (b, 1.5), (c, 1.7)], "don't shrink");
         }

@@ -37,10 +37,7 @@ impl<'a> Candidates<'a> {
             )));
         }
         let drifts = |r: &&Record| r.verdicts.iter().any(Verdict::drifts);
-        Ok(Self {
-            study,
-            drifted: study.records.iter().filter(drifts).collect(),
-        })
+        Ok(Self { study, drifted: study.records.iter().filter(drifts).collect() })
     }
 
     /// What has drifted: one line per run and column; how many runs, and how many of them no truth judges.
@@ -114,21 +111,14 @@ impl<'a> Candidates<'a> {
             };
             let (case, mut spec) = run.resolve()?;
             spec.perturbed = true;
-            tasks.push(Task {
-                case,
-                spec,
-                folder: gathered.folder(record)?.join(TWIN),
-            });
+            tasks.push(Task { case, spec, folder: gathered.folder(record)?.join(TWIN) });
         }
         let twins = run_all(&tasks, Saving::resuming(), workers, listener)?;
         let (mut runs, mut doubts) = (Vec::new(), Vec::new());
         for ((record, twin), task) in self.drifted.iter().zip(&twins).zip(&tasks) {
             if let (Status::Failed, Some(error)) = (twin.status, &twin.error) {
                 let run = record.folder();
-                return Ok(Blessing::Broken(format!(
-                    "the perturbed twin of {run} broke down: {}\n",
-                    error.message
-                )));
+                return Ok(Blessing::Broken(format!("the perturbed twin of {run} broke down: {}\n", error.message)));
             }
             let folder = gathered.folder(record)?;
             let run = Run::of((record, folder), (twin, &task.folder))?;
@@ -172,52 +162,26 @@ fn doubts_of(record: &Record, kept: Option<&Run>, now: &Run) -> Vec<Doubt> {
     let fewest = work.particles.checked_mul(work.steps);
     if fewest.is_none_or(|fewest| work.particle_steps < fewest) {
         let [n, steps, all] = [work.particles, work.steps, work.particle_steps];
-        doubt(
-            "particle_steps",
-            format!("{all} are fewer than {n} particles times {steps} steps"),
-        );
+        doubt("particle_steps", format!("{all} are fewer than {n} particles times {steps} steps"));
     }
-    for (name, value) in record
-        .metrics
-        .iter()
-        .filter_map(|(n, m)| Some((n, m.value?)))
-    {
+    for (name, value) in record.metrics.iter().filter_map(|(n, m)| Some((n, m.value?))) {
         let possible = possible(name);
         if !possible.contains(&value) {
             let (least, most) = (possible.start(), possible.end());
-            doubt(
-                name,
-                format!("{value:e} is not within {least:e} to {most:e}"),
-            );
+            doubt(name, format!("{value:e} is not within {least:e} to {most:e}"));
         }
     }
     for old in kept.iter().flat_map(|run| &run.columns) {
-        let name = old
-            .quantity
-            .split_once('/')
-            .map_or(&*old.quantity, |(_, name)| name);
+        let name = old.quantity.split_once('/').map_or(&*old.quantity, |(_, name)| name);
         let name = name.split(" (").next().unwrap_or(name);
         let Some(new) = now.columns.iter().find(|c| c.quantity == old.quantity) else {
-            doubt(
-                name,
-                "was kept, and has no number now or answers rounding too strongly".to_owned(),
-            );
+            doubt(name, "was kept, and has no number now or answers rounding too strongly".to_owned());
             continue;
         };
-        let least = if old.is_count() {
-            1.0
-        } else {
-            BLUNT / JUMP * old.scale()
-        };
+        let least = if old.is_count() { 1.0 } else { BLUNT / JUMP * old.scale() };
         if new.response() > JUMP * old.response().max(least) {
             let responses = [old.response(), new.response()];
-            doubt(
-                name,
-                format!(
-                    "responds by {:e} to rounding, and by {:e} before",
-                    responses[1], responses[0]
-                ),
-            );
+            doubt(name, format!("responds by {:e} to rounding, and by {:e} before", responses[1], responses[0]));
         }
     }
     doubts
@@ -229,10 +193,7 @@ fn refusal_of(doubts: &[Doubt], allowed: &[String]) -> String {
     for (name, run, why) in doubts.iter().filter(|(name, ..)| !allowed.contains(name)) {
         let _ = writeln!(t, "doubtful: {name} of {run}: {why}");
     }
-    for name in allowed
-        .iter()
-        .filter(|a| doubts.iter().all(|(name, ..)| name != *a))
-    {
+    for name in allowed.iter().filter(|a| doubts.iter().all(|(name, ..)| name != *a)) {
         let _ = writeln!(t, "--allow {name}: nothing of that name is doubtful");
     }
     if !t.is_empty() {
@@ -271,8 +232,7 @@ mod tests {
         runs[3].verdicts.pop();
         let study = CaseStudy::new("cook", runs);
         let told = Candidates::of(&study).unwrap().table();
-        let count =
-            "3 of 4 runs have drifted or have no golden; bookkeeping alone judges 2 of these\n";
+        let count = "3 of 4 runs have drifted or have no golden; bookkeeping alone judges 2 of these\n";
         assert!(told.ends_with(count), "{told}");
     }
 }

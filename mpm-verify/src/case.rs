@@ -237,20 +237,14 @@ pub(crate) struct Plan {
 impl Plan {
     /// An empty plan over `levels`.
     pub(crate) fn of(levels: &[Level]) -> Self {
-        Self {
-            levels: levels.to_vec(),
-            families: Vec::new(),
-        }
+        Self { levels: levels.to_vec(), families: Vec::new() }
     }
 
     /// Adds runs of `schemes` at the levels of these names, apart by spaces, with the parameters `set`, as `name=value` apart by
     /// spaces, from the tier `tier` on.
     pub(crate) fn runs(mut self, tier: Tier, levels: &str, schemes: &[Scheme], set: &str) -> Self {
         // The plan's test finds a level that the case does not have.
-        let unknown = Level {
-            name: "unknown",
-            h: f64::NAN,
-        };
+        let unknown = Level { name: "unknown", h: f64::NAN };
         let level = |name| self.levels.iter().find(|l| l.name == name);
         let levels = levels.split_whitespace().map(level);
         self.families.push(Family {
@@ -270,9 +264,7 @@ impl Plan {
         schemes: &[Scheme],
         sets: impl IntoIterator<Item = S>,
     ) -> Self {
-        sets.into_iter().fold(self, |plan, set| {
-            plan.runs(tier, levels, schemes, set.as_ref())
-        })
+        sets.into_iter().fold(self, |plan, set| plan.runs(tier, levels, schemes, set.as_ref()))
     }
 
     /// The families of runs, in the order in which they were added.
@@ -285,12 +277,7 @@ impl Family {
     fn runs(&self) -> impl Iterator<Item = RunSpec> {
         let of_level = |&level| self.schemes.iter().map(move |&scheme| (level, scheme));
         let pairs = self.levels.iter().flat_map(of_level);
-        pairs.map(|(level, scheme)| RunSpec {
-            scheme,
-            level,
-            set: self.set.clone(),
-            perturbed: false,
-        })
+        pairs.map(|(level, scheme)| RunSpec { scheme, level, set: self.set.clone(), perturbed: false })
     }
 }
 

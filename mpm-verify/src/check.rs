@@ -37,12 +37,7 @@ pub(crate) use checks;
 
 impl Check {
     fn new(kind: Kind, name: &'static str, statement: &'static str, on: On) -> Self {
-        Self {
-            name,
-            kind,
-            statement,
-            on,
-        }
+        Self { name, kind, statement, on }
     }
 
     /// Against an exact value, an independent reference or a law of physics.
@@ -79,17 +74,12 @@ impl Check {
     }
 
     fn verdicts(&self, found: Vec<Finding>) -> Vec<Verdict> {
-        found
-            .into_iter()
-            .map(|f| f.verdict(self.name, self.kind))
-            .collect()
+        found.into_iter().map(|f| f.verdict(self.name, self.kind)).collect()
     }
 }
 
 /// A check on single runs: what it finds, if it says anything of a run.
-pub(crate) fn run<F: IntoIterator<Item = Finding>>(
-    found: impl Fn(&Record) -> F + Send + Sync + 'static,
-) -> On {
+pub(crate) fn run<F: IntoIterator<Item = Finding>>(found: impl Fn(&Record) -> F + Send + Sync + 'static) -> On {
     On::Run(Box::new(move |r| found(r).into_iter().collect()))
 }
 
@@ -100,10 +90,7 @@ pub(crate) fn study(found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 's
 
 /// A metric of a run, to be held against something.
 pub(crate) fn judge(record: &Record, metric: Metric) -> Judged {
-    Judged {
-        metric,
-        value: record.metric(metric),
-    }
+    Judged { metric, value: record.metric(metric) }
 }
 
 /// See [`judge`].
@@ -164,12 +151,7 @@ impl Finding {
     }
 
     /// value ≤ bound.
-    pub(crate) fn at_most(
-        metric: impl Into<String>,
-        value: f64,
-        bound: f64,
-        source: impl Into<String>,
-    ) -> Self {
+    pub(crate) fn at_most(metric: impl Into<String>, value: f64, bound: f64, source: impl Into<String>) -> Self {
         Self {
             metric: metric.into(),
             value: Some(value),
@@ -182,16 +164,8 @@ impl Finding {
     }
 
     /// value > bound.
-    pub(crate) fn above(
-        metric: impl Into<String>,
-        value: f64,
-        bound: f64,
-        source: impl Into<String>,
-    ) -> Self {
-        Self {
-            holds: Some(value > bound),
-            ..Self::at_most(metric, value, bound, source)
-        }
+    pub(crate) fn above(metric: impl Into<String>, value: f64, bound: f64, source: impl Into<String>) -> Self {
+        Self { holds: Some(value > bound), ..Self::at_most(metric, value, bound, source) }
     }
 
     /// The check does not apply, and why: never a pass.
@@ -209,19 +183,15 @@ impl Finding {
 
     /// With what a wrong value is of the order of, where the reference is zero or what is left of two.
     pub(crate) fn of_scale(self, scale: f64) -> Self {
-        Self {
-            scale: Some(scale),
-            ..self
-        }
+        Self { scale: Some(scale), ..self }
     }
 
     /// Why it can't be told that the value is right: the tolerance is as large as what is judged.
     fn too_wide(&self) -> Option<String> {
         let (reference, tolerance) = self.reference.zip(self.tolerance)?;
         let scale = self.scale.unwrap_or(reference.abs());
-        (tolerance > 0.0 && tolerance >= scale).then(|| {
-            format!("a tolerance of {tolerance:.2e} can't tell a value of the order of {scale:.2e} from none")
-        })
+        (tolerance > 0.0 && tolerance >= scale)
+            .then(|| format!("a tolerance of {tolerance:.2e} can't tell a value of the order of {scale:.2e} from none"))
     }
 
     /// As a verdict of a check of some kind.

@@ -95,9 +95,7 @@ fn require_same(a: &Path, b: &Path, about: &str) {
 #[test]
 fn a_run_survives_a_failure_at_every_step() {
     let straight = tempfile::tempdir().unwrap();
-    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, || {
-        make(straight.path())
-    });
+    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, || make(straight.path()));
     made.unwrap();
     assert!(log.len() >= LEAST, "{} steps", log.len());
     for fault in [Fault::Kill, Fault::Full] {
@@ -108,11 +106,7 @@ fn a_run_survives_a_failure_at_every_step() {
             let fails = fault == Fault::Kill || log[at..].iter().any(adds);
             assert_eq!(failed.is_err(), fails, "{fault:?} at {at}: {steps:?}");
             make(folder.path()).unwrap();
-            require_same(
-                folder.path(),
-                straight.path(),
-                &format!("{fault:?} at {at}"),
-            );
+            require_same(folder.path(), straight.path(), &format!("{fault:?} at {at}"));
         }
     }
 }
@@ -129,15 +123,8 @@ fn require_safe_names(log: &[(Step, PathBuf)]) -> usize {
         let name = path.file_name().unwrap().to_str().unwrap();
         let draft = path.with_file_name(format!(".{name}.part"));
         assert_eq!(log[k - 1], (Step::Sync, draft.clone()));
-        let begun = log[..k]
-            .iter()
-            .rposition(|s| *s == (Step::Create, draft.clone()))
-            .unwrap();
-        assert!(
-            log[begun + 1..k - 1]
-                .iter()
-                .all(|s| *s == (Step::Write, draft.clone()))
-        );
+        let begun = log[..k].iter().rposition(|s| *s == (Step::Create, draft.clone())).unwrap();
+        assert!(log[begun + 1..k - 1].iter().all(|s| *s == (Step::Write, draft.clone())));
         assert_eq!(log[k + 1], (Step::SyncFolder, path.clone()));
     }
     renamed
@@ -146,9 +133,7 @@ fn require_safe_names(log: &[(Step, PathBuf)]) -> usize {
 #[test]
 fn a_file_is_safe_before_it_has_its_name() {
     let folder = tempfile::tempdir().unwrap();
-    let (_, log) = on_machine(folder.path(), Fault::Kill, usize::MAX, || {
-        make(folder.path())
-    });
+    let (_, log) = on_machine(folder.path(), Fault::Kill, usize::MAX, || make(folder.path()));
     assert!(require_safe_names(&log) > 3);
 }
 
@@ -167,11 +152,7 @@ fn a_file_is_the_old_or_the_new_one() {
             assert!(written.is_err() || now == b"the new one");
             assert!(log.len() <= 5);
             write_whole(&path, b"the new one").unwrap();
-            assert_eq!(
-                fs::read_dir(folder.path()).unwrap().count(),
-                1,
-                "no draft is left"
-            );
+            assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "no draft is left");
         }
     }
 }
@@ -200,9 +181,7 @@ fn require_whole_report(folder: &Path) {
 #[test]
 fn a_verification_and_its_report_survive_failures() {
     let straight = tempfile::tempdir().unwrap();
-    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, || {
-        verify(straight.path())
-    });
+    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, || verify(straight.path()));
     made.unwrap();
     let names = |folder: &Path| content(folder).into_keys().collect::<Vec<_>>();
     let run = Path::new("runs/cook").join(spec().1.folder());
@@ -216,11 +195,7 @@ fn a_verification_and_its_report_survive_failures() {
         require_whole_report(&folder.path().join("runs"));
         verify(folder.path()).unwrap();
         assert_eq!(names(folder.path()), names(straight.path()));
-        require_same(
-            &folder.path().join(&run),
-            &straight.path().join(&run),
-            "the run",
-        );
+        require_same(&folder.path().join(&run), &straight.path().join(&run), "the run");
     }
 }
 
@@ -230,20 +205,9 @@ fn plan(index: usize, count: usize) -> Plan {
     let run = |shard: usize| {
         let mut set = spec.set.clone();
         set[0] = format!("max_periods=0.0{shard}");
-        PlannedRun {
-            case: case.name.to_owned(),
-            scheme: spec.scheme,
-            level: spec.level.name.to_owned(),
-            set,
-            shard,
-        }
+        PlannedRun { case: case.name.to_owned(), scheme: spec.scheme, level: spec.level.name.to_owned(), set, shard }
     };
-    Plan {
-        schema: 1,
-        tier: "quick".to_owned(),
-        shard: Shard { index, count },
-        runs: (1..=count).map(run).collect(),
-    }
+    Plan { schema: 1, tier: "quick".to_owned(), shard: Shard { index, count }, runs: (1..=count).map(run).collect() }
 }
 
 /// Reports what lies in some folders below `root` in `out`.
@@ -288,9 +252,10 @@ const DEEDS: [Deed; 3] = [
         of: 1,
         prepare: |root| {
             make_folder(&root.join("golden"))?;
-            ["a", "b"].into_iter().zip(1..).try_for_each(|(name, k)| {
-                make_runs(&plan(k, 2), &root.join(name), saving(), 1, &Deaf).map(drop)
-            })
+            ["a", "b"]
+                .into_iter()
+                .zip(1..)
+                .try_for_each(|(name, k)| make_runs(&plan(k, 2), &root.join(name), saving(), 1, &Deaf).map(drop))
         },
         work: |root| report(root, &["a", "b"], "all", None),
     },

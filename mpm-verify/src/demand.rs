@@ -61,14 +61,8 @@ pub(crate) struct Quantity<P> {
 
 impl<P> Quantity<P> {
     /// A number that follows from the run.
-    pub(crate) fn new(
-        name: impl Into<String>,
-        value: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
-    ) -> Self {
-        Self {
-            name: name.into(),
-            value: Box::new(value),
-        }
+    pub(crate) fn new(name: impl Into<String>, value: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static) -> Self {
+        Self { name: name.into(), value: Box::new(value) }
     }
 
     /// The absolute value of a metric.
@@ -84,10 +78,7 @@ impl<P> From<Metric> for Quantity<P> {
 }
 
 enum Bound<P> {
-    Within {
-        reference: Of<P, f64>,
-        tolerance: Of<P, f64>,
-    },
+    Within { reference: Of<P, f64>, tolerance: Of<P, f64> },
     AtMost(Of<P, f64>),
     Above(Of<P, f64>),
 }
@@ -120,13 +111,7 @@ pub(crate) struct Demand<P> {
 
 impl<P: ParameterSet> Demand<P> {
     fn new(quantity: Quantity<P>, bound: Bound<P>) -> Self {
-        Self {
-            quantity,
-            bound,
-            scale: None,
-            gates: Vec::new(),
-            why: None,
-        }
+        Self { quantity, bound, scale: None, gates: Vec::new(), why: None }
     }
 
     /// |quantity − reference| ≤ tolerance.
@@ -136,13 +121,7 @@ impl<P: ParameterSet> Demand<P> {
         tolerance: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
     ) -> Self {
         let (reference, tolerance) = (Box::new(reference), Box::new(tolerance));
-        Self::new(
-            quantity.into(),
-            Bound::Within {
-                reference,
-                tolerance,
-            },
-        )
+        Self::new(quantity.into(), Bound::Within { reference, tolerance })
     }
 
     /// quantity ≤ bound.
@@ -168,10 +147,7 @@ impl<P: ParameterSet> Demand<P> {
     }
 
     /// Does not judge this quantity where there is a reason.
-    pub(crate) fn unless(
-        mut self,
-        reason: impl Fn(&Run<P>) -> Option<String> + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn unless(mut self, reason: impl Fn(&Run<P>) -> Option<String> + Send + Sync + 'static) -> Self {
         self.gates.push(Gate::Unless(Box::new(reason)));
         self
     }
@@ -179,22 +155,13 @@ impl<P: ParameterSet> Demand<P> {
     /// The magnitude of a wrong value, where the reference is zero or a difference.
     pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static) -> Self {
         let scale: Of<P, f64> = Box::new(scale);
-        Self {
-            scale: Some(scale),
-            ..self
-        }
+        Self { scale: Some(scale), ..self }
     }
 
     /// The source of reference and tolerance, where it differs from that of the check.
-    pub(crate) fn because_of(
-        self,
-        why: impl Fn(&Run<P>) -> String + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn because_of(self, why: impl Fn(&Run<P>) -> String + Send + Sync + 'static) -> Self {
         let why: Of<P, String> = Box::new(why);
-        Self {
-            why: Some(why),
-            ..self
-        }
+        Self { why: Some(why), ..self }
     }
 
     fn finding(&self, run: &Run<P>, why: &str) -> Option<Finding> {
@@ -208,10 +175,7 @@ impl<P: ParameterSet> Demand<P> {
         let why = own.unwrap_or_else(|| why.to_owned());
         let value = (self.quantity.value)(run);
         let found = match &self.bound {
-            Bound::Within {
-                reference,
-                tolerance,
-            } => Finding::within(name, value, reference(run), tolerance(run), why),
+            Bound::Within { reference, tolerance } => Finding::within(name, value, reference(run), tolerance(run), why),
             Bound::AtMost(bound) => Finding::at_most(name, value, bound(run), why),
             Bound::Above(bound) => Finding::above(name, value, bound(run), why),
         };
@@ -237,19 +201,9 @@ enum Subject<P> {
     /// Quantities of one run.
     Run(Vec<Demand<P>>),
     /// The observed order of a metric over the runs of each scheme: name, metric, and the formal order.
-    Order {
-        name: Names<P>,
-        metric: Metric,
-        over: Over,
-        formal: f64,
-    },
+    Order { name: Names<P>, metric: Metric, over: Over, formal: f64 },
     /// A number of two runs: the partner of the first, the number by name, and its demand on the first run.
-    Pair {
-        partner: PartnerOf<P>,
-        name: PairName<P>,
-        value: PairValue<P>,
-        bound: Bound<P>,
-    },
+    Pair { partner: PartnerOf<P>, name: PairName<P>, value: PairValue<P>, bound: Bound<P> },
     /// Findings of a function of its own.
     Study(Box<dyn Fn(&[Record]) -> Vec<Finding> + Send + Sync>),
     /// Findings of a function of its own, of one run.
@@ -311,10 +265,7 @@ impl<P: ParameterSet> CheckOf<P> {
     }
 
     /// Does not judge a run where there is a reason.
-    pub(crate) fn unless(
-        mut self,
-        reason: impl Fn(&Run<P>) -> Option<String> + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn unless(mut self, reason: impl Fn(&Run<P>) -> Option<String> + Send + Sync + 'static) -> Self {
         self.gates.push(Gate::Unless(Box::new(reason)));
         self
     }
@@ -359,10 +310,7 @@ impl<P: ParameterSet> CheckOf<P> {
     /// The magnitude of a wrong value, where the reference is zero or a difference.
     pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static) -> Self {
         let scale: Of<P, f64> = Box::new(scale);
-        Self {
-            scale: Some(scale),
-            ..self
-        }
+        Self { scale: Some(scale), ..self }
     }
 
     /// The order of `metric` is at least the `formal` one less [`SLACK`], over the three finest runs of each scheme among those
@@ -373,20 +321,12 @@ impl<P: ParameterSet> CheckOf<P> {
             Over::TimeStep => format!("order in Δt of {}", metric.name),
         };
         let name: Names<P> = Box::new(move |r| format!("{of} of {}", r.scheme));
-        let subject = Subject::Order {
-            name,
-            metric,
-            over,
-            formal,
-        };
+        let subject = Subject::Order { name, metric, over, formal };
         Self { subject, ..self }
     }
 
     /// The same with another name of the quantity.
-    pub(crate) fn named(
-        mut self,
-        named: impl Fn(&Run<P>) -> String + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn named(mut self, named: impl Fn(&Run<P>) -> String + Send + Sync + 'static) -> Self {
         if let Subject::Order { name, .. } = &mut self.subject {
             *name = Box::new(named);
         }
@@ -394,30 +334,18 @@ impl<P: ParameterSet> CheckOf<P> {
     }
 
     /// Each run that passes `when` beside the first other run that is its `partner`.
-    pub(crate) fn pairs(
-        self,
-        partner: impl Fn(&Run<P>, &Run<P>) -> bool + Send + Sync + 'static,
-    ) -> PairsOf<P> {
-        PairsOf {
-            check: self,
-            partner: Box::new(partner),
-        }
+    pub(crate) fn pairs(self, partner: impl Fn(&Run<P>, &Run<P>) -> bool + Send + Sync + 'static) -> PairsOf<P> {
+        PairsOf { check: self, partner: Box::new(partner) }
     }
 
     /// Findings of a function on one run.
-    pub(crate) fn own(
-        self,
-        found: impl Fn(&Run<P>) -> Vec<Finding> + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn own(self, found: impl Fn(&Run<P>) -> Vec<Finding> + Send + Sync + 'static) -> Self {
         let subject = Subject::Own(Box::new(found));
         Self { subject, ..self }
     }
 
     /// Findings of a function on all runs of the case.
-    pub(crate) fn study(
-        self,
-        found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn study(self, found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static) -> Self {
         let subject = Subject::Study(Box::new(found));
         Self { subject, ..self }
     }
@@ -428,10 +356,7 @@ impl<P: ParameterSet> CheckOf<P> {
     }
 
     /// The source of reference and tolerance, by run.
-    pub(crate) fn because_of(
-        mut self,
-        why: impl Fn(&Run<P>) -> String + Send + Sync + 'static,
-    ) -> Check {
+    pub(crate) fn because_of(mut self, why: impl Fn(&Run<P>) -> String + Send + Sync + 'static) -> Check {
         self.why = Box::new(why);
         self.into()
     }
@@ -460,8 +385,7 @@ impl<P: ParameterSet> CheckOf<P> {
     /// The runs that pass `when`.
     fn runs<'a>(&self, records: &'a [Record]) -> Vec<Run<'a, P>> {
         let runs = records.iter().filter_map(Run::of);
-        runs.filter(|r| Gate::stops(&self.gates, r).is_none())
-            .collect()
+        runs.filter(|r| Gate::stops(&self.gates, r).is_none()).collect()
     }
 
     fn orders(
@@ -482,18 +406,10 @@ impl<P: ParameterSet> CheckOf<P> {
         let found = ladders.into_values().filter_map(|mut ladder| {
             ladder.sort_by(|a, b| b.0.total_cmp(&a.0));
             let finest = ladder.get(ladder.len().checked_sub(DECIDING)?..)?;
-            let points: Vec<_> = finest
-                .iter()
-                .map(|(at, r)| (*at, r.metric(metric)))
-                .collect();
+            let points: Vec<_> = finest.iter().map(|(at, r)| (*at, r.metric(metric))).collect();
             let order = fit_order(&points).map_or(f64::NAN, |o| o.order);
             let run = ladder[0].1;
-            Some(Finding::above(
-                name(run),
-                order,
-                formal - SLACK,
-                (self.why)(run),
-            ))
+            Some(Finding::above(name(run), order, formal - SLACK, (self.why)(run)))
         });
         found.collect()
     }
@@ -509,10 +425,9 @@ impl<P: ParameterSet> CheckOf<P> {
             let other = all.iter().find(|other| partner(&run, other))?;
             let (name, value, why) = (name(&run, other), value(&run, other), (self.why)(&run));
             let found = match bound {
-                Bound::Within {
-                    reference,
-                    tolerance,
-                } => Finding::within(name, value, reference(&run), tolerance(&run), why),
+                Bound::Within { reference, tolerance } => {
+                    Finding::within(name, value, reference(&run), tolerance(&run), why)
+                }
                 Bound::AtMost(bound) => Finding::at_most(name, value, bound(&run), why),
                 Bound::Above(bound) => Finding::above(name, value, bound(&run), why),
             };
@@ -536,16 +451,8 @@ impl<P: ParameterSet> PairsOf<P> {
         bound: Bound<P>,
     ) -> CheckOf<P> {
         let (partner, name, value) = (self.partner, Box::new(name), Box::new(value));
-        let subject = Subject::Pair {
-            partner,
-            name,
-            value,
-            bound,
-        };
-        CheckOf {
-            subject,
-            ..self.check
-        }
+        let subject = Subject::Pair { partner, name, value, bound };
+        CheckOf { subject, ..self.check }
     }
 
     /// value ≤ bound, by the name, the value of run and partner, and the bound of the run.
@@ -577,14 +484,7 @@ impl<P: ParameterSet> PairsOf<P> {
         tolerance: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
     ) -> CheckOf<P> {
         let (reference, tolerance) = (Box::new(reference), Box::new(tolerance));
-        self.bound(
-            name,
-            value,
-            Bound::Within {
-                reference,
-                tolerance,
-            },
-        )
+        self.bound(name, value, Bound::Within { reference, tolerance })
     }
 }
 
@@ -604,28 +504,15 @@ impl<P: ParameterSet> From<CheckOf<P>> for Check {
                 }
             })),
             _ => On::Study(Box::new(move |records| match &check.subject {
-                Subject::Order {
-                    name,
-                    metric,
-                    over,
-                    formal,
-                } => check.orders(records, (name, *metric), (*over, *formal)),
-                Subject::Pair {
-                    partner,
-                    name,
-                    value,
-                    bound,
-                } => check.pair(records, (partner, name), (value, bound)),
+                Subject::Order { name, metric, over, formal } => {
+                    check.orders(records, (name, *metric), (*over, *formal))
+                }
+                Subject::Pair { partner, name, value, bound } => check.pair(records, (partner, name), (value, bound)),
                 Subject::Study(found) => found(records),
                 _ => Vec::new(),
             })),
         };
-        Self {
-            name,
-            kind,
-            statement,
-            on,
-        }
+        Self { name, kind, statement, on }
     }
 }
 

@@ -9,8 +9,7 @@ const LONGEST: usize = 3000;
 /// Whether a character has no place in a line of text: it moves the cursor, turns the direction of reading or is not seen.
 #[must_use]
 pub fn is_unfit(c: char) -> bool {
-    let unseen =
-        matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}');
+    let unseen = matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}');
     c.is_control() || unseen || matches!(c, '\u{feff}' | '\u{fffe}' | '\u{ffff}')
 }
 
@@ -97,19 +96,12 @@ pub enum Error {
 impl Error {
     /// A file error.
     pub fn file(path: &Path, cause: impl ToString) -> Self {
-        Self::File {
-            path: path.to_path_buf(),
-            cause: cause.to_string(),
-        }
+        Self::File { path: path.to_path_buf(), cause: cause.to_string() }
     }
 
     /// "unknown {kind} "{given}"; allowed: …".
     #[must_use]
-    pub fn unknown<'a>(
-        kind: &str,
-        given: &str,
-        allowed: impl IntoIterator<Item = &'a str>,
-    ) -> Self {
+    pub fn unknown<'a>(kind: &str, given: &str, allowed: impl IntoIterator<Item = &'a str>) -> Self {
         mpm_exact::Error::unknown(kind, given, allowed).into()
     }
 }

@@ -40,11 +40,7 @@ pub(crate) struct Panel<'a> {
 impl<'a> Panel<'a> {
     /// Without curves, on linear axes with the labels of x and y.
     pub(crate) fn new(title: impl Into<String>, labels: [&str; 2]) -> Self {
-        Self {
-            chart: Chart::new(title, labels, Vec::new()),
-            runs: Vec::new(),
-            last: 0,
-        }
+        Self { chart: Chart::new(title, labels, Vec::new()), runs: Vec::new(), last: 0 }
     }
 
     /// On a logarithmic abscissa.
@@ -141,17 +137,9 @@ impl<'a> Panel<'a> {
         self.begin();
         for run in runs {
             let name = name(run);
-            let known = self.chart.series[self.last..]
-                .iter()
-                .position(|s| s.name == name);
+            let known = self.chart.series[self.last..].iter().position(|s| s.name == name);
             if known.is_none() {
-                self.push(
-                    Some(run),
-                    Series {
-                        name,
-                        ..series(run.scheme(), Vec::new())
-                    },
-                );
+                self.push(Some(run), Series { name, ..series(run.scheme(), Vec::new()) });
             }
             let place = known.map_or(self.runs.len() - 1, |k| self.last + k);
             self.chart.series[place].points.push(point(run));
@@ -217,38 +205,22 @@ impl<'a> Panel<'a> {
     }
 
     /// An exact curve, sampled over a range of the abscissa: dotted and black.
-    pub(crate) fn exact(
-        self,
-        name: &str,
-        range: RangeInclusive<f64>,
-        value: impl Fn(f64) -> f64,
-    ) -> Self {
+    pub(crate) fn exact(self, name: &str, range: RangeInclusive<f64>, value: impl Fn(f64) -> f64) -> Self {
         let points = sampled(range, value);
-        self.curve(Series {
-            dash: Dash::Dotted,
-            ..Series::line(name, points, BLACK)
-        })
+        self.curve(Series { dash: Dash::Dotted, ..Series::line(name, points, BLACK) })
     }
 
     /// A reference at some abscissae: dashed and grey, with markers.
     pub(crate) fn reference(self, name: impl Into<String>, points: Points) -> Self {
-        self.curve(Series {
-            marker: Marker::Circle,
-            dash: Dash::Dashed,
-            ..Series::line(name, points, GREY)
-        })
+        self.curve(Series { marker: Marker::Circle, dash: Dash::Dashed, ..Series::line(name, points, GREY) })
     }
 
     /// The line of equal abscissa and ordinate over the curves so far, beneath them.
     pub(crate) fn identity(mut self, name: &str, colour: usize) -> Self {
         let all = self.chart.series.iter().flat_map(|s| &s.points);
-        let ends = all.fold((f64::INFINITY, 0.0_f64), |(lo, hi), p| {
-            (lo.min(p.0), hi.max(p.0))
-        });
+        let ends = all.fold((f64::INFINITY, 0.0_f64), |(lo, hi), p| (lo.min(p.0), hi.max(p.0)));
         let line = vec![(ends.0, ends.0), (ends.1, ends.1)];
-        self.chart
-            .series
-            .insert(0, Series::line(name, line, colour));
+        self.chart.series.insert(0, Series::line(name, line, colour));
         self.runs.insert(0, None);
         self.last += 1;
         self
@@ -270,12 +242,7 @@ impl<'a> Panel<'a> {
     /// The same curves in another range of the ordinate.
     pub(crate) fn zoomed(&self, from: f64, to: f64) -> Self {
         let chart = self.chart.clone();
-        Self {
-            chart,
-            runs: self.runs.clone(),
-            last: self.last,
-        }
-        .y_range(from, to)
+        Self { chart, runs: self.runs.clone(), last: self.last }.y_range(from, to)
     }
 
     /// Whether the axes can show a point.
@@ -294,9 +261,7 @@ impl<'a> Panel<'a> {
     /// The chart; none if no run has a point.
     pub(crate) fn chart(self) -> Option<Chart> {
         let curves = self.chart.series.iter().zip(&self.runs);
-        let mut points = curves
-            .filter(|(_, run)| run.is_some())
-            .flat_map(|(s, _)| &s.points);
+        let mut points = curves.filter(|(_, run)| run.is_some()).flat_map(|(s, _)| &s.points);
         let drawn = points.any(|(x, y)| x.is_finite() && y.is_finite());
         drawn.then_some(self.chart)
     }
@@ -351,26 +316,17 @@ impl<'a> Figure<'a> {
 
     /// Gives all panels the same axes, but for ranges of their own.
     pub(crate) fn share_axes(self) -> Self {
-        Self {
-            shared: Shared::All,
-            ..self
-        }
+        Self { shared: Shared::All, ..self }
     }
 
     /// Gives the panels of each column the same axes.
     pub(crate) fn share_axes_of_columns(self) -> Self {
-        Self {
-            shared: Shared::Columns,
-            ..self
-        }
+        Self { shared: Shared::Columns, ..self }
     }
 
     /// Draws nothing unless every panel has a run.
     pub(crate) fn whole(self) -> Self {
-        Self {
-            whole: true,
-            ..self
-        }
+        Self { whole: true, ..self }
     }
 
     /// Draws the panels that have runs, writes their points and hangs the picture.
@@ -429,20 +385,10 @@ pub(crate) fn below_the_curves<'a>(
         let inside = (0.0..=1.0).contains(&share);
         inside.then(|| y0 * (y1 / y0).powf(share))
     };
-    let crossing = curves
-        .clone()
-        .flat_map(|c| c.windows(2).filter_map(at_left));
-    let right = curves
-        .clone()
-        .flatten()
-        .filter(|p| p.0 >= left)
-        .map(|p| p.1);
+    let crossing = curves.clone().flat_map(|c| c.windows(2).filter_map(at_left));
+    let right = curves.clone().flatten().filter(|p| p.0 >= left).map(|p| p.1);
     let lowest = crossing.chain(right).fold(f64::INFINITY, f64::min);
-    Some(SlopeTriangle {
-        slope,
-        at: (left, lowest / CLEARANCE / 10f64.powf(slope * decades)),
-        decades,
-    })
+    Some(SlopeTriangle { slope, at: (left, lowest / CLEARANCE / 10f64.powf(slope * decades)), decades })
 }
 
 #[cfg(test)]
@@ -457,10 +403,7 @@ mod tests {
         let (left, bottom) = triangle.at;
         let right = left * 10f64.powf(triangle.decades);
         let top = bottom * (right / left).powi(2);
-        assert!(
-            (right - 1.0).abs() < 1e-12 && top < 0.04 / 1.2,
-            "{triangle:?}"
-        );
+        assert!((right - 1.0).abs() < 1e-12 && top < 0.04 / 1.2, "{triangle:?}");
     }
 
     #[test]

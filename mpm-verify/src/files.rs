@@ -38,10 +38,7 @@ impl Mark {
     /// Of these bytes.
     #[must_use]
     pub fn of(content: &[u8]) -> Self {
-        Self {
-            bytes: content.len() as u64,
-            checksum: crc32fast::hash(content),
-        }
+        Self { bytes: content.len() as u64, checksum: crc32fast::hash(content) }
     }
 }
 
@@ -235,12 +232,10 @@ fn unfit(value: &Value) -> Option<&str> {
     match value {
         Value::String(text) => Some(&**text).filter(|t| unfit_text(t)),
         Value::Array(values) => values.iter().find_map(unfit),
-        Value::Object(fields) => fields
-            .iter()
-            .find_map(|(name, value)| match unfit_text(name) {
-                true => Some(&**name),
-                false => unfit(value),
-            }),
+        Value::Object(fields) => fields.iter().find_map(|(name, value)| match unfit_text(name) {
+            true => Some(&**name),
+            false => unfit(value),
+        }),
         _ => None,
     }
 }
@@ -266,10 +261,7 @@ pub(crate) fn rows_text<T: Serialize>(rows: impl IntoIterator<Item = T>) -> csv:
 }
 
 /// A table as CSV.
-pub(crate) fn csv_text(
-    header: &[String],
-    rows: impl IntoIterator<Item = Vec<String>>,
-) -> csv::Result<Vec<u8>> {
+pub(crate) fn csv_text(header: &[String], rows: impl IntoIterator<Item = Vec<String>>) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(header)?;
     for row in rows {
@@ -282,11 +274,7 @@ pub(crate) fn csv_text(
 ///
 /// # Errors
 /// The file can't be written.
-pub fn write_csv(
-    path: &Path,
-    header: &[String],
-    rows: impl IntoIterator<Item = Vec<String>>,
-) -> Result<(), Error> {
+pub fn write_csv(path: &Path, header: &[String], rows: impl IntoIterator<Item = Vec<String>>) -> Result<(), Error> {
     let bytes = csv_text(header, rows).map_err(|e| Error::file(path, e))?;
     write_whole(path, &bytes)
 }

@@ -48,29 +48,13 @@ pub struct Asked {
 
 impl Asked {
     /// A column of the particles.
-    pub(crate) const fn particle(
-        name: &'static str,
-        unit: &'static str,
-        meaning: &'static str,
-    ) -> Self {
-        Self {
-            part: Part::Particles,
-            name,
-            unit,
-            meaning,
-        }
+    pub(crate) const fn particle(name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
+        Self { part: Part::Particles, name, unit, meaning }
     }
 
     /// A column of the series.
-    pub(crate) const fn series(
-        name: &'static str,
-        unit: &'static str,
-        meaning: &'static str,
-    ) -> Self {
-        Self {
-            part: Part::Series,
-            ..Self::particle(name, unit, meaning)
-        }
+    pub(crate) const fn series(name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
+        Self { part: Part::Series, ..Self::particle(name, unit, meaning) }
     }
 
     /// As it stands at the head of a table.
@@ -171,27 +155,18 @@ impl Given {
     ///
     /// # Errors
     /// Others start, or in other places.
-    pub(crate) fn in_order(
-        &self,
-        start: [&Asked; 2],
-        seeded: &[[f64; 2]],
-        spacing: f64,
-    ) -> Result<Vec<usize>, Error> {
+    pub(crate) fn in_order(&self, start: [&Asked; 2], seeded: &[[f64; 2]], spacing: f64) -> Result<Vec<usize>, Error> {
         let part = |x: &[f64; 2]| x.map(|x| (x / spacing).floor() as i64);
         let given = self.points(start);
-        let places: std::collections::HashMap<[i64; 2], usize> =
-            given.iter().map(part).zip(0..).collect();
+        let places: std::collections::HashMap<[i64; 2], usize> = given.iter().map(part).zip(0..).collect();
         let refused = |cause: String| {
             let table = self.tables.iter().find(|(of, ..)| *of == start[0].part);
             let path = table.map_or(Path::new("particles"), |(_, path, _)| path);
             Err(Error::file(path, cause))
         };
         if given.len() != seeded.len() {
-            let said = format!(
-                "{} particles where {} start: those of `export`, in any order",
-                given.len(),
-                seeded.len()
-            );
+            let said =
+                format!("{} particles where {} start: those of `export`, in any order", given.len(), seeded.len());
             return refused(said);
         }
         let mut order = Vec::with_capacity(seeded.len());
@@ -199,8 +174,7 @@ impl Given {
             match places.get(&part(x)) {
                 Some(place) => order.push(*place),
                 None => {
-                    let said =
-                        format!("no particle starts at ({}, {}) m: see `export`", x[0], x[1]);
+                    let said = format!("no particle starts at ({}, {}) m: see `export`", x[0], x[1]);
                     return refused(said);
                 }
             }
@@ -252,14 +226,8 @@ mod tests {
         let case = cases::find("cook").unwrap();
         let spec = case.runs(Tier::Pr).remove(0);
         let column = |head: &str, values: &[f64]| (head.to_owned(), values.to_vec());
-        let particles = vec![
-            column("x0 (m)", &[0.75, 0.25]),
-            column("y0 (m)", &[0.25, -0.25]),
-        ];
-        let series = vec![
-            column(heads[0], &[0.0, 1.0, 2.0]),
-            column(heads[1], &[0.0, 3.0, 5.0]),
-        ];
+        let particles = vec![column("x0 (m)", &[0.75, 0.25]), column("y0 (m)", &[0.25, -0.25])];
+        let series = vec![column(heads[0], &[0.0, 1.0, 2.0]), column(heads[1], &[0.0, 3.0, 5.0])];
         let tables = [(Part::Particles, particles), (Part::Series, series)];
         let table = |(part, columns): (Part, _)| {
             let path = PathBuf::from(part.name()).with_extension("csv");
@@ -267,13 +235,7 @@ mod tests {
         };
         Given {
             parameters: Parameters::new(&case.parameters, &[]).unwrap(),
-            discretisation: Discretisation {
-                dim: 2,
-                h: spec.level.h,
-                ppc: 4,
-                dt: 1.0,
-                wall: String::new(),
-            },
+            discretisation: Discretisation { dim: 2, h: spec.level.h, ppc: 4, dt: 1.0, wall: String::new() },
             spec,
             tables: tables.map(table).into(),
         }
@@ -284,23 +246,14 @@ mod tests {
         let given = given(["time (s)", "force (kN)"]);
         assert_eq!(given.column(&X), [0.75, 0.25]);
         assert_eq!(given.column(&TIME), [0.0, 1.0, 2.0]);
-        let elsewhere = Asked {
-            part: Part::Series,
-            ..X
-        };
+        let elsewhere = Asked { part: Part::Series, ..X };
         for missing in [elsewhere, FORCE] {
             assert!(!given.has(&missing) && given.column(&missing).is_empty());
         }
         assert!(given.has(&X) && given.has(&TIME));
-        assert_eq!(
-            [Part::Particles, Part::Series].map(|p| given.rows(p)),
-            [2, 3]
-        );
+        assert_eq!([Part::Particles, Part::Series].map(|p| given.rows(p)), [2, 3]);
         assert_eq!(given.points([&X, &Y]), [[0.75, 0.25], [0.25, -0.25]]);
-        let none = Given {
-            tables: Vec::new(),
-            ..given
-        };
+        let none = Given { tables: Vec::new(), ..given };
         assert_eq!(none.rows(Part::Series), 0);
     }
 
@@ -309,11 +262,7 @@ mod tests {
         fn nothing(_: &Given) -> Measured {
             Ok(Vec::new())
         }
-        let group = |columns| Group {
-            columns,
-            metrics: Vec::new(),
-            measure: nothing,
-        };
+        let group = |columns| Group { columns, metrics: Vec::new(), measure: nothing };
         let (_, own) = cases::find_scored("cook").unwrap();
         let foreign = Foreign {
             groups: vec![group(&[X, TIME]), group(&[X, Y, FORCE])],
@@ -338,16 +287,10 @@ mod tests {
         assert_eq!(order(&[[0.9, 0.1], [0.1, -0.4]]).unwrap(), [0, 1]);
         for (seeded, why) in [
             (&[[0.25, -0.25]][..], "2 particles where 1 start"),
-            (
-                &[[0.25, -0.25], [0.75, 0.75]],
-                "no particle starts at (0.75, 0.75) m",
-            ),
+            (&[[0.25, -0.25], [0.75, 0.75]], "no particle starts at (0.75, 0.75) m"),
         ] {
             let told = order(seeded).unwrap_err().to_string();
-            assert!(
-                told.contains("particles.csv") && told.contains(why),
-                "{told}"
-            );
+            assert!(told.contains("particles.csv") && told.contains(why), "{told}");
         }
     }
 
@@ -369,11 +312,7 @@ mod tests {
         let rows = |count: usize| {
             let mut given = given(["time (s)", "force (N)"]);
             let column = ("time (s)".to_owned(), vec![0.0; count]);
-            given.tables = vec![(
-                Part::Series,
-                "a.csv".into(),
-                Table::of_columns(vec![column]),
-            )];
+            given.tables = vec![(Part::Series, "a.csv".into(), Table::of_columns(vec![column]))];
             given.require_heads(&[TIME]).map_err(|e| e.to_string())
         };
         for count in [1, MOST_ROWS] {
@@ -381,10 +320,7 @@ mod tests {
         }
         for count in [0, MOST_ROWS + 1] {
             let told = rows(count).unwrap_err();
-            assert!(
-                told.contains(&format!("{count} rows where 1 to {MOST_ROWS}")),
-                "{told}"
-            );
+            assert!(told.contains(&format!("{count} rows where 1 to {MOST_ROWS}")), "{told}");
         }
     }
 }

@@ -49,13 +49,7 @@ impl<'a> Gallery<'a> {
     /// Of runs whose outputs lie in `folder`, for a report in `out`.
     #[must_use]
     pub fn new(case: &'a str, records: &'a [Record], folder: FolderOf<'a>, out: &'a Path) -> Self {
-        Self {
-            case,
-            records,
-            folder,
-            out,
-            pictures: Vec::new(),
-        }
+        Self { case, records, folder, out, pictures: Vec::new() }
     }
 
     /// Reads a table that a run has written.
@@ -110,10 +104,7 @@ impl<'a> Gallery<'a> {
 
     /// Hangs a picture that was drawn at [`Gallery::place`].
     pub fn hang(&mut self, file: &str, caption: impl Into<String>) {
-        self.pictures.push(Picture {
-            file: format!("{}/{file}", self.case),
-            caption: caption.into(),
-        });
+        self.pictures.push(Picture { file: format!("{}/{file}", self.case), caption: caption.into() });
     }
 
     /// The pictures, in the order they were hung.

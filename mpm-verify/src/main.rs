@@ -45,6 +45,5 @@ fn main() -> std::process::ExitCode {
 fn bound_threads(asked: Option<usize>) -> Result<(), Error> {
     let threads = or_all_cores(asked).min(or_all_cores(None));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-    pool.build_global()
-        .map_err(|e| Error::Input(format!("{threads} threads can't be started: {e}")))
+    pool.build_global().map_err(|e| Error::Input(format!("{threads} threads can't be started: {e}")))
 }

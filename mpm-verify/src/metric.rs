@@ -15,16 +15,8 @@ pub struct Metric {
 }
 
 /// A metric by name, unit and meaning.
-pub(crate) const fn metric(
-    name: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
-) -> Metric {
-    Metric {
-        name,
-        unit,
-        meaning,
-    }
+pub(crate) const fn metric(name: &'static str, unit: &'static str, meaning: &'static str) -> Metric {
+    Metric { name, unit, meaning }
 }
 
 /// Metrics by name, unit and meaning, and the list of all: each a constant, or each with where it is measured.
@@ -95,18 +87,12 @@ pub struct Quantity {
 impl Quantity {
     /// Of this order by theory.
     pub(crate) const fn of_order(self, order: f64) -> Self {
-        Self {
-            order: Some(order),
-            ..self
-        }
+        Self { order: Some(order), ..self }
     }
 
     /// Against a reference with this uncertainty.
     pub(crate) const fn known_to(self, uncertainty: f64) -> Self {
-        Self {
-            uncertainty: Some(uncertainty),
-            ..self
-        }
+        Self { uncertainty: Some(uncertainty), ..self }
     }
 }
 
@@ -125,19 +111,10 @@ pub struct Sweep {
 
 /// An error whose convergence is studied, by metric and label.
 pub(crate) const fn error(metric: Metric, label: &'static str) -> Quantity {
-    Quantity {
-        metric,
-        label,
-        is_error: true,
-        order: None,
-        uncertainty: None,
-    }
+    Quantity { metric, label, is_error: true, order: None, uncertainty: None }
 }
 
 /// What is no error, by metric and label.
 pub(crate) const fn value(metric: Metric, label: &'static str) -> Quantity {
-    Quantity {
-        is_error: false,
-        ..error(metric, label)
-    }
+    Quantity { is_error: false, ..error(metric, label) }
 }

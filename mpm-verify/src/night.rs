@@ -16,10 +16,7 @@ pub struct Night {
 /// Whether a text can name a commit: it is shown in pages and stands in cells of tables.
 fn is_commit(text: &str) -> bool {
     let fits = |c: char| c.is_ascii_alphanumeric() || "-_./".contains(c);
-    let first = text
-        .chars()
-        .next()
-        .is_some_and(|c| c.is_ascii_alphanumeric());
+    let first = text.chars().next().is_some_and(|c| c.is_ascii_alphanumeric());
     first && text.len() <= 100 && text.chars().all(fits)
 }
 
@@ -32,16 +29,13 @@ impl Night {
         let refuse = |what: String| Err(Error::Input(what));
         match date.parse() {
             Err(e) => refuse(format!("--night \"{date}\": {e}; allowed: YYYY-MM-DD")),
-            Ok(_) if date.len() != "2026-01-01".len() => refuse(format!(
-                "--night \"{date}\" is not allowed; allowed: YYYY-MM-DD"
-            )),
+            Ok(_) if date.len() != "2026-01-01".len() => {
+                refuse(format!("--night \"{date}\" is not allowed; allowed: YYYY-MM-DD"))
+            }
             Ok(_) if !is_commit(commit) => refuse(format!(
                 "--commit \"{commit}\" is not allowed; allowed: 1 to 100 letters, digits, -, _, . and /, no sign first"
             )),
-            Ok(date) => Ok(Self {
-                date,
-                commit: commit.to_owned(),
-            }),
+            Ok(date) => Ok(Self { date, commit: commit.to_owned() }),
         }
     }
 }

@@ -15,8 +15,7 @@ pub(crate) use crate::parameter::{choices, flag, parameters, real, whole};
 pub(crate) use crate::problem::{Columns, Phase, Problem, Rows};
 pub(crate) use crate::record::{Discretisation, Record, Status};
 pub(crate) use crate::results::{
-    CELLS, Column, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, headline, is_flip, order,
-    percent, scientific, share,
+    CELLS, Column, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, headline, is_flip, order, percent, scientific, share,
 };
 pub(crate) use crate::scheme::BasisName::{Bspline2, Bspline3, Gimp, Linear};
 pub(crate) use crate::scheme::RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal};

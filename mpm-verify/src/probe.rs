@@ -17,20 +17,13 @@ impl PointProbe {
         let near: Vec<(usize, Vector3<f64>)> = references
             .iter()
             .enumerate()
-            .map(|(id, x)| {
-                (
-                    id,
-                    Vector3::new(1.0, (x[0] - at[0]) / radius, (x[1] - at[1]) / radius),
-                )
-            })
+            .map(|(id, x)| (id, Vector3::new(1.0, (x[0] - at[0]) / radius, (x[1] - at[1]) / radius)))
             .filter(|(_, q)| q.y.hypot(q.z) <= 1.0 + 1e-9)
             .collect();
         let normal: Matrix3<f64> = near.iter().map(|(_, q)| q * q.transpose()).sum();
         // The fit's value at the point is its constant term: the first row of the inverse applies.
         let row = normal.try_inverse()?.row(0).transpose();
-        Some(Self {
-            terms: near.iter().map(|(id, q)| (*id, row.dot(q))).collect(),
-        })
+        Some(Self { terms: near.iter().map(|(id, q)| (*id, row.dot(q))).collect() })
     }
 
     /// The value of a field given in seeding order.
@@ -44,11 +37,7 @@ impl PointProbe {
 #[must_use]
 pub fn nearest(references: &[[f64; 2]], at: [f64; 2]) -> usize {
     let distance = |x: &[f64; 2]| (x[0] - at[0]).hypot(x[1] - at[1]);
-    references
-        .iter()
-        .enumerate()
-        .min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))
-        .map_or(0, |(id, _)| id)
+    references.iter().enumerate().min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b))).map_or(0, |(id, _)| id)
 }
 
 #[cfg(test)]
@@ -56,9 +45,7 @@ mod tests {
     use super::*;
 
     fn lattice() -> Vec<[f64; 2]> {
-        (0..100)
-            .map(|k| [f64::from(k % 10) * 0.5, f64::from(k / 10) * 0.5])
-            .collect()
+        (0..100).map(|k| [f64::from(k % 10) * 0.5, f64::from(k / 10) * 0.5]).collect()
     }
 
     #[test]
@@ -75,10 +62,7 @@ mod tests {
     #[test]
     fn too_few_particles_give_no_probe() {
         assert_eq!(PointProbe::new(&lattice(), [50.0, 50.0], 1.0), None);
-        assert_eq!(
-            PointProbe::new(&[[0.0, 0.0], [1.0, 1.0]], [0.0, 0.0], 2.0),
-            None
-        );
+        assert_eq!(PointProbe::new(&[[0.0, 0.0], [1.0, 1.0]], [0.0, 0.0], 2.0), None);
     }
 
     #[test]

@@ -23,11 +23,7 @@ pub struct Phase<const D: usize> {
 
 impl<const D: usize> Phase<D> {
     pub(crate) fn new(run: Box<dyn Simulation<D>>) -> Self {
-        Self {
-            run,
-            before: WorkDone::default(),
-            pulse: Arc::default(),
-        }
+        Self { run, before: WorkDone::default(), pulse: Arc::default() }
     }
 
     pub(crate) fn before(&self) -> WorkDone {
@@ -58,11 +54,7 @@ impl<const D: usize> Phase<D> {
     ///
     /// # Errors
     /// The body is not one of the same particles, basis, remedy, transfer and kind of law.
-    pub fn enter(
-        &mut self,
-        mut next: Box<dyn Simulation<D>>,
-        body: Option<&Saved>,
-    ) -> Result<(), mpm_core::Error> {
+    pub fn enter(&mut self, mut next: Box<dyn Simulation<D>>, body: Option<&Saved>) -> Result<(), mpm_core::Error> {
         if let Some(body) = body {
             next.take_over(body)?;
         }
@@ -153,11 +145,7 @@ impl<const D: usize, P: Problem<D>> Driver<D, P> {
     pub fn new(problem: P) -> Result<Self, Error> {
         let seen = problem.unseen();
         let phase = Phase::new(problem.begin(&seen)?);
-        Ok(Self {
-            problem,
-            seen,
-            phase,
-        })
+        Ok(Self { problem, seen, phase })
     }
 
     /// Observations so far.
@@ -234,10 +222,7 @@ impl<const D: usize, P: Problem<D>> Job for Driver<D, P> {
 
 /// A metric as a record has it: a value that is not finite is missing.
 pub(crate) fn measured((metric, value): (Metric, f64)) -> (String, Measured) {
-    let measured = Measured {
-        value: value.is_finite().then_some(value),
-        unit: metric.unit.to_owned(),
-    };
+    let measured = Measured { value: value.is_finite().then_some(value), unit: metric.unit.to_owned() };
     (metric.name.to_owned(), measured)
 }
 
@@ -262,14 +247,12 @@ impl Rows {
         if self.values.is_empty() {
             let Row(first) = observe(phase.run.as_mut());
             self.names = first.iter().map(|(name, _)| (*name).to_owned()).collect();
-            self.values
-                .push(first.into_iter().map(|(_, value)| value).collect());
+            self.values.push(first.into_iter().map(|(_, value)| value).collect());
         }
         let to = (self.values.len() as u64 * steps).div_ceil(rows);
         phase.steps(to - phase.run.work().steps)?;
         let row = observe(phase.run.as_mut());
-        self.values
-            .push(row.0.iter().map(|(_, value)| *value).collect());
+        self.values.push(row.0.iter().map(|(_, value)| *value).collect());
         Ok(row)
     }
 
@@ -354,12 +337,7 @@ impl<'a, const D: usize> Columns<'a, D> {
     }
 
     /// A column whose `values` are in seeding order.
-    pub(crate) fn seeded(
-        mut self,
-        name: &'static str,
-        unit: &'static str,
-        values: Vec<f64>,
-    ) -> Self {
+    pub(crate) fn seeded(mut self, name: &'static str, unit: &'static str, values: Vec<f64>) -> Self {
         self.columns.push(Column { name, unit, values });
         self
     }

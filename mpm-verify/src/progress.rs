@@ -82,17 +82,10 @@ impl Teller {
 /// How far a run has come in so many seconds, and what is left of it at the rate at which this machine went.
 pub(crate) fn so_far(now: Progress, seconds: f64) -> String {
     let rate = now.steps as f64 / seconds;
-    let mut text = format!(
-        "step {}, t = {:.4e} s, {rate:.0} steps/s",
-        now.steps, now.time
-    );
+    let mut text = format!("step {}, t = {:.4e} s, {rate:.0} steps/s", now.steps, now.time);
     if now.share > 0.0 {
         let left = seconds * (1.0 / now.share - 1.0);
-        text += &format!(
-            ", {:.0} %, at most {} left",
-            100.0 * now.share,
-            lasting(left)
-        );
+        text += &format!(", {:.0} %, at most {} left", 100.0 * now.share, lasting(left));
     }
     text
 }
@@ -122,14 +115,7 @@ impl Runs {
         if !(terminal && shown) {
             bars.set_draw_target(ProgressDrawTarget::hidden());
         }
-        Self {
-            running: Mutex::new(vec![None; names.len()]),
-            ended: Mutex::new(0),
-            names,
-            bars,
-            terminal,
-            shown,
-        }
+        Self { running: Mutex::new(vec![None; names.len()]), ended: Mutex::new(0), names, bars, terminal, shown }
     }
 
     pub(crate) fn finish(&self) {
@@ -154,18 +140,13 @@ impl Runs {
 impl Listener for Runs {
     fn progress(&self, run: usize, share: f64) {
         if let Ok(mut running) = self.running.lock() {
-            let bar = running[run]
-                .get_or_insert_with(|| self.bars.add(single(&self.names[run], self.shown)));
+            let bar = running[run].get_or_insert_with(|| self.bars.add(single(&self.names[run], self.shown)));
             bar.set_position((share * SCALE) as u64);
         }
     }
 
     fn begins_again(&self, run: usize, why: &Error) {
-        self.say(&format!(
-            "{}  begins again: {}",
-            self.names[run],
-            one_line(&why.to_string())
-        ));
+        self.say(&format!("{}  begins again: {}", self.names[run], one_line(&why.to_string())));
     }
 
     fn ended(&self, run: usize, record: &Record) {

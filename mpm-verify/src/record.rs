@@ -207,10 +207,7 @@ impl Version {
     /// Of this program.
     #[must_use]
     pub fn current() -> Self {
-        Self {
-            mpm_verify: env!("CARGO_PKG_VERSION").to_owned(),
-            source: env!("MPM_SOURCE_FINGERPRINT").to_owned(),
-        }
+        Self { mpm_verify: env!("CARGO_PKG_VERSION").to_owned(), source: env!("MPM_SOURCE_FINGERPRINT").to_owned() }
     }
 }
 

@@ -26,45 +26,26 @@ pub struct Format {
 
 /// With so many decimals.
 pub(crate) const fn fixed(decimals: usize) -> Format {
-    Format {
-        factor: 1.0,
-        decimals,
-        signed: false,
-        notation: Notation::Fixed,
-        unit: "",
-    }
+    Format { factor: 1.0, decimals, signed: false, notation: Notation::Fixed, unit: "" }
 }
 
 /// A difference in per cent, with its sign.
 pub(crate) const fn percent(decimals: usize) -> Format {
-    Format {
-        signed: true,
-        ..share(decimals)
-    }
+    Format { signed: true, ..share(decimals) }
 }
 
 /// A share in per cent.
 pub(crate) const fn share(decimals: usize) -> Format {
-    Format {
-        factor: 100.0,
-        unit: " %",
-        ..fixed(decimals)
-    }
+    Format { factor: 100.0, unit: " %", ..fixed(decimals) }
 }
 
 /// As a power of ten, with so many decimals before it.
 pub(crate) const fn scientific(decimals: usize) -> Format {
-    Format {
-        notation: Notation::Scientific,
-        ..fixed(decimals)
-    }
+    Format { notation: Notation::Scientific, ..fixed(decimals) }
 }
 
 /// With two decimals, or as a power of ten where they would say little or too much.
-pub(crate) const SHORT: Format = Format {
-    notation: Notation::Short,
-    ..fixed(2)
-};
+pub(crate) const SHORT: Format = Format { notation: Notation::Short, ..fixed(2) };
 
 impl Format {
     /// Times a factor: that from the metric's unit to the column's.
@@ -74,10 +55,7 @@ impl Format {
 
     /// With its sign.
     pub(crate) const fn signed(self) -> Self {
-        Self {
-            signed: true,
-            ..self
-        }
+        Self { signed: true, ..self }
     }
 
     /// Followed by a unit.
@@ -130,23 +108,13 @@ pub(crate) fn headline(metric: Metric, title: &str, factor: f64, decimals: usize
         0..=5 => fixed(decimals),
         _ => scientific(2),
     };
-    Column {
-        metric: Some(metric),
-        ..Column::metric(title, metric, format.times(factor))
-    }
+    Column { metric: Some(metric), ..Column::metric(title, metric, format.times(factor)) }
 }
 
 impl Column {
     /// What is said of a run, in words.
-    pub(crate) fn text(
-        title: impl Into<String>,
-        text: impl Fn(&Record) -> String + Send + Sync + 'static,
-    ) -> Self {
-        Self {
-            title: title.into(),
-            metric: None,
-            cell: Cell::Run(Box::new(|_| true), Box::new(text)),
-        }
+    pub(crate) fn text(title: impl Into<String>, text: impl Fn(&Record) -> String + Send + Sync + 'static) -> Self {
+        Self { title: title.into(), metric: None, cell: Cell::Run(Box::new(|_| true), Box::new(text)) }
     }
 
     /// A number of a run.
@@ -168,11 +136,7 @@ impl Column {
         title: impl Into<String>,
         text: impl Fn(&[&Record], &[&Record]) -> String + Send + Sync + 'static,
     ) -> Self {
-        Self {
-            title: title.into(),
-            metric: None,
-            cell: Cell::Row(Box::new(text)),
-        }
+        Self { title: title.into(), metric: None, cell: Cell::Row(Box::new(text)) }
     }
 
     /// The same of one run among those of the row.
@@ -203,10 +167,7 @@ impl Column {
 
     /// The same with another title.
     pub(crate) fn titled(self, title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            ..self
-        }
+        Self { title: title.into(), ..self }
     }
 
     /// A metric at each of `levels`, by name and title.
@@ -215,8 +176,7 @@ impl Column {
         metric: Metric,
         format: Format,
     ) -> Vec<Self> {
-        let column =
-            |(level, title)| Self::metric(title, metric, format).of(move |r| r.level == level);
+        let column = |(level, title)| Self::metric(title, metric, format).of(move |r| r.level == level);
         levels.into_iter().map(column).collect()
     }
 
@@ -293,9 +253,7 @@ impl ResultTable {
         shows: impl Fn(&Record) -> bool + Send + Sync + 'static,
         text: fn(&Record) -> String,
     ) -> Self {
-        let column = |&remedy: &RemedyName| {
-            Column::text(remedy.text(), text).of(move |r| r.remedy() == remedy)
-        };
+        let column = |&remedy: &RemedyName| Column::text(remedy.text(), text).of(move |r| r.remedy() == remedy);
         Self::new(name, shows, &[BASIS], remedies.iter().map(column))
     }
 
@@ -306,18 +264,12 @@ impl ResultTable {
 
     /// Shows rows as columns.
     pub(crate) fn across(self) -> Self {
-        Self {
-            across: true,
-            ..self
-        }
+        Self { across: true, ..self }
     }
 
     /// The table of some runs, by case, scheme, level and what they change, and those that it tells of. A cell that has no
     /// run is empty; a run that has broken down is told once.
-    pub(crate) fn fill<'a>(
-        &self,
-        records: impl IntoIterator<Item = &'a Record>,
-    ) -> (Sheet, Vec<&'a Record>) {
+    pub(crate) fn fill<'a>(&self, records: impl IntoIterator<Item = &'a Record>) -> (Sheet, Vec<&'a Record>) {
         let shown = records.into_iter().filter(|r| (self.shows)(r));
         let mut shown: Vec<&Record> = shown.collect();
         let cases = distinct(shown.iter().map(|r| &r.case));
@@ -328,8 +280,7 @@ impl ResultTable {
             let key = place(a).cmp(&place(b)).then(h(b).total_cmp(&h(a)));
             key.then_with(|| a.set.cmp(&b.set))
         });
-        let label =
-            |r: &Record| -> Vec<String> { self.labels.iter().map(|(_, of)| of(r)).collect() };
+        let label = |r: &Record| -> Vec<String> { self.labels.iter().map(|(_, of)| of(r)).collect() };
         let titles = self.labels.iter().map(|(title, _)| (*title).to_owned());
         let head = titles.chain(self.columns.iter().map(|c| c.title.clone()));
         let (mut sheet, mut told) = (Sheet::new(head), Vec::new());
@@ -366,8 +317,7 @@ impl ResultTable {
                 let Status::Failed = run.status else {
                     return text(run);
                 };
-                let again =
-                    broken.replace(std::ptr::from_ref(run)) == Some(std::ptr::from_ref(run));
+                let again = broken.replace(std::ptr::from_ref(run)) == Some(std::ptr::from_ref(run));
                 if again { String::new() } else { breakdown(run) }
             }
         });
@@ -404,16 +354,7 @@ mod tests {
             SHORT.text(1234.0),
             fixed(0).text(f64::NAN),
         ];
-        let expected = [
-            "−1.00",
-            "+1.2 %",
-            "46 %",
-            "25.5 mm",
-            "−1.2e−3",
-            "0.50",
-            "1.2e3",
-            "–",
-        ];
+        let expected = ["−1.00", "+1.2 %", "46 %", "25.5 mm", "−1.2e−3", "0.50", "1.2e3", "–"];
         assert_eq!(shown, expected);
     }
 
@@ -421,15 +362,11 @@ mod tests {
     fn rows_group_runs_columns_pick_them_and_gaps_stay_empty() {
         let runs = ["h2", "h1"].map(|level| record(level, Vec::new()));
         let particles = |r: &Record| r.work.particles as f64;
-        let columns = ["h1", "h0.5"]
-            .map(|level| Column::value(level, particles, fixed(0)).of(move |r| r.level == level));
-        let table =
-            |columns: Vec<Column>| ResultTable::new("t", |_: &Record| true, &[SCHEME], columns);
+        let columns =
+            ["h1", "h0.5"].map(|level| Column::value(level, particles, fixed(0)).of(move |r| r.level == level));
+        let table = |columns: Vec<Column>| ResultTable::new("t", |_: &Record| true, &[SCHEME], columns);
         let (sheet, told) = table(columns.into()).fill(&runs);
-        assert_eq!(
-            sheet.markdown(),
-            "| scheme | h1 | h0.5 |\n|---|---|---|\n| gimp none | 1 |  |\n"
-        );
+        assert_eq!(sheet.markdown(), "| scheme | h1 | h0.5 |\n|---|---|---|\n| gimp none | 1 |  |\n");
         assert_eq!(told.iter().map(|r| &*r.level).collect::<Vec<_>>(), ["h1"]);
         let nothing = [Column::text("", |_| String::new())];
         assert!(table(nothing.into()).least(1).fill(&runs).0.rows.is_empty());

@@ -134,10 +134,7 @@ impl<P> Setup<P> {
     }
 
     /// Initial positions (m) of particles seeded at `positions`: these, or, in a perturbed run, the next floating-point numbers.
-    pub fn start_at<const D: usize>(
-        &self,
-        positions: impl IntoIterator<Item = [f64; D]>,
-    ) -> Vec<[f64; D]> {
+    pub fn start_at<const D: usize>(&self, positions: impl IntoIterator<Item = [f64; D]>) -> Vec<[f64; D]> {
         crate::spec::start_at(positions.into_iter().collect(), self.perturbed)
     }
 }

@@ -52,17 +52,10 @@ impl RunSpec {
 
 /// Initial positions (m) of particles seeded at `positions`: these, or, if `perturbed`, the next floating-point numbers above
 /// and below in turn.
-pub(crate) fn start_at<const D: usize>(
-    mut positions: Vec<[f64; D]>,
-    perturbed: bool,
-) -> Vec<[f64; D]> {
+pub(crate) fn start_at<const D: usize>(mut positions: Vec<[f64; D]>, perturbed: bool) -> Vec<[f64; D]> {
     if perturbed {
         for (k, x) in positions.iter_mut().flatten().enumerate() {
-            *x = if k % 3 == 0 {
-                x.next_up()
-            } else {
-                x.next_down()
-            };
+            *x = if k % 3 == 0 { x.next_up() } else { x.next_down() };
         }
     }
     positions

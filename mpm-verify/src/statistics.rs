@@ -37,11 +37,7 @@ pub fn fit_line(points: &[(f64, f64)]) -> Option<Line> {
         slope,
         slope_error: (residual / (n - 2.0) / sxx).sqrt(),
         intercept: my - slope * mx,
-        r_squared: if syy > 0.0 {
-            sxy * sxy / (sxx * syy)
-        } else {
-            1.0
-        },
+        r_squared: if syy > 0.0 { sxy * sxy / (sxx * syy) } else { 1.0 },
     })
 }
 
@@ -69,15 +65,10 @@ mod tests {
     #[test]
     fn a_line_is_recovered_and_scatter_lowers_r_squared() {
         let exact = fit_line(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]).unwrap();
-        assert_eq!(
-            (exact.slope, exact.intercept, exact.r_squared),
-            (2.0, 1.0, 1.0)
-        );
+        assert_eq!((exact.slope, exact.intercept, exact.r_squared), (2.0, 1.0, 1.0));
         // Anscombe's first set: slope 0.5001 ± 0.1179, intercept 3.0001, R² 0.6665.
         let x = [10.0, 8.0, 13.0, 9.0, 11.0, 14.0, 6.0, 4.0, 12.0, 7.0, 5.0];
-        let y = [
-            8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68,
-        ];
+        let y = [8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68];
         let points: Vec<_> = x.into_iter().zip(y).collect();
         let line = fit_line(&points).unwrap();
         assert!((line.slope - 0.5001).abs() < 1e-4);

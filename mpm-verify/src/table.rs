@@ -17,10 +17,7 @@ impl Sheet {
     /// Without rows.
     #[must_use]
     pub fn new(head: impl IntoIterator<Item = impl Into<String>>) -> Self {
-        Self {
-            head: head.into_iter().map(Into::into).collect(),
-            rows: Vec::new(),
-        }
+        Self { head: head.into_iter().map(Into::into).collect(), rows: Vec::new() }
     }
 
     /// With rows.
@@ -46,11 +43,7 @@ impl Sheet {
             format!("| {} |\n", cells.join(" | "))
         };
         let rows: String = self.rows.iter().map(line).collect();
-        format!(
-            "{}|{}\n{rows}",
-            line(&self.head),
-            "---|".repeat(self.head.len())
-        )
+        format!("{}|{}\n{rows}", line(&self.head), "---|".repeat(self.head.len()))
     }
 }
 
@@ -76,12 +69,8 @@ impl Table {
     pub fn read(path: &Path) -> Result<Self, Error> {
         let bytes = read(path, TABLE)?;
         let mut reader = csv::Reader::from_reader(&bytes[..]);
-        let header: Vec<String> = reader
-            .headers()
-            .map_err(|e| Error::file(path, e))?
-            .iter()
-            .map(str::to_owned)
-            .collect();
+        let header: Vec<String> =
+            reader.headers().map_err(|e| Error::file(path, e))?.iter().map(str::to_owned).collect();
         let mut columns = vec![Vec::new(); header.len()];
         for row in reader.deserialize::<Vec<f64>>() {
             let row = row.map_err(|e| Error::file(path, e))?;
@@ -157,9 +146,7 @@ impl Table {
     /// The column whose name, before its unit, is `name`; empty if there is none.
     #[must_use]
     pub fn column(&self, name: &str) -> &[f64] {
-        self.iter()
-            .find(|(h, _)| h.split(" (").next() == Some(name))
-            .map_or(&[], |(_, values)| values)
+        self.iter().find(|(h, _)| h.split(" (").next() == Some(name)).map_or(&[], |(_, values)| values)
     }
 
     /// Header of the first column, by which the rows are ordered: time, or what is tried one after another.
@@ -176,11 +163,7 @@ impl Table {
     }
 
     /// Two columns as points, each of which `map` changes.
-    pub(crate) fn pairs(
-        &self,
-        [x, y]: [&str; 2],
-        map: impl Fn(f64, f64) -> (f64, f64),
-    ) -> Vec<(f64, f64)> {
+    pub(crate) fn pairs(&self, [x, y]: [&str; 2], map: impl Fn(f64, f64) -> (f64, f64)) -> Vec<(f64, f64)> {
         let points = self.points(x, y).into_iter();
         points.map(|(x, y)| map(x, y)).collect()
     }
@@ -197,11 +180,7 @@ impl Table {
             .collect::<Result<Vec<usize>, f64>>()?;
         Ok(Self {
             header: self.header.clone(),
-            columns: self
-                .columns
-                .iter()
-                .map(|c| rows.iter().map(|&k| c[k]).collect())
-                .collect(),
+            columns: self.columns.iter().map(|c| rows.iter().map(|&k| c[k]).collect()).collect(),
         })
     }
 }
@@ -237,13 +216,8 @@ mod tests {
             (b"t,\xff\n0,1\n", "UTF-8"),
             (b"t,u\n0,1\n2\n", "found record with 1 fields"),
         ] {
-            let error = Table::read_finite(file(text).path())
-                .unwrap_err()
-                .to_string();
-            assert!(
-                error.to_lowercase().contains(&needle.to_lowercase()),
-                "{error}"
-            );
+            let error = Table::read_finite(file(text).path()).unwrap_err().to_string();
+            assert!(error.to_lowercase().contains(&needle.to_lowercase()), "{error}");
         }
     }
 

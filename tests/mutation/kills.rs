@@ -59,11 +59,7 @@ impl Kills {
         let mut page = INTRODUCTION.to_owned();
         let alone: Vec<_> = self.alone().collect();
         let (count, few) = (self.0.len(), alone.len());
-        writeln!(
-            page,
-            "\n{count} faults; {few} of them hang on one check only and are marked **alone**.\n"
-        )
-        .unwrap();
+        writeln!(page, "\n{count} faults; {few} of them hang on one check only and are marked **alone**.\n").unwrap();
         writeln!(page, "| file | fault | seen by |\n|---|---|---|").unwrap();
         for fault in faults() {
             let none = BTreeSet::new();
@@ -89,17 +85,11 @@ impl Kills {
             }
         }
         page.push_str("\n## Check by check\n\n");
-        page.push_str(
-            "| case | check | faults that it sees | of them alone |\n|---|---|---|---|\n",
-        );
+        page.push_str("| case | check | faults that it sees | of them alone |\n|---|---|---|---|\n");
         for (seer, seen) in &by_check {
             let own = alone.iter().filter(|(_, by)| by == seer).count();
             let (case, check) = seer;
-            let own = if own == 0 {
-                String::new()
-            } else {
-                own.to_string()
-            };
+            let own = if own == 0 { String::new() } else { own.to_string() };
             writeln!(page, "| {case} | `{check}` | {} | {own} |", seen.len()).unwrap();
         }
         page

@@ -4,12 +4,7 @@
 //! run with one fault at a time. Slow (a build from scratch), so it is not part of a plain `cargo test`: run
 //! it with `--test mutation`.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod faults;
 #[allow(dead_code, reason = "tests of the workspace read what is left here")]
@@ -56,10 +51,7 @@ pub(crate) fn seeded(fault: &str, told: &std::sync::atomic::AtomicBool) -> bool 
 "#;
 
 fn workspace() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("..")
-        .canonicalize()
-        .unwrap()
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap()
 }
 
 fn copy_tree(from: &Path, to: &Path) {
@@ -77,18 +69,12 @@ fn copy_tree(from: &Path, to: &Path) {
 
 /// Writes a fault into the copy, behind its switch.
 fn seed(copy: &Path, fault: &Fault) {
-    let Fault {
-        name,
-        sound,
-        broken,
-        ..
-    } = fault;
+    let Fault { name, sound, broken, .. } = fault;
     let path = copy.join("mpm-core/src").join(fault.file);
     let source = fs::read_to_string(&path).unwrap();
     let places = source.matches(sound).count();
     assert_eq!(places, 1, "{name}: the line has changed");
-    let told =
-        "static TOLD: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);";
+    let told = "static TOLD: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);";
     let seeded = format!("{{ {told} crate::seeded({name:?}, &TOLD) }}");
     let switched = format!("(if {seeded} {{ {broken} }} else {{ {sound} }})");
     fs::write(&path, source.replace(sound, &switched)).unwrap();
@@ -111,46 +97,25 @@ impl<'a> Mutant<'a> {
     fn build(copy: &'a Path) -> Self {
         let target = workspace().join("target/mutants");
         let build = Command::new(env!("CARGO"))
-            .args([
-                "build",
-                "--profile",
-                "mutant",
-                "--bin",
-                "mpm-verify",
-                "--target-dir",
-            ])
+            .args(["build", "--profile", "mutant", "--bin", "mpm-verify", "--target-dir"])
             .arg(&target)
             .current_dir(copy)
             .output()
             .unwrap();
-        assert!(
-            build.status.success(),
-            "{}",
-            String::from_utf8_lossy(&build.stderr)
-        );
-        Self {
-            copy,
-            program: target.join("mutant/mpm-verify"),
-        }
+        assert!(build.status.success(), "{}", String::from_utf8_lossy(&build.stderr));
+        Self { copy, program: target.join("mutant/mpm-verify") }
     }
 
     /// Runs the program with a fault or none; returns the exit code and what it printed.
     fn call(&self, fault: Option<&Fault>, arguments: &[&str]) -> (i32, String) {
         let mut command = Command::new(&self.program);
-        command
-            .args(arguments)
-            .current_dir(self.copy)
-            .env_remove(SWITCH)
-            .env_remove(REACHED);
+        command.args(arguments).current_dir(self.copy).env_remove(SWITCH).env_remove(REACHED);
         match fault {
             Some(fault) => command.env(SWITCH, fault.name),
             None => command.env(REACHED, self.copy.join(REACHED)),
         };
         let output = command.output().unwrap();
-        (
-            output.status.code().unwrap(),
-            String::from_utf8_lossy(&output.stdout).into_owned(),
-        )
+        (output.status.code().unwrap(), String::from_utf8_lossy(&output.stdout).into_owned())
     }
 
     /// All verdicts on some runs, one by one and together. A program that a fault makes end without a record has none.
@@ -177,25 +142,16 @@ impl<'a> Mutant<'a> {
     /// What the sound program comes to in some runs, and the faults that it could have had there.
     fn sound(&self, runs: Runs) -> Sound {
         let copy = tempfile::tempdir_in(self.copy).unwrap();
-        let own = Mutant {
-            copy: copy.path(),
-            program: self.program.clone(),
-        };
+        let own = Mutant { copy: copy.path(), program: self.program.clone() };
         let verdicts = own.judge(None, runs).unwrap();
         let names = fs::read_to_string(copy.path().join(REACHED)).unwrap();
-        Sound {
-            runs,
-            verdicts,
-            reached: names.lines().map(str::to_owned).collect(),
-        }
+        Sound { runs, verdicts, reached: names.lines().map(str::to_owned).collect() }
     }
 
     /// What goes otherwise than it should, and which checks see which faults. Runs are short and take one thread
     /// each: as many side by side as there are cores.
     fn complaints(&self) -> (Vec<String>, Kills) {
-        let all: BTreeSet<Runs> = faults()
-            .flat_map(|f| f.seen_by.iter().map(|(runs, _)| *runs))
-            .collect();
+        let all: BTreeSet<Runs> = faults().flat_map(|f| f.seen_by.iter().map(|(runs, _)| *runs)).collect();
         let sound: Vec<Sound> = all.into_par_iter().map(|runs| self.sound(runs)).collect();
         let named = |fault: &Fault, runs| fault.seen_by.iter().any(|(by, _)| *by == runs);
         let tasks: Vec<(&Fault, &Sound)> = faults()
@@ -265,18 +221,12 @@ fn every_seeded_fault_turns_a_named_check_red() {
     let (mut complaints, kills) = mutant.complaints();
     kills.write(&source);
     fs::create_dir(copy.join("golden")).unwrap();
-    let verify = [
-        "verify", "cook", "--tier", "quick", "--golden", "golden", "--out", "report",
-    ];
-    let bless = [
-        "bless", "cook", "--reason", "sound", "--golden", "golden", "--from", "report",
-    ];
+    let verify = ["verify", "cook", "--tier", "quick", "--golden", "golden", "--out", "report"];
+    let bless = ["bless", "cook", "--reason", "sound", "--golden", "golden", "--from", "report"];
     for (arguments, expected) in [(&verify[..], 3), (&bless[..], 0), (&verify[..], 0)] {
         let (code, text) = mutant.call(None, arguments);
         if code != expected {
-            complaints.push(format!(
-                "the sound program, {arguments:?}: exit code {code}\n{text}"
-            ));
+            complaints.push(format!("the sound program, {arguments:?}: exit code {code}\n{text}"));
         }
     }
     let (code, text) = mutant.call(Some(&DRIFT), &verify);

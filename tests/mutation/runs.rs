@@ -33,18 +33,12 @@ pub(crate) const VORTEX: Runs = &[
     "mms-vortex-box --remedy fbar-rate --level n8",
     "mms-vortex-box --remedy fbar-rate --level n8 --set poisson_ratio=0.3",
 ];
-pub(crate) const BAR: Runs = &[
-    "vibrating-bar --remedy none --level n8",
-    "vibrating-bar --remedy fbar-rate --level n8",
-];
-pub(crate) const BAR_CONSISTENT: Runs = &[
-    "vibrating-bar --remedy none --level n8",
-    "vibrating-bar --remedy fbar-consistent --level n8",
-];
+pub(crate) const BAR: Runs = &["vibrating-bar --remedy none --level n8", "vibrating-bar --remedy fbar-rate --level n8"];
+pub(crate) const BAR_CONSISTENT: Runs =
+    &["vibrating-bar --remedy none --level n8", "vibrating-bar --remedy fbar-consistent --level n8"];
 
-pub(crate) const FOOTING: Runs = &[
-    "footing --remedy fbar-rate --level b10 --set domain_width=3 --set domain_depth=3 --set penetration=0.0025",
-];
+pub(crate) const FOOTING: Runs =
+    &["footing --remedy fbar-rate --level b10 --set domain_width=3 --set domain_depth=3 --set penetration=0.0025"];
 /// Elastic, in equilibrium: what a held node's increment is shows in the slope.
 pub(crate) const PRESSED: Runs =
     &["footing --solver quasi-static --level b10 --set undrained_strength=1e6 --set load_steps=4"];
@@ -53,12 +47,10 @@ pub(crate) const BARRIER: Runs = &[
 ];
 
 /// Until the front is at the wall.
-pub(crate) const DAM: Runs =
-    &["dam-break --remedy fbar-recursive --level h0.5 --set duration=0.45 --set cfl=0.3"];
+pub(crate) const DAM: Runs = &["dam-break --remedy fbar-recursive --level h0.5 --set duration=0.45 --set cfl=0.3"];
 
 /// Water behind the gate, and hardly longer.
-pub(crate) const RESTING: Runs =
-    &["dam-break --remedy none --level h0.5 --set duration=0.1 --set cfl=0.3"];
+pub(crate) const RESTING: Runs = &["dam-break --remedy none --level h0.5 --set duration=0.1 --set cfl=0.3"];
 
 /// A slide far beyond its limit.
 pub(crate) const SLIDE: Runs =
@@ -123,12 +115,5 @@ pub(crate) const BENT_MEMBRANE: Runs = &[
     "cook --solver quasi-static --basis bspline2 --remedy none --level h1 --set load=10 --set load_steps=5 --set ghost=0.001",
 ];
 /// A slow vortex over the cells, and over Poisson's ratios.
-pub(crate) const SLOW: Runs = &[
-    "mms-static --level n8",
-    "mms-static --level n16",
-    "mms-static --level n32",
-];
-pub(crate) const SLOW_RATIOS: Runs = &[
-    "mms-static --level n8",
-    "mms-static --level n8 --set poisson_ratio=0.3",
-];
+pub(crate) const SLOW: Runs = &["mms-static --level n8", "mms-static --level n16", "mms-static --level n32"];
+pub(crate) const SLOW_RATIOS: Runs = &["mms-static --level n8", "mms-static --level n8 --set poisson_ratio=0.3"];

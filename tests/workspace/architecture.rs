@@ -36,11 +36,7 @@ fn read_paths<'a>(text: &'a str, prefix: &Names, found: &mut Vec<Names>) -> &'a 
             let behind = read_paths(inner, prefix, found);
             // A name may be followed by `as` and another.
             let end = behind.find([',', '{', '}']).unwrap_or(behind.len());
-            inner = if behind.len() < inner.len() {
-                &behind[end..]
-            } else {
-                ""
-            };
+            inner = if behind.len() < inner.len() { &behind[end..] } else { "" };
         }
     }
     let end = text.find(|c: char| !c.is_alphanumeric() && c != '_');
@@ -73,11 +69,7 @@ fn paths(module: &Names, code: &str) -> Vec<Names> {
     let mut found = Vec::new();
     for (start, parents) in [("crate::", 0), ("super::", 1)] {
         let outside = &module[..module.len().saturating_sub(parents)];
-        let prefix = if parents == 0 {
-            Names::new()
-        } else {
-            outside.to_vec()
-        };
+        let prefix = if parents == 0 { Names::new() } else { outside.to_vec() };
         let mut rest = code;
         while let Some(at) = rest.find(start) {
             rest = read_paths(&rest[at + start.len()..], &prefix, &mut found);
@@ -89,29 +81,21 @@ fn paths(module: &Names, code: &str) -> Vec<Names> {
 /// Where the names come from that a module makes its own by `pub use`.
 fn origins(code: &str) -> BTreeMap<String, String> {
     let mut found = Vec::new();
-    for part in code
-        .split("\npub use ")
-        .chain(code.split("\npub(crate) use "))
-        .skip(1)
-    {
+    for part in code.split("\npub use ").chain(code.split("\npub(crate) use ")).skip(1) {
         read_paths(part, &Names::new(), &mut found);
     }
     let pairs = found.into_iter().filter(|path| path.len() > 1);
-    pairs
-        .map(|path| (path[path.len() - 1].clone(), path[0].clone()))
-        .collect()
+    pairs.map(|path| (path[path.len() - 1].clone(), path[0].clone())).collect()
 }
 
 /// Which modules of each folder of a crate use which others of it, themselves or by what lies below them. What a folder
 /// itself defines, and its own use of what it holds, is no arrow.
 fn arrows(krate: &str) -> BTreeMap<Names, Arrows> {
     let sources = files(&workspace().join(krate).join("src"));
-    let modules: BTreeMap<Names, String> = (sources.iter())
-        .map(|(source, text)| (module(source), code(text)))
-        .collect();
-    let known: BTreeSet<&[String]> = (modules.keys())
-        .flat_map(|names| (0..=names.len()).map(|end| &names[..end]))
-        .collect();
+    let modules: BTreeMap<Names, String> =
+        (sources.iter()).map(|(source, text)| (module(source), code(text))).collect();
+    let known: BTreeSet<&[String]> =
+        (modules.keys()).flat_map(|names| (0..=names.len()).map(|end| &names[..end])).collect();
     let mut arrows: BTreeMap<Names, Arrows> = BTreeMap::new();
     for (own, code) in &modules {
         let apart = ["main", "tests", "fixture"];
@@ -120,8 +104,7 @@ fn arrows(krate: &str) -> BTreeMap<Names, Arrows> {
         }
         for path in paths(own, code) {
             let same = own.iter().zip(&path).take_while(|(a, b)| a == b).count();
-            let (folder, [of_own, ..], [name, ..]) = (&own[..same], &own[same..], &path[same..])
-            else {
+            let (folder, [of_own, ..], [name, ..]) = (&own[..same], &own[same..], &path[same..]) else {
                 continue;
             };
             let module_of_name = [folder, std::slice::from_ref(name)].concat();
@@ -158,21 +141,11 @@ fn circles(mut arrows: Arrows) -> Arrows {
 
 #[test]
 fn no_module_uses_one_that_uses_it() {
-    for krate in [
-        "mpm-core",
-        "mpm-verify/bench",
-        "mpm-verify/exact",
-        "mpm-verify",
-    ] {
+    for krate in ["mpm-core", "mpm-verify/bench", "mpm-verify/exact", "mpm-verify"] {
         let arrows = arrows(krate);
         assert!(!arrows.is_empty(), "{krate}");
         for (folder, arrows) in arrows {
-            assert_eq!(
-                circles(arrows),
-                Arrows::new(),
-                "{krate}: {}",
-                folder.join("/")
-            );
+            assert_eq!(circles(arrows), Arrows::new(), "{krate}: {}", folder.join("/"));
         }
     }
 }
@@ -185,12 +158,7 @@ fn the_fingerprint_covers_what_makes_numbers_and_not_what_judges_or_draws() {
         list(Path::new(source), &mut covered).unwrap();
     }
     let has = |file: &str| covered.iter().any(|f| f.ends_with(file));
-    for file in [
-        "cook/scene.rs",
-        "cook/watch.rs",
-        "exact/src/twist.rs",
-        "src/basis/mod.rs",
-    ] {
+    for file in ["cook/scene.rs", "cook/watch.rs", "exact/src/twist.rs", "src/basis/mod.rs"] {
         assert!(has(file), "{file}");
     }
     for file in ["checks.rs", "checks/study.rs", "pictures.rs", "sketch.rs"] {
@@ -213,20 +181,11 @@ fn a_dry_body_carries_no_water() {
         }
     }
     assert!(own > 0);
-    for dry in [
-        "particles.rs",
-        "scene.rs",
-        "body.rs",
-        "nodes.rs",
-        "explicit/mod.rs",
-    ] {
+    for dry in ["particles.rs", "scene.rs", "body.rs", "nodes.rs", "explicit/mod.rs"] {
         let text = String::from_utf8_lossy(&sources[Path::new(dry)]).to_lowercase();
         let code = text.lines().filter(|l| !l.trim_start().starts_with("//"));
         for line in code.filter(|l| !l.contains("field::")) {
-            assert!(
-                !line.contains("pore") && !line.contains("porosity"),
-                "{dry}: {line}"
-            );
+            assert!(!line.contains("pore") && !line.contains("porosity"), "{dry}: {line}");
         }
     }
 }
@@ -240,8 +199,7 @@ fn the_workflows_pin_one_toolchain() {
         let version = found.next().unwrap().trim_matches('"').split('.');
         version.map(|n| n.parse().unwrap()).collect::<Vec<u32>>()
     };
-    let [pr, nightly] = ["pr", "nightly"]
-        .map(|w| value(&format!(".github/workflows/{w}.yml"), "RUSTUP_TOOLCHAIN: "));
+    let [pr, nightly] = ["pr", "nightly"].map(|w| value(&format!(".github/workflows/{w}.yml"), "RUSTUP_TOOLCHAIN: "));
     assert_eq!(pr, nightly);
     assert!(pr >= value("Cargo.toml", "rust-version = "));
 }

@@ -74,20 +74,13 @@ fn look_at(browser: &Path, folder: &Path, pages: &[String]) -> Vec<Vec<String>> 
             .filter(|l| l.contains("CONSOLE"))
             // One that names no page may be of any.
             .filter(|l| l.contains(&of_page) || !l.contains("/probed-"));
-        told.0
-            .lines()
-            .map(str::to_owned)
-            .chain(errors.map(|line| format!("fault console: {line}")))
-            .collect()
+        told.0.lines().map(str::to_owned).chain(errors.map(|line| format!("fault console: {line}"))).collect()
     };
     pages.iter().map(found).collect()
 }
 
 fn all<'a>(found: &'a [String], kind: &str) -> Vec<&'a str> {
-    found
-        .iter()
-        .filter_map(|line| line.strip_prefix(kind)?.strip_prefix(' '))
-        .collect()
+    found.iter().filter_map(|line| line.strip_prefix(kind)?.strip_prefix(' ')).collect()
 }
 
 #[test]

@@ -20,55 +20,34 @@ const NONZEROS: u64 = 222_000_000;
 #[test]
 fn the_pr_tier_factorises_few_enough_entries() {
     let root = workspace().join("golden");
-    let planned = cases::all()
-        .iter()
-        .filter(|case| !golden::runs(case).is_empty());
-    let entries: u64 = planned
-        .map(|case| golden::nonzeros(&root, case.name).unwrap_or_else(|e| panic!("{e}")))
-        .sum();
+    let planned = cases::all().iter().filter(|case| !golden::runs(case).is_empty());
+    let entries: u64 = planned.map(|case| golden::nonzeros(&root, case.name).unwrap_or_else(|e| panic!("{e}"))).sum();
     assert!(entries > 0 && entries <= NONZEROS, "{entries} entries");
 }
 
 #[test]
 fn the_pr_tier_visits_few_enough_pairs() {
     let root = workspace().join("golden");
-    let planned = cases::all()
-        .iter()
-        .filter(|case| !golden::runs(case).is_empty());
-    let pairs: u64 = planned
-        .map(|case| {
-            golden::pairs(&root, case.name).unwrap_or_else(|e| panic!("bless it first: {e}"))
-        })
-        .sum();
+    let planned = cases::all().iter().filter(|case| !golden::runs(case).is_empty());
+    let pairs: u64 =
+        planned.map(|case| golden::pairs(&root, case.name).unwrap_or_else(|e| panic!("bless it first: {e}"))).sum();
     assert!(pairs <= PAIRS, "{pairs} pairs");
 }
 
 #[test]
 fn what_is_kept_of_nights_is_small() {
-    let most = [
-        ("nightly/results.csv", 1_000_000),
-        ("nightly/summary.md", 100_000),
-        ("history.csv", 1_000_000),
-    ];
+    let most = [("nightly/results.csv", 1_000_000), ("nightly/summary.md", 100_000), ("history.csv", 1_000_000)];
     for (file, most) in most {
-        let bytes = std::fs::metadata(workspace().join("reports").join(file))
-            .unwrap()
-            .len();
+        let bytes = std::fs::metadata(workspace().join("reports").join(file)).unwrap().len();
         assert!(bytes <= most, "{file}: {bytes} bytes");
     }
 }
 
 /// Of files that git has: only a checkout can tell.
 #[test]
-#[expect(
-    clippy::print_stderr,
-    reason = "says in a test's output what it could not measure"
-)]
+#[expect(clippy::print_stderr, reason = "says in a test's output what it could not measure")]
 fn what_is_tracked_is_small() {
-    let git = std::process::Command::new("git")
-        .args(["ls-files", "-z"])
-        .current_dir(workspace())
-        .output();
+    let git = std::process::Command::new("git").args(["ls-files", "-z"]).current_dir(workspace()).output();
     let Some(listed) = git.ok().filter(|o| o.status.success()) else {
         eprintln!("no checkout of git: the weight is not measured");
         return;
@@ -79,11 +58,7 @@ fn what_is_tracked_is_small() {
         let under = listed.split('\0').filter(|name| name.starts_with(start));
         under.map(size).sum()
     };
-    assert!(
-        bytes("reports/") <= 2_000_000,
-        "{} bytes of reports",
-        bytes("reports/")
-    );
+    assert!(bytes("reports/") <= 2_000_000, "{} bytes of reports", bytes("reports/"));
     assert!(bytes("") <= 12_000_000, "{} bytes in all", bytes(""));
     let shown = |name: &&str| {
         let page = *name == "README.md" || name.starts_with("docs/");
@@ -94,29 +69,16 @@ fn what_is_tracked_is_small() {
         assert!(size(name) <= 150_000, "{name}: {} bytes", size(name));
     }
     let bytes: u64 = pictures.iter().map(|name| size(name)).sum();
-    assert!(
-        pictures.len() <= 25 && bytes <= 3_000_000,
-        "{} pictures, {bytes} bytes",
-        pictures.len()
-    );
+    assert!(pictures.len() <= 25 && bytes <= 3_000_000, "{} pictures, {bytes} bytes", pictures.len());
 }
 
 #[test]
 fn the_goldens_are_small() {
     let all = files(&workspace().join("golden"));
     let bytes: usize = all.values().map(Vec::len).sum();
-    assert!(
-        all.len() <= 100 && bytes <= 3_000_000,
-        "{} files, {bytes} bytes",
-        all.len()
-    );
+    assert!(all.len() <= 100 && bytes <= 3_000_000, "{} files, {bytes} bytes", all.len());
     for (name, content) in all {
         let picture = name.extension().is_some_and(|e| e == "png");
-        assert!(
-            !picture || content.len() <= 25_000,
-            "{}: {}",
-            name.display(),
-            content.len()
-        );
+        assert!(!picture || content.len() <= 25_000, "{}: {}", name.display(), content.len());
     }
 }

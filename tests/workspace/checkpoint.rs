@@ -17,14 +17,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// A run of part of a second, too short to come to rest.
-const RUN: [&str; 6] = [
-    "run",
-    "cook",
-    "--remedy",
-    "fbar-total",
-    "--set",
-    "max_periods=0.75",
-];
+const RUN: [&str; 6] = ["run", "cook", "--remedy", "fbar-total", "--set", "max_periods=0.75"];
 /// How it ends: not at rest.
 const ENDS: i32 = 1;
 
@@ -169,38 +162,20 @@ fn what_is_not_the_checkpoint_of_the_run_is_refused_and_left_alone() {
         let said = stderr(&output);
         assert_eq!(code(&output), 2, "{needles:?}: {said}");
         assert_eq!(said.lines().count(), 1, "{said}");
-        assert!(
-            needles.iter().all(|n| said.contains(n)),
-            "{needles:?}: {said}"
-        );
-        assert!(
-            &files(place) == before,
-            "{needles:?}: something has changed"
-        );
+        assert!(needles.iter().all(|n| said.contains(n)), "{needles:?}: {said}");
+        assert!(&files(place) == before, "{needles:?}: something has changed");
     };
 
     // Sound, but of another run.
     let sound = files(place);
-    let parameter = [
-        "checkpoint.bin",
-        "of other parameters",
-        "poisson_ratio = 0.499, not 0.3",
-    ];
-    refused(
-        resume(place, &["--set", "poisson_ratio=0.3"]),
-        &parameter,
-        &sound,
-    );
+    let parameter = ["checkpoint.bin", "of other parameters", "poisson_ratio = 0.499, not 0.3"];
+    refused(resume(place, &["--set", "poisson_ratio=0.3"]), &parameter, &sound);
     let run = "of another run: cook gimp-fbar-total-flip/h2, not";
     let level = [run, "cook gimp-fbar-total-flip/h1"];
     refused(resume(place, &["--level", "h1"]), &level, &sound);
     refused(resume(place, &["--perturb"]), &[run, "(perturbed)"], &sound);
     let of = |arguments: &[&str]| mpm_verify(&[arguments, &["--resume", text(place)]].concat());
-    refused(
-        of(&["run", "cook"]),
-        &[run, "gimp-fbar-consistent-flip"],
-        &sound,
-    );
+    refused(of(&["run", "cook"]), &[run, "gimp-fbar-consistent-flip"], &sound);
     refused(of(&["run", "column"]), &[run, "column"], &sound);
 
     // Of this run, but not sound.
@@ -219,10 +194,7 @@ fn what_is_not_the_checkpoint_of_the_run_is_refused_and_left_alone() {
     for (content, needles) in [
         (Vec::new(), ["not a checkpoint", ""]),
         (bytes[..5].to_vec(), ["not a checkpoint", ""]),
-        (
-            bytes[..10].to_vec(),
-            ["truncated: 10 bytes", "12 are expected"],
-        ),
+        (bytes[..10].to_vec(), ["truncated: 10 bytes", "12 are expected"]),
         (bytes[..20].to_vec(), ["truncated: 20 bytes", ""]),
         (bytes[..1000].to_vec(), ["truncated: 1000 bytes", ""]),
         (bytes[..bytes.len() - 1].to_vec(), ["truncated", ""]),
@@ -232,19 +204,10 @@ fn what_is_not_the_checkpoint_of_the_run_is_refused_and_left_alone() {
         (flipped(21), ["damaged: checksum", ""]),
         (flipped(100), ["damaged: checksum", ""]),
         (flipped(bytes.len() / 2), ["damaged: checksum", ""]),
-        (
-            foreign,
-            ["of another program: source 000000000000", &version],
-        ),
+        (foreign, ["of another program: source 000000000000", &version]),
         (resealed(&bytes, &content[..50]), ["can't be read", ""]),
-        (
-            resealed(&bytes, &content[..content.len() - 1]),
-            ["saved state does not match a run", ""],
-        ),
-        (
-            resealed(&bytes, &[content, b"x"].concat()),
-            ["saved state does not match a run", "1 unexpected bytes"],
-        ),
+        (resealed(&bytes, &content[..content.len() - 1]), ["saved state does not match a run", ""]),
+        (resealed(&bytes, &[content, b"x"].concat()), ["saved state does not match a run", "1 unexpected bytes"]),
     ] {
         fs::write(&path, content).unwrap();
         let before = files(place);
@@ -260,11 +223,7 @@ fn what_is_not_the_checkpoint_of_the_run_is_refused_and_left_alone() {
     for content in [&other, &written[..10_000]] {
         fs::write(&rows, content).unwrap();
         let before = files(place);
-        refused(
-            resume(place, &[]),
-            &["series.csv is not the series"],
-            &before,
-        );
+        refused(resume(place, &[]), &["series.csv is not the series"], &before);
     }
     fs::remove_file(&rows).unwrap();
     refused(resume(place, &[]), &["series.csv is not"], &files(place));
@@ -273,11 +232,7 @@ fn what_is_not_the_checkpoint_of_the_run_is_refused_and_left_alone() {
     assert_eq!(code(&resume(place, &[])), ENDS);
     let ended = files(place);
     let parameter = ["record.json", "poisson_ratio = 0.499, not 0.3"];
-    refused(
-        resume(place, &["--set", "poisson_ratio=0.3"]),
-        &parameter,
-        &ended,
-    );
+    refused(resume(place, &["--set", "poisson_ratio=0.3"]), &parameter, &ended);
 }
 
 #[test]
@@ -299,8 +254,7 @@ fn collected(folder: &Path) -> Vec<(String, String)> {
         rest.split_once('"').unwrap().0.to_owned()
     };
     let sets = text.lines().filter(|line| line.contains("<DataSet "));
-    sets.map(|line| (value(line, "timestep"), value(line, "file")))
-        .collect()
+    sets.map(|line| (value(line, "timestep"), value(line, "file"))).collect()
 }
 
 #[test]
@@ -313,10 +267,7 @@ fn a_run_with_snapshots_that_is_killed_has_them_all_in_its_collection() {
     let saving = ["--resume", text(&pieces), "--checkpoint-every", "0"];
     let child = start(&[&run[..], &saving].concat());
     let first = pieces.join("snapshots.pvd");
-    assert!(
-        kill_when(child, Duration::ZERO, || first.exists()),
-        "too fast"
-    );
+    assert!(kill_when(child, Duration::ZERO, || first.exists()), "too fast");
     let snapshot = |time: &str| (time.to_owned(), format!("snapshots/{time:0>7}.vtu"));
     let early = snapshot("0.025");
     assert_eq!(collected(&pieces).first(), Some(&early));
@@ -352,10 +303,7 @@ fn a_verification_that_is_killed_goes_on_from_its_checkpoints() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("report");
     copy_tree(quick().0, &out);
-    let runs = [
-        "cook/gimp-fbar-rate-flip/h2",
-        "cook/gimp-fbar-total-flip/h2",
-    ];
+    let runs = ["cook/gimp-fbar-rate-flip/h2", "cook/gimp-fbar-total-flip/h2"];
     let [sound, damaged] = runs.map(|run| out.join(run));
     for run in [&sound, &damaged] {
         fs::remove_file(run.join("record.json")).unwrap();
@@ -376,28 +324,16 @@ fn a_verification_that_is_killed_goes_on_from_its_checkpoints() {
     let said = stderr(&output);
     assert_eq!(code(&output), 0, "{said}");
     // One that can't be used is said and done without.
-    let again: Vec<&str> = said
-        .lines()
-        .filter(|l| l.contains("begins again"))
-        .collect();
+    let again: Vec<&str> = said.lines().filter(|l| l.contains("begins again")).collect();
     assert_eq!(again.len(), 1, "{said}");
     assert!(again[0].starts_with(runs[1]), "{said}");
-    assert!(
-        again[0].ends_with("checkpoint.bin: not a checkpoint"),
-        "{said}"
-    );
+    assert!(again[0].ends_with("checkpoint.bin: not a checkpoint"), "{said}");
     for (run, folder) in runs.iter().zip([&sound, &damaged]) {
         assert_same(folder, &quick().0.join(run));
     }
     let time = |run: &Path| json(&run.join("record.json"))["time"].clone();
-    assert!(
-        time(&sound)["wall_s"].as_f64().unwrap() > 1e6,
-        "it began again"
-    );
-    assert!(
-        time(&sound)["cpu_s"].as_f64().unwrap() > 2e6,
-        "it began again"
-    );
+    assert!(time(&sound)["wall_s"].as_f64().unwrap() > 1e6, "it began again");
+    assert!(time(&sound)["cpu_s"].as_f64().unwrap() > 2e6, "it began again");
     assert!(time(&damaged)["wall_s"].as_f64().unwrap() < 1e6);
 }
 
@@ -484,8 +420,6 @@ fn goes_on(case: &Case, spec: &RunSpec) {
 fn a_job_of_two_scenes_goes_on_in_either() {
     let case = cases::find("dam-break").unwrap();
     let mut spec = case.runs(Tier::Pr).swap_remove(0);
-    spec.set = ["start=gravity-stage", "duration=0.06"]
-        .map(str::to_owned)
-        .into();
+    spec.set = ["start=gravity-stage", "duration=0.06"].map(str::to_owned).into();
     goes_on(case, &spec);
 }

@@ -28,148 +28,48 @@ fn refused(arguments: &[&str], needles: &[&str]) {
 fn a_quasi_static_run_says_what_it_does_not_solve() {
     let beam = |set: &[&str], needles: &[&str]| {
         let set = set.iter().flat_map(|s| ["--set", s]);
-        refused(
-            &["run", "cantilever"]
-                .into_iter()
-                .chain(set)
-                .collect::<Vec<_>>(),
-            needles,
-        );
+        refused(&["run", "cantilever"].into_iter().chain(set).collect::<Vec<_>>(), needles);
     };
     let on = |basis: &str, set: &str, needles: &[&str]| {
-        refused(
-            &["run", "cantilever", "--basis", basis, "--set", set],
-            needles,
-        );
+        refused(&["run", "cantilever", "--basis", basis, "--set", set], needles);
     };
     beam(&["load_steps=0"], &["load_steps", "1 to 10000"]);
     beam(&["tolerance=1"], &["tolerance", "0.01"]);
-    beam(
-        &["stabilisation=glue"],
-        &["glue", "none, soft, ghost, extension"],
-    );
-    on(
-        "q8",
-        "stabilisation=ghost",
-        &["ghost penalty", "none or soft"],
-    );
-    on(
-        "q8",
-        "stabilisation=extension",
-        &["extension", "none or soft"],
-    );
-    on(
-        "gimp",
-        "stabilisation=soft",
-        &["soft stiffness", "ghost or extension"],
-    );
+    beam(&["stabilisation=glue"], &["glue", "none, soft, ghost, extension"]);
+    on("q8", "stabilisation=ghost", &["ghost penalty", "none or soft"]);
+    on("q8", "stabilisation=extension", &["extension", "none or soft"]);
+    on("gimp", "stabilisation=soft", &["soft stiffness", "ghost or extension"]);
     on("gimp", "law=jaumann", &["basis", "allowed"]);
     refused(
-        &[
-            "run",
-            "cook",
-            "--solver",
-            "quasi-static",
-            "--remedy",
-            "fbar-rate",
-        ],
-        &[
-            "quasi-static-gimp-fbar-rate",
-            "quasi-static-gimp-fbar-consistent",
-        ],
+        &["run", "cook", "--solver", "quasi-static", "--remedy", "fbar-rate"],
+        &["quasi-static-gimp-fbar-rate", "quasi-static-gimp-fbar-consistent"],
     );
-    refused(
-        &[
-            "run",
-            "cook",
-            "--solver",
-            "quasi-static",
-            "--set",
-            "cfl=0.1",
-        ],
-        &["cfl", "quasi-static"],
-    );
-    refused(
-        &["run", "cook", "--set", "ghost=0.1"],
-        &["ghost", "explicit"],
-    );
-    refused(
-        &[
-            "run",
-            "mms-static",
-            "--set",
-            "dimension=3",
-            "--set",
-            "pressure=1",
-        ],
-        &["pressure", "allowed: 0"],
-    );
+    refused(&["run", "cook", "--solver", "quasi-static", "--set", "cfl=0.1"], &["cfl", "quasi-static"]);
+    refused(&["run", "cook", "--set", "ghost=0.1"], &["ghost", "explicit"]);
+    refused(&["run", "mms-static", "--set", "dimension=3", "--set", "pressure=1"], &["pressure", "allowed: 0"]);
 }
 
 #[test]
 fn unknown_names_are_refused_with_those_that_exist() {
-    refused(
-        &["run", "cok"],
-        &["CASE", "cok", "similar value exists: 'cook'"],
-    );
+    refused(&["run", "cok"], &["CASE", "cok", "similar value exists: 'cook'"]);
     refused(&["explain", "bridge"], &["CASE", "cook"]);
     refused(&["verify", "bridge"], &["CASE", "cook"]);
-    refused(
-        &["run", "cook", "--basis", "cubic"],
-        &["basis", "gimp", "bspline2", "bspline3"],
-    );
-    refused(
-        &["run", "cook", "--remedy", "fbar"],
-        &["remedy", "fbar-rate", "fbar-total"],
-    );
-    refused(
-        &["run", "cook", "--transfer", "pic"],
-        &["transfer", "flip", "apic"],
-    );
+    refused(&["run", "cook", "--basis", "cubic"], &["basis", "gimp", "bspline2", "bspline3"]);
+    refused(&["run", "cook", "--remedy", "fbar"], &["remedy", "fbar-rate", "fbar-total"]);
+    refused(&["run", "cook", "--transfer", "pic"], &["transfer", "flip", "apic"]);
     refused(
         &["run", "cook", "--remedy", "fbar-rate", "--transfer", "apic"],
         &["scheme", "gimp-fbar-rate-apic", "gimp-none-flip"],
     );
-    refused(
-        &["run", "cook", "--scheme", "gimp-none"],
-        &["gimp-none", "basis-remedy-transfer"],
-    );
-    refused(
-        &["run", "cook", "--solver", "fem"],
-        &["solver", "explicit", "quasi-static", "poro"],
-    );
-    refused(
-        &["run", "cook", "--solver", "poro"],
-        &["poro-gimp-two-grid", "quasi-static-gimp-none"],
-    );
-    refused(
-        &["run", "cook", "--solver", "newmark"],
-        &["newmark-gimp-fbar-consistent", "quasi-static-gimp-none"],
-    );
-    refused(
-        &[
-            "run",
-            "cook",
-            "--scheme",
-            "gimp-none-flip",
-            "--basis",
-            "gimp",
-        ],
-        &["--scheme", "--basis"],
-    );
-    refused(
-        &["run", "cook", "--basis", "linear"],
-        &["scheme", "gimp-none-flip"],
-    );
+    refused(&["run", "cook", "--scheme", "gimp-none"], &["gimp-none", "basis-remedy-transfer"]);
+    refused(&["run", "cook", "--solver", "fem"], &["solver", "explicit", "quasi-static", "poro"]);
+    refused(&["run", "cook", "--solver", "poro"], &["poro-gimp-two-grid", "quasi-static-gimp-none"]);
+    refused(&["run", "cook", "--solver", "newmark"], &["newmark-gimp-fbar-consistent", "quasi-static-gimp-none"]);
+    refused(&["run", "cook", "--scheme", "gimp-none-flip", "--basis", "gimp"], &["--scheme", "--basis"]);
+    refused(&["run", "cook", "--basis", "linear"], &["scheme", "gimp-none-flip"]);
     refused(&["run", "cook", "--level", "h3"], &["level", "h2", "h0.25"]);
-    refused(
-        &["run", "cook", "--set", "nu=0.3"],
-        &["parameter", "nu", "poisson_ratio"],
-    );
-    refused(
-        &["verify", "--tier", "weekly"],
-        &["tier", "quick, pr, nightly, long"],
-    );
+    refused(&["run", "cook", "--set", "nu=0.3"], &["parameter", "nu", "poisson_ratio"]);
+    refused(&["verify", "--tier", "weekly"], &["tier", "quick, pr, nightly, long"]);
     refused(&["list", "--tier", "weekly"], &["tier"]);
     refused(&["list", "--format", "xml"], &["format", "text", "json"]);
     refused(&["run", "cook", "--frobnicate"], &["--frobnicate"]);
@@ -202,33 +102,21 @@ fn bad_values_are_refused_with_the_allowed_range() {
     refused(&["verify", "--threads", "100000"], &["threads", "1..="]);
     refused(&["run", "cook", "--threads", "many"], &["threads"]);
     refused(&["bench", "--rounds", "0"], &["rounds", "1..=1000"]);
-    refused(
-        &["bench", "--peers", "numpy"],
-        &["peers", "numpy", "taichi"],
-    );
+    refused(&["bench", "--peers", "numpy"], &["peers", "numpy", "taichi"]);
 }
 
 #[test]
 fn values_that_cannot_go_together_are_refused() {
     for (set, needles) in [
-        (
-            "young_modulus=1e12",
-            ["load / young_modulus", "1.000e-7 to 1.000e2"],
-        ),
+        ("young_modulus=1e12", ["load / young_modulus", "1.000e-7 to 1.000e2"]),
         ("rest_window=3", ["rest_window", "max_periods"]),
         ("max_periods=0.05", ["rest_window", "max_periods"]),
         ("load_ramp=5", ["load_ramp", "max_periods"]),
     ] {
         refused(&["run", "cook", "--set", set], &needles);
     }
-    refused(
-        &["verify", "--tier", "quick", "--shard", "1/90"],
-        &["tier quick has", "runs for 90 shards"],
-    );
-    refused(
-        &["verify", "--tier", "quick", "--shard", "3/2"],
-        &["--shard", "i/n"],
-    );
+    refused(&["verify", "--tier", "quick", "--shard", "1/90"], &["tier quick has", "runs for 90 shards"]);
+    refused(&["verify", "--tier", "quick", "--shard", "3/2"], &["--shard", "i/n"]);
 }
 
 #[test]
@@ -239,10 +127,7 @@ fn without_a_command_the_help_is_shown() {
     for command in ["list", "explain", "run", "verify", "report", "completions"] {
         assert!(help.contains(&format!("\n  {command} ")), "{help}");
     }
-    assert!(
-        help.lines().all(|line| line.chars().count() <= 100),
-        "{help}"
-    );
+    assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
 }
 
 #[test]
@@ -254,11 +139,7 @@ fn a_parameter_is_set_once() {
 #[test]
 fn a_shell_is_told_the_names() {
     let script = stdout(&mpm_verify(&["completions", "bash"]));
-    for name in [
-        "dam-break",
-        "gimp-fbar-consistent-flip",
-        "--checkpoint-every",
-    ] {
+    for name in ["dam-break", "gimp-fbar-consistent-flip", "--checkpoint-every"] {
         assert!(script.contains(name), "{name}");
     }
 }
@@ -272,10 +153,7 @@ fn a_run_ends_with_its_verdict_in_the_words_of_all_outcomes() {
     };
     let all = stdout(&run(&[]));
     let last = all.lines().last().unwrap();
-    assert!(
-        last.starts_with("Verdict: wrong as known: locked; "),
-        "{all}"
-    );
+    assert!(last.starts_with("Verdict: wrong as known: locked; "), "{all}");
     assert!(all.lines().all(|line| line.chars().count() <= 100), "{all}");
     assert!(!all.contains('\x1b'));
     assert_eq!(stdout(&run(&["--quiet"])), format!("{last}\n"));
@@ -313,29 +191,13 @@ fn what_a_user_has_in_a_folder_stays_there() {
     let made = folder.path().join("run");
     mpm_verify(&["run", "cook", "--out", text(&made)]);
     let golden = super::golden();
-    let report = |from| {
-        mpm_verify(&[
-            "report",
-            text(&made),
-            "--golden",
-            text(&golden),
-            "--out",
-            from,
-        ])
-    };
+    let report = |from| mpm_verify(&["report", text(&made), "--golden", text(&golden), "--out", from]);
     let refused = report(text(folder.path()));
     assert_eq!(code(&refused), 2);
-    assert!(
-        stderr(&refused).contains("index.html"),
-        "{}",
-        stderr(&refused)
-    );
+    assert!(stderr(&refused).contains("index.html"), "{}", stderr(&refused));
     assert_eq!(std::fs::read_to_string(&page).unwrap(), "mine");
     let own = folder.path().join("own");
-    assert_eq!(
-        [code(&report(text(&own))), code(&report(text(&own)))],
-        [0, 0]
-    );
+    assert_eq!([code(&report(text(&own))), code(&report(text(&own)))], [0, 0]);
 }
 
 /// The goldens of the checkout serve in any working directory.
@@ -347,10 +209,7 @@ fn goldens_are_found_from_any_folder() {
         .current_dir(folder.path())
         .output()
         .unwrap();
-    let cook = stdout(&listed)
-        .lines()
-        .find(|l| l.starts_with("cook "))
-        .map(str::to_owned);
+    let cook = stdout(&listed).lines().find(|l| l.starts_with("cook ")).map(str::to_owned);
     assert!(cook.unwrap().ends_with(" s"));
 }
 
@@ -368,15 +227,7 @@ fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
     let below_a_file = below_a_file.to_str().unwrap();
     refused(&["run", "cook", "--out", below_a_file], &[below_a_file]);
     refused(
-        &[
-            "verify",
-            "--tier",
-            "quick",
-            "--out",
-            below_a_file,
-            "--golden",
-            text(file.path().parent().unwrap()),
-        ],
+        &["verify", "--tier", "quick", "--out", below_a_file, "--golden", text(file.path().parent().unwrap())],
         &[below_a_file],
     );
 }
@@ -415,9 +266,7 @@ fn explained_parameters(case: &str) -> Vec<(String, String)> {
     let told: serde_json::Value = serde_json::from_str(&told).unwrap();
     let text = |p: &serde_json::Value, key: &str| p[key].as_str().unwrap().to_owned();
     let parameters = told["parameters"].as_array().unwrap().iter();
-    parameters
-        .map(|p| (text(p, "name"), text(p, "default")))
-        .collect()
+    parameters.map(|p| (text(p, "name"), text(p, "default"))).collect()
 }
 
 /// Values that make a run short, so that the test is.
@@ -469,17 +318,11 @@ fn every_case_runs_with_nothing_but_its_name() {
         assert!(case.schemes().contains(&scheme), "{}", case.name);
         let parameters = Parameters::new(&case.parameters, &[]).unwrap();
         for (k, &level) in case.levels.iter().enumerate() {
-            let spec = RunSpec {
-                scheme,
-                level,
-                set: Vec::new(),
-                perturbed: false,
-            };
+            let spec = RunSpec { scheme, level, set: Vec::new(), perturbed: false };
             let mut job = (case.begin)(&spec, &parameters).unwrap();
             if k == 0 {
                 let row = job.advance().unwrap();
-                let names: std::collections::BTreeSet<_> =
-                    row.0.iter().map(|(name, _)| name).collect();
+                let names: std::collections::BTreeSet<_> = row.0.iter().map(|(name, _)| name).collect();
                 assert_eq!(row.0.len(), names.len(), "{}", case.name);
             }
         }

@@ -32,44 +32,27 @@ fn taichi() -> Option<PathBuf> {
 
 /// Where Taichi is there: both cases from what is exported to a verdict.
 #[test]
-#[expect(
-    clippy::print_stderr,
-    reason = "says in a test's output what it could not try"
-)]
+#[expect(clippy::print_stderr, reason = "says in a test's output what it could not try")]
 fn another_code_solves_what_is_exported() {
     let Some(python) = taichi() else {
-        eprintln!(
-            "no Taichi: the worked example is not tried (MPM_PYTHON names a Python that has it)"
-        );
+        eprintln!("no Taichi: the worked example is not tried (MPM_PYTHON names a Python that has it)");
         return;
     };
     let root = tempfile::tempdir().unwrap();
     for (case, level, set, right) in [
         ("cook", "h2", None, ["mid-edge", "reaction"]),
-        (
-            "dam-break",
-            "h0.5",
-            Some("cfl=0.3"),
-            ["front", "motion-not-gained"],
-        ),
+        ("dam-break", "h0.5", Some("cfl=0.3"), ["front", "motion-not-gained"]),
     ] {
         let [problem, result] = ["problem", "result"].map(|n| root.path().join(case).join(n));
         let mut arguments = vec!["export", case, "--level", level, "--out", text(&problem)];
         arguments.extend(set.iter().flat_map(|set| ["--set", set]));
         assert_eq!(code(&mpm_verify(&arguments)), 0);
         let script = workspace().join("mpm-verify/codes/taichi/solve.py");
-        let solved = std::process::Command::new(&python)
-            .args([&script, &problem, &result])
-            .output()
-            .unwrap();
+        let solved = std::process::Command::new(&python).args([&script, &problem, &result]).output().unwrap();
         assert!(solved.status.success(), "{}", stderr(&solved));
         let scored = Scored::read(&result).unwrap();
         for check in right {
-            assert_eq!(
-                of(&scored, check)[0].outcome,
-                Outcome::Right,
-                "{case}: {check}"
-            );
+            assert_eq!(of(&scored, check)[0].outcome, Outcome::Right, "{case}: {check}");
         }
     }
 }

@@ -11,14 +11,7 @@ use std::process::{Command, Output};
 
 const RUN: &str = "cook/gimp-fbar-rate-flip/h2";
 /// A run of part of a second, too short to come to rest.
-const SHORT: [&str; 6] = [
-    "run",
-    "cook",
-    "--remedy",
-    "fbar-total",
-    "--set",
-    "max_periods=0.06",
-];
+const SHORT: [&str; 6] = ["run", "cook", "--remedy", "fbar-total", "--set", "max_periods=0.06"];
 const REST: [&str; 4] = ["--set", "rest_window=0.05", "--set", "load_ramp=0.03"];
 
 fn short(more: &[&str]) -> Output {
@@ -58,24 +51,12 @@ fn change(path: &Path, pointer: &str, value: Value) {
 fn names_in_files_lead_nowhere() {
     let scene = Scene::new();
     let root = scene.report.parent().unwrap();
-    copy_tree(
-        &scene.report.join(RUN),
-        &root.join("victim/gimp-fbar-rate-flip/h2"),
-    );
-    for file in [
-        "data.csv",
-        "fig.png",
-        "study.json",
-        "notes.txt",
-        "drift/x/a.png",
-    ] {
+    copy_tree(&scene.report.join(RUN), &root.join("victim/gimp-fbar-rate-flip/h2"));
+    for file in ["data.csv", "fig.png", "study.json", "notes.txt", "drift/x/a.png"] {
         fs::create_dir_all(root.join("victim/drift/x")).unwrap();
         fs::write(root.join("victim").join(file), "mine").unwrap();
     }
-    let (plan, record) = (
-        scene.report.join("plan.json"),
-        scene.report.join(RUN).join("record.json"),
-    );
+    let (plan, record) = (scene.report.join("plan.json"), scene.report.join(RUN).join("record.json"));
     let absolute = root.join("victim").display().to_string();
     for (file, pointer, value) in [
         (&plan, "/runs/0/case", "../victim"),
@@ -90,14 +71,7 @@ fn names_in_files_lead_nowhere() {
         let value = serde_json::from_str(value).unwrap_or_else(|_| json!(value));
         change(file, pointer, value);
         let before = files(root);
-        let bless = [
-            "bless",
-            "cook",
-            "--reason",
-            "x",
-            "--from",
-            text(&scene.report),
-        ];
+        let bless = ["bless", "cook", "--reason", "x", "--from", text(&scene.report)];
         let golden = ["--golden", text(&scene.golden)];
         for output in [scene.report(), mpm_verify(&[&bless[..], &golden].concat())] {
             assert_eq!(code(&output), 2, "{pointer}: {}", stdout(&output));
@@ -105,32 +79,18 @@ fn names_in_files_lead_nowhere() {
             let after = files(root);
             let left = |name: &&std::path::PathBuf| !after.contains_key(*name);
             let gone: Vec<_> = before.keys().filter(left).collect();
-            assert!(
-                gone.iter().all(|name| name.starts_with("report")),
-                "{gone:?}"
-            );
-            assert!(
-                after.keys().all(|name| before.contains_key(name)),
-                "{pointer}"
-            );
+            assert!(gone.iter().all(|name| name.starts_with("report")), "{gone:?}");
+            assert!(after.keys().all(|name| before.contains_key(name)), "{pointer}");
         }
         fs::write(file, sound).unwrap();
     }
     assert_eq!(code(&scene.report()), 0);
     // By itself, too, a record says what it is of.
     let alone = scene.report.join(RUN);
-    change(
-        &alone.join("record.json"),
-        "/level",
-        json!("../../../victim"),
-    );
+    change(&alone.join("record.json"), "/level", json!("../../../victim"));
     let output = mpm_verify(&["report", text(&alone), "--golden", text(&scene.golden)]);
     assert_eq!(code(&output), 2);
-    assert!(
-        stderr(&output).contains("record.json: unknown level"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("record.json: unknown level"), "{}", stderr(&output));
 }
 
 /// Only what the folder's account names is removed.
@@ -144,12 +104,7 @@ fn a_report_removes_what_it_wrote_and_refuses_what_is_in_its_way() {
     assert_eq!(fs::read_to_string(&below).unwrap(), "mine");
     fs::write(&mine, "mine").unwrap();
     let before = files(&scene.report);
-    refused(
-        &scene.report(),
-        "mine.csv: in the way",
-        &scene.report,
-        &before,
-    );
+    refused(&scene.report(), "mine.csv: in the way", &scene.report, &before);
 
     // One that was killed while it wrote claims all that has the place of a picture.
     let account = scene.report.join(".mpm-verify");
@@ -160,11 +115,7 @@ fn a_report_removes_what_it_wrote_and_refuses_what_is_in_its_way() {
     assert_eq!(fs::read_to_string(&account).unwrap(), whole);
 
     // An account that names what is no report's is none.
-    fs::write(
-        &account,
-        whole + "../victim.csv\nplan.json\ncook/../plan.json\n",
-    )
-    .unwrap();
+    fs::write(&account, whole + "../victim.csv\nplan.json\ncook/../plan.json\n").unwrap();
     fs::write(scene.report.parent().unwrap().join("victim.csv"), "mine").unwrap();
     assert_eq!(code(&scene.report()), 0);
     assert!(scene.report.join("plan.json").exists());
@@ -188,11 +139,7 @@ fn a_run_removes_what_a_run_writes_and_follows_no_link() {
     let output = short(&["--out", text(&out)]);
     assert!([0, 1].contains(&code(&output)), "{}", stderr(&output));
     for name in mine {
-        assert_eq!(
-            fs::read_to_string(out.join(name)).unwrap(),
-            "mine",
-            "{name}"
-        );
+        assert_eq!(fs::read_to_string(out.join(name)).unwrap(), "mine", "{name}");
     }
     assert!(!out.join("snapshots/009.000.csv").exists());
     assert!(!out.join("series.csv").is_symlink());
@@ -212,11 +159,7 @@ fn a_run_removes_what_a_run_writes_and_follows_no_link() {
     symlink(folder.path().join("moved"), &place).unwrap();
     let output = scene.report();
     assert_eq!(code(&output), 2);
-    assert!(
-        stderr(&output).contains("gimp-none-flip: a link"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("gimp-none-flip: a link"), "{}", stderr(&output));
 }
 
 #[test]
@@ -225,19 +168,14 @@ fn a_folder_has_one_writer_and_the_second_is_told_who_it_is() {
     let out = tempfile::tempdir().unwrap();
     let held = [out.path(), &scene.report, &scene.golden].map(|folder| hold(folder).unwrap());
     let [o, report, golden] = [out.path(), &scene.report, &scene.golden].map(text);
-    let me = format!(
-        "another process writes to this folder: process {}, `",
-        std::process::id()
-    );
+    let me = format!("another process writes to this folder: process {}, `", std::process::id());
     let before = files(scene.report.parent().unwrap());
     for command in [
         &["run", "cook", "--out", o][..],
         &["run", "cook", "--resume", o],
         &["verify", "--tier", "quick", "--out", o, "--golden", golden],
         &["report", report, "--golden", golden],
-        &[
-            "bless", "cook", "--reason", "x", "--from", report, "--golden", golden,
-        ],
+        &["bless", "cook", "--reason", "x", "--from", report, "--golden", golden],
         &["keep", report, "--into", o],
         &["diff", report, report, "--out", o],
         &["bench", "--rounds", "1", "--out", o],
@@ -265,11 +203,7 @@ fn of_two_runs_at_once_one_is_made() {
     });
     assert!([[0, 2], [2, 0]].contains(&codes), "{codes:?}");
     let ended = mpm_verify(&["run", "cook", "--resume", text(folder.path())]);
-    assert!(
-        stdout(&ended).contains("has ended before"),
-        "{}",
-        stderr(&ended)
-    );
+    assert!(stdout(&ended).contains("has ended before"), "{}", stderr(&ended));
 }
 
 /// A record vouches for the tables beside it.
@@ -284,9 +218,7 @@ fn a_table_that_is_not_what_the_run_wrote_passes_nowhere() {
         let digit = middle + sound[middle..].iter().position(u8::is_ascii_digit).unwrap();
         let mut digit_changed = sound.clone();
         digit_changed[digit] = b'0' + (sound[digit] - b'0' + 1) % 10;
-        let crlf = String::from_utf8(sound.clone())
-            .unwrap()
-            .replace('\n', "\r\n");
+        let crlf = String::from_utf8(sound.clone()).unwrap().replace('\n', "\r\n");
         for damaged in [
             digit_changed,
             crlf.into_bytes(),
@@ -299,10 +231,7 @@ fn a_table_that_is_not_what_the_run_wrote_passes_nowhere() {
             let output = scene.report();
             assert_eq!(code(&output), 2, "{name}");
             let said = stderr(&output);
-            assert!(
-                said.contains(name) && said.contains("that the run has written"),
-                "{said}"
-            );
+            assert!(said.contains(name) && said.contains("that the run has written"), "{said}");
         }
         // Two gigabytes without content.
         fs::File::create(&path).unwrap().set_len(2 << 30).unwrap();
@@ -321,29 +250,17 @@ fn a_table_that_is_not_what_the_run_wrote_passes_nowhere() {
     let record = run.join("record.json");
     let sound = fs::read(&record).unwrap();
     for (pointer, value, needle) in [
-        (
-            "/parameters/poisson_ratio",
-            json!(0.3),
-            "of other parameters",
-        ),
+        ("/parameters/poisson_ratio", json!(0.3), "of other parameters"),
         ("/discretisation/dt", json!(-1.0), "that no run has"),
         ("/time/wall_s", json!(-5.0), "that no run has"),
         ("/machine/cores", json!(0), "that no run has"),
-        (
-            "/files",
-            json!({}),
-            "not the nothing that the run has written",
-        ),
+        ("/files", json!({}), "not the nothing that the run has written"),
         ("/level", json!("h1"), "of another run"),
     ] {
         change(&record, pointer, value);
         let output = scene.report();
         assert_eq!(code(&output), 2, "{pointer}");
-        assert!(
-            stderr(&output).contains(needle),
-            "{pointer}: {}",
-            stderr(&output)
-        );
+        assert!(stderr(&output).contains(needle), "{pointer}: {}", stderr(&output));
         fs::write(&record, &sound).unwrap();
     }
     assert_eq!(code(&scene.report()), 0);
@@ -371,11 +288,7 @@ fn an_ended_run_is_judged_again_and_made_again_where_something_is_missing() {
         fs::remove_file(out.join(name)).unwrap();
         let again = short(&["--resume", text(out)]);
         assert_eq!(code(&again), code(&first), "{}", stderr(&again));
-        assert!(
-            stdout(&again).contains("the run is made again"),
-            "{}",
-            stdout(&again)
-        );
+        assert!(stdout(&again).contains("the run is made again"), "{}", stdout(&again));
         assert!(files(out)[Path::new(name)] == before[Path::new(name)]);
     }
 }
@@ -390,20 +303,9 @@ fn a_plan_that_is_cut_is_incomplete() {
     fs::write(&plan, cut.to_string()).unwrap();
     let output = scene.report();
     assert_eq!(code(&output), 2, "{}", stdout(&output));
-    assert!(
-        stderr(&output).contains("incomplete: of the "),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("incomplete: of the "), "{}", stderr(&output));
     let golden = files(&scene.golden);
-    let bless = [
-        "bless",
-        "cook",
-        "--reason",
-        "x",
-        "--from",
-        text(&scene.report),
-    ];
+    let bless = ["bless", "cook", "--reason", "x", "--from", text(&scene.report)];
     let output = mpm_verify(&[&bless[..], &["--golden", text(&scene.golden)]].concat());
     refused(&output, "incomplete: of the ", &scene.golden, &golden);
     change(&plan, "/tier", json!("nightly"));
@@ -419,18 +321,9 @@ fn links_pipes_and_circles_end_a_reader() {
     symlink(&kept, &record).unwrap();
     assert!(stderr(&scene.report()).contains("record.json: a link"));
     fs::remove_file(&record).unwrap();
-    assert!(
-        Command::new("mkfifo")
-            .arg(&record)
-            .status()
-            .unwrap()
-            .success()
-    );
+    assert!(Command::new("mkfifo").arg(&record).status().unwrap().success());
     assert!(stderr(&scene.report()).contains("record.json: not a plain file"));
-    for deep in [
-        "{\"schema\": 2, \"a\": ".repeat(100_000),
-        "[".repeat(10_000_000),
-    ] {
+    for deep in ["{\"schema\": 2, \"a\": ".repeat(100_000), "[".repeat(10_000_000)] {
         fs::remove_file(&record).unwrap();
         fs::write(&record, deep).unwrap();
         assert!(stderr(&scene.report()).contains("record.json: damaged"));

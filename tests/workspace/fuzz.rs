@@ -63,11 +63,7 @@ fn inputs(family: &str) -> u32 {
 /// Checks so many values of a strategy, the same ones each time.
 fn check<S: Strategy>(family: &str, strategy: &S, test: impl Fn(&S::Value)) {
     let seed: u8 = std::env::var("MPM_FUZZ_SEED").map_or(1, |n| n.parse().unwrap());
-    let config = Config {
-        cases: inputs(family),
-        failure_persistence: None,
-        ..Config::default()
-    };
+    let config = Config { cases: inputs(family), failure_persistence: None, ..Config::default() };
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
     let mut runner = TestRunner::new_with_rng(config, rng);
     let result = runner.run(strategy, |value| {
@@ -194,13 +190,9 @@ fn damaged_records_are_refused_or_judged() {
 fn damaged_tables_of_runs_are_refused() {
     let folder = run();
     let root = [folder.path().to_path_buf()];
-    damage(
-        "series and particles",
-        &folder.path().join("series.csv"),
-        |_| {
-            assert!(Gathered::read(&root).is_err());
-        },
-    );
+    damage("series and particles", &folder.path().join("series.csv"), |_| {
+        assert!(Gathered::read(&root).is_err());
+    });
 }
 
 #[test]
@@ -224,10 +216,7 @@ fn damaged_plans_are_refused_or_are_those_of_no_tier() {
 fn a_damaged_golden_is_refused_or_of_other_numbers() {
     let scene = Scene::new();
     let path = scene.golden.join("cook.json");
-    let (sound, again) = (
-        Golden::read(&path).unwrap(),
-        scene.golden.join("again.json"),
-    );
+    let (sound, again) = (Golden::read(&path).unwrap(), scene.golden.join("again.json"));
     damage("golden", &path, |bytes| {
         if let Ok(golden) = Golden::read(&path) {
             assert!(golden != sound);
@@ -255,13 +244,7 @@ fn a_damaged_checkpoint_is_refused() {
     let job = (case.begin)(&spec, &parameters).unwrap();
     let (series, time) = (Mark::of(b"t\n0\n"), Default::default());
     let memory = job.save().unwrap();
-    keeper
-        .keep(&Checkpoint {
-            series,
-            time,
-            memory,
-        })
-        .unwrap();
+    keeper.keep(&Checkpoint { series, time, memory }).unwrap();
     let asked = identity();
     assert!(Checkpoint::read(folder.path(), &asked).unwrap().is_some());
     damage("checkpoint", &folder.path().join("checkpoint.bin"), |_| {
@@ -288,11 +271,7 @@ fn damaged_summaries_histories_and_rows_are_refused_or_kept_inside() {
     fs::write(&summary, night.to_string()).unwrap();
     let history = scene.report.join("history.csv");
     let row = "2026-01-01,c,cook,gimp-none-flip,cpu_s,1.5\n";
-    fs::write(
-        &history,
-        format!("night,commit,case,run,quantity,value\n{}", row.repeat(20)),
-    )
-    .unwrap();
+    fs::write(&history, format!("night,commit,case,run,quantity,value\n{}", row.repeat(20))).unwrap();
     let inside = |root: &Path| fs::read_dir(root).unwrap().count();
     let before = inside(root);
     damage("history", &history, |_| {
@@ -335,34 +314,21 @@ fn a_damaged_result_of_another_code_is_refused_or_judged() {
     fs::write(&manifest, of("particles.csv")).unwrap();
     assert!(Scored::read(folder.path()).is_ok());
     damage("manifest of a result", &manifest, |_| score());
-    damage(
-        "tables of a result",
-        &folder.path().join("particles.csv"),
-        |_| score(),
-    );
+    damage("tables of a result", &folder.path().join("particles.csv"), |_| score());
     fs::write(&manifest, of("particles.vtu")).unwrap();
     assert!(Scored::read(folder.path()).is_ok());
-    damage(
-        "grid of a result",
-        &folder.path().join("particles.vtu"),
-        |_| score(),
-    );
+    damage("grid of a result", &folder.path().join("particles.vtu"), |_| score());
 }
 
 #[test]
 fn a_parameter_is_refused_or_within_its_range() {
-    let names: Vec<(usize, usize)> = cases::all()
-        .iter()
-        .enumerate()
-        .flat_map(|(c, case)| (0..case.parameters.len()).map(move |p| (c, p)))
-        .collect();
+    let names: Vec<(usize, usize)> =
+        cases::all().iter().enumerate().flat_map(|(c, case)| (0..case.parameters.len()).map(move |p| (c, p))).collect();
     let text = prop_oneof![
         "[-+]?[0-9]{0,4}[.]?[0-9]{0,4}(e[-+]?[0-9]{1,3})?",
         "\\PC{0,12}",
-        select(vec![
-            "nan", "inf", "-inf", "-0", "1e-400", "true", "1_000", "0x10", " 1", "½", "1e", "."
-        ])
-        .prop_map(str::to_owned),
+        select(vec!["nan", "inf", "-inf", "-0", "1e-400", "true", "1_000", "0x10", " 1", "½", "1e", "."])
+            .prop_map(str::to_owned),
     ];
     check("parameters", &(select(names), text), |((c, p), text)| {
         let case = &cases::all()[*c];
@@ -371,10 +337,7 @@ fn a_parameter_is_refused_or_within_its_range() {
         if Parameters::new(&case.parameters, &set).is_ok()
             && let Ok(Value::Number(x)) = parameter.parse(text)
         {
-            assert!(
-                x.is_finite() && !(x == 0.0 && x.is_sign_negative()),
-                "{text}"
-            );
+            assert!(x.is_finite() && !(x == 0.0 && x.is_sign_negative()), "{text}");
         }
     });
 }
@@ -399,9 +362,7 @@ fn a_command_line_is_read_or_refused() {
 /// The figures of the page are those of these tests.
 #[test]
 fn the_page_tells_what_is_tried() {
-    let mut table =
-        "| what is damaged | inputs in the tests | panics, hangs, passes |\n|---|---|---|\n"
-            .to_owned();
+    let mut table = "| what is damaged | inputs in the tests | panics, hangs, passes |\n|---|---|---|\n".to_owned();
     for (family, share) in FAMILIES {
         table += &format!("| {family} | {} | 0 |\n", INPUTS * share / 100);
     }

@@ -51,28 +51,19 @@ fn drift_is_shown_named_and_accepted_with_a_reason() {
     assert!(summary.contains("## Drift") && summary.contains("bless cook --reason"));
     let shown = scene.report.join(format!("cook/drift/{RUN}.png"));
     let picture = image::open(&shown).unwrap().to_rgb8();
-    assert!(
-        picture.width() > 3 * 480,
-        "old, new and difference side by side"
-    );
+    assert!(picture.width() > 3 * 480, "old, new and difference side by side");
 
     assert_eq!(code(&scene.bless("  ")), 2);
     let output = scene.bless("the load's place\nhas changed");
     assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
     let said = stdout(&output);
-    assert!(
-        said.contains("golden 0.27") && said.contains("1 goldens blessed"),
-        "{said}"
-    );
+    assert!(said.contains("golden 0.27") && said.contains("1 goldens blessed"), "{said}");
     // The numbers are what they were, to the last digit that is kept; the blessing has a line.
     let blessed = fs::read_to_string(&file).unwrap();
     let numbers = |text: &str| text.split_once("\"runs\"").unwrap().1.to_owned();
     assert_eq!(numbers(&blessed), numbers(&sound));
     let last = blessed.lines().nth(2).unwrap();
-    assert!(
-        last.starts_with("\"20") && last.contains(": the load's place has changed (source "),
-        "{last}"
-    );
+    assert!(last.starts_with("\"20") && last.contains(": the load's place has changed (source "), "{last}");
     assert_eq!(code(&scene.report()), 0);
     assert!(!shown.exists(), "what no longer drifts is no longer shown");
     assert!(stdout(&scene.bless("again")).contains("0 goldens blessed"));
@@ -88,15 +79,10 @@ fn work_is_compared_exactly_and_summed() {
     record["work"]["steps"] = json!(steps + 1);
     fs::write(scene.record(), record.to_string()).unwrap();
     let drift = scene.drift();
-    assert!(
-        drift.len() == 1 && drift[0].contains("count of steps"),
-        "{drift:?}"
-    );
+    assert!(drift.len() == 1 && drift[0].contains("count of steps"), "{drift:?}");
 
     // Of the pr tier's runs only those of the quick tier are blessed here.
-    let error = mpm_verify::golden::pairs(&scene.golden, "cook")
-        .unwrap_err()
-        .to_string();
+    let error = mpm_verify::golden::pairs(&scene.golden, "cook").unwrap_err().to_string();
     assert!(error.contains("cook.json: no golden of "), "{error}");
 }
 
@@ -108,10 +94,7 @@ fn a_result_that_misses_the_truth_cannot_be_blessed() {
     let output = scene.bless("it is what the code gives");
     assert_eq!(code(&output), 1);
     let said = stdout(&output);
-    assert!(
-        said.contains("refused") && said.contains("mid-edge"),
-        "{said}"
-    );
+    assert!(said.contains("refused") && said.contains("mid-edge"), "{said}");
     assert!(files(&scene.golden) == before);
     // Both are red: the truth decides.
     assert_eq!(code(&scene.report()), 1);
@@ -130,9 +113,5 @@ fn results_of_another_program_cannot_be_blessed() {
     }
     let output = scene.bless("why not");
     assert_eq!(code(&output), 2);
-    assert!(
-        stderr(&output).contains("run `verify` first"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("run `verify` first"), "{}", stderr(&output));
 }

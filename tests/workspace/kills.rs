@@ -24,15 +24,9 @@ fn every_seeded_fault_is_seen_by_a_check_that_there_is() {
         for (case, check) in seers {
             let of = cases::find(case).unwrap();
             let there = of.checks.iter().any(|c| c.name == check);
-            assert!(
-                there || check == "completes" || check.starts_with('('),
-                "{case}: {check}"
-            );
+            assert!(there || check == "completes" || check.starts_with('('), "{case}: {check}");
         }
     }
     let page = fs::read_to_string(workspace().join(PAGE)).unwrap();
-    assert!(
-        page == kills.page(),
-        "{PAGE} is not made of the file: run `just mutants`"
-    );
+    assert!(page == kills.page(), "{PAGE} is not made of the file: run `just mutants`");
 }

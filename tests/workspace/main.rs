@@ -1,11 +1,6 @@
 //! Tests of the whole workspace through its binary.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod architecture;
 mod browser;
@@ -39,10 +34,7 @@ mod cli_syntax;
 mod progress;
 
 #[path = "../mutation/faults/mod.rs"]
-#[allow(
-    dead_code,
-    reason = "of the faults only their names and what sees them"
-)]
+#[allow(dead_code, reason = "of the faults only their names and what sees them")]
 mod faults;
 #[path = "../mutation/kills.rs"]
 #[allow(dead_code, reason = "a run of the faults writes it")]
@@ -59,10 +51,7 @@ use std::sync::OnceLock;
 
 /// Runs the program.
 fn mpm_verify(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mpm-verify"))
-        .args(arguments)
-        .output()
-        .expect("the program starts")
+    Command::new(env!("CARGO_BIN_EXE_mpm-verify")).args(arguments).output().expect("the program starts")
 }
 
 /// A path as an argument.
@@ -71,10 +60,7 @@ fn text(path: &Path) -> &str {
 }
 
 fn workspace() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("..")
-        .canonicalize()
-        .unwrap()
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap()
 }
 
 /// What is made once of the quick tier: its report, the goldens that were blessed of it, and the output of verifying it
@@ -89,12 +75,7 @@ fn made() -> &'static Quick {
     static QUICK: OnceLock<Quick> = OnceLock::new();
     QUICK.get_or_init(|| {
         let [report, golden] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-        let places = [
-            "--out",
-            text(report.path()),
-            "--golden",
-            text(golden.path()),
-        ];
+        let places = ["--out", text(report.path()), "--golden", text(golden.path())];
         let verify = [&["verify", "--tier", "quick"], &places[..]].concat();
         let new = mpm_verify(&verify);
         assert_eq!(code(&new), 3, "{}{}", stdout(&new), stderr(&new));
@@ -102,21 +83,10 @@ fn made() -> &'static Quick {
         let runs = plan["runs"].as_array().unwrap().iter();
         let cases: BTreeSet<&str> = runs.map(|run| run["case"].as_str().unwrap()).collect();
         for case in cases {
-            let places = [
-                "--from",
-                text(report.path()),
-                "--golden",
-                text(golden.path()),
-            ];
+            let places = ["--from", text(report.path()), "--golden", text(golden.path())];
             let bless = [&["bless", case, "--reason", "first"], &places[..]].concat();
             let blessed = mpm_verify(&bless);
-            assert_eq!(
-                code(&blessed),
-                0,
-                "{}{}",
-                stdout(&blessed),
-                stderr(&blessed)
-            );
+            assert_eq!(code(&blessed), 0, "{}{}", stdout(&blessed), stderr(&blessed));
         }
         for twin in files(report.path()).keys().filter_map(|f| f.parent()) {
             if twin.ends_with("twin") {
@@ -124,11 +94,7 @@ fn made() -> &'static Quick {
             }
         }
         let output = mpm_verify(&[&verify[..], &["--resume"]].concat());
-        Quick {
-            report,
-            golden,
-            output,
-        }
+        Quick { report, golden, output }
     })
 }
 

@@ -30,16 +30,8 @@ struct Change {
     again: fn(&Run, u64) -> Option<Outcome>,
 }
 
-const fn change(
-    name: &'static str,
-    agreement: Agreement,
-    again: fn(&Run, u64) -> Option<Outcome>,
-) -> Change {
-    Change {
-        name,
-        agreement,
-        again,
-    }
+const fn change(name: &'static str, agreement: Agreement, again: fn(&Run, u64) -> Option<Outcome>) -> Change {
+    Change { name, agreement, again }
 }
 
 /// Unit of length that is a power of two, and one of stress whose roots are.
@@ -53,23 +45,13 @@ const CHANGES: [Change; 14] = [
     change("two at once", Memory, Run::beside_another),
     change("restart", Memory, Run::restarted),
     change("units of 2ⁿ", Bits, |run, n| run.seen(BINARY, n)),
-    change("mm, t, s", Rounding, |run, n| {
-        run.seen(View::Units(1e3, 1e-6), n)
-    }),
+    change("mm, t, s", Rounding, |run, n| run.seen(View::Units(1e3, 1e-6), n)),
     change("order", Rounding, |run, n| run.tried(View::Own, true, n)),
-    change("mirror, x", Rounding, |run, n| {
-        run.seen(View::Mirrored(0), n)
-    }),
-    change("mirror, y", Rounding, |run, n| {
-        run.seen(View::Mirrored(1), n)
-    }),
+    change("mirror, x", Rounding, |run, n| run.seen(View::Mirrored(0), n)),
+    change("mirror, y", Rounding, |run, n| run.seen(View::Mirrored(1), n)),
     change("turned", Rounding, |run, n| run.seen(View::Turned, n)),
-    change("7 cells aside", Rounding, |run, n| {
-        run.seen(View::Cells(7.0), n)
-    }),
-    change("10⁶ m away", Rounding, |run, n| {
-        run.seen(View::Far(1e6), n)
-    }),
+    change("7 cells aside", Rounding, |run, n| run.seen(View::Cells(7.0), n)),
+    change("10⁶ m away", Rounding, |run, n| run.seen(View::Far(1e6), n)),
 ];
 
 /// A run of a case.
@@ -86,20 +68,14 @@ impl Run {
 
     /// As far as a budget of pairs and so many steps go, or until before the step in which it breaks down.
     fn base(&self, pairs: u64, steps: u64) -> Option<Outcome> {
-        let trial = |length| Trial {
-            view: View::Own,
-            shuffled: false,
-            shrunk: self.shrunk(),
-            from: None,
-            length,
-        };
+        let trial = |length| Trial { view: View::Own, shuffled: false, shrunk: self.shrunk(), from: None, length };
         let begin = || (self.case.begin)(&self.spec, &self.parameters);
         match run(trial(Length::Until(pairs, steps)), begin)? {
-            Err(
-                Error::Breakdown { step, .. }
-                | Error::NoConvergence { step, .. }
-                | Error::Singular { step, .. },
-            ) if step > 0 => self.of(trial(Length::Steps(step))),
+            Err(Error::Breakdown { step, .. } | Error::NoConvergence { step, .. } | Error::Singular { step, .. })
+                if step > 0 =>
+            {
+                self.of(trial(Length::Steps(step)))
+            }
             outcome => Some(outcome.unwrap_or_else(|e| panic!("{}: {e}", self.name()))),
         }
     }
@@ -107,8 +83,7 @@ impl Run {
     /// Whether both views of a scene are of one problem. Particles of the case `translate` come to lie on grid lines, where
     /// linear functions have two slopes; that of the cell above is taken, which in a mirror is the one below.
     fn defines(&self, change: &Change) -> bool {
-        let on_lines =
-            self.case.name == "translate" && self.spec.scheme.basis() == BasisName::Linear;
+        let on_lines = self.case.name == "translate" && self.spec.scheme.basis() == BasisName::Linear;
         !(on_lines && change.name.starts_with("mirror"))
     }
 
@@ -123,13 +98,7 @@ impl Run {
     }
 
     fn tried(&self, view: View, shuffled: bool, steps: u64) -> Option<Outcome> {
-        self.of(Trial {
-            view,
-            shuffled,
-            shrunk: self.shrunk(),
-            from: None,
-            length: Length::Steps(steps),
-        })
+        self.of(Trial { view, shuffled, shrunk: self.shrunk(), from: None, length: Length::Steps(steps) })
     }
 
     fn seen(&self, view: View, steps: u64) -> Option<Outcome> {
@@ -197,33 +166,14 @@ fn bounds(base: &Outcome, other: &Outcome, steps: u64) -> Vec<f64> {
     let natural = |column: &Column| {
         let [stress, length, time] = column.unit;
         // Impulses, and the time itself, gather over all of it.
-        let long = if time == 1 {
-            elapsed.max(scales.time)
-        } else {
-            scales.time
-        };
+        let long = if time == 1 { elapsed.max(scales.time) } else { scales.time };
         let of_one = scales.stress.powi(stress) * scales.length.powi(length) * long.powi(time);
-        of_one
-            * if column.summed {
-                scales.particles as f64
-            } else {
-                1.0
-            }
+        of_one * if column.summed { scales.particles as f64 } else { 1.0 }
     };
     // Strains and speeds, in those measures.
-    let strained = base
-        .columns
-        .iter()
-        .filter(|c| [[1, 0, 0], [0, 1, -1]].contains(&c.unit));
-    let excited = strained
-        .flat_map(|c| c.values.iter().map(|v| v.abs() / natural(c)))
-        .fold(0.0, f64::max)
-        .min(1.0);
-    let condition = if base.condition.is_finite() {
-        base.condition
-    } else {
-        1.0
-    };
+    let strained = base.columns.iter().filter(|c| [[1, 0, 0], [0, 1, -1]].contains(&c.unit));
+    let excited = strained.flat_map(|c| c.values.iter().map(|v| v.abs() / natural(c))).fold(0.0, f64::max).min(1.0);
+    let condition = if base.condition.is_finite() { base.condition } else { 1.0 };
     let place = other.scales.place.max(scales.place);
     let unbalanced = other.unbalanced.max(base.unbalanced);
     let share = ROUNDINGS * (f64::EPSILON + excited * place / scales.finest) + excited * unbalanced;
@@ -231,11 +181,7 @@ fn bounds(base: &Outcome, other: &Outcome, steps: u64) -> Vec<f64> {
     let columns = base.columns.iter();
     columns
         .map(|column| {
-            let of_place = if column.unit == [0, 1, 0] {
-                ROUNDINGS * place
-            } else {
-                0.0
-            };
+            let of_place = if column.unit == [0, 1, 0] { ROUNDINGS * place } else { 0.0 };
             many * (share * natural(column) + of_place)
         })
         .collect()
@@ -274,16 +220,8 @@ fn distance(one: &Column, other: &Column) -> f64 {
         }
         let period = one.periods[k % one.periods.len()];
         let off = (a - b).abs();
-        let off = if off > 0.5 * period {
-            (off - period).abs()
-        } else {
-            off
-        };
-        greatest = if off.is_nan() {
-            f64::NAN
-        } else {
-            greatest.max(off)
-        };
+        let off = if off > 0.5 * period { (off - period).abs() } else { off };
+        greatest = if off.is_nan() { f64::NAN } else { greatest.max(off) };
     }
     greatest
 }
@@ -305,12 +243,7 @@ const SMALL: u64 = 35_000;
 
 /// Tries all changes of some runs, as far as a budget of pairs and so many steps go.
 fn gate(runs: impl Iterator<Item = Run>, pairs: u64, steps: u64) -> Gate {
-    let mut gate = Gate {
-        found: String::new(),
-        runs: 0,
-        pairs: 0,
-        share: 0.0,
-    };
+    let mut gate = Gate { found: String::new(), runs: 0, pairs: 0, share: 0.0 };
     for run in runs {
         let Some(base) = run.base(pairs, steps) else {
             continue;
@@ -339,12 +272,7 @@ fn all<K: Ord>(kind: fn(&RunSpec) -> K) -> impl Iterator<Item = Run> {
 }
 
 fn require(gate: &Gate, least_runs: usize, most_pairs: u64) {
-    let Gate {
-        found,
-        runs,
-        pairs,
-        share,
-    } = gate;
+    let Gate { found, runs, pairs, share } = gate;
     assert!(found.is_empty(), "{found}");
     let told = format!("{runs} runs, {pairs} pairs, {share} of a bound");
     assert!(*runs >= least_runs && *pairs <= most_pairs, "{told}");

@@ -41,18 +41,10 @@ fn zero_where_it_is_allowed_is_right_or_refused_by_name() {
             tried += 1;
             let mut set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
             set.push(format!("{}=0", p.name));
-            let spec = RunSpec {
-                scheme: case.default_scheme(None),
-                level: case.levels[0],
-                set,
-                perturbed: false,
-            };
+            let spec = RunSpec { scheme: case.default_scheme(None), level: case.levels[0], set, perturbed: false };
             let folder = tempfile::tempdir().unwrap();
             let every = Duration::from_secs(3600);
-            let saving = Saving {
-                every,
-                resume: false,
-            };
+            let saving = Saving { every, resume: false };
             let place = Some((folder.path(), saving));
             let record = match judged_run(case, &spec, place, 1, &|_| {}) {
                 Ok(record) => record,

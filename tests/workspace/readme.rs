@@ -12,14 +12,8 @@ fn the_commands_of_the_readme_are_run_by_continuous_integration() {
     let readme = read("README.md");
     let ci = read(".ci/run");
     for command in ["cargo run --release -- verify", "cargo test --release"] {
-        assert!(
-            readme.lines().any(|l| l.trim() == command),
-            "README lacks: {command}"
-        );
-        assert!(
-            ci.lines().any(|l| l.trim() == command),
-            ".ci/run lacks: {command}"
-        );
+        assert!(readme.lines().any(|l| l.trim() == command), "README lacks: {command}");
+        assert!(ci.lines().any(|l| l.trim() == command), ".ci/run lacks: {command}");
     }
 }
 
@@ -76,13 +70,7 @@ fn every_command_of_the_readme_works() {
             .current_dir(folder.path())
             .output()
             .unwrap();
-        assert_eq!(
-            code(&output),
-            0,
-            "{command}: {}{}",
-            stdout(&output),
-            stderr(&output)
-        );
+        assert_eq!(code(&output), 0, "{command}: {}{}", stdout(&output), stderr(&output));
     }
 }
 
@@ -102,23 +90,12 @@ fn every_link_of_the_documents_leads_somewhere() {
     for file in documents() {
         let text = read(&file);
         let folder = std::path::Path::new(&file).parent().unwrap();
-        for target in text
-            .split("](")
-            .skip(1)
-            .filter_map(|rest| rest.split([')', '#']).next())
-        {
+        for target in text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
             if target.starts_with("http") || target.is_empty() {
                 continue;
             }
-            let path = format!(
-                "{}/../{}",
-                env!("CARGO_MANIFEST_DIR"),
-                folder.join(target).display()
-            );
-            assert!(
-                std::path::Path::new(&path).exists(),
-                "{file} links to {target}"
-            );
+            let path = format!("{}/../{}", env!("CARGO_MANIFEST_DIR"), folder.join(target).display());
+            assert!(std::path::Path::new(&path).exists(), "{file} links to {target}");
         }
     }
 }
@@ -154,49 +131,25 @@ fn lines_of_the_documents_are_short() {
 fn the_pages_show_the_pictures_that_the_program_draws() {
     let root = super::workspace();
     let pages = super::files(&root.join("docs"));
-    let pages = pages
-        .iter()
-        .filter(|(name, _)| name.extension().is_some_and(|e| e == "md"));
+    let pages = pages.iter().filter(|(name, _)| name.extension().is_some_and(|e| e == "md"));
     let shown: Vec<_> = pages
-        .map(|(_, text)| {
-            (
-                std::path::Path::new("docs"),
-                String::from_utf8_lossy(text).into_owned(),
-            )
-        })
+        .map(|(_, text)| (std::path::Path::new("docs"), String::from_utf8_lossy(text).into_owned()))
         .chain([(std::path::Path::new(""), read("README.md"))])
         .flat_map(|(folder, text)| {
-            let links = text
-                .split("![")
-                .skip(1)
-                .filter_map(|rest| rest.split("](").nth(1));
+            let links = text.split("![").skip(1).filter_map(|rest| rest.split("](").nth(1));
             let files = links.filter_map(|rest| rest.split(')').next());
             files.map(|file| folder.join(file)).collect::<Vec<_>>()
         })
         .collect();
     // Pictures of goldens are drawn and compared by themselves.
-    let (golden, shown): (std::collections::BTreeSet<_>, std::collections::BTreeSet<_>) = shown
-        .into_iter()
-        .partition(|file: &std::path::PathBuf| file.starts_with("docs/../golden"));
-    assert!(
-        golden.iter().all(|file| root.join(file).is_file()),
-        "{golden:?}"
-    );
+    let (golden, shown): (std::collections::BTreeSet<_>, std::collections::BTreeSet<_>) =
+        shown.into_iter().partition(|file: &std::path::PathBuf| file.starts_with("docs/../golden"));
+    assert!(golden.iter().all(|file| root.join(file).is_file()), "{golden:?}");
     let there = super::files(&root.join("docs/pictures"));
     let place = std::path::Path::new("docs/pictures");
-    assert_eq!(
-        shown,
-        there.into_keys().map(|name| place.join(name)).collect()
-    );
+    assert_eq!(shown, there.into_keys().map(|name| place.join(name)).collect());
     // A chart that waits for the runs of a night may still be there as pixels.
     let plain = |file: std::path::PathBuf| file.with_extension("");
-    let drawn: std::collections::BTreeSet<_> =
-        mpm_verify::report::shown::files().map(plain).collect();
-    assert_eq!(
-        shown
-            .into_iter()
-            .map(plain)
-            .collect::<std::collections::BTreeSet<_>>(),
-        drawn
-    );
+    let drawn: std::collections::BTreeSet<_> = mpm_verify::report::shown::files().map(plain).collect();
+    assert_eq!(shown.into_iter().map(plain).collect::<std::collections::BTreeSet<_>>(), drawn);
 }

@@ -23,21 +23,14 @@ fn the_difference_of_two_reports_is_numbers_and_pictures() {
     count(&scene.report);
     let steps = diff(&scene.report);
     assert_eq!(code(&steps), 3);
-    assert!(
-        stdout(&steps).contains("1 numbers, 0 verdicts"),
-        "{}",
-        stdout(&steps)
-    );
+    assert!(stdout(&steps).contains("1 numbers, 0 verdicts"), "{}", stdout(&steps));
 
     let path = scene.report.join("cook/displacement.png");
     let mut picture = image::open(&path).unwrap().to_rgb8();
     picture.put_pixel(10, 10, image::Rgb([0; 3]));
     picture.save(&path).unwrap();
     let pixel = stdout(&diff(&scene.report));
-    assert!(
-        pixel.contains("cook/displacement.png: 1 pixels differ"),
-        "{pixel}"
-    );
+    assert!(pixel.contains("cook/displacement.png: 1 pixels differ"), "{pixel}");
     let triptych = image::open(out.join("cook/displacement.png")).unwrap();
     assert!(triptych.width() > 3 * picture.width());
 
@@ -47,10 +40,7 @@ fn the_difference_of_two_reports_is_numbers_and_pictures() {
     let other = diff(&scene.report);
     assert_eq!(code(&other), 3);
     let said = stdout(&other);
-    assert!(
-        said.contains("| right | FAILED |") && said.contains("mid_edge_uy (m) |"),
-        "{said}"
-    );
+    assert!(said.contains("| right | FAILED |") && said.contains("mid_edge_uy (m) |"), "{said}");
     assert_eq!(fs::read_to_string(out.join("diff.md")).unwrap(), said);
 
     fs::write(scene.report.join("summary.json"), "{\"schema\": 1,").unwrap();
@@ -78,10 +68,7 @@ fn nights_are_added_to_the_history_once() {
     let path = scene.report.join("history.csv");
     assert_eq!(code(&night("2026-01-02", "b")), 0);
     let one = fs::read_to_string(&path).unwrap();
-    assert!(
-        one.starts_with("night,commit,case,run,quantity,value\n"),
-        "{one}"
-    );
+    assert!(one.starts_with("night,commit,case,run,quantity,value\n"), "{one}");
     assert_eq!(code(&night("2026-01-01", "a")), 0);
     assert_eq!(code(&night("2026-01-02", "c")), 0);
     let all = fs::read_to_string(&path).unwrap();
@@ -89,20 +76,13 @@ fn nights_are_added_to_the_history_once() {
     assert_eq!(nights("2026-01-02,c"), one.lines().count() - 1);
     assert_eq!(nights("2026-01-01,a"), one.lines().count() - 1);
     assert_eq!(nights("2026-01-02,b"), 0);
-    assert!(
-        all.lines().nth(1).unwrap().starts_with("2026-01-01"),
-        "in the order of time"
-    );
+    assert!(all.lines().nth(1).unwrap().starts_with("2026-01-01"), "in the order of time");
 
     assert_eq!(code(&night("2026-13-01", "a")), 2);
     fs::write(&path, "night,commit\n2026-01-01,a\n").unwrap();
     let damaged = night("2026-01-03", "a");
     assert_eq!(code(&damaged), 2);
-    assert!(
-        stderr(&damaged).contains("history.csv"),
-        "{}",
-        stderr(&damaged)
-    );
+    assert!(stderr(&damaged).contains("history.csv"), "{}", stderr(&damaged));
 }
 
 #[test]
@@ -114,10 +94,7 @@ fn of_a_night_stay_its_rows_and_trends() {
         let golden = ["--golden", text(&scene.golden)];
         let night = ["--night", date, "--commit", "c"];
         let report = ["report", text(&scene.report)];
-        assert_eq!(
-            code(&mpm_verify(&[&report[..], &golden, &night].concat())),
-            0
-        );
+        assert_eq!(code(&mpm_verify(&[&report[..], &golden, &night].concat())), 0);
     };
     let none = keep();
     assert_eq!(code(&none), 2);
@@ -129,9 +106,7 @@ fn of_a_night_stay_its_rows_and_trends() {
     let rows = || fs::read_to_string(kept.join("nightly/results.csv")).unwrap();
     let trends = || fs::read_to_string(kept.join("history.csv")).unwrap();
     let (one, first) = (rows(), trends());
-    let runs = json(&scene.report.join("summary.json"))["counts"]["runs"]
-        .as_u64()
-        .unwrap();
+    let runs = json(&scene.report.join("summary.json"))["counts"]["runs"].as_u64().unwrap();
     assert_eq!(one.lines().count() as u64, runs + 1);
     assert!(one.starts_with("case,scheme,level,set,") && one.contains(",2026-01-02,"));
 

@@ -52,11 +52,8 @@ pub(super) struct Scene {
 impl Scene {
     pub(super) fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let scene = Self {
-            report: folder.path().join("report"),
-            golden: folder.path().join("golden"),
-            _folder: folder,
-        };
+        let scene =
+            Self { report: folder.path().join("report"), golden: folder.path().join("golden"), _folder: folder };
         copy_tree(one_case(), &scene.report);
         copy_tree(&golden(), &scene.golden);
         scene
@@ -67,16 +64,7 @@ impl Scene {
     }
 
     pub(super) fn bless(&self, reason: &str) -> std::process::Output {
-        mpm_verify(&[
-            "bless",
-            "cook",
-            "--reason",
-            reason,
-            "--from",
-            text(&self.report),
-            "--golden",
-            text(&self.golden),
-        ])
+        mpm_verify(&["bless", "cook", "--reason", reason, "--from", text(&self.report), "--golden", text(&self.golden)])
     }
 
     pub(super) fn record(&self) -> PathBuf {
@@ -100,8 +88,6 @@ impl Scene {
             goldens.compare(&record, &folder).unwrap()
         };
         let all = [RUN, SHOWN].into_iter().flat_map(of_run);
-        all.filter(Verdict::drifts)
-            .map(|v| format!("{} {}", drift_line(&v), v.source))
-            .collect()
+        all.filter(Verdict::drifts).map(|v| format!("{} {}", drift_line(&v), v.source)).collect()
     }
 }

@@ -14,18 +14,8 @@ use std::sync::OnceLock;
 /// A run of every case that scores: scheme as which a code is judged, level, parameters that are changed.
 const RUNS: [(&str, &str, &str, &[&str]); 5] = [
     ("cook", "bspline2-fbar-consistent-flip", "h2", &[]),
-    (
-        "footing",
-        "bspline2-fbar-consistent-flip",
-        "b10",
-        &["domain_width=3", "domain_depth=3", "penetration=0.0025"],
-    ),
-    (
-        "dam-break",
-        "bspline2-fbar-consistent-flip",
-        "h0.5",
-        &["cfl=0.3"],
-    ),
+    ("footing", "bspline2-fbar-consistent-flip", "b10", &["domain_width=3", "domain_depth=3", "penetration=0.0025"]),
+    ("dam-break", "bspline2-fbar-consistent-flip", "h0.5", &["cfl=0.3"]),
     ("cantilever", "quasi-static-bspline2-none", "h0.1", &[]),
     ("consolidation", "poro-gimp-two-grid", "n8", &[]),
 ];
@@ -82,10 +72,7 @@ impl Copy {
         let root = tempfile::tempdir().unwrap();
         let folder = root.path().join(case);
         copy_tree(&made().join(case), &folder);
-        Self {
-            _root: root,
-            folder,
-        }
+        Self { _root: root, folder }
     }
 
     /// Changes the cells of a column; without, it is taken away.
@@ -126,19 +113,12 @@ pub(super) fn of<'a>(scored: &'a Scored, check: &str) -> Vec<&'a Verdict> {
 fn our_own_run_told_as_anothers_is_measured_and_judged_as_it_is() {
     for (case, scheme, ..) in RUNS {
         let folder = made().join(case);
-        let (own, scored) = (
-            json(&folder.join("record.json")),
-            Scored::read(&folder).unwrap(),
-        );
+        let (own, scored) = (json(&folder.join("record.json")), Scored::read(&folder).unwrap());
         assert_eq!(scored.record.scheme().to_string(), scheme);
         assert!(scored.missing.is_empty(), "{case}: {:?}", scored.missing);
         assert!(!scored.record.metrics.is_empty());
         for (name, measured) in &scored.record.metrics {
-            assert_eq!(
-                json!(measured.value),
-                own["metrics"][name]["value"],
-                "{case} {name}"
-            );
+            assert_eq!(json!(measured.value), own["metrics"][name]["value"], "{case} {name}");
         }
         let judged: Vec<Value> = scored.record.verdicts.iter().map(|v| json!(v)).collect();
         let of_run = own["verdicts"].as_array().unwrap();
@@ -153,72 +133,18 @@ fn our_own_run_told_as_anothers_is_measured_and_judged_as_it_is() {
 /// Each column of a headline made wrong on purpose, the check that sees it, and what is judged when it is missing.
 #[test]
 fn a_wrong_column_fails_and_a_missing_one_is_not_judged() {
-    type Wrong = (
-        &'static str,
-        &'static str,
-        &'static str,
-        fn(f64) -> f64,
-        &'static str,
-    );
+    type Wrong = (&'static str, &'static str, &'static str, fn(f64) -> f64, &'static str);
     let wrong: [Wrong; 10] = [
         ("cook", "particles.csv", "uy (m)", |u| 0.9 * u, "mid-edge"),
-        (
-            "cook",
-            "particles.csv",
-            "mean_stress (Pa)",
-            |s| s + 0.5,
-            "mean-stress-probe",
-        ),
-        (
-            "cook",
-            "series.csv",
-            "reaction_y (N/m)",
-            |r| 0.9 * r,
-            "reaction",
-        ),
-        (
-            "footing",
-            "series.csv",
-            "footing_force (N/m)",
-            |f| 1.1 * f,
-            "prandtl",
-        ),
-        (
-            "footing",
-            "particles.csv",
-            "mean_stress (Pa)",
-            |s| 3.0 * s,
-            "mean-stress",
-        ),
+        ("cook", "particles.csv", "mean_stress (Pa)", |s| s + 0.5, "mean-stress-probe"),
+        ("cook", "series.csv", "reaction_y (N/m)", |r| 0.9 * r, "reaction"),
+        ("footing", "series.csv", "footing_force (N/m)", |f| 1.1 * f, "prandtl"),
+        ("footing", "particles.csv", "mean_stress (Pa)", |s| 3.0 * s, "mean-stress"),
         ("dam-break", "series.csv", "front (m)", |x| x - 0.8, "front"),
-        (
-            "dam-break",
-            "series.csv",
-            "kinetic_energy (J/m)",
-            |k| 2.0 * k,
-            "motion-not-gained",
-        ),
-        (
-            "cantilever",
-            "particles.csv",
-            "uy (m)",
-            |u| 0.95 * u,
-            "corner",
-        ),
-        (
-            "consolidation",
-            "series.csv",
-            "settlement (-)",
-            |s| 1.3 * s,
-            "settlement",
-        ),
-        (
-            "consolidation",
-            "series.csv",
-            "base_pressure (-)",
-            |p| p + 0.2,
-            "base-pressure",
-        ),
+        ("dam-break", "series.csv", "kinetic_energy (J/m)", |k| 2.0 * k, "motion-not-gained"),
+        ("cantilever", "particles.csv", "uy (m)", |u| 0.95 * u, "corner"),
+        ("consolidation", "series.csv", "settlement (-)", |s| 1.3 * s, "settlement"),
+        ("consolidation", "series.csv", "base_pressure (-)", |p| p + 0.2, "base-pressure"),
     ];
     for (case, table, column, change, check) in wrong {
         let copy = Copy::of(case);
@@ -227,15 +153,9 @@ fn a_wrong_column_fails_and_a_missing_one_is_not_judged() {
             assert!(!found.is_empty(), "{case}: {check}");
             found.iter().map(|v| v.outcome).collect::<Vec<_>>()
         };
-        assert!(
-            !outcomes(&copy.score()).contains(&Outcome::Failed),
-            "{case}: {check}"
-        );
+        assert!(!outcomes(&copy.score()).contains(&Outcome::Failed), "{case}: {check}");
         copy.change(table, column, Some(change));
-        assert!(
-            outcomes(&copy.score()).contains(&Outcome::Failed),
-            "{case}: {check}"
-        );
+        assert!(outcomes(&copy.score()).contains(&Outcome::Failed), "{case}: {check}");
         let output = mpm_verify(&["score", text(&copy.folder), "--quiet"]);
         assert_eq!(code(&output), 1, "{}{}", stdout(&output), stderr(&output));
         assert!(stdout(&output).contains(check), "{}", stdout(&output));
@@ -265,10 +185,7 @@ fn a_result_stands_beside_ours() {
     assert_eq!(found["exit_code"], 0);
     assert!(!found["ours"].as_array().unwrap().is_empty());
     let told = mpm_verify(&["score", text(&copy.folder), "--json"]);
-    assert_eq!(
-        serde_json::from_str::<Value>(&stdout(&told)).unwrap(),
-        found
-    );
+    assert_eq!(serde_json::from_str::<Value>(&stdout(&told)).unwrap(), found);
     for (case, ..) in RUNS {
         let scored = Scored::read(&made().join(case)).unwrap();
         let ours = scored::Ours::beside(&scored).unwrap();
@@ -306,17 +223,8 @@ fn what_is_exported_can_be_filled_in() {
         }
         let scored = Scored::read(&out).unwrap();
         let reference = fs::read_to_string(out.join("reference.csv")).unwrap();
-        for verdict in scored
-            .record
-            .verdicts
-            .iter()
-            .filter(|v| v.judges() && v.value.is_some())
-        {
-            assert!(
-                reference.contains(&verdict.metric),
-                "{case}: {}",
-                verdict.metric
-            );
+        for verdict in scored.record.verdicts.iter().filter(|v| v.judges() && v.value.is_some()) {
+            assert!(reference.contains(&verdict.metric), "{case}: {}", verdict.metric);
             assert!(readme.contains(&verdict.check), "{case}: {}", verdict.check);
         }
         let particles = fs::read_to_string(out.join("start.csv")).unwrap();
@@ -338,69 +246,33 @@ fn what_is_wrong_is_named() {
         changed.to_string()
     };
     let set = |name: &str, value: Value| with("parameters", json!({name: value}));
-    let twice = sound.to_string().replace(
-        "\"parameters\":{}",
-        "\"parameters\":{\"load\":1,\"load\":1}",
-    );
+    let twice = sound.to_string().replace("\"parameters\":{}", "\"parameters\":{\"load\":1,\"load\":1}");
     let series = "series";
     for (manifest, named) in [
         ("{".to_owned(), "line 1"),
         (with("schema", json!(2)), "schema 2 where 1 is read"),
         (with("partikles", json!("a.csv")), "is `particles` meant?"),
-        (
-            with("code", json!({"name": "a", "vesion": "1"})),
-            "is `version` meant?",
-        ),
+        (with("code", json!({"name": "a", "vesion": "1"})), "is `version` meant?"),
         (with("code", json!({"name": ""})), "a line of 1 to 200"),
         (with("scheme", json!("a\u{1b}[31m")), "a line of 1 to 200"),
-        (
-            with("case", json!("cok")),
-            "case: unknown case that scores \"cok\"; allowed: cook",
-        ),
+        (with("case", json!("cok")), "case: unknown case that scores \"cok\"; allowed: cook"),
         (with("case", json!("landslide")), "allowed: cook"),
-        (
-            with("level", json!("h3")),
-            "level: unknown level \"h3\"; allowed: h2",
-        ),
+        (with("level", json!("h3")), "level: unknown level \"h3\"; allowed: h2"),
         (with("basis", json!("fem")), "expected one of `linear`"),
-        (
-            set("poisson_ration", json!(0.3)),
-            "parameters: unknown parameter",
-        ),
+        (set("poisson_ration", json!(0.3)), "parameters: unknown parameter"),
         (set("poisson_ratio", json!(0.5)), "below 0.5"),
-        (
-            set("poisson_ratio", json!([0.3])),
-            "a number, boolean or word is allowed",
-        ),
+        (set("poisson_ratio", json!([0.3])), "a number, boolean or word is allowed"),
         (twice, "parameter load is set twice"),
-        (
-            with("particles", json!("../particles.csv")),
-            "where the name of a file beside",
-        ),
-        (
-            with("particles", json!("/etc/passwd")),
-            "where the name of a file beside",
-        ),
-        (
-            with("particles", json!("particles.txt")),
-            "particles \"particles.txt\"; allowed: a .csv",
-        ),
+        (with("particles", json!("../particles.csv")), "where the name of a file beside"),
+        (with("particles", json!("/etc/passwd")), "where the name of a file beside"),
+        (with("particles", json!("particles.txt")), "particles \"particles.txt\"; allowed: a .csv"),
         (with("particles", json!("none.csv")), "none.csv"),
         (with("time_step_s", json!(0)), "a positive, finite number"),
         (with("cost", json!({"cpu": 1})), "is `cpu_s` meant?"),
-        (
-            with("particles", Value::Null).replace("series.csv", "folder.csv"),
-            "not a plain file",
-        ),
-        (
-            with(series, json!("link.csv")),
-            "a link, which is not followed",
-        ),
+        (with("particles", Value::Null).replace("series.csv", "folder.csv"), "not a plain file"),
+        (with(series, json!("link.csv")), "a link, which is not followed"),
         (with(series, json!("pipe.csv")), "not a plain file"),
-        (
-            with(series, json!("units.csv")),
-            "allowed: \"reaction_y (N/m)\"",
-        ),
+        (with(series, json!("units.csv")), "allowed: \"reaction_y (N/m)\""),
         (with(series, json!("nan.csv")), "row 1: NaN"),
         (with(series, json!("empty.csv")), "0 rows where 1 to"),
         (with(series, json!("short.csv")), "short.csv"),
@@ -409,9 +281,7 @@ fn what_is_wrong_is_named() {
         if !folder.join("link.csv").exists() {
             fs::create_dir(folder.join("folder.csv")).unwrap();
             std::os::unix::fs::symlink("series.csv", folder.join("link.csv")).unwrap();
-            let pipe = std::process::Command::new("mkfifo")
-                .arg(folder.join("pipe.csv"))
-                .status();
+            let pipe = std::process::Command::new("mkfifo").arg(folder.join("pipe.csv")).status();
             assert!(pipe.unwrap().success());
             fs::write(folder.join("units.csv"), "reaction_y (kN/m)\n1\n").unwrap();
             fs::write(folder.join("nan.csv"), "reaction_y (N/m)\nNaN\n").unwrap();
@@ -434,31 +304,21 @@ fn the_schema_is_that_of_the_reader() {
     let copy = Copy::of("cook");
     let refusal = |manifest: Value| {
         write(&copy.folder, &manifest);
-        Scored::read(&copy.folder)
-            .map(|_| ())
-            .unwrap_err()
-            .to_string()
+        Scored::read(&copy.folder).map(|_| ()).unwrap_err().to_string()
     };
     let known = |said: &str| {
         let names = said.split('`').skip(3).step_by(2).map(str::to_owned);
         names.collect::<BTreeSet<String>>()
     };
-    for (key, place) in [
-        (None, &schema),
-        (Some("code"), &schema["properties"]["code"]),
-        (Some("cost"), &schema["properties"]["cost"]),
-    ] {
+    for (key, place) in
+        [(None, &schema), (Some("code"), &schema["properties"]["code"]), (Some("cost"), &schema["properties"]["cost"])]
+    {
         let mut wrong = manifest("cook", "h2", &[]);
         match key {
             None => wrong["zzzzzzzzzz"] = json!(1),
             Some(key) => wrong[key]["zzzzzzzzzz"] = json!(1),
         }
-        let keys: BTreeSet<String> = place["properties"]
-            .as_object()
-            .unwrap()
-            .keys()
-            .cloned()
-            .collect();
+        let keys: BTreeSet<String> = place["properties"].as_object().unwrap().keys().cloned().collect();
         assert_eq!(known(&refusal(wrong)), keys, "{key:?}");
         assert_eq!(place["additionalProperties"], false);
     }
@@ -466,10 +326,7 @@ fn the_schema_is_that_of_the_reader() {
         let key = key.as_str().unwrap();
         let mut wrong = manifest("cook", "h2", &[]);
         wrong.as_object_mut().unwrap().remove(key);
-        assert!(
-            refusal(wrong).contains(&format!("missing field `{key}`")),
-            "{key}"
-        );
+        assert!(refusal(wrong).contains(&format!("missing field `{key}`")), "{key}");
     }
     let scored: Vec<&str> = cases::scored().map(|(case, _)| case.name).collect();
     assert_eq!(schema["properties"]["case"]["enum"], json!(scored));

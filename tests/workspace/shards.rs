@@ -7,15 +7,7 @@ use std::path::{Path, PathBuf};
 
 fn verify(out: &Path, more: &[&str]) -> std::process::Output {
     let golden = golden();
-    let start = [
-        "verify",
-        "--tier",
-        "quick",
-        "--out",
-        text(out),
-        "--golden",
-        text(&golden),
-    ];
+    let start = ["verify", "--tier", "quick", "--out", text(out), "--golden", text(&golden)];
     mpm_verify(&[&start[..], more].concat())
 }
 
@@ -36,10 +28,7 @@ fn changed(path: &Path, pointer: &str, value: serde_json::Value) -> String {
 
 /// Every record below a folder of runs.
 fn records(folder: &Path) -> Vec<PathBuf> {
-    files(folder)
-        .into_keys()
-        .filter(|name| name.ends_with("record.json"))
-        .collect()
+    files(folder).into_keys().filter(|name| name.ends_with("record.json")).collect()
 }
 
 #[test]
@@ -95,10 +84,7 @@ fn what_is_half_written_is_no_report_until_it_is_resumed() {
     let out = folder.path().join("report");
     copy_tree(quick().0, &out);
     let lost = out.join("cook/gimp-fbar-total-flip/h2/record.json");
-    let records = files(&out)
-        .keys()
-        .filter(|f| f.ends_with("record.json"))
-        .count();
+    let records = files(&out).keys().filter(|f| f.ends_with("record.json")).count();
     fs::remove_file(&lost).unwrap();
     let kept = out.join("cook/gimp-none-flip/h2/record.json");
     let before = fs::read(&kept).unwrap();
@@ -106,10 +92,7 @@ fn what_is_half_written_is_no_report_until_it_is_resumed() {
     let output = report(&[&out], &out);
     assert_eq!(code(&output), 2);
     let said = stderr(&output);
-    assert!(
-        said.contains(&format!("1 of {records} runs have no record")) && said.contains("--resume"),
-        "{said}"
-    );
+    assert!(said.contains(&format!("1 of {records} runs have no record")) && said.contains("--resume"), "{said}");
     assert!(said.contains("cook/gimp-fbar-total-flip/h2"), "{said}");
 
     // Nothing of the old report is left to be taken for the new one.
@@ -124,11 +107,7 @@ fn what_is_half_written_is_no_report_until_it_is_resumed() {
 
     let another = verify(&out, &["--resume", "--shard", "1/2"]);
     assert_eq!(code(&another), 2);
-    assert!(
-        stderr(&another).contains("another plan"),
-        "{}",
-        stderr(&another)
-    );
+    assert!(stderr(&another).contains("another plan"), "{}", stderr(&another));
 }
 
 #[test]
@@ -143,11 +122,7 @@ fn a_record_of_another_program_is_made_again() {
 
     let output = report(&[&out], &out);
     assert_eq!(code(&output), 2);
-    assert!(
-        stderr(&output).contains("records of two programs"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("records of two programs"), "{}", stderr(&output));
 
     assert_eq!(code(&verify(&out, &["--resume"])), 0);
     assert_ne!(json(&stale)["version"]["source"], "000000000000");
@@ -162,53 +137,17 @@ fn damaged_records_and_plans_are_errors() {
     let other = out.join("cook/gimp-fbar-rate-flip/h2/record.json");
     let plan = out.join("plan.json");
     for (path, content, needle) in [
-        (
-            &record,
-            "{\"schema\": 2, \"case\"".to_owned(),
-            "record.json: damaged",
-        ),
-        (
-            &record,
-            "{\"schema\": 1}".to_owned(),
-            "schema 1 where 2 is expected",
-        ),
-        (
-            &record,
-            "{\"schema\": 2}".to_owned(),
-            "record.json: damaged",
-        ),
-        (
-            &record,
-            fs::read_to_string(&other).unwrap(),
-            "of another run",
-        ),
+        (&record, "{\"schema\": 2, \"case\"".to_owned(), "record.json: damaged"),
+        (&record, "{\"schema\": 1}".to_owned(), "schema 1 where 2 is expected"),
+        (&record, "{\"schema\": 2}".to_owned(), "record.json: damaged"),
+        (&record, fs::read_to_string(&other).unwrap(), "of another run"),
         (&plan, "{".to_owned(), "plan.json: damaged"),
-        (
-            &plan,
-            "{\"schema\": 9}".to_owned(),
-            "schema 9 where 1 is expected",
-        ),
+        (&plan, "{\"schema\": 9}".to_owned(), "schema 9 where 1 is expected"),
         (&plan, changed(&plan, "/runs", json!([])), "no runs"),
-        (
-            &plan,
-            changed(&plan, "/runs/1/shard", json!(2)),
-            "shard 2; allowed: 1 to 1",
-        ),
-        (
-            &plan,
-            changed(&plan, "/shard/count", json!(0)),
-            "shard 1/0; allowed",
-        ),
-        (
-            &record,
-            changed(&record, "/perturbed", json!(true)),
-            "of another run",
-        ),
-        (
-            &record,
-            changed(&record, "/version", json!({"mpm_verify": "0.1.0"})),
-            "missing field `source`",
-        ),
+        (&plan, changed(&plan, "/runs/1/shard", json!(2)), "shard 2; allowed: 1 to 1"),
+        (&plan, changed(&plan, "/shard/count", json!(0)), "shard 1/0; allowed"),
+        (&record, changed(&record, "/perturbed", json!(true)), "of another run"),
+        (&record, changed(&record, "/version", json!({"mpm_verify": "0.1.0"})), "missing field `source`"),
     ] {
         let sound = fs::read(path).unwrap();
         fs::write(path, content).unwrap();

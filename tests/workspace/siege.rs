@@ -65,18 +65,8 @@ fn deeds() -> Vec<Deed> {
             "out",
         ),
         deed("report", "verified", "report /out --golden /golden", "out"),
-        deed(
-            "merge",
-            "shards",
-            "report /1 /2 --out /both --golden /golden",
-            "both",
-        ),
-        deed(
-            "bless",
-            "verified",
-            "bless vibrating-bar --reason siege --from /out --golden /new --threads 1",
-            "new",
-        ),
+        deed("merge", "shards", "report /1 /2 --out /both --golden /golden", "both"),
+        deed("bless", "verified", "bless vibrating-bar --reason siege --from /out --golden /new --threads 1", "new"),
         deed("keep", "night", "keep /out --into /kept", "kept"),
     ]
 }
@@ -100,22 +90,12 @@ impl Tally {
             ("commands run", self.commands.to_string()),
             (
                 "kills of commands at work, survived",
-                format!(
-                    "{} ({})",
-                    self.kills.values().sum::<usize>(),
-                    kills.join(", ")
-                ),
+                format!("{} ({})", self.kills.values().sum::<usize>(), kills.join(", ")),
             ),
-            (
-                "damaged, removed or replaced files",
-                self.damaged.to_string(),
-            ),
+            ("damaged, removed or replaced files", self.damaged.to_string()),
             ("of them refused or told as drift", self.told.to_string()),
             ("of them made again", self.again.to_string()),
-            (
-                "of them not read, or of the same or other sound content",
-                self.harmless.to_string(),
-            ),
+            ("of them not read, or of the same or other sound content", self.harmless.to_string()),
             ("results that differ after a kill", "0".to_owned()),
             ("false passes", "0".to_owned()),
             ("files outside touched", "0".to_owned()),
@@ -139,11 +119,7 @@ struct Siege {
 impl Siege {
     fn new(seed: u8) -> Self {
         let root = tempfile::tempdir().unwrap();
-        for (name, content) in [
-            ("notes.txt", "mine"),
-            ("study.json", "{}"),
-            ("a/x.csv", "t\n0\n"),
-        ] {
+        for (name, content) in [("notes.txt", "mine"), ("study.json", "{}"), ("a/x.csv", "t\n0\n")] {
             let path = root.path().join("outside").join(name);
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, content).unwrap();
@@ -165,12 +141,7 @@ impl Siege {
             deed.lasts = begun.elapsed();
             deed.code = output.status.code();
             deed.straight = left(&place.join(deed.leaves));
-            assert!(
-                !deed.straight.is_empty(),
-                "{}: {}",
-                deed.name,
-                stderr(&output)
-            );
+            assert!(!deed.straight.is_empty(), "{}: {}", deed.name, stderr(&output));
             siege.deeds.push(deed);
         }
         siege
@@ -196,10 +167,7 @@ impl Siege {
             ends(self.command(&[&bless[..], &places].concat(), &verified), 0);
         }
         fs::create_dir(verified.join("new")).unwrap();
-        ends(
-            self.command(&words("report /out --golden /golden"), &verified),
-            0,
-        );
+        ends(self.command(&words("report /out --golden /golden"), &verified), 0);
         for name in ["nothing", "shards"] {
             copy_tree(&verified.join("golden"), &sound.join(name).join("golden"));
         }
@@ -251,10 +219,7 @@ impl Siege {
         let output = child.wait_with_output().unwrap();
         let said = stderr(&output);
         assert!(!said.contains("panicked"), "{arguments:?}: {said}");
-        assert!(
-            output.status.code().is_some_and(|c| c <= 4),
-            "{arguments:?}"
-        );
+        assert!(output.status.code().is_some_and(|c| c <= 4), "{arguments:?}");
         output
     }
 
@@ -276,11 +241,7 @@ impl Siege {
         let deed = &self.deeds[k];
         // What is blessed already has no drift.
         let ended = name == "bless" && output.status.code() == Some(2);
-        assert!(
-            ended || output.status.code() == deed.code,
-            "{name}: {}",
-            stderr(&output)
-        );
+        assert!(ended || output.status.code() == deed.code, "{name}: {}", stderr(&output));
         let found = left(&place.join(deed.leaves));
         let names = found.keys().chain(deed.straight.keys());
         let differ = |n: &&PathBuf| found.get(*n) != deed.straight.get(*n);

@@ -6,12 +6,7 @@ use std::fs;
 #[test]
 fn no_page_shows_a_table_that_the_kept_results_do_not_give() {
     let check = mpm_verify(&["tables", "--check", "--root", text(&workspace())]);
-    assert_eq!(
-        code(&check),
-        0,
-        "fill them with `just tables`:\n{}",
-        stdout(&check)
-    );
+    assert_eq!(code(&check), 0, "fill them with `just tables`:\n{}", stdout(&check));
 }
 
 #[test]
@@ -25,21 +20,11 @@ fn a_changed_digit_is_named_and_filling_mends_it() {
     let (before, table) = page.split_once("<!-- table slope -->").unwrap();
     let wrong = table.replacen("2.96", "2.97", 1);
     assert_ne!(table, wrong);
-    fs::write(
-        place("README.md"),
-        format!("{before}<!-- table slope -->{wrong}"),
-    )
-    .unwrap();
-    let tables = |options: &[&str]| {
-        mpm_verify(&[&["tables", "--root", text(root.path())], options].concat())
-    };
+    fs::write(place("README.md"), format!("{before}<!-- table slope -->{wrong}")).unwrap();
+    let tables = |options: &[&str]| mpm_verify(&[&["tables", "--root", text(root.path())], options].concat());
     let stale = tables(&["--check"]);
     assert_eq!(code(&stale), 1);
-    assert!(
-        stdout(&stale).ends_with("README.md: slope stale\n"),
-        "{}",
-        stdout(&stale)
-    );
+    assert!(stdout(&stale).ends_with("README.md: slope stale\n"), "{}", stdout(&stale));
     assert_ne!(fs::read_to_string(place("README.md")).unwrap(), page);
     assert_eq!(code(&tables(&[])), 0);
     assert_eq!(fs::read_to_string(place("README.md")).unwrap(), page);

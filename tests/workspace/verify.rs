@@ -6,9 +6,7 @@ use std::path::Path;
 
 fn verdict<'a>(record: &'a Value, check: &str) -> &'a Value {
     let all = record["verdicts"].as_array().unwrap();
-    all.iter()
-        .find(|v| v["check"] == check)
-        .unwrap_or_else(|| panic!("no verdict {check}"))
+    all.iter().find(|v| v["check"] == check).unwrap_or_else(|| panic!("no verdict {check}"))
 }
 
 #[test]
@@ -77,16 +75,7 @@ fn a_breakdown_keeps_what_was_written_and_says_why() {
     let out = folder.path().to_str().unwrap();
     // A thousand times the load turns particles inside out; the record of an earlier run is no more.
     std::fs::write(folder.path().join("record.json"), "{}").unwrap();
-    let output = mpm_verify(&[
-        "run",
-        "cook",
-        "--remedy",
-        "none",
-        "--out",
-        out,
-        "--set",
-        "load=1000",
-    ]);
+    let output = mpm_verify(&["run", "cook", "--remedy", "none", "--out", out, "--set", "load=1000"]);
     assert_eq!(code(&output), 4, "{}{}", stdout(&output), stderr(&output));
     let record = json(&folder.path().join("record.json"));
     assert_eq!(record["status"], "failed");
@@ -96,10 +85,7 @@ fn a_breakdown_keeps_what_was_written_and_says_why() {
     }
     assert_eq!(verdict(&record, "completes")["outcome"], "failed");
     let series = std::fs::read_to_string(folder.path().join("series.csv")).unwrap();
-    assert!(
-        series.lines().count() > 3,
-        "the series up to the breakdown is kept"
-    );
+    assert!(series.lines().count() > 3, "the series up to the breakdown is kept");
 }
 
 #[test]
@@ -115,15 +101,8 @@ fn every_kind_of_breakdown_ends_with_a_record() {
     ] {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().to_str().unwrap();
-        let output = mpm_verify(&[
-            "run", "cook", "--basis", basis, "--remedy", remedy, "--out", out, "--set", set,
-        ]);
-        assert_eq!(
-            code(&output),
-            4,
-            "{basis} {remedy} {set}: {}",
-            stderr(&output)
-        );
+        let output = mpm_verify(&["run", "cook", "--basis", basis, "--remedy", remedy, "--out", out, "--set", set]);
+        assert_eq!(code(&output), 4, "{basis} {remedy} {set}: {}", stderr(&output));
         let record = json(&folder.path().join("record.json"));
         assert_eq!(record["status"], "failed");
         kinds.insert(record["error"]["kind"].as_str().unwrap().to_owned());
@@ -133,14 +112,7 @@ fn every_kind_of_breakdown_ends_with_a_record() {
 }
 
 /// Parameters of a run that is too short to come to rest.
-const SHORT: [&str; 6] = [
-    "--set",
-    "max_periods=0.05",
-    "--set",
-    "rest_window=0.01",
-    "--set",
-    "load_ramp=0",
-];
+const SHORT: [&str; 6] = ["--set", "max_periods=0.05", "--set", "rest_window=0.01", "--set", "load_ramp=0"];
 
 /// Exact work of a fixed number of steps: a change of algorithmic work is a readable difference.
 #[test]
@@ -150,9 +122,7 @@ fn work_counters_are_as_reviewed() {
         for remedy in ["none", "fbar-recursive", "fbar-total", "fbar-rate"] {
             let folder = tempfile::tempdir().unwrap();
             let out = folder.path().to_str().unwrap();
-            let run = [
-                "run", "cook", "--basis", basis, "--remedy", remedy, "--out", out,
-            ];
+            let run = ["run", "cook", "--basis", basis, "--remedy", remedy, "--out", out];
             mpm_verify(&[&run[..], &SHORT].concat());
             let work = json(&folder.path().join("record.json"))["work"].to_string();
             table.push_str(&format!("{basis} {remedy} {work}\n"));
@@ -173,29 +143,11 @@ fn a_run_that_misses_the_truth_exits_with_one() {
 fn a_reference_outside_its_validity_is_not_applicable() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
-    let output = mpm_verify(&[
-        "run",
-        "cook",
-        "--out",
-        out,
-        "--set",
-        "load=2",
-        "--set",
-        "poisson_ratio=0.45",
-    ]);
+    let output = mpm_verify(&["run", "cook", "--out", out, "--set", "load=2", "--set", "poisson_ratio=0.45"]);
     assert_eq!(code(&output), 0, "{}", stdout(&output));
     let record = json(&folder.path().join("record.json"));
-    for check in [
-        "mid-edge",
-        "edge-mean",
-        "tip",
-        "mean-stress-probe",
-        "mean-stress-rms",
-    ] {
-        assert!(
-            verdict(&record, check)["outcome"] == "not-judged",
-            "{check}"
-        );
+    for check in ["mid-edge", "edge-mean", "tip", "mean-stress-probe", "mean-stress-rms"] {
+        assert!(verdict(&record, check)["outcome"] == "not-judged", "{check}");
     }
     assert_eq!(verdict(&record, "at-rest")["outcome"], "right");
     assert!(record["metrics"]["fem_tip_error"].is_null());
@@ -213,9 +165,7 @@ fn displacement_depends_on_load_over_stiffness_alone() {
             arguments.extend(["--set", assignment]);
         }
         assert_eq!(code(&mpm_verify(&arguments)), 0);
-        json(&out.join("record.json"))["metrics"]["mid_edge_uy"]["value"]
-            .as_f64()
-            .unwrap()
+        json(&out.join("record.json"))["metrics"]["mid_edge_uy"]["value"].as_f64().unwrap()
     };
     let base = run("base", &[]);
     let scaled = run("scaled", &["load=10", "young_modulus=700", "density=4"]);
@@ -228,16 +178,7 @@ fn the_number_of_threads_changes_no_bit_of_a_record() {
     let metrics = |threads: &str| {
         let out = folder.path().join(threads);
         let out_text = out.to_str().unwrap();
-        let run = [
-            "run",
-            "cook",
-            "--level",
-            "h1",
-            "--threads",
-            threads,
-            "--out",
-            out_text,
-        ];
+        let run = ["run", "cook", "--level", "h1", "--threads", threads, "--out", out_text];
         mpm_verify(&[&run[..], &SHORT].concat());
         let series = std::fs::read(out.join("series.csv")).unwrap();
         (json(&out.join("record.json"))["metrics"].clone(), series)
@@ -283,10 +224,7 @@ fn the_quick_tier_verifies_and_reports() {
     };
     assert_eq!(limits("locked"), ["wrong-as-known"]);
     assert_eq!(limits("creep-grows-as-dt-falls"), ["wrong-as-known"]);
-    assert_eq!(
-        limits("never-at-rest"),
-        ["wrong-as-known", "wrong-as-known"]
-    );
+    assert_eq!(limits("never-at-rest"), ["wrong-as-known", "wrong-as-known"]);
     let written = std::fs::read_to_string(out.join("summary.md")).unwrap();
     assert!(written.contains("| fem_edge_mean_error | gimp fbar-rate |"));
     is_picture(&out.join("cook/rest.png"));

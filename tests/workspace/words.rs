@@ -11,24 +11,13 @@ fn is_line(said: &str) {
     let line = said.strip_suffix('\n').unwrap();
     let acts = |c: char| c.is_control() || "\u{200b}\u{202e}\u{fffe}".contains(c);
     assert!(!line.contains(acts), "{line:?}");
-    assert!(
-        line.chars().count() < 3100,
-        "{} characters",
-        line.chars().count()
-    );
+    assert!(line.chars().count() < 3100, "{} characters", line.chars().count());
 }
 
 #[test]
 fn an_error_is_a_short_line_whatever_was_given() {
     let long = "x".repeat(100_000);
-    for bad in [
-        "a\nb",
-        "\x1b]0;owned\x07",
-        "a\u{202e}b",
-        "\u{200b}",
-        &*long,
-        "a\r\nUsage: b",
-    ] {
+    for bad in ["a\nb", "\x1b]0;owned\x07", "a\u{202e}b", "\u{200b}", &*long, "a\r\nUsage: b"] {
         let set = format!("load={bad}");
         let name = format!("{bad}=1");
         for arguments in [
@@ -61,24 +50,10 @@ fn what_makes_no_sense_is_refused() {
         let night = [&*date, &*commit, "--golden", kept];
         mpm_verify(&[&["report", report][..], &night].concat())
     };
-    for date in [
-        "20260101",
-        "2026-01-01T00:00",
-        "+002026-01-01",
-        "-009999-01-01",
-    ] {
+    for date in ["20260101", "2026-01-01T00:00", "+002026-01-01", "-009999-01-01"] {
         assert!(stderr(&night(date, "a")).contains("YYYY-MM-DD"), "{date}");
     }
-    for commit in [
-        "=cmd|' /C calc'!A0",
-        "+1",
-        "-1",
-        "@a",
-        "a b",
-        "",
-        "a,b",
-        "<script>",
-    ] {
+    for commit in ["=cmd|' /C calc'!A0", "+1", "-1", "@a", "a b", "", "a,b", "<script>"] {
         let output = night("2026-01-01", commit);
         assert_eq!(code(&output), 2, "{commit}");
     }
@@ -107,11 +82,7 @@ fn words_of_files_are_of_one_line_or_refused() {
         fs::write(&record, damaged.to_string()).unwrap();
         let output = scene.report();
         assert_eq!(code(&output), 2);
-        assert!(
-            stderr(&output).contains("control characters"),
-            "{}",
-            stderr(&output)
-        );
+        assert!(stderr(&output).contains("control characters"), "{}", stderr(&output));
         is_line(&stderr(&output));
     }
     let mut broken = sound.clone();
@@ -140,10 +111,9 @@ fn threads_are_bounded() {
     let scene = Scene::new();
     let [report, golden] = [&scene.report, &scene.golden].map(|p| text(p));
     let cores = std::thread::available_parallelism().unwrap().get();
-    for (command, allowed) in [
-        (&["run", "mms-swirl", "--threads", "1"][..], 4),
-        (&["report", report, "--golden", golden], 2 + cores),
-    ] {
+    for (command, allowed) in
+        [(&["run", "mms-swirl", "--threads", "1"][..], 4), (&["report", report, "--golden", golden], 2 + cores)]
+    {
         let mut child = start(command);
         let tasks = format!("/proc/{}/task", child.id());
         let mut most = 0;
@@ -156,11 +126,7 @@ fn threads_are_bounded() {
     let many = (4 * cores + 1).to_string();
     let output = mpm_verify(&["run", "cook", "--threads", &many]);
     assert_eq!(code(&output), 2);
-    assert!(
-        stderr(&output).contains(&format!("1..={}", 4 * cores)),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains(&format!("1..={}", 4 * cores)), "{}", stderr(&output));
 }
 
 /// What speaks against a number is named before it is blessed.
@@ -171,27 +137,13 @@ fn doubtful_numbers_are_blessed_by_name_alone() {
     let (sound, golden) = (json(&record), files(&scene.golden));
     let bless = |more: &[&str]| {
         let [from, kept] = [&scene.report, &scene.golden].map(|p| text(p));
-        let bless = [
-            "bless", "cook", "--reason", "edited", "--from", from, "--golden", kept,
-        ];
+        let bless = ["bless", "cook", "--reason", "edited", "--from", from, "--golden", kept];
         mpm_verify(&[&bless[..], more].concat())
     };
     for (pointer, value, name) in [
-        (
-            "/metrics/checkerboard_rms/value",
-            json!(-1.0),
-            "checkerboard_rms",
-        ),
-        (
-            "/metrics/checkerboard_rms/value",
-            json!(1e6),
-            "checkerboard_rms",
-        ),
-        (
-            "/metrics/checkerboard_rms/value",
-            json!(null),
-            "checkerboard_rms",
-        ),
+        ("/metrics/checkerboard_rms/value", json!(-1.0), "checkerboard_rms"),
+        ("/metrics/checkerboard_rms/value", json!(1e6), "checkerboard_rms"),
+        ("/metrics/checkerboard_rms/value", json!(null), "checkerboard_rms"),
         ("/work/particle_steps", json!(7), "particle_steps"),
         ("/work/sorts", json!(5_000_000), "sorts"),
     ] {
@@ -199,18 +151,8 @@ fn doubtful_numbers_are_blessed_by_name_alone() {
         *edited.pointer_mut(pointer).unwrap() = value;
         fs::write(&record, edited.to_string()).unwrap();
         let output = bless(&[]);
-        assert_eq!(
-            code(&output),
-            2,
-            "{name}: {}{}",
-            stdout(&output),
-            stderr(&output)
-        );
-        assert!(
-            stdout(&output).contains(&format!("doubtful: {name} of ")),
-            "{}",
-            stdout(&output)
-        );
+        assert_eq!(code(&output), 2, "{name}: {}{}", stdout(&output), stderr(&output));
+        assert!(stdout(&output).contains(&format!("doubtful: {name} of ")), "{}", stdout(&output));
         assert!(files(&scene.golden) == golden);
     }
     let mut edited = sound.clone();
@@ -226,11 +168,8 @@ fn doubtful_numbers_are_blessed_by_name_alone() {
 /// A reader that is gone has read enough.
 #[test]
 fn help_to_a_closed_stream_is_no_error() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_mpm-verify"))
-        .arg("--help")
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut child =
+        Command::new(env!("CARGO_BIN_EXE_mpm-verify")).arg("--help").stdout(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
     assert_eq!(child.wait().unwrap().code(), Some(0));
 }

@@ -19,18 +19,14 @@ pub(crate) fn sheared<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Tr
     transfer: T,
 ) -> Result<Solver<D, S, B, M, T>, Error> {
     let place = |k: usize| MARGIN as f64 + 0.5 * (k as f64 + 0.55);
-    let positions = (0..n.pow(D as u32))
-        .map(|k| std::array::from_fn(|a| place(k / n.pow(a as u32) % n)))
-        .collect();
+    let positions = (0..n.pow(D as u32)).map(|k| std::array::from_fn(|a| place(k / n.pow(a as u32) % n))).collect();
     let mut particles = Particles::new(positions, 0.5f64.powi(D as i32), DENSITY, [0.25; D])?;
     for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
         v[0] = rate * (2.0 * x[1] - x[0]);
     }
     let grid = Grid::new(1.0, [Axis::open(0.0, n.div_ceil(2) + 2 * MARGIN); D])?;
     let dt = courant_time_step(0.3, 1.0, law.wave_speed(DENSITY));
-    let settings = Settings::new(dt)
-        .transfer(transfer)
-        .remedy(Box::new(remedy));
+    let settings = Settings::new(dt).transfer(transfer).remedy(Box::new(remedy));
     Solver::new(Scene::new(grid, Body::new(law, particles)?), settings)
 }
 

@@ -57,22 +57,12 @@ impl<const S: usize> Basis<S> for BSpline<S> {
         };
         // Splines of even degree have their nodes between knots: for a node on the wall line the
         // knots move by half a cell, and one more interval is needed.
-        let half_shift =
-            wall == WallTreatment::WallLine && degree.is_multiple_of(2) && !axis.is_periodic();
-        let (origin, intervals) = if half_shift {
-            (axis.lo - 0.5 * h, axis.cells + 1)
-        } else {
-            (axis.lo, axis.cells)
-        };
+        let half_shift = wall == WallTreatment::WallLine && degree.is_multiple_of(2) && !axis.is_periodic();
+        let (origin, intervals) = if half_shift { (axis.lo - 0.5 * h, axis.cells + 1) } else { (axis.lo, axis.cells) };
         let lowest = if clamp_lo { 0.0 } else { f64::NEG_INFINITY };
-        let highest = if clamp_hi {
-            intervals as f64
-        } else {
-            f64::INFINITY
-        };
-        let knots: Vec<f64> = (0..=intervals + 2 * degree)
-            .map(|k| (k as f64 - degree as f64).clamp(lowest, highest))
-            .collect();
+        let highest = if clamp_hi { intervals as f64 } else { f64::INFINITY };
+        let knots: Vec<f64> =
+            (0..=intervals + 2 * degree).map(|k| (k as f64 - degree as f64).clamp(lowest, highest)).collect();
         let mut polynomials = Vec::new();
         let pattern: Vec<usize> = (0..intervals)
             .map(|cell| {
@@ -120,16 +110,10 @@ impl<const S: usize> Basis<S> for BSpline<S> {
     fn nodes(&self) -> AxisNodes {
         let degree = S - 1;
         let count = self.pattern.len() + degree;
-        let greville = |i: usize| -> f64 {
-            self.knots[i + 1..=i + degree].iter().sum::<f64>() / degree as f64
-        };
+        let greville = |i: usize| -> f64 { self.knots[i + 1..=i + degree].iter().sum::<f64>() / degree as f64 };
         AxisNodes {
-            position: (0..count)
-                .map(|i| self.origin + self.h * greville(i))
-                .collect(),
-            original: self
-                .period
-                .map(|cells| (0..count).map(|i| i % cells).collect()),
+            position: (0..count).map(|i| self.origin + self.h * greville(i)).collect(),
+            original: self.period.map(|cells| (0..count).map(|i| i % cells).collect()),
         }
     }
 
@@ -143,11 +127,7 @@ impl<const S: usize> Basis<S> for BSpline<S> {
             let c = &self.polynomials[self.pattern[first]];
             functions(t, |k, s| c[k][s])
         };
-        AxisWeights {
-            first,
-            w,
-            dw: self.per_metre(slope),
-        }
+        AxisWeights { first, w, dw: self.per_metre(slope) }
     }
 
     #[inline(always)]
@@ -158,18 +138,13 @@ impl<const S: usize> Basis<S> for BSpline<S> {
         if !first.all_between(before, after) {
             let inside = self.between_walls(first);
             let c = indices(first).map(|first| &self.polynomials[self.pattern[first as usize]]);
-            let (near_w, near_slope): ([_; S], [_; S]) =
-                functions(t, |k, s| Eight::pack(|p| c[p][k][s]));
+            let (near_w, near_slope): ([_; S], [_; S]) = functions(t, |k, s| Eight::pack(|p| c[p][k][s]));
             for s in 0..S {
                 w[s] = inside.if_positive(w[s], near_w[s]);
                 slope[s] = inside.if_positive(slope[s], near_slope[s]);
             }
         }
-        EightAxisWeights {
-            first,
-            w,
-            dw: self.per_metre(slope),
-        }
+        EightAxisWeights { first, w, dw: self.per_metre(slope) }
     }
 }
 

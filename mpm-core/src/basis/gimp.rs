@@ -44,12 +44,7 @@ impl Gimp {
 
 impl Basis<3> for Gimp {
     fn new(axis: &Axis, h: f64, _wall: WallTreatment) -> Self {
-        Self {
-            axis: *axis,
-            h,
-            origin: axis.lo - GHOSTS as f64 * h,
-            inverse_h: 1.0 / h,
-        }
+        Self { axis: *axis, h, origin: axis.lo - GHOSTS as f64 * h, inverse_h: 1.0 / h }
     }
 
     /// The domain reaches from a node's vertex to either side at the same length: 2/l of the neighbours, 1/(1 − l) of
@@ -62,14 +57,11 @@ impl Basis<3> for Gimp {
         let cells = self.axis.cells;
         let count = cells + 1 + 2 * GHOSTS;
         AxisNodes {
-            position: (0..count)
-                .map(|i| self.origin + i as f64 * self.h)
-                .collect(),
-            original: self.axis.is_periodic().then(|| {
-                (0..count)
-                    .map(|i| (i + cells - GHOSTS) % cells + GHOSTS)
-                    .collect()
-            }),
+            position: (0..count).map(|i| self.origin + i as f64 * self.h).collect(),
+            original: self
+                .axis
+                .is_periodic()
+                .then(|| (0..count).map(|i| (i + cells - GHOSTS) % cells + GHOSTS).collect()),
         }
     }
 
@@ -82,11 +74,7 @@ impl Basis<3> for Gimp {
     #[inline(always)]
     fn weights(&self, x: f64, half_size: f64) -> AxisWeights<3> {
         let (first, w, dw) = self.functions(x, half_size);
-        AxisWeights {
-            first: first as usize,
-            w,
-            dw,
-        }
+        AxisWeights { first: first as usize, w, dw }
     }
 
     /// The hats themselves, to which the means tend.
@@ -95,16 +83,9 @@ impl Basis<3> for Gimp {
         let first = place.floor().clamp(0.0, self.axis.cells as f64);
         let t = place - first;
         // Past one the point lies between the second and the third node: on the last vertex, or beyond it.
-        let (w, dw) = if t <= 1.0 {
-            ([1.0 - t, t, 0.0], [-1.0, 1.0, 0.0])
-        } else {
-            ([0.0, 2.0 - t, t - 1.0], [0.0, -1.0, 1.0])
-        };
-        AxisWeights {
-            first: first as usize,
-            w,
-            dw: dw.map(|dw| dw * self.inverse_h),
-        }
+        let (w, dw) =
+            if t <= 1.0 { ([1.0 - t, t, 0.0], [-1.0, 1.0, 0.0]) } else { ([0.0, 2.0 - t, t - 1.0], [0.0, -1.0, 1.0]) };
+        AxisWeights { first: first as usize, w, dw: dw.map(|dw| dw * self.inverse_h) }
     }
 
     #[inline(always)]

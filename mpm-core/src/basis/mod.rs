@@ -29,11 +29,7 @@ pub struct AxisWeights<const S: usize> {
 
 impl<const S: usize> AxisWeights<S> {
     /// No weight anywhere.
-    pub const NONE: Self = Self {
-        first: 0,
-        w: [0.0; S],
-        dw: [0.0; S],
-    };
+    pub const NONE: Self = Self { first: 0, w: [0.0; S], dw: [0.0; S] };
 }
 
 /// The non-zero functions of one axis at eight points.
@@ -49,19 +45,12 @@ pub struct EightAxisWeights<const S: usize> {
 
 impl<const S: usize> EightAxisWeights<S> {
     /// No weight anywhere.
-    pub const NONE: Self = Self {
-        first: Eight::ZERO,
-        w: [Eight::ZERO; S],
-        dw: [Eight::ZERO; S],
-    };
+    pub const NONE: Self = Self { first: Eight::ZERO, w: [Eight::ZERO; S], dw: [Eight::ZERO; S] };
 
     /// Those at the `k`-th point.
     #[inline(always)]
     pub fn part(&self, k: usize) -> AxisWeights<S> {
-        let mut part = AxisWeights {
-            first: self.first.part(k) as usize,
-            ..AxisWeights::NONE
-        };
+        let mut part = AxisWeights { first: self.first.part(k) as usize, ..AxisWeights::NONE };
         for s in 0..S {
             part.w[s] = self.w[s].part(k);
             part.dw[s] = self.dw[s].part(k);

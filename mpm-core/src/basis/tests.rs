@@ -22,13 +22,7 @@ fn places() -> impl Strategy<Value = f64> {
     prop_oneof![4 => 0.0..=1.0, 1 => Just(0.0), 1 => Just(1.0), 1 => Just(0.25), 1 => Just(0.5)]
 }
 
-fn check<const S: usize, B: Basis<S>>(
-    axis: Axis,
-    h: f64,
-    wall: WallTreatment,
-    place: f64,
-    half: f64,
-) {
+fn check<const S: usize, B: Basis<S>>(axis: Axis, h: f64, wall: WallTreatment, place: f64, half: f64) {
     let basis = B::new(&axis, h, wall);
     let nodes = basis.nodes();
     let length = axis.hi(h) - axis.lo;
@@ -71,17 +65,10 @@ fn check<const S: usize, B: Basis<S>>(
             all
         };
         let (ahead, behind) = (dense(x + d), dense(x - d));
-        let kink = S == 2
-            && ((x - axis.lo) / h)
-                .fract()
-                .min(1.0 - ((x - axis.lo) / h).fract())
-                < 2e-6;
+        let kink = S == 2 && ((x - axis.lo) / h).fract().min(1.0 - ((x - axis.lo) / h).fract()) < 2e-6;
         for (k, dw) in at.dw.iter().enumerate() {
             let difference = (ahead[at.first + k] - behind[at.first + k]) / (2.0 * d);
-            assert!(
-                kink || (difference - dw).abs() * h < 2e-5,
-                "{dw} but {difference} at {x}"
-            );
+            assert!(kink || (difference - dw).abs() * h < 2e-5, "{dw} but {difference} at {x}");
         }
     }
 }
@@ -115,10 +102,7 @@ fn open_knots_interpolate_at_walls_and_nodes_stand_on_both_kinds_of_wall() {
     assert_eq!(basis.weights(0.0, 0.0).w, [1.0, 0.0, 0.0, 0.0]);
     assert!((basis.weights(3.0, 0.0).w[3] - 1.0).abs() < ROUNDING);
     for wall in [WallTreatment::OpenKnot, WallTreatment::WallLine] {
-        for nodes in [
-            QuadraticBSpline::new(&axis, 0.5, wall).nodes(),
-            CubicBSpline::new(&axis, 0.5, wall).nodes(),
-        ] {
+        for nodes in [QuadraticBSpline::new(&axis, 0.5, wall).nodes(), CubicBSpline::new(&axis, 0.5, wall).nodes()] {
             assert!(nodes.position.iter().any(|x| x.abs() < ROUNDING));
             assert!(nodes.position.iter().any(|x| (x - 3.0).abs() < ROUNDING));
         }
@@ -146,10 +130,7 @@ fn of_a_point_means_are_hats() {
         let at = basis.at_point(x);
         for (k, (w, dw)) in at.w.iter().zip(at.dw).enumerate() {
             let distance = (x - nodes[at.first + k]) / 0.5;
-            assert!(
-                (w - (1.0 - distance.abs()).max(0.0)).abs() < 1e-14,
-                "{x} {k}"
-            );
+            assert!((w - (1.0 - distance.abs()).max(0.0)).abs() < 1e-14, "{x} {k}");
             assert!(*w == 0.0 || *w == 1.0 || (dw + 2.0 * distance.signum()).abs() < 1e-14);
         }
         assert!(at.dw.iter().sum::<f64>().abs() < 1e-14);
@@ -185,10 +166,7 @@ fn steepest<const S: usize, B: Basis<S>>(half_size: f64) -> (f64, Option<f64>) {
         let seen = at.w.iter().zip(&at.dw).filter(|(w, _)| **w > 0.0);
         seen.map(|(w, dw)| dw * dw / w).sum::<f64>()
     };
-    (
-        (1..PLACES).map(at).fold(0.0, f64::max),
-        B::steepness(half_size),
-    )
+    ((1..PLACES).map(at).fold(0.0, f64::max), B::steepness(half_size))
 }
 
 #[test]

@@ -23,10 +23,7 @@ impl Barrier {
     pub fn new(stiffness: f64, distance: f64) -> Result<Self, Error> {
         positive(stiffness, "barrier stiffness", "positive (N/m)")?;
         positive(distance, "barrier distance", "positive (m)")?;
-        Ok(Self {
-            stiffness,
-            distance,
-        })
+        Ok(Self { stiffness, distance })
     }
 
     /// The barrier that carries `force` (N) at half of its `distance` d̂ (m).
@@ -55,10 +52,7 @@ impl Barrier {
 
     /// The same barrier in units of which a metre is `length`, its unit of stiffness `stiffness`.
     pub(super) fn in_units(self, length: f64, stiffness: f64) -> Self {
-        Self {
-            stiffness: stiffness * self.stiffness,
-            distance: length * self.distance,
-        }
+        Self { stiffness: stiffness * self.stiffness, distance: length * self.distance }
     }
 
     /// Gap d̂ (m) at which the barrier begins.
@@ -187,10 +181,7 @@ mod tests {
             let d = b.gap(force);
             let slope = d * b.stiffness(d) / b.force(d);
             let error = (b.force(d) / force - 1.0).abs();
-            assert!(
-                error < 8.0 * f64::EPSILON * (1.0 + slope),
-                "{force}: {error}"
-            );
+            assert!(error < 8.0 * f64::EPSILON * (1.0 + slope), "{force}: {error}");
         }
         for share in [0.1, 0.5, 0.99] {
             let b = Barrier::carrying_at(14.0, share * DISTANCE, DISTANCE).unwrap();

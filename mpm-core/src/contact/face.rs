@@ -24,12 +24,7 @@ impl<const D: usize> RigidFace<D> {
     /// # Errors
     /// An axis that there is not, a position that is not finite.
     pub fn half_space(axis: usize, end: End, position: f64) -> Result<Self, Error> {
-        require(
-            axis < D,
-            "axis of a rigid face",
-            axis as f64,
-            "less than the dimension",
-        )?;
+        require(axis < D, "axis of a rigid face", axis as f64, "less than the dimension")?;
         require(true, "position of a rigid face", position, "finite (m)")?;
         let sign = match end {
             End::Lo => 1.0,
@@ -60,17 +55,8 @@ impl<const D: usize> RigidFace<D> {
         for v in velocity {
             require(true, "velocity of a rigid face", v, "finite (m/s)")?;
         }
-        require(
-            ramp >= 0.0,
-            "ramp of a rigid face",
-            ramp,
-            "not negative (s)",
-        )?;
-        Ok(Self {
-            velocity,
-            ramp,
-            ..self
-        })
+        require(ramp >= 0.0, "ramp of a rigid face", ramp, "not negative (s)")?;
+        Ok(Self { velocity, ramp, ..self })
     }
 
     /// Puts the face, at time zero, at the gap `gap` (m) from the nearest of the particles before it: at the
@@ -82,10 +68,7 @@ impl<const D: usize> RigidFace<D> {
         if !nearest.is_finite() {
             return self;
         }
-        Self {
-            position: self.position + self.sign * (nearest - gap),
-            ..self
-        }
+        Self { position: self.position + self.sign * (nearest - gap), ..self }
     }
 
     /// The same face seen from `frame`.
@@ -157,9 +140,7 @@ mod tests {
         let floor = RigidFace::<2>::half_space(1, End::Lo, 1.0).unwrap();
         assert_eq!(floor.gap(&[7.0, 1.5]), Some(0.5));
         assert_eq!(floor.gap(&[7.0, 0.5]), Some(-0.5));
-        let press = RigidFace::half_space(1, End::Hi, 1.0)
-            .unwrap()
-            .within([[0.0, 2.0], [5.0, 6.0]]);
+        let press = RigidFace::half_space(1, End::Hi, 1.0).unwrap().within([[0.0, 2.0], [5.0, 6.0]]);
         assert_eq!(press.gap(&[2.0, 0.75]), Some(0.25));
         assert_eq!(press.gap(&[2.1, 0.75]), None);
         assert_eq!((press.axis(), press.sign()), (1, -1.0));
@@ -167,9 +148,7 @@ mod tests {
 
     #[test]
     fn what_is_near_is_within_a_distance_along_every_axis() {
-        let press = RigidFace::half_space(1, End::Hi, 1.0)
-            .unwrap()
-            .within([[0.0, 2.0], [5.0, 6.0]]);
+        let press = RigidFace::half_space(1, End::Hi, 1.0).unwrap().within([[0.0, 2.0], [5.0, 6.0]]);
         let far_within = [1.0, 9.0];
         for near in [[1.0, 0.6], [1.0, 1.0], [-0.4, 1.0], [2.4, 1.0], far_within] {
             assert!(press.is_near(&near, 0.5), "{near:?}");
@@ -183,10 +162,7 @@ mod tests {
     /// at most 6/ramp².
     #[test]
     fn its_place_is_the_integral_of_its_velocity() {
-        let face = RigidFace::<2>::half_space(1, End::Hi, 0.0)
-            .unwrap()
-            .moving([2.0, -3.0], 0.5)
-            .unwrap();
+        let face = RigidFace::<2>::half_space(1, End::Hi, 0.0).unwrap().moving([2.0, -3.0], 0.5).unwrap();
         let s = 1e-4;
         for k in 1..100 {
             let t = 0.01 * f64::from(k);
@@ -205,18 +181,13 @@ mod tests {
 
     #[test]
     fn it_is_put_on_the_nearest_particle_before_it() {
-        let particles =
-            Particles::new(vec![[0.5, 1.0], [1.5, 2.0], [5.0, 3.0]], 1.0, 1.0, [0.5; 2]).unwrap();
+        let particles = Particles::new(vec![[0.5, 1.0], [1.5, 2.0], [5.0, 3.0]], 1.0, 1.0, [0.5; 2]).unwrap();
         for (end, nearest) in [(End::Hi, 2.0), (End::Lo, 1.0)] {
-            let face = RigidFace::half_space(1, end, 17.0)
-                .unwrap()
-                .within([[0.0, 2.0], [0.0; 2]])
-                .touching(&particles, 0.25);
+            let face =
+                RigidFace::half_space(1, end, 17.0).unwrap().within([[0.0, 2.0], [0.0; 2]]).touching(&particles, 0.25);
             assert_eq!(face.gap(&[1.0, nearest]), Some(0.25));
         }
-        let beside = RigidFace::half_space(1, End::Hi, 17.0)
-            .unwrap()
-            .within([[9.0, 10.0], [0.0; 2]]);
+        let beside = RigidFace::half_space(1, End::Hi, 17.0).unwrap().within([[9.0, 10.0], [0.0; 2]]);
         assert_eq!(beside.touching(&particles, 0.25), beside);
     }
 

@@ -20,10 +20,7 @@ impl Friction {
     /// A coefficient that is negative or not finite, a stiffness that is not positive and finite.
     pub fn new(mu: f64, stiffness: f64) -> Result<Self, Error> {
         require(mu >= 0.0, "friction coefficient", mu, "not negative")?;
-        Ok(Self {
-            mu,
-            ..Self::rough(stiffness)?
-        })
+        Ok(Self { mu, ..Self::rough(stiffness)? })
     }
 
     /// A stick of k_t = `stiffness` (N/m per particle) that never slips while the bodies touch: μ is infinite.
@@ -32,18 +29,12 @@ impl Friction {
     /// A stiffness that is not positive and finite.
     pub fn rough(stiffness: f64) -> Result<Self, Error> {
         positive(stiffness, "stiffness of a stick", "positive (N/m)")?;
-        Ok(Self {
-            mu: f64::INFINITY,
-            stiffness,
-        })
+        Ok(Self { mu: f64::INFINITY, stiffness })
     }
 
     /// The same friction in units of which a stiffness of one is `stiffness`.
     pub(super) fn in_units(self, stiffness: f64) -> Self {
-        Self {
-            stiffness: stiffness * self.stiffness,
-            ..self
-        }
+        Self { stiffness: stiffness * self.stiffness, ..self }
     }
 
     /// Stiffness k_t (N/m) of the stick.
@@ -86,10 +77,7 @@ impl Friction {
             None => (SMatrix::identity() * self.stiffness, SVector::zeros()),
             Some([share, length]) => {
                 let along = SVector::from(*stretch) / length;
-                (
-                    (SMatrix::identity() - along * along.transpose()) * (share * self.stiffness),
-                    along * -self.mu,
-                )
+                ((SMatrix::identity() - along * along.transpose()) * (share * self.stiffness), along * -self.mu)
             }
         }
     }
@@ -123,10 +111,7 @@ mod tests {
     #[test]
     fn smooth_bodies_slide_and_rough_ones_hold() {
         let mut stretch = [0.3, 0.0];
-        assert_eq!(
-            Friction::rough(10.0).unwrap().force(&mut stretch, 1e-9),
-            [-3.0, -0.0]
-        );
+        assert_eq!(Friction::rough(10.0).unwrap().force(&mut stretch, 1e-9), [-3.0, -0.0]);
         let smooth = Friction::new(0.0, 10.0).unwrap();
         assert_eq!(smooth.force(&mut stretch, 1e9), [0.0; 2]);
         assert_eq!(smooth.tangent(&[0.0; 2], 1e9), Default::default());

@@ -59,10 +59,7 @@ impl<const D: usize> RigidContact<D> {
     /// The contact with `friction`.
     #[must_use]
     pub fn with_friction(self, friction: Friction) -> Self {
-        Self {
-            friction: Some(friction),
-            ..self
-        }
+        Self { friction: Some(friction), ..self }
     }
 
     /// The same contact, before its first step, seen from `frame`.
@@ -70,10 +67,7 @@ impl<const D: usize> RigidContact<D> {
     pub fn seen_from(&self, frame: &Frame<D>) -> Self {
         Self {
             friction: self.friction.map(|f| f.in_units(frame.stiffness())),
-            ..Self::new(
-                self.face.seen_from(frame),
-                self.barrier.in_units(frame.scale(0, 1), frame.stiffness()),
-            )
+            ..Self::new(self.face.seen_from(frame), self.barrier.in_units(frame.scale(0, 1), frame.stiffness()))
         }
     }
 
@@ -153,12 +147,7 @@ impl<const D: usize> RigidContact<D> {
 
     /// Adds the contact forces at `time` (s), the end of a step of `dt` (s), to the particles' external forces. The
     /// sticks start from where the last [`commit`](Self::commit) left them, however often a step is tried.
-    pub(crate) fn try_step(
-        &mut self,
-        time: f64,
-        dt: f64,
-        particles: &mut Particles<D>,
-    ) -> Stiffest {
+    pub(crate) fn try_step(&mut self, time: f64, dt: f64, particles: &mut Particles<D>) -> Stiffest {
         let moved = self.face.displacement(time);
         let carried = difference(&moved, &self.face.displacement(time - dt));
         let (axis, sign) = (self.face.axis(), self.face.sign());
@@ -207,11 +196,7 @@ impl<const D: usize> RigidContact<D> {
     }
 
     /// The first particle whose gap the displacement of the present step would close, at its end at `time` (s).
-    pub(crate) fn closed_gap(
-        &self,
-        time: f64,
-        particles: &Particles<D>,
-    ) -> Result<(), (usize, Fault)> {
+    pub(crate) fn closed_gap(&self, time: f64, particles: &Particles<D>) -> Result<(), (usize, Fault)> {
         let moved = self.face.displacement(time);
         for &k in &self.near {
             let k = k as usize;
@@ -254,8 +239,7 @@ mod tests {
     fn touching() -> (RigidContact<2>, Particles<2>) {
         let face = RigidFace::half_space(1, End::Lo, 0.0).unwrap();
         let barrier = Barrier::new(7.0, 1.0).unwrap();
-        let mut contact =
-            RigidContact::new(face, barrier).with_friction(Friction::rough(10.0).unwrap());
+        let mut contact = RigidContact::new(face, barrier).with_friction(Friction::rough(10.0).unwrap());
         let positions = vec![[0.0, 0.5], [1.0, 0.9]];
         let mut particles = Particles::new(positions, 1.0, 1.0, [0.1; 2]).unwrap();
         particles.increment = vec![[0.1, 9.0], [0.2, 9.0]];

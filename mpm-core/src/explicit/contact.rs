@@ -19,12 +19,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let scene = &mut self.scene;
         for contact in &mut scene.contacts {
             let axis = contact.face().axis();
-            require(
-                !scene.grid.axes[axis].is_periodic(),
-                "axis of a rigid face",
-                axis as f64,
-                "not periodic",
-            )?;
+            require(!scene.grid.axes[axis].is_periodic(), "axis of a rigid face", axis as f64, "not periodic")?;
             contact.attach(scene.body.particles.len());
         }
         Ok(())

@@ -13,15 +13,10 @@ use crate::particles::Particles;
 use crate::scene::SavedStages;
 use std::ops::Range;
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
-    for Solver<D, S, B, M, T>
-{
+impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory for Solver<D, S, B, M, T> {
     fn save(&self) -> Result<Saved, MemoryError> {
         let settings = &self.settings;
-        let filters = (
-            save_all(&settings.force_filters)?,
-            save_all(&settings.particle_filters)?,
-        );
+        let filters = (save_all(&settings.force_filters)?, save_all(&settings.particle_filters)?);
         Saved::of(&(
             self.save_body()?,
             &self.ledger,
@@ -33,25 +28,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        type All = (
-            Saved,
-            Ledger,
-            Saved,
-            Saved,
-            SavedStages,
-            (Vec<Saved>, Vec<Saved>),
-        );
+        type All = (Saved, Ledger, Saved, Saved, SavedStages, (Vec<Saved>, Vec<Saved>));
         let (body, ledger, transfer, remedy, stages, filters): All = saved.read("a solver")?;
         self.ledger.check(&ledger)?;
         self.restore_body(&body)?;
         self.scene.restore_stages(&stages)?;
         let settings = &mut self.settings;
         restore_all("force filters", &mut settings.force_filters, &filters.0)?;
-        restore_all(
-            "particle filters",
-            &mut settings.particle_filters,
-            &filters.1,
-        )?;
+        restore_all("particle filters", &mut settings.particle_filters, &filters.1)?;
         settings.transfer.restore(&transfer)?;
         settings.remedy.restore(&remedy)?;
         self.ledger.restore(ledger);
@@ -70,9 +54,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let (body, slabs, drift): (Saved, Vec<Range<usize>>, f64) = saved.read("a body")?;
         let (scene, expected) = (&mut self.scene, self.slabs.len());
         let grid = scene.grid;
-        scene.body.restore(&body, |particles| {
-            check_places(&grid, particles, &slabs, expected)
-        })?;
+        scene.body.restore(&body, |particles| check_places(&grid, particles, &slabs, expected))?;
         self.slabs = slabs;
         self.drift = drift;
         self.wave_modulus = self.scene.body.wave_modulus();
@@ -107,12 +89,7 @@ fn check_places<const D: usize>(
             for (axis, (x, ends)) in x.iter().zip(&grid.axes).enumerate() {
                 let inside = (ends.lo..=ends.hi(grid.h)).contains(x);
                 let near = axis > 0 || cells.contains(&grid.cell(axis, *x));
-                require(
-                    inside && near,
-                    "position",
-                    *x,
-                    "on the grid, near its slab (m)",
-                )?;
+                require(inside && near, "position", *x, "on the grid, near its slab (m)")?;
             }
         }
     }

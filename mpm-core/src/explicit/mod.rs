@@ -57,12 +57,7 @@ struct ChunkSums {
 
 impl ChunkSums {
     /// Whether the Jacobians of the `k`-th eight of a chunk are positive and finite.
-    fn check_jacobians<const D: usize, M: Law>(
-        &mut self,
-        chunk: &Chunk<'_, D, M>,
-        k: usize,
-        j: Eight,
-    ) -> bool {
+    fn check_jacobians<const D: usize, M: Law>(&mut self, chunk: &Chunk<'_, D, M>, k: usize, j: Eight) -> bool {
         let (zero, infinity) = (Eight::ZERO, Eight::splat(f64::INFINITY));
         if (j.simd_gt(zero) & j.simd_lt(infinity)).all() {
             return true;
@@ -124,9 +119,7 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     transfer_pairs: u64,
 }
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simulation<D>
-    for Solver<D, S, B, M, T>
-{
+impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simulation<D> for Solver<D, S, B, M, T> {
     fn step(&mut self) -> Result<(), Error> {
         self.apply_loads();
         self.apply_contacts()?;
@@ -243,10 +236,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 /// Whether what moves `distance` (m) in a step stays within the CFL limit on cells of size `h` (m).
 fn check_cfl(distance: f64, h: f64) -> Result<(), Fault> {
     if distance > CFL_LIMIT * h {
-        return Err(Fault::UnstableTimeStep {
-            cfl: distance / h,
-            limit: CFL_LIMIT,
-        });
+        return Err(Fault::UnstableTimeStep { cfl: distance / h, limit: CFL_LIMIT });
     }
     Ok(())
 }

@@ -4,9 +4,7 @@ use super::remedy::force_stress;
 use super::{ChunkSums, check_cfl};
 use crate::basis::Basis;
 use crate::body::Chunk;
-use crate::eights::{
-    Eights, block, components, entries, numbers, store, store_numbers, store_vectors,
-};
+use crate::eights::{Eights, block, components, entries, numbers, store, store_numbers, store_vectors};
 use crate::grid::Grid;
 use crate::material::{Law, State};
 use crate::number::{EIGHT, Eight, Lanes};
@@ -26,17 +24,11 @@ pub(super) struct ForceStress<'a> {
 impl<'a> ForceStress<'a> {
     /// That of the particles in `range`.
     #[inline(always)]
-    pub(super) fn of<const D: usize>(
-        p: &'a Particles<D>,
-        mean: &'a [f64],
-        range: Range<usize>,
-    ) -> Self {
+    pub(super) fn of<const D: usize>(p: &'a Particles<D>, mean: &'a [f64], range: Range<usize>) -> Self {
         let columns = |mean| [mean, &p.j_bar[range.clone()], &p.jacobian[range.clone()]];
         Self {
             stress: Eights::of(&p.stress[range.clone()]),
-            adjusted: mean
-                .get(range.clone())
-                .map(|mean| columns(mean).map(Eights::of)),
+            adjusted: mean.get(range.clone()).map(|mean| columns(mean).map(Eights::of)),
         }
     }
 
@@ -95,18 +87,8 @@ pub(super) struct SecondHalf<const D: usize> {
 impl<const D: usize> SecondHalf<D> {
     /// On `grid`, with steps of `dt` (s) and particles of these half sizes (m), the least dense of which have the
     /// given reference density (kg/m³).
-    pub(super) fn of<const S: usize, B: Basis<S>>(
-        grid: &Grid<D>,
-        dt: f64,
-        density: f64,
-        half_size: &[f64; D],
-    ) -> Self {
-        Self {
-            dt,
-            h: grid.h,
-            room: Room::new(grid, half_size.map(B::beyond_wall)),
-            reach: dt * dt / density,
-        }
+    pub(super) fn of<const S: usize, B: Basis<S>>(grid: &Grid<D>, dt: f64, density: f64, half_size: &[f64; D]) -> Self {
+        Self { dt, h: grid.h, room: Room::new(grid, half_size.map(B::beyond_wall)), reach: dt * dt / density }
     }
 
     /// Stress, state and volume, Eqs. (15), (22), and position, Eq. (17), of the `k`-th eight of a chunk that deform by
@@ -151,8 +133,7 @@ impl<const D: usize> SecondHalf<D> {
         for l in 0..entries(p.len(), k) {
             let (mut next, distance) = (x.map(|x| x.part(l)), distance.part(l));
             let wave = reached.part(l).sqrt();
-            let checked =
-                check_cfl(distance + wave, self.h).and_then(|()| self.room.place(&mut next));
+            let checked = check_cfl(distance + wave, self.h).and_then(|()| self.room.place(&mut next));
             match checked {
                 Ok(wrapped) => {
                     p.position[k * EIGHT + l] = next;

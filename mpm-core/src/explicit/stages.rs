@@ -4,9 +4,7 @@ use super::second_half::{ForceStress, SecondHalf, force_stress_of};
 use super::transfer::{Given, Received, Transfer};
 use super::{ChunkSums, NodeSums, Solver};
 use crate::basis::Basis;
-use crate::eights::{
-    AHEAD, Eights, block, blocks, components, entries, numbers, store, store_numbers, store_vectors,
-};
+use crate::eights::{AHEAD, Eights, block, blocks, components, entries, numbers, store, store_numbers, store_vectors};
 use crate::error::Error;
 use crate::lattice::Stencils;
 use crate::material::Law;
@@ -53,44 +51,39 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let (transfer, p) = (&self.settings.transfer, &self.scene.body.particles);
         let force_mean = &self.force_mean;
         self.reach.clear(&mut self.nodes);
-        scatter(
-            &mut self.nodes,
-            lattice.plane(),
-            &self.slabs,
-            |slab, nodes, origin| {
-                let x = Eights::of(&p.position[slab.clone()]);
-                let v = Eights::of(&p.velocity[slab.clone()]);
-                let mass = Eights::of(&p.mass[slab.clone()]);
-                let volume = Eights::of(&p.volume[slab.clone()]);
-                let affine = p.affine.get(slab.clone()).map(Eights::of);
-                let external_force = p.external_force.get(slab.clone()).map(Eights::of);
-                let stress = ForceStress::of(p, force_mean, slab.clone());
-                let mut stencils = Stencils::on(lattice);
-                let mut given = Given::default();
-                for k in 0..blocks(slab.len()) {
-                    x.fetch(k + AHEAD);
-                    v.fetch(k + AHEAD);
-                    mass.fetch(k + AHEAD);
-                    volume.fetch(k + AHEAD);
-                    stress.fetch(k + AHEAD);
-                    let (x, mass) = (components(x.at(k)), Eight::new(*mass.at(k)));
-                    let functions = lattice.functions(&x, &p.half_size);
-                    lattice.stencils(&functions, &mut stencils);
-                    given.set(
-                        mass,
-                        &components(v.at(k)),
-                        Eight::new(*volume.at(k)),
-                        &stress.at::<D>(k),
-                        external_force.as_ref().map(|force| components(force.at(k))),
-                    );
-                    let affine = affine.as_ref().map(|affine| affine.at(k));
-                    let gives = transfer.give(lattice, &functions, &x, mass, affine);
-                    for l in 0..entries(slab.len(), k) {
-                        transfer.particle_to_grid(stencils.at(l), &given, &gives, nodes, origin);
-                    }
+        scatter(&mut self.nodes, lattice.plane(), &self.slabs, |slab, nodes, origin| {
+            let x = Eights::of(&p.position[slab.clone()]);
+            let v = Eights::of(&p.velocity[slab.clone()]);
+            let mass = Eights::of(&p.mass[slab.clone()]);
+            let volume = Eights::of(&p.volume[slab.clone()]);
+            let affine = p.affine.get(slab.clone()).map(Eights::of);
+            let external_force = p.external_force.get(slab.clone()).map(Eights::of);
+            let stress = ForceStress::of(p, force_mean, slab.clone());
+            let mut stencils = Stencils::on(lattice);
+            let mut given = Given::default();
+            for k in 0..blocks(slab.len()) {
+                x.fetch(k + AHEAD);
+                v.fetch(k + AHEAD);
+                mass.fetch(k + AHEAD);
+                volume.fetch(k + AHEAD);
+                stress.fetch(k + AHEAD);
+                let (x, mass) = (components(x.at(k)), Eight::new(*mass.at(k)));
+                let functions = lattice.functions(&x, &p.half_size);
+                lattice.stencils(&functions, &mut stencils);
+                given.set(
+                    mass,
+                    &components(v.at(k)),
+                    Eight::new(*volume.at(k)),
+                    &stress.at::<D>(k),
+                    external_force.as_ref().map(|force| components(force.at(k))),
+                );
+                let affine = affine.as_ref().map(|affine| affine.at(k));
+                let gives = transfer.give(lattice, &functions, &x, mass, affine);
+                for l in 0..entries(slab.len(), k) {
+                    transfer.particle_to_grid(stencils.at(l), &given, &gives, nodes, origin);
                 }
-            },
-        );
+            }
+        });
         lattice.fold(&mut self.nodes);
     }
 
@@ -152,95 +145,78 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         let (lattice, nodes) = (&self.lattice, &self.nodes);
         let body = &mut self.scene.body;
         let transfer = &mut self.settings.transfer;
-        let passes = 1 + transfer.prepare(
-            lattice,
-            &body.particles,
-            &self.slabs,
-            nodes,
-            &self.prescribed,
-        );
+        let passes = 1 + transfer.prepare(lattice, &body.particles, &self.slabs, nodes, &self.prescribed);
         let (transfer, force_mean) = (&*transfer, self.force_mean.as_slice());
         let half_size = body.particles.half_size;
         let dt = Eight::splat(self.settings.dt);
         let all = (body.chunk(), self.deformation.chunk());
-        for_each_chunk(
-            all,
-            &mut self.chunk_sums,
-            &|(mut p, mut deformation), sums| {
-                *sums = ChunkSums::default();
-                let (mut stress_power, mut load_power) = (Eight::ZERO, Eight::ZERO);
-                let mut stencils = Stencils::on(lattice);
-                let (mut received, mut receives) = (Received::default(), T::Receives::default());
-                for k in 0..blocks(p.len()) {
-                    p.fetch_motion(k + AHEAD);
-                    if !deformation.is_there() {
-                        p.fetch_second_half(k + AHEAD);
-                    }
-                    let x = components(block(p.position, k, &mut None));
-                    let functions = lattice.functions(&x, &half_size);
-                    lattice.stencils(&functions, &mut stencils);
-                    let gives = transfer.give(lattice, &functions, &x, Eight::ZERO, None);
-                    for l in 0..EIGHT {
-                        let stencil = stencils.at(l);
-                        transfer.grid_to_particle(
-                            stencil,
-                            &gives,
-                            nodes,
-                            &mut received,
-                            &mut receives,
-                        );
-                    }
-                    let mut v = components(block(p.velocity, k, &mut None));
-                    let mut affine = (!p.affine.is_empty()).then(|| *block(p.affine, k, &mut None));
-                    let moving = transfer.receive(&received, &receives, &mut v, &mut affine);
-                    store_vectors(p.velocity, k, &v);
-                    if let Some(affine) = affine {
-                        store(p.affine, k, |l| affine[l]);
-                    }
+        for_each_chunk(all, &mut self.chunk_sums, &|(mut p, mut deformation), sums| {
+            *sums = ChunkSums::default();
+            let (mut stress_power, mut load_power) = (Eight::ZERO, Eight::ZERO);
+            let mut stencils = Stencils::on(lattice);
+            let (mut received, mut receives) = (Received::default(), T::Receives::default());
+            for k in 0..blocks(p.len()) {
+                p.fetch_motion(k + AHEAD);
+                if !deformation.is_there() {
+                    p.fetch_second_half(k + AHEAD);
+                }
+                let x = components(block(p.position, k, &mut None));
+                let functions = lattice.functions(&x, &half_size);
+                lattice.stencils(&functions, &mut stencils);
+                let gives = transfer.give(lattice, &functions, &x, Eight::ZERO, None);
+                for l in 0..EIGHT {
+                    let stencil = stencils.at(l);
+                    transfer.grid_to_particle(stencil, &gives, nodes, &mut received, &mut receives);
+                }
+                let mut v = components(block(p.velocity, k, &mut None));
+                let mut affine = (!p.affine.is_empty()).then(|| *block(p.affine, k, &mut None));
+                let moving = transfer.receive(&received, &receives, &mut v, &mut affine);
+                store_vectors(p.velocity, k, &v);
+                if let Some(affine) = affine {
+                    store(p.affine, k, |l| affine[l]);
+                }
 
-                    let stress = force_stress_of(&p, force_mean, k);
-                    let mut delta_f = [[Eight::ZERO; D]; D];
-                    let mut increment = [Eight::ZERO; D];
-                    let mut power = Eight::ZERO;
-                    for a in 0..D {
-                        increment[a] = dt * moving[a];
-                        for b in 0..D {
-                            let gradient = received.gradient(a, b);
-                            power = stress.get(a, b).mul_add(gradient, power);
-                            let identity = Eight::splat(f64::from(u8::from(a == b)));
-                            delta_f[a][b] = gradient.mul_add(dt, identity);
-                        }
-                    }
-                    stress_power += p.present(k, power * numbers(p.volume, k));
-                    if !p.external_force.is_empty() {
-                        let force = components(block(p.external_force, k, &mut None));
-                        let mut power = Eight::ZERO;
-                        for a in 0..D {
-                            power = force[a].mul_add(received.velocity(a), power);
-                        }
-                        load_power += p.present(k, power);
-                    }
-                    let volume_change = determinant_of_entries(&delta_f);
-                    let j = numbers(p.jacobian, k) * volume_change;
-                    store_numbers(p.jacobian, k, j);
-                    if !p.increment.is_empty() {
-                        store_vectors(p.increment, k, &increment);
-                    }
-                    if !sums.check_jacobians(&p, k, j) {
-                        continue;
-                    }
-                    if deformation.is_there() {
-                        deformation.keep(k, &delta_f, volume_change, &increment);
-                    } else {
-                        second_half.finish(&mut p, k, &delta_f, &increment, sums);
+                let stress = force_stress_of(&p, force_mean, k);
+                let mut delta_f = [[Eight::ZERO; D]; D];
+                let mut increment = [Eight::ZERO; D];
+                let mut power = Eight::ZERO;
+                for a in 0..D {
+                    increment[a] = dt * moving[a];
+                    for b in 0..D {
+                        let gradient = received.gradient(a, b);
+                        power = stress.get(a, b).mul_add(gradient, power);
+                        let identity = Eight::splat(f64::from(u8::from(a == b)));
+                        delta_f[a][b] = gradient.mul_add(dt, identity);
                     }
                 }
-                sums.stress_power = stress_power.reduce_add();
-                sums.load_power = load_power.reduce_add();
-            },
-        );
-        self.ledger.work.particle_node_pairs +=
-            passes * self.transfer_pairs * self.ledger.work.particles;
+                stress_power += p.present(k, power * numbers(p.volume, k));
+                if !p.external_force.is_empty() {
+                    let force = components(block(p.external_force, k, &mut None));
+                    let mut power = Eight::ZERO;
+                    for a in 0..D {
+                        power = force[a].mul_add(received.velocity(a), power);
+                    }
+                    load_power += p.present(k, power);
+                }
+                let volume_change = determinant_of_entries(&delta_f);
+                let j = numbers(p.jacobian, k) * volume_change;
+                store_numbers(p.jacobian, k, j);
+                if !p.increment.is_empty() {
+                    store_vectors(p.increment, k, &increment);
+                }
+                if !sums.check_jacobians(&p, k, j) {
+                    continue;
+                }
+                if deformation.is_there() {
+                    deformation.keep(k, &delta_f, volume_change, &increment);
+                } else {
+                    second_half.finish(&mut p, k, &delta_f, &increment, sums);
+                }
+            }
+            sums.stress_power = stress_power.reduce_add();
+            sums.load_power = load_power.reduce_add();
+        });
+        self.ledger.work.particle_node_pairs += passes * self.transfer_pairs * self.ledger.work.particles;
         for sums in &self.chunk_sums {
             self.ledger.accumulated.stress_work += self.settings.dt * sums.stress_power;
             self.ledger.accumulated.load_work += self.settings.dt * sums.load_power;
@@ -265,9 +241,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn count_averages_since(&mut self, before: u64) {
-        self.ledger.work.particle_node_pairs += (self.ledger.work.projections - before)
-            * self.transfer_pairs
-            * self.ledger.work.particles;
+        self.ledger.work.particle_node_pairs +=
+            (self.ledger.work.projections - before) * self.transfer_pairs * self.ledger.work.particles;
     }
 
     /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; then the [`SecondHalf`] of the
@@ -313,10 +288,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 
     pub(super) fn filter_particles(&mut self) {
         for filter in &mut self.settings.particle_filters {
-            self.ledger.accumulated.filter_loss += filter.filter(
-                self.ledger.residual.kinetic_energy,
-                &mut self.scene.body.particles,
-            );
+            self.ledger.accumulated.filter_loss +=
+                filter.filter(self.ledger.residual.kinetic_energy, &mut self.scene.body.particles);
         }
     }
 }

@@ -96,14 +96,12 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     }
 
     fn check_positions(&mut self) -> Result<(), Error> {
-        check_cfl(self.wave_speed() * self.settings.dt, self.scene.grid.h)
-            .map_err(|fault| self.breakdown(0, fault))?;
+        check_cfl(self.wave_speed() * self.settings.dt, self.scene.grid.h).map_err(|fault| self.breakdown(0, fault))?;
         let beyond = self.scene.body.particles.half_size.map(B::beyond_wall);
         let room = Room::new(&self.scene.grid, beyond);
         for k in 0..self.scene.body.particles.len() {
             let mut x = self.scene.body.particles.position[k];
-            room.place(&mut x)
-                .map_err(|fault| self.breakdown(k, fault))?;
+            room.place(&mut x).map_err(|fault| self.breakdown(k, fault))?;
             self.scene.body.particles.position[k] = x;
         }
         Ok(())

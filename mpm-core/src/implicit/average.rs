@@ -17,25 +17,14 @@ pub(super) struct Average {
 }
 
 impl Average {
-    pub(super) fn new<const D: usize>(
-        elements: &Elements<D>,
-        nodes: usize,
-        volume: &[f64],
-    ) -> Self {
+    pub(super) fn new<const D: usize>(elements: &Elements<D>, nodes: usize, volume: &[f64]) -> Self {
         let of_nodes = elements.sums(nodes, volume);
         let inverse = |v: &f64| if *v > 0.0 { 1.0 / v } else { 0.0 };
-        Self {
-            volume: volume.to_vec(),
-            inverse: of_nodes.iter().map(inverse).collect(),
-        }
+        Self { volume: volume.to_vec(), inverse: of_nodes.iter().map(inverse).collect() }
     }
 
     /// Π `field`.
-    pub(super) fn project<const D: usize>(
-        &self,
-        elements: &Elements<D>,
-        field: &[f64],
-    ) -> Vec<f64> {
+    pub(super) fn project<const D: usize>(&self, elements: &Elements<D>, field: &[f64]) -> Vec<f64> {
         let mut of_nodes = vec![0.0; self.inverse.len()];
         elements.scatter(0.0, &mut of_nodes, |p, sums| {
             let weighted = self.volume[p] * field[p];
@@ -64,11 +53,7 @@ impl Average {
     }
 
     /// Aᵀ `field`.
-    pub(super) fn transposed<const D: usize>(
-        &self,
-        elements: &Elements<D>,
-        field: &[f64],
-    ) -> Vec<f64> {
+    pub(super) fn transposed<const D: usize>(&self, elements: &Elements<D>, field: &[f64]) -> Vec<f64> {
         let per_volume: Vec<f64> = field.iter().zip(&self.volume).map(|(f, v)| f / v).collect();
         let averaged = self.apply(elements, &per_volume);
         let pairs = averaged.iter().zip(&self.volume);

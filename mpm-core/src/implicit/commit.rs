@@ -28,24 +28,14 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         self.ledger.work.particle_node_pairs += 2 * setting.elements.pairs() as u64;
         let whole: Vec<f64> = solution.u.iter().map(|u| u / place).collect();
         let obstacles = self.obstacles(self.ledger.time + dt);
-        let step = Step {
-            obstacles: &obstacles,
-            ..setting.step(&self.scene.body, dt)
-        };
+        let step = Step { obstacles: &obstacles, ..setting.step(&self.scene.body, dt) };
         Ok(Some(step.trial(&whole, self.functions.len())?))
     }
 
     /// The places (m) to which a trial moves the particles.
-    pub(super) fn places_after(
-        &self,
-        elements: &Elements<D>,
-        trial: &Trial<D>,
-    ) -> Result<Vec<[f64; D]>, Failure> {
+    pub(super) fn places_after(&self, elements: &Elements<D>, trial: &Trial<D>) -> Result<Vec<[f64; D]>, Failure> {
         let particles = &self.scene.body.particles;
-        let room = Room::new(
-            self.functions.grid(),
-            particles.half_size.map(I::beyond_wall),
-        );
+        let room = Room::new(self.functions.grid(), particles.half_size.map(I::beyond_wall));
         let mut places = particles.position.clone();
         for (p, x) in places.iter_mut().enumerate() {
             let (nodes, w, _) = elements.seen(p);
@@ -71,13 +61,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let trial = &solution.trial;
         let step = setting.step(&self.scene.body, dt);
         let mut out: Vec<SVector<f64, D>> =
-            (trial.internal.iter().zip(&trial.resistance).zip(external))
-                .map(|((f, g), e)| e - f - g)
-                .collect();
-        for (out, push) in out
-            .iter_mut()
-            .zip(setting.inertia.iter().flat_map(|i| &i.push))
-        {
+            (trial.internal.iter().zip(&trial.resistance).zip(external)).map(|((f, g), e)| e - f - g).collect();
+        for (out, push) in out.iter_mut().zip(setting.inertia.iter().flat_map(|i| &i.push)) {
             *out += push;
         }
         self.ledger.residual = Residual {
@@ -99,8 +84,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let pushed = first * pushed_before + last * pushed;
         self.ledger.accumulated.stress_work +=
             first * work_of(&solution.before.internal) + last * work_of(&trial.internal) + pushed;
-        self.ledger.accumulated.load_work +=
-            first * work_of(earlier) + last * work_of(external) + pushed;
+        self.ledger.accumulated.load_work += first * work_of(earlier) + last * work_of(external) + pushed;
         self.ledger.accumulated.damping += 0.5 * work_of(&step.penalty_forces(&end.u));
         let mut moved = 0.0;
         for node in &setting.unknowns.node {

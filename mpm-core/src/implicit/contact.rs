@@ -46,8 +46,7 @@ pub(super) struct Push<const D: usize> {
 impl<const D: usize> Obstacle<D> {
     /// A contact as it is at `time` (s) of a step from `start` (s) on.
     fn new(contact: &RigidContact<D>, start: f64, time: f64) -> Self {
-        let [before, moved] =
-            [start, time].map(|time| SVector::from(contact.face().displacement(time)));
+        let [before, moved] = [start, time].map(|time| SVector::from(contact.face().displacement(time)));
         Self {
             face: *contact.face(),
             barrier: contact.barrier(),
@@ -125,13 +124,8 @@ pub(super) fn pushes<const D: usize>(
             let Some([size, slope]) = normal.map_err(|fault| (particle, fault))? else {
                 continue;
             };
-            let mut push = Push {
-                particle,
-                by,
-                force: SVector::zeros(),
-                stiffness: SMatrix::zeros(),
-                stretch: [0.0; D],
-            };
+            let mut push =
+                Push { particle, by, force: SVector::zeros(), stiffness: SMatrix::zeros(), stretch: [0.0; D] };
             push.force[axis] = sign * size;
             push.stiffness[(axis, axis)] = slope;
             obstacle.rub(&mut push, particles.id[particle], &moved, [size, slope]);
@@ -182,12 +176,7 @@ pub(super) fn check<const D: usize>(
     for contact in contacts {
         let axis = contact.face().axis();
         let periodic = grid.axes[axis].is_periodic();
-        require(
-            !periodic,
-            "axis of a rigid face",
-            axis as f64,
-            "not periodic",
-        )?;
+        require(!periodic, "axis of a rigid face", axis as f64, "not periodic")?;
         let slipping = contact.friction().and_then(|f| f.coefficient());
         require(
             slipping.is_none() || remedy != Remedy::FbarConsistent,
@@ -227,11 +216,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
 }
 
 /// Takes the forces (N) of pushes on the nodes from `forces`: they are no resistance of the body.
-pub(super) fn relieve<const D: usize>(
-    pushes: &[Push<D>],
-    elements: &Elements<D>,
-    forces: &mut [SVector<f64, D>],
-) {
+pub(super) fn relieve<const D: usize>(pushes: &[Push<D>], elements: &Elements<D>, forces: &mut [SVector<f64, D>]) {
     for push in pushes {
         let (nodes, w, _) = elements.seen(push.particle);
         for (node, w) in nodes.iter().zip(w) {
@@ -241,13 +226,7 @@ pub(super) fn relieve<const D: usize>(
 }
 
 /// The work (J) of pushes on the nodal increments `u` (m).
-pub(super) fn work<const D: usize>(
-    pushes: &[Push<D>],
-    elements: &Elements<D>,
-    u: &[SVector<f64, D>],
-) -> f64 {
+pub(super) fn work<const D: usize>(pushes: &[Push<D>], elements: &Elements<D>, u: &[SVector<f64, D>]) -> f64 {
     let pairs = pushes.iter();
-    pairs
-        .map(|push| push.force.dot(&elements.value(push.particle, u)))
-        .sum()
+    pairs.map(|push| push.force.dot(&elements.value(push.particle, u))).sum()
 }

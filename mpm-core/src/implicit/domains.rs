@@ -29,10 +29,7 @@ impl<'a, const D: usize> Domains<'a, D> {
     /// Domains of particles that are all of one size.
     #[must_use]
     pub fn of(particles: &'a Particles<D>) -> Self {
-        Self {
-            centre: &particles.position,
-            half_size: HalfSizes::OfAll(particles.half_size),
-        }
+        Self { centre: &particles.position, half_size: HalfSizes::OfAll(particles.half_size) }
     }
 
     /// Rounding of positions (m).
@@ -51,10 +48,7 @@ impl<'a, const D: usize> Domains<'a, D> {
         let rounding = self.rounding();
         let own = |(_, size): (_, [f64; D])| size.map(|half| half * WITHIN - rounding);
         *sizes = self.iter().map(own).collect();
-        Domains {
-            centre: self.centre,
-            half_size: HalfSizes::OfEach(sizes),
-        }
+        Domains { centre: self.centre, half_size: HalfSizes::OfEach(sizes) }
     }
 
     /// Centre and half size of every one (m).

@@ -41,14 +41,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             return 0.0;
         };
         let velocity = &self.scene.body.particles.velocity;
-        let momentum = inertia
-            .mass
-            .scatter(&setting.elements, |p| SVector::from(velocity[p]));
+        let momentum = inertia.mass.scatter(&setting.elements, |p| SVector::from(velocity[p]));
         let pairs = momentum.iter().zip(&inertia.mass.node);
-        pairs
-            .filter(|(_, m)| **m > 0.0)
-            .map(|(p, m)| 0.5 * p.norm_squared() / m)
-            .sum()
+        pairs.filter(|(_, m)| **m > 0.0).map(|(p, m)| 0.5 * p.norm_squared() / m).sum()
     }
 
     /// Gives the particles the accelerations of the start, M_l a = F_ext − F_int, by a rule that keeps them.
@@ -81,8 +76,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     fn held_change(&self, node: usize, axis: usize, dt: f64) -> Option<f64> {
         let held = self.held[node][axis]?;
         let constraint = &self.scene.constraints[held.by];
-        let [before, after] =
-            [self.ledger.time, self.ledger.time + dt].map(|time| constraint.amplitude(time));
+        let [before, after] = [self.ledger.time, self.ledger.time + dt].map(|time| constraint.amplitude(time));
         Some(held.velocity * (after - before))
     }
 
@@ -102,17 +96,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let penalty = step.penalty_forces(&solution.trial.u);
         let forces = solution.trial.internal.iter().zip(&penalty).zip(external);
         let impulse: Field<D> = forces.map(|((f, g), e)| (e - f - g) * dt).collect();
-        let (change, iterations) = mass.solve(elements, &impulse, |node, axis| {
-            self.held_change(node, axis, dt)
-        })?;
+        let (change, iterations) = mass.solve(elements, &impulse, |node, axis| self.held_change(node, axis, dt))?;
         // Particles take ½ Δvᵀ M_c Δv where the nodes gave ½ Δvᵀ M_β Δv.
         let shared = mass.scatter(elements, |p| elements.value(p, &change));
         // Nodes without a share worth the name have no particles that could miss it.
         let least = WEIGHTLESS * mass.heaviest();
         let pairs = change.iter().zip(&shared).zip(&mass.node);
-        let lost = pairs
-            .filter(|(_, m)| **m > least)
-            .map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
+        let lost = pairs.filter(|(_, m)| **m > least).map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
         self.ledger.accumulated.lumping_loss += 0.5 * mass.lumped * lost.sum::<f64>();
         self.ledger.work.linear_iterations += iterations;
         let particles = &mut self.scene.body.particles;
@@ -123,13 +113,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     }
 
     /// Newmark's rule: nodal accelerations by Eq. (30), and the particles' by Eqs. (31) and (32) of Wang et al. 2016.
-    fn by_acceleration(
-        &mut self,
-        setting: &Setting<D>,
-        solution: &Solution<D>,
-        delta: f64,
-        dt: f64,
-    ) {
+    fn by_acceleration(&mut self, setting: &Setting<D>, solution: &Solution<D>, delta: f64, dt: f64) {
         let Some(inertia) = &setting.inertia else {
             return;
         };
@@ -139,11 +123,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let columns = u.zip(&inertia.push).zip(&mass.node);
         let mut acceleration: Field<D> = columns
             .map(|((u, push), m)| {
-                let had = if *m > 0.0 {
-                    push / *m
-                } else {
-                    SVector::zeros()
-                };
+                let had = if *m > 0.0 { push / *m } else { SVector::zeros() };
                 u * inertia.factor - had
             })
             .collect();

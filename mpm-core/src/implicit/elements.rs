@@ -41,10 +41,7 @@ pub(crate) struct Elements<const D: usize> {
 }
 
 /// The order of particles by element, stable within one.
-pub(crate) fn order<const D: usize, I: Interpolation<D>>(
-    functions_of: &I,
-    domains: Domains<D>,
-) -> Vec<u32> {
+pub(crate) fn order<const D: usize, I: Interpolation<D>>(functions_of: &I, domains: Domains<D>) -> Vec<u32> {
     let elements = of_domains(functions_of, domains);
     let mut order: Vec<u32> = (0..elements.len() as u32).collect();
     order.sort_by_key(|p| elements[*p as usize]);
@@ -52,10 +49,7 @@ pub(crate) fn order<const D: usize, I: Interpolation<D>>(
 }
 
 /// The element of every domain.
-pub(crate) fn of_domains<const D: usize, I: Interpolation<D>>(
-    functions_of: &I,
-    domains: Domains<D>,
-) -> Vec<usize> {
+pub(crate) fn of_domains<const D: usize, I: Interpolation<D>>(functions_of: &I, domains: Domains<D>) -> Vec<usize> {
     let mut functions = Functions::new();
     let element = |(x, half_size): (&[f64; D], [f64; D])| {
         functions_of.functions(x, &half_size, &mut functions);
@@ -66,11 +60,7 @@ pub(crate) fn of_domains<const D: usize, I: Interpolation<D>>(
 
 impl<const D: usize> Elements<D> {
     /// Elements of particles that stand in their [`order`].
-    pub(crate) fn new<I: Interpolation<D>>(
-        functions_of: &I,
-        originals: &[usize],
-        domains: Domains<D>,
-    ) -> Self {
+    pub(crate) fn new<I: Interpolation<D>>(functions_of: &I, originals: &[usize], domains: Domains<D>) -> Self {
         let support = functions_of.support();
         let count = domains.centre.len();
         let mut elements = Self {
@@ -256,12 +246,7 @@ impl<const D: usize> Elements<D> {
         self.gather(SMatrix::zeros(), particle, u)
     }
 
-    fn gather(
-        &self,
-        mut f: SMatrix<f64, D, D>,
-        particle: usize,
-        u: &[[f64; D]],
-    ) -> SMatrix<f64, D, D> {
+    fn gather(&self, mut f: SMatrix<f64, D, D>, particle: usize, u: &[[f64; D]]) -> SMatrix<f64, D, D> {
         let (nodes, _, dw) = self.seen(particle);
         for (node, dw) in nodes.iter().zip(dw) {
             for i in 0..D {

@@ -112,22 +112,13 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let mut internal = vec![SVector::zeros(); nodes];
         elements.scatter(SVector::zeros(), &mut internal, |p, sums| {
             let (answer, share) = (&answers[p], share.get(p).copied().unwrap_or(0.0));
-            let stress: Square<D> = from_fn(|i| {
-                from_fn(|j| answer.stress[D * i + j] + share * answer.cofactor[D * i + j])
-            });
+            let stress: Square<D> =
+                from_fn(|i| from_fn(|j| answer.stress[D * i + j] + share * answer.cofactor[D * i + j]));
             add_forces(&stress, elements.gradients(p), sums);
         });
         contact::relieve(&pushes, elements, &mut internal);
         let resistance = self.resistance(&u);
-        Ok(Trial {
-            u,
-            f,
-            averaged,
-            share,
-            pushes,
-            internal,
-            resistance,
-        })
+        Ok(Trial { u, f, averaged, share, pushes, internal, resistance })
     }
 
     /// Actions of rigid bodies on particles at nodal increments (m).
@@ -224,9 +215,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         };
         for first in (0..elements.particles.len()).step_by(BATCH) {
             let batch = first..elements.particles.len().min(first + BATCH);
-            let matrices = map(batch.len(), 1, |k| {
-                self.of_element(batch.start + k, tangents, width)
-            });
+            let matrices = map(batch.len(), 1, |k| self.of_element(batch.start + k, tangents, width));
             for (element, matrix) in batch.zip(&matrices) {
                 add(elements.nodes_of(element), matrix);
             }
@@ -293,11 +282,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             for (j, g) in dw.iter().enumerate() {
                 for b in 0..D {
                     let change = volume(g, b);
-                    let column: Square<D> = from_fn(|a| {
-                        from_fn(|c| {
-                            dot(&t.stress_by_f[a][c][b], g) + own * t.cofactor[a][c] * change
-                        })
-                    });
+                    let column: Square<D> =
+                        from_fn(|a| from_fn(|c| dot(&t.stress_by_f[a][c][b], g) + own * t.cofactor[a][c] * change));
                     for (i, f) in dw.iter().enumerate() {
                         for a in 0..D {
                             let m = if a == b { inertia } else { 0.0 };
@@ -336,9 +322,8 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let averages = self.average.map(|average| {
             let volume = map(count, LIGHT, |p| double(&tangents[p].cofactor, &change[p]));
             let averaged = average.apply(elements, &volume);
-            let pull = map(count, LIGHT, |p| {
-                double(&tangents[p].pull_by_f, &change[p]) + tangents[p].pull_by_a * averaged[p]
-            });
+            let pull =
+                map(count, LIGHT, |p| double(&tangents[p].pull_by_f, &change[p]) + tangents[p].pull_by_a * averaged[p]);
             (averaged, average.transposed(elements, &pull))
         });
         let mut forces = self.resistance(&u);
@@ -348,9 +333,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             let (averaged, share) = averages.map_or((0.0, 0.0), |(a, s)| (a[p], s[p]));
             let stress: Square<D> = from_fn(|i| {
                 from_fn(|j| {
-                    double(&t.stress_by_f[i][j], &change[p])
-                        + averaged * t.stress_by_a[i][j]
-                        + share * t.cofactor[i][j]
+                    double(&t.stress_by_f[i][j], &change[p]) + averaged * t.stress_by_a[i][j] + share * t.cofactor[i][j]
                 })
             });
             add_forces(&stress, elements.gradients(p), sums);
@@ -374,9 +357,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let seen = unknowns.node.iter();
         let all = seen.flat_map(|node| nodes[*node].iter().copied());
         let pairs = all.zip(&unknowns.held);
-        pairs
-            .map(|(value, held)| if held.is_some() { 0.0 } else { value })
-            .collect()
+        pairs.map(|(value, held)| if held.is_some() { 0.0 } else { value }).collect()
     }
 }
 

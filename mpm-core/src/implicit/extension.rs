@@ -28,8 +28,7 @@ pub(super) fn shares<const D: usize, const S: usize, B: Pieces<S>>(
     lattice: &Lattice<D, S, B>,
     nodes: &Nodes,
 ) -> Shares {
-    let full: [Vec<f64>; D] =
-        std::array::from_fn(|a| lengths(&B::pieces(&lattice.grid.axes[a], lattice.grid.h)));
+    let full: [Vec<f64>; D] = std::array::from_fn(|a| lengths(&B::pieces(&lattice.grid.axes[a], lattice.grid.h)));
     let mut indices = Vec::new();
     let mut place_of = std::collections::BTreeMap::new();
     let mut sees_enough = vec![false; nodes.volume.len()];
@@ -41,10 +40,7 @@ pub(super) fn shares<const D: usize, const S: usize, B: Pieces<S>>(
     });
     let mut shares = vec![Vec::new(); nodes.volume.len()];
     for (node, index) in indices {
-        let own = nodes.originals[node] != node
-            || nodes.held[node]
-            || nodes.volume[node].is_nan()
-            || sees_enough[node];
+        let own = nodes.originals[node] != node || nodes.held[node] || nodes.volume[node].is_nan() || sees_enough[node];
         if own {
             continue;
         }
@@ -54,26 +50,18 @@ pub(super) fn shares<const D: usize, const S: usize, B: Pieces<S>>(
         };
         let blocks = blocks_around(&index).filter(|first| {
             let corners = corners::<D>();
-            corners
-                .into_iter()
-                .all(|c| enough(&moved(first, &c)).is_some())
+            corners.into_iter().all(|c| enough(&moved(first, &c)).is_some())
         });
         let x = lattice.position(&index);
         let distance = |first: &[usize; D]| -> f64 {
-            let (lo, hi) = (
-                lattice.position(first),
-                lattice.position(&moved(first, &[1; D])),
-            );
+            let (lo, hi) = (lattice.position(first), lattice.position(&moved(first, &[1; D])));
             (0..D).map(|a| (x[a] - 0.5 * (lo[a] + hi[a])).powi(2)).sum()
         };
         let Some(first) = blocks.min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
             continue;
         };
         for corner in corners::<D>() {
-            let (lo, hi) = (
-                lattice.position(&first),
-                lattice.position(&moved(&first, &[1; D])),
-            );
+            let (lo, hi) = (lattice.position(&first), lattice.position(&moved(&first, &[1; D])));
             let share = (0..D).map(|a| {
                 let t = (x[a] - lo[a]) / (hi[a] - lo[a]);
                 if corner[a] == 0 { 1.0 - t } else { t }

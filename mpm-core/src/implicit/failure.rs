@@ -21,25 +21,10 @@ impl Failure {
     pub(crate) fn error(self, ledger: &Ledger, ids: &[u32]) -> Error {
         let (time, step) = (ledger.time, ledger.work.steps);
         match self {
-            Self::NoConvergence(iteration, residual) => Error::NoConvergence {
-                time,
-                step,
-                iteration,
-                residual,
-            },
-            Self::Singular(iteration) => Error::Singular {
-                time,
-                step,
-                iteration,
-            },
+            Self::NoConvergence(iteration, residual) => Error::NoConvergence { time, step, iteration, residual },
+            Self::Singular(iteration) => Error::Singular { time, step, iteration },
             Self::Particle(index, fault) => ledger.breakdown(ids, index, fault),
-            Self::Lost(what, value, whole) => Error::Lost {
-                time,
-                step,
-                what,
-                value,
-                whole,
-            },
+            Self::Lost(what, value, whole) => Error::Lost { time, step, what, value, whole },
         }
     }
 }

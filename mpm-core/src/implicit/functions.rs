@@ -19,12 +19,7 @@ impl<const D: usize> Functions<D> {
     /// None yet.
     #[must_use]
     pub fn new() -> Self {
-        Self {
-            element: 0,
-            node: Vec::new(),
-            w: Vec::new(),
-            dw: Vec::new(),
-        }
+        Self { element: 0, node: Vec::new(), w: Vec::new(), dw: Vec::new() }
     }
 
     /// Those of a stencil.

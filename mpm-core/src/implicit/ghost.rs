@@ -39,11 +39,7 @@ impl<const D: usize> Cells<D> {
     fn next(&self, axis: usize, i: usize) -> Option<usize> {
         let n = self.count(axis);
         let wraps = self.axes[axis].periodic && i + 1 == n;
-        if wraps {
-            Some(0)
-        } else {
-            Some(i + 1).filter(|i| *i < n)
-        }
+        if wraps { Some(0) } else { Some(i + 1).filter(|i| *i < n) }
     }
 
     /// Whether a neighbour of the cell, also across an edge or corner, holds no material. Cells behind a wall count as
@@ -81,10 +77,7 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
     let h = lattice.grid.h;
     let axes: [AxisPieces; D] = std::array::from_fn(|a| B::pieces(&lattice.grid.axes[a], h));
     let degree = axes[0].degree;
-    let mut cells = Cells {
-        active: vec![false; axes.iter().map(|a| a.top.len()).product()],
-        axes,
-    };
+    let mut cells = Cells { active: vec![false; axes.iter().map(|a| a.top.len()).product()], axes };
     for (x, half_size) in domains.iter() {
         let stencil = lattice.stencil(x, &half_size);
         let touched = stencil.axis.each_ref().map(|axis| B::touched(axis));
@@ -99,9 +92,8 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
             cells.active[place] = true;
         }
     }
-    let at_edge: Vec<bool> = (0..cells.active.len())
-        .map(|place| cells.active[place] && cells.at_edge(&cells.cell(place)))
-        .collect();
+    let at_edge: Vec<bool> =
+        (0..cells.active.len()).map(|place| cells.active[place] && cells.at_edge(&cells.cell(place))).collect();
     let mut first_node = usize::MAX;
     lattice.for_each_node(|node, _| first_node = first_node.min(node));
     let strides: [usize; D] = std::array::from_fn(|a| match D - a {
@@ -129,8 +121,7 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
                 jump[k + 1] += axis.top[after][k];
                 jump[k] -= axis.top[cell[normal]][k];
             }
-            let counts: [usize; D] =
-                std::array::from_fn(|a| if a == normal { degree + 2 } else { degree + 1 });
+            let counts: [usize; D] = std::array::from_fn(|a| if a == normal { degree + 2 } else { degree + 1 });
             let functions: usize = counts.iter().product();
             let split = |mut k: usize| {
                 let mut index = [0; D];
@@ -155,14 +146,9 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
             }
             let node = (0..functions).map(|k| {
                 let index = split(k);
-                (0..D).fold(first_node, |node, a| {
-                    node + (cell[a] + index[a]) * strides[a]
-                })
+                (0..D).fold(first_node, |node, a| node + (cell[a] + index[a]) * strides[a])
             });
-            found.push(Penalty {
-                node: node.collect(),
-                stiffness,
-            });
+            found.push(Penalty { node: node.collect(), stiffness });
         }
     }
     found
@@ -179,20 +165,13 @@ mod tests {
     #[test]
     fn faces_are_between_all_cells_that_are_next_to_each_other() {
         const CELLS: usize = 6;
-        let centre: Vec<[f64; 2]> = (0..2 * CELLS)
-            .map(|k| [(k % CELLS) as f64 + 0.5, (k / CELLS) as f64 + 2.5])
-            .collect();
+        let centre: Vec<[f64; 2]> =
+            (0..2 * CELLS).map(|k| [(k % CELLS) as f64 + 0.5, (k / CELLS) as f64 + 2.5]).collect();
         let half_size = HalfSizes::OfAll([0.25; 2]);
-        for (axis, in_a_row) in [
-            (Axis::open(0.0, CELLS), CELLS - 1),
-            (Axis::periodic(0.0, CELLS), CELLS),
-        ] {
+        for (axis, in_a_row) in [(Axis::open(0.0, CELLS), CELLS - 1), (Axis::periodic(0.0, CELLS), CELLS)] {
             let grid = Grid::new(1.0, [axis, Axis::open(0.0, CELLS)]).unwrap();
             let lattice = Lattice::<2, 2, Linear>::new(grid, WallTreatment::OpenKnot);
-            let domains = Domains {
-                centre: &centre,
-                half_size,
-            };
+            let domains = Domains { centre: &centre, half_size };
             let found = penalties(&lattice, 1.0, 1, domains);
             assert_eq!(found.len(), CELLS + 2 * in_a_row);
         }

@@ -45,11 +45,7 @@ pub(crate) fn components<const D: usize, I: Interpolation<D>, M: Law>(
 }
 
 /// The integrals of the constraints' amplitudes (s) over `dt` (s) from `time` (s).
-pub(crate) fn travel<const D: usize>(
-    constraints: &[Box<dyn Constraint<D>>],
-    time: f64,
-    dt: f64,
-) -> Vec<f64> {
+pub(crate) fn travel<const D: usize>(constraints: &[Box<dyn Constraint<D>>], time: f64, dt: f64) -> Vec<f64> {
     constraints
         .iter()
         .map(|c| {

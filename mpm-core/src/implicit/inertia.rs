@@ -27,18 +27,9 @@ pub(super) struct Mass {
 }
 
 impl Mass {
-    fn new<const D: usize>(
-        elements: &Elements<D>,
-        nodes: usize,
-        particle: &[f64],
-        lumped: f64,
-    ) -> Self {
+    fn new<const D: usize>(elements: &Elements<D>, nodes: usize, particle: &[f64], lumped: f64) -> Self {
         let of_nodes = elements.sums(nodes, particle);
-        Self {
-            lumped,
-            particle: particle.to_vec(),
-            node: of_nodes.iter().map(|m| m.max(0.0)).collect(),
-        }
+        Self { lumped, particle: particle.to_vec(), node: of_nodes.iter().map(|m| m.max(0.0)).collect() }
     }
 
     /// Mass of the heaviest node (kg).
@@ -68,11 +59,7 @@ impl Mass {
     }
 
     /// M `x`.
-    pub(super) fn times<const D: usize>(
-        &self,
-        elements: &Elements<D>,
-        x: &[SVector<f64, D>],
-    ) -> Vec<SVector<f64, D>> {
+    pub(super) fn times<const D: usize>(&self, elements: &Elements<D>, x: &[SVector<f64, D>]) -> Vec<SVector<f64, D>> {
         let shared = 1.0 - self.lumped;
         let mut product = self.scatter(elements, |p| elements.value(p, x) * shared);
         for ((sum, x), m) in product.iter_mut().zip(x).zip(&self.node) {
@@ -112,15 +99,11 @@ impl Mass {
         let mut rest = free(right.iter().zip(&carried).map(|(r, c)| r - c).collect());
         let over_mass = |field: &[SVector<f64, D>]| -> Vec<SVector<f64, D>> {
             let pairs = field.iter().zip(&self.node);
-            pairs
-                .map(|(r, m)| if *m > 0.0 { r / *m } else { SVector::zeros() })
-                .collect()
+            pairs.map(|(r, m)| if *m > 0.0 { r / *m } else { SVector::zeros() }).collect()
         };
         let inner = |a: &[SVector<f64, D>], b: &[SVector<f64, D>]| {
             let pairs = a.iter().zip(b);
-            pairs
-                .map(|(a, b)| dot(a.as_slice(), b.as_slice()))
-                .sum::<f64>()
+            pairs.map(|(a, b)| dot(a.as_slice(), b.as_slice())).sum::<f64>()
         };
         let mut direction = over_mass(&rest);
         let mut product = inner(&rest, &direction);

@@ -6,9 +6,7 @@ use crate::ledger::Ledger;
 use crate::work::clocked;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
-use faer::sparse::linalg::cholesky::{
-    LdltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
-};
+use faer::sparse::linalg::cholesky::{LdltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky};
 use faer::sparse::linalg::lu::{LuRef, NumericLu, SymbolicLu, factorize_symbolic_lu};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
@@ -59,22 +57,19 @@ impl Direct {
         }
         self.pattern = pattern.clone();
         let n = pattern.len();
-        let structure =
-            SymbolicSparseColMatRef::new_checked(n, n, &pattern.begin, None, &pattern.row);
+        let structure = SymbolicSparseColMatRef::new_checked(n, n, &pattern.begin, None, &pattern.row);
         let need;
         self.factors = if self.symmetric {
             let order = SymmetricOrdering::Amd;
             let symbolic =
-                factorize_symbolic_cholesky(structure, Side::Lower, order, Default::default())
-                    .map_err(|_| Singular)?;
+                factorize_symbolic_cholesky(structure, Side::Lower, order, Default::default()).map_err(|_| Singular)?;
             need = symbolic
                 .factorize_numeric_ldlt_scratch::<f64>(PAR, Default::default())
                 .or(symbolic.solve_in_place_scratch::<f64>(1, PAR));
             let values = vec![0.0; symbolic.len_val()];
             Factors::Symmetric(symbolic, values)
         } else {
-            let symbolic =
-                factorize_symbolic_lu(structure, Default::default()).map_err(|_| Singular)?;
+            let symbolic = factorize_symbolic_lu(structure, Default::default()).map_err(|_| Singular)?;
             need = symbolic
                 .factorize_numeric_lu_scratch::<f64>(PAR, Default::default())
                 .or(symbolic.solve_in_place_scratch::<f64>(1, PAR));
@@ -117,20 +112,10 @@ impl Direct {
         match &self.factors {
             Factors::None => {}
             Factors::Symmetric(symbolic, factors) => {
-                LdltRef::new(symbolic, factors).solve_in_place_with_conj(
-                    Conj::No,
-                    right,
-                    PAR,
-                    stack,
-                );
+                LdltRef::new(symbolic, factors).solve_in_place_with_conj(Conj::No, right, PAR, stack);
             }
             Factors::General(symbolic, factors) => {
-                LuRef::new_unchecked(symbolic, factors).solve_in_place_with_conj(
-                    Conj::No,
-                    right,
-                    PAR,
-                    stack,
-                );
+                LuRef::new_unchecked(symbolic, factors).solve_in_place_with_conj(Conj::No, right, PAR, stack);
             }
         }
     }
@@ -144,12 +129,7 @@ impl Direct {
         let right = MatMut::from_column_major_slice_mut(x, n, 1);
         let stack = MemStack::new(&mut self.memory);
         if let Factors::General(symbolic, factors) = &self.factors {
-            LuRef::new_unchecked(symbolic, factors).solve_transpose_in_place_with_conj(
-                Conj::No,
-                right,
-                PAR,
-                stack,
-            );
+            LuRef::new_unchecked(symbolic, factors).solve_transpose_in_place_with_conj(Conj::No, right, PAR, stack);
         }
     }
 }
@@ -173,9 +153,7 @@ pub(crate) fn condition(symmetric: bool, pattern: &Pattern, values: &[f64]) -> f
         norm = norm.max(sum);
     }
     let mut solver = Direct::new(symmetric);
-    let ready = solver
-        .analyse(pattern)
-        .and_then(|()| solver.factorise(&scaled));
+    let ready = solver.analyse(pattern).and_then(|()| solver.factorise(&scaled));
     if ready.is_err() || n == 0 {
         return f64::INFINITY;
     }

@@ -51,19 +51,14 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     pub(super) fn go_on_with(&mut self, saved: &Saved) -> Result<(), MemoryError> {
         let (body, sticks): (Saved, Vec<Vec<f64>>) = saved.read("a body with its sticks")?;
         let (grid, scene) = (*self.functions.grid(), &mut self.scene);
-        scene
-            .body
-            .go_on_with(&body, |particles| check::<D, I>(&grid, particles))?;
+        scene.body.go_on_with(&body, |particles| check::<D, I>(&grid, particles))?;
         scene.take_sticks(&sticks);
         Ok(())
     }
 }
 
 /// That all particles are on the grid and no larger than a cell.
-fn check<const D: usize, I: Interpolation<D>>(
-    grid: &Grid<D>,
-    particles: &Particles<D>,
-) -> Result<(), MemoryError> {
+fn check<const D: usize, I: Interpolation<D>>(grid: &Grid<D>, particles: &Particles<D>) -> Result<(), MemoryError> {
     let room = Room::new(grid, particles.half_size.map(I::beyond_wall));
     for l in particles.half_size {
         let fits = l > 0.0 && l <= 0.5 * grid.h;

@@ -129,11 +129,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
             Err(_) => f64::NAN,
             Ok(trial) => {
                 let values = step.stiffness(&step.tangents(&trial), &setting.pattern);
-                linear::condition(
-                    contact::is_symmetric(&self.scene),
-                    &setting.pattern,
-                    &values,
-                )
+                linear::condition(contact::is_symmetric(&self.scene), &setting.pattern, &values)
             }
         }
     }
@@ -147,9 +143,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
         if p.j_bar.is_empty() {
             return p.stress.clone();
         }
-        let mut stress: Vec<SymmetricTensor> = (0..p.len())
-            .map(|k| p.stress[k].scale_add_identity(p.j_bar[k] / p.jacobian[k], 0.0))
-            .collect();
+        let mut stress: Vec<SymmetricTensor> =
+            (0..p.len()).map(|k| p.stress[k].scale_add_identity(p.j_bar[k] / p.jacobian[k], 0.0)).collect();
         let mean = |s: &SymmetricTensor| (0..D).map(|a| s.get(a, a)).sum::<f64>() / D as f64;
         let (elements, average) = self.averaging();
         let averaged = average.apply(&elements, &stress.iter().map(mean).collect::<Vec<_>>());
@@ -208,11 +203,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             let volume = elements.sums(self.functions.len(), &particles.volume);
             let any = |of: &[Option<Held>; D]| of.iter().any(Option::is_some);
             let held: Vec<bool> = self.held.iter().map(any).collect();
-            let nodes = Nodes {
-                originals: &self.originals,
-                volume: &volume,
-                held: &held,
-            };
+            let nodes = Nodes { originals: &self.originals, volume: &volume, held: &held };
             elements = elements.extended(&self.functions.extension(&nodes));
         }
         let average = Average::new(&elements, self.functions.len(), &particles.volume);
@@ -243,12 +234,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             Some(held.velocity * (place * travel[held.by]))
         };
         let nodes = self.functions.len();
-        let unknowns = Unknowns::new(
-            (nodes, self.functions.grid().h),
-            &elements,
-            &penalties,
-            prescribed,
-        );
+        let unknowns = Unknowns::new((nodes, self.functions.grid().h), &elements, &penalties, prescribed);
         let averages = self.settings.remedy == Remedy::FbarConsistent;
         let width = D + usize::from(averages);
         let pattern = Pattern::new(width, &unknowns, &elements, &penalties);
@@ -310,18 +296,12 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let earlier = self.external(self.ledger.time, &setting.elements);
         let external = self.external(self.ledger.time + place * dt, &setting.elements);
         let mut driving = external.clone();
-        for (force, push) in driving
-            .iter_mut()
-            .zip(setting.inertia.iter().flat_map(|i| &i.push))
-        {
+        for (force, push) in driving.iter_mut().zip(setting.inertia.iter().flat_map(|i| &i.push)) {
             *force += push;
         }
         let rounding = self.rounding(&setting.elements);
         let guess = self.guess(&setting, dt);
-        let mut linear = Linear {
-            direct: &mut self.direct,
-            ledger: &mut self.ledger,
-        };
+        let mut linear = Linear { direct: &mut self.direct, ledger: &mut self.ledger };
         linear.analyse(&setting.pattern)?;
         let mut system = System {
             step: setting.step(&self.scene.body, place * dt),

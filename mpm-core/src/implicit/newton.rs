@@ -36,22 +36,13 @@ pub(crate) trait Equations {
     ///
     /// # Errors
     /// The matrix of this iteration is singular.
-    fn correction(
-        &mut self,
-        from: &Point<Self::Trial>,
-        iteration: u32,
-    ) -> Result<Vec<f64>, Failure>;
+    fn correction(&mut self, from: &Point<Self::Trial>, iteration: u32) -> Result<Vec<f64>, Failure>;
 
     /// Largest share of a correction to try.
     fn largest_share(&self, from: &Point<Self::Trial>, correction: &[f64]) -> f64;
 
     /// Whether the line search ends at the point `ahead`.
-    fn accepts(
-        &self,
-        from: &Point<Self::Trial>,
-        correction: &[f64],
-        ahead: &Point<Self::Trial>,
-    ) -> bool;
+    fn accepts(&self, from: &Point<Self::Trial>, correction: &[f64], ahead: &Point<Self::Trial>) -> bool;
 
     /// Ledger of the run.
     fn ledger(&mut self) -> &mut Ledger;
@@ -105,9 +96,5 @@ pub(crate) fn solve<E: Equations>(
         last = (correction, std::mem::replace(&mut point, ahead).residual);
         equations.ledger().work.newton_iterations += 1;
     }
-    Ok(Solved {
-        point,
-        last,
-        shares,
-    })
+    Ok(Solved { point, last, shares })
 }

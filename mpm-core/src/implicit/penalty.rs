@@ -27,12 +27,7 @@ impl Moduli {
     }
 
     /// The stiffness ∫ Bᵀ C B of functions with gradients `dw` (1/m) times `weight` (m³), added to `stiffness`.
-    pub fn add_stiffness<const D: usize>(
-        &self,
-        dw: &[[f64; D]],
-        weight: f64,
-        stiffness: &mut DMatrix<f64>,
-    ) {
+    pub fn add_stiffness<const D: usize>(&self, dw: &[[f64; D]], weight: f64, stiffness: &mut DMatrix<f64>) {
         for (j, g) in dw.iter().enumerate() {
             for (i, f) in dw.iter().enumerate() {
                 let dot: f64 = (0..D).map(|a| f[a] * g[a]).sum();
@@ -57,15 +52,9 @@ mod tests {
     /// E = 10 and ν = ¼: λ = μ = 4.
     #[test]
     fn youngs_modulus_is_that_of_lames() {
-        let moduli = Moduli {
-            lambda: 4.0,
-            mu: 4.0,
-        };
+        let moduli = Moduli { lambda: 4.0, mu: 4.0 };
         assert_eq!(moduli.young(), 10.0);
-        let stiffer = Moduli {
-            lambda: 6.0,
-            mu: 2.0,
-        };
+        let stiffer = Moduli { lambda: 6.0, mu: 2.0 };
         // ν = λ/2(λ + μ) = 3/8, E = 2 μ (1 + ν).
         assert_eq!(stiffer.young(), 5.5);
     }

@@ -29,14 +29,8 @@ impl AxisPieces {
     fn new<const S: usize>(axis: &Axis, h: f64, beyond: usize, walls: (bool, bool)) -> Self {
         let spline = BSpline::<S>::new(axis, h, WallTreatment::OpenKnot);
         let degree = S - 1;
-        let mut pieces = Self {
-            degree,
-            beyond,
-            periodic: axis.is_periodic(),
-            walls,
-            top: Vec::new(),
-            mass: Vec::new(),
-        };
+        let mut pieces =
+            Self { degree, beyond, periodic: axis.is_periodic(), walls, top: Vec::new(), mass: Vec::new() };
         for interval in 0..axis.cells {
             let at = |t: f64| spline.weights(axis.lo + (interval as f64 + t) * h, 0.0).w;
             let mut mass = [[0.0; MOST]; MOST];
@@ -54,11 +48,7 @@ impl AxisPieces {
             let distance = 1.0 / (degree as f64 + 1.0);
             for j in 0..=degree {
                 let w = at((j as f64 + 0.5) * distance);
-                let sign = if (degree - j).is_multiple_of(2) {
-                    1.0
-                } else {
-                    -1.0
-                };
+                let sign = if (degree - j).is_multiple_of(2) { 1.0 } else { -1.0 };
                 for (top, w) in top.iter_mut().zip(w) {
                     *top += sign * binomial(degree, j) * w / (distance * h).powi(degree as i32);
                 }
@@ -78,10 +68,7 @@ pub(super) fn gauss(points: usize) -> impl Iterator<Item = (f64, f64)> {
     let rule: &[(f64, f64)] = match points {
         0..=2 => &[(0.577_350_269_189_625_8, 1.0)],
         3 => &[(0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)],
-        _ => &[
-            (0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
-            (0.861_136_311_594_052_6, 0.347_854_845_137_453_9),
-        ],
+        _ => &[(0.339_981_043_584_856_3, 0.652_145_154_862_546_1), (0.861_136_311_594_052_6, 0.347_854_845_137_453_9)],
     };
     let mirrored = rule.iter().filter(|(x, _)| *x > 0.0).map(|(x, w)| (-x, *w));
     let all = mirrored.chain(rule.iter().copied());
@@ -150,11 +137,7 @@ mod tests {
             let middle = pieces.top[3];
             let h = 0.5_f64.powi(pieces.degree as i32);
             for (j, top) in middle.iter().take(pieces.degree + 1).enumerate() {
-                let sign = if (pieces.degree - j).is_multiple_of(2) {
-                    1.0
-                } else {
-                    -1.0
-                };
+                let sign = if (pieces.degree - j).is_multiple_of(2) { 1.0 } else { -1.0 };
                 assert!((top * h - sign * binomial(pieces.degree, j)).abs() < 1e-12);
             }
         }

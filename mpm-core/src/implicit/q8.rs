@@ -29,16 +29,7 @@ impl Serendipity {
 }
 
 /// The eight nodes as coordinates −1, 0 and 1 in their cell, in the order of their places.
-const CORNERS: [[i32; 2]; NODES] = [
-    [-1, -1],
-    [-1, 0],
-    [-1, 1],
-    [0, -1],
-    [0, 1],
-    [1, -1],
-    [1, 0],
-    [1, 1],
-];
+const CORNERS: [[i32; 2]; NODES] = [[-1, -1], [-1, 0], [-1, 1], [0, -1], [0, 1], [1, -1], [1, 0], [1, 1]];
 
 /// Value and gradient of a node's function at local coordinates in −1..1.
 fn function([x, y]: [f64; 2], [i, j]: [i32; 2]) -> (f64, [f64; 2]) {
@@ -64,12 +55,7 @@ fn function([x, y]: [f64; 2], [i, j]: [i32; 2]) -> (f64, [f64; 2]) {
 impl Interpolation<2> for Serendipity {
     fn on(grid: Grid<2>) -> Result<Self, Error> {
         let periodic = grid.axes.iter().filter(|a| a.is_periodic()).count();
-        require(
-            periodic == 0,
-            "periodic axes of serendipity elements",
-            periodic as f64,
-            "none",
-        )?;
+        require(periodic == 0, "periodic axes of serendipity elements", periodic as f64, "none")?;
         Ok(Self { grid })
     }
 
@@ -174,13 +160,9 @@ mod tests {
             elements.functions(&x, &[0.0; 2], &mut seen);
             let nodes = || seen.node.iter().map(|n| field(place[*n]));
             let value: f64 = nodes().zip(&seen.w).map(|(f, w)| f * w).sum();
-            let slope =
-                [0, 1].map(|a| -> f64 { nodes().zip(&seen.dw).map(|(f, d)| f * d[a]).sum() });
+            let slope = [0, 1].map(|a| -> f64 { nodes().zip(&seen.dw).map(|(f, d)| f * d[a]).sum() });
             assert!((value - field(x)).abs() < 1e-13);
-            let exact = [
-                1.0 + 2.0 * x[0] + 3.0 * x[1],
-                -2.0 + 3.0 * x[0] - 2.0 * x[1],
-            ];
+            let exact = [1.0 + 2.0 * x[0] + 3.0 * x[1], -2.0 + 3.0 * x[0] - 2.0 * x[1]];
             assert!((slope[0] - exact[0]).abs() + (slope[1] - exact[1]).abs() < 1e-12);
         }
     }

@@ -45,15 +45,9 @@ pub(crate) fn minor<T: Real>(f: &Matrix3<T>, i: usize, j: usize) -> T {
 }
 
 /// `f`, completed to three dimensions, of variables: the component in the place D i + j is the variable of that number.
-pub(crate) fn variables<const D: usize, const N: usize>(
-    f: &SMatrix<f64, D, D>,
-) -> Matrix3<Dual<N>> {
+pub(crate) fn variables<const D: usize, const N: usize>(f: &SMatrix<f64, D, D>) -> Matrix3<Dual<N>> {
     Matrix3::from_fn(|i, j| {
-        if i < D && j < D {
-            Dual::variable(f[(i, j)], D * i + j)
-        } else {
-            Dual::splat(if i == j { 1.0 } else { 0.0 })
-        }
+        if i < D && j < D { Dual::variable(f[(i, j)], D * i + j) } else { Dual::splat(if i == j { 1.0 } else { 0.0 }) }
     })
 }
 
@@ -86,11 +80,7 @@ fn stretch<T: Real, const D: usize>(x: T) -> T {
 impl<M: Law> Particle<'_, M> {
     /// The answer to `f`, completed to three dimensions, and with F̄ to the averaged change of volume.
     #[inline]
-    pub(super) fn respond<T: Real, const D: usize>(
-        &self,
-        f: &Matrix3<T>,
-        averaged: Option<T>,
-    ) -> Response<T> {
+    pub(super) fn respond<T: Real, const D: usize>(&self, f: &Matrix3<T>, averaged: Option<T>) -> Response<T> {
         let mut cofactor = [T::default(); MOST];
         for i in 0..D {
             for j in 0..D {
@@ -98,11 +88,7 @@ impl<M: Law> Particle<'_, M> {
             }
         }
         let state = M::State::pack::<T>(|_| *self.state);
-        let mut answer = Response {
-            stress: [T::default(); MOST],
-            pull: T::default(),
-            cofactor,
-        };
+        let mut answer = Response { stress: [T::default(); MOST], pull: T::default(), cofactor };
         let mut scale = T::splat(self.volume);
         let mut pressure = T::default();
         let cauchy = match averaged {
@@ -111,13 +97,7 @@ impl<M: Law> Particle<'_, M> {
                 let ratio = averaged / determinant(f);
                 let stretch = stretch::<T, D>(ratio);
                 let in_plane = |i: usize, j: usize| i < D && j < D;
-                let scaled = Matrix3::from_fn(|i, j| {
-                    if in_plane(i, j) {
-                        stretch * f[(i, j)]
-                    } else {
-                        f[(i, j)]
-                    }
-                });
+                let scaled = Matrix3::from_fn(|i, j| if in_plane(i, j) { stretch * f[(i, j)] } else { f[(i, j)] });
                 let cauchy = self.law.response(&scaled, self.dt, &state).0;
                 for a in 0..D {
                     pressure += cauchy.get(a, a);
@@ -148,11 +128,7 @@ impl<M: Law> Particle<'_, M> {
         share: f64,
     ) -> Tangent<D> {
         // Components of ΔF and one more: two instances serve all, as each takes its time to compile.
-        if D < 3 {
-            self.derive::<D, 5>(f, averaged, share)
-        } else {
-            self.derive::<D, 10>(f, averaged, share)
-        }
+        if D < 3 { self.derive::<D, 5>(f, averaged, share) } else { self.derive::<D, 10>(f, averaged, share) }
     }
 
     fn derive<const D: usize, const N: usize>(

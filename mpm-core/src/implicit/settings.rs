@@ -67,19 +67,11 @@ impl TimeRule {
     fn check(self) -> Result<(), Error> {
         match self {
             Self::Static => Ok(()),
-            Self::Midpoint { lumped } => require(
-                (0.0..=1.0).contains(&lumped),
-                "share of the lumped mass",
-                lumped,
-                "from 0 to 1",
-            ),
+            Self::Midpoint { lumped } => {
+                require((0.0..=1.0).contains(&lumped), "share of the lumped mass", lumped, "from 0 to 1")
+            }
             Self::Newmark { alpha, delta } => {
-                require(
-                    delta >= 0.5,
-                    "delta of Newmark's rule",
-                    delta,
-                    "at least 0.5: less is unstable",
-                )?;
+                require(delta >= 0.5, "delta of Newmark's rule", delta, "at least 0.5: less is unstable")?;
                 let least = 0.25 * (delta + 0.5) * (delta + 0.5);
                 require(
                     alpha >= least,
@@ -139,10 +131,7 @@ impl Settings {
     /// With a stabilisation.
     #[must_use]
     pub fn stabilised(self, stabilisation: Stabilisation) -> Self {
-        Self {
-            stabilisation,
-            ..self
-        }
+        Self { stabilisation, ..self }
     }
 
     /// With a tolerance of Newton's method.
@@ -185,12 +174,9 @@ impl Settings {
         )?;
         match self.stabilisation {
             Stabilisation::None | Stabilisation::Extension => Ok(()),
-            Stabilisation::Ghost(factor) | Stabilisation::Soft(factor) => require(
-                factor > 0.0 && factor <= 1.0,
-                "factor of the stabilisation",
-                factor,
-                "above 0, at most 1",
-            ),
+            Stabilisation::Ghost(factor) | Stabilisation::Soft(factor) => {
+                require(factor > 0.0 && factor <= 1.0, "factor of the stabilisation", factor, "above 0, at most 1")
+            }
         }
     }
 }

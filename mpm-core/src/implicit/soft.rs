@@ -36,10 +36,7 @@ pub(super) fn penalties<const D: usize, I: Interpolation<D>>(
             functions_of.functions(&x, &[0.0; D], &mut functions);
             moduli.add_stiffness(&functions.dw, weight, &mut stiffness);
         }
-        found.push(Penalty {
-            node: functions.node.clone(),
-            stiffness,
-        });
+        found.push(Penalty { node: functions.node.clone(), stiffness });
     }
     found
 }

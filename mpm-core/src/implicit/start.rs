@@ -32,8 +32,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let functions = I::on(scene.grid)?;
         functions.offers(settings.stabilisation)?;
         let moduli = moduli_of(&scene.body.law, settings.dt);
-        let inertia_alone =
-            settings.rule != TimeRule::Static && settings.stabilisation == Stabilisation::None;
+        let inertia_alone = settings.rule != TimeRule::Static && settings.stabilisation == Stabilisation::None;
         require(
             moduli.mu > 0.0 || inertia_alone,
             "shear modulus of a quasi-static or stabilised run",
@@ -88,8 +87,5 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
 /// Lamé's parameters of undeformed material, from the law's tangent.
 pub(crate) fn moduli_of<M: Law>(law: &M, dt: f64) -> Moduli {
     let tangent = law.tangent(&Matrix3::identity(), dt, &law.initial_state());
-    Moduli {
-        lambda: tangent.xx.slope[4],
-        mu: tangent.xy.slope[1],
-    }
+    Moduli { lambda: tangent.xx.slope[4], mu: tangent.xy.slope[1] }
 }

@@ -58,12 +58,7 @@ impl<const D: usize, M: Law> Equations for System<'_, D, M> {
         let trial = self.trial(&u)?;
         let (residual, loads) = self.residual(&trial);
         let size = norm(&residual);
-        Ok(Point {
-            x: u,
-            trial,
-            residual,
-            share: if loads > 0.0 { size / loads } else { size },
-        })
+        Ok(Point { x: u, trial, residual, share: if loads > 0.0 { size / loads } else { size } })
     }
 
     fn solved_by(&self, point: &Point<Trial<D>>) -> bool {
@@ -141,11 +136,7 @@ impl<const D: usize, M: Law> System<'_, D, M> {
         }
         let external = norm(&self.step.free(self.external));
         let by_internal = external == 0.0 || self.step.inertia.is_some();
-        let loads = if by_internal {
-            external.max(self.start)
-        } else {
-            external
-        };
+        let loads = if by_internal { external.max(self.start) } else { external };
         (residual, loads.max(held.sqrt()))
     }
 
@@ -175,11 +166,7 @@ impl<const D: usize, M: Law> System<'_, D, M> {
         self.start = norm(&self.step.free(&before.internal));
         let beginning = self.beginning(guess)?;
         let most = self.settings.most_iterations;
-        let Solved {
-            point,
-            last,
-            shares,
-        } = newton::solve(self, beginning, most)?;
+        let Solved { point, last, shares } = newton::solve(self, beginning, most)?;
         let external = self.step.free(self.external);
         let scale = norm(&external).max(f64::MIN_POSITIVE);
         let work = dot(&external, &point.x).abs().max(f64::MIN_POSITIVE);
@@ -210,12 +197,7 @@ impl<const D: usize, M: Law> System<'_, D, M> {
 
     /// Conjugate gradients with the exact stiffness of F̄, preconditioned by the factors of Eq. (13). Where the
     /// stiffness is not positive they stop at what they have.
-    fn conjugate_gradients(
-        &mut self,
-        tangents: &[Tangent<D>],
-        right: &[f64],
-        accuracy: f64,
-    ) -> Option<Vec<f64>> {
+    fn conjugate_gradients(&mut self, tangents: &[Tangent<D>], right: &[f64], accuracy: f64) -> Option<Vec<f64>> {
         let nodes = self.external.len();
         let mut x = vec![0.0; right.len()];
         let mut rest = right.to_vec();

@@ -54,12 +54,7 @@ fn full<const D: usize, M: Law>(cells: usize, places: Places, law: M) -> Scene<D
 }
 
 /// The same on a grid of `axes`.
-fn filled<const D: usize, M: Law>(
-    axes: [Axis; D],
-    cells: usize,
-    places: Places,
-    law: M,
-) -> Scene<D, M> {
+fn filled<const D: usize, M: Law>(axes: [Axis; D], cells: usize, places: Places, law: M) -> Scene<D, M> {
     let grid = Grid::new(H, axes).unwrap();
     let off = match places {
         Places::Uniform => 0.25,
@@ -67,9 +62,8 @@ fn filled<const D: usize, M: Law>(
     };
     let at = |k: usize| H * ((k / 2) as f64 + if k.is_multiple_of(2) { off } else { 1.0 - off });
     let along = 2 * cells;
-    let positions = (0..along.pow(D as u32))
-        .map(|k| std::array::from_fn(|a| at(k / along.pow(a as u32) % along)))
-        .collect();
+    let positions =
+        (0..along.pow(D as u32)).map(|k| std::array::from_fn(|a| at(k / along.pow(a as u32) % along))).collect();
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     Scene::new(grid, Body::new(law, particles).unwrap())
@@ -77,11 +71,7 @@ fn filled<const D: usize, M: Law>(
 
 fn places_of<I: Interpolation<D>, const D: usize>() -> Places {
     // Domains of means have to tile the body; other functions are integrated exactly by Gauss' rule.
-    if I::beyond_wall(1.0) > 0.0 {
-        Places::Uniform
-    } else {
-        Places::Gauss
-    }
+    if I::beyond_wall(1.0) > 0.0 { Places::Uniform } else { Places::Gauss }
 }
 
 /// The stresses after one step of the particles that lie within `radius` (m) of the centre, which is affine too.
@@ -99,17 +89,8 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
     let volume = p.reference_volume[0];
     let some = Particles::new(within.collect(), volume, 1000.0, p.half_size).unwrap();
     scene.body = Body::new(law.clone(), some).unwrap();
-    let settings = Settings::new(1.0)
-        .stabilised(stabilisation)
-        .tolerance(1e-13);
-    let mut solver = Solver::<D, I, M>::new(
-        scene.constrain(Affine {
-            gradient,
-            centre: CENTRE,
-        }),
-        settings,
-    )
-    .unwrap();
+    let settings = Settings::new(1.0).stabilised(stabilisation).tolerance(1e-13);
+    let mut solver = Solver::<D, I, M>::new(scene.constrain(Affine { gradient, centre: CENTRE }), settings).unwrap();
     solver.step().unwrap();
     // Parts of an affine motion, one after the other, are another one.
     assert_eq!(solver.convergence().unwrap().parts, 1);
@@ -124,9 +105,7 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
 /// An affine field at the boundary is one inside, with the stress of its law everywhere.
 fn reproduces_affine_fields<const D: usize, I: Interpolation<D>, M: Law + Clone>(law: &M) {
     // Shrinks, so that the body stays on the grid.
-    let gradient = SMatrix::from_fn(|i, j| {
-        0.01 * (i as f64 - 0.7 * j as f64) - if i == j { 0.08 } else { 0.0 }
-    });
+    let gradient = SMatrix::from_fn(|i, j| 0.01 * (i as f64 - 0.7 * j as f64) - if i == j { 0.08 } else { 0.0 });
     let f = embed(&(SMatrix::<f64, D, D>::identity() + gradient));
     let exact = law.update(&f, 1.0, &law.initial_state()).0.to_matrix();
     for stress in patch::<D, I, M>(law, gradient, f64::INFINITY, Stabilisation::Ghost(0.01)) {
@@ -169,39 +148,24 @@ fn a_rigid_turn_gives_no_stress() {
 }
 
 /// The box stands on a floor between rollers and is compressed by `weight` (N/m³).
-fn standing<const D: usize, M: Law>(
-    cells: usize,
-    places: Places,
-    law: M,
-    weight: f64,
-) -> Scene<D, M> {
+fn standing<const D: usize, M: Law>(cells: usize, places: Places, law: M, weight: f64) -> Scene<D, M> {
     let rollers = (0..D).map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));
     let axis = Axis::bounded(0.0, cells + 2, (Side::Wall, Side::Open));
-    filled([axis; D], cells, places, law)
-        .constrain_all(rollers)
-        .load(BodyForce(Box::new(move |_, t| {
-            let mut force = [0.0; D];
-            force[D - 1] = -weight * t / 1000.0;
-            force
-        })))
+    filled([axis; D], cells, places, law).constrain_all(rollers).load(BodyForce(Box::new(move |_, t| {
+        let mut force = [0.0; D];
+        force[D - 1] = -weight * t / 1000.0;
+        force
+    })))
 }
 
 /// Near the end an iteration squares the error of Newton's method: of three residuals in a row ln(e₃/e₂)/ln(e₂/e₁)
 /// comes to two before rounding ends it.
 #[test]
 fn newton_converges_quadratically() {
-    let settings = Settings::new(1.0)
-        .stabilised(Stabilisation::Ghost(0.01))
-        .tolerance(1e-11);
+    let settings = Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01)).tolerance(1e-11);
     for remedy in [Remedy::None, Remedy::FbarConsistent] {
-        let scene = standing::<2, _>(
-            4,
-            Places::Uniform,
-            NeoHookean::new(YOUNG, POISSON).unwrap(),
-            1e4,
-        );
-        let mut solver =
-            Solver::<2, Quadratics<2>, _>::new(scene, settings.remedy(remedy)).unwrap();
+        let scene = standing::<2, _>(4, Places::Uniform, NeoHookean::new(YOUNG, POISSON).unwrap(), 1e4);
+        let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings.remedy(remedy)).unwrap();
         solver.step().unwrap();
         let convergence = solver.convergence().unwrap();
         assert_eq!(convergence.parts, 1);
@@ -234,9 +198,7 @@ fn sinking(x: f64, height: f64, weight: f64, law: &NeoHookean) -> f64 {
     let n = 200;
     let step = x / f64::from(n);
     let at = |k: i32| stretch(step * f64::from(k));
-    let inner: f64 = (1..n)
-        .map(|k| at(k) * if k % 2 == 1 { 4.0 } else { 2.0 })
-        .sum();
+    let inner: f64 = (1..n).map(|k| at(k) * if k % 2 == 1 { 4.0 } else { 2.0 }).sum();
     step / 3.0 * (at(0) + inner + at(n))
 }
 
@@ -249,9 +211,7 @@ fn bar_error<I: Interpolation<1>>(cells: usize) -> f64 {
     solver.step().unwrap();
     assert_eq!(solver.convergence().unwrap().parts, 1);
     let p = solver.particles();
-    let error = |(x, x0): (&[f64; 1], &[f64; 1])| {
-        (x[0] - x0[0] - sinking(x0[0], height, weight, &law)).powi(2)
-    };
+    let error = |(x, x0): (&[f64; 1], &[f64; 1])| (x[0] - x0[0] - sinking(x0[0], height, weight, &law)).powi(2);
     let squares: f64 = p.position.iter().zip(&p.reference).map(error).sum();
     (squares / p.len() as f64).sqrt() / sinking(height, height, weight, &law).abs()
 }
@@ -280,22 +240,13 @@ fn bits<const D: usize, I: Interpolation<D>, M: Law>(solver: &Solver<D, I, M>) -
 fn ground() -> Scene<2, HenckyJ2> {
     let strength = Strength::softening(2e3, 1e3, 1.0).unwrap();
     let law = HenckyJ2::new(YOUNG, POISSON, strength).unwrap();
-    let axes = [
-        Axis::walls(0.0, 8),
-        Axis::bounded(0.0, 10, (Side::Wall, Side::Open)),
-    ];
+    let axes = [Axis::walls(0.0, 8), Axis::bounded(0.0, 10, (Side::Wall, Side::Open))];
     let roller = |axis, end| Wall::new(axis, end, WallKind::Roller);
-    filled(axes, 8, Places::Uniform, law).constrain_all([
-        roller(0, End::Lo),
-        roller(0, End::Hi),
-        roller(1, End::Lo),
-    ])
+    filled(axes, 8, Places::Uniform, law).constrain_all([roller(0, End::Lo), roller(0, End::Hi), roller(1, End::Lo)])
 }
 
 fn in_two_steps(scene: Scene<2, HenckyJ2>, remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
-    let settings = Settings::new(0.5)
-        .remedy(remedy)
-        .stabilised(Stabilisation::Ghost(0.01));
+    let settings = Settings::new(0.5).remedy(remedy).stabilised(Stabilisation::Ghost(0.01));
     Solver::new(scene, settings).unwrap()
 }
 
@@ -341,11 +292,8 @@ fn a_run_that_was_stopped_goes_on_as_if_it_had_not() {
 fn reactions_balance_the_weight() {
     let law = NeoHookean::new(YOUNG, POISSON).unwrap();
     let scene = standing::<2, _>(4, Places::Uniform, law, 1e3);
-    let mut solver = Solver::<2, Quadratics<2>, _>::new(
-        scene,
-        Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01)),
-    )
-    .unwrap();
+    let mut solver =
+        Solver::<2, Quadratics<2>, _>::new(scene, Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01))).unwrap();
     solver.step().unwrap();
     let weight = 1e3 * (4.0 * H).powi(2);
     assert!((solver.on(Part::Constraint(1)).force[1] / -weight - 1.0).abs() < 1e-8);
@@ -369,18 +317,12 @@ fn loner(stabilisation: Stabilisation) -> f64 {
     scene.body = Body::new(law, more).unwrap();
     let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).stabilised(stabilisation);
-    Solver::<2, Quadratics<2>, _>::new(scene.constrain(wall), settings)
-        .unwrap()
-        .condition()
+    Solver::<2, Quadratics<2>, _>::new(scene.constrain(wall), settings).unwrap().condition()
 }
 
 #[test]
 fn stabilisations_bound_the_condition() {
-    let bounded = [
-        Stabilisation::Ghost(0.01),
-        Stabilisation::Soft(0.01),
-        Stabilisation::Extension,
-    ];
+    let bounded = [Stabilisation::Ghost(0.01), Stabilisation::Soft(0.01), Stabilisation::Extension];
     let found = bounded.map(loner);
     assert!(found.iter().all(|c| *c < 1e6), "{found:?}");
     assert!(loner(Stabilisation::None) > 1e12);
@@ -388,37 +330,21 @@ fn stabilisations_bound_the_condition() {
 
 #[test]
 fn what_is_not_allowed_is_named() {
-    let scene = || {
-        standing::<2, _>(
-            4,
-            Places::Uniform,
-            Hencky::new(YOUNG, POISSON).unwrap(),
-            1e3,
-        )
-    };
+    let scene = || standing::<2, _>(4, Places::Uniform, Hencky::new(YOUNG, POISSON).unwrap(), 1e3);
     let refused = |settings: Settings, what: &str| {
-        let error = Solver::<2, Means<2>, _>::new(scene(), settings)
-            .err()
-            .unwrap();
+        let error = Solver::<2, Means<2>, _>::new(scene(), settings).err().unwrap();
         assert!(error.to_string().contains(what), "{error}");
     };
     refused(Settings::new(0.0), "load step");
     refused(Settings::new(1.0).tolerance(0.5), "tolerance");
-    refused(
-        Settings::new(1.0).stabilised(Stabilisation::Ghost(-1.0)),
-        "stabilisation",
-    );
-    refused(
-        Settings::new(1.0).stabilised(Stabilisation::Soft(0.01)),
-        "ghost",
-    );
+    refused(Settings::new(1.0).stabilised(Stabilisation::Ghost(-1.0)), "stabilisation");
+    refused(Settings::new(1.0).stabilised(Stabilisation::Soft(0.01)), "ghost");
     let wall = Wall::new(0, End::Hi, WallKind::Separable);
     let error = Solver::<2, Means<2>, _>::new(scene().constrain(wall), Settings::new(1.0));
     assert!(error.err().unwrap().to_string().contains("one-sided"));
     let law = Hypoelastic::new(YOUNG, POISSON, JaumannUpdate::Split).unwrap();
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
-    let error =
-        Solver::<2, Means<2>, _>::new(standing::<2, _>(4, Places::Uniform, law, 1e3), settings);
+    let error = Solver::<2, Means<2>, _>::new(standing::<2, _>(4, Places::Uniform, law, 1e3), settings);
     assert!(error.err().unwrap().to_string().contains("remedy none"));
 }
 
@@ -427,21 +353,13 @@ fn what_is_not_allowed_is_named() {
 fn no_equilibrium_is_an_error() {
     let law = Hencky::new(YOUNG, POISSON).unwrap();
     let scene = full::<2, _>(4, Places::Uniform, law).load(BodyForce(Box::new(|_, _| [0.0, -1.0])));
-    let settings = Settings {
-        most_halvings: 2,
-        ..Settings::new(1.0)
-    };
+    let settings = Settings { most_halvings: 2, ..Settings::new(1.0) };
     let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
     let before = solver.particles().reference.clone();
     let error = solver.step().unwrap_err();
-    let known = matches!(
-        error,
-        Error::Singular { .. } | Error::NoConvergence { .. } | Error::Breakdown { .. }
-    );
+    let known = matches!(error, Error::Singular { .. } | Error::NoConvergence { .. } | Error::Breakdown { .. });
     assert!(known, "{error}");
-    let mut at = solver
-        .particles()
-        .seeded(|k| solver.particles().position[k]);
+    let mut at = solver.particles().seeded(|k| solver.particles().position[k]);
     let mut from = before;
     at.sort_by(|a, b| a.partial_cmp(b).unwrap());
     from.sort_by(|a, b| a.partial_cmp(b).unwrap());

@@ -94,11 +94,7 @@ impl Pattern {
         for penalty in penalties {
             join(&penalty.node);
         }
-        let mut pattern = Self {
-            width,
-            begin: vec![0],
-            row: Vec::new(),
-        };
+        let mut pattern = Self { width, begin: vec![0], row: Vec::new() };
         for (k, beside) in beside.iter_mut().enumerate() {
             beside.sort_unstable();
             beside.dedup();

@@ -95,21 +95,14 @@ impl<const D: usize, const S: usize> StencilRef<'_, D, S> {
         match D {
             1 => (begin, S),
             2 => (begin, (S - 1) * self.stride() + S),
-            _ => (
-                begin + slow * self.of.strides[0] as usize,
-                (S - 1) * self.stride() + S,
-            ),
+            _ => (begin + slow * self.of.strides[0] as usize, (S - 1) * self.stride() + S),
         }
     }
 
     /// Nodes from one row to the next in a line.
     #[inline(always)]
     pub fn stride(&self) -> usize {
-        if D == 1 {
-            0
-        } else {
-            self.of.strides[D - 2] as usize
-        }
+        if D == 1 { 0 } else { self.of.strides[D - 2] as usize }
     }
 
     /// Product of the outer axes' weights of a row.

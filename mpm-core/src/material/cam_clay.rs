@@ -58,11 +58,7 @@ impl CamClay {
         initial_pressure: f64,
     ) -> Result<Self, Error> {
         positive(critical_ratio, "critical state ratio M", "positive")?;
-        positive(
-            plastic_compressibility,
-            "plastic compressibility λ − κ",
-            "positive: λ is above κ",
-        )?;
+        positive(plastic_compressibility, "plastic compressibility λ − κ", "positive: λ is above κ")?;
         positive(preconsolidation, "preconsolidation", "positive (Pa)")?;
         require(
             initial_pressure > 0.0 && initial_pressure <= preconsolidation,
@@ -88,26 +84,16 @@ impl CamClay {
     /// One that is not above 0 and at most 1.
     pub fn shaped(self, alpha: f64, gamma: f64) -> Result<Self, Error> {
         for (what, value) in [("shape parameter α", alpha), ("shape parameter γ", gamma)] {
-            require(
-                value > 0.0 && value <= 1.0,
-                what,
-                value,
-                "above 0 and at most 1",
-            )?;
+            require(value > 0.0 && value <= 1.0, what, value, "above 0 and at most 1")?;
         }
-        Ok(Self {
-            alpha,
-            gamma,
-            ..self
-        })
+        Ok(Self { alpha, gamma, ..self })
     }
 
     /// p_c (Pa) after a plastic volume strain.
     #[inline(always)]
     fn preconsolidation_at<T: Real>(&self, plastic_volume: T) -> T {
         let since = plastic_volume + T::splat(self.initial_volume);
-        T::splat(self.preconsolidation)
-            * (since * T::splat(-1.0 / self.plastic_compressibility)).exp()
+        T::splat(self.preconsolidation) * (since * T::splat(-1.0 / self.plastic_compressibility)).exp()
     }
 }
 
@@ -137,11 +123,7 @@ impl Law for CamClay {
     const CONSERVATIVE: bool = false;
 
     fn in_units(&self, stress: f64) -> Self {
-        Self {
-            elasticity: self.elasticity.in_units(stress),
-            preconsolidation: stress * self.preconsolidation,
-            ..*self
-        }
+        Self { elasticity: self.elasticity.in_units(stress), preconsolidation: stress * self.preconsolidation, ..*self }
     }
 
     fn initial_state(&self) -> CamClayState {
@@ -186,10 +168,7 @@ impl Law for CamClay {
             after.plastic_strain += (number(2.0 / 3.0) * square).sqrt();
         }
         let [_, mean, _] = self.elasticity.volumetric(elastic_volume);
-        let stress = direction.scale_add_identity(
-            shear_modulus * remains * inverse_jacobian,
-            mean * inverse_jacobian,
-        );
+        let stress = direction.scale_add_identity(shear_modulus * remains * inverse_jacobian, mean * inverse_jacobian);
         (stress, after)
     }
 
@@ -200,18 +179,12 @@ impl Law for CamClay {
     /// The elastic energy, and what the work of ρ has stored: ½ γ ψ (p_c − p_c of undeformed material).
     fn energy(&self, state: &CamClayState) -> f64 {
         let hardened = self.preconsolidation_at(state.plastic_volume) - self.preconsolidation;
-        self.elasticity.energy(&state.elastic)
-            + 0.5 * self.gamma * self.plastic_compressibility * hardened
+        self.elasticity.energy(&state.elastic) + 0.5 * self.gamma * self.plastic_compressibility * hardened
     }
 
     /// That of the elasticity at the elastic volume strain. Where α = γ = 1, flow makes no wave faster.
     #[inline(always)]
-    fn wave_modulus<T: Real>(
-        &self,
-        j: T,
-        stress: &SymmetricTensor<T>,
-        state: &StateOf<Self, T>,
-    ) -> T {
+    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, state: &StateOf<Self, T>) -> T {
         let [_, _, bulk] = self.elasticity.volumetric(j.ln() - state.plastic_volume);
         bulk + T::splat(4.0 / 3.0 * self.elasticity.shear_modulus) - j * stress.least_at_least()
     }

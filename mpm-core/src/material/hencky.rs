@@ -20,10 +20,7 @@ impl Hencky {
     /// A modulus that is not positive and finite; a ratio outside (−1, 0.5).
     pub fn new(young_modulus: f64, poisson_ratio: f64) -> Result<Self, Error> {
         let NeoHookean { lambda, mu } = NeoHookean::new(young_modulus, poisson_ratio)?;
-        Ok(Self {
-            bulk_modulus: lambda + 2.0 * mu / 3.0,
-            shear_modulus: mu,
-        })
+        Ok(Self { bulk_modulus: lambda + 2.0 * mu / 3.0, shear_modulus: mu })
     }
 }
 
@@ -31,10 +28,7 @@ impl Law for Hencky {
     type State = SymmetricTensor;
 
     fn in_units(&self, stress: f64) -> Self {
-        Self {
-            bulk_modulus: stress * self.bulk_modulus,
-            shear_modulus: stress * self.shear_modulus,
-        }
+        Self { bulk_modulus: stress * self.bulk_modulus, shear_modulus: stress * self.shear_modulus }
     }
 
     fn initial_state(&self) -> SymmetricTensor {
@@ -61,18 +55,12 @@ impl Law for Hencky {
     fn energy(&self, b: &SymmetricTensor) -> f64 {
         let log_jacobian = 0.5 * b.determinant().ln();
         let deviator = 0.5 * b.ln().deviator().norm();
-        self.shear_modulus * deviator * deviator
-            + 0.5 * self.bulk_modulus * log_jacobian * log_jacobian
+        self.shear_modulus * deviator * deviator + 0.5 * self.bulk_modulus * log_jacobian * log_jacobian
     }
 
     /// K + 4μ/3 − τ₁ along the least Kirchhoff stress τ₁.
     #[inline(always)]
-    fn wave_modulus<T: Real>(
-        &self,
-        j: T,
-        stress: &SymmetricTensor<T>,
-        _b: &SymmetricTensor<T>,
-    ) -> T {
+    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, _b: &SymmetricTensor<T>) -> T {
         let undeformed = self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus;
         T::splat(undeformed) - j * stress.least_at_least()
     }

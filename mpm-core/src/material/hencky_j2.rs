@@ -30,10 +30,7 @@ impl HenckyJ2 {
     pub fn new(young_modulus: f64, poisson_ratio: f64, strength: Strength) -> Result<Self, Error> {
         let elasticity = Hencky::new(young_modulus, poisson_ratio)?;
         strength.require_gentler_than(elasticity.shear_modulus)?;
-        Ok(Self {
-            elasticity,
-            strength,
-        })
+        Ok(Self { elasticity, strength })
     }
 }
 
@@ -41,17 +38,11 @@ impl Law for HenckyJ2 {
     type State = ElastoplasticState;
 
     fn in_units(&self, stress: f64) -> Self {
-        Self {
-            elasticity: self.elasticity.in_units(stress),
-            strength: self.strength.in_units(stress),
-        }
+        Self { elasticity: self.elasticity.in_units(stress), strength: self.strength.in_units(stress) }
     }
 
     fn initial_state(&self) -> ElastoplasticState {
-        ElastoplasticState {
-            elastic: self.elasticity.initial_state(),
-            plastic_strain: 0.0,
-        }
+        ElastoplasticState { elastic: self.elasticity.initial_state(), plastic_strain: 0.0 }
     }
 
     #[inline(always)]
@@ -67,14 +58,9 @@ impl Law for HenckyJ2 {
         let inverse_jacobian = T::splat(1.0) / elastic.determinant().sqrt();
         let logarithm = elastic.ln();
         let direction = logarithm.deviator();
-        let Hencky {
-            bulk_modulus,
-            shear_modulus,
-        } = self.elasticity;
+        let Hencky { bulk_modulus, shear_modulus } = self.elasticity;
         let (norm, mut shear) = (direction.norm(), T::splat(shear_modulus));
-        let flow = self
-            .strength
-            .flow(shear * norm, 2.0 * shear_modulus, plastic_strain);
+        let flow = self.strength.flow(shear * norm, 2.0 * shear_modulus, plastic_strain);
         if flow.any_positive() {
             let share = T::splat(2.0) * flow / norm.at_least(f64::MIN_POSITIVE);
             let back = direction.scale_add_identity(-share, T::default());
@@ -82,12 +68,8 @@ impl Law for HenckyJ2 {
             shear -= shear * share;
         }
         let pressure_part = T::splat(0.5 * bulk_modulus) * logarithm.trace();
-        let stress = direction
-            .scale_add_identity(shear * inverse_jacobian, pressure_part * inverse_jacobian);
-        let after = ElastoplasticState {
-            elastic,
-            plastic_strain: plastic_strain + T::splat(PER_FLOW) * flow,
-        };
+        let stress = direction.scale_add_identity(shear * inverse_jacobian, pressure_part * inverse_jacobian);
+        let after = ElastoplasticState { elastic, plastic_strain: plastic_strain + T::splat(PER_FLOW) * flow };
         (stress, after)
     }
 
@@ -101,12 +83,7 @@ impl Law for HenckyJ2 {
 
     /// That of elastic material.
     #[inline(always)]
-    fn wave_modulus<T: Real>(
-        &self,
-        j: T,
-        stress: &SymmetricTensor<T>,
-        state: &ElastoplasticState<T>,
-    ) -> T {
+    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, state: &ElastoplasticState<T>) -> T {
         self.elasticity.wave_modulus(j, stress, &state.elastic)
     }
 }

@@ -36,11 +36,7 @@ impl Hypoelastic {
     ///
     /// # Errors
     /// A modulus that is not positive and finite; a ratio outside (−1, 0.5).
-    pub fn new(
-        young_modulus: f64,
-        poisson_ratio: f64,
-        update: JaumannUpdate,
-    ) -> Result<Self, Error> {
+    pub fn new(young_modulus: f64, poisson_ratio: f64, update: JaumannUpdate) -> Result<Self, Error> {
         let NeoHookean { lambda, mu } = NeoHookean::new(young_modulus, poisson_ratio)?;
         Ok(Self { lambda, mu, update })
     }
@@ -99,11 +95,7 @@ impl Law for Hypoelastic {
     const CONSERVATIVE: bool = false;
 
     fn in_units(&self, stress: f64) -> Self {
-        Self {
-            lambda: stress * self.lambda,
-            mu: stress * self.mu,
-            update: self.update,
-        }
+        Self { lambda: stress * self.lambda, mu: stress * self.mu, update: self.update }
     }
 
     fn initial_state(&self) -> SymmetricTensor {
@@ -155,12 +147,7 @@ impl Law for Hypoelastic {
 
     /// J (λ + 2μ): uniaxial strain turns no stress.
     #[inline(always)]
-    fn wave_modulus<T: Real>(
-        &self,
-        j: T,
-        _stress: &SymmetricTensor<T>,
-        _state: &SymmetricTensor<T>,
-    ) -> T {
+    fn wave_modulus<T: Real>(&self, j: T, _stress: &SymmetricTensor<T>, _state: &SymmetricTensor<T>) -> T {
         j * T::splat(self.lambda + 2.0 * self.mu)
     }
 }
@@ -207,10 +194,7 @@ mod tests {
             for _ in 0..steps {
                 state = material.update(&shear, 1.0, &state).1;
             }
-            let (xy, xx) = (
-                material.mu * 2.0_f64.sin(),
-                material.mu * (1.0 - 2.0_f64.cos()),
-            );
+            let (xy, xx) = (material.mu * 2.0_f64.sin(), material.mu * (1.0 - 2.0_f64.cos()));
             (state.xy - xy).hypot(state.xx - xx) / material.mu
         };
         for (update, ratio) in [(JaumannUpdate::Split, 4.0), (JaumannUpdate::Linear, 2.0)] {

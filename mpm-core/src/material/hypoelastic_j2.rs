@@ -44,17 +44,11 @@ impl Law for HypoelasticJ2 {
     const CONSERVATIVE: bool = false;
 
     fn in_units(&self, stress: f64) -> Self {
-        Self {
-            elastic: self.elastic.in_units(stress),
-            strength: self.strength.in_units(stress),
-        }
+        Self { elastic: self.elastic.in_units(stress), strength: self.strength.in_units(stress) }
     }
 
     fn initial_state(&self) -> ElastoplasticState {
-        ElastoplasticState {
-            elastic: self.elastic.initial_state(),
-            plastic_strain: 0.0,
-        }
+        ElastoplasticState { elastic: self.elastic.initial_state(), plastic_strain: 0.0 }
     }
 
     #[inline(always)]
@@ -71,10 +65,8 @@ impl Law for HypoelasticJ2 {
         let flow = self.strength.flow(norm, stiffness, state.plastic_strain);
         let back = T::splat(stiffness) * flow / norm.at_least(f64::MIN_POSITIVE);
         let stress = deviator.scale_add_identity(T::splat(1.0) - back, trial.mean());
-        let after = ElastoplasticState {
-            elastic: stress,
-            plastic_strain: state.plastic_strain + T::splat(PER_FLOW) * flow,
-        };
+        let after =
+            ElastoplasticState { elastic: stress, plastic_strain: state.plastic_strain + T::splat(PER_FLOW) * flow };
         (stress, after)
     }
 
@@ -89,12 +81,7 @@ impl Law for HypoelasticJ2 {
 
     /// That of elastic material.
     #[inline(always)]
-    fn wave_modulus<T: Real>(
-        &self,
-        j: T,
-        stress: &SymmetricTensor<T>,
-        state: &ElastoplasticState<T>,
-    ) -> T {
+    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, state: &ElastoplasticState<T>) -> T {
         self.elastic.wave_modulus(j, stress, &state.elastic)
     }
 }
@@ -117,11 +104,7 @@ mod tests {
         HypoelasticJ2::new(YOUNG, 0.3, JaumannUpdate::Split, strength).unwrap()
     }
 
-    fn drive<M: Law>(
-        law: &M,
-        increment: &Matrix3<f64>,
-        steps: usize,
-    ) -> (SymmetricTensor, M::State) {
+    fn drive<M: Law>(law: &M, increment: &Matrix3<f64>, steps: usize) -> (SymmetricTensor, M::State) {
         let mut last = (SymmetricTensor::default(), law.initial_state());
         for _ in 0..steps {
             last = law.update(increment, 1.0, &last.1);
@@ -142,11 +125,8 @@ mod tests {
             let (stress, state) = drive(&law, &Matrix3::from_diagonal(&axes), steps as usize);
             let elastic = 2.0 * mu * 2.0_f64.sqrt() * end;
             let stiffness = 2.0 * mu * 1.5_f64.sqrt();
-            let plastic = if softens {
-                (elastic - KAPPA) / (stiffness - 4.0)
-            } else {
-                (elastic - 0.2 * KAPPA) / stiffness
-            };
+            let plastic =
+                if softens { (elastic - KAPPA) / (stiffness - 4.0) } else { (elastic - 0.2 * KAPPA) / stiffness };
             let kappa = (KAPPA - 4.0 * plastic).max(0.2 * KAPPA);
             assert!((state.plastic_strain - plastic).abs() < end * step * step);
             assert!(((stress.yy - stress.xx) / (2.0_f64.sqrt() * kappa) - 1.0).abs() < 1e-3 * step);

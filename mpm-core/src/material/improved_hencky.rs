@@ -29,17 +29,8 @@ impl ImprovedHencky {
         let allowed = "positive (Pa)";
         positive(bulk_parameter, "bulk parameter", allowed)?;
         positive(shear_modulus, "shear modulus", allowed)?;
-        require(
-            porosity > 0.0 && porosity < 1.0,
-            "porosity",
-            porosity,
-            "above 0 and below 1",
-        )?;
-        Ok(Self {
-            bulk_parameter,
-            shear_modulus,
-            porosity,
-        })
+        require(porosity > 0.0 && porosity < 1.0, "porosity", porosity, "above 0 and below 1")?;
+        Ok(Self { bulk_parameter, shear_modulus, porosity })
     }
 
     /// K v²/(2n), and its first and second derivatives by v (Pa).
@@ -56,8 +47,7 @@ impl ImprovedHencky {
         [
             half * k * v * v,
             k * v * (number(1.0) - half * ratio),
-            k * (number(1.0) - ratio - ratio
-                + half * ratio * ratio * (number(1.0) + number(1.0) / solid)),
+            k * (number(1.0) - ratio - ratio + half * ratio * ratio * (number(1.0) + number(1.0) / solid)),
         ]
     }
 }
@@ -88,10 +78,9 @@ impl Law for ImprovedHencky {
         let inverse_jacobian = T::splat(1.0) / b.determinant().sqrt();
         let logarithm = b.ln();
         let [_, mean, _] = self.volumetric(T::splat(0.5) * logarithm.trace());
-        let stress = logarithm.deviator().scale_add_identity(
-            T::splat(self.shear_modulus) * inverse_jacobian,
-            mean * inverse_jacobian,
-        );
+        let stress = logarithm
+            .deviator()
+            .scale_add_identity(T::splat(self.shear_modulus) * inverse_jacobian, mean * inverse_jacobian);
         (stress, b)
     }
 
@@ -108,12 +97,7 @@ impl Law for ImprovedHencky {
 
     /// The second derivative by v and 4G/3, − τ₁ along the least Kirchhoff stress τ₁.
     #[inline(always)]
-    fn wave_modulus<T: Real>(
-        &self,
-        j: T,
-        stress: &SymmetricTensor<T>,
-        _b: &SymmetricTensor<T>,
-    ) -> T {
+    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, _b: &SymmetricTensor<T>) -> T {
         let [_, _, bulk] = self.volumetric(j.ln());
         bulk + T::splat(4.0 / 3.0 * self.shear_modulus) - j * stress.least_at_least()
     }

@@ -119,12 +119,7 @@ pub trait Law: Sized + Send + Sync {
 
     /// [`Law::response`] of one particle.
     #[inline]
-    fn update(
-        &self,
-        delta_f: &Matrix3<f64>,
-        dt: f64,
-        state: &Self::State,
-    ) -> (SymmetricTensor, Self::State) {
+    fn update(&self, delta_f: &Matrix3<f64>, dt: f64, state: &Self::State) -> (SymmetricTensor, Self::State) {
         let (stress, state) = self.response(delta_f, dt, &State::pack::<f64>(|_| *state));
         (stress, State::part::<f64>(&state, 0))
     }
@@ -163,15 +158,9 @@ pub trait Law: Sized + Send + Sync {
     /// A_ijkl = ∂P_rel,ij/∂ΔF_kl has the geometric part as well: a node's force is Σ V P_rel ∇w and the stiffness
     /// between two nodes K_ik = Σ V ∂_j w A_ijkl ∂_l w′, with volumes and gradients of the step's start. P_rel of dual
     /// numbers, from this σ and ΔF of the same variables, is A.
-    fn tangent(
-        &self,
-        delta_f: &Matrix3<f64>,
-        dt: f64,
-        state: &Self::State,
-    ) -> SymmetricTensor<Dual<9>> {
+    fn tangent(&self, delta_f: &Matrix3<f64>, dt: f64, state: &Self::State) -> SymmetricTensor<Dual<9>> {
         let variables = Matrix3::from_fn(|i, j| Dual::variable(delta_f[(i, j)], 3 * i + j));
-        self.response(&variables, dt, &State::pack::<Dual<9>>(|_| *state))
-            .0
+        self.response(&variables, dt, &State::pack::<Dual<9>>(|_| *state)).0
     }
 
     /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that does not flow.
@@ -189,12 +178,7 @@ pub trait Law: Sized + Send + Sync {
 
     /// ρ₀ c² (Pa) of the fastest pressure wave, of speed c along the material that it deforms, or more: never less. `j`
     /// is the Jacobian, ρ₀ the density of undeformed material.
-    fn wave_modulus<T: Real>(
-        &self,
-        j: T,
-        stress: &SymmetricTensor<T>,
-        state: &StateOf<Self, T>,
-    ) -> T;
+    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, state: &StateOf<Self, T>) -> T;
 
     /// Speed of pressure waves (m/s) in undeformed material of the given density (kg/m³).
     fn wave_speed(&self, density: f64) -> f64 {

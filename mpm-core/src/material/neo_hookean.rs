@@ -32,8 +32,7 @@ impl NeoHookean {
             "greater than −1 and less than 0.5",
         )?;
         Ok(Self {
-            lambda: young_modulus * poisson_ratio
-                / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio)),
+            lambda: young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio)),
             mu: young_modulus / (2.0 * (1.0 + poisson_ratio)),
         })
     }
@@ -43,10 +42,7 @@ impl Law for NeoHookean {
     type State = SymmetricTensor;
 
     fn in_units(&self, stress: f64) -> Self {
-        Self {
-            lambda: stress * self.lambda,
-            mu: stress * self.mu,
-        }
+        Self { lambda: stress * self.lambda, mu: stress * self.mu }
     }
 
     fn initial_state(&self) -> SymmetricTensor {
@@ -64,27 +60,18 @@ impl Law for NeoHookean {
         let squared_jacobian = b.determinant();
         let inverse_jacobian = T::splat(1.0) / squared_jacobian.sqrt();
         let pressure_part = T::splat(0.5 * self.lambda) * squared_jacobian.ln() - T::splat(self.mu);
-        let stress = b.scale_add_identity(
-            T::splat(self.mu) * inverse_jacobian,
-            pressure_part * inverse_jacobian,
-        );
+        let stress = b.scale_add_identity(T::splat(self.mu) * inverse_jacobian, pressure_part * inverse_jacobian);
         (stress, b)
     }
 
     fn energy(&self, b: &SymmetricTensor) -> f64 {
         let log_jacobian = 0.5 * b.determinant().ln();
-        0.5 * self.mu * (b.trace() - 3.0 - 2.0 * log_jacobian)
-            + 0.5 * self.lambda * log_jacobian * log_jacobian
+        0.5 * self.mu * (b.trace() - 3.0 - 2.0 * log_jacobian) + 0.5 * self.lambda * log_jacobian * log_jacobian
     }
 
     /// λ + μ + μ b₁ − λ ln J along the greatest stretch √b₁.
     #[inline(always)]
-    fn wave_modulus<T: Real>(
-        &self,
-        j: T,
-        stress: &SymmetricTensor<T>,
-        b: &SymmetricTensor<T>,
-    ) -> T {
+    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, b: &SymmetricTensor<T>) -> T {
         let stretches = b.greatest_at_most() + b.mean();
         T::splat(self.lambda) + T::splat(self.mu) * stretches - j * stress.mean()
     }

@@ -25,16 +25,8 @@ impl NewtonianFluid {
     /// A modulus that is not positive, a viscosity that is negative, or either not finite.
     pub fn new(bulk_modulus: f64, viscosity: f64) -> Result<Self, Error> {
         positive(bulk_modulus, "bulk modulus", "positive (Pa)")?;
-        require(
-            viscosity >= 0.0,
-            "viscosity",
-            viscosity,
-            "zero or positive (Pa s)",
-        )?;
-        Ok(Self {
-            bulk_modulus,
-            viscosity,
-        })
+        require(viscosity >= 0.0, "viscosity", viscosity, "zero or positive (Pa s)")?;
+        Ok(Self { bulk_modulus, viscosity })
     }
 }
 
@@ -45,10 +37,7 @@ impl Law for NewtonianFluid {
     const CONSERVATIVE: bool = false;
 
     fn in_units(&self, stress: f64) -> Self {
-        Self {
-            bulk_modulus: stress * self.bulk_modulus,
-            viscosity: stress * self.viscosity,
-        }
+        Self { bulk_modulus: stress * self.bulk_modulus, viscosity: stress * self.viscosity }
     }
 
     fn initial_state(&self) -> f64 {
@@ -58,19 +47,11 @@ impl Law for NewtonianFluid {
     fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, f64) {
         let j = f.determinant();
         let pressure_part = self.bulk_modulus * (j - 1.0);
-        (
-            SymmetricTensor::identity().scale_add_identity(pressure_part, 0.0),
-            j,
-        )
+        (SymmetricTensor::identity().scale_add_identity(pressure_part, 0.0), j)
     }
 
     #[inline(always)]
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        dt: f64,
-        state: &T,
-    ) -> (SymmetricTensor<T>, T) {
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, dt: f64, state: &T) -> (SymmetricTensor<T>, T) {
         let j = *state * determinant(delta_f);
         let velocity_gradient = Matrix3::from_fn(|a, b| {
             let identity = f64::from(u8::from(a == b));
@@ -78,8 +59,7 @@ impl Law for NewtonianFluid {
         });
         let rate = SymmetricTensor::symmetric_part(&velocity_gradient);
         let viscous = T::splat(2.0 * self.viscosity);
-        let pressure_part =
-            T::splat(self.bulk_modulus) * (j - T::splat(1.0)) - viscous * rate.mean();
+        let pressure_part = T::splat(self.bulk_modulus) * (j - T::splat(1.0)) - viscous * rate.mean();
         (rate.scale_add_identity(viscous, pressure_part), j)
     }
 

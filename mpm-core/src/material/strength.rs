@@ -57,11 +57,7 @@ impl Strength {
     /// A strength that is not positive and finite, a residual strength above the peak, a negative η.
     pub fn softening(peak: f64, residual: f64, eta: f64) -> Result<Self, Error> {
         require(eta >= 0.0, "softening coefficient", eta, "zero or positive")?;
-        let softening = if eta > 0.0 {
-            Softening::Exponential(eta)
-        } else {
-            Softening::None
-        };
+        let softening = if eta > 0.0 { Softening::Exponential(eta) } else { Softening::None };
         Self::new(peak, residual, softening)
     }
 
@@ -97,11 +93,7 @@ impl Strength {
             residual,
             "positive and at most the peak strength (Pa)",
         )?;
-        Ok(Self {
-            peak,
-            residual,
-            softening,
-        })
+        Ok(Self { peak, residual, softening })
     }
 
     /// That the strength softens no faster than the stress of a solid with the shear modulus μ (Pa) can fall; the
@@ -201,9 +193,6 @@ impl State for ElastoplasticState {
 
     #[inline(always)]
     fn part<T: Lanes>(of: &ElastoplasticState<T>, k: usize) -> Self {
-        Self {
-            elastic: of.elastic.part(k),
-            plastic_strain: of.plastic_strain.part(k),
-        }
+        Self { elastic: of.elastic.part(k), plastic_strain: of.plastic_strain.part(k) }
     }
 }

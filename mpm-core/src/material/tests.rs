@@ -9,8 +9,7 @@ mod tangent;
 
 /// Deformation gradients with stretches near one and a positive determinant.
 fn deformations() -> impl Strategy<Value = Matrix3<f64>> {
-    prop::array::uniform9(-0.2..0.2_f64)
-        .prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a))
+    prop::array::uniform9(-0.2..0.2_f64).prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a))
 }
 
 fn rotations() -> impl Strategy<Value = Matrix3<f64>> {
@@ -87,11 +86,7 @@ fn increments_compose<M: Law>(law: &M, first: &Matrix3<f64>, second: &Matrix3<f6
 }
 
 /// Eight side by side are as one after the other, over two steps.
-fn eight_are_as_one<M: Law>(
-    law: &M,
-    first: &[Matrix3<f64>; EIGHT],
-    second: &[Matrix3<f64>; EIGHT],
-) {
+fn eight_are_as_one<M: Law>(law: &M, first: &[Matrix3<f64>; EIGHT], second: &[Matrix3<f64>; EIGHT]) {
     let mut states = [law.initial_state(); EIGHT];
     for step in [first, second] {
         let before = states;
@@ -216,23 +211,11 @@ macro_rules! every_elastic_law_must {
     };
 }
 
-every_law_must!(
-    neo_hookean,
-    NeoHookean {
-        lambda: 3.0,
-        mu: 2.0
-    }
-);
-every_law_must!(
-    nearly_incompressible_neo_hookean,
-    NeoHookean::new(70.0, 0.499).unwrap()
-);
+every_law_must!(neo_hookean, NeoHookean { lambda: 3.0, mu: 2.0 });
+every_law_must!(nearly_incompressible_neo_hookean, NeoHookean::new(70.0, 0.499).unwrap());
 
 // Flow is not elastic: what it does is tested beside the law.
-every_law_must!(
-    strong_hencky_solid,
-    HenckyJ2::new(70.0, 0.4, Strength::perfect(1e9).unwrap()).unwrap()
-);
+every_law_must!(strong_hencky_solid, HenckyJ2::new(70.0, 0.4, Strength::perfect(1e9).unwrap()).unwrap());
 
 every_law_must!(hencky_solid, Hencky::new(70.0, 0.4).unwrap());
 
@@ -265,13 +248,7 @@ fn pores_resist_all_the_more_the_less_is_left_of_them() {
     let closed = Matrix3::identity() * 0.59_f64.cbrt();
     assert!(deform(&law, &closed).0.mean().is_nan());
     assert!(last < -1e4 * k, "{last}");
-    for (k, g, n) in [
-        (0.0, 1.0, 0.5),
-        (1.0, -1.0, 0.5),
-        (1.0, 1.0, 0.0),
-        (1.0, 1.0, 1.0),
-        (1.0, 1.0, f64::NAN),
-    ] {
+    for (k, g, n) in [(0.0, 1.0, 0.5), (1.0, -1.0, 0.5), (1.0, 1.0, 0.0), (1.0, 1.0, 1.0), (1.0, 1.0, f64::NAN)] {
         assert!(ImprovedHencky::new(k, g, n).is_err());
     }
 }
@@ -286,10 +263,7 @@ fn the_rate_of_a_stress_has_waves_too() {
 /// q = ρ h ε̇ (c₁ c + c₂ h ε̇), c² = 4/2, in compression and nowhere else; the law beside it is what it was.
 #[test]
 fn an_artificial_viscosity_resists_quick_compression_alone() {
-    let own = NeoHookean {
-        lambda: 2.0,
-        mu: 1.0,
-    };
+    let own = NeoHookean { lambda: 2.0, mu: 1.0 };
     let law = Viscous::new(own, 2.0, 0.5, [0.1, 3.0]).unwrap();
     // Half of the volume is there: the density is twice that of undeformed material.
     let (state, dt) = (own.initial_state(), 1e-3);
@@ -305,22 +279,16 @@ fn an_artificial_viscosity_resists_quick_compression_alone() {
         let compressed = rate.max(0.0);
         let q = 4.0 * 0.5 * compressed * (0.1 * 2.0_f64.sqrt() + 3.0 * 0.5 * compressed);
         let added = (stress.to_matrix() - without.to_matrix()).diagonal();
-        assert!(
-            added.iter().all(|added| (added + q).abs() < 1e-11),
-            "{rate} {added} {q}"
-        );
+        assert!(added.iter().all(|added| (added + q).abs() < 1e-11), "{rate} {added} {q}");
         assert!(after.0 == own_state && law.energy(&after) == own.energy(&own_state));
         assert_eq!(law.at_rest(&f).0, own.at_rest(&f).0);
     }
     // In units of half a pascal all of it doubles.
     let of = |law: Viscous<_>| law.update(&squeezed(2.0), dt, &law.initial_state()).0.xx;
     assert!((of(law.in_units(2.0)) - 2.0 * of(law)).abs() < 1e-12);
-    for (density, h, c) in [
-        (0.0, 1.0, [0.0; 2]),
-        (1.0, f64::NAN, [0.0; 2]),
-        (1.0, 1.0, [-1.0, 0.0]),
-        (1.0, 1.0, [0.0, f64::INFINITY]),
-    ] {
+    for (density, h, c) in
+        [(0.0, 1.0, [0.0; 2]), (1.0, f64::NAN, [0.0; 2]), (1.0, 1.0, [-1.0, 0.0]), (1.0, 1.0, [0.0, f64::INFINITY])]
+    {
         assert!(Viscous::new(own, density, h, c).is_err());
     }
 }
@@ -355,19 +323,11 @@ fn a_fluid_resists_the_rate_of_shear_and_of_nothing_else() {
 
 #[test]
 fn neo_hookean_matches_its_closed_form_in_shear_and_uniaxial_strain() {
-    let law = NeoHookean {
-        lambda: 5.0,
-        mu: 2.0,
-    };
+    let law = NeoHookean { lambda: 5.0, mu: 2.0 };
     let mut shear = Matrix3::identity();
     shear[(0, 1)] = 0.3;
     let s = deform(&law, &shear).0;
-    for (value, exact) in [
-        (s.xx, 2.0 * 0.09),
-        (s.xy, 2.0 * 0.3),
-        (s.yy, 0.0),
-        (s.zz, 0.0),
-    ] {
+    for (value, exact) in [(s.xx, 2.0 * 0.09), (s.xy, 2.0 * 0.3), (s.yy, 0.0), (s.zz, 0.0)] {
         assert!((value - exact).abs() < 1e-14);
     }
     let stretch = Matrix3::from_diagonal(&Vector3::new(1.2, 1.0, 1.0));
@@ -378,14 +338,9 @@ fn neo_hookean_matches_its_closed_form_in_shear_and_uniaxial_strain() {
 
 #[test]
 fn elastic_constants_out_of_range_are_refused() {
-    for (young, poisson) in [
-        (0.0, 0.3),
-        (f64::NAN, 0.3),
-        (1.0, 0.5),
-        (1.0, -1.0),
-        (1.0, f64::NAN),
-        (f64::INFINITY, 0.3),
-    ] {
+    for (young, poisson) in
+        [(0.0, 0.3), (f64::NAN, 0.3), (1.0, 0.5), (1.0, -1.0), (1.0, f64::NAN), (f64::INFINITY, 0.3)]
+    {
         assert!(NeoHookean::new(young, poisson).is_err());
     }
 }

@@ -35,11 +35,7 @@ impl<M: Law> Viscous<M> {
             let what = "coefficient of the artificial viscosity";
             require(coefficient >= 0.0, what, coefficient, "zero or positive")?;
         }
-        Ok(Self {
-            linear: density * h * linear * law.wave_speed(density),
-            quadratic: density * h * h * quadratic,
-            law,
-        })
+        Ok(Self { linear: density * h * linear * law.wave_speed(density), quadratic: density * h * h * quadratic, law })
     }
 }
 
@@ -50,11 +46,7 @@ impl<M: Law> Law for Viscous<M> {
     const CONSERVATIVE: bool = false;
 
     fn in_units(&self, stress: f64) -> Self {
-        Self {
-            law: self.law.in_units(stress),
-            linear: stress * self.linear,
-            quadratic: stress * self.quadratic,
-        }
+        Self { law: self.law.in_units(stress), linear: stress * self.linear, quadratic: stress * self.quadratic }
     }
 
     fn initial_state(&self) -> Self::State {
@@ -97,12 +89,7 @@ impl<M: Law> Law for Viscous<M> {
     /// That of the law. A step must be shorter than waves alone ask for: by √(1 + ζ²) + ζ, ζ = c₁ + 2 c₂ h ε̇/c, as of
     /// any oscillator with such a damping.
     #[inline(always)]
-    fn wave_modulus<T: Real>(
-        &self,
-        j: T,
-        stress: &SymmetricTensor<T>,
-        (state, _): &StateOf<Self, T>,
-    ) -> T {
+    fn wave_modulus<T: Real>(&self, j: T, stress: &SymmetricTensor<T>, (state, _): &StateOf<Self, T>) -> T {
         self.law.wave_modulus(j, stress, state)
     }
 }

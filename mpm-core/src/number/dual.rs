@@ -33,10 +33,7 @@ impl<const N: usize> Dual<N> {
     #[inline]
     fn join(self, other: Self, value: f64, [by_this, by_other]: [f64; 2]) -> Self {
         let slope = |k: usize| by_this * self.slope[k] + by_other * other.slope[k];
-        Self {
-            value,
-            slope: std::array::from_fn(slope),
-        }
+        Self { value, slope: std::array::from_fn(slope) }
     }
 }
 
@@ -125,10 +122,7 @@ impl<const N: usize> Real for Dual<N> {
     #[inline]
     fn mul_add(self, a: Self, b: Self) -> Self {
         let value = self.value.mul_add(a.value, b.value);
-        Self {
-            value,
-            ..self * a + b
-        }
+        Self { value, ..self * a + b }
     }
 
     /// At zero, where a norm has no derivative, the slope is zero.
@@ -161,20 +155,12 @@ impl<const N: usize> Real for Dual<N> {
 
     #[inline]
     fn at_least(self, limit: f64) -> Self {
-        if self.value > limit {
-            self
-        } else {
-            Self::splat(limit)
-        }
+        if self.value > limit { self } else { Self::splat(limit) }
     }
 
     #[inline]
     fn at_most(self, limit: f64) -> Self {
-        if self.value < limit {
-            self
-        } else {
-            Self::splat(limit)
-        }
+        if self.value < limit { self } else { Self::splat(limit) }
     }
 
     #[inline]
@@ -231,11 +217,7 @@ mod tests {
             (x.mul_add(y, two), a * b + 2.0, [b, a]),
             (in_place, (a + b - 2.0) * a, [2.0 * a + b - 2.0, a]),
             (x.sqrt(), a.sqrt(), [0.5 / a.sqrt(), 0.0]),
-            (
-                (x * y).exp(),
-                (a * b).exp(),
-                [b, a].map(|s| s * (a * b).exp()),
-            ),
+            ((x * y).exp(), (a * b).exp(), [b, a].map(|s| s * (a * b).exp())),
             (x.ln(), a.ln(), [1.0 / a, 0.0]),
             ((y - x).abs(), a - b, [1.0, -1.0]),
             (x.floor(), 1.0, [0.0, 0.0]),

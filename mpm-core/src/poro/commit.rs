@@ -19,12 +19,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     /// # Errors
     /// A particle that would leave the grid, or whose domain would be too wide for its functions; the body then stays
     /// as it was.
-    pub(super) fn commit(
-        &mut self,
-        setting: &Setting<D>,
-        trial: Trial<D>,
-        dt: f64,
-    ) -> Result<(), Failure> {
+    pub(super) fn commit(&mut self, setting: &Setting<D>, trial: Trial<D>, dt: f64) -> Result<(), Failure> {
         let places = self.places_after(setting, &trial)?;
         let mut domains = self.domains_after(&trial)?;
         for (x, half_size) in places.iter().zip(&mut domains) {
@@ -45,11 +40,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         self.pores.pressure = trial.pressure;
         let places = trial.p.iter().zip(&setting.unknowns.pressure);
         let seen = |(p, place): (&f64, &Place)| {
-            if *place == Place::Unseen {
-                f64::NAN
-            } else {
-                *p
-            }
+            if *place == Place::Unseen { f64::NAN } else { *p }
         };
         self.nodal_pressure = places.map(seen).collect();
         self.scene.body.update_stress(dt);
@@ -57,11 +48,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     }
 
     /// The places (m) to which a trial moves the particles.
-    fn places_after(
-        &self,
-        setting: &Setting<D>,
-        trial: &Trial<D>,
-    ) -> Result<Vec<[f64; D]>, Failure> {
+    fn places_after(&self, setting: &Setting<D>, trial: &Trial<D>) -> Result<Vec<[f64; D]>, Failure> {
         let mut places = self.scene.body.particles.position.clone();
         let grid = self.solid_space.functions.grid();
         for (p, x) in places.iter_mut().enumerate() {

@@ -56,13 +56,7 @@ impl<const D: usize> Face<D> {
         for (id, reference) in particles.id.iter().zip(&particles.reference) {
             chosen[*id as usize] = select(reference);
         }
-        Self {
-            sides: chosen.iter().filter(|taken| **taken).count(),
-            chosen,
-            axis,
-            end,
-            acts,
-        }
+        Self { sides: chosen.iter().filter(|taken| **taken).count(), chosen, axis, end, acts }
     }
 
     /// The sides `at` an end of an axis of the particles that `select` takes by their reference positions (m), under a
@@ -91,19 +85,10 @@ impl<const D: usize> Face<D> {
         let (axis, end) = self.end.seen_from(self.axis, frame);
         let frame = *frame;
         let acts = match self.acts {
-            Acts::Load(of) => Acts::Load(Box::new(move |time| {
-                frame.vector(&of(time), frame.scale(1, 0))
-            })),
-            Acts::Drains { penalty } => Acts::Drains {
-                penalty: frame.scale(-1, 1) * penalty,
-            },
+            Acts::Load(of) => Acts::Load(Box::new(move |time| frame.vector(&of(time), frame.scale(1, 0)))),
+            Acts::Drains { penalty } => Acts::Drains { penalty: frame.scale(-1, 1) * penalty },
         };
-        Self {
-            axis,
-            end,
-            acts,
-            ..self
-        }
+        Self { axis, end, acts, ..self }
     }
 
     /// Refuses a face chosen from another number of `particles`.
@@ -174,18 +159,12 @@ impl<const D: usize> Face<D> {
                     x[a] + sign * pores.half_size[p][a]
                 });
                 space.functions.hats(&place, &mut functions);
-                let node: Vec<usize> = (functions.node.iter())
-                    .map(|n| space.originals[*n])
-                    .collect();
+                let node: Vec<usize> = (functions.node.iter()).map(|n| space.originals[*n]).collect();
                 let mut shares = node.iter().zip(&functions.w);
                 if let Some((_, share)) = shares.find(|(n, w)| w.abs() > NOTHING && !seen(**n)) {
                     return Err((p, Fault::EmptyCell(*share)));
                 }
-                corners.push(Corner {
-                    particle: p,
-                    node,
-                    w: functions.w.clone(),
-                });
+                corners.push(Corner { particle: p, node, w: functions.w.clone() });
             }
         }
         Ok(corners)

@@ -15,23 +15,11 @@ use crate::scene::SavedStages;
 impl<const D: usize, I: OfHats<D>, M: Law> Memory for Solver<D, I, M> {
     fn save(&self) -> Result<Saved, MemoryError> {
         let of_water = (self.balance, &self.nodal_pressure);
-        Saved::of(&(
-            self.save_body()?,
-            &self.ledger,
-            self.scene.save_stages()?,
-            &self.direct.pattern,
-            of_water,
-        ))
+        Saved::of(&(self.save_body()?, &self.ledger, self.scene.save_stages()?, &self.direct.pattern, of_water))
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        type All = (
-            Saved,
-            Ledger,
-            SavedStages,
-            Pattern,
-            (WaterBalance, Vec<f64>),
-        );
+        type All = (Saved, Ledger, SavedStages, Pattern, (WaterBalance, Vec<f64>));
         let (body, ledger, stages, pattern, (balance, nodal_pressure)): All =
             saved.read("a solver of solid and water")?;
         self.ledger.check(&ledger)?;
@@ -59,19 +47,10 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let (body, pores): (Saved, Pores<D>) = saved.read("a body with water")?;
         pores.check_against(&self.pores)?;
         let grid = *self.solid_space.functions.grid();
-        let widest = if I::MEANS {
-            0.5 * grid.h
-        } else {
-            f64::INFINITY
-        };
+        let widest = if I::MEANS { 0.5 * grid.h } else { f64::INFINITY };
         for l in pores.half_size.iter().flatten() {
             let fits = *l > 0.0 && *l <= widest;
-            require(
-                fits,
-                "half_size",
-                *l,
-                "positive, of means at most half a cell (m)",
-            )?;
+            require(fits, "half_size", *l, "positive, of means at most half a cell (m)")?;
         }
         let half_size = &pores.half_size;
         self.scene.body.restore(&body, |particles| {

@@ -105,9 +105,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
         let of_rest = || {
             let setting = self.setting(dt, Vec::new()).ok()?;
             let step = self.equations(&setting, dt);
-            let trial = step
-                .trial(&setting.unknowns.begin(&self.predicted(&setting)))
-                .ok()?;
+            let trial = step.trial(&setting.unknowns.begin(&self.predicted(&setting))).ok()?;
             let symmetric = self.settings.tangent == Tangent::Symmetric;
             let values = step.matrix(&trial);
             Some(linear::condition(symmetric, &setting.pattern, &values))
@@ -168,21 +166,14 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     }
 
     fn equations<'a>(&'a self, setting: &'a Setting<D>, dt: f64) -> Step<'a, D, M> {
-        Step {
-            body: &self.scene.body,
-            water: &self.water,
-            settings: &self.settings,
-            dt,
-            setting,
-        }
+        Step { body: &self.scene.body, water: &self.water, settings: &self.settings, dt, setting }
     }
 
     /// Puts the particles that the same nodes see side by side.
     fn sort(&mut self) {
         let particles = &self.scene.body.particles;
         let domains = self.pores.domains(particles);
-        let [of_solid, of_water] =
-            [&self.solid_space, &self.water_space].map(|s| of_domains(&s.functions, domains));
+        let [of_solid, of_water] = [&self.solid_space, &self.water_space].map(|s| of_domains(&s.functions, domains));
         let mut order: Vec<u32> = (0..particles.len() as u32).collect();
         order.sort_by_key(|p| (of_solid[*p as usize], of_water[*p as usize]));
         if !order.is_sorted() {
@@ -198,9 +189,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let grid = space.functions.grid();
         let mut middle = Functions::new();
         let of = |(p, x): (usize, &[f64; D])| {
-            let place = std::array::from_fn(|a| {
-                grid.axes[a].lo + grid.h * (grid.cell(a, x[a]) as f64 + 0.5)
-            });
+            let place = std::array::from_fn(|a| grid.axes[a].lo + grid.h * (grid.cell(a, x[a]) as f64 + 0.5));
             // In the middle of a cell a hat is its mean over the cell.
             space.functions.hats(&place, &mut middle);
             let (nodes, w, _) = water.seen(p);
@@ -220,8 +209,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     /// The functions of displacement and pressure at the particles.
     fn elements(&self) -> [Elements<D>; 2] {
         let domains = self.pores.domains(&self.scene.body.particles);
-        [&self.solid_space, &self.water_space]
-            .map(|space| Elements::new(&space.functions, &space.originals, domains))
+        [&self.solid_space, &self.water_space].map(|space| Elements::new(&space.functions, &space.originals, domains))
     }
 
     /// The unknowns of a step of `dt` (s) on the functions of displacement and pressure.
@@ -247,8 +235,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let mut runs: Vec<std::ops::Range<usize>> = Vec::new();
         for p in 0..particles.len() {
             let same = |p: usize, q: usize| {
-                solid.element_of(p) == solid.element_of(q)
-                    && water.element_of(p) == water.element_of(q)
+                solid.element_of(p) == solid.element_of(q) && water.element_of(p) == water.element_of(q)
             };
             match runs.last_mut() {
                 Some(run) if same(run.start, p) => run.end = p + 1,
@@ -260,10 +247,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let cell = self.water_space.functions.grid().h;
         let on_all = self.settings.ghost_pressure * flow;
         let on_increments = self.settings.ghost_increment * (flow + cell * cell / self.moduli.mu);
-        let strengths = [
-            self.settings.ghost_displacement * self.moduli.mu,
-            on_all + on_increments,
-        ];
+        let strengths = [self.settings.ghost_displacement * self.moduli.mu, on_all + on_increments];
         // Cells that a domain touches by rounding alone are no part of the body: their nodes are no unknowns.
         let mut sizes = Vec::new();
         let within = self.pores.domains(particles).within(&mut sizes);
@@ -280,33 +264,21 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             ghosts.retain(|g| g.node.iter().all(|node| unknowns.sees(k, *node)));
             ghosts
         });
-        let mut groups: Vec<Vec<Option<usize>>> = (runs.iter())
-            .map(|run| unknowns.of(solid.seen(run.start).0, water.seen(run.start).0))
-            .collect();
+        let mut groups: Vec<Vec<Option<usize>>> =
+            (runs.iter()).map(|run| unknowns.of(solid.seen(run.start).0, water.seen(run.start).0)).collect();
         groups.extend(ghosts[0].iter().map(|g| unknowns.of(&g.node, &[])));
         groups.extend(ghosts[1].iter().map(|g| unknowns.of(&[], &g.node)));
         let mut external = solid.forces(self.solid_space.functions.len(), &on_particles);
         let drains = self.outside(dt, &unknowns, &mut external)?;
         let mut all = groups.clone();
         all.extend(drains.iter().map(|d| d.unknown.clone()));
-        let projects = matches!(
-            self.settings.pressure_space,
-            PressureSpace::Projected { .. }
-        );
+        let projects = matches!(self.settings.pressure_space, PressureSpace::Projected { .. });
         Ok(Setting {
             pattern: unknowns::pattern(unknowns.count, &all),
             inflow: self.inflow(&water, dt),
             before: self.before(&water, &unknowns),
-            of_increments: if on_increments > 0.0 {
-                on_increments / strengths[1]
-            } else {
-                0.0
-            },
-            fluctuations: if projects {
-                self.fluctuations(&water)
-            } else {
-                Vec::new()
-            },
+            of_increments: if on_increments > 0.0 { on_increments / strengths[1] } else { 0.0 },
+            fluctuations: if projects { self.fluctuations(&water) } else { Vec::new() },
             solid,
             water,
             unknowns,
@@ -326,8 +298,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             return before;
         }
         let functions = &self.water_space.functions;
-        let told =
-            unknowns::extrapolated(water, functions, &self.scene.body.particles, &self.pores);
+        let told = unknowns::extrapolated(water, functions, &self.scene.body.particles, &self.pores);
         for (node, place) in unknowns.pressure.iter().enumerate() {
             if *place != Place::Unseen {
                 let known = self.nodal_pressure[node];
@@ -379,19 +350,10 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         let setting = self.setting(dt, on_particles)?;
         let begin = setting.unknowns.begin(&self.predicted(&setting));
         let rounding = self.rounding(&setting);
-        let mut linear = Linear {
-            direct: &mut self.direct,
-            ledger: &mut self.ledger,
-        };
+        let mut linear = Linear { direct: &mut self.direct, ledger: &mut self.ledger };
         linear.analyse(&setting.pattern)?;
         let mut system = System {
-            step: Step {
-                body: &self.scene.body,
-                water: &self.water,
-                settings: &self.settings,
-                dt,
-                setting: &setting,
-            },
+            step: Step { body: &self.scene.body, water: &self.water, settings: &self.settings, dt, setting: &setting },
             rounding,
             linear,
             scales: Vec::new(),

@@ -36,9 +36,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         }
         for (k, plate) in self.water.plates.iter().enumerate() {
             let (a, force) = (plate.axis, (plate.force)(end));
-            let bears = |node: &usize| {
-                self.tied[*node][a] == Some(k) && unknowns.displacement[*node][a] != Place::Unseen
-            };
+            let bears =
+                |node: &usize| self.tied[*node][a] == Some(k) && unknowns.displacement[*node][a] != Place::Unseen;
             let nodes: Vec<usize> = (0..external.len()).filter(bears).collect();
             if nodes.is_empty() {
                 return Err(Failure::Lost("force of a plate", 0.0, force));
@@ -79,24 +78,14 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     }
 
     /// The corners of a drained face.
-    fn drain(
-        &self,
-        face: &Face<D>,
-        penalty: f64,
-        unknowns: &Unknowns<D>,
-    ) -> Result<Vec<Drain>, Failure> {
+    fn drain(&self, face: &Face<D>, penalty: f64, unknowns: &Unknowns<D>) -> Result<Vec<Drain>, Failure> {
         let (particles, space) = (&self.scene.body.particles, &self.water_space);
         let seen = |node: usize| unknowns.pressure[node] != Place::Unseen;
         let corners = face.corners(space, seen, particles, &self.pores)?;
         let of = |corner: Corner| {
             let side = face.area(&self.pores.half_size[corner.particle]);
             let area = side / Face::<D>::CORNERS as f64;
-            Drain {
-                unknown: unknowns.of(&[], &corner.node),
-                node: corner.node,
-                w: corner.w,
-                rate: penalty * area,
-            }
+            Drain { unknown: unknowns.of(&[], &corner.node), node: corner.node, w: corner.w, rate: penalty * area }
         };
         let drains: Vec<Drain> = corners.into_iter().map(of).collect();
         let rates = drains.iter().map(|d| d.rate * d.w.iter().sum::<f64>());

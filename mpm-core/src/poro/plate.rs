@@ -24,11 +24,7 @@ impl<const D: usize> Plate<D> {
         takes: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static,
         force: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) -> Self {
-        Self {
-            axis,
-            takes: Box::new(takes),
-            force: Box::new(force),
-        }
+        Self { axis, takes: Box::new(takes), force: Box::new(force) }
     }
 
     /// The same plate on the nodes of `grid`, seen from `frame`.
@@ -55,12 +51,7 @@ pub(super) fn ties<const D: usize, I: OfHats<D>>(
     let mut ties = vec![[None; D]; functions.len()];
     for (k, plate) in plates.iter().enumerate() {
         let axis = plate.axis;
-        require(
-            axis < D,
-            "axis of a plate",
-            axis as f64,
-            "one of the grid's",
-        )?;
+        require(axis < D, "axis of a plate", axis as f64, "one of the grid's")?;
         let (mut taken, mut shared) = (0_u32, 0_u32);
         functions.for_each_node(|node, place| {
             if (plate.takes)(&place) {
@@ -73,12 +64,7 @@ pub(super) fn ties<const D: usize, I: OfHats<D>>(
         let what = "nodes of a plate";
         require(taken > 0, what, taken.into(), "at least 1")?;
         let what = "nodes of a plate that a constraint or another plate has";
-        require(
-            shared == 0,
-            what,
-            shared.into(),
-            "none: a plate moves as one",
-        )?;
+        require(shared == 0, what, shared.into(), "none: a plate moves as one")?;
     }
     Ok(ties)
 }

@@ -35,10 +35,7 @@ impl<const D: usize> Pores<D> {
 
     /// The domains of `particles`.
     pub(super) fn domains<'a>(&'a self, particles: &'a Particles<D>) -> Domains<'a, D> {
-        Domains {
-            centre: &particles.position,
-            half_size: HalfSizes::OfEach(&self.half_size),
-        }
+        Domains { centre: &particles.position, half_size: HalfSizes::OfEach(&self.half_size) }
     }
 
     /// Checks that a memory has the columns of this one.
@@ -61,11 +58,7 @@ const KEPT: f64 = 1.0 - 1e-12;
 /// Ends a domain around `x` (m) at the walls that it would reach past, by rounding or because its volume is that of a
 /// sheared particle. Functions behind the wall would see hardly any of it, and nothing else, but their shares of the
 /// forces are to balance all the same.
-pub(super) fn keep_before_walls<const D: usize>(
-    grid: &Grid<D>,
-    x: &[f64; D],
-    half_size: &mut [f64; D],
-) {
+pub(super) fn keep_before_walls<const D: usize>(grid: &Grid<D>, x: &[f64; D], half_size: &mut [f64; D]) {
     for (a, l) in half_size.iter_mut().enumerate() {
         let axis = &grid.axes[a];
         let (lower, upper) = axis.wall_ends();
@@ -84,11 +77,7 @@ pub(super) fn grown<const D: usize>(before: &[f64; D], after: &[f64; D], change:
     let lacking = change.ln() - logarithms.iter().sum::<f64>();
     let whole: f64 = logarithms.iter().map(|l| l.abs()).sum();
     std::array::from_fn(|a| {
-        let share = if whole > 0.0 {
-            logarithms[a].abs() / whole
-        } else {
-            1.0 / D as f64
-        };
+        let share = if whole > 0.0 { logarithms[a].abs() / whole } else { 1.0 / D as f64 };
         before[a] * (logarithms[a] + share * lacking).exp()
     })
 }
@@ -98,10 +87,7 @@ pub(super) fn grown<const D: usize>(before: &[f64; D], after: &[f64; D], change:
 ///
 /// # Errors
 /// Half a size in cells that is not positive, or too large; NaN of a box that is turned inside out.
-pub(super) fn check_width<const D: usize, I: OfHats<D>>(
-    half_size: &[f64; D],
-    h: f64,
-) -> Result<(), Fault> {
+pub(super) fn check_width<const D: usize, I: OfHats<D>>(half_size: &[f64; D], h: f64) -> Result<(), Fault> {
     for l in half_size {
         let cells = l / h;
         let fits = cells > 0.0 && (cells <= 0.5 || !I::MEANS);

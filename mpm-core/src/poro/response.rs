@@ -98,9 +98,8 @@ impl<const D: usize, M: Law> Particle<'_, D, M> {
                 }
             }
             let grains = (1.0 - self.water.porosity) / self.jacobian;
-            answer.mass = volume
-                * (number(gravity.grains * grains)
-                    + number(gravity.water) * (change - number(grains)));
+            answer.mass =
+                volume * (number(gravity.grains * grains) + number(gravity.water) * (change - number(grains)));
         }
         answer
     }
@@ -108,32 +107,20 @@ impl<const D: usize, M: Law> Particle<'_, D, M> {
     /// The derivatives of the answer.
     pub(super) fn slopes(&self, f: &SMatrix<f64, D, D>, p: f64, slope: &[f64; D]) -> Slopes<D> {
         // Components of F̃ and p: two instances serve all, as each takes its time to compile.
-        if D < 3 {
-            self.derive::<5>(f, p, slope)
-        } else {
-            self.derive::<10>(f, p, slope)
-        }
+        if D < 3 { self.derive::<5>(f, p, slope) } else { self.derive::<10>(f, p, slope) }
     }
 
-    fn derive<const N: usize>(
-        &self,
-        f: &SMatrix<f64, D, D>,
-        p: f64,
-        slope: &[f64; D],
-    ) -> Slopes<D> {
+    fn derive<const N: usize>(&self, f: &SMatrix<f64, D, D>, p: f64, slope: &[f64; D]) -> Slopes<D> {
         let answer = self.respond(&variables::<D, N>(f), Dual::variable(p, D * D), slope);
-        let by_f = |of: &Dual<N>| -> Square<D> {
-            std::array::from_fn(|k| std::array::from_fn(|l| of.slope[D * k + l]))
-        };
+        let by_f =
+            |of: &Dual<N>| -> Square<D> { std::array::from_fn(|k| std::array::from_fn(|l| of.slope[D * k + l])) };
         let each = |i: usize, j: usize| &answer.stress[D * i + j];
         Slopes {
             stress_by_f: std::array::from_fn(|i| std::array::from_fn(|j| by_f(each(i, j)))),
             stress_by_p: std::array::from_fn(|i| std::array::from_fn(|j| each(i, j).slope[D * D])),
             rate_by_f: by_f(&answer.rate),
             flow_by_f: std::array::from_fn(|i| by_f(&answer.flow[i])),
-            mobility: std::array::from_fn(|i| {
-                std::array::from_fn(|j| answer.mobility[D * i + j].value)
-            }),
+            mobility: std::array::from_fn(|i| std::array::from_fn(|j| answer.mobility[D * i + j].value)),
             mass_by_f: by_f(&answer.mass),
         }
     }

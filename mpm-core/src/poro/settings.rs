@@ -100,24 +100,16 @@ impl Settings {
     #[must_use]
     pub fn in_units(self, stress: f64) -> Self {
         let pressure_space = match self.pressure_space {
-            PressureSpace::Projected { strength } => PressureSpace::Projected {
-                strength: strength / stress,
-            },
+            PressureSpace::Projected { strength } => PressureSpace::Projected { strength: strength / stress },
             space => space,
         };
-        Self {
-            pressure_space,
-            ..self
-        }
+        Self { pressure_space, ..self }
     }
 
     /// With a pressure space.
     #[must_use]
     pub fn pressure_space(self, pressure_space: PressureSpace) -> Self {
-        Self {
-            pressure_space,
-            ..self
-        }
+        Self { pressure_space, ..self }
     }
 
     /// With a matrix of Newton's method.
@@ -129,10 +121,7 @@ impl Settings {
     /// With a rate of volume.
     #[must_use]
     pub fn volume_rate(self, volume_rate: VolumeRate) -> Self {
-        Self {
-            volume_rate,
-            ..self
-        }
+        Self { volume_rate, ..self }
     }
 
     /// With a tolerance of Newton's method.
@@ -144,20 +133,13 @@ impl Settings {
     /// With ghost penalties on displacement and pressure.
     #[must_use]
     pub fn ghosts(self, displacement: f64, pressure: f64) -> Self {
-        Self {
-            ghost_displacement: displacement,
-            ghost_pressure: pressure,
-            ..self
-        }
+        Self { ghost_displacement: displacement, ghost_pressure: pressure, ..self }
     }
 
     /// With a ghost penalty on the pressure's increments.
     #[must_use]
     pub fn ghost_on_increments(self, share: f64) -> Self {
-        Self {
-            ghost_increment: share,
-            ..self
-        }
+        Self { ghost_increment: share, ..self }
     }
 
     /// Whether something acts on what pressures change by.
@@ -175,19 +157,12 @@ impl Settings {
             "from 1e-13 to 1e-2",
         )?;
         if let PressureSpace::Projected { strength } = self.pressure_space {
-            positive(
-                strength,
-                "strength of the pressure projection",
-                "positive (1/Pa)",
-            )?;
+            positive(strength, "strength of the pressure projection", "positive (1/Pa)")?;
         }
         for (what, share) in [
             ("ghost penalty of the displacement", self.ghost_displacement),
             ("ghost penalty of the pressure", self.ghost_pressure),
-            (
-                "ghost penalty of increments of the pressure",
-                self.ghost_increment,
-            ),
+            ("ghost penalty of increments of the pressure", self.ghost_increment),
         ] {
             require((0.0..=10.0).contains(&share), what, share, "from 0 to 10")?;
         }
@@ -208,10 +183,8 @@ mod tests {
     /// A strength times a pressure has no unit.
     #[test]
     fn a_strength_has_the_unit_of_a_compliance() {
-        let projected = |strength| Settings {
-            pressure_space: PressureSpace::Projected { strength },
-            ..Settings::new(2.0)
-        };
+        let projected =
+            |strength| Settings { pressure_space: PressureSpace::Projected { strength }, ..Settings::new(2.0) };
         let found = projected(6.0).in_units(4.0);
         assert_eq!(found.pressure_space, projected(1.5).pressure_space);
         assert_eq!(found.dt, 2.0);

@@ -19,10 +19,7 @@ use crate::scene::Scene;
 use nalgebra::SVector;
 
 /// The grid of the pressure: of cells twice as large between the same ends, or the same.
-fn grid_of_pressure<const D: usize>(
-    grid: &Grid<D>,
-    space: PressureSpace,
-) -> Result<Grid<D>, Error> {
+fn grid_of_pressure<const D: usize>(grid: &Grid<D>, space: PressureSpace) -> Result<Grid<D>, Error> {
     if space != PressureSpace::TwoGrid {
         return Ok(*grid);
     }
@@ -34,10 +31,7 @@ fn grid_of_pressure<const D: usize>(
             "even: a cell of the pressure spans two cells along every axis",
         )?;
     }
-    let coarse = |axis: &Axis| Axis {
-        cells: axis.cells / 2,
-        ..*axis
-    };
+    let coarse = |axis: &Axis| Axis { cells: axis.cells / 2, ..*axis };
     Grid::new(2.0 * grid.h, grid.axes.each_ref().map(coarse))
 }
 
@@ -67,10 +61,7 @@ impl<I> Space<I> {
         I: OfHats<D>,
     {
         let functions = I::on(grid)?;
-        Ok(Self {
-            originals: functions.originals(),
-            functions,
-        })
+        Ok(Self { originals: functions.originals(), functions })
     }
 }
 
@@ -92,18 +83,11 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         )?;
         held::check(&scene.constraints)?;
         let moduli = moduli_of(&scene.body.law, settings.dt);
-        positive(
-            moduli.mu,
-            "shear modulus of a body with water",
-            "positive (Pa)",
-        )?;
+        positive(moduli.mu, "shear modulus of a body with water", "positive (Pa)")?;
         let solid_space: Space<I> = Space::on(scene.grid)?;
-        let water_space: Space<I> =
-            Space::on(grid_of_pressure(&scene.grid, settings.pressure_space)?)?;
+        let water_space: Space<I> = Space::on(grid_of_pressure(&scene.grid, settings.pressure_space)?)?;
         let mut drained = vec![false; water_space.functions.len()];
-        water_space
-            .functions
-            .for_each_node(|node, place| drained[node] = (water.drained)(&place));
+        water_space.functions.for_each_node(|node, place| drained[node] = (water.drained)(&place));
         let by_faces = |face: &super::Face<D>| matches!(face.acts, Acts::Drains { .. });
         let drains = drained.contains(&true) || water.faces.iter().any(by_faces);
         water.check(drains, scene.body.law.porosity())?;
@@ -134,11 +118,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         if scene.loads.is_empty() {
             particles.external_force = Vec::new();
         }
-        let watched = if settings.watches_increments() {
-            &particles.position[..]
-        } else {
-            &[]
-        };
+        let watched = if settings.watches_increments() { &particles.position[..] } else { &[] };
         let pressures = particles.position.iter().map(|x| (water.start)(x));
         let pores = Pores {
             pressure: pressures.collect(),
@@ -147,9 +127,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             half_size,
         };
         let mut nodal_pressure = vec![f64::NAN; water_space.functions.len()];
-        water_space
-            .functions
-            .for_each_node(|node, place| nodal_pressure[node] = (water.start)(&place));
+        water_space.functions.for_each_node(|node, place| nodal_pressure[node] = (water.start)(&place));
         let solver = Self {
             held,
             tied,

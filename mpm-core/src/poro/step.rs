@@ -169,55 +169,47 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             }
         }
         let mut internal = vec![SVector::zeros(); u.len()];
-        setting
-            .solid
-            .scatter(SVector::zeros(), &mut internal, |k, sums| {
-                for (sum, dw) in sums.iter_mut().zip(setting.solid.gradients(k)) {
-                    for i in 0..D {
-                        sum[i] += dot(&answers[k].stress[D * i..D * (i + 1)], dw);
-                    }
+        setting.solid.scatter(SVector::zeros(), &mut internal, |k, sums| {
+            for (sum, dw) in sums.iter_mut().zip(setting.solid.gradients(k)) {
+                for i in 0..D {
+                    sum[i] += dot(&answers[k].stress[D * i..D * (i + 1)], dw);
                 }
-            });
+            }
+        });
         let mut external = setting.external.clone();
         if let Some(gravity) = &self.water.gravity {
-            let weights: Vec<[f64; D]> = (answers.iter())
-                .map(|a| gravity.acceleration.map(|g| a.mass * g))
-                .collect();
+            let weights: Vec<[f64; D]> = (answers.iter()).map(|a| gravity.acceleration.map(|g| a.mass * g)).collect();
             let weights = setting.solid.forces(u.len(), &weights);
             for (force, weight) in external.iter_mut().zip(weights) {
                 *force += weight;
             }
         }
-        let mut momentum: Vec<SVector<f64, D>> = (internal.iter().zip(&external))
-            .map(|(inner, outer)| inner - outer)
-            .collect();
+        let mut momentum: Vec<SVector<f64, D>> =
+            (internal.iter().zip(&external)).map(|(inner, outer)| inner - outer).collect();
         add_penalties(&setting.ghosts[0], u.as_flattened(), D, |i, force| {
             momentum[i / D][i % D] += force;
         });
         // Residual, the sum of the sizes of what it is made of, and of what those are made of.
         let mut water = vec![SVector::<f64, 3>::zeros(); p.len()];
         let projection = self.projection();
-        setting
-            .water
-            .scatter(SVector::zeros(), &mut water, |k, sums| {
-                let (nodes, w, dw) = setting.water.seen(k);
-                let answer = &answers[k];
-                let slopes = nodes.iter().zip(dw).map(|(n, dw)| p[*n].abs() * norm(dw));
-                let steep = slopes.sum::<f64>();
-                let mobility: f64 = (0..D).map(|a| answer.mobility[D * a + a]).sum();
-                for (place, sum) in sums.iter_mut().enumerate() {
-                    let stored = w[place] * answer.rate;
-                    let moved = self.dt * dot(&answer.flow[..D], &dw[place]);
-                    let bits = w[place] * particles.volume[k]
-                        + self.dt * mobility * steep * norm(&dw[place]);
-                    *sum += SVector::from([stored + moved, stored.abs() + moved.abs(), bits]);
-                    if let Some(own) = setting.fluctuations.get(k) {
-                        let change = |(n, s): (&usize, &f64)| (p[*n] - setting.before[*n]) * s;
-                        let change: f64 = nodes.iter().zip(own).map(change).sum();
-                        sum[0] += projection * particles.volume[k] * own[place] * change;
-                    }
+        setting.water.scatter(SVector::zeros(), &mut water, |k, sums| {
+            let (nodes, w, dw) = setting.water.seen(k);
+            let answer = &answers[k];
+            let slopes = nodes.iter().zip(dw).map(|(n, dw)| p[*n].abs() * norm(dw));
+            let steep = slopes.sum::<f64>();
+            let mobility: f64 = (0..D).map(|a| answer.mobility[D * a + a]).sum();
+            for (place, sum) in sums.iter_mut().enumerate() {
+                let stored = w[place] * answer.rate;
+                let moved = self.dt * dot(&answer.flow[..D], &dw[place]);
+                let bits = w[place] * particles.volume[k] + self.dt * mobility * steep * norm(&dw[place]);
+                *sum += SVector::from([stored + moved, stored.abs() + moved.abs(), bits]);
+                if let Some(own) = setting.fluctuations.get(k) {
+                    let change = |(n, s): (&usize, &f64)| (p[*n] - setting.before[*n]) * s;
+                    let change: f64 = nodes.iter().zip(own).map(change).sum();
+                    sum[0] += projection * particles.volume[k] * own[place] * change;
                 }
-            });
+            }
+        });
         for (sums, volume) in water.iter_mut().zip(&setting.inflow) {
             *sums += SVector::from([-volume, volume.abs(), 0.0]);
         }
@@ -237,9 +229,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         add_penalties(&setting.ghosts[1], &since, 1, |i, volume| {
             water[i][0] += volume;
         });
-        let size = |forces: &[SVector<f64, D>]| -> f64 {
-            forces.iter().map(SVector::norm_squared).sum::<f64>().sqrt()
-        };
+        let size = |forces: &[SVector<f64, D>]| -> f64 { forces.iter().map(SVector::norm_squared).sum::<f64>().sqrt() };
         let of_all = |k: usize| norm(&water.iter().map(|of| of[k]).collect::<Vec<_>>());
         Ok(Trial {
             scale: [size(&internal).max(size(&external)), of_all(1)],
@@ -329,8 +319,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             for (j, g) in dw.iter().enumerate() {
                 for b in 0..D {
                     let column = j * D + b;
-                    let stress: Square<D> =
-                        from_fn(|a| from_fn(|c| by(&s.stress_by_f[a][c], b, g)));
+                    let stress: Square<D> = from_fn(|a| from_fn(|c| by(&s.stress_by_f[a][c], b, g)));
                     for (i, f) in dw.iter().enumerate() {
                         for a in 0..D {
                             matrix[(i * D + a, column)] += dot(f, &stress[a]);
@@ -381,29 +370,18 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
             let rows = begin[column]..begin[column + 1];
             let of = |k: usize| match row[k] {
                 i if i == column => values[k].abs(),
-                i if column >= displacements && i < displacements => {
-                    values[k] * values[k] / size[i]
-                }
+                i if column >= displacements && i < displacements => values[k] * values[k] / size[i],
                 _ => 0.0,
             };
             let sum: f64 = rows.map(of).sum();
-            size[column] = if sum > 0.0 && sum.is_finite() {
-                sum
-            } else {
-                1.0
-            };
+            size[column] = if sum > 0.0 && sum.is_finite() { sum } else { 1.0 };
         }
         size.iter().map(|size| 1.0 / size.sqrt()).collect()
     }
 }
 
 /// Calls `add` with the place of every value that penalties act on, and what they add there.
-fn add_penalties(
-    penalties: &[Penalty],
-    of: &[f64],
-    components: usize,
-    mut add: impl FnMut(usize, f64),
-) {
+fn add_penalties(penalties: &[Penalty], of: &[f64], components: usize, mut add: impl FnMut(usize, f64)) {
     for Penalty { node, stiffness } in penalties {
         let place = |k: usize| node[k / components] * components + k % components;
         for j in 0..stiffness.ncols() {

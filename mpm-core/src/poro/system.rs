@@ -32,16 +32,10 @@ impl<const D: usize, M: Law> Equations for System<'_, D, M> {
     fn at(&mut self, x: Vec<f64>) -> Result<Point<Trial<D>>, (usize, Fault)> {
         let (setting, ledger) = (self.step.setting, &mut *self.linear.ledger);
         // Deformations and pressures are gathered, forces and volumes scattered.
-        ledger.work.particle_node_pairs +=
-            2 * (setting.solid.pairs() + setting.water.pairs()) as u64;
+        ledger.work.particle_node_pairs += 2 * (setting.solid.pairs() + setting.water.pairs()) as u64;
         let trial = clocked(&mut ledger.spent.forces, || self.step.trial(&x))?;
         let residual = self.step.residual(&trial);
-        Ok(Point {
-            share: self.share(&residual, &trial),
-            x,
-            trial,
-            residual,
-        })
+        Ok(Point { share: self.share(&residual, &trial), x, trial, residual })
     }
 
     fn solved_by(&self, point: &Point<Trial<D>>) -> bool {
@@ -72,11 +66,7 @@ impl<const D: usize, M: Law> Equations for System<'_, D, M> {
         }
         self.scales = scales;
         self.linear.ledger.spent.solution += begun.elapsed().as_secs_f64();
-        if x.iter().all(|x| x.is_finite()) {
-            Ok(x)
-        } else {
-            Err(Failure::Singular(iteration))
-        }
+        if x.iter().all(|x| x.is_finite()) { Ok(x) } else { Err(Failure::Singular(iteration)) }
     }
 
     fn largest_share(&self, _from: &Point<Trial<D>>, _correction: &[f64]) -> f64 {
@@ -84,12 +74,7 @@ impl<const D: usize, M: Law> Equations for System<'_, D, M> {
     }
 
     /// Nearer to the solution in the norm of the scaled equations, without closing the pores of a particle.
-    fn accepts(
-        &self,
-        from: &Point<Trial<D>>,
-        _correction: &[f64],
-        ahead: &Point<Trial<D>>,
-    ) -> bool {
+    fn accepts(&self, from: &Point<Trial<D>>, _correction: &[f64], ahead: &Point<Trial<D>>) -> bool {
         let size = |point: &Point<Trial<D>>| {
             let scaled = point.residual.iter().zip(&self.scales);
             scaled.map(|(r, s)| (r * s).powi(2)).sum::<f64>().sqrt()

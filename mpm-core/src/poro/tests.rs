@@ -25,13 +25,8 @@ const KAPPA: f64 = 1e-8;
 type Hats<const D: usize> = Lattice<D, 2, Linear>;
 type Means<const D: usize> = Lattice<D, 3, Gimp>;
 
-const SPACES: [PressureSpace; 3] = [
-    PressureSpace::TwoGrid,
-    PressureSpace::Equal,
-    PressureSpace::Projected {
-        strength: 0.5 / 6e4,
-    },
-];
+const SPACES: [PressureSpace; 3] =
+    [PressureSpace::TwoGrid, PressureSpace::Equal, PressureSpace::Projected { strength: 0.5 / 6e4 }];
 
 mod carried;
 mod column;
@@ -88,10 +83,7 @@ fn uppermost<const D: usize>(x: &[f64; D]) -> bool {
 }
 
 /// A column under a traction on its top, through which its water leaves by a penalty.
-fn loaded<const D: usize, I: OfHats<D>>(
-    traction: f64,
-    settings: Settings,
-) -> Solver<D, I, ImprovedHencky> {
+fn loaded<const D: usize, I: OfHats<D>>(traction: f64, settings: Settings) -> Solver<D, I, ImprovedHencky> {
     let scene = standing::<D, _>(porous(), straight);
     let particles = &scene.body.particles;
     let top = (D - 1, End::Hi);
@@ -107,9 +99,8 @@ fn loaded<const D: usize, I: OfHats<D>>(
 /// leave everywhere the effective stress is the law's and the pressure nothing, and where it may not an isochoric field
 /// needs no pressure either.
 fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
-    let mut gradient = SMatrix::<f64, D, D>::from_fn(|i, j| {
-        0.005 * (i as f64 - 0.7 * j as f64) - if i == j { 0.03 } else { 0.0 }
-    });
+    let mut gradient =
+        SMatrix::<f64, D, D>::from_fn(|i, j| 0.005 * (i as f64 - 0.7 * j as f64) - if i == j { 0.03 } else { 0.0 });
     let mut f = SMatrix::<f64, D, D>::identity() + gradient;
     if isochoric {
         f /= crate::space::determinant(&f).powf(1.0 / D as f64);
@@ -120,20 +111,14 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let law = porous();
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(Affine {
-        gradient,
-        centre: 0.0,
-    });
+    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(Affine { gradient, centre: 0.0 });
     let water = Water::new(POROSITY, kozeny_carman());
     // One held node fixes a pressure that nothing else does.
     let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
     let settings = Settings::new(1.0).ghosts(0.1, 0.01).tolerance(1e-13);
     let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
     solver.step().unwrap();
-    let exact = law
-        .update(&embed(&f), 1.0, &law.initial_state())
-        .0
-        .to_matrix();
+    let exact = law.update(&embed(&f), 1.0, &law.initial_state()).0.to_matrix();
     let p = solver.particles();
     for k in 0..p.len() {
         let error = (p.stress[k].to_matrix() - exact).norm();
@@ -145,11 +130,7 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     // And has the domains of a body that starts so.
     let begun = p.reference.iter().map(|x| {
         let particles = Particles::new(vec![*x], volume, 1000.0, [0.25 * H; D]).unwrap();
-        let mut body = Body::new(
-            law,
-            particles.deformed(|x| ((f * SVector::from(*x)).into(), f)),
-        )
-        .unwrap();
+        let mut body = Body::new(law, particles.deformed(|x| ((f * SVector::from(*x)).into(), f))).unwrap();
         start::begin::<D, I>(&grid, &mut body.particles, 0).unwrap()
     });
     for (begun, stepped) in begun.zip(&solver.pores.half_size) {
@@ -178,11 +159,7 @@ fn stays_at_rest<const D: usize, I: OfHats<D>>(space: PressureSpace) {
     let depth = |x: &[f64; D]| 1e4 * (TOP - x[D - 1]);
     for tangent in [Tangent::Symmetric, Tangent::Consistent] {
         let water = Water::new(POROSITY, kozeny_carman())
-            .gravity(Gravity {
-                water: 1000.0,
-                grains: 1000.0,
-                acceleration,
-            })
+            .gravity(Gravity { water: 1000.0, grains: 1000.0, acceleration })
             .start(depth)
             .drained(|x| x[D - 1] > TOP - 1e-9);
         let scene = standing::<D, _>(porous(), straight);
@@ -212,9 +189,7 @@ fn hydrostatic_water_stays_at_rest() {
 fn what_is_not_allowed_is_refused_by_name() {
     let column = || standing::<1, _>(porous(), straight);
     let refused = |water: Water<1>, settings: Settings, what: &str| {
-        let error = Solver::<1, Means<1>, _>::new(column(), water, settings)
-            .err()
-            .unwrap();
+        let error = Solver::<1, Means<1>, _>::new(column(), water, settings).err().unwrap();
         assert!(error.to_string().contains(what), "{error}");
     };
     let some = Conductivity::Constant(KAPPA);
@@ -223,17 +198,9 @@ fn what_is_not_allowed_is_refused_by_name() {
         refused(Water::new(n, some), settings, "porosity");
     }
     let dry = Conductivity::Constant(0.0);
-    refused(
-        Water::new(POROSITY, dry).drained(|_| true),
-        settings,
-        "conductivity of a body that drains",
-    );
+    refused(Water::new(POROSITY, dry).drained(|_| true), settings, "conductivity of a body that drains");
     let face = Face::drained(&column().body.particles, topmost, (0, End::Hi), 1.0);
-    refused(
-        Water::new(POROSITY, dry).face(face),
-        settings,
-        "conductivity of a body that drains",
-    );
+    refused(Water::new(POROSITY, dry).face(face), settings, "conductivity of a body that drains");
     assert!(Solver::<1, Means<1>, _>::new(column(), Water::new(POROSITY, dry), settings).is_ok());
     let other = "porosity of the water = 0.3 is not allowed: that of the solid's law";
     refused(Water::new(0.3, some), settings, other);

@@ -73,12 +73,7 @@ impl<const D: usize> Unknowns<D> {
                 (true, None) => Place::Free(next(&mut count)),
             })
             .collect();
-        Self {
-            displacements,
-            displacement,
-            pressure,
-            count,
-        }
+        Self { displacements, displacement, pressure, count }
     }
 
     /// Whether a particle sees a node: of the displacement, the first space, or of the pressure.
@@ -97,10 +92,7 @@ impl<const D: usize> Unknowns<D> {
             Place::Unseen => 0.0,
         };
         let displacement = self.displacement.iter().map(|node| node.map(value));
-        (
-            displacement.collect(),
-            self.pressure.iter().map(|p| value(*p)).collect(),
-        )
+        (displacement.collect(), self.pressure.iter().map(|p| value(*p)).collect())
     }
 
     /// The numbers of the unknowns of some nodes of the displacement, component by component, and of some of the
@@ -134,9 +126,7 @@ pub(super) fn mapped<const D: usize>(
     particles: &Particles<D>,
     pores: &Pores<D>,
 ) -> Vec<f64> {
-    let weighted: Vec<f64> = (pores.pressure.iter().zip(&particles.volume))
-        .map(|(p, v)| p * v)
-        .collect();
+    let weighted: Vec<f64> = (pores.pressure.iter().zip(&particles.volume)).map(|(p, v)| p * v).collect();
     let sums = elements.sums(nodes, &weighted);
     let volumes = elements.sums(nodes, &particles.volume);
     let mean = |(sum, volume): (&f64, &f64)| if *volume > 0.0 { sum / volume } else { 0.0 };
@@ -183,11 +173,7 @@ pub(super) fn pattern(count: usize, groups: &[Vec<Option<usize>>]) -> Pattern {
             beside[*column].extend(group.iter().flatten());
         }
     }
-    let mut pattern = Pattern {
-        width: 1,
-        begin: vec![0],
-        row: Vec::new(),
-    };
+    let mut pattern = Pattern { width: 1, begin: vec![0], row: Vec::new() };
     for rows in &mut beside {
         rows.sort_unstable();
         rows.dedup();

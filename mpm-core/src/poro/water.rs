@@ -85,28 +85,19 @@ impl<const D: usize> Water<D> {
     /// With gravity.
     #[must_use]
     pub fn gravity(self, gravity: Gravity<D>) -> Self {
-        Self {
-            gravity: Some(gravity),
-            ..self
-        }
+        Self { gravity: Some(gravity), ..self }
     }
 
     /// With a pressure (Pa) at the start, a function of the place (m).
     #[must_use]
     pub fn start(self, pressure: impl Fn(&[f64; D]) -> f64 + Send + Sync + 'static) -> Self {
-        Self {
-            start: Box::new(pressure),
-            ..self
-        }
+        Self { start: Box::new(pressure), ..self }
     }
 
     /// With pressure nodes held at zero where `at` says so of their places (m).
     #[must_use]
     pub fn drained(self, at: impl Fn(&[f64; D]) -> bool + Send + Sync + 'static) -> Self {
-        Self {
-            drained: Box::new(at),
-            ..self
-        }
+        Self { drained: Box::new(at), ..self }
     }
 
     /// With another loaded or drained face.
@@ -118,10 +109,7 @@ impl<const D: usize> Water<D> {
 
     /// With another source.
     #[must_use]
-    pub fn source(
-        mut self,
-        of: impl Fn(&[f64; D], [f64; 2]) -> f64 + Send + Sync + 'static,
-    ) -> Self {
+    pub fn source(mut self, of: impl Fn(&[f64; D], [f64; 2]) -> f64 + Send + Sync + 'static) -> Self {
         self.sources.push(Box::new(of));
         self
     }
@@ -140,9 +128,10 @@ impl<const D: usize> Water<D> {
         let permeability = frame.scale(-1, 2);
         let density = frame.scale(1, -2);
         let (start, drained) = (self.start, self.drained);
-        let sources = self.sources.into_iter().map(|source| -> Source<D> {
-            Box::new(move |x, times| source(&frame.place_of_scene(x), times))
-        });
+        let sources = self
+            .sources
+            .into_iter()
+            .map(|source| -> Source<D> { Box::new(move |x, times| source(&frame.place_of_scene(x), times)) });
         let faces = self.faces.into_iter().map(|f| f.seen_from(&frame));
         let plates = self.plates.into_iter();
         Self {
@@ -171,12 +160,7 @@ impl<const D: usize> Water<D> {
 
     /// `drains`: whether water may leave; `of_law`: the porosity of a law that depends on it.
     pub(super) fn check(&self, drains: bool, of_law: Option<f64>) -> Result<(), Error> {
-        require(
-            self.porosity > 0.0 && self.porosity < 1.0,
-            "porosity",
-            self.porosity,
-            "above 0 and below 1",
-        )?;
+        require(self.porosity > 0.0 && self.porosity < 1.0, "porosity", self.porosity, "above 0 and below 1")?;
         require(
             of_law.is_none_or(|n| n == self.porosity),
             "porosity of the water",
@@ -185,19 +169,11 @@ impl<const D: usize> Water<D> {
         )?;
         let k = self.initial_conductivity();
         require(k >= 0.0, "conductivity", k, "at least 0 (m²/(Pa s))")?;
-        require(
-            k > 0.0 || !drains,
-            "conductivity of a body that drains",
-            k,
-            "positive (m²/(Pa s))",
-        )?;
+        require(k > 0.0 || !drains, "conductivity of a body that drains", k, "positive (m²/(Pa s))")?;
         let Some(gravity) = &self.gravity else {
             return Ok(());
         };
-        for (what, density) in [
-            ("density of water", gravity.water),
-            ("density of grains", gravity.grains),
-        ] {
+        for (what, density) in [("density of water", gravity.water), ("density of grains", gravity.grains)] {
             require(density > 0.0, what, density, "positive (kg/m³)")?;
         }
         let mut components = gravity.acceleration.into_iter();

@@ -76,11 +76,7 @@ impl<const S: usize> Patch<S> {
 
     /// The patch of `nodes` whose first node is `first`.
     #[inline(always)]
-    pub(super) fn of<const D: usize, B: Basis<S>>(
-        lattice: &Lattice<D, S, B>,
-        first: usize,
-        nodes: &[f64],
-    ) -> Self {
+    pub(super) fn of<const D: usize, B: Basis<S>>(lattice: &Lattice<D, S, B>, first: usize, nodes: &[f64]) -> Self {
         let (lines, rows) = Stencil::<D, S>::OUTER;
         let mut patch = Self::zero();
         for i in 0..lines {

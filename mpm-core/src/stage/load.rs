@@ -58,9 +58,7 @@ impl<const D: usize> Load<D> for Gravity<D> {
 
     fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Load<D>> {
         let frame = *frame;
-        Box::new(Self(Box::new(move |time| {
-            frame.vector(&(self.0)(time), frame.scale(0, 1))
-        })))
+        Box::new(Self(Box::new(move |time| frame.vector(&(self.0)(time), frame.scale(0, 1)))))
     }
 }
 
@@ -76,22 +74,13 @@ pub struct DeadForce<const D: usize> {
 impl<const D: usize> DeadForce<D> {
     /// Shares `total` (N) equally among the particles whose reference position satisfies `select`. It
     /// grows as a smooth step over the first `ramp` seconds (0: it is there at once).
-    pub fn shared(
-        total: [f64; D],
-        ramp: f64,
-        particles: &Particles<D>,
-        select: impl Fn(&[f64; D]) -> bool,
-    ) -> Self {
+    pub fn shared(total: [f64; D], ramp: f64, particles: &Particles<D>, select: impl Fn(&[f64; D]) -> bool) -> Self {
         let mut loaded = vec![false; particles.len()];
         for (id, reference) in particles.id.iter().zip(&particles.reference) {
             loaded[*id as usize] = select(reference);
         }
         let count = loaded.iter().filter(|&&l| l).count().max(1) as f64;
-        Self {
-            loaded,
-            force: total.map(|f| f / count),
-            ramp,
-        }
+        Self { loaded, force: total.map(|f| f / count), ramp }
     }
 
     /// How many particles carry the load.
@@ -115,9 +104,6 @@ impl<const D: usize> Load<D> for DeadForce<D> {
     }
 
     fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Load<D>> {
-        Box::new(Self {
-            force: frame.vector(&self.force, frame.force()),
-            ..*self
-        })
+        Box::new(Self { force: frame.vector(&self.force, frame.force()), ..*self })
     }
 }

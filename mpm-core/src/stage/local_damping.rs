@@ -19,12 +19,7 @@ impl LocalDamping {
     /// # Errors
     /// `alpha` outside [0, 1).
     pub fn new(alpha: f64) -> Result<Self, Error> {
-        require(
-            (0.0..1.0).contains(&alpha),
-            "local damping factor",
-            alpha,
-            "at least 0 and less than 1",
-        )?;
+        require((0.0..1.0).contains(&alpha), "local damping factor", alpha, "at least 0 and less than 1")?;
         Ok(Self { alpha })
     }
 }

@@ -37,23 +37,13 @@ impl RestCriterion {
     /// A criterion without history.
     #[must_use]
     pub fn new(force_ratio: f64, energy_ratio: f64, drift: f64, window: f64) -> Self {
-        Self {
-            force_ratio,
-            energy_ratio,
-            drift,
-            window,
-            history: VecDeque::new(),
-        }
+        Self { force_ratio, energy_ratio, drift, window, history: VecDeque::new() }
     }
 
     /// Takes an observation; true when the motion is at rest.
     pub fn observe(&mut self, now: Observation) -> bool {
         self.history.push_back(now);
-        while self
-            .history
-            .get(1)
-            .is_some_and(|second| now.time - second.time >= self.window)
-        {
+        while self.history.get(1).is_some_and(|second| now.time - second.time >= self.window) {
             self.history.pop_front();
         }
         let Some(first) = self.history.front() else {
@@ -87,20 +77,13 @@ mod tests {
     use super::*;
 
     fn at(time: f64, force_ratio: f64, displacement: f64) -> Observation {
-        Observation {
-            time,
-            force_ratio,
-            energy_ratio: 0.0,
-            displacement,
-        }
+        Observation { time, force_ratio, energy_ratio: 0.0, displacement }
     }
 
     #[test]
     fn a_still_motion_rests_after_one_window() {
         let mut rest = RestCriterion::new(1e-3, 1e-3, 1e-4, 1.0);
-        let rested: Vec<bool> = (0..5)
-            .map(|k| rest.observe(at(0.5 * f64::from(k), 1e-4, 1.0)))
-            .collect();
+        let rested: Vec<bool> = (0..5).map(|k| rest.observe(at(0.5 * f64::from(k), 1e-4, 1.0))).collect();
         assert_eq!(rested, [false, false, true, true, true]);
     }
 

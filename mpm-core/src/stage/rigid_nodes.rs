@@ -42,11 +42,7 @@ impl<const D: usize> Constraint<D> for RigidNodes<D> {
             let (axis, sign) = frame.axis(axis);
             velocity[axis] = v.map(|v| frame.scale(0, 1) * sign * v);
         }
-        Box::new(Self {
-            extent: frame.extent(&self.extent),
-            velocity,
-            ramp: self.ramp,
-        })
+        Box::new(Self { extent: frame.extent(&self.extent), velocity, ramp: self.ramp })
     }
 }
 
@@ -58,18 +54,8 @@ mod tests {
     #[test]
     fn nodes_at_its_ends_are_its_own() {
         let grid = Grid::new(0.5, [Axis::open(0.0, 8); 2]).unwrap();
-        let body = RigidNodes {
-            extent: [[1.0, 2.0], [0.5, 0.5]],
-            velocity: [Some(3.0), None],
-            ramp: 0.0,
-        };
-        for (x, held) in [
-            (0.5, false),
-            (1.0, true),
-            (1.5, true),
-            (2.0, true),
-            (2.5, false),
-        ] {
+        let body = RigidNodes { extent: [[1.0, 2.0], [0.5, 0.5]], velocity: [Some(3.0), None], ramp: 0.0 };
+        for (x, held) in [(0.5, false), (1.0, true), (1.5, true), (2.0, true), (2.5, false)] {
             let own = body.prescribe(&grid, &[x, 0.5], 0);
             assert_eq!(own, held.then_some(3.0), "{x}");
             assert_eq!(body.prescribe(&grid, &[x, 0.5], 1), None);

@@ -61,20 +61,13 @@ impl<T: Real> Powers<T> {
             first,
             second: T::splat(0.5) * (first * first - square.trace()),
             third: z.determinant(),
-            now: Quadratic {
-                linear: T::splat(1.0),
-                ..Quadratic::default()
-            },
+            now: Quadratic { linear: T::splat(1.0), ..Quadratic::default() },
         }
     }
 
     #[inline]
     fn advance(&mut self) {
-        let Quadratic {
-            square,
-            linear,
-            constant,
-        } = self.now;
+        let Quadratic { square, linear, constant } = self.now;
         self.now = Quadratic {
             square: linear + self.first * square,
             linear: constant - self.second * square,
@@ -86,11 +79,7 @@ impl<T: Real> Powers<T> {
 /// The number of terms for a tensor of this squared norm.
 #[inline]
 fn terms<T: Real>(size: T, (very_near, near): (u32, u32)) -> u32 {
-    if size.all_below(VERY_NEAR) {
-        very_near
-    } else {
-        near
-    }
+    if size.all_below(VERY_NEAR) { very_near } else { near }
 }
 
 /// `linear` z + `constant` I in a plane, where z² = tr z z − det z I, and in its normal direction.
@@ -127,21 +116,13 @@ impl<T: Real> PlanarPowers<T> {
             trace: z.xx + z.yy,
             determinant: z.xx * z.yy - z.xy * z.xy,
             normal: z.zz,
-            now: Planar {
-                linear: T::splat(1.0),
-                constant: T::default(),
-                normal: z.zz,
-            },
+            now: Planar { linear: T::splat(1.0), constant: T::default(), normal: z.zz },
         }
     }
 
     #[inline]
     fn advance(&mut self) {
-        let Planar {
-            linear,
-            constant,
-            normal,
-        } = self.now;
+        let Planar { linear, constant, normal } = self.now;
         self.now = Planar {
             linear: self.trace.mul_add(linear, constant),
             constant: -self.determinant * linear,
@@ -191,10 +172,7 @@ impl<T: Real> SymmetricTensor<T> {
     /// The square of the norm of this planar tensor.
     #[inline]
     fn planar_size(&self) -> T {
-        self.xx * self.xx
-            + self.yy * self.yy
-            + self.zz * self.zz
-            + T::splat(2.0) * self.xy * self.xy
+        self.xx * self.xx + self.yy * self.yy + self.zz * self.zz + T::splat(2.0) * self.xy * self.xy
     }
 
     /// The natural logarithm of a positive definite tensor, such as twice Hencky's strain of a left
@@ -219,11 +197,7 @@ impl<T: Real> SymmetricTensor<T> {
         let mut excess = self.scale_add_identity(T::splat(1.0), T::splat(-1.0));
         let mut halvings = 0;
         loop {
-            let z = excess.times_commuting(
-                &excess
-                    .scale_add_identity(T::splat(1.0), T::splat(2.0))
-                    .inverse(),
-            );
+            let z = excess.times_commuting(&excess.scale_add_identity(T::splat(1.0), T::splat(2.0)).inverse());
             let square = z.times_commuting(&z);
             let size = square.trace();
             // Not below for a tensor that is not finite; those beside it keep their digits.
@@ -265,8 +239,7 @@ impl<T: Real> SymmetricTensor<T> {
         }
         let ii = number(0.5) * (i * i - first);
         let divisor = c.scale_add_identity(number(1.0) + i, ii + iii);
-        self.times_commuting(&c.scale_add_identity(number(1.0), ii))
-            .times_commuting(&divisor.inverse())
+        self.times_commuting(&c.scale_add_identity(number(1.0), ii)).times_commuting(&divisor.inverse())
     }
 
     /// The exponential I + a + a²/2 + a³/6 + ….

@@ -60,9 +60,7 @@ fn stick() -> f64 {
 
 /// The floor, at the gap `gap` from the block.
 fn floor<const D: usize>(particles: &Particles<D>, gap: f64) -> RigidFace<D> {
-    RigidFace::half_space(D - 1, End::Lo, 0.0)
-        .unwrap()
-        .touching(particles, gap)
+    RigidFace::half_space(D - 1, End::Lo, 0.0).unwrap().touching(particles, gap)
 }
 
 type Setting<const D: usize> = (Scene<D, NeoHookean>, Settings<D>);
@@ -72,10 +70,7 @@ fn scene<const D: usize>(particles: Particles<D>, contacts: Vec<RigidContact<D>>
     let dt = courant_time_step(CFL, H, law.wave_speed(DENSITY));
     let grid = Grid::new(H, [Axis::open(0.0, 24); D]).unwrap();
     let scene = Scene::new(grid, Body::new(law, particles).unwrap());
-    (
-        contacts.into_iter().fold(scene, Scene::contact),
-        Settings::new(dt),
-    )
+    (contacts.into_iter().fold(scene, Scene::contact), Settings::new(dt))
 }
 
 /// The scene under gravity `b` (m/s²).
@@ -123,9 +118,7 @@ fn gaps<const D: usize>(solver: &Block<D>, face: &RigidFace<D>, moved: &[f64; D]
 /// Mean displacement of the lowest layer along `axis` (m).
 fn shift<const D: usize>(solver: &Block<D>, axis: usize) -> f64 {
     let (p, lowest) = (solver.particles(), lowest(solver));
-    let sum: f64 = (lowest.iter())
-        .map(|&k| p.position[k][axis] - p.reference[k][axis])
-        .sum();
+    let sum: f64 = (lowest.iter()).map(|&k| p.position[k][axis] - p.reference[k][axis]).sum();
     sum / lowest.len() as f64
 }
 
@@ -203,9 +196,8 @@ fn momentum_balances<const D: usize>(friction: Option<Friction>) {
         for a in 0..D {
             let impulse = dt * (after.mass * pull[a] - reaction[a]);
             let error = after.momentum[a] - before.momentum[a] - impulse;
-            let scale: f64 = (solver.particles().velocity.iter())
-                .map(|v| v[a].abs() * DENSITY * SPACING.powi(D as i32))
-                .sum();
+            let scale: f64 =
+                (solver.particles().velocity.iter()).map(|v| v[a].abs() * DENSITY * SPACING.powi(D as i32)).sum();
             let scale = scale + dt * (after.mass * pull[a].abs() + reaction[a].abs());
             assert!(error.abs() <= terms * f64::EPSILON * scale, "{a}: {error}");
             met[a] |= reaction[a] != 0.0;
@@ -266,13 +258,7 @@ fn a_body_driven_too_hard_is_a_typed_error_and_never_inside() {
 fn a_closed_gap_names_time_particle_and_gap() {
     let (face, mut solver) = thrown(8.0);
     let error = solver.step().unwrap_err();
-    let Error::Breakdown {
-        time,
-        step,
-        particle,
-        fault,
-    } = error
-    else {
+    let Error::Breakdown { time, step, particle, fault } = error else {
         panic!("{error}");
     };
     assert_eq!((time, step), (0.0, 0));
@@ -282,10 +268,7 @@ fn a_closed_gap_names_time_particle_and_gap() {
         panic!("{fault}");
     };
     let sought = DISTANCE + p.increment[lowest][1];
-    assert!(
-        (gap - sought).abs() < ROUNDING && gap < 0.0,
-        "{gap} {sought}"
-    );
+    assert!((gap - sought).abs() < ROUNDING && gap < 0.0, "{gap} {sought}");
     assert!(least(&gaps(&solver, &face, &[0.0; 2])) > 0.0);
 
     let particles = block::<2>(8);
@@ -306,11 +289,9 @@ fn a_gap_is_that_to_where_the_face_is_at_the_end_of_a_step() {
     let contact = RigidContact::new(comes, barrier());
     let mut solver = started(scene(particles, vec![contact])).unwrap();
     match solver.step().unwrap_err() {
-        Error::Breakdown {
-            step: 0,
-            fault: Fault::GapClosed(gap),
-            ..
-        } => assert!((gap + DISTANCE).abs() < ROUNDING, "{gap}"),
+        Error::Breakdown { step: 0, fault: Fault::GapClosed(gap), .. } => {
+            assert!((gap + DISTANCE).abs() < ROUNDING, "{gap}")
+        }
         other => panic!("{other}"),
     }
 }
@@ -334,12 +315,7 @@ fn a_contact_too_stiff_for_the_step_is_refused() {
     let limit = 4.0 * (1.0 - CFL * CFL) / (dt * dt);
     assert!((contact_cfl(CFL, limit, dt) - 1.0).abs() < ROUNDING);
     let error = shaken(1.01 * limit).step().unwrap_err();
-    let Error::Breakdown {
-        particle,
-        fault: Fault::UnstableTimeStep { cfl, limit: one },
-        ..
-    } = error
-    else {
+    let Error::Breakdown { particle, fault: Fault::UnstableTimeStep { cfl, limit: one }, .. } = error else {
         panic!("{error}");
     };
     assert_eq!(one, 1.0);
@@ -376,8 +352,7 @@ fn particles_beside_a_face_do_not_feel_it() {
     let particles = block::<2>(16);
     let end = 2.0 * H + 7.0 * SPACING;
     let face = floor(&particles, REST_GAP).within([[0.0, end], [0.0; 2]]);
-    let contact =
-        RigidContact::new(face, barrier()).with_friction(Friction::rough(stick()).unwrap());
+    let contact = RigidContact::new(face, barrier()).with_friction(Friction::rough(stick()).unwrap());
     let mut solver = started(scene(particles, vec![contact])).unwrap();
     solver.step().unwrap();
     let p = solver.particles();
@@ -391,10 +366,7 @@ fn particles_beside_a_face_do_not_feel_it() {
 }
 
 /// Bits of a block that slides on a floor in `threads` threads, and of the reactions.
-fn bits(
-    threads: usize,
-    contacts: impl Fn(&Particles<2>) -> Vec<RigidContact<2>> + Sync,
-) -> Vec<u64> {
+fn bits(threads: usize, contacts: impl Fn(&Particles<2>) -> Vec<RigidContact<2>> + Sync) -> Vec<u64> {
     with_threads(threads, || {
         let mut particles = block::<2>(72);
         for (k, v) in particles.velocity.iter_mut().enumerate() {

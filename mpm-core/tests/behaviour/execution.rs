@@ -35,23 +35,11 @@ fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>
         assert!(solver.work().sorts > 1, "the test must cover sorting");
         let p = solver.particles();
         let t = solver.totals();
-        let moved = p
-            .position
-            .iter()
-            .flatten()
-            .chain(p.velocity.iter().flatten());
+        let moved = p.position.iter().flatten().chain(p.velocity.iter().flatten());
         let columns = moved.chain(p.affine.iter().flatten());
         let stress = p.stress.iter().map(|s| s.xx.to_bits());
-        let sums = [
-            t.kinetic_energy,
-            t.accumulated.stress_work,
-            solver.residual().free_force,
-        ];
-        columns
-            .map(|v| v.to_bits())
-            .chain(stress)
-            .chain(sums.map(f64::to_bits))
-            .collect()
+        let sums = [t.kinetic_energy, t.accumulated.stress_work, solver.residual().free_force];
+        columns.map(|v| v.to_bits()).chain(stress).chain(sums.map(f64::to_bits)).collect()
     })
 }
 
@@ -62,10 +50,7 @@ fn results_are_bitwise_the_same_for_any_number_of_threads() {
         assert_eq!(one, bits::<2, 3, Gimp>(threads), "{threads} threads");
     }
     assert_eq!(bits::<2, 4, CubicBSpline>(1), bits::<2, 4, CubicBSpline>(4));
-    assert_eq!(
-        bits::<3, 3, QuadraticBSpline>(1),
-        bits::<3, 3, QuadraticBSpline>(4)
-    );
+    assert_eq!(bits::<3, 3, QuadraticBSpline>(1), bits::<3, 3, QuadraticBSpline>(4));
     assert_eq!(bits::<1, 2, Linear>(1), bits::<1, 2, Linear>(4));
     let apic = |threads| bits_of::<2, 3, QuadraticBSpline, _>(threads, Apic);
     assert_eq!(apic(1), apic(4));
@@ -123,12 +108,8 @@ where
         let grid = Grid::new(0.5, axes).unwrap();
         let (mut scene, mut settings) = scene_with(grid, particles, transfer.clone());
         settings.remedy = remedy;
-        scene
-            .loads
-            .push(Box::new(BodyForce(Box::new(|_, _| [1e-3; D]))));
-        settings
-            .force_filters
-            .push(Box::new(LocalDamping::new(0.1).unwrap()));
+        scene.loads.push(Box::new(BodyForce(Box::new(|_, _| [1e-3; D]))));
+        settings.force_filters.push(Box::new(LocalDamping::new(0.1).unwrap()));
         let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
         solver.step().unwrap();
         let sorts = solver.work().sorts;

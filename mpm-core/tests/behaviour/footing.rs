@@ -27,13 +27,10 @@ fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp, Hencky
     let law = HenckyJ2::new(1e6, 0.49, Strength::undrained(STRENGTH).unwrap()).unwrap();
     let spacing = H / per_cell as f64;
     let rows = CELLS[1] * per_cell;
-    let positions = (0..CELLS[0] * per_cell * rows)
-        .map(|k| [k / rows, k % rows].map(|i| (i as f64 + 0.5) * spacing))
-        .collect();
-    let particles =
-        Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
-    let barrier =
-        Barrier::carrying_at(PRESSURE * spacing, (1.0 - LOSS) * DISTANCE, DISTANCE).unwrap();
+    let positions =
+        (0..CELLS[0] * per_cell * rows).map(|k| [k / rows, k % rows].map(|i| (i as f64 + 0.5) * spacing)).collect();
+    let particles = Particles::new(positions, spacing * spacing, DENSITY, [0.5 * spacing; 2]).unwrap();
+    let barrier = Barrier::carrying_at(PRESSURE * spacing, (1.0 - LOSS) * DISTANCE, DISTANCE).unwrap();
     let stick = barrier.stiffness((1.0 - LOSS) * DISTANCE);
     let face = RigidFace::half_space(1, End::Hi, 0.0)
         .unwrap()
@@ -88,24 +85,15 @@ fn a_rough_footing_sinks_into_clay_with_a_known_loss() {
         }
         let (gaps, now) = under(&face, &solver, 2);
         *slip = now;
-        assert!(
-            gaps.iter()
-                .all(|&gap| gap > 0.99 * DISTANCE && gap < DISTANCE)
-        );
+        assert!(gaps.iter().all(|&gap| gap > 0.99 * DISTANCE && gap < DISTANCE));
         let reaction = solver.on(Part::Contact(0)).force[1];
         let known = barrier.gap(reaction / gaps.len() as f64);
         let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
-        assert!(
-            mean >= known && mean - known < 0.1 * (DISTANCE - known),
-            "{mean} {known}"
-        );
+        assert!(mean >= known && mean - known < 0.1 * (DISTANCE - known), "{mean} {known}");
         let pressure = reaction / HALF_WIDTH / STRENGTH / (2.0 + PI);
         assert!((1.0..1.1).contains(&pressure), "{pressure}");
     }
-    assert!(
-        (slips[1] - slips[0]).abs() < 0.01 * SPEED * 0.15,
-        "{slips:?}"
-    );
+    assert!((slips[1] - slips[0]).abs() < 0.01 * SPEED * 0.15, "{slips:?}");
 }
 
 /// Four particles per cell and direction: the second layer is at the distance d̂ from the first, so the face touches

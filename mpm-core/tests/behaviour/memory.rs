@@ -9,8 +9,7 @@ use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength};
 use mpm_core::memory::{Memory, MemoryError, Saved};
 use mpm_core::stage::{
-    BodyForce, DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion,
-    RigidNodes, Wall, WallKind,
+    BodyForce, DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion, RigidNodes, Wall, WallKind,
 };
 use mpm_core::{Axis, Basis, Body, Grid, Law, Part, Scene, Side, Simulation};
 
@@ -23,12 +22,7 @@ fn solid() -> NeoHookean {
 }
 
 /// A block `width` cells wide that is shaken along the floor, pressed, pulled and damped.
-fn scene<M: Law, T>(
-    law: M,
-    transfer: T,
-    remedy: Box<dyn Remedy<2>>,
-    width: usize,
-) -> (Scene<2, M>, Settings<2, T>) {
+fn scene<M: Law, T>(law: M, transfer: T, remedy: Box<dyn Remedy<2>>, width: usize) -> (Scene<2, M>, Settings<2, T>) {
     let mut particles = block(H, 2, [1, 0], [1 + width, 6]);
     for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
         *v = [3.0, 0.05 * x[0] * x[1]];
@@ -40,16 +34,12 @@ fn scene<M: Law, T>(
         velocity: [None, Some(-0.2)],
         ramp: 70.0 * dt,
     };
-    let lid = RigidFace::half_space(1, End::Hi, 0.0)
-        .unwrap()
-        .touching(&particles, 0.2);
+    let lid = RigidFace::half_space(1, End::Hi, 0.0).unwrap().touching(&particles, 0.2);
     let drag = Friction::new(0.3, 0.5).unwrap();
     let upright = Axis::bounded(0.0, 8, (Side::Wall, Side::Open));
     let grid = Grid::new(H, [Axis::periodic(0.0, CELLS), upright]).unwrap();
     let scene = Scene::new(grid, Body::new(law, particles).unwrap())
-        .load(BodyForce(Box::new(|x: &[f64; 2], t| {
-            [100.0 * (15.0 * t).cos(), -0.2 * x[0]]
-        })))
+        .load(BodyForce(Box::new(|x: &[f64; 2], t| [100.0 * (15.0 * t).cos(), -0.2 * x[0]])))
         .load(pull)
         .constrain(Wall::new(1, End::Lo, WallKind::Roller))
         .constrain(press)
@@ -97,10 +87,7 @@ fn goes_on(name: &str, build: &dyn Fn() -> Box<dyn Simulation<2>>) {
     assert!(struck, "{name}: no kinetic damping");
 }
 
-fn of_basis<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone + 'static>(
-    name: &str,
-    transfer: &T,
-) {
+fn of_basis<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone + 'static>(name: &str, transfer: &T) {
     for k in 0..remedies::<2>().len() {
         goes_on(&format!("{name}, remedy {k}"), &|| {
             let remedy = remedies().into_iter().nth(k).unwrap();
@@ -157,11 +144,7 @@ fn refusal(mut run: impl Memory) -> MemoryError {
 #[test]
 fn the_memory_of_another_scene_is_refused() {
     let rate = || Box::new(FbarRate::default());
-    let size = |what, saved, expected| MemoryError::Size {
-        what,
-        saved,
-        expected,
-    };
+    let size = |what, saved, expected| MemoryError::Size { what, saved, expected };
     assert_eq!(refusal(gimp(rate(), 7)), size("id", 144, 168));
     assert_eq!(refusal(gimp(Box::new(Standard), 6)), size("j_bar", 144, 0));
     let (flat, settings) = scene(solid(), Apic, rate(), 6);
@@ -179,15 +162,9 @@ fn the_memory_of_another_scene_is_refused() {
     let fluid = NewtonianFluid::new(200.0, 0.1).unwrap();
     let (fluid, settings) = scene(fluid, Flip::default(), rate(), 6);
     let fluid = Solver::<2, 3, Gimp, _>::new(fluid, settings).unwrap();
-    assert!(matches!(
-        refusal(fluid),
-        MemoryError::Read { .. } | MemoryError::Surplus { .. }
-    ));
+    assert!(matches!(refusal(fluid), MemoryError::Read { .. } | MemoryError::Surplus { .. }));
     assert!(matches!(refusal(Standard), MemoryError::Surplus { .. }));
-    assert!(matches!(
-        refusal(KineticDamping::default()),
-        MemoryError::Surplus { .. }
-    ));
+    assert!(matches!(refusal(KineticDamping::default()), MemoryError::Surplus { .. }));
     gimp(rate(), 6).restore(&saved()).unwrap();
 }
 
@@ -222,12 +199,7 @@ fn a_damaged_memory_gives_no_panic() {
 #[test]
 fn rest_remembers_its_window() {
     let rest = || RestCriterion::new(1e-3, 1e-3, 1e-4, 1.0);
-    let at = |k: u32| Observation {
-        time: 0.3 * f64::from(k),
-        force_ratio: 0.0,
-        energy_ratio: 0.0,
-        displacement: 1.0,
-    };
+    let at = |k: u32| Observation { time: 0.3 * f64::from(k), force_ratio: 0.0, energy_ratio: 0.0, displacement: 1.0 };
     let (mut straight, mut pieces) = (rest(), rest());
     let rested: Vec<bool> = (0..8).map(|k| straight.observe(at(k))).collect();
     let again: Vec<bool> = (0..8)

@@ -4,9 +4,7 @@ mod fluid;
 mod model;
 
 use fluid::{C, DENSITY, FLUID, scene};
-use model::{
-    Bloch, CELLS, H, KINDS, Kind, LENGTH, Moving, UNSEEN, Wave, add, noise, product, theta,
-};
+use model::{Bloch, CELLS, H, KINDS, Kind, LENGTH, Moving, UNSEEN, Wave, add, noise, product, theta};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::FbarConsistent;
 use mpm_core::explicit::{Remedy, Solver};
@@ -40,12 +38,7 @@ fn symbol_is<const S: usize, B: Basis<S> + 'static>(closed: fn(usize, f64) -> f6
         let (scene, settings) = scene(n, Kind::None, 0.3, 0.0);
         let solver = Solver::<2, S, B, _>::new(scene, settings);
         let mut solver = solver.unwrap();
-        let ids: Vec<usize> = solver
-            .particles()
-            .id
-            .iter()
-            .map(|id| *id as usize)
-            .collect();
+        let ids: Vec<usize> = solver.particles().id.iter().map(|id| *id as usize).collect();
         for m in [[0, 0], [1, 0], [3, 2], [4, 7], [8, 0], [8, 8]] {
             let axes = m.map(|m| Bloch::<S, B>::new(n, theta(m)));
             let [x, y] = [0, 1].map(|a| axes[a].seen(0.0).0);
@@ -133,9 +126,7 @@ fn waves_at_rest<const S: usize, B: Basis<S> + 'static>(n: usize) {
         let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
         solver.advance(steps).unwrap();
         let p = solver.particles();
-        let mut rest: Vec<f64> = (0..p.len())
-            .map(|k| p.velocity[k][0] - unseen[p.id[k] as usize])
-            .collect();
+        let mut rest: Vec<f64> = (0..p.len()).map(|k| p.velocity[k][0] - unseen[p.id[k] as usize]).collect();
         for axis in &axes {
             let (phi, psi) = axis.seen(0.0);
             let [trace, determinant] = trace_and_determinant(kind, tau, &phi, &psi);
@@ -150,11 +141,7 @@ fn waves_at_rest<const S: usize, B: Basis<S> + 'static>(n: usize) {
             }
         }
         for v in rest {
-            assert!(
-                v.abs() < 1e-5 * amplitude,
-                "{kind:?} {n}: {}",
-                v / amplitude
-            );
+            assert!(v.abs() < 1e-5 * amplitude, "{kind:?} {n}: {}", v / amplitude);
         }
     }
 }
@@ -202,10 +189,7 @@ fn crossing_is_linear<const S: usize, B: Basis<S> + 'static>(n: usize, mean: f64
             let carried = axes.iter().zip(&waves);
             let v: f64 = carried.map(|(a, w)| a.carried(&w.velocity, id).re).sum();
             let measured = (p.velocity[k][0] - mean_velocity) / (amplitude * C);
-            assert!(
-                (measured - v).abs() < 1e-4 * scale,
-                "{kind:?} {n} {mean}: {measured} {v}"
-            );
+            assert!((measured - v).abs() < 1e-4 * scale, "{kind:?} {n} {mean}: {measured} {v}");
         }
     }
 }
@@ -268,10 +252,7 @@ fn crossing_a_cell_feeds_waves_as_documented() {
         ];
         for (found, factor) in found.iter().zip(factors) {
             // Eigenvalues there, a hundred cells here.
-            assert!(
-                (found / factor - 1.0).abs() < 0.02,
-                "{mean} {kind:?}: {found} {factor}"
-            );
+            assert!((found / factor - 1.0).abs() < 0.02, "{mean} {kind:?}: {found} {factor}");
         }
     }
 }
@@ -288,9 +269,7 @@ fn unseen_pressure_pushes<const S: usize, B: Basis<S> + 'static>() {
     let strain = 1e-6;
     let push = |kind| -> f64 {
         let (mut scene, settings) = scene::<1>(2, kind, 0.3, 0.0);
-        let Body {
-            law, mut particles, ..
-        } = scene.body;
+        let Body { law, mut particles, .. } = scene.body;
         for (id, delta_f) in particles.delta_f.iter_mut().enumerate() {
             delta_f[(0, 0)] += strain * axis.carried(&null, id).re;
         }
@@ -355,10 +334,7 @@ fn noise_grows_as_documented() {
     for (mean, speed, steps, factors) in gimp {
         for (kind, factor) in KINDS.into_iter().zip(factors) {
             let found = growth_of_noise::<3, Gimp>(kind.remedy(), mean, speed, steps);
-            assert!(
-                (found / factor - 1.0).abs() < 0.02,
-                "{mean} {speed} {kind:?}: {found} {factor}"
-            );
+            assert!((found / factor - 1.0).abs() < 0.02, "{mean} {speed} {kind:?}: {found} {factor}");
         }
     }
     for kind in KINDS {
@@ -375,28 +351,16 @@ fn a_stiffness_above_the_pressure_stills_the_noise() {
         let remedy = FbarConsistent::new(0.0).holding(times, FLUID.bulk_modulus);
         growth_of_noise::<3, Gimp>(Box::new(remedy.unwrap()), -0.01, speed, steps)
     };
-    let table = [
-        (0.25, 0.0, 300, 3.63),
-        (1.0, 0.0, 300, 1.02),
-        (10.0, 0.0, 300, 0.89),
-        (10.0, 0.1, 396, 0.84),
-    ];
+    let table = [(0.25, 0.0, 300, 3.63), (1.0, 0.0, 300, 1.02), (10.0, 0.0, 300, 0.89), (10.0, 0.1, 396, 0.84)];
     for (times, speed, steps, factor) in table {
         let found = growth(times, speed, steps);
-        assert!(
-            (found / factor - 1.0).abs() < 0.02,
-            "{times} {speed}: {found} {factor}"
-        );
+        assert!((found / factor - 1.0).abs() < 0.02, "{times} {speed}: {found} {factor}");
     }
 }
 
 /// The wave of two cells at rest under a mean stress, where no average sees its strain: what is left of its
 /// stiffness is `mean` times `geometric`.
-fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(
-    n: usize,
-    mean: f64,
-    geometric: f64,
-) {
+fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(n: usize, mean: f64, geometric: f64) {
     let axis = Bloch::<S, B>::new(n, theta(CELLS / 2));
     let (mut phi, psi) = axis.seen(0.0);
     let turn = phi[0].conj() / phi[0].norm();
@@ -427,10 +391,7 @@ fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(
         for k in 0..p.len() {
             let expected = now * axis.carried(&phi, p.id[k] as usize).re;
             let measured = p.velocity[k][0] / amplitude;
-            assert!(
-                (measured - expected).abs() < 1e-5 * now,
-                "{kind:?} {n}: {measured} {expected}"
-            );
+            assert!((measured - expected).abs() < 1e-5 * now, "{kind:?} {n}: {measured} {expected}");
         }
     }
 }

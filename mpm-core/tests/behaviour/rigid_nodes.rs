@@ -17,10 +17,7 @@ const RAMP: f64 = 6.0;
 
 /// A block six cells high and eight wide, on rollers at the sides, on a roller or fixed at the base, under
 /// `press`.
-fn pressed<const S: usize, B: Basis<S> + 'static>(
-    base: WallKind,
-    press: RigidNodes<2>,
-) -> Solver<2, S, B, NeoHookean> {
+fn pressed<const S: usize, B: Basis<S> + 'static>(base: WallKind, press: RigidNodes<2>) -> Solver<2, S, B, NeoHookean> {
     let upright = Axis::bounded(0.0, CELLS, (Side::Wall, Side::Open));
     let grid = Grid::new(H, [Axis::walls(0.0, CELLS), upright]).unwrap();
     let (scene, settings) = scene(grid, block(H, 2, [0, 0], [CELLS, 6]));
@@ -35,14 +32,7 @@ fn pressed<const S: usize, B: Basis<S> + 'static>(
 /// A press on the whole top, from half a cell below it for splines, whose functions there are not
 /// interpolatory.
 fn press(velocity: [Option<f64>; 2]) -> RigidNodes<2> {
-    RigidNodes {
-        extent: [
-            [f64::NEG_INFINITY, f64::INFINITY],
-            [HEIGHT - 0.5 * H, f64::INFINITY],
-        ],
-        velocity,
-        ramp: RAMP,
-    }
+    RigidNodes { extent: [[f64::NEG_INFINITY, f64::INFINITY], [HEIGHT - 0.5 * H, f64::INFINITY]], velocity, ramp: RAMP }
 }
 
 /// Force on the press over that of the law in uniaxial compression by the stroke, and on the base over it.
@@ -68,18 +58,12 @@ fn force_over_that_of_the_law<const S: usize, B: Basis<S> + 'static>() -> [f64; 
 /// somewhere in the last half cell.
 #[test]
 fn a_press_meets_the_force_of_the_law() {
-    for ratios in [
-        force_over_that_of_the_law::<2, Linear>(),
-        force_over_that_of_the_law::<3, Gimp>(),
-    ] {
+    for ratios in [force_over_that_of_the_law::<2, Linear>(), force_over_that_of_the_law::<3, Gimp>()] {
         assert!(ratios.iter().all(|r| (r - 1.0).abs() < 0.005), "{ratios:?}");
     }
     let ratios = force_over_that_of_the_law::<3, QuadraticBSpline>();
     let stiffest = HEIGHT / (HEIGHT - 0.5 * H);
-    assert!(
-        ratios.iter().all(|r| (1.0..stiffest).contains(r)),
-        "{ratios:?}"
-    );
+    assert!(ratios.iter().all(|r| (1.0..stiffest).contains(r)), "{ratios:?}");
 }
 
 #[test]
@@ -92,27 +76,22 @@ fn a_constraint_that_does_not_exist_has_no_force() {
 /// are free.
 #[test]
 fn a_rough_press_holds_and_a_smooth_one_lets_slide() {
-    let narrow = |across| RigidNodes {
-        extent: [[0.0, 2.0 * H], [HEIGHT, f64::INFINITY]],
-        ..press([across, Some(-SPEED)])
-    };
+    let narrow =
+        |across| RigidNodes { extent: [[0.0, 2.0 * H], [HEIGHT, f64::INFINITY]], ..press([across, Some(-SPEED)]) };
     let slipped = |across| {
         let mut solver = pressed::<3, Gimp>(WallKind::Fixed, narrow(across));
         while solver.time() < 30.0 {
             solver.step().unwrap();
         }
         let p = solver.particles();
-        let under: Vec<usize> = (0..p.len())
-            .filter(|&k| p.reference[k][1] > HEIGHT - 0.5 * H && p.reference[k][0] < 1.5 * H)
-            .collect();
+        let under: Vec<usize> =
+            (0..p.len()).filter(|&k| p.reference[k][1] > HEIGHT - 0.5 * H && p.reference[k][0] < 1.5 * H).collect();
         let most = |f: &dyn Fn(usize) -> f64| under.iter().map(|&k| f(k).abs()).fold(0.0, f64::max);
         let stroke = SPEED * (30.0 - 0.5 * RAMP);
         let down = most(&|k| p.position[k][1] - p.reference[k][1]) / stroke;
         assert!((0.9..1.05).contains(&down), "{down}");
         let beside = (0..p.len()).filter(|&k| p.reference[k][0] > 6.0 * H);
-        let sunk = beside
-            .map(|k| p.reference[k][1] - p.position[k][1])
-            .fold(0.0, f64::max);
+        let sunk = beside.map(|k| p.reference[k][1] - p.position[k][1]).fold(0.0, f64::max);
         assert!(sunk < 0.5 * stroke, "{sunk}");
         most(&|k| p.position[k][0] - p.reference[k][0]) / stroke
     };
@@ -129,9 +108,8 @@ fn the_ramp_is_followed() {
         solver.step().unwrap();
     }
     let p = solver.particles();
-    let sunk = (0..p.len())
-        .filter(|&k| p.reference[k][1] > HEIGHT - 0.4 * H)
-        .map(|k| p.reference[k][1] - p.position[k][1]);
+    let sunk =
+        (0..p.len()).filter(|&k| p.reference[k][1] > HEIGHT - 0.4 * H).map(|k| p.reference[k][1] - p.position[k][1]);
     let stroke = SPEED * (solver.time() - 0.5 * RAMP);
     for sunk in sunk {
         let share = sunk / stroke * 24.0 / 23.0;

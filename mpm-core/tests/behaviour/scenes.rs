@@ -12,12 +12,7 @@ pub(crate) fn law() -> NeoHookean {
 }
 
 /// A block of particles, `per_cell` per cell and direction, filling `[lo, hi]` cells of size `h`.
-pub(crate) fn block<const D: usize>(
-    h: f64,
-    per_cell: usize,
-    lo: [usize; D],
-    hi: [usize; D],
-) -> Particles<D> {
+pub(crate) fn block<const D: usize>(h: f64, per_cell: usize, lo: [usize; D], hi: [usize; D]) -> Particles<D> {
     let spacing = h / per_cell as f64;
     let counts: [usize; D] = std::array::from_fn(|a| (hi[a] - lo[a]) * per_cell);
     let total: usize = counts.iter().product();
@@ -31,20 +26,11 @@ pub(crate) fn block<const D: usize>(
             })
         })
         .collect();
-    Particles::new(
-        positions,
-        spacing.powi(D as i32),
-        DENSITY,
-        [0.5 * spacing; D],
-    )
-    .unwrap()
+    Particles::new(positions, spacing.powi(D as i32), DENSITY, [0.5 * spacing; D]).unwrap()
 }
 
 /// A body of these particles on `grid`, and steps of the CFL number 0.3.
-pub(crate) fn scene<const D: usize>(
-    grid: Grid<D>,
-    particles: Particles<D>,
-) -> (Scene<D, NeoHookean>, Settings<D>) {
+pub(crate) fn scene<const D: usize>(grid: Grid<D>, particles: Particles<D>) -> (Scene<D, NeoHookean>, Settings<D>) {
     let law = law();
     let dt = courant_time_step(0.3, grid.h, law.wave_speed(DENSITY));
     let body = Body::new(law, particles).unwrap();

@@ -1,8 +1,6 @@
 //! The solver as a whole: conservation, exact motions, errors.
 
-use crate::scenes::{
-    DENSITY, angular_momentum, block, law, open_grid, remedies, scene, scene_with, swirl,
-};
+use crate::scenes::{DENSITY, angular_momentum, block, law, open_grid, remedies, scene, scene_with, swirl};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::Deformation;
 use mpm_core::explicit::remedy::Standard;
@@ -12,9 +10,7 @@ use mpm_core::material::{Law, NeoHookean};
 use mpm_core::projection::Average;
 use mpm_core::simulation::Part;
 use mpm_core::stage::Load;
-use mpm_core::stage::{
-    BodyForce, Constraint, End, Gravity, KineticDamping, LocalDamping, RigidNodes, Wall, WallKind,
-};
+use mpm_core::stage::{BodyForce, Constraint, End, Gravity, KineticDamping, LocalDamping, RigidNodes, Wall, WallKind};
 use mpm_core::{Axis, Basis, Error, Fault, Grid, Memoryless, Particles, Side, Simulation};
 use std::f64::consts::PI;
 
@@ -43,19 +39,13 @@ fn conserves<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<
             let now = angular_momentum(solver.particles());
             for (p, q) in spin.iter().flatten().zip(now.iter().flatten()) {
                 // Arms of a few metres.
-                assert!(
-                    (p - q).abs() < 1e-10 * before.mass,
-                    "angular momentum {p} became {q}"
-                );
+                assert!((p - q).abs() < 1e-10 * before.mass, "angular momentum {p} became {q}");
             }
         }
         assert_eq!(before.mass, after.mass);
         // Internal forces sum to zero at every step to rounding of forces of order E h^(D−1).
         for (p, q) in before.momentum.iter().zip(after.momentum) {
-            assert!(
-                (p - q).abs() < 1e-11 * before.mass,
-                "momentum {p} became {q}"
-            );
+            assert!((p - q).abs() < 1e-11 * before.mass, "momentum {p} became {q}");
         }
     }
 }
@@ -144,10 +134,7 @@ fn a_bar_vibrates_at_its_fundamental_frequency() {
     let passage = solver.time() - dt * now / (now - before);
     // Second-order dispersion of 20 cells, (π h / 2 L)²/24 ≈ 3e-4, and the first-order half step of
     // the starting velocity, ½ Δt / (½ T) ≈ 4e-3.
-    assert!(
-        (passage / (0.5 * period) - 1.0).abs() < 6e-3,
-        "{passage} {period}"
-    );
+    assert!((passage / (0.5 * period) - 1.0).abs() < 6e-3, "{passage} {period}");
 }
 
 #[test]
@@ -163,9 +150,7 @@ fn walls_hold_what_they_say() {
         solver.step().unwrap();
         let p = solver.particles();
         // The particle in the corner cell nearest to the wall x = 0.
-        let k = (0..p.len())
-            .find(|k| p.reference[*k] == [0.125, 1.125])
-            .unwrap();
+        let k = (0..p.len()).find(|k| p.reference[*k] == [0.125, 1.125]).unwrap();
         let (x, reference) = (p.position[k], p.reference[k]);
         let moved: [f64; 2] = std::array::from_fn(|a| x[a] - reference[a]);
         (moved, solver.totals().momentum)
@@ -195,19 +180,12 @@ fn damping_takes_energy_and_says_how_much() {
         solver.advance(200).unwrap();
         let t = solver.totals();
         let lost = before - t.kinetic_energy - t.stored_energy;
-        (
-            before,
-            lost,
-            t.accumulated.damping + t.accumulated.filter_loss,
-        )
+        (before, lost, t.accumulated.damping + t.accumulated.filter_loss)
     };
     for local in [true, false] {
         let (before, lost, accounted) = run(local);
         assert!(lost > 0.3 * before, "{local}: {lost} of {before}");
-        assert!(
-            accounted > 0.0 && accounted <= 1.2 * before,
-            "{local}: {accounted} of {before}"
-        );
+        assert!(accounted > 0.0 && accounted <= 1.2 * before, "{local}: {accounted} of {before}");
     }
     assert!(LocalDamping::new(1.0).is_err());
     assert!(LocalDamping::new(f64::NAN).is_err());
@@ -289,14 +267,8 @@ fn what_constraints_take_is_known() {
     particles.velocity.fill([v, 0.0]);
     let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), particles);
     settings.remedy = Box::new(Standard);
-    let plate = RigidNodes {
-        extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2],
-        velocity: [Some(w), None],
-        ramp: 0.0,
-    };
-    let scene = scene
-        .load(Gravity(Box::new(move |_| [g, 0.0])))
-        .constrain(plate);
+    let plate = RigidNodes { extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2], velocity: [Some(w), None], ramp: 0.0 };
+    let scene = scene.load(Gravity(Box::new(move |_| [g, 0.0]))).constrain(plate);
     let dt = settings.dt;
     let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
     let mass = solver.totals().mass;
@@ -312,15 +284,10 @@ fn what_constraints_take_is_known() {
 fn fault(change: impl FnOnce(&mut Particles<2>, &mut Settings<2>)) -> (u32, Fault) {
     let (mut scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
     change(&mut scene.body.particles, &mut settings);
-    let outcome = Solver::<2, 3, Gimp, _>::new(scene, settings)
-        .and_then(|mut solver| (0..2000).try_for_each(|_| solver.step()));
+    let outcome =
+        Solver::<2, 3, Gimp, _>::new(scene, settings).and_then(|mut solver| (0..2000).try_for_each(|_| solver.step()));
     match outcome {
-        Err(Error::Breakdown {
-            particle,
-            fault,
-            time,
-            ..
-        }) => {
+        Err(Error::Breakdown { particle, fault, time, .. }) => {
             assert!(time.is_finite());
             (particle, fault)
         }
@@ -360,8 +327,7 @@ fn breakdowns_are_typed_and_name_the_particle() {
 #[test]
 fn bad_input_is_refused_with_its_range() {
     let refuse = |change: fn(&mut Particles<2>, &mut Settings<2>)| {
-        let (mut scene, mut settings) =
-            scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
+        let (mut scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
         change(&mut scene.body.particles, &mut settings);
         let error = Solver::<2, 3, Gimp, _>::new(scene, settings).err().unwrap();
         assert!(matches!(error, Error::Input { .. }), "{error}");
@@ -388,22 +354,12 @@ struct WithoutPressure {
 impl Memoryless for WithoutPressure {}
 
 impl Remedy<2> for WithoutPressure {
-    fn force_mean(
-        &mut self,
-        particles: &Particles<2>,
-        average: &mut dyn Average<2>,
-        mean: &mut Vec<f64>,
-    ) {
+    fn force_mean(&mut self, particles: &Particles<2>, average: &mut dyn Average<2>, mean: &mut Vec<f64>) {
         mean.resize(particles.len(), 0.0);
         average.average(particles, mean);
     }
 
-    fn next_j_bar(
-        &mut self,
-        particles: &Particles<2>,
-        _: &Deformation<2>,
-        _: &mut dyn Average<2>,
-    ) -> Option<&[f64]> {
+    fn next_j_bar(&mut self, particles: &Particles<2>, _: &Deformation<2>, _: &mut dyn Average<2>) -> Option<&[f64]> {
         self.next.clone_from(&particles.jacobian);
         Some(&self.next)
     }
@@ -418,18 +374,12 @@ fn a_remedy_may_change_the_stress_that_enters_the_force() {
             *v = [0.01 * (x[0] - 3.0), 0.01 * (x[1] - 3.0)];
         }
         let (mut scene, mut settings) = scene(open_grid::<2>(0.5, 12), particles);
-        scene.body.law = NeoHookean {
-            lambda: 100.0,
-            mu: 1e-9,
-        };
+        scene.body.law = NeoHookean { lambda: 100.0, mu: 1e-9 };
         settings.remedy = remedy;
         let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
         let before = solver.totals().kinetic_energy;
         solver.advance(20).unwrap();
-        (
-            solver.totals().kinetic_energy / before,
-            solver.work().projections,
-        )
+        (solver.totals().kinetic_energy / before, solver.work().projections)
     };
     let (decelerated, none) = run(Box::new(Standard));
     let (free, projections) = run(Box::<WithoutPressure>::default());

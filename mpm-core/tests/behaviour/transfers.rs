@@ -14,11 +14,8 @@ use std::f64::consts::PI;
 fn xpic_falls_as_galileo_says() {
     // Its positions are second order: x_n = x_0 + ½ g (n Δt)², exactly.
     let particles = block(0.5, 2, [4, 5], [8, 9]);
-    let (mut scene, settings) =
-        scene_with(open_grid::<2>(0.5, 12), particles, Xpic::new(2).unwrap());
-    scene
-        .loads
-        .push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
+    let (mut scene, settings) = scene_with(open_grid::<2>(0.5, 12), particles, Xpic::new(2).unwrap());
+    scene.loads.push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
     let time = 100.0 * settings.dt;
     let mut solver = Solver::<2, 3, Gimp, _, Xpic>::new(scene, settings).unwrap();
     solver.advance(100).unwrap();
@@ -62,14 +59,7 @@ fn a_turning_block_keeps_its_angular_momentum_with_apic_alone() {
         turn(Flip::new(0.0).unwrap()),
     ];
     // As documented in `docs/method.md`, rounded there.
-    let documented = [
-        [0.949, 0.961],
-        [0.956, 0.951],
-        [0.909, 1.0],
-        [0.278, 0.528],
-        [0.077, 0.278],
-        [0.0, 0.0],
-    ];
+    let documented = [[0.949, 0.961], [0.956, 0.951], [0.909, 1.0], [0.278, 0.528], [0.077, 0.278], [0.0, 0.0]];
     for (m, d) in measured.iter().flatten().zip(documented.iter().flatten()) {
         assert!((m - d).abs() < 1e-3, "{measured:?}");
     }
@@ -89,9 +79,7 @@ fn kinetic_damping_stops_the_affine_motion_too() {
 
 /// Share of the energy, kinetic and stored, that a free block of 16 by 16 cells has after 100 steps:
 /// moving smoothly (a wave as long as twice the block), and with a random velocity at each particle.
-fn energy_left<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone>(
-    transfer: &T,
-) -> [f64; 2] {
+fn energy_left<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone>(transfer: &T) -> [f64; 2] {
     [false, true].map(|noisy| {
         let mut particles = block(0.25, 2, [4, 4], [20, 20]);
         let mut state = 1_u32;
@@ -158,17 +146,12 @@ fn check_energy_left<const S: usize, B: Basis<S> + 'static>(documented: [[f64; 2
 /// by how much its ΔF differs from one after a step.
 fn strain_of_a_lone_particle<T: Transfer<1>>(share: f64, transfer: T) -> f64 {
     let (h, law) = (0.5, NeoHookean::new(100.0, 0.3).unwrap());
-    let mut places: Vec<[f64; 1]> = (0..8)
-        .map(|k| [1.0 + 0.25 * h + 0.5 * h * f64::from(k)])
-        .collect();
+    let mut places: Vec<[f64; 1]> = (0..8).map(|k| [1.0 + 0.25 * h + 0.5 * h * f64::from(k)]).collect();
     places.push([1.0 + 4.0 * h + share * h]);
     let particles = Particles::new(places, 0.5 * h, 2.0, [0.25 * h]).unwrap();
     let squeezed = particles.deformed(|x| (*x, nalgebra::Matrix1::new(0.999)));
     let dt = courant_time_step(0.3, h, law.wave_speed(2.0));
-    let scene = Scene::new(
-        Grid::new(h, [Axis::open(0.0, 10)]).unwrap(),
-        Body::new(law, squeezed).unwrap(),
-    );
+    let scene = Scene::new(Grid::new(h, [Axis::open(0.0, 10)]).unwrap(), Body::new(law, squeezed).unwrap());
     let settings = Settings::new(dt).transfer(transfer);
     let mut solver = Solver::<1, 2, Linear, _, T>::new(scene, settings).unwrap();
     let outermost = |solver: &Solver<1, 2, Linear, _, T>| {
@@ -235,8 +218,7 @@ fn musl_takes_no_energy_from_a_wave_where_usl_does() {
         let lambda = 1.0 - (1.0 / 3.0 + 1.0 / 24.0) * (1.0 - f64::cos(k));
         let [trace, determinant] = swing(waves, Flip::default());
         let q = 2.0 - trace;
-        let near =
-            |found: f64, exact: f64| assert!((found - exact).abs() < 1e-5, "{found} {exact}");
+        let near = |found: f64, exact: f64| assert!((found - exact).abs() < 1e-5, "{found} {exact}");
         near(determinant, 1.0 - q * (1.0 - lambda));
         let [trace, determinant] = swing(waves, Musl::default());
         near(trace, 2.0 - lambda * q);

@@ -22,11 +22,7 @@ fn block(gap: usize, velocity: [f64; 2]) -> Particles<2> {
     particles
 }
 
-fn scene<T>(
-    particles: Particles<2>,
-    kind: WallKind,
-    transfer: T,
-) -> (Scene<2, NeoHookean>, Settings<2, T>) {
+fn scene<T>(particles: Particles<2>, kind: WallKind, transfer: T) -> (Scene<2, NeoHookean>, Settings<2, T>) {
     let grid = Grid::new(H, [Axis::walls(0.0, 10), Axis::walls(0.0, 4)]).unwrap();
     let walls = WALLS.map(|(axis, end)| Wall::new(axis, end, kind));
     let (scene, settings) = scenes::scene_with(grid, particles, transfer);
@@ -55,9 +51,7 @@ fn run<const S: usize, B: Basis<S>, T: Transfer<2>>(
         solver.step().unwrap();
         let now = solver.totals();
         for axis in 0..2 {
-            let given: f64 = (0..WALLS.len())
-                .map(|w| solver.on(Part::Constraint(w)).impulse[axis])
-                .sum();
+            let given: f64 = (0..WALLS.len()).map(|w| solver.on(Part::Constraint(w)).impulse[axis]).sum();
             let lost = now.momentum[axis] + given - start.momentum[axis];
             assert!(lost.abs() < 1e-12 * size, "{kind:?}: {lost}");
         }
@@ -139,25 +133,17 @@ fn a_body_of_other_particles_is_refused() {
     let mut solver = started::<3, Gimp, _>(with(block(0, [0.0; 2])));
     let before = solver.body().unwrap();
     let error = solver.take_over(&few.body().unwrap()).unwrap_err();
-    assert!(
-        error.to_string().contains("60 in the saved state, 64"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("60 in the saved state, 64"), "{error}");
     assert_eq!(solver.body().unwrap(), before);
 }
 
 /// A grain that hardly resists at `x` (cells from the left wall), which an `acceleration` (m/s²) pushes at the wall.
-fn grain<B: Basis<3>>(
-    x: f64,
-    acceleration: f64,
-) -> Result<Solver<2, 3, B, NeoHookean, Flip>, Error> {
+fn grain<B: Basis<3>>(x: f64, acceleration: f64) -> Result<Solver<2, 3, B, NeoHookean, Flip>, Error> {
     let place = vec![[x * H, 2.0 * H]];
     let particle = Particles::new(place, H * H / 4.0, DENSITY, [0.25 * H; 2]).unwrap();
     let (mut scene, settings) = scene(particle, WallKind::Separable, Flip::default());
     scene.body.law = NeoHookean::new(1e-6, 0.0).unwrap();
-    let pushed = scene.load(BodyForce(Box::new(move |_: &[f64; 2], _| {
-        [-acceleration, 0.0]
-    })));
+    let pushed = scene.load(BodyForce(Box::new(move |_: &[f64; 2], _| [-acceleration, 0.0])));
     Solver::new(pushed, settings)
 }
 

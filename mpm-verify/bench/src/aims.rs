@@ -16,12 +16,7 @@ pub struct Aim {
 }
 
 /// Workloads by name and dimension.
-const WORKLOADS: [(&str, usize, bool); 4] = [
-    ("W2", 2, false),
-    ("W2F", 2, true),
-    ("W3", 3, false),
-    ("W3F", 3, true),
-];
+const WORKLOADS: [(&str, usize, bool); 4] = [("W2", 2, false), ("W2F", 2, true), ("W3", 3, false), ("W3F", 3, true)];
 /// How many times as fast as tuned Taichi, in two and in three dimensions. That as tutorials write it stands beside it,
 /// without an aim: it waits for atomic additions, which depend on the processor.
 const OVER_TUNED: [f64; 2] = [2.0, 2.8];
@@ -39,21 +34,11 @@ const LAW: f64 = 30.0;
 const ITERATION: f64 = 1.0;
 
 fn at_least(what: String, limit: f64, measured: Spread) -> Aim {
-    Aim {
-        what,
-        wanted: format!("at least {limit}"),
-        met: measured.median >= limit,
-        measured,
-    }
+    Aim { what, wanted: format!("at least {limit}"), met: measured.median >= limit, measured }
 }
 
 fn at_most(what: String, limit: f64, unit: &str, measured: Spread) -> Aim {
-    Aim {
-        what,
-        wanted: format!("at most {limit}{unit}"),
-        met: measured.median <= limit,
-        measured,
-    }
+    Aim { what, wanted: format!("at most {limit}{unit}"), met: measured.median <= limit, measured }
 }
 
 /// All that could be measured, in order.
@@ -109,16 +94,9 @@ fn threads(bench: &Measurements, aims: &mut Vec<Aim>) {
 fn small(bench: &Measurements, aims: &mut Vec<Aim>) {
     let small = bench.of_group("problem").filter(|m| m.particles <= SMALL);
     for more in small.filter(|m| m.threads > 1) {
-        let Measured {
-            name,
-            threads,
-            particles,
-            ..
-        } = more;
+        let Measured { name, threads, particles, .. } = more;
         if let Some(one) = bench.find("problem", name, 1) {
-            let what = format!(
-                "3. {name}, {particles} particles: times as fast on {threads} threads as on one"
-            );
+            let what = format!("3. {name}, {particles} particles: times as fast on {threads} threads as on one");
             aims.extend(over_one(what, SMALL_ON_THREADS, one, more));
         }
     }
@@ -136,10 +114,7 @@ fn over_one(what: String, limit: f64, one: &Measured, more: &Measured) -> Option
 /// Greatest over least cost of a particle's step over the numbers of particles.
 fn scaling(bench: &Measurements, aims: &mut Vec<Aim>) {
     for (name, ..) in WORKLOADS {
-        let sizes: Vec<&Measured> = bench
-            .of_group("scaling")
-            .filter(|m| m.name == name)
-            .collect();
+        let sizes: Vec<&Measured> = bench.of_group("scaling").filter(|m| m.name == name).collect();
         let rounds = sizes.iter().map(|m| m.samples.len()).min().unwrap_or(0);
         let of_round = |k: usize| {
             let cost = |m: &&Measured| m.samples[k].cpu_s / m.samples[k].updates as f64;
@@ -155,10 +130,7 @@ fn scaling(bench: &Measurements, aims: &mut Vec<Aim>) {
 
 fn memory(bench: &Measurements, aims: &mut Vec<Aim>) {
     for (name, dimension, fbar) in WORKLOADS {
-        let largest = bench
-            .of_group("scaling")
-            .filter(|m| m.name == name)
-            .max_by_key(|m| m.particles);
+        let largest = bench.of_group("scaling").filter(|m| m.name == name).max_by_key(|m| m.particles);
         let Some((measured, bytes)) = largest.and_then(|m| Some((m, m.memory?))) else {
             continue;
         };

@@ -30,12 +30,7 @@ impl<M: Law, const D: usize> Going for Updates<M, D> {
 }
 
 /// A law in two and in three dimensions under small shear.
-fn of<M: Law + Copy + 'static>(
-    name: &str,
-    law: M,
-    shear: f64,
-    turns: &mut Vec<Turn>,
-) -> Result<(), Error> {
+fn of<M: Law + Copy + 'static>(name: &str, law: M, shear: f64, turns: &mut Vec<Turn>) -> Result<(), Error> {
     turns.push(turn::<M, 2>(name, law, shear)?);
     turns.push(turn::<M, 3>(name, law, shear)?);
     Ok(())
@@ -65,12 +60,7 @@ fn turn<M: Law + 'static, const D: usize>(name: &str, law: M, shear: f64) -> Res
 /// The laws of Cook's membrane, the footing, the slide and the dam break.
 pub(super) fn turns() -> Result<Vec<Turn>, Error> {
     let mut turns = Vec::new();
-    of(
-        "neo-Hookean",
-        NeoHookean::new(1e5, 0.4999)?,
-        1e-6,
-        &mut turns,
-    )?;
+    of("neo-Hookean", NeoHookean::new(1e5, 0.4999)?, 1e-6, &mut turns)?;
     let yields = HenckyJ2::new(1e6, 0.49, Strength::undrained(100.0)?)?;
     of("Hencky–J2, perfect", yields, 1e-5, &mut turns)?;
     let softens = HenckyJ2::new(25e6, 0.49, Strength::softening(40.82e3, 2.45e3, 5.0)?)?;

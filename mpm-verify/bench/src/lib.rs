@@ -47,29 +47,19 @@ type Group = fn(&Options, Begin) -> Result<Vec<Turn>, Error>;
 ///
 /// # Errors
 /// A scene breaks down, or a peer can't be started.
-pub fn measure(
-    options: &Options,
-    begin: Begin,
-    progress: &dyn Fn(f64),
-) -> Result<Measurements, Error> {
+pub fn measure(options: &Options, begin: Begin, progress: &dyn Fn(f64)) -> Result<Measurements, Error> {
     // Groups whose ratios matter take turns; one after the other, so that what waits doesn't fill the memory.
     let groups: [&[Group]; 5] = [
         &[|options, _| together(options)],
         &[|options, begin| problems::turns(&options.threads, begin)],
         &[|_, begin| newton::turns(begin)],
         &[|_, _| laws::turns()],
-        &[
-            |_, _| workload::scaling::<2>(),
-            |_, _| workload::scaling::<3>(),
-        ],
+        &[|_, _| workload::scaling::<2>(), |_, _| workload::scaling::<3>()],
     ];
     let only = &options.only;
     let wanted = |name: &str| only.is_empty() || only.iter().any(|o| o == name);
     let named = GROUPS.into_iter().zip(groups);
-    let groups: Vec<&Group> = named
-        .filter(|(name, _)| wanted(name))
-        .flat_map(|(_, groups)| groups)
-        .collect();
+    let groups: Vec<&Group> = named.filter(|(name, _)| wanted(name)).flat_map(|(_, groups)| groups).collect();
     let count = groups.len() as f64;
     let mut measured = Vec::new();
     for (k, group) in groups.iter().enumerate() {

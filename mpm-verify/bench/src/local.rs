@@ -24,10 +24,7 @@ pub(crate) struct Local<G> {
 
 impl<G: Going> Local<G> {
     /// `begin` on a number of threads.
-    pub(crate) fn new(
-        threads: usize,
-        begin: impl FnOnce() -> Result<G, Error> + Send,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(threads: usize, begin: impl FnOnce() -> Result<G, Error> + Send) -> Result<Self, Error> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|e| format!("{threads} threads can't be started: {e}"))?;
         let going = pool.install(begin)?;
@@ -80,10 +77,7 @@ impl<const D: usize> Going for Steps<D> {
     }
 
     fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
-        Ok(Some(Outcome {
-            bits: Some(checksum(self.simulation.as_ref())?),
-            sums: sums(self.simulation.as_ref()),
-        }))
+        Ok(Some(Outcome { bits: Some(checksum(self.simulation.as_ref())?), sums: sums(self.simulation.as_ref()) }))
     }
 }
 
@@ -105,15 +99,8 @@ fn sums<const D: usize>(simulation: &dyn Simulation<D>) -> BTreeMap<String, f64>
         ("mean_averaged_jacobian", averaged),
     ];
     let of_body = sums.map(|(name, value)| (name.to_owned(), value));
-    let of_axes = ["x", "y", "z"]
-        .iter()
-        .enumerate()
-        .take(D)
-        .flat_map(|(a, axis)| {
-            [
-                (format!("momentum_{axis}"), totals.momentum[a]),
-                (format!("centre_{axis}"), centre(a)),
-            ]
-        });
+    let of_axes = ["x", "y", "z"].iter().enumerate().take(D).flat_map(|(a, axis)| {
+        [(format!("momentum_{axis}"), totals.momentum[a]), (format!("centre_{axis}"), centre(a))]
+    });
     of_body.into_iter().chain(of_axes).collect()
 }

@@ -21,14 +21,11 @@ struct Triad {
 impl Going for Triad {
     fn go_on(&mut self) -> Result<u64, Error> {
         let (b, c) = (self.b.par_chunks(PART), self.c.par_chunks(PART));
-        self.a
-            .par_chunks_mut(PART)
-            .zip(b.zip(c))
-            .for_each(|(a, (b, c))| {
-                for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-                    *a = b + 3.0 * c;
-                }
-            });
+        self.a.par_chunks_mut(PART).zip(b.zip(c)).for_each(|(a, (b, c))| {
+            for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
+                *a = b + 3.0 * c;
+            }
+        });
         Ok(BYTES * LENGTH as u64)
     }
 }
@@ -36,13 +33,8 @@ impl Going for Triad {
 /// The triad on each number of threads.
 pub(super) fn turns(threads: &[usize]) -> Result<Vec<Turn>, Error> {
     let turn = |&threads: &usize| {
-        let triad = Local::new(threads, || {
-            Ok(Triad {
-                a: vec![0.0; LENGTH],
-                b: vec![1.0; LENGTH],
-                c: vec![2.0; LENGTH],
-            })
-        })?;
+        let triad =
+            Local::new(threads, || Ok(Triad { a: vec![0.0; LENGTH], b: vec![1.0; LENGTH], c: vec![2.0; LENGTH] }))?;
         Ok(Turn {
             group: "memory",
             name: "triad".to_owned(),

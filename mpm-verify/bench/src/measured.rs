@@ -54,11 +54,7 @@ impl Spread {
         values.sort_by(f64::total_cmp);
         let (first, last) = (*values.first()?, *values.last()?);
         let n = values.len();
-        Some(Self {
-            least: first,
-            median: 0.5 * (values[(n - 1) / 2] + values[n / 2]),
-            greatest: last,
-        })
+        Some(Self { least: first, median: 0.5 * (values[(n - 1) / 2] + values[n / 2]), greatest: last })
     }
 }
 
@@ -66,21 +62,13 @@ impl Measured {
     /// Processor time per update (ns).
     #[must_use]
     pub fn cpu_ns(&self) -> Option<Spread> {
-        Spread::of(
-            self.samples
-                .iter()
-                .map(|s| 1e9 * s.cpu_s / s.updates as f64),
-        )
+        Spread::of(self.samples.iter().map(|s| 1e9 * s.cpu_s / s.updates as f64))
     }
 
     /// Wall time per update (ns).
     #[must_use]
     pub fn wall_ns(&self) -> Option<Spread> {
-        Spread::of(
-            self.samples
-                .iter()
-                .map(|s| 1e9 * s.wall_s / s.updates as f64),
-        )
+        Spread::of(self.samples.iter().map(|s| 1e9 * s.wall_s / s.updates as f64))
     }
 }
 

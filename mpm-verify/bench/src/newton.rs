@@ -72,11 +72,7 @@ impl Timed for Part {
     fn slice(&mut self) -> Result<Sample, Error> {
         let told = self.told.lock().map(|told| *told).unwrap_or_default();
         let seconds = (self.of)(&told.0);
-        Ok(Sample {
-            updates: told.1,
-            wall_s: seconds,
-            cpu_s: seconds,
-        })
+        Ok(Sample { updates: told.1, wall_s: seconds, cpu_s: seconds })
     }
 }
 
@@ -91,22 +87,11 @@ impl Steps {
 /// All that is measured.
 #[must_use]
 pub fn all() -> Vec<Steps> {
-    let cook = |scheme| Steps {
-        case: "cook",
-        level: "h0.5",
-        scheme,
-    };
+    let cook = |scheme| Steps { case: "cook", level: "h0.5", scheme };
     let remedies = [RemedyName::None, RemedyName::FbarConsistent];
     let of = |basis| remedies.map(|remedy| cook(Scheme::quasi_static(basis, remedy)));
-    let mut all: Vec<Steps> = [BasisName::Gimp, BasisName::Bspline2]
-        .into_iter()
-        .flat_map(of)
-        .collect();
-    all.push(Steps {
-        case: "strip",
-        level: "b8",
-        scheme: Scheme::poro(BasisName::Gimp, SpaceName::TwoGrid),
-    });
+    let mut all: Vec<Steps> = [BasisName::Gimp, BasisName::Bspline2].into_iter().flat_map(of).collect();
+    all.push(Steps { case: "strip", level: "b8", scheme: Scheme::poro(BasisName::Gimp, SpaceName::TwoGrid) });
     all
 }
 
@@ -118,22 +103,11 @@ pub(crate) fn turns(begin: Begin) -> Result<Vec<Turn>, Error> {
         let (case, level, scheme) = (steps.case, steps.level, steps.scheme);
         let local = Local::new(1, || {
             let again = move || begin(case, level, scheme);
-            Ok(LoadSteps {
-                run: again()?,
-                begin: again,
-                told: told.clone(),
-            })
+            Ok(LoadSteps { run: again()?, begin: again, told: told.clone() })
         })?;
         let particles = local.going().run.particles();
         let mut add = |part: &str, timed: Box<dyn Timed>| {
-            turns.push(Turn {
-                group: "newton",
-                name: steps.name(part),
-                threads: 1,
-                particles,
-                timed,
-                like: None,
-            });
+            turns.push(Turn { group: "newton", name: steps.name(part), threads: 1, particles, timed, like: None });
         };
         add(WHOLE, Box::new(local));
         for (part, of) in PARTS {

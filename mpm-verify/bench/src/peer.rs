@@ -62,12 +62,7 @@ impl Peers {
         Ok(())
     }
 
-    fn turns_of<const D: usize>(
-        &self,
-        block: Block<D>,
-        threads: &[usize],
-        turns: &mut Vec<Turn>,
-    ) -> Result<(), Error> {
+    fn turns_of<const D: usize>(&self, block: Block<D>, threads: &[usize], turns: &mut Vec<Turn>) -> Result<(), Error> {
         let like = turns.iter().position(|t| t.name == block.name());
         for way in ["tuned", "idiomatic"] {
             for &threads in threads {
@@ -86,13 +81,7 @@ impl Peers {
         Ok(())
     }
 
-    fn start<const D: usize>(
-        &self,
-        name: &str,
-        block: Block<D>,
-        tuned: bool,
-        threads: usize,
-    ) -> Result<Peer, Error> {
+    fn start<const D: usize>(&self, name: &str, block: Block<D>, tuned: bool, threads: usize) -> Result<Peer, Error> {
         require_file(&self.script)?;
         let failed = |e: std::io::Error| {
             format!(
@@ -163,11 +152,7 @@ impl Peer {
 impl Timed for Peer {
     fn slice(&mut self) -> Result<Sample, Error> {
         let Took { wall_s, cpu_s } = self.ask(&format!("steps {STEPS}"))?;
-        Ok(Sample {
-            updates: STEPS * self.particles,
-            wall_s,
-            cpu_s,
-        })
+        Ok(Sample { updates: STEPS * self.particles, wall_s, cpu_s })
     }
 
     fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
@@ -191,10 +176,7 @@ mod tests {
     fn peers(folder: &Path, script: &str) -> Peers {
         let file = folder.join("peer.sh");
         std::fs::write(&file, script).unwrap();
-        Peers {
-            python: PathBuf::from("sh"),
-            script: file,
-        }
+        Peers { python: PathBuf::from("sh"), script: file }
     }
 
     fn start(peers: &Peers) -> Result<Peer, Error> {
@@ -228,10 +210,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let error = |peers: &Peers| start(peers).err().unwrap().to_string();
         let ends = error(&peers(folder.path(), "exit 1"));
-        assert!(
-            ends.contains("a peer: it ended before it answered"),
-            "{ends}"
-        );
+        assert!(ends.contains("a peer: it ended before it answered"), "{ends}");
         let mut none = peers(folder.path(), "");
         none.python = folder.path().join("no-python");
         assert!(error(&none).contains("requirements.txt"));

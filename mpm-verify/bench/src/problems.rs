@@ -7,12 +7,8 @@ use mpm_solvers::scheme::{BasisName, RemedyName, Scheme};
 
 /// Case, level and observations of a slice: of the cheapest scheme a third of a second on two threads, so that noise
 /// averages out, and no run ends within the usual rounds.
-const PROBLEMS: [(&str, &str, usize); 4] = [
-    ("cook", "h0.5", 4),
-    ("footing", "b10", 45),
-    ("dam-break", "h0.25", 12),
-    ("landslide", "slice-h0.4", 4),
-];
+const PROBLEMS: [(&str, &str, usize); 4] =
+    [("cook", "h0.5", 4), ("footing", "b10", 45), ("dam-break", "h0.25", 12), ("landslide", "slice-h0.4", 4)];
 
 /// A run of a case; a slice is a number of times of observation.
 struct Observations {
@@ -36,10 +32,7 @@ impl Going for Observations {
     }
 
     fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
-        Ok(Some(Outcome {
-            bits: Some(checksum(self.run.memory())?),
-            ..Outcome::default()
-        }))
+        Ok(Some(Outcome { bits: Some(checksum(self.run.memory())?), ..Outcome::default() }))
     }
 }
 
@@ -48,11 +41,7 @@ pub(super) fn turns(threads: &[usize], begin: Begin) -> Result<Vec<Turn>, Error>
     let mut turns = Vec::new();
     for (case, level, observations) in PROBLEMS {
         for basis in [BasisName::Gimp, BasisName::Bspline2] {
-            for remedy in [
-                RemedyName::None,
-                RemedyName::FbarRecursive,
-                RemedyName::FbarConsistent,
-            ] {
+            for remedy in [RemedyName::None, RemedyName::FbarRecursive, RemedyName::FbarConsistent] {
                 let scheme = Scheme::flip(basis, remedy);
                 let name = format!("{case} {level} {scheme}");
                 on_threads(threads, &mut turns, |threads| {

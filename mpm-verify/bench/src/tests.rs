@@ -10,11 +10,7 @@ struct Slow(f64);
 impl Timed for Slow {
     fn slice(&mut self) -> Result<Sample, Error> {
         self.0 += 1e-3;
-        Ok(Sample {
-            updates: 1000,
-            wall_s: self.0,
-            cpu_s: 2.0 * self.0,
-        })
+        Ok(Sample { updates: 1000, wall_s: self.0, cpu_s: 2.0 * self.0 })
     }
 
     fn outcome(&mut self) -> Result<Option<Outcome>, Error> {
@@ -23,21 +19,11 @@ impl Timed for Slow {
 }
 
 fn sums(mass: f64) -> Outcome {
-    Outcome {
-        bits: None,
-        sums: [("mass".to_owned(), mass)].into(),
-    }
+    Outcome { bits: None, sums: [("mass".to_owned(), mass)].into() }
 }
 
 fn turn(begin: f64, like: Option<usize>) -> Turn {
-    Turn {
-        group: "workload",
-        name: "slow".to_owned(),
-        threads: 1,
-        particles: 10,
-        timed: Box::new(Slow(begin)),
-        like,
-    }
+    Turn { group: "workload", name: "slow".to_owned(), threads: 1, particles: 10, timed: Box::new(Slow(begin)), like }
 }
 
 #[test]
@@ -55,10 +41,7 @@ fn the_first_slice_is_not_measured_and_outcomes_are_compared() {
 
 #[test]
 fn bits_are_compared_to_the_last_and_sums_to_nine_digits() {
-    let bits = |bits| Outcome {
-        bits: Some(bits),
-        ..sums(1.0)
-    };
+    let bits = |bits| Outcome { bits: Some(bits), ..sums(1.0) };
     assert!(bits(1).is(&bits(1)) && !bits(1).is(&bits(2)));
     assert!(bits(1).is(&sums(1.0 + 1e-10)) && !bits(1).is(&sums(1.0 + 1e-8)));
     assert!(!sums(1.0).is(&Outcome::default()));
@@ -96,20 +79,11 @@ fn a_small_problem_must_lose_nothing_to_threads() {
 
 #[test]
 fn assembly_factors_and_solution_of_an_iteration_are_added_up() {
-    let parts = [
-        "iteration",
-        "forces",
-        "assembly",
-        "factorisation",
-        "solution",
-    ];
+    let parts = ["iteration", "forces", "assembly", "factorisation", "solution"];
     let all = newton::all();
     let steps = all.first().unwrap();
-    let part = |(k, part): (usize, &&str)| Turn {
-        group: "newton",
-        name: steps.name(part),
-        ..turn(0.05 * k as f64, None)
-    };
+    let part =
+        |(k, part): (usize, &&str)| Turn { group: "newton", name: steps.name(part), ..turn(0.05 * k as f64, None) };
     let turns = parts.iter().enumerate().map(part).collect();
     let mut bench = Measurements(take_turns(turns, 1, &|_| ()).unwrap());
     for m in &mut bench.0 {
@@ -133,17 +107,12 @@ fn two_threads_come_to_the_same_bits_and_the_aims_are_told() {
     let mut bench = Measurements(take_turns(turns, 1, &|_| ()).unwrap());
     assert!(bench.0.iter().all(|m| m.same != Some(false)));
     let told: Vec<String> = aims::of(&bench).into_iter().map(|a| a.what).collect();
-    assert!(
-        told.iter().any(|w| w.starts_with("2. W2F over W2")),
-        "{told:?}"
-    );
+    assert!(told.iter().any(|w| w.starts_with("2. W2F over W2")), "{told:?}");
     assert!(told.iter().any(|w| w.ends_with("same bits")), "{told:?}");
     // Bits that differ are told, and the aim is missed however fast it was.
     for m in &mut bench.0 {
         m.same = m.same.map(|_| false);
     }
-    let threads = aims::of(&bench)
-        .into_iter()
-        .find(|a| a.what.starts_with('3'));
+    let threads = aims::of(&bench).into_iter().find(|a| a.what.starts_with('3'));
     assert!(threads.is_some_and(|a| !a.met && a.what.ends_with("OTHER BITS")));
 }

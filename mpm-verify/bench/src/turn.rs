@@ -57,11 +57,7 @@ pub(crate) fn on_threads(
 }
 
 /// Rounds of slices, after one that isn't measured.
-pub(crate) fn take_turns(
-    mut turns: Vec<Turn>,
-    rounds: usize,
-    progress: &dyn Fn(f64),
-) -> Result<Vec<Measured>, Error> {
+pub(crate) fn take_turns(mut turns: Vec<Turn>, rounds: usize, progress: &dyn Fn(f64)) -> Result<Vec<Measured>, Error> {
     let mut samples = vec![Vec::with_capacity(rounds); turns.len()];
     for round in 0..=rounds {
         for (turn, samples) in turns.iter_mut().zip(&mut samples) {
@@ -108,11 +104,7 @@ impl Outcome {
         }
         let close = |a: f64, b: f64| (a - b).abs() <= SAME_SUMS * a.abs().max(b.abs());
         self.sums.keys().eq(other.sums.keys())
-            && self
-                .sums
-                .values()
-                .zip(other.sums.values())
-                .all(|(a, b)| close(*a, *b))
+            && self.sums.values().zip(other.sums.values()).all(|(a, b)| close(*a, *b))
     }
 }
 
@@ -120,9 +112,5 @@ impl Outcome {
 pub(crate) fn timed(work: impl FnOnce() -> Result<u64, Error>) -> Result<Sample, Error> {
     let (wall, cpu) = (Instant::now(), cpu_time::ProcessTime::now());
     let updates = work()?;
-    Ok(Sample {
-        updates,
-        wall_s: wall.elapsed().as_secs_f64(),
-        cpu_s: cpu.elapsed().as_secs_f64(),
-    })
+    Ok(Sample { updates, wall_s: wall.elapsed().as_secs_f64(), cpu_s: cpu.elapsed().as_secs_f64() })
 }

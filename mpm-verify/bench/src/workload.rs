@@ -56,9 +56,7 @@ where
     fn positions(&self) -> Vec<[f64; D]> {
         let n = 2 * self.cells;
         let place = |k: usize| (MARGIN as f64 + (k as f64 + 0.5) / 2.0) * H;
-        (0..n.pow(D as u32))
-            .map(|k| std::array::from_fn(|a| place(k / n.pow((D - 1 - a) as u32) % n)))
-            .collect()
+        (0..n.pow(D as u32)).map(|k| std::array::from_fn(|a| place(k / n.pow((D - 1 - a) as u32) % n))).collect()
     }
 
     fn simulation(&self) -> Result<Box<dyn Simulation<D>>, Error> {
@@ -86,14 +84,7 @@ where
             let simulation = self.simulation()?;
             Ok(Steps { simulation, steps })
         })?;
-        Ok(Turn {
-            group,
-            name: self.name(),
-            threads,
-            particles: self.particles(),
-            timed: Box::new(local),
-            like: None,
-        })
+        Ok(Turn { group, name: self.name(), threads, particles: self.particles(), timed: Box::new(local), like: None })
     }
 
     /// The block on each number of threads.
@@ -135,9 +126,7 @@ where
         2 => [50, 89, 158, 281, 500, 889],
         _ => [11, 16, 23, 34, 50, 73],
     };
-    let blocks = cells
-        .into_iter()
-        .flat_map(|cells| [false, true].map(|fbar| Block::<D> { cells, fbar }));
+    let blocks = cells.into_iter().flat_map(|cells| [false, true].map(|fbar| Block::<D> { cells, fbar }));
     blocks
         .map(|block| {
             let steps = UPDATES.div_ceil(block.particles());
@@ -165,10 +154,7 @@ mod tests {
 
     #[test]
     fn sums_are_told_along_every_axis() {
-        let block = Block::<3> {
-            cells: 2,
-            fbar: false,
-        };
+        let block = Block::<3> { cells: 2, fbar: false };
         let mut turn = block.turn("workload", STEPS, 1).unwrap();
         let sums = turn.timed.outcome().unwrap().unwrap().sums;
         let speeds = block.positions().into_iter().map(|x| velocity(&x)[2]);

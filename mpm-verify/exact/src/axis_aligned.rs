@@ -82,13 +82,7 @@ impl AxisAligned {
 
     /// A vector of one expression per axis of the motion.
     fn each(&self, expression: impl Fn(usize) -> f64) -> Vector3<f64> {
-        Vector3::from_fn(|i, _| {
-            if i < self.dimension {
-                expression(i)
-            } else {
-                0.0
-            }
-        })
+        Vector3::from_fn(|i, _| if i < self.dimension { expression(i) } else { 0.0 })
     }
 }
 
@@ -130,8 +124,7 @@ impl Exact for AxisAligned {
         let ln_j = self.jacobian(x, t).ln();
         self.each(|i| {
             let tangent = self.material.axial_tangent(self.stretch(i, x, t), ln_j);
-            -a * w * w * (k * x[i]).sin() * (w * t + phase(i)).sin()
-                + k * k * u[i] / self.material.density * tangent
+            -a * w * w * (k * x[i]).sin() * (w * t + phase(i)).sin() + k * k * u[i] / self.material.density * tangent
         })
     }
 }
@@ -144,10 +137,7 @@ mod tests {
     #[test]
     fn it_solves_the_equations_between_rollers_in_every_dimension() {
         for d in ["1", "2", "3"] {
-            let s = check::solution(
-                &ENTRY,
-                &[&format!("dimension={d}"), "half_waves=3", "amplitude=0.03"],
-            );
+            let s = check::solution(&ENTRY, &[&format!("dimension={d}"), "half_waves=3", "amplitude=0.03"]);
             check::solves_as_neo_hookean(s.as_ref(), 0.02, |_| true);
             check::between_rollers(s.as_ref(), 0.02);
         }
@@ -166,10 +156,7 @@ mod tests {
                 .fold(f64::INFINITY, f64::min);
             assert!(least > 0.0 && least < 0.02, "{least}");
             let text = built(limit * (1.0 + 1e-9)).unwrap_err().to_string();
-            assert!(
-                text.contains("amplitude") && text.contains("below"),
-                "{text}"
-            );
+            assert!(text.contains("amplitude") && text.contains("below"), "{text}");
         }
     }
 }

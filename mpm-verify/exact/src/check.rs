@@ -17,8 +17,7 @@ where
     T: Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
 {
     let pair = |n: f64| value(n * step) - value(-n * step);
-    (pair(1.0) * (4.0 / 5.0) - pair(2.0) * (1.0 / 5.0) + pair(3.0) * (4.0 / 105.0)
-        - pair(4.0) * (1.0 / 280.0))
+    (pair(1.0) * (4.0 / 5.0) - pair(2.0) * (1.0 / 5.0) + pair(3.0) * (4.0 / 105.0) - pair(4.0) * (1.0 / 280.0))
         * (1.0 / step)
 }
 
@@ -40,11 +39,7 @@ fn samples(s: &dyn Exact, period: f64) -> impl Iterator<Item = (Vector3<f64>, f6
     (0..60).map(move |n| {
         let fraction = |i: usize| (0.37 + f64::from(n) * STRIDES[i]).fract();
         let x = Vector3::from_fn(|i, _| {
-            if i < dimension {
-                extent[i][0] + fraction(i) * (extent[i][1] - extent[i][0])
-            } else {
-                0.0
-            }
+            if i < dimension { extent[i][0] + fraction(i) * (extent[i][1] - extent[i][0]) } else { 0.0 }
         });
         (x, 2.0 * period * fraction(3))
     })
@@ -55,11 +50,7 @@ fn unit(i: usize) -> Vector3<f64> {
 }
 
 /// ∂/∂X_j of a field over the axes of the motion, at `x`.
-pub(super) fn gradient<T>(
-    s: &dyn Exact,
-    x: &Vector3<f64>,
-    field: impl Fn(&Vector3<f64>) -> T,
-) -> [T; 3]
+pub(super) fn gradient<T>(s: &dyn Exact, x: &Vector3<f64>, field: impl Fn(&Vector3<f64>) -> T) -> [T; 3]
 where
     T: Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
 {
@@ -73,10 +64,7 @@ where
     T: Copy + Sub<Output = T> + std::fmt::Debug,
 {
     let error = size(found - expected);
-    assert!(
-        error <= 5e-9 * scale,
-        "{what}: {found:?} instead of {expected:?}, error {error:.2e} of scale {scale:.2e}"
-    );
+    assert!(error <= 5e-9 * scale, "{what}: {found:?} instead of {expected:?}, error {error:.2e} of scale {scale:.2e}");
 }
 
 /// F is the gradient of x, J its determinant, v the rate of u, σ_m the mean of J⁻¹ P Fᵀ, and ρ₀ a = Div P + ρ₀ b,
@@ -88,8 +76,7 @@ pub(super) fn solves(s: &dyn Exact, period: f64, smooth: impl Fn(&Vector3<f64>) 
     for (x, t) in samples(s, period).filter(|(x, _)| smooth(x)) {
         seen += 1;
         let place = format!("{s:?} at {:?}, {t}", x.as_slice());
-        let f =
-            Matrix3::identity() + Matrix3::from_columns(&gradient(s, &x, |x| s.displacement(x, t)));
+        let f = Matrix3::identity() + Matrix3::from_columns(&gradient(s, &x, |x| s.displacement(x, t)));
         let f_given = s.deformation_gradient(&x, t);
         close(&format!("F of {place}"), f_given, f, 1.0, |m| m.norm());
         let j = s.jacobian(&x, t);
@@ -104,26 +91,15 @@ pub(super) fn solves(s: &dyn Exact, period: f64, smooth: impl Fn(&Vector3<f64>) 
         let divergence: Vector3<f64> = (0..3).map(|j| columns[j].column(j).into_owned()).sum();
         let b = s.body_force(&x, t);
         let largest = columns.iter().map(Matrix3::norm).fold(0.0, f64::max);
-        let scale =
-            a.norm() + b.norm() + largest / rho + s.displacement(&x, t).norm() / period.powi(2);
-        close(
-            &format!("b of {place}"),
-            b,
-            a - divergence / rho,
-            scale,
-            |m| m.norm(),
-        );
+        let scale = a.norm() + b.norm() + largest / rho + s.displacement(&x, t).norm() / period.powi(2);
+        close(&format!("b of {place}"), b, a - divergence / rho, scale, |m| m.norm());
     }
     assert!(seen >= 15, "{seen} points of {s:?} are smooth");
 }
 
 /// As [`solves`], and P is the neo-Hookean solid's, σ_m is the mean of J⁻¹ P Fᵀ, and b is that of the
 /// generic formula.
-pub(super) fn solves_as_neo_hookean(
-    s: &dyn Exact,
-    period: f64,
-    smooth: impl Fn(&Vector3<f64>) -> bool,
-) {
+pub(super) fn solves_as_neo_hookean(s: &dyn Exact, period: f64, smooth: impl Fn(&Vector3<f64>) -> bool) {
     solves(s, period, &smooth);
     let material = s.material();
     for (x, t) in samples(s, period).filter(|(x, _)| smooth(x)) {
@@ -133,21 +109,9 @@ pub(super) fn solves_as_neo_hookean(
         // ln J of a J that is one to the last bit or so.
         let noise = 1e-6 * material.lambda;
         let scale = p.norm() + material.mu + noise;
-        close(
-            &format!("P of {place}"),
-            p,
-            material.first_piola(&f),
-            scale,
-            |m| m.norm(),
-        );
+        close(&format!("P of {place}"), p, material.first_piola(&f), scale, |m| m.norm());
         let mean = (p * f.transpose()).trace() / (3.0 * f.determinant());
-        close(
-            &format!("mean stress of {place}"),
-            s.mean_stress(&x, t),
-            mean,
-            scale,
-            f64::abs,
-        );
+        close(&format!("mean stress of {place}"), s.mean_stress(&x, t), mean, scale, f64::abs);
 
         let g = gradient(s, &x, |x| s.deformation_gradient(x, t));
         let a = curvature(4e-3 * period, |d| s.displacement(&x, t + d));
@@ -158,9 +122,7 @@ pub(super) fn solves_as_neo_hookean(
             + b.norm()
             + (material.mu + noise) * bending / material.density
             + s.displacement(&x, t).norm() / period.powi(2);
-        close(&format!("generic b of {place}"), b, generic, scale, |m| {
-            m.norm()
-        });
+        close(&format!("generic b of {place}"), b, generic, scale, |m| m.norm());
     }
 }
 

@@ -34,13 +34,8 @@ pub const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(DoubleShear::new(p)?)),
 };
 
-const PARAMETERS: [Parameter; 5] = Material::parameters(
-    ["1e3", "0.4999"],
-    [
-        AMPLITUDE,
-        ANGULAR_FREQUENCY.with_default("3.141592653589793"),
-    ],
-);
+const PARAMETERS: [Parameter; 5] =
+    Material::parameters(["1e3", "0.4999"], [AMPLITUDE, ANGULAR_FREQUENCY.with_default("3.141592653589793")]);
 
 /// Wave number k (1/m).
 const K: f64 = TAU;
@@ -111,9 +106,7 @@ impl Exact for DoubleShear {
         let sin_y = (K * x.y).sin();
         let (sin, cos) = (K * (x.x + s * sin_y)).sin_cos();
         let (rate, a_x) = (s_t * sin_y, s_tt * sin_y);
-        let a_y = s * (K * a_x * cos - (K * rate).powi(2) * sin)
-            + 2.0 * s_t * K * rate * cos
-            + s_tt * sin;
+        let a_y = s * (K * a_x * cos - (K * rate).powi(2) * sin) + 2.0 * s_t * K * rate * cos + s_tt * sin;
         let (p, q) = self.shears(x, t);
         let (p1, q1) = (-s * K * K * sin_y, -s * K * K * sin);
         let c2 = self.material.mu / self.material.density;

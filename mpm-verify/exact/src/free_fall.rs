@@ -32,11 +32,7 @@ impl FreeFall {
     /// # Errors
     /// Moduli that the law does not allow.
     pub fn new(p: &Parameters) -> Result<Self, Error> {
-        Ok(Self {
-            material: Material::new(p)?,
-            dimension: p.number(DIMENSION) as usize,
-            gravity: p.number(GRAVITY),
-        })
+        Ok(Self { material: Material::new(p)?, dimension: p.number(DIMENSION) as usize, gravity: p.number(GRAVITY) })
     }
 }
 

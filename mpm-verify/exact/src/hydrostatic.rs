@@ -43,13 +43,7 @@ parameters! { pub const:
     HEIGHT = "height", "m", "2", number(1e-3, 1e3, false), "height H without gravity";
 }
 
-const PARAMETERS: [Parameter; 5] = [
-    BULK_MODULUS,
-    DENSITY.with_default("997.5"),
-    GRAVITY,
-    WIDTH,
-    HEIGHT,
-];
+const PARAMETERS: [Parameter; 5] = [BULK_MODULUS, DENSITY.with_default("997.5"), GRAVITY, WIDTH, HEIGHT];
 
 impl Hydrostatic {
     /// The solution of the parameters of `hydrostatic`.
@@ -86,11 +80,7 @@ impl Hydrostatic {
 
 impl Exact for Hydrostatic {
     fn material(&self) -> Material {
-        Material {
-            density: self.density,
-            mu: 0.0,
-            lambda: self.bulk_modulus,
-        }
+        Material { density: self.density, mu: 0.0, lambda: self.bulk_modulus }
     }
 
     fn extent(&self) -> [[f64; 2]; 3] {
@@ -166,9 +156,6 @@ mod tests {
         let set = ["bulk_modulus=1e4".to_owned()];
         let p = Parameters::new(&PARAMETERS, &set).unwrap();
         let text = Hydrostatic::new(&p).unwrap_err().to_string();
-        assert!(
-            text.contains("height") && text.contains("below 1.02"),
-            "{text}"
-        );
+        assert!(text.contains("height") && text.contains("below 1.02"), "{text}");
     }
 }

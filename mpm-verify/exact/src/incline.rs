@@ -42,8 +42,7 @@ parameters! { pub const:
     THICKNESS = "thickness", "m", "2", number(1e-3, 1e3, false), "height H of the layer without gravity";
 }
 
-const PARAMETERS: [Parameter; 7] =
-    Material::parameters(["1e7", "0.49"], [GRAVITY, INCLINATION, LENGTH, THICKNESS]);
+const PARAMETERS: [Parameter; 7] = Material::parameters(["1e7", "0.49"], [GRAVITY, INCLINATION, LENGTH, THICKNESS]);
 
 /// Newton steps to J, which a monotonic q reaches in a few.
 const ITERATIONS: usize = 30;
@@ -115,8 +114,7 @@ impl Exact for Incline {
 
     fn displacement(&self, x: &Vector3<f64>, _: f64) -> Vector3<f64> {
         let y = x.y;
-        let along = self.material.density * self.gravity[0] * y * (2.0 * self.size[1] - y)
-            / (2.0 * self.material.mu);
+        let along = self.material.density * self.gravity[0] * y * (2.0 * self.size[1] - y) / (2.0 * self.material.mu);
         let weight = self.material.density * self.gravity[1];
         let sunk = if weight > 0.0 {
             let of = |y: f64| self.complement(self.growth(y));
@@ -171,11 +169,6 @@ mod tests {
     #[test]
     fn a_layer_too_soft_is_refused() {
         let p = Parameters::new(&PARAMETERS, &["young_modulus=1e5".to_owned()]).unwrap();
-        assert!(
-            Incline::new(&p)
-                .unwrap_err()
-                .to_string()
-                .contains("young_modulus")
-        );
+        assert!(Incline::new(&p).unwrap_err().to_string().contains("young_modulus"));
     }
 }

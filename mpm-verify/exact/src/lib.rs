@@ -58,16 +58,9 @@ pub struct Error(pub String);
 impl Error {
     /// "unknown {kind} "{given}"; allowed: …".
     #[must_use]
-    pub fn unknown<'a>(
-        kind: &str,
-        given: &str,
-        allowed: impl IntoIterator<Item = &'a str>,
-    ) -> Self {
+    pub fn unknown<'a>(kind: &str, given: &str, allowed: impl IntoIterator<Item = &'a str>) -> Self {
         let allowed: Vec<&str> = allowed.into_iter().collect();
-        Self(format!(
-            "unknown {kind} \"{given}\"; allowed: {}",
-            allowed.join(", ")
-        ))
+        Self(format!("unknown {kind} \"{given}\"; allowed: {}", allowed.join(", ")))
     }
 }
 
@@ -103,8 +96,7 @@ pub trait Exact: fmt::Debug + Send + Sync {
 
     /// First Piola–Kirchhoff stress P (Pa); that of the neo-Hookean solid unless said.
     fn first_piola(&self, x: &Vector3<f64>, t: f64) -> Matrix3<f64> {
-        self.material()
-            .first_piola(&self.deformation_gradient(x, t))
+        self.material().first_piola(&self.deformation_gradient(x, t))
     }
 
     /// Body force b per unit mass (m/s²), such that ρ₀ ∂²u/∂t² = Div P + ρ₀ b.
@@ -213,10 +205,7 @@ impl State {
         let entry = find(name)?;
         let solution = (entry.build)(&Parameters::new(entry.parameters, set)?)?;
         let x = reference_point(solution.as_ref(), at)?;
-        let t = read(
-            &parameter("--time", "s", "0", number(-1e6, 1e6, false), ""),
-            time,
-        )?;
+        let t = read(&parameter("--time", "s", "0", number(-1e6, 1e6, false), ""), time)?;
         Ok(Self::of(solution.as_ref(), &x, t))
     }
 
@@ -264,9 +253,7 @@ fn require_below([name, unit, otherwise]: [&str; 3], value: f64, limit: f64) -> 
     if value.abs() < limit {
         return Ok(());
     }
-    Err(Error(format!(
-        "parameter {name}: {value} {otherwise}; allowed: a size below {limit} ({unit})"
-    )))
+    Err(Error(format!("parameter {name}: {value} {otherwise}; allowed: a size below {limit} ({unit})")))
 }
 
 /// What happens to a body whose amplitude is too large.
@@ -275,11 +262,7 @@ const INVERTS: &str = "turns the body inside out (J ≤ 0)";
 /// sin ωt with its first and second derivative in time.
 fn sine(angular_frequency: f64, t: f64) -> [f64; 3] {
     let (sin, cos) = (angular_frequency * t).sin_cos();
-    [
-        sin,
-        angular_frequency * cos,
-        -angular_frequency * angular_frequency * sin,
-    ]
+    [sin, angular_frequency * cos, -angular_frequency * angular_frequency * sin]
 }
 
 #[cfg(test)]
@@ -316,8 +299,7 @@ mod tests {
     /// The entries of the tables that the dimension of the motion has, as one list.
     fn flat(rows: &[impl AsRef<[f64]>], dimension: usize) -> Vec<f64> {
         let rows = rows.iter().take(dimension);
-        rows.flat_map(|row| row.as_ref().iter().copied().take(dimension))
-            .collect()
+        rows.flat_map(|row| row.as_ref().iter().copied().take(dimension)).collect()
     }
 
     /// A state and a point of reference, field by field.
@@ -347,31 +329,15 @@ mod tests {
             ("axis3D", "mms-axis", "dimension=3"),
             ("vortex_ring", "mms-vortex-ring", "poisson_ratio=0.3"),
             ("vortex_box_nu0.3", "mms-vortex-box", "poisson_ratio=0.3"),
-            (
-                "vortex_box_nu0.499",
-                "mms-vortex-box",
-                "poisson_ratio=0.499",
-            ),
-            (
-                "vortex_box_pressure_nu0.499",
-                "mms-vortex-pressure",
-                "poisson_ratio=0.499",
-            ),
-            (
-                "double_shear_periodic",
-                "mms-double-shear",
-                "poisson_ratio=0.4999",
-            ),
+            ("vortex_box_nu0.499", "mms-vortex-box", "poisson_ratio=0.499"),
+            ("vortex_box_pressure_nu0.499", "mms-vortex-pressure", "poisson_ratio=0.499"),
+            ("double_shear_periodic", "mms-double-shear", "poisson_ratio=0.4999"),
         ];
         assert_eq!(solutions.len(), records.len());
         for (record, name, set) in solutions {
             let Record { params, points } = &records[record];
             let s = check::solution(find(name).unwrap(), &[set]);
-            let Material {
-                density,
-                mu,
-                lambda,
-            } = s.material();
+            let Material { density, mu, lambda } = s.material();
             assert_eq!(density, params["rho"]);
             assert!((mu / params["mu"] - 1.0).abs() < 1e-12);
             assert!((lambda / params["lam"] - 1.0).abs() < 1e-12);

@@ -57,31 +57,19 @@ impl Cells {
     #[must_use]
     pub fn two_grid(n: usize) -> Self {
         let n = n.max(2);
-        Self {
-            of_solid: n,
-            of_water: n / 2,
-            projection: 0.0,
-        }
+        Self { of_solid: n, of_water: n / 2, projection: 0.0 }
     }
 
     /// Pressures on the same `n` cells, one at least, with a projection of strength τ times the modulus; zero without.
     #[must_use]
     pub fn same(n: usize, projection: f64) -> Self {
         let n = n.max(1);
-        Self {
-            of_solid: n,
-            of_water: n,
-            projection,
-        }
+        Self { of_solid: n, of_water: n, projection }
     }
 
     /// A cell's entry of the matrix of storage beside the diagonal, over its size and the modulus; with that on it ½.
     fn beside(self) -> f64 {
-        if self.of_water < self.of_solid {
-            0.1875
-        } else {
-            0.25 - self.projection / 16.0
-        }
+        if self.of_water < self.of_solid { 0.1875 } else { 0.25 - self.projection / 16.0 }
     }
 }
 
@@ -109,18 +97,10 @@ impl Mandel {
         let of = |k: usize| {
             let root = root(k, |a| (1.0 + 1.0 / theta) * a);
             let (sin, cos) = root.sin_cos();
-            Mode {
-                root,
-                size: 2.0 * sin / (root - sin * cos),
-                rate: root * root,
-                mean: sin / root - cos,
-            }
+            Mode { root, size: 2.0 * sin / (root - sin * cos), rate: root * root, mean: sin / root - cos }
         };
         let counts = |mode: &Mode| lasts(mode.rate) > NOTHING;
-        Self {
-            theta,
-            modes: (0..MOST).map(of).take_while(counts).collect(),
-        }
+        Self { theta, modes: (0..MOST).map(of).take_while(counts).collect() }
     }
 
     /// With Poisson's ratio `ratio`, from −1 to below ½, exactly from the time `earliest` (T) on.
@@ -162,10 +142,7 @@ impl Mandel {
                 mean,
             }
         };
-        Self {
-            theta,
-            modes: (0..n).map(of).collect(),
-        }
+        Self { theta, modes: (0..n).map(of).collect() }
     }
 
     fn slab(&self, left: impl Fn(&Mode) -> f64) -> Slab {

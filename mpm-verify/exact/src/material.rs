@@ -28,16 +28,9 @@ impl Material {
     /// # Errors
     /// Moduli that the law does not allow.
     pub(super) fn new(parameters: &Parameters) -> Result<Self, Error> {
-        let law = NeoHookean::new(
-            parameters.number(YOUNG_MODULUS),
-            parameters.number(POISSON_RATIO),
-        )
-        .map_err(|refused| Error(refused.to_string()))?;
-        Ok(Self {
-            density: parameters.number(DENSITY),
-            mu: law.mu,
-            lambda: law.lambda,
-        })
+        let law = NeoHookean::new(parameters.number(YOUNG_MODULUS), parameters.number(POISSON_RATIO))
+            .map_err(|refused| Error(refused.to_string()))?;
+        Ok(Self { density: parameters.number(DENSITY), mu: law.mu, lambda: law.lambda })
     }
 
     /// Young's modulus, Poisson's ratio and density, with defaults for the first two, and then those of a motion.
@@ -89,12 +82,7 @@ impl Material {
 
     /// The body force b = a − Div P/ρ₀ (m/s²) that any motion of acceleration `a` (m/s²) needs.
     #[must_use]
-    pub fn body_force(
-        &self,
-        f: &Matrix3<f64>,
-        g: &[Matrix3<f64>; 3],
-        a: &Vector3<f64>,
-    ) -> Vector3<f64> {
+    pub fn body_force(&self, f: &Matrix3<f64>, g: &[Matrix3<f64>; 3], a: &Vector3<f64>) -> Vector3<f64> {
         a - self.divergence(f, g) / self.density
     }
 }
@@ -116,20 +104,13 @@ mod tests {
     use super::*;
     use mpm_core::material::Law;
 
-    const RUBBER: Material = Material {
-        density: 1000.0,
-        mu: 3.0e5,
-        lambda: 2.0e6,
-    };
+    const RUBBER: Material = Material { density: 1000.0, mu: 3.0e5, lambda: 2.0e6 };
 
     /// P = J σ F⁻ᵀ with the stress of the solver's own law.
     #[test]
     fn the_law_is_the_solvers() {
         let f = Matrix3::new(1.1, 0.2, -0.1, 0.05, 0.9, 0.3, -0.2, 0.1, 1.2);
-        let law = NeoHookean {
-            mu: RUBBER.mu,
-            lambda: RUBBER.lambda,
-        };
+        let law = NeoHookean { mu: RUBBER.mu, lambda: RUBBER.lambda };
         let sigma = law.update(&f, 1.0, &law.initial_state()).0.to_matrix();
         let expected = f.determinant() * sigma * f.try_inverse().unwrap().transpose();
         assert!((RUBBER.first_piola(&f) - expected).norm() < 1e-9 * expected.norm());

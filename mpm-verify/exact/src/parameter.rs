@@ -124,13 +124,7 @@ pub const fn parameter(
     domain: Domain,
     meaning: &'static str,
 ) -> Parameter {
-    Parameter {
-        name,
-        unit,
-        default,
-        domain,
-        meaning,
-    }
+    Parameter { name, unit, default, domain, meaning }
 }
 
 /// Parameters: a constant each by name, unit, default, domain and meaning; or a struct with a field each, by type,
@@ -298,11 +292,7 @@ impl Parameter {
                 "parameter {}: \"{text}\" {why}; allowed: {}{}",
                 self.name,
                 self.domain,
-                if self.unit == "-" {
-                    String::new()
-                } else {
-                    format!(" ({})", self.unit)
-                }
+                if self.unit == "-" { String::new() } else { format!(" ({})", self.unit) }
             )))
         };
         match self.domain {
@@ -353,16 +343,10 @@ impl Parameters {
         let mut assigned = BTreeSet::new();
         for assignment in assignments {
             let Some((name, text)) = assignment.split_once('=') else {
-                return Err(Error(format!(
-                    "\"{assignment}\" is not of the form name=value"
-                )));
+                return Err(Error(format!("\"{assignment}\" is not of the form name=value")));
             };
             let Some(p) = known.iter().find(|p| p.name == name) else {
-                return Err(Error::unknown(
-                    "parameter",
-                    name,
-                    known.iter().map(|p| p.name),
-                ));
+                return Err(Error::unknown("parameter", name, known.iter().map(|p| p.name)));
             };
             if !assigned.insert(name) {
                 return Err(Error(format!("parameter {name} is set twice")));
@@ -381,12 +365,7 @@ impl Parameters {
             Some(value) => value.clone(),
             None => of.parse(of.default)?,
         };
-        let refused = || {
-            Error(format!(
-                "parameter {}: {value}; allowed: {}",
-                of.name, of.domain
-            ))
-        };
+        let refused = || Error(format!("parameter {}: {value}; allowed: {}", of.name, of.domain));
         T::typed(&value).ok_or_else(refused)
     }
 
@@ -394,12 +373,8 @@ impl Parameters {
     #[must_use]
     pub fn differences(&self, other: &Self) -> Vec<(String, String, String)> {
         let names: BTreeSet<&String> = self.0.keys().chain(other.0.keys()).collect();
-        let differing = names
-            .into_iter()
-            .filter(|n| self.0.get(*n) != other.0.get(*n));
-        differing
-            .map(|n| (n.clone(), self.value_text(n), other.value_text(n)))
-            .collect()
+        let differing = names.into_iter().filter(|n| self.0.get(*n) != other.0.get(*n));
+        differing.map(|n| (n.clone(), self.value_text(n), other.value_text(n))).collect()
     }
 
     /// A numeric parameter; NaN if the case has none of this name.
@@ -442,11 +417,7 @@ mod tests {
         name: "poisson_ratio",
         unit: "-",
         default: "0.3",
-        domain: Domain::Number {
-            least: 0.0,
-            most: 0.5,
-            below: true,
-        },
+        domain: Domain::Number { least: 0.0, most: 0.5, below: true },
         meaning: "",
     };
 

@@ -35,16 +35,8 @@ parameters! { pub(crate) const:
     G_YY = "g_yy", "-", "0.1", number(-1e2, 1e2, false), "G_yy";
 }
 
-const PARAMETERS: [Parameter; 8] = Material::parameters(
-    ["1e6", "0.3"],
-    [
-        G_XX,
-        G_XY,
-        G_YX,
-        G_YY,
-        ANGULAR_FREQUENCY.with_default("6.283185307179586"),
-    ],
-);
+const PARAMETERS: [Parameter; 8] =
+    Material::parameters(["1e6", "0.3"], [G_XX, G_XY, G_YX, G_YY, ANGULAR_FREQUENCY.with_default("6.283185307179586")]);
 
 impl Patch {
     /// The solution of the parameters of `patch`.
@@ -61,11 +53,7 @@ impl Patch {
                  allowed: 1 + s (g_xx + g_yy) + s² (g_xx g_yy − g_xy g_yx) above 0 for s from −1 to 1"
             )));
         }
-        Ok(Self {
-            material: Material::new(p)?,
-            gradient,
-            angular_frequency: p.number(ANGULAR_FREQUENCY),
-        })
+        Ok(Self { material: Material::new(p)?, gradient, angular_frequency: p.number(ANGULAR_FREQUENCY) })
     }
 
     /// G (X − c) (m).

@@ -77,10 +77,7 @@ pub struct Moment {
 
 fn sine(x: Number) -> Number {
     let (sin, cos) = x.value.sin_cos();
-    Dual {
-        value: sin,
-        slope: x.slope.map(|slope| cos * slope),
-    }
+    Dual { value: sin, slope: x.slope.map(|slope| cos * slope) }
 }
 
 fn cosine(x: Number) -> Number {
@@ -126,11 +123,7 @@ impl SolidAndWater {
         let depth = number(1.0) - Dual::variable(x[top], top) - displacement(top);
         let half = number(0.5);
         let bulge = |b: usize| {
-            if b < d {
-                number(1.0) + half * c[b]
-            } else {
-                number(1.0)
-            }
+            if b < d { number(1.0) + half * c[b] } else { number(1.0) }
         };
         let excess = number(self.pressure) * (number(1.0) - cosine(time));
         let (upright, across) = (half * phase(top), without(&bulge, [top, top]));
@@ -163,8 +156,7 @@ impl SolidAndWater {
             let pushed = product(&|k| cofactor[(i, k)] * slope[k]) / j;
             pushed + number(if i == top { weight } else { 0.0 })
         });
-        let flux: [Number; 3] =
-            [0, 1, 2].map(|k| -(conductivity * product(&|i| cofactor[(i, k)] * head[i])));
+        let flux: [Number; 3] = [0, 1, 2].map(|k| -(conductivity * product(&|i| cofactor[(i, k)] * head[i])));
 
         let mass = self.dry_density() + self.densities[0] * (j.value - 1.0 + self.porosity);
         let body_force = [0, 1, 2].map(|i| {
@@ -193,11 +185,7 @@ impl SolidAndWater {
     pub fn inflow(&self, x: [f64; 3], [begin, end]: [f64; 2], whole: bool) -> f64 {
         let last = self.at(x, end);
         let dt = end - begin;
-        let stored = if whole {
-            last.jacobian - self.at(x, begin).jacobian
-        } else {
-            dt * last.rate
-        };
+        let stored = if whole { last.jacobian - self.at(x, begin).jacobian } else { dt * last.rate };
         stored + dt * last.outflow
     }
 }
@@ -239,14 +227,9 @@ mod tests {
     fn of_space(s: &SolidAndWater, x: [f64; 3], t: f64) -> (Matrix3<f64>, Vector3<f64>) {
         let step = 1e-3;
         let moved = |y: [f64; 3]| Vector3::from(y) + Vector3::from(s.at(y, t).displacement);
-        let shifted =
-            |k: usize, e: f64| std::array::from_fn(|a| x[a] + if a == k { e } else { 0.0 });
+        let shifted = |k: usize, e: f64| std::array::from_fn(|a| x[a] + if a == k { e } else { 0.0 });
         let axis = |k: usize| {
-            if k < s.dimension {
-                slope(step, |e| moved(shifted(k, e)))
-            } else {
-                Vector3::ith(k, 1.0)
-            }
+            if k < s.dimension { slope(step, |e| moved(shifted(k, e))) } else { Vector3::ith(k, 1.0) }
         };
         let f = Matrix3::from_columns(&[axis(0), axis(1), axis(2)]);
         let inverse = f.try_inverse().unwrap();
@@ -261,13 +244,12 @@ mod tests {
         let kirchhoff = directions * Matrix3::from_diagonal(&principal) * directions.transpose();
         let p = s.at(x, t).pressure;
         let total = kirchhoff - Matrix3::identity() * (j * p);
-        let gradient = Vector3::from_fn(|k, _| {
-            if k < s.dimension {
-                slope(step, |e| s.at(shifted(k, e), t).pressure)
-            } else {
-                0.0
-            }
-        });
+        let gradient =
+            Vector3::from_fn(
+                |k, _| {
+                    if k < s.dimension { slope(step, |e| s.at(shifted(k, e), t).pressure) } else { 0.0 }
+                },
+            );
         let mut weight = Vector3::zeros();
         weight[s.dimension - 1] = -s.densities[0] * s.gravity;
         let kappa = 5e-8 * n.powi(3) / (1.0 - n).powi(2);
@@ -297,33 +279,20 @@ mod tests {
             let s = motion(d);
             let g = Vector3::ith(d - 1, -s.gravity);
             for (x, t) in samples() {
-                let shifted =
-                    |k: usize, e: f64| std::array::from_fn(|a| x[a] + if a == k { e } else { 0.0 });
+                let shifted = |k: usize, e: f64| std::array::from_fn(|a| x[a] + if a == k { e } else { 0.0 });
                 let own = s.at(x, t);
-                let forces: Vector3<f64> = (0..d)
-                    .map(|k| {
-                        slope(1e-3, |e| {
-                            s.at(shifted(k, e), t).first_piola.column(k).into_owned()
-                        })
-                    })
-                    .sum();
-                let outflow: f64 = (0..d)
-                    .map(|k| slope(1e-3, |e| s.at(shifted(k, e), t).flux[k]))
-                    .sum();
+                let forces: Vector3<f64> =
+                    (0..d).map(|k| slope(1e-3, |e| s.at(shifted(k, e), t).first_piola.column(k).into_owned())).sum();
+                let outflow: f64 = (0..d).map(|k| slope(1e-3, |e| s.at(shifted(k, e), t).flux[k])).sum();
                 let rate = slope(0.1, |e| s.at(x, t + e).jacobian);
                 let mass = 2600.0 * 0.6 + 1000.0 * (own.jacobian - 0.6);
                 let lacking = forces + g * mass + Vector3::from(own.body_force) * 1560.0;
-                assert!(
-                    lacking.norm() < 1e-7 * own.first_piola.norm(),
-                    "{d}: {lacking}"
-                );
+                assert!(lacking.norm() < 1e-7 * own.first_piola.norm(), "{d}: {lacking}");
                 assert!((rate - own.rate).abs() < 1e-12, "{rate} {}", own.rate);
                 assert!((outflow - own.outflow).abs() < 1e-12 + 1e-8 * outflow.abs());
                 let span = [t - 1e-3, t];
                 let balance = rate + outflow;
-                assert!(
-                    (s.inflow(x, span, false) / 1e-3 - balance).abs() < 1e-9 + 1e-7 * balance.abs()
-                );
+                assert!((s.inflow(x, span, false) / 1e-3 - balance).abs() < 1e-9 + 1e-7 * balance.abs());
                 let change = own.jacobian - s.at(x, span[0]).jacobian;
                 let whole = s.inflow(x, span, true) - change;
                 assert!((whole / 1e-3 - outflow).abs() < 1e-9 + 1e-7 * outflow.abs());

@@ -51,8 +51,7 @@ parameters! { pub(crate) const:
     CENTRE_Y = "centre_y", "m", "0.5", number(-1e3, 1e3, false), "centre c in y";
 }
 
-const TRANSLATION_PARAMETERS: [Parameter; 5] =
-    Material::parameters(["1e6", "0.3"], [VELOCITY_X, VELOCITY_Y]);
+const TRANSLATION_PARAMETERS: [Parameter; 5] = Material::parameters(["1e6", "0.3"], [VELOCITY_X, VELOCITY_Y]);
 
 const ROTATION_PARAMETERS: [Parameter; 6] =
     Material::parameters(["1e6", "0.3"], [ANGULAR_VELOCITY, CENTRE_X, CENTRE_Y]);

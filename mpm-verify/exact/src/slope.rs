@@ -110,11 +110,7 @@ impl Circle {
     /// Lowest point of the arc (m).
     #[must_use]
     pub fn lowest(&self) -> Vector2<f64> {
-        if self.exit.x < self.centre.x {
-            self.centre - Vector2::new(0.0, self.radius)
-        } else {
-            self.exit
-        }
+        if self.exit.x < self.centre.x { self.centre - Vector2::new(0.0, self.radius) } else { self.exit }
     }
 
     /// The point at the fraction 0 (exit) to 1 (entry) of the arc (m).
@@ -156,12 +152,7 @@ impl Slope {
         positive(["height", "m"], height)?;
         within(["angle", "rad"], angle, [PI / 180.0, FRAC_PI_2])?;
         within(["depth_factor", "-"], depth_factor, [1.0, 100.0])?;
-        Ok(Self {
-            height,
-            angle,
-            depth_factor,
-            cut: 0.0,
-        })
+        Ok(Self { height, angle, depth_factor, cut: 0.0 })
     }
 
     /// The slope whose toe a vertical face of height d (m) cuts away.
@@ -170,15 +161,8 @@ impl Slope {
     /// A height beyond 0 to H; a base below the toe.
     pub fn cut(self, height: f64) -> Result<Self, Error> {
         within(["cut", "m"], height, [0.0, self.height])?;
-        within(
-            ["depth_factor of a cut slope", "-"],
-            self.depth_factor,
-            [1.0; 2],
-        )?;
-        Ok(Self {
-            cut: height,
-            ..self
-        })
+        within(["depth_factor of a cut slope", "-"], self.depth_factor, [1.0; 2])?;
+        Ok(Self { cut: height, ..self })
     }
 
     /// The mechanism of the least γH/c.
@@ -215,11 +199,7 @@ impl Slope {
             x += twice * (p.x + q.x) / 6.0;
             y += twice * (p.y + q.y) / 6.0;
         }
-        Mechanism {
-            circle,
-            area,
-            centroid: circle.centre + Vector2::new(x, y) / area,
-        }
+        Mechanism { circle, area, centroid: circle.centre + Vector2::new(x, y) / area }
     }
 
     /// Edges of the polygon on the chord, counterclockwise: the chord, then back along the ground.
@@ -228,18 +208,8 @@ impl Slope {
         let [toe, top_of_cut, edge] = [self.on_ground(0.0), self.on_ground(self.cut), self.edge()];
         let on_floor = exit.x < toe.x;
         let last = if on_floor { toe } else { exit };
-        let next = if on_floor || exit.y < self.cut {
-            top_of_cut
-        } else {
-            exit
-        };
-        [
-            [exit, circle.entry],
-            [circle.entry, edge],
-            [edge, next],
-            [next, last],
-            [last, exit],
-        ]
+        let next = if on_floor || exit.y < self.cut { top_of_cut } else { exit };
+        [[exit, circle.entry], [circle.entry, edge], [edge, next], [next, last], [last, exit]]
     }
 
     /// The point of the face at a height (m).
@@ -269,11 +239,7 @@ impl Slope {
 
     fn least(&self, search: Search) -> Mechanism {
         let (face, floor) = (self.on_face(search), self.on_floor(search));
-        let best = if floor.number < face.number {
-            floor
-        } else {
-            face
-        };
+        let best = if floor.number < face.number { floor } else { face };
         self.mechanism(best.circle)
     }
 
@@ -281,14 +247,8 @@ impl Slope {
     fn on_face(&self, search: Search) -> Candidate {
         search.least([0.0, self.height], |height| {
             let rise = self.edge() - self.on_ground(height);
-            let steepest = if height < self.cut {
-                rise.y.atan2(rise.x)
-            } else {
-                self.angle
-            };
-            search.least([0.0, steepest], |inclination| {
-                self.on_chord(search, height, inclination)
-            })
+            let steepest = if height < self.cut { rise.y.atan2(rise.x) } else { self.angle };
+            search.least([0.0, steepest], |inclination| self.on_chord(search, height, inclination))
         })
     }
 
@@ -317,9 +277,7 @@ impl Slope {
             let (p, m) = (self.depth_factor.powf(s) - 1.0, 0.5 / self.angle.tan());
             let entry = ((1.0 + p + m * m) / (p * (1.0 + p))).sqrt();
             let least = entry.max(m / p).max(1.0);
-            search.least([0.0, 1.0 / least], |tangent| {
-                self.candidate(self.midpoint(p * self.height, 1.0 / tangent))
-            })
+            search.least([0.0, 1.0 / least], |tangent| self.candidate(self.midpoint(p * self.height, 1.0 / tangent)))
         })
     }
 
@@ -338,10 +296,7 @@ impl Slope {
 
     fn candidate(&self, circle: Circle) -> Candidate {
         let number = self.number(&circle);
-        Candidate {
-            number: if number > 0.0 { number } else { f64::INFINITY },
-            circle,
-        }
+        Candidate { number: if number > 0.0 { number } else { f64::INFINITY }, circle }
     }
 }
 
@@ -350,11 +305,7 @@ fn segment(circle: &Circle) -> [f64; 3] {
     let theta = circle.angle();
     let chord = circle.entry - circle.exit;
     let moment = chord.norm_squared() / 12.0;
-    [
-        0.5 * circle.radius.powi(2) * (theta - theta.sin()),
-        moment * chord.y,
-        -moment * chord.x,
-    ]
+    [0.5 * circle.radius.powi(2) * (theta - theta.sin()), moment * chord.y, -moment * chord.x]
 }
 
 /// Greatest α − ω, the angle below the horizontal at which an arc runs from its exit into the soil, if it may
@@ -394,10 +345,7 @@ struct Search {
     sections: u32,
 }
 
-const SEARCH: Search = Search {
-    samples: 16,
-    sections: 40,
-};
+const SEARCH: Search = Search { samples: 16, sections: 40 };
 
 /// (√5 − 1)/2.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -414,10 +362,7 @@ impl Search {
                 (best, place) = (candidate, i);
             }
         }
-        let bracket = [
-            at(place.saturating_sub(1)),
-            at((place + 1).min(self.samples)),
-        ];
+        let bracket = [at(place.saturating_sub(1)), at((place + 1).min(self.samples))];
         better(best, self.sections(bracket, family))
     }
 
@@ -460,9 +405,7 @@ fn within(what: [&str; 2], value: f64, [least, most]: [f64; 2]) -> Result<(), Er
 }
 
 fn refusal([name, unit]: [&str; 2], value: f64, allowed: &str) -> Error {
-    Error(format!(
-        "{name}: {value} is out of range; allowed: {allowed} ({unit})"
-    ))
+    Error(format!("{name}: {value} is out of range; allowed: {allowed} ({unit})"))
 }
 
 #[cfg(test)]

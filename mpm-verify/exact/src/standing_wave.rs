@@ -55,14 +55,7 @@ parameters! { pub const:
         "number n of half waves across the box, k = nπ/L";
 }
 
-const PARAMETERS: [Parameter; 6] = [
-    DENSITY.with_default("997.5"),
-    GRAVITY,
-    WIDTH,
-    DEPTH,
-    AMPLITUDE,
-    HALF_WAVES,
-];
+const PARAMETERS: [Parameter; 6] = [DENSITY.with_default("997.5"), GRAVITY, WIDTH, DEPTH, AMPLITUDE, HALF_WAVES];
 
 /// The largest displacement gradient for which the linear theory is taken as exact.
 const LINEAR: f64 = 0.1;
@@ -137,20 +130,13 @@ impl StandingWave {
         let weight = self.density * self.gravity;
         let (cosh, sinh) = self.decay(x.y);
         let tanh = (self.wave_number * self.depth).tanh();
-        (
-            weight * (self.depth - x.y),
-            weight * self.elevation(x.x, t) * (cosh * tanh - sinh),
-        )
+        (weight * (self.depth - x.y), weight * self.elevation(x.x, t) * (cosh * tanh - sinh))
     }
 }
 
 impl Exact for StandingWave {
     fn material(&self) -> Material {
-        Material {
-            density: self.density,
-            mu: 0.0,
-            lambda: f64::INFINITY,
-        }
+        Material { density: self.density, mu: 0.0, lambda: f64::INFINITY }
     }
 
     fn extent(&self) -> [[f64; 2]; 3] {
@@ -227,9 +213,7 @@ mod tests {
         let k = s.wave_number;
         let height = x.y + s.displacement(&x, t).y;
         let eta = s.elevation(x.x, t);
-        let lamb = s.density
-            * s.gravity
-            * (s.depth - height + eta * (k * x.y).cosh() / (k * s.depth).cosh());
+        let lamb = s.density * s.gravity * (s.depth - height + eta * (k * x.y).cosh() / (k * s.depth).cosh());
         assert!((s.mean_stress(&x, t) + lamb).abs() < 1e-12 * lamb);
     }
 
@@ -242,9 +226,7 @@ mod tests {
             let f = s.deformation_gradient(&x, t);
             let cofactor = f.determinant() * f.try_inverse().unwrap().transpose();
             let exact = s.mean_stress(&x, t) * cofactor;
-            (s.first_piola(&x, t) - exact)
-                .fixed_view::<2, 2>(0, 0)
-                .norm()
+            (s.first_piola(&x, t) - exact).fixed_view::<2, 2>(0, 0).norm()
         };
         let ratio = deviation("amplitude=0.01") / deviation("amplitude=0.005");
         assert!((ratio - 4.0).abs() < 0.05, "{ratio}");
@@ -277,9 +259,6 @@ mod tests {
     fn an_amplitude_beyond_linearity_is_refused() {
         let p = Parameters::new(&PARAMETERS, &["amplitude=0.03".to_owned()]).unwrap();
         let text = StandingWave::new(&p).unwrap_err().to_string();
-        assert!(
-            text.contains("amplitude") && text.contains("below 0.029"),
-            "{text}"
-        );
+        assert!(text.contains("amplitude") && text.contains("below 0.029"), "{text}");
     }
 }

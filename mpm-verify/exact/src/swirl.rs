@@ -20,10 +20,8 @@ pub const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(Vortex::new(p, SWIRL)?)),
 };
 
-const PARAMETERS: [Parameter; 5] = Material::parameters(
-    ["1e3", "0.3"],
-    [ANGLE, ANGULAR_FREQUENCY.with_default("3.141592653589793")],
-);
+const PARAMETERS: [Parameter; 5] =
+    Material::parameters(["1e3", "0.3"], [ANGLE, ANGULAR_FREQUENCY.with_default("3.141592653589793")]);
 
 /// The vortex of this file.
 const SWIRL: Shape = Shape {
@@ -31,16 +29,8 @@ const SWIRL: Shape = Shape {
     extent: [[0.0, 1.0]; 3],
     place: |x| {
         let arm = [x.x - 0.5, x.y - 0.5];
-        let height = [
-            (PI * x.z).sin().powi(2),
-            PI * (TAU * x.z).sin(),
-            2.0 * PI * PI * (TAU * x.z).cos(),
-        ];
-        Place {
-            arm,
-            profile: profile(arm),
-            height,
-        }
+        let height = [(PI * x.z).sin().powi(2), PI * (TAU * x.z).sin(), 2.0 * PI * PI * (TAU * x.z).cos()];
+        Place { arm, profile: profile(arm), height }
     },
 };
 
@@ -54,9 +44,7 @@ mod tests {
     #[test]
     fn it_solves_the_equations_in_a_fixed_cube() {
         let s = check::solution(&ENTRY, &["poisson_ratio=0.49"]);
-        check::solves_as_neo_hookean(s.as_ref(), 2.0, |x| {
-            ((x.x - 0.5).hypot(x.y - 0.5) - 0.4).abs() > 0.05
-        });
+        check::solves_as_neo_hookean(s.as_ref(), 2.0, |x| ((x.x - 0.5).hypot(x.y - 0.5) - 0.4).abs() > 0.05);
         check::fixed_on_all_sides(s.as_ref(), 2.0);
     }
 
@@ -70,10 +58,7 @@ mod tests {
         for (j, slope) in slopes.iter().enumerate() {
             for (k, second) in second.iter().enumerate() {
                 let difference = second.column(j) - slope.row(k).transpose();
-                assert!(
-                    difference.norm() < 1e-9 * slope.norm(),
-                    "{k} {j}: {difference}"
-                );
+                assert!(difference.norm() < 1e-9 * slope.norm(), "{k} {j}: {difference}");
             }
         }
     }
@@ -92,16 +77,12 @@ mod tests {
         let alpha_z = g * h * PI * (TAU * z).sin();
         let alpha_zz = g * h * 2.0 * PI * PI * (TAU * z).cos();
         let c2 = s.material().mu / s.material().density;
-        let radial = -r * (PI * (PI * t).cos() * h * zeta).powi(2)
-            + c2 * r * ((g * h_r * zeta).powi(2) + alpha_z.powi(2));
-        let hoop =
-            -r * PI * PI * g * h * zeta - c2 * (g * zeta * (3.0 * h_r + r * h_rr) + r * alpha_zz);
+        let radial =
+            -r * (PI * (PI * t).cos() * h * zeta).powi(2) + c2 * r * ((g * h_r * zeta).powi(2) + alpha_z.powi(2));
+        let hoop = -r * PI * PI * g * h * zeta - c2 * (g * zeta * (3.0 * h_r + r * h_rr) + r * alpha_zz);
         let turned = theta + g * h * zeta;
-        let expected = Vector3::new(
-            radial * turned.cos() - hoop * turned.sin(),
-            radial * turned.sin() + hoop * turned.cos(),
-            0.0,
-        );
+        let expected =
+            Vector3::new(radial * turned.cos() - hoop * turned.sin(), radial * turned.sin() + hoop * turned.cos(), 0.0);
         assert!((s.body_force(&x, t) - expected).norm() < 1e-12 * expected.norm());
     }
 }

@@ -27,9 +27,7 @@ fn terms(t: f64) -> impl Iterator<Item = (f64, f64)> {
 /// The complementary error function, by its series near zero and its continued fraction far from it.
 fn erfc(x: f64) -> f64 {
     if x > 1.5 {
-        let fraction = (1..60)
-            .rev()
-            .fold(x, |rest, k| x + 0.5 * f64::from(k) / rest);
+        let fraction = (1..60).rev().fold(x, |rest, k| x + 0.5 * f64::from(k) / rest);
         return (-x * x).exp() / (fraction * PI.sqrt());
     }
     let (mut term, mut sum) = (x, x);
@@ -79,9 +77,7 @@ pub fn settlement(t: f64) -> f64 {
         // ∫ (1 − p/q) dz: of the first image, and of those after it what is less than rounding at this T.
         return 2.0 * (t / PI).sqrt();
     }
-    1.0 - terms(t)
-        .map(|(m, decay)| 2.0 / (m * m) * decay)
-        .sum::<f64>()
+    1.0 - terms(t).map(|(m, decay)| 2.0 / (m * m) * decay).sum::<f64>()
 }
 
 /// The entries of a cell of the pressure, beside the diagonal and on it (over h/M), in the equations of one step of
@@ -98,29 +94,20 @@ impl FirstStep {
     /// Pressures on cells twice as large.
     #[must_use]
     pub fn two_grid(r: f64) -> Self {
-        Self {
-            beside: 0.375 - 0.5 * r,
-            diagonal: 0.625 + 0.5 * r,
-        }
+        Self { beside: 0.375 - 0.5 * r, diagonal: 0.625 + 0.5 * r }
     }
 
     /// Pressures on the same cells, with a projection of strength τ times the modulus; zero without.
     #[must_use]
     pub fn same_cells(r: f64, projection: f64) -> Self {
         let r = r + projection / 16.0;
-        Self {
-            beside: 0.25 - r,
-            diagonal: 0.25 + r,
-        }
+        Self { beside: 0.25 - r, diagonal: 0.25 + r }
     }
 
     /// Largest p/q − 1 at the nodes of a column of so many cells of the pressure; zero where p is monotone.
     #[must_use]
     pub fn overshoot(self, cells: u32) -> f64 {
-        let Self {
-            beside: a,
-            diagonal: b,
-        } = self;
+        let Self { beside: a, diagonal: b } = self;
         if a <= 0.0 {
             return 0.0;
         }
@@ -176,25 +163,16 @@ mod tests {
     /// cell's h q/M is (a + b) (1 + ρ)/(1 − ρ) = √(b² − a²): of equal cells √ΔT H, as without cells.
     #[test]
     fn the_first_step_settles_as_its_closed_form() {
-        let spaces: [fn(f64) -> FirstStep; 3] = [
-            FirstStep::two_grid,
-            |r| FirstStep::same_cells(r, 0.0),
-            |r| FirstStep::same_cells(r, 1.5),
-        ];
+        let spaces: [fn(f64) -> FirstStep; 3] =
+            [FirstStep::two_grid, |r| FirstStep::same_cells(r, 0.0), |r| FirstStep::same_cells(r, 1.5)];
         for of in spaces {
             for share in [0.01, 0.25, 2.0_f64] {
-                let FirstStep {
-                    beside: a,
-                    diagonal: b,
-                } = of(share);
+                let FirstStep { beside: a, diagonal: b } = of(share);
                 let cells = 400;
                 let settled = settlement_of_equations(of, cells, &[share]);
                 let settled = settled * cells as f64 * 2.0 * (a + b);
                 let exact = (b * b - a * a).sqrt();
-                assert!(
-                    (settled - exact).abs() < 1e-12,
-                    "{share}: {settled} {exact}"
-                );
+                assert!((settled - exact).abs() < 1e-12, "{share}: {settled} {exact}");
             }
         }
         let equal = |r| FirstStep::same_cells(r, 0.0);
@@ -208,11 +186,7 @@ mod tests {
     fn the_equations_settle_to_the_second_order_as_the_column_does() {
         let (t, count) = (0.1, 2000);
         let durations = vec![t / f64::from(count); count as usize];
-        let damped = |m: f64| {
-            durations
-                .iter()
-                .fold(1.0, |left, dt| left / (1.0 + m * m * dt))
-        };
+        let damped = |m: f64| durations.iter().fold(1.0, |left, dt| left / (1.0 + m * m * dt));
         let modes = (0..400).map(|k| (f64::from(k) + 0.5) * PI);
         let exact = 1.0 - modes.map(|m| 2.0 / (m * m) * damped(m)).sum::<f64>();
         // Of the modes that are left out nothing is left.
@@ -261,9 +235,7 @@ mod tests {
     #[test]
     fn images_and_series_are_one_solution() {
         for z in [0.1, 0.5, 1.0] {
-            let series: f64 = terms(SHORT)
-                .map(|(m, decay)| 2.0 / m * (m * z).sin() * decay)
-                .sum();
+            let series: f64 = terms(SHORT).map(|(m, decay)| 2.0 / m * (m * z).sin() * decay).sum();
             assert!((pressure(z, SHORT - 1e-14) - series).abs() < 1e-12);
             for t in [0.01, 0.3] {
                 let d = 1e-3;
@@ -288,8 +260,7 @@ mod tests {
             let own = pressure_of_steps(z, &[dt]);
             assert!((own - exact).abs() < 1e-10, "{own} {exact}");
         }
-        let error =
-            |n: usize| pressure_of_steps(0.5, &vec![0.1 / n as f64; n]) - pressure(0.5, 0.1);
+        let error = |n: usize| pressure_of_steps(0.5, &vec![0.1 / n as f64; n]) - pressure(0.5, 0.1);
         assert!((error(400) / error(800) - 2.0).abs() < 0.01);
     }
 
@@ -307,11 +278,8 @@ mod tests {
     /// The closed form of the overshoot solves the equations of the step: eliminated here row by row.
     #[test]
     fn the_overshoot_is_that_of_the_equations() {
-        let spaces: [fn(f64) -> FirstStep; 3] = [
-            FirstStep::two_grid,
-            |r| FirstStep::same_cells(r, 0.0),
-            |r| FirstStep::same_cells(r, 1.5),
-        ];
+        let spaces: [fn(f64) -> FirstStep; 3] =
+            [FirstStep::two_grid, |r| FirstStep::same_cells(r, 0.0), |r| FirstStep::same_cells(r, 1.5)];
         for (space, bound) in spaces.into_iter().zip([0.75, 0.25, 0.25 - 1.5 / 16.0]) {
             for r in [0.001, 0.05, 0.1, 1.0 / 6.0, 0.35, 0.667, 0.75, 1.0] {
                 for cells in [5_u32, 10, 40] {
@@ -322,8 +290,7 @@ mod tests {
                     } else {
                         let (mut below, mut here) = (1.0, -diagonal / beside);
                         for _ in 2..cells {
-                            (below, here) =
-                                (here, -(2.0 * diagonal * here + beside * below) / beside);
+                            (below, here) = (here, -(2.0 * diagonal * here + beside * below) / beside);
                         }
                         let top = -(2.0 * diagonal * here + beside * below) / beside;
                         (-here / top).max(0.0)

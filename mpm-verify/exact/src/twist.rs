@@ -49,11 +49,7 @@ pub(super) struct Twist {
 impl Twist {
     /// The motion of a point with g(t) (rad, rad/s, rad/s²).
     fn new([g, g_t, g_tt]: [f64; 3], place: &Place) -> Self {
-        let Place {
-            arm: [x, y],
-            profile: [h, h_s, h_ss],
-            height: [z, z_z, z_zz],
-        } = *place;
+        let Place { arm: [x, y], profile: [h, h_s, h_ss], height: [z, z_z, z_zz] } = *place;
         let arm = Vector3::new(x, y, 0.0);
         let axis = Vector3::z();
         let (sin, cos) = (g * h * z).sin_cos();
@@ -66,9 +62,7 @@ impl Twist {
         let space_time = 2.0 * h_s * g_t * z * arm + h * g_t * z_z * axis;
         let mut hessian = space_space.to_homogeneous();
         hessian.fixed_view_mut::<3, 1>(0, 3).copy_from(&space_time);
-        hessian
-            .fixed_view_mut::<1, 3>(3, 0)
-            .copy_from(&space_time.transpose());
+        hessian.fixed_view_mut::<1, 3>(3, 0).copy_from(&space_time.transpose());
         hessian[(3, 3)] = h * g_tt * z;
         Self {
             arm,

@@ -44,10 +44,8 @@ parameters! { pub const:
         "what holds the ends X = 0 and X = L";
 }
 
-const PARAMETERS: [Parameter; 7] = Material::parameters(
-    ["1e7", "0.3"],
-    [LENGTH, AMPLITUDE.with_default("1e-4"), MODE, ENDS],
-);
+const PARAMETERS: [Parameter; 7] =
+    Material::parameters(["1e7", "0.3"], [LENGTH, AMPLITUDE.with_default("1e-4"), MODE, ENDS]);
 
 /// The largest strain kA for which linear elasticity is taken as exact.
 const LINEAR: f64 = 0.01;
@@ -147,11 +145,7 @@ mod tests {
     use crate::check;
 
     fn bar(ends: &str, amplitude: f64) -> VibratingBar {
-        let set = [
-            format!("ends={ends}"),
-            "mode=2".to_owned(),
-            format!("amplitude={amplitude}"),
-        ];
+        let set = [format!("ends={ends}"), "mode=2".to_owned(), format!("amplitude={amplitude}")];
         VibratingBar::new(&Parameters::new(&PARAMETERS, &set).unwrap()).unwrap()
     }
 
@@ -208,8 +202,7 @@ mod tests {
                     .map(|i| {
                         let x = Vector3::x() * ((f64::from(i) + 0.5) / f64::from(n));
                         let stretch = s.deformation_gradient(&x, t)[(0, 0)] - 1.0;
-                        s.material.density * s.velocity(&x, t).norm_squared()
-                            + s.first_piola(&x, t)[(0, 0)] * stretch
+                        s.material.density * s.velocity(&x, t).norm_squared() + s.first_piola(&x, t)[(0, 0)] * stretch
                     })
                     .sum::<f64>()
                     / f64::from(n)
@@ -223,9 +216,6 @@ mod tests {
     fn an_amplitude_beyond_linearity_is_refused() {
         let p = Parameters::new(&PARAMETERS, &["amplitude=0.01".to_owned()]).unwrap();
         let text = VibratingBar::new(&p).unwrap_err().to_string();
-        assert!(
-            text.contains("amplitude") && text.contains("below 0.00318"),
-            "{text}"
-        );
+        assert!(text.contains("amplitude") && text.contains("below 0.00318"), "{text}");
     }
 }

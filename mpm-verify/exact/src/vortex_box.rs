@@ -19,10 +19,8 @@ pub const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(Vortex::new(p, BOX)?)),
 };
 
-const PARAMETERS: [Parameter; 5] = Material::parameters(
-    ["1e3", "0.3"],
-    [ANGLE, ANGULAR_FREQUENCY.with_default("3.141592653589793")],
-);
+const PARAMETERS: [Parameter; 5] =
+    Material::parameters(["1e3", "0.3"], [ANGLE, ANGULAR_FREQUENCY.with_default("3.141592653589793")]);
 
 /// Radius R₀ of the vortex (m).
 const RADIUS: f64 = 0.4;
@@ -33,11 +31,7 @@ pub(super) fn profile(d: [f64; 2]) -> [f64; 3] {
     if q <= 0.0 {
         return [0.0; 3];
     }
-    [
-        q.powi(4),
-        -4.0 * q.powi(3) / RADIUS.powi(2),
-        12.0 * q.powi(2) / RADIUS.powi(4),
-    ]
+    [q.powi(4), -4.0 * q.powi(3) / RADIUS.powi(2), 12.0 * q.powi(2) / RADIUS.powi(4)]
 }
 
 /// The vortex of this file.
@@ -46,11 +40,7 @@ pub(super) const BOX: Shape = Shape {
     extent: [[0.0, 1.0]; 3],
     place: |x| {
         let arm = [x.x - 0.5, x.y - 0.5];
-        Place {
-            arm,
-            profile: profile(arm),
-            height: PLANE,
-        }
+        Place { arm, profile: profile(arm), height: PLANE }
     },
 };
 
@@ -64,9 +54,7 @@ mod tests {
     fn it_solves_the_equations_in_a_fixed_box() {
         for nu in ["poisson_ratio=0.3", "poisson_ratio=0.4999"] {
             let s = check::solution(&ENTRY, &[nu]);
-            check::solves_as_neo_hookean(s.as_ref(), 2.0, |x| {
-                ((x.x - 0.5).hypot(x.y - 0.5) - RADIUS).abs() > 0.05
-            });
+            check::solves_as_neo_hookean(s.as_ref(), 2.0, |x| ((x.x - 0.5).hypot(x.y - 0.5) - RADIUS).abs() > 0.05);
             check::fixed_on_all_sides(s.as_ref(), 2.0);
         }
     }

@@ -39,14 +39,8 @@ parameters! { pub const:
     PRESSURE = "pressure", "Pa", "100", number(0.0, 1e12, false), "amplitude p₀ of λ ln J";
 }
 
-const PARAMETERS: [Parameter; 6] = Material::parameters(
-    ["1e3", "0.499"],
-    [
-        ANGLE,
-        ANGULAR_FREQUENCY.with_default("3.141592653589793"),
-        PRESSURE,
-    ],
-);
+const PARAMETERS: [Parameter; 6] =
+    Material::parameters(["1e3", "0.499"], [ANGLE, ANGULAR_FREQUENCY.with_default("3.141592653589793"), PRESSURE]);
 
 /// The stretched point X̂ with its derivatives.
 struct Stretched {
@@ -92,11 +86,7 @@ impl VortexPressure {
             second[i][(3, i)] = TAU * cos * s_t;
             second[i][(3, 3)] = sin * s_tt;
         }
-        Stretched {
-            place,
-            first,
-            second,
-        }
+        Stretched { place, first, second }
     }
 
     /// F in the first three columns, v (m/s) in the last.
@@ -137,10 +127,7 @@ impl Exact for VortexPressure {
         let bent = twist.second_derivatives();
         let second = [0, 1, 2].map(|k| {
             let chain = inner.first.transpose() * bent[k] * inner.first;
-            chain
-                + (0..3)
-                    .map(|i| outer[(k, i)] * inner.second[i])
-                    .sum::<Matrix4<f64>>()
+            chain + (0..3).map(|i| outer[(k, i)] * inner.second[i]).sum::<Matrix4<f64>>()
         });
         let f = (outer * inner.first).fixed_columns::<3>(0).into_owned();
         let g = [0, 1, 2].map(|j| Matrix3::from_fn(|k, l| second[k][(l, j)]));
@@ -156,14 +143,9 @@ mod tests {
 
     #[test]
     fn it_solves_the_equations_between_rollers() {
-        for set in [
-            ["poisson_ratio=0.3", "pressure=200"],
-            ["poisson_ratio=0.499", "pressure=100"],
-        ] {
+        for set in [["poisson_ratio=0.3", "pressure=200"], ["poisson_ratio=0.499", "pressure=100"]] {
             let s = check::solution(&ENTRY, &set);
-            check::solves_as_neo_hookean(s.as_ref(), 2.0, |x| {
-                ((x.x - 0.5).hypot(x.y - 0.5) - 0.4).abs() > 0.1
-            });
+            check::solves_as_neo_hookean(s.as_ref(), 2.0, |x| ((x.x - 0.5).hypot(x.y - 0.5) - 0.4).abs() > 0.1);
             check::between_rollers(s.as_ref(), 2.0);
         }
     }
@@ -174,10 +156,7 @@ mod tests {
         let x = Vector3::new(0.1, 0.25, 0.0);
         let pressure = s.material().lambda * s.jacobian(&x, 0.5).ln();
         let limit = 100.0 * ((TAU * 0.1).cos() + (TAU * 0.25).cos());
-        assert!(
-            (pressure - limit).abs() < 1e-3 * limit,
-            "{pressure} {limit}"
-        );
+        assert!((pressure - limit).abs() < 1e-3 * limit, "{pressure} {limit}");
     }
 
     #[test]
@@ -185,9 +164,6 @@ mod tests {
         let set = ["poisson_ratio=0.3".to_owned(), "pressure=600".to_owned()];
         let p = Parameters::new(&PARAMETERS, &set).unwrap();
         let text = VortexPressure::new(&p).unwrap_err().to_string();
-        assert!(
-            text.contains("pressure") && text.contains("576.9"),
-            "{text}"
-        );
+        assert!(text.contains("pressure") && text.contains("576.9"), "{text}");
     }
 }

@@ -23,10 +23,8 @@ pub const ENTRY: Entry = Entry {
 /// Largest angle α₀, π/4 (rad).
 pub const ANGLE: Parameter = twist::ANGLE.with_default("0.7853981633974483");
 
-const PARAMETERS: [Parameter; 5] = Material::parameters(
-    ["1e3", "0.3"],
-    [ANGLE, ANGULAR_FREQUENCY.with_default("3.141592653589793")],
-);
+const PARAMETERS: [Parameter; 5] =
+    Material::parameters(["1e3", "0.3"], [ANGLE, ANGULAR_FREQUENCY.with_default("3.141592653589793")]);
 
 /// h and its derivatives by R², from h′ and h″ by R: h′/(2R) and (h″ − h′/R)/(4R²).
 fn profile(r: f64) -> [f64; 3] {
@@ -44,11 +42,7 @@ fn profile(r: f64) -> [f64; 3] {
 const RING: Shape = Shape {
     dimension: 2,
     extent: [[-1.5, 1.5]; 3],
-    place: |x| Place {
-        arm: [x.x, x.y],
-        profile: profile(x.x.hypot(x.y)),
-        height: PLANE,
-    },
+    place: |x| Place { arm: [x.x, x.y], profile: profile(x.x.hypot(x.y)), height: PLANE },
 };
 
 #[cfg(test)]

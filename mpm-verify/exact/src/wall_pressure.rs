@@ -41,14 +41,8 @@ pub const ENTRY: Entry = Entry {
     build: |p| Ok(Box::new(WallPressure::new(p)?)),
 };
 
-const PARAMETERS: [Parameter; 6] = Material::parameters(
-    ["1e7", "0.3"],
-    [
-        DIMENSION,
-        AMPLITUDE,
-        ANGULAR_FREQUENCY.with_default("314.1592653589793"),
-    ],
-);
+const PARAMETERS: [Parameter; 6] =
+    Material::parameters(["1e7", "0.3"], [DIMENSION, AMPLITUDE, ANGULAR_FREQUENCY.with_default("314.1592653589793")]);
 
 impl WallPressure {
     /// The solution of the parameters of `mms-wall-pressure`.
@@ -68,13 +62,7 @@ impl WallPressure {
 
     /// 4A X_i (1 − X_i) on the axes of the motion (m).
     fn shape(&self, x: &Vector3<f64>) -> Vector3<f64> {
-        Vector3::from_fn(|i, _| {
-            if i < self.dimension {
-                4.0 * self.amplitude * x[i] * (1.0 - x[i])
-            } else {
-                0.0
-            }
-        })
+        Vector3::from_fn(|i, _| if i < self.dimension { 4.0 * self.amplitude * x[i] * (1.0 - x[i]) } else { 0.0 })
     }
 }
 
@@ -111,8 +99,7 @@ impl Exact for WallPressure {
         let ln_j = f.determinant().ln();
         let mut b = self.shape(x) * acceleration;
         for i in 0..self.dimension {
-            b[i] += 8.0 * self.amplitude * s / self.material.density
-                * self.material.axial_tangent(f[(i, i)], ln_j);
+            b[i] += 8.0 * self.amplitude * s / self.material.density * self.material.axial_tangent(f[(i, i)], ln_j);
         }
         b
     }

@@ -8,8 +8,7 @@ use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Serendipity};
 use mpm_core::material::{
-    CamClay, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, NeoHookean,
-    NewtonianFluid, Viscous,
+    CamClay, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, NeoHookean, NewtonianFluid, Viscous,
 };
 use mpm_core::poro::{self, Water};
 use mpm_core::{Error, Lattice, Law, Scene, Simulation};
@@ -31,11 +30,7 @@ pub trait Solvable<const D: usize>: Law + Sized {
 ///
 /// # Errors
 /// As [`Solvable::solver`].
-pub fn solver<const D: usize, M: Solvable<D>>(
-    scheme: Scheme,
-    scene: Scene<D, M>,
-    settings: Settings<D>,
-) -> Built<D> {
+pub fn solver<const D: usize, M: Solvable<D>>(scheme: Scheme, scene: Scene<D, M>, settings: Settings<D>) -> Built<D> {
     trial::built(scene, |scene, _| M::solver(scheme, scene, settings))
 }
 
@@ -198,12 +193,7 @@ pub trait Soaked<const D: usize>: Law + Sized {
     ///
     /// # Errors
     /// The solver refuses the scene; the scheme is of another kind, or not compiled for this law in this dimension.
-    fn poro(
-        scheme: Scheme,
-        scene: Scene<D, Self>,
-        water: Water<D>,
-        settings: poro::Settings,
-    ) -> Built<D>;
+    fn poro(scheme: Scheme, scene: Scene<D, Self>, water: Water<D>, settings: poro::Settings) -> Built<D>;
 }
 
 /// A solver of solid and water.
@@ -263,23 +253,17 @@ fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {
     match remedy {
         RemedyName::None => Ok(implicit::Remedy::None),
         RemedyName::FbarConsistent => Ok(implicit::Remedy::FbarConsistent),
-        RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => {
-            Err(Error::Input {
-                what: "place of the remedy, of an implicit run, in the list none, fbar-recursive, fbar-total, fbar-rate, fbar-consistent,",
-                value: f64::from(remedy as u8),
-                allowed: "none or fbar-consistent: the others' forces follow from no energy",
-            })
-        }
+        RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => Err(Error::Input {
+            what: "place of the remedy, of an implicit run, in the list none, fbar-recursive, fbar-total, fbar-rate, fbar-consistent,",
+            value: f64::from(remedy as u8),
+            allowed: "none or fbar-consistent: the others' forces follow from no energy",
+        }),
     }
 }
 
 /// The case's scene is solved by another kind of solver.
 fn other_solver(kind: &'static str) -> Error {
-    Error::Input {
-        what: "kinds of solver that this scene has for this scheme",
-        value: 0.0,
-        allowed: kind,
-    }
+    Error::Input { what: "kinds of solver that this scene has for this scheme", value: 0.0, allowed: kind }
 }
 
 fn refuse_blend(transfer: TransferName, share: f64) -> Result<(), Error> {
@@ -305,9 +289,5 @@ fn not_compiled(dimension: usize, basis: BasisName, transfer: TransferName) -> E
         let what = "degree of the basis beside this law and transfer";
         (basis.degree(), what, "that of a scheme that the case lists")
     };
-    Error::Input {
-        what,
-        value: value as f64,
-        allowed,
-    }
+    Error::Input { what, value: value as f64, allowed }
 }

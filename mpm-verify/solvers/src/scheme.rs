@@ -228,11 +228,7 @@ impl Scheme {
     /// An explicit scheme.
     #[must_use]
     pub const fn explicit(basis: BasisName, remedy: RemedyName, transfer: TransferName) -> Self {
-        Self::Explicit(Explicit {
-            basis,
-            remedy,
-            transfer,
-        })
+        Self::Explicit(Explicit { basis, remedy, transfer })
     }
 
     /// An explicit scheme with the FLIP transfer.
@@ -244,11 +240,7 @@ impl Scheme {
     /// An implicit scheme.
     #[must_use]
     pub const fn implicit(rule: RuleName, basis: BasisName, remedy: RemedyName) -> Self {
-        Self::Implicit(Implicit {
-            rule,
-            basis,
-            remedy,
-        })
+        Self::Implicit(Implicit { rule, basis, remedy })
     }
 
     /// A quasi-static scheme.
@@ -328,20 +320,12 @@ impl Scheme {
         remedy: RemedyName,
         transfer: TransferName,
     ) -> Result<Self, NameError> {
-        let unknown = |kind, given: &str, allowed| NameError::Unknown {
-            kind,
-            given: given.to_owned(),
-            allowed,
-        };
+        let unknown = |kind, given: &str, allowed| NameError::Unknown { kind, given: given.to_owned(), allowed };
         let none = transfer == TransferName::None;
         match (solver, RuleName::parse(solver)) {
             ("explicit", _) if none => {
                 let what = "transfer of an explicit scheme";
-                Err(unknown(
-                    what,
-                    transfer.text(),
-                    &["flip", "apic", "xpic2", "musl"],
-                ))
+                Err(unknown(what, transfer.text(), &["flip", "apic", "xpic2", "musl"]))
             }
             ("explicit", _) => Ok(Self::explicit(basis, remedy, transfer)),
             (_, Ok(rule)) if none => Ok(Self::implicit(rule, basis, remedy)),
@@ -349,9 +333,7 @@ impl Scheme {
                 let what = "transfer of an implicit scheme";
                 Err(unknown(what, transfer.text(), &["none"]))
             }
-            ("poro", _) if none && remedy == RemedyName::None => {
-                Ok(Self::poro(basis, SpaceName::TwoGrid))
-            }
+            ("poro", _) if none && remedy == RemedyName::None => Ok(Self::poro(basis, SpaceName::TwoGrid)),
             ("poro", _) => {
                 let what = "remedy or transfer of a scheme of solid and water";
                 let given = if none { remedy.text() } else { transfer.text() };
@@ -392,10 +374,7 @@ impl Scheme {
         if let Some(rest) = name.strip_prefix("poro-") {
             let parts = rest.split_once('-');
             let (basis, space) = parts.ok_or_else(|| NameError::Form(name.to_owned()))?;
-            return Ok(Self::poro(
-                BasisName::parse(basis)?,
-                SpaceName::parse(space)?,
-            ));
+            return Ok(Self::poro(BasisName::parse(basis)?, SpaceName::parse(space)?));
         }
         let parts = name.split_once('-').and_then(|(basis, rest)| {
             let (remedy, transfer) = rest.rsplit_once('-')?;

@@ -34,11 +34,8 @@ impl View {
         let own = Frame::own();
         match self {
             Self::Own => Some(own),
-            Self::Mirrored(mirrored) => (mirrored < D).then(|| {
-                Frame::along(std::array::from_fn(|axis| {
-                    (axis, if axis == mirrored { -1.0 } else { 1.0 })
-                }))
-            }),
+            Self::Mirrored(mirrored) => (mirrored < D)
+                .then(|| Frame::along(std::array::from_fn(|axis| (axis, if axis == mirrored { -1.0 } else { 1.0 })))),
             Self::Turned => (D > 1).then(|| {
                 Frame::along(std::array::from_fn(|axis| match axis {
                     0 => (1, -1.0),

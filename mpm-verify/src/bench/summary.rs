@@ -22,10 +22,7 @@ pub(super) fn write(bench: &Bench, out: &Path) -> Result<String, Error> {
         machine.arch,
         machine.cores,
         processor,
-        format_args!(
-            "mpm-verify {}, source {}",
-            bench.version.mpm_verify, bench.version.source
-        )
+        format_args!("mpm-verify {}, source {}", bench.version.mpm_verify, bench.version.source)
     );
     let measured = &bench.measured;
     for part in [
@@ -46,10 +43,7 @@ pub(super) fn write(bench: &Bench, out: &Path) -> Result<String, Error> {
 
 fn spread(spread: Option<Spread>, decimals: usize) -> String {
     spread.map_or("–".to_owned(), |s| {
-        format!(
-            "{:.decimals$} [{:.decimals$}, {:.decimals$}]",
-            s.median, s.least, s.greatest
-        )
+        format!("{:.decimals$} [{:.decimals$}, {:.decimals$}]", s.median, s.least, s.greatest)
     })
 }
 
@@ -88,12 +82,7 @@ fn rate(measured: &Measured) -> Option<Spread> {
 }
 
 fn workloads(bench: &Measurements) -> String {
-    let kind = |m: &Measured| {
-        (
-            if m.name.starts_with("W2") { 2 } else { 3 },
-            m.name.ends_with('F'),
-        )
-    };
+    let kind = |m: &Measured| (if m.name.starts_with("W2") { 2 } else { 3 }, m.name.ends_with('F'));
     let bytes = |m: &Measured| model::bytes(kind(m).0, kind(m).1);
     let operations = |m: &Measured| model::operations(kind(m).0, kind(m).1);
     let bandwidth = |m: &Measured| bytes(m) / m.wall_ns().map_or(f64::NAN, |s| s.median);
@@ -116,9 +105,7 @@ fn workloads(bench: &Measurements) -> String {
             ("operations/update", &|m| format!("{:.0}", operations(m))),
             ("GB/s", &|m| format!("{:.1}", bandwidth(m))),
             ("triad GB/s", &|m| format!("{:.1}", triad(m))),
-            ("of the bound", &|m| {
-                format!("{:.0} %", 100.0 * bandwidth(m) / triad(m))
-            }),
+            ("of the bound", &|m| format!("{:.0} %", 100.0 * bandwidth(m) / triad(m))),
         ],
     )
 }
@@ -178,9 +165,7 @@ fn iterations(bench: &Measurements) -> String {
             ("load steps of", &|(_, steps)| steps.case.to_owned()),
             ("scheme", &|(_, steps)| steps.scheme.to_string()),
             ("particles", &|(particles, _)| particles.to_string()),
-            ("iteration (ms)", &|(_, steps)| {
-                milliseconds(steps, newton::WHOLE)
-            }),
+            ("iteration (ms)", &|(_, steps)| milliseconds(steps, newton::WHOLE)),
             (forces, &|(_, steps)| milliseconds(steps, forces)),
             (assembly, &|(_, steps)| milliseconds(steps, assembly)),
             (factors, &|(_, steps)| milliseconds(steps, factors)),
@@ -207,16 +192,7 @@ fn sizes(bench: &Measurements) -> String {
 }
 
 fn write_rows(bench: &Measurements, out: &Path) -> Result<(), Error> {
-    let header = [
-        "group",
-        "name",
-        "threads",
-        "particles",
-        "round",
-        "updates",
-        "wall (s)",
-        "CPU (s)",
-    ];
+    let header = ["group", "name", "threads", "particles", "round", "updates", "wall (s)", "CPU (s)"];
     let rows = bench.0.iter().flat_map(|m| {
         m.samples.iter().enumerate().map(move |(round, s)| {
             vec![
@@ -237,27 +213,17 @@ fn write_rows(bench: &Measurements, out: &Path) -> Result<(), Error> {
 /// Draws the cost over the number of particles, if it was measured.
 pub(super) fn draw_scaling(bench: &Measurements, out: &Path) -> Result<(), Error> {
     let names = ["W2", "W2F", "W3", "W3F"];
-    let markers = [
-        Marker::Circle,
-        Marker::Square,
-        Marker::Triangle,
-        Marker::Diamond,
-    ];
+    let markers = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];
     let series = names.into_iter().zip(markers).enumerate();
     let series = series.map(|(k, (name, marker))| {
         let sizes = bench.of_group("scaling").filter(|m| m.name == name);
         let point = |m: &Measured| Some((m.particles as f64, m.cpu_ns()?.median));
-        Series {
-            marker,
-            ..Series::line(name, sizes.filter_map(point).collect(), k)
-        }
+        Series { marker, ..Series::line(name, sizes.filter_map(point).collect(), k) }
     });
     let series = series.filter(|s| !s.points.is_empty()).collect();
     let labels = ["particles", "CPU time per particle and step (ns)"];
-    let chart = Chart {
-        x_scale: Scale::Log10,
-        ..Chart::new("Cost of a particle's step on one thread", labels, series)
-    };
+    let chart =
+        Chart { x_scale: Scale::Log10, ..Chart::new("Cost of a particle's step on one thread", labels, series) };
     match chart.shows_something() {
         true => Ok(draw_charts(&out.join("scaling.png"), &[chart], 1)?),
         false => Ok(()),

@@ -57,11 +57,7 @@ pub(super) fn visited(rows: usize, [particles, pairs]: [u64; 2]) -> WorkDone {
 }
 
 /// A case of the analysis `A` by name, title and metrics, with nothing else.
-pub(super) fn case_of<A: Analysis + 'static>(
-    name: &'static str,
-    title: &'static str,
-    metrics: &[Metric],
-) -> Case {
+pub(super) fn case_of<A: Analysis + 'static>(name: &'static str, title: &'static str, metrics: &[Metric]) -> Case {
     let begin = Box::new(begin::<A>);
     Case::begun_by(name, title, metrics, A::Parameters::list(), begin)
 }
@@ -70,10 +66,7 @@ pub(super) fn case_of<A: Analysis + 'static>(
 ///
 /// # Errors
 /// As [`Analysis::new`].
-pub(super) fn begin<A: Analysis + 'static>(
-    spec: &RunSpec,
-    parameters: &Parameters,
-) -> Result<Box<dyn Job>, Error> {
+pub(super) fn begin<A: Analysis + 'static>(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
     let analysis = A::new(Setup::of_spec(spec, parameters)?)?;
     let found = Vec::new();
     Ok(Box::new(Run { analysis, found }))

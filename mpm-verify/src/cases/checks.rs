@@ -16,11 +16,7 @@ pub(super) fn finest<T>(runs: &[T]) -> Option<&[T]> {
 }
 
 /// Observed order of a metric over the abscissa `over` of some runs, coarsest first; NaN if it follows no power law.
-pub(super) fn observed_order(
-    runs: &[&Record],
-    over: impl Fn(&Record) -> f64,
-    metric: Metric,
-) -> f64 {
+pub(super) fn observed_order(runs: &[&Record], over: impl Fn(&Record) -> f64, metric: Metric) -> f64 {
     let points: Vec<_> = runs.iter().map(|r| (over(r), r.metric(metric))).collect();
     fit_order(&points).map_or(f64::NAN, |o| o.order)
 }

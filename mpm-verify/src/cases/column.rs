@@ -60,24 +60,9 @@ pub(super) fn case() -> Case {
         levels,
         checks: checks(),
         headlines: vec![
-            headline(
-                J_DRIFT_PER_1E5_STEPS,
-                "drift of J̄ per 10⁵ steps (10⁻⁶)",
-                1e6,
-                4,
-            ),
-            headline(
-                TRUE_J_DRIFT_PER_1E5_STEPS,
-                "drift of J per 10⁵ steps (10⁻⁶)",
-                1e6,
-                3,
-            ),
-            headline(
-                KINETIC_GROWTH,
-                "kinetic energy, last / middle third (–)",
-                1.0,
-                3,
-            ),
+            headline(J_DRIFT_PER_1E5_STEPS, "drift of J̄ per 10⁵ steps (10⁻⁶)", 1e6, 4),
+            headline(TRUE_J_DRIFT_PER_1E5_STEPS, "drift of J per 10⁵ steps (10⁻⁶)", 1e6, 3),
+            headline(KINETIC_GROWTH, "kinetic energy, last / middle third (–)", 1.0, 3),
             headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (µJ/m)", 1e6, 4),
             headline(BASE_PRESSURE, "pressure at the floor (Pa)", 1.0, 1),
         ],
@@ -91,11 +76,7 @@ pub(super) fn case() -> Case {
                 ("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT),
                 ("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK, SHORT),
                 ("last/middle third", KINETIC_GROWTH, SHORT),
-                (
-                    "pressure at the floor (kPa; exact 19.57)",
-                    BASE_PRESSURE,
-                    fixed(2).times(1e-3),
-                ),
+                ("pressure at the floor (kPa; exact 19.57)", BASE_PRESSURE, fixed(2).times(1e-3)),
                 ("rms error of u (m)", DISPLACEMENT_L2, SHORT),
             ],
         )],
@@ -165,20 +146,16 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
         let longest = runs().map(|r| r.work.steps).max().unwrap_or(0);
         let labels = ["steps (10⁵)", "rms distance from rest (m)"];
         let longest = runs().filter(move |r| r.work.steps == longest);
-        Panel::new("", labels)
-            .log_y()
-            .histories(gallery, longest, |record, t| {
-                let all = t.points("time", "displacement_l2").into_iter();
-                let moved = all.filter(|(t, _)| *t > 0.0);
-                let steps = |t: f64| t / record.discretisation.dt / 1e5;
-                moved.map(|(t, u)| (steps(t), u)).collect()
-            })
+        Panel::new("", labels).log_y().histories(gallery, longest, |record, t| {
+            let all = t.points("time", "displacement_l2").into_iter();
+            let moved = all.filter(|(t, _)| *t > 0.0);
+            let steps = |t: f64| t / record.discretisation.dt / 1e5;
+            moved.map(|(t, u)| (steps(t), u)).collect()
+        })
     });
     let caption = format!(
         "Distance of the particles from their places at rest: {FbarRecursive} creeps; with GIMP a mode that no average sees grows from rounding with every F̄."
     );
     let [gimp, splines] = panels;
-    Figure::new("creep", caption, [gimp?, splines?])
-        .columns(2)
-        .draw(gallery)
+    Figure::new("creep", caption, [gimp?, splines?]).columns(2).draw(gallery)
 }

@@ -7,12 +7,7 @@ use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
 use crate::spec::Level;
 
 /// Every basis.
-pub(super) const BASES: [BasisName; 4] = [
-    BasisName::Linear,
-    BasisName::Gimp,
-    BasisName::Bspline2,
-    BasisName::Bspline3,
-];
+pub(super) const BASES: [BasisName; 4] = [BasisName::Linear, BasisName::Gimp, BasisName::Bspline2, BasisName::Bspline3];
 
 /// Every remedy.
 pub(super) const REMEDIES: [RemedyName; 5] = [
@@ -30,12 +25,7 @@ pub(super) fn levels<const N: usize>(side: f64, names: [(&'static str, f64); N])
 }
 
 /// Runs of `schemes` at `levels` with the parameters `set`, from the tier `tier` on.
-pub(super) fn family(
-    tier: Tier,
-    levels: &[Level],
-    schemes: &[Scheme],
-    set: &'static [&'static str],
-) -> Family {
+pub(super) fn family(tier: Tier, levels: &[Level], schemes: &[Scheme], set: &'static [&'static str]) -> Family {
     Family {
         tier,
         levels: levels.to_vec(),
@@ -51,17 +41,9 @@ pub(super) fn pairs(bases: &[BasisName], remedies: &[RemedyName]) -> Vec<Scheme>
 }
 
 /// Every combination of a rule of time, a basis and a remedy.
-pub(super) fn implicit(
-    rules: &[RuleName],
-    bases: &[BasisName],
-    remedies: &[RemedyName],
-) -> Vec<Scheme> {
+pub(super) fn implicit(rules: &[RuleName], bases: &[BasisName], remedies: &[RemedyName]) -> Vec<Scheme> {
     let of_rule = |&rule| {
-        let of_basis = move |&basis| {
-            remedies
-                .iter()
-                .map(move |&r| Scheme::implicit(rule, basis, r))
-        };
+        let of_basis = move |&basis| remedies.iter().map(move |&r| Scheme::implicit(rule, basis, r));
         bases.iter().flat_map(of_basis)
     };
     rules.iter().flat_map(of_rule).collect()
@@ -69,10 +51,7 @@ pub(super) fn implicit(
 
 /// The schemes that are also run with another transfer or number of particles per cell than the case's own.
 pub(super) fn main_pairs() -> Vec<Scheme> {
-    pairs(
-        &[BasisName::Gimp, BasisName::Bspline2],
-        &[RemedyName::None, RemedyName::FbarConsistent],
-    )
+    pairs(&[BasisName::Gimp, BasisName::Bspline2], &[RemedyName::None, RemedyName::FbarConsistent])
 }
 
 /// The main pairs with APIC and XPIC(2).
@@ -93,20 +72,11 @@ pub(super) fn more_particles(tier: Tier, levels: &[Level]) -> [Family; 2] {
 
 /// What other transfers and numbers of particles per direction come to beside FLIP with the case's own two; rows that have
 /// FLIP alone are left out.
-pub(super) fn transfers(
-    name: &str,
-    labels: &[Label],
-    more: &[&str],
-    text: fn(&Record) -> String,
-) -> ResultTable {
-    let own = [
-        ("FLIP, 2 per direction", TransferName::Flip),
-        ("APIC", TransferName::Apic),
-        ("XPIC(2)", TransferName::Xpic2),
-    ];
-    let own = own.map(|(title, transfer)| {
-        Column::text(title, text).of(move |r| r.transfer() == transfer && r.is_default())
-    });
+pub(super) fn transfers(name: &str, labels: &[Label], more: &[&str], text: fn(&Record) -> String) -> ResultTable {
+    let own =
+        [("FLIP, 2 per direction", TransferName::Flip), ("APIC", TransferName::Apic), ("XPIC(2)", TransferName::Xpic2)];
+    let own =
+        own.map(|(title, transfer)| Column::text(title, text).of(move |r| r.transfer() == transfer && r.is_default()));
     let more = more.iter().map(|n| {
         let set = [format!("ppc_per_direction={n}")];
         Column::text(format!("{n} per direction"), text).of(move |r| is_flip(r) && r.set == set)

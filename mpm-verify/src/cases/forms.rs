@@ -24,26 +24,15 @@ pub(super) struct Cloud {
 
 impl Cloud {
     /// Of those places, so many along the axes from `corner` (m) at a `spacing` (m), that are `inside`.
-    pub(super) fn new(
-        corner: [f64; 2],
-        count: [usize; 2],
-        spacing: f64,
-        inside: impl Fn(&[f64; 2]) -> bool,
-    ) -> Self {
+    pub(super) fn new(corner: [f64; 2], count: [usize; 2], spacing: f64, inside: impl Fn(&[f64; 2]) -> bool) -> Self {
         let at = |a: usize, k: usize| corner[a] + (k as f64 + 0.5) * spacing;
         let rows = (0..count[1]).flat_map(|j| (0..count[0]).map(move |i| (i, j)));
         let places = rows.map(|(i, j)| [at(0, i), at(1, j)]).filter(inside);
-        Self {
-            places: places.collect(),
-            half_size: 0.5 * spacing,
-        }
+        Self { places: places.collect(), half_size: 0.5 * spacing }
     }
 
     pub(super) fn domains(&self) -> Domains<'_, 2> {
-        Domains {
-            centre: &self.places,
-            half_size: HalfSizes::OfAll([self.half_size; 2]),
-        }
+        Domains { centre: &self.places, half_size: HalfSizes::OfAll([self.half_size; 2]) }
     }
 
     /// Volume of one (m²).
@@ -85,11 +74,7 @@ pub(super) struct Field {
 
 impl Field {
     /// Of functions `I`; a node whose function is not zero at one of the points `held` (m) is held.
-    pub(super) fn new<I: Interpolation<2>>(
-        functions: &I,
-        cloud: &Cloud,
-        held: &[[f64; 2]],
-    ) -> Self {
+    pub(super) fn new<I: Interpolation<2>>(functions: &I, cloud: &Cloud, held: &[[f64; 2]]) -> Self {
         let h = functions.grid().h;
         let mut used = vec![false; functions.len()];
         let mut seen = Vec::with_capacity(cloud.places.len());
@@ -131,9 +116,7 @@ impl Field {
 
     /// Places (m) and unknowns.
     pub(super) fn places(&self) -> impl Iterator<Item = ([f64; 2], usize)> {
-        self.nodes
-            .iter()
-            .filter_map(|(x, node)| Some((*x, node.number()?)))
+        self.nodes.iter().filter_map(|(x, node)| Some((*x, node.number()?)))
     }
 
     /// ∫ N_i N_j.
@@ -246,10 +229,7 @@ impl Field {
 /// # Errors
 /// As [`Grid::new`].
 pub(super) fn coarse(grid: &Grid<2>) -> Result<Grid<2>, Error> {
-    let axes = grid.axes.map(|axis| mpm_core::Axis {
-        cells: axis.cells / 2,
-        ..axis
-    });
+    let axes = grid.axes.map(|axis| mpm_core::Axis { cells: axis.cells / 2, ..axis });
     Grid::new(2.0 * grid.h, axes)
 }
 
@@ -271,7 +251,5 @@ pub(super) fn log10_condition(matrix: &DMatrix<f64>) -> f64 {
 /// The same, scaled to a diagonal of ones.
 pub(super) fn scaled(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let root: Vec<f64> = matrix.diagonal().iter().map(|d| d.abs().sqrt()).collect();
-    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
-        matrix[(i, j)] / (root[i] * root[j])
-    })
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / (root[i] * root[j]))
 }

@@ -13,9 +13,7 @@ pub(super) fn transform(basis: BasisName, per_cell: f64, k: f64) -> f64 {
     match basis {
         BasisName::Linear => sinc(0.5 * k).powi(2),
         BasisName::Gimp => sinc(0.5 * k).powi(2) * sinc(0.5 * k / per_cell),
-        BasisName::Bspline2 | BasisName::Bspline3 | BasisName::Q8 => {
-            sinc(0.5 * k).powi(basis.degree() as i32 + 1)
-        }
+        BasisName::Bspline2 | BasisName::Bspline3 | BasisName::Q8 => sinc(0.5 * k).powi(basis.degree() as i32 + 1),
     }
 }
 

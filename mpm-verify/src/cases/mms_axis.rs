@@ -29,10 +29,7 @@ pub(super) fn case() -> Case {
         "A neo-Hookean body between rollers is stretched and compressed along its axes by a body force that makes the motion known. Orders of accuracy in space and time for every basis, remedy and transfer; small displacements and forced crossing of cells.",
     ]);
     // Half waves across the body, a wave by default.
-    let mut checks = of_motion(
-        between_rollers,
-        Wave::pressure(|p| PI * p.number(HALF_WAVES)),
-    );
+    let mut checks = of_motion(between_rollers, Wave::pressure(|p| PI * p.number(HALF_WAVES)));
     checks.push(stress_order(between_rollers));
     checks.extend(order_in_time());
     Case {
@@ -94,12 +91,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, FIVE, &musl, "")
         .runs(Nightly, FOUR, &pair, "step_scaling=h2")
         .runs(Nightly, FOUR, &sound(&BASES), "amplitude=0.02")
-        .runs(
-            Nightly,
-            FOUR,
-            &sound(&BASES[1..]),
-            "amplitude=0.02 ppc_per_direction=4",
-        )
+        .runs(Nightly, FOUR, &sound(&BASES[1..]), "amplitude=0.02 ppc_per_direction=4")
         .runs(Nightly, FOUR, &all, "dimension=1")
         .runs(Nightly, THREE, &sound(&SMOOTH), "dimension=3")
         .runs(Pr, THREE, &smooth[1..], "cfl=2")

@@ -66,11 +66,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let near = ["0.49999", "0.499999", "0.4999999"];
     let explicit = near.map(|nu| format!("poisson_ratio={nu} step_poisson_ratio={nu}"));
     let implicit = near.map(|nu| format!("cfl=50 poisson_ratio={nu}"));
-    let soft = [
-        "poisson_ratio=0.3",
-        "poisson_ratio=0.49",
-        "poisson_ratio=0.499",
-    ];
+    let soft = ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.499"];
     Plan::of(levels)
         .runs(Quick, "n8", &few[2..3], "")
         .runs(Pr, THREE, &few, "")
@@ -110,15 +106,8 @@ fn tables() -> Vec<ResultTable> {
                 ("n32, 0.4999", "n32", ""),
             ],
         ),
-        tables::price(
-            "mms-vortex-box-price",
-            ["n8", "n16", "n32"],
-            "poisson_ratio=0.3",
-        ),
-        tables::pressure(
-            "mms-vortex-box-pressure",
-            ["n8", "n16", "n32", "n64", "n128"],
-        ),
+        tables::price("mms-vortex-box-price", ["n8", "n16", "n32"], "poisson_ratio=0.3"),
+        tables::pressure("mms-vortex-box-pressure", ["n8", "n16", "n32", "n64", "n128"]),
         limit("mms-vortex-box-limit"),
         tables::cost("mms-vortex-box-cost", ["n8", "n16", "n32"], |r| {
             let compared = [RemedyName::None, FbarConsistent].contains(&r.remedy());
@@ -141,17 +130,8 @@ fn limit(name: &str) -> ResultTable {
         let set = [POISSON_RATIO.name, STEP_POISSON_RATIO.name, CFL.name];
         let remedies = [RemedyName::None, FbarRecursive, FbarConsistent];
         let own = is_flip(r) || r.set.iter().any(|s| s == "cfl=50");
-        r.level == "n16"
-            && r.changes_none_but(&set)
-            && own
-            && tables::is_smooth(r)
-            && remedies.contains(&r.remedy())
+        r.level == "n16" && r.changes_none_but(&set) && own && tables::is_smooth(r) && remedies.contains(&r.remedy())
     };
     let ratios = [0.4999, 0.49999, 0.499999, 0.4999999];
-    ResultTable::new(
-        name,
-        shows,
-        &[SCHEME],
-        ratios.into_iter().flat_map(of_ratio),
-    )
+    ResultTable::new(name, shows, &[SCHEME], ratios.into_iter().flat_map(of_ratio))
 }

@@ -63,11 +63,7 @@ pub(super) fn case() -> Case {
 fn plan(levels: &[Level]) -> Vec<Family> {
     let all = pairs(&SMOOTH, &REMEDIES);
     let sound = pairs(&SMOOTH, &[FbarRate, FbarConsistent]);
-    let ratios = [
-        "poisson_ratio=0.3",
-        "poisson_ratio=0.49",
-        "poisson_ratio=0.4999",
-    ];
+    let ratios = ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"];
     Plan::of(levels)
         .runs(Quick, "n8", &sound[1..2], "")
         .runs(Pr, "n8 n16", &sound, "")

@@ -17,12 +17,7 @@ impl Known for Ring {
     const BOUNDARY: Boundary = Boundary::Walls(WallKind::Fixed);
 
     fn parameters() -> Vec<Parameter> {
-        all_parameters(
-            ENTRY.parameters,
-            &[(ANGLE, "0.05")],
-            "0.5",
-            &[STEP_POISSON_RATIO],
-        )
+        all_parameters(ENTRY.parameters, &[(ANGLE, "0.05")], "0.5", &[STEP_POISSON_RATIO])
     }
 }
 

@@ -126,9 +126,7 @@ pub fn scored() -> impl Iterator<Item = (&'static Case, &'static Foreign)> {
 /// There is none; the error lists those there are.
 pub fn find_scored(name: &str) -> Result<(&'static Case, &'static Foreign), Error> {
     let unknown = || Error::unknown("case that scores", name, FOREIGN.iter().map(|(n, _)| *n));
-    scored()
-        .find(|(case, _)| case.name == name)
-        .ok_or_else(unknown)
+    scored().find(|(case, _)| case.name == name).ok_or_else(unknown)
 }
 
 /// The place of a case among all; behind them if it is not known.

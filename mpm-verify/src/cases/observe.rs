@@ -1,8 +1,6 @@
 //! What several problems set and observe in the same way.
 
-use super::parameters::{
-    self, ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE,
-};
+use super::parameters::{self, ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE};
 use crate::error::Error;
 use crate::job::Column;
 use crate::parameter::{Parameter, ParameterSet, Parameters};
@@ -20,25 +18,15 @@ use mpm_core::{Field, Particles, Simulation};
 impl<P: ParameterSet> Setup<P> {
     /// How B-splines meet walls, by the parameter `wall`.
     pub(super) fn wall_treatment(&self) -> WallTreatment {
-        if self.values.is(WALL, WALL_LINE) {
-            WallTreatment::WallLine
-        } else {
-            WallTreatment::OpenKnot
-        }
+        if self.values.is(WALL, WALL_LINE) { WallTreatment::WallLine } else { WallTreatment::OpenKnot }
     }
 
     /// Wall treatment and remedy of an explicit run that takes steps of `dt` (s), and local damping if there is any.
     ///
     /// # Errors
     /// A damping factor out of range.
-    pub(super) fn settings<const D: usize>(
-        &self,
-        dt: f64,
-        damping: f64,
-    ) -> Result<Settings<D>, mpm_core::Error> {
-        let settings = Settings::new(dt)
-            .wall(self.wall_treatment())
-            .remedy(self.remedy().build());
+    pub(super) fn settings<const D: usize>(&self, dt: f64, damping: f64) -> Result<Settings<D>, mpm_core::Error> {
+        let settings = Settings::new(dt).wall(self.wall_treatment()).remedy(self.remedy().build());
         match damping > 0.0 {
             true => Ok(settings.filter_forces(LocalDamping::new(damping)?)),
             false => Ok(settings),
@@ -53,11 +41,7 @@ impl<P: ParameterSet> Setup<P> {
             h: self.h,
             ppc: ppc as u32,
             dt,
-            wall: if wall.is_empty() {
-                "open-knot".to_owned()
-            } else {
-                wall
-            },
+            wall: if wall.is_empty() { "open-knot".to_owned() } else { wall },
         }
     }
 
@@ -107,18 +91,10 @@ impl<P: ParameterSet> Setup<P> {
         let number = |p| self.values.number(p);
         let rule = match self.rule()? {
             RuleName::QuasiStatic => TimeRule::Static,
-            RuleName::Midpoint => TimeRule::Midpoint {
-                lumped: number(LUMPED),
-            },
-            RuleName::Newmark => TimeRule::Newmark {
-                alpha: number(ALPHA),
-                delta: number(DELTA),
-            },
+            RuleName::Midpoint => TimeRule::Midpoint { lumped: number(LUMPED) },
+            RuleName::Newmark => TimeRule::Newmark { alpha: number(ALPHA), delta: number(DELTA) },
         };
-        Some(implicit::Settings {
-            tolerance: number(TOLERANCE),
-            ..implicit::Settings::new(dt).rule(rule)
-        })
+        Some(implicit::Settings { tolerance: number(TOLERANCE), ..implicit::Settings::new(dt).rule(rule) })
     }
 
     /// The CFL number in `dimension` dimensions: the parameter, or, with `time_step=auto`, that of the step which is stable for
@@ -133,11 +109,7 @@ impl<P: ParameterSet> Setup<P> {
 
 /// How B-splines meet walls, by the parameter of that name.
 pub(super) fn wall_treatment(parameters: &Parameters) -> WallTreatment {
-    if parameters.is(WALL, WALL_LINE) {
-        WallTreatment::WallLine
-    } else {
-        WallTreatment::OpenKnot
-    }
+    if parameters.is(WALL, WALL_LINE) { WallTreatment::WallLine } else { WallTreatment::OpenKnot }
 }
 
 /// Wall treatment and remedy of a run that takes steps of `dt` (s), and local damping if there is any.
@@ -147,9 +119,7 @@ pub(super) fn settings<const D: usize>(
     dt: f64,
     damping: f64,
 ) -> Result<Settings<D>, mpm_core::Error> {
-    let settings = Settings::new(dt)
-        .wall(wall_treatment(parameters))
-        .remedy(spec.scheme.remedy().build());
+    let settings = Settings::new(dt).wall(wall_treatment(parameters)).remedy(spec.scheme.remedy().build());
     match damping > 0.0 {
         true => Ok(settings.filter_forces(LocalDamping::new(damping)?)),
         false => Ok(settings),
@@ -157,32 +127,16 @@ pub(super) fn settings<const D: usize>(
 }
 
 /// The discretisation of a run in so many dimensions that takes steps of `dt` (s).
-pub(super) fn discretisation(
-    dim: usize,
-    spec: &RunSpec,
-    parameters: &Parameters,
-    dt: f64,
-) -> Discretisation {
+pub(super) fn discretisation(dim: usize, spec: &RunSpec, parameters: &Parameters, dt: f64) -> Discretisation {
     let per_direction = parameters.number(PPC_PER_DIRECTION);
-    Discretisation {
-        dim,
-        h: spec.level.h,
-        ppc: per_direction.powi(dim as i32) as u32,
-        dt,
-        wall: parameters.text(WALL),
-    }
+    Discretisation { dim, h: spec.level.h, ppc: per_direction.powi(dim as i32) as u32, dt, wall: parameters.text(WALL) }
 }
 
 /// That a run leaves alone those of `all` parameters with these `names`, which only another kind of solver has.
 ///
 /// # Errors
 /// It changes one of them.
-pub(super) fn forbid(
-    spec: &RunSpec,
-    parameters: &Parameters,
-    all: &[Parameter],
-    names: &[&str],
-) -> Result<(), Error> {
+pub(super) fn forbid(spec: &RunSpec, parameters: &Parameters, all: &[Parameter], names: &[&str]) -> Result<(), Error> {
     let foreign = |p: &&Parameter| names.contains(&p.name);
     for p in all.iter().filter(foreign) {
         let (value, default) = (parameters.text(*p), p.parse(p.default)?.to_string());
@@ -201,9 +155,7 @@ pub(super) fn forbid(
 ///
 /// # Errors
 /// It failed for another reason.
-pub(super) fn finds_equilibrium(
-    step: Result<(), mpm_core::Error>,
-) -> Result<bool, mpm_core::Error> {
+pub(super) fn finds_equilibrium(step: Result<(), mpm_core::Error>) -> Result<bool, mpm_core::Error> {
     use mpm_core::Error::{Breakdown, NoConvergence, Singular};
     match step {
         Ok(()) => Ok(true),
@@ -215,16 +167,14 @@ pub(super) fn finds_equilibrium(
 /// Where particles are.
 pub(super) fn position_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
     let axes = ["x", "y", "z"].into_iter().take(D).enumerate();
-    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.position[k][a])))
-        .collect()
+    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.position[k][a]))).collect()
 }
 
 /// Where particles were before any motion.
 pub(super) fn reference_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
     let axes = ["reference_x", "reference_y", "reference_z"];
     let axes = axes.into_iter().take(D).enumerate();
-    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.reference[k][a])))
-        .collect()
+    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.reference[k][a]))).collect()
 }
 
 /// The particles of a body before anything moves, as another code needs them: places, masses, volumes.
@@ -297,9 +247,6 @@ mod tests {
             wall_treatment(&Parameters::new(&[WALL], &set).unwrap())
         };
         assert!(matches!(treatment(&[]), WallTreatment::OpenKnot));
-        assert!(matches!(
-            treatment(&["wall=wall-line"]),
-            WallTreatment::WallLine
-        ));
+        assert!(matches!(treatment(&["wall=wall-line"]), WallTreatment::WallLine));
     }
 }

@@ -84,19 +84,12 @@ pub(super) fn cfl_number(
 ///
 /// # Errors
 /// It is not among the `allowed`; `why` says what is beyond.
-pub(super) fn require_quotient(
-    what: &str,
-    value: f64,
-    allowed: RangeInclusive<f64>,
-    why: &str,
-) -> Result<(), Error> {
+pub(super) fn require_quotient(what: &str, value: f64, allowed: RangeInclusive<f64>, why: &str) -> Result<(), Error> {
     if allowed.contains(&value) {
         return Ok(());
     }
     let (least, most) = (allowed.start(), allowed.end());
-    Err(Error::Input(format!(
-        "{what} = {value:.3e}; allowed: {least:.3e} to {most:.3e}, {why}"
-    )))
+    Err(Error::Input(format!("{what} = {value:.3e}; allowed: {least:.3e} to {most:.3e}, {why}")))
 }
 
 /// Share of a strain that rounding of positions and volumes may make in a run: four last bits a step, of what is of the
@@ -110,10 +103,5 @@ pub(super) fn least_strain(steps: f64) -> f64 {
 
 /// Whether a run was of its case's own problem, however divided in space and time.
 pub(crate) fn is_of_own_problem(record: &Record) -> bool {
-    record.changes_none_but(&[
-        CFL.name,
-        STEP_SCALING.name,
-        LOAD_STEPS.name,
-        PPC_PER_DIRECTION.name,
-    ])
+    record.changes_none_but(&[CFL.name, STEP_SCALING.name, LOAD_STEPS.name, PPC_PER_DIRECTION.name])
 }

@@ -47,20 +47,12 @@ pub(super) struct Exhibit<'a, 'g> {
 
 impl<'a, 'g> Exhibit<'a, 'g> {
     /// Of those of `records` that [are shown](is_shown).
-    pub(super) fn new(
-        gallery: &'a mut Gallery<'g>,
-        records: impl IntoIterator<Item = &'g Record>,
-    ) -> Self {
+    pub(super) fn new(gallery: &'a mut Gallery<'g>, records: impl IntoIterator<Item = &'g Record>) -> Self {
         let records = records.into_iter().filter(is_shown).collect();
         Self { gallery, records }
     }
 
-    pub(super) fn find(
-        &self,
-        basis: BasisName,
-        remedy: RemedyName,
-        level: &str,
-    ) -> Option<&'g Record> {
+    pub(super) fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&'g Record> {
         let wanted = |r: &&&Record| r.basis() == basis && r.remedy() == remedy && r.level == level;
         self.records.iter().find(wanted).copied()
     }
@@ -99,11 +91,7 @@ impl<'a, 'g> Exhibit<'a, 'g> {
     }
 
     /// Two columns of the time series of a run.
-    pub(super) fn history(
-        &self,
-        record: &Record,
-        [x, y]: [&str; 2],
-    ) -> Result<Vec<(f64, f64)>, Error> {
+    pub(super) fn history(&self, record: &Record, [x, y]: [&str; 2]) -> Result<Vec<(f64, f64)>, Error> {
         Ok(self.gallery.table(record, "series.csv")?.points(x, y))
     }
 
@@ -132,12 +120,7 @@ impl<'a, 'g> Exhibit<'a, 'g> {
     }
 
     /// Draws panels of fields.
-    pub(super) fn fields(
-        &mut self,
-        name: &str,
-        figure: &FieldFigure,
-        caption: impl Into<String>,
-    ) -> Result<(), Error> {
+    pub(super) fn fields(&mut self, name: &str, figure: &FieldFigure, caption: impl Into<String>) -> Result<(), Error> {
         draw_fields(&self.place(name), figure)?;
         self.hang(name, caption);
         Ok(())

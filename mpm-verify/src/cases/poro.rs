@@ -27,11 +27,7 @@ impl<P> Setup<P> {
 
 /// A distance that is at least [`ROUNDING`]; NaN stays NaN.
 pub(super) fn above_rounding(distance: f64) -> f64 {
-    if distance < ROUNDING {
-        ROUNDING
-    } else {
-        distance
-    }
+    if distance < ROUNDING { ROUNDING } else { distance }
 }
 
 /// Entries of a matrix, on average.

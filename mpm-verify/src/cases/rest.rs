@@ -44,9 +44,7 @@ pub(super) fn case() -> Case {
             "Exact state of rest at finite deformation, exact/src/incline.rs.".to_owned(),
             "What fbar-recursive tends to: J̄ that is the same everywhere, docs/rest.md.".to_owned(),
         ],
-        limits: &[
-            "The layer is endless: no toe, no crest. Elastic: what a yielding slope creeps by is not here.",
-        ],
+        limits: &["The layer is endless: no toe, no crest. Elastic: what a yielding slope creeps by is not here."],
         plan: Plan::of(&levels)
             .runs(Pr, "h0.25", &few, "")
             .runs(Nightly, "h0.25 h0.125", &all, "")
@@ -57,26 +55,13 @@ pub(super) fn case() -> Case {
         checks: checks(),
         headlines: vec![
             headline(DISPLACEMENT_L2, "rms distance from rest (m)", 1.0, 6),
-            headline(
-                J_DRIFT_PER_1E5_STEPS,
-                "drift of J̄ per 10⁵ steps (–)",
-                1.0,
-                6,
-            ),
+            headline(J_DRIFT_PER_1E5_STEPS, "drift of J̄ per 10⁵ steps (–)", 1.0, 6),
             headline(TRUE_J_DRIFT_PER_1E5_STEPS, "of J (–)", 1.0, 6),
-            headline(
-                KINETIC_GROWTH,
-                "kinetic energy, last / middle third (–)",
-                1.0,
-                3,
-            ),
+            headline(KINETIC_GROWTH, "kinetic energy, last / middle third (–)", 1.0, 3),
             headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (J/m)", 1.0, 6),
         ],
         quantities: Vec::new(),
-        tables: vec![
-            table("rest", HUNDRED_THOUSAND),
-            table("rest-million", MILLION),
-        ],
+        tables: vec![table("rest", HUNDRED_THOUSAND), table("rest-million", MILLION)],
         ..known_case::<2, Incline>([
             "rest",
             "Slope at rest",

@@ -255,28 +255,14 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
         let broken = runs().filter(|r| r.status == Status::Failed);
         let energy = |t: &Table| t.points("time", "kinetic_energy");
         let last = |t: &Table| energy(t).last().copied().into_iter().collect();
-        let panel = Panel::new(
-            format!("{basis}, {level}"),
-            ["time (s)", "kinetic energy (J/m)"],
-        )
-        .log_y()
-        .histories(gallery, runs(), |_, t| energy(t))?
-        .by_run(|r, curve| Series {
-            name: r.remedy().to_string(),
-            ..curve
-        })
-        .histories(gallery, broken, |_, t| last(t))?
-        .styled(|_, cross| Series {
-            name: String::new(),
-            marker: Marker::Cross,
-            dash: Dash::None,
-            ..cross
-        });
+        let panel = Panel::new(format!("{basis}, {level}"), ["time (s)", "kinetic energy (J/m)"])
+            .log_y()
+            .histories(gallery, runs(), |_, t| energy(t))?
+            .by_run(|r, curve| Series { name: r.remedy().to_string(), ..curve })
+            .histories(gallery, broken, |_, t| last(t))?
+            .styled(|_, cross| Series { name: String::new(), marker: Marker::Cross, dash: Dash::None, ..cross });
         panels.push(panel);
     }
     let caption = format!("Kinetic energy with {TWENTY_PERIODS}; a cross marks a breakdown.");
-    Figure::new("energy", caption, panels)
-        .columns(2)
-        .share_axes()
-        .draw(gallery)
+    Figure::new("energy", caption, panels).columns(2).share_axes().draw(gallery)
 }

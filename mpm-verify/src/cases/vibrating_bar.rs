@@ -13,10 +13,7 @@ use crate::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 const LEVELS: [(&str, &str); 4] = [("n8", "8"), ("n16", "16"), ("n32", "32"), ("n64", "64")];
-const ORDERS: &[(Metric, Claims)] = &[
-    (FREQUENCY_ERROR, claim_of_frequency),
-    (DAMPING, claim_of_damping),
-];
+const ORDERS: &[(Metric, Claims)] = &[(FREQUENCY_ERROR, claim_of_frequency), (DAMPING, claim_of_damping)];
 /// Error of a frequency of a hundred periods by straight lines between the rows.
 const READING: f64 = 1e-4;
 /// Shares of the amplitude: half of it, and what counts as gone.
@@ -129,11 +126,7 @@ pub(super) fn case() -> Case {
 
 fn results() -> ResultTable {
     let titled = |what: &'static str| LEVELS.map(|(level, n)| (level, format!("{what}, n = {n}")));
-    let mut columns = Column::levels(
-        titled("error of the frequency"),
-        FREQUENCY_ERROR,
-        scientific(2),
-    );
+    let mut columns = Column::levels(titled("error of the frequency"), FREQUENCY_ERROR, scientific(2));
     columns.push(Column::row("order ± (between levels)", |runs, _| {
         // What fades within the run has no frequency to converge.
         let lasting = runs.iter().copied();
@@ -141,11 +134,7 @@ fn results() -> ResultTable {
         let found = order(lasting, FREQUENCY_ERROR.name);
         found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
     }));
-    columns.extend(Column::levels(
-        titled("amplitude"),
-        AMPLITUDE_RATIO,
-        fixed(3),
-    ));
+    columns.extend(Column::levels(titled("amplitude"), AMPLITUDE_RATIO, fixed(3)));
     let shows = |r: &Record| r.is_default() && is_flip(r);
     ResultTable::new("vibrating-bar", shows, &[SCHEME], columns)
 }
@@ -161,11 +150,7 @@ fn over_rules() -> ResultTable {
             Column::metric("lumped mass took", LUMPING_LOSS, fixed(4)).of(at),
         ]
     };
-    let labels: [Label; 3] = [
-        SCHEME,
-        ("CFL", |r| r.parameters.text(CFL)),
-        ("β", |r| r.parameters.text(LUMPED)),
-    ];
+    let labels: [Label; 3] = [SCHEME, ("CFL", |r| r.parameters.text(CFL)), ("β", |r| r.parameters.text(LUMPED))];
     let columns = LEVELS[..3].iter().copied().flat_map(of_level);
     let shows = |r: &Record| r.scheme().rule().is_some();
     ResultTable::new("vibrating-bar-rules", shows, &labels, columns)
@@ -175,9 +160,7 @@ fn over_rules() -> ResultTable {
 fn softenings() -> ResultTable {
     let averaged = |runs: &[&Record]| {
         let first = runs.first().copied();
-        first
-            .filter(|r| r.remedy() != RemedyName::None)
-            .map(|r| (r.basis(), r.remedy()))
+        first.filter(|r| r.remedy() != RemedyName::None).map(|r| (r.basis(), r.remedy()))
     };
     let of_level = LEVELS.map(|(level, n)| {
         Column::row(format!("n = {n}"), move |runs, all| {
@@ -194,9 +177,8 @@ fn softenings() -> ResultTable {
         })
     });
     let predicted = Column::row("predicted", move |runs, _| {
-        averaged(runs).map_or_else(String::new, |(basis, remedy)| {
-            fixed(3).text(softening(basis, remedy).unwrap_or(f64::NAN))
-        })
+        averaged(runs)
+            .map_or_else(String::new, |(basis, remedy)| fixed(3).text(softening(basis, remedy).unwrap_or(f64::NAN)))
     });
     ResultTable::new(
         "vibrating-bar-softening",
@@ -273,8 +255,7 @@ fn of_frequency(r: &Run<()>) -> Finding {
     } else {
         let (found, bound) = (r.metric(FREQUENCY_RATIO), 0.5 * resolution(r).powi(2));
         let reference = slowed(r, frequency(&r.values));
-        let why =
-            "½ (kh)² about what the steps of an implicit rule make of it, 2 arctan(½ ωΔt)/ωΔt";
+        let why = "½ (kh)² about what the steps of an implicit rule make of it, 2 arctan(½ ωΔt)/ωΔt";
         return Finding::within(FREQUENCY_RATIO, found, reference, bound, why);
     };
     Finding::not_applicable(FREQUENCY_ERROR, why)
@@ -284,9 +265,7 @@ fn claim_of_frequency(r: &Setup<()>) -> Claim {
     match (r.remedy(), r.basis()) {
         (FbarRecursive, _) => Claim::Open("the strain fades within periods"),
         _ if feeds_null_space(r) => Claim::Open(NULL_SPACE),
-        (remedy, Bspline3) if is_sound(remedy) => {
-            Claim::Open("too little of the wave is left: see cubic-walls-damp")
-        }
+        (remedy, Bspline3) if is_sound(remedy) => Claim::Open("too little of the wave is left: see cubic-walls-damp"),
         (_, Bspline3) => Claim::Observed([0.85, 2.6], OFF_NODE),
         _ => Claim::Second,
     }
@@ -294,13 +273,9 @@ fn claim_of_frequency(r: &Setup<()>) -> Claim {
 
 fn claim_of_damping(r: &Setup<()>) -> Claim {
     match r.basis() {
-        _ if r.is_implicit() => {
-            Claim::Open("with few steps in a period no row meets the peak: see lumped-mass-takes")
-        }
+        _ if r.is_implicit() => Claim::Open("with few steps in a period no row meets the peak: see lumped-mass-takes"),
         Linear | Gimp if r.remedy() == RemedyName::None => Claim::Second,
-        _ => Claim::Open(
-            "judged of linear functions and GIMP without a remedy; the others are in the table",
-        ),
+        _ => Claim::Open("judged of linear functions and GIMP without a remedy; the others are in the table"),
     }
 }
 

@@ -38,8 +38,7 @@ impl Bless {
         let (reason, workers) = (&*self.reason, or_all_cores(self.threads));
         let root = golden::place(self.golden);
         let words = reason.split_whitespace().collect::<String>();
-        if !words.contains(char::is_alphanumeric) || words.contains(is_unfit) || reason.len() > 500
-        {
+        if !words.contains(char::is_alphanumeric) || words.contains(is_unfit) || reason.len() > 500 {
             return Err(Error::Input(
                 "--reason is empty, longer than 500 bytes or has control characters; say why the results have changed"
                     .to_owned(),
@@ -57,19 +56,10 @@ impl Bless {
             return Ok(ExitCode::TruthFailed);
         }
         let listener = progress::Runs::new(candidates.twin_names(), true);
-        let blessed = candidates.bless(
-            &gathered,
-            &goldens,
-            (reason, &self.allow),
-            workers,
-            &listener,
-        )?;
+        let blessed = candidates.bless(&gathered, &goldens, (reason, &self.allow), workers, &listener)?;
         listener.finish();
         let (told, code) = match blessed {
-            Blessing::Done(count) => (
-                format!("{count} goldens blessed: {reason}\n"),
-                ExitCode::Good,
-            ),
+            Blessing::Done(count) => (format!("{count} goldens blessed: {reason}\n"), ExitCode::Good),
             Blessing::Broken(told) => (told, ExitCode::RunFailed),
             Blessing::Doubtful(told) => (told, ExitCode::Input),
         };

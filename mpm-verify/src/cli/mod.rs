@@ -143,17 +143,11 @@ pub(crate) fn or_all_cores(threads: Option<usize>) -> usize {
 }
 
 fn saving(seconds: u64, resume: bool) -> Saving {
-    Saving {
-        every: Duration::from_secs(seconds),
-        resume,
-    }
+    Saving { every: Duration::from_secs(seconds), resume }
 }
 
 /// One of some names, as what it stands for.
-fn one_of<T, E>(
-    names: &'static [&'static str],
-    parse: fn(&str) -> Result<T, E>,
-) -> impl TypedValueParser<Value = T>
+fn one_of<T, E>(names: &'static [&'static str], parse: fn(&str) -> Result<T, E>) -> impl TypedValueParser<Value = T>
 where
     T: Clone + Send + Sync + 'static,
     E: std::error::Error + Send + Sync + 'static,
@@ -221,9 +215,7 @@ pub(crate) fn of_syntax(error: &clap::Error) -> String {
 /// Writes to standard output, which may be closed; colours stay on a terminal that shows them.
 pub(crate) fn say(text: impl Display) -> Result<(), Error> {
     match write!(anstream::stdout().lock(), "{text}") {
-        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Error::Input(format!("standard output: {e}")))
-        }
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(Error::Input(format!("standard output: {e}"))),
         _ => Ok(()),
     }
 }

@@ -80,12 +80,7 @@ impl Run {
             Some(name) => find_level(case, name)?,
             None => case.levels[0],
         };
-        let spec = RunSpec {
-            scheme,
-            level,
-            set: self.set,
-            perturbed: self.perturb,
-        };
+        let spec = RunSpec { scheme, level, set: self.set, perturbed: self.perturb };
         let saving = saving(self.checkpoint_every, self.resume.is_some());
         let folder = self.resume.or(self.out);
         let place = folder.as_deref().map(|folder| (folder, saving));
@@ -193,10 +188,7 @@ fn run_one(
             return tell(case, &record, told);
         }
         if !folder.join(checkpoint::FILE).exists() && told.progress() {
-            say(format!(
-                "{}: no checkpoint; the run begins.\n",
-                folder.display()
-            ))?;
+            say(format!("{}: no checkpoint; the run begins.\n", folder.display()))?;
         }
     }
     let size = Size::of(case, spec)?;
@@ -214,12 +206,8 @@ fn run_one(
     if let Some((folder, _)) = place {
         let pictures = single::draw(case, &record, folder)?;
         if told.progress() {
-            let names = pictures
-                .iter()
-                .map(|p| folder.join(&p.file).display().to_string());
-            say(names
-                .map(|name| format!("Picture: {name}\n"))
-                .collect::<String>())?;
+            let names = pictures.iter().map(|p| folder.join(&p.file).display().to_string());
+            say(names.map(|name| format!("Picture: {name}\n")).collect::<String>())?;
         }
     } else if told.progress() {
         say("Nothing is kept or drawn: --out DIR does.\n")?;
@@ -245,15 +233,10 @@ fn ended(case: &Case, spec: &RunSpec, folder: &Path, told: Told) -> Result<Optio
     };
     let path = folder.join(RECORD);
     let asked = Identity::of(case, spec, &Parameters::new(&case.parameters, &spec.set)?);
-    asked
-        .require(&Identity::of_record(&record))
-        .map_err(|refusal| refusal.of(&path))?;
+    asked.require(&Identity::of_record(&record)).map_err(|refusal| refusal.of(&path))?;
     if let Err(damage) = require_tables(&record, folder) {
         if told.progress() {
-            say(format!(
-                "{}; the run is made again.\n",
-                one_line(&damage.to_string())
-            ))?;
+            say(format!("{}; the run is made again.\n", one_line(&damage.to_string())))?;
         }
         return Ok(None);
     }

@@ -65,12 +65,7 @@ impl Export {
             Some(name) => find_level(case, name)?,
             None => case.levels[0],
         };
-        let spec = RunSpec {
-            scheme: (foreign.judged_as)(BasisName::Bspline2),
-            level,
-            set: self.set,
-            perturbed: false,
-        };
+        let spec = RunSpec { scheme: (foreign.judged_as)(BasisName::Bspline2), level, set: self.set, perturbed: false };
         let _held = hold(&self.out)?;
         let files = export(case, foreign, &spec, &self.out)?;
         let path = |name: &String| format!("{}\n", self.out.join(name).display());

@@ -55,8 +55,7 @@ pub(crate) struct Verify {
 
 impl Verify {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        let chosen =
-            |c: &&Case| self.cases.is_empty() || self.cases.iter().any(|n| n.name == c.name);
+        let chosen = |c: &&Case| self.cases.is_empty() || self.cases.iter().any(|n| n.name == c.name);
         let plan = Plan::new(cases::all().iter().filter(chosen), self.tier, self.shard)?;
         let workers = or_all_cores(self.threads);
         if let Some(gib) = self.memory {
@@ -72,13 +71,7 @@ impl Verify {
         let records = make_runs(&plan, &self.out, saving, workers, &listener)?;
         listener.finish();
         match plan.shard == Shard::WHOLE {
-            true => report_in(
-                std::slice::from_ref(&self.out),
-                &self.out,
-                &goldens,
-                None,
-                self.told,
-            ),
+            true => report_in(std::slice::from_ref(&self.out), &self.out, &goldens, None, self.told),
             false => tell_shard(&plan, &records, self.told),
         }
     }
@@ -131,15 +124,11 @@ impl Report {
             (Some(out), _) => out,
             (None, [folder]) => folder.clone(),
             (None, _) => {
-                return Err(Error::Input(
-                    "several folders: --out must say where the report goes".to_owned(),
-                ));
+                return Err(Error::Input("several folders: --out must say where the report goes".to_owned()));
             }
         };
         let night = self.night.zip(self.commit);
-        let night = night
-            .map(|(date, commit)| Night::new(&date, &commit))
-            .transpose()?;
+        let night = night.map(|(date, commit)| Night::new(&date, &commit)).transpose()?;
         let goldens = Goldens::open(&golden::place(self.golden))?;
         let _held = hold(&out)?;
         report_in(&self.folders, &out, &goldens, night.as_ref(), self.told)

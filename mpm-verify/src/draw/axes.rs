@@ -55,9 +55,7 @@ pub(super) fn tick_label(value: f64, step: f64, largest: f64) -> String {
     }
     let mut label = digits(0);
     let whole = label.find('.').unwrap_or(label.len());
-    let groups = (1..whole)
-        .rev()
-        .filter(|p| whole > 4 && (whole - p) % 3 == 0);
+    let groups = (1..whole).rev().filter(|p| whole > 4 && (whole - p) % 3 == 0);
     groups.for_each(|place| label.insert(place, '\u{2009}'));
     format!("{sign}{label}")
 }
@@ -74,9 +72,7 @@ fn linear_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
 fn log_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
     let digits = |e: i32| (1..10).map(move |d| (e, d, f64::from(e) + f64::from(d).log10()));
     let all = (lo.floor() as i32..=hi.ceil() as i32).flat_map(digits);
-    let mut all: Vec<_> = all
-        .filter(|m| (lo - 1e-9..=hi + 1e-9).contains(&m.2))
-        .collect();
+    let mut all: Vec<_> = all.filter(|m| (lo - 1e-9..=hi + 1e-9).contains(&m.2)).collect();
     let count = |digits: &[i32]| all.iter().filter(|m| digits.contains(&m.1)).count();
     let (whole, few) = (count(&[1]), count(&[1, 2, 5]));
     let stride = whole.div_ceil(most).max(1) as i32;
@@ -113,12 +109,7 @@ impl Axis {
     pub(super) fn new(range: Point, log: bool, length: f64, upright: bool) -> Self {
         let lay = if log { log_ticks } else { linear_ticks };
         let size = |label: &str| if upright { 24.0 } else { SMALL.width(label) };
-        let axis = |most| Self {
-            log,
-            range,
-            length,
-            ticks: lay(range.0, range.1, most),
-        };
+        let axis = |most| Self { log, range, length, ticks: lay(range.0, range.1, most) };
         let fits = |axis: &Self| {
             let labels: Vec<_> = axis.ticks.iter().filter(|t| !t.1.is_empty()).collect();
             labels.windows(2).all(|w| {
@@ -138,8 +129,7 @@ impl Axis {
     /// Pixels from the start of the axis to a value; on a log axis, far before it to one that isn't positive.
     pub(super) fn at(&self, value: f64) -> f64 {
         let logarithm = || value.max(0.0).log10();
-        self.pixels(if self.log { logarithm() } else { value })
-            .clamp(-1e5, 1e5)
+        self.pixels(if self.log { logarithm() } else { value }).clamp(-1e5, 1e5)
     }
 
     pub(super) fn label_width(&self) -> f64 {
@@ -180,9 +170,7 @@ pub(super) fn widen((lo, hi): (f64, f64), fraction: f64) -> (f64, f64) {
 /// Smallest range that holds the finite values.
 pub(super) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let finite = values.filter(|v| v.is_finite());
-    finite
-        .map(|v| (v, v))
-        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    finite.map(|v| (v, v)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
 /// The axes of a box, with their wrapped labels.
@@ -270,10 +258,7 @@ mod tests {
         for (lo, hi) in [(0.1, 0.7), (-3e5, 12.0), (1e-9, 1.1e-9), (99.0, 101.0)] {
             for most in 2..10 {
                 let (_, ticks) = nice_ticks(lo, hi, most);
-                assert!(
-                    (1..=most).contains(&ticks.len()),
-                    "{lo} {hi} {most}: {ticks:?}"
-                );
+                assert!((1..=most).contains(&ticks.len()), "{lo} {hi} {most}: {ticks:?}");
             }
         }
     }

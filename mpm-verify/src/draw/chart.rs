@@ -99,13 +99,7 @@ impl Series {
     /// A solid line without markers, in a colour of the palette.
     #[must_use]
     pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
-        Self {
-            name: name.into(),
-            points,
-            colour,
-            marker: Marker::None,
-            dash: Dash::Solid,
-        }
+        Self { name: name.into(), points, colour, marker: Marker::None, dash: Dash::Solid }
     }
 }
 
@@ -114,11 +108,7 @@ impl ReferenceLine {
     #[must_use]
     pub fn known_to(name: &str, value: f64, uncertainty: f64) -> Self {
         let tolerance = tick_label(uncertainty, uncertainty, uncertainty);
-        Self {
-            name: format!("{name} ± {tolerance}"),
-            value,
-            band: Some(uncertainty),
-        }
+        Self { name: format!("{name} ± {tolerance}"), value, band: Some(uncertainty) }
     }
 }
 
@@ -178,20 +168,14 @@ impl Chart {
         shown.extend(self.triangle().iter().flatten().map(pick));
         shown.extend(given.into_iter().flat_map(|(lo, hi)| [lo, hi]));
         if let Some(&value) = shown.iter().find(|v| log && **v <= 0.0) {
-            let cause = format!(
-                "\"{}\" has the non-positive value {value} on its log axis \"{label}\"",
-                self.title
-            );
+            let cause = format!("\"{}\" has the non-positive value {value} on its log axis \"{label}\"", self.title);
             return Err(PlotError::new(path, &cause));
         }
         if let Some((lo, hi)) = given {
             return Ok(widen((transform(lo), transform(hi)), 0.0));
         }
         let ends = extent(shown.into_iter().map(transform));
-        let (mut lo, mut hi) = widen(
-            ends.ok_or_else(|| PlotError::no_data(path, &self.title))?,
-            0.05,
-        );
+        let (mut lo, mut hi) = widen(ends.ok_or_else(|| PlotError::no_data(path, &self.title))?, 0.05);
         if let Some([a, b, c]) = self.triangle() {
             // Room for the triangle's labels: right of it, and below or above its horizontal leg.
             let (leg, room) = (transform(pick(&b)), if upright { 44.0 } else { 80.0 });
@@ -224,11 +208,7 @@ pub fn share_ranges(path: &Path, charts: &mut [Chart]) -> Result<(), PlotError> 
 ///
 /// # Errors
 /// As [`share_ranges`].
-pub fn share_ranges_of_columns(
-    path: &Path,
-    charts: &mut [Chart],
-    columns: usize,
-) -> Result<(), PlotError> {
+pub fn share_ranges_of_columns(path: &Path, charts: &mut [Chart], columns: usize) -> Result<(), PlotError> {
     for (column, upright) in (0..columns).flat_map(|k| [(k, false), (k, true)]) {
         let length = if upright { LEAST.1 } else { LEAST.0 };
         let shown = charts.iter().skip(column).step_by(columns);

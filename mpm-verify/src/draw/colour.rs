@@ -4,9 +4,7 @@
 pub(super) type Rgb = u32;
 
 /// Okabe–Ito, with grey for its yellow, which is too faint for lines on white.
-pub(super) const PALETTE: [Rgb; 8] = [
-    0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0xE69F00, 0x56B4E9, 0x000000, 0x7F7F7F,
-];
+pub(super) const PALETTE: [Rgb; 8] = [0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0xE69F00, 0x56B4E9, 0x000000, 0x7F7F7F];
 /// Colour of axes and text.
 pub(super) const INK: Rgb = 0x222222;
 /// Colour of the paper.
@@ -14,20 +12,14 @@ pub(super) const WHITE: Rgb = 0xFFFFFF;
 /// Colour of a value that is not a number.
 const NO_VALUE: Rgb = 0xB0B0B0;
 /// Viridis at steps of a tenth.
-const SEQUENTIAL: [Rgb; 11] = [
-    0x440154, 0x482475, 0x414487, 0x355F8D, 0x2A788E, 0x21918C, 0x22A884, 0x44BF70, 0x7AD151,
-    0xBDDF26, 0xFDE725,
-];
+const SEQUENTIAL: [Rgb; 11] =
+    [0x440154, 0x482475, 0x414487, 0x355F8D, 0x2A788E, 0x21918C, 0x22A884, 0x44BF70, 0x7AD151, 0xBDDF26, 0xFDE725];
 /// Stone to purple through orange, of falling lightness: its light end shows the shadows of a body.
-const STONE: [Rgb; 11] = [
-    0xE8E2D4, 0xEFD9AE, 0xF4CB8A, 0xF4B86B, 0xF0A256, 0xE78A4A, 0xD97145, 0xC55846, 0xAB434B,
-    0x8C3250, 0x692653,
-];
+const STONE: [Rgb; 11] =
+    [0xE8E2D4, 0xEFD9AE, 0xF4CB8A, 0xF4B86B, 0xF0A256, 0xE78A4A, 0xD97145, 0xC55846, 0xAB434B, 0x8C3250, 0x692653];
 /// Blue to red through grey, of CIE lightness 22, 38, 54, 69, 83, 94 and back.
-const DIVERGING: [Rgb; 11] = [
-    0x133463, 0x0F5AA3, 0x2D86CD, 0x6AAFE4, 0xAFD4EE, 0xEEEEEE, 0xF2C6AD, 0xEA926F, 0xD25D43,
-    0xA52E28, 0x661819,
-];
+const DIVERGING: [Rgb; 11] =
+    [0x133463, 0x0F5AA3, 0x2D86CD, 0x6AAFE4, 0xAFD4EE, 0xEEEEEE, 0xF2C6AD, 0xEA926F, 0xD25D43, 0xA52E28, 0x661819];
 
 /// Red, green and blue.
 pub(super) fn channels(colour: Rgb) -> [u8; 3] {
@@ -40,11 +32,7 @@ pub(super) fn channels(colour: Rgb) -> [u8; 3] {
 #[must_use]
 pub const fn signed(most: f64) -> (f64, f64) {
     let least = -0.25 * most;
-    if most < least {
-        (most, least)
-    } else {
-        (least, most)
-    }
+    if most < least { (most, least) } else { (least, most) }
 }
 
 /// Colour of a value on the scale of a range; beyond its ends the colour of the end.

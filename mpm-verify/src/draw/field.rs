@@ -86,9 +86,7 @@ fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, 
         let half = panel.size / 2.0;
         let corners = |p: &Point| [(p.0 - half, p.1 - half), (p.0 + half, p.1 + half)];
         let squares = panel.points.iter().flat_map(corners);
-        squares
-            .chain(panel.outline.iter().copied())
-            .collect::<Vec<_>>()
+        squares.chain(panel.outline.iter().copied()).collect::<Vec<_>>()
     };
     let all: Vec<Point> = panels.iter().flat_map(extents).filter(finite).collect();
     let range = |pick: fn(&Point) -> f64| extent(all.iter().map(pick)).filter(|r| r.1 > r.0);
@@ -100,12 +98,7 @@ fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, 
 
     // The axes: one scale of pixels for both directions, and a margin about the particles.
     let columns = figure.columns.min(panels.len()).max(1);
-    let most = [
-        (1250.0, 850.0),
-        (720.0, 640.0),
-        (500.0, 520.0),
-        (400.0, 440.0),
-    ][columns.min(4) - 1];
+    let most = [(1250.0, 850.0), (720.0, 640.0), (500.0, 520.0), (400.0, 440.0)][columns.min(4) - 1];
     let scale = f64::min(most.0 / (xs.1 - xs.0), most.1 / (ys.1 - ys.0));
     let axis = |(lo, hi): Point, upright: bool| {
         let length = (scale * (hi - lo)).ceil() + 40.0;

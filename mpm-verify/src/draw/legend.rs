@@ -58,10 +58,7 @@ impl<'a> Entry<'a> {
     where
         Self: 'e,
     {
-        let bare = |entry: &Self| Self {
-            marker: Marker::None,
-            ..*entry
-        };
+        let bare = |entry: &Self| Self { marker: Marker::None, ..*entry };
         let mut common: Option<Vec<Self>> = None;
         for chart in charts {
             let first = common.get_or_insert_with(|| chart.to_vec());

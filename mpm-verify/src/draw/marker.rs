@@ -67,12 +67,7 @@ impl Page<'_> {
             }
             let radius = size + outset / (0.5 * TAU / f64::from(corners)).cos();
             let angle = |k: i32| (turn + f64::from(k) / f64::from(corners)) * TAU;
-            let corner = |k| {
-                (
-                    at.0 + radius * angle(k).cos(),
-                    at.1 - radius * angle(k).sin(),
-                )
-            };
+            let corner = |k| (at.0 + radius * angle(k).cos(), at.1 - radius * angle(k).sin());
             self.area(&(0..corners).map(corner).collect::<Vec<_>>(), colour, 1.0);
         }
     }

@@ -20,9 +20,7 @@ pub(crate) mod style;
 mod text;
 pub(crate) mod triptych;
 
-pub use chart::{
-    Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, share_ranges, share_ranges_of_columns,
-};
+pub use chart::{Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, share_ranges, share_ranges_of_columns};
 pub use colour::signed;
 pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
 pub use marker::Marker;
@@ -52,10 +50,7 @@ impl From<PlotError> for crate::error::Error {
 
 impl PlotError {
     fn new(path: &Path, cause: &dyn Display) -> Self {
-        Self {
-            path: path.into(),
-            cause: cause.to_string(),
-        }
+        Self { path: path.into(), cause: cause.to_string() }
     }
 
     fn no_data(path: &Path, title: &str) -> Self {
@@ -105,16 +100,8 @@ mod tests {
                 marker: Marker::Circle,
                 dash: Dash::Dashed,
             }],
-            reference_lines: vec![ReferenceLine {
-                name: "exact".into(),
-                value: 0.05,
-                band: Some(0.1),
-            }],
-            slope_triangle: Some(SlopeTriangle {
-                slope: 2.0,
-                at: (0.2, 0.01),
-                decades: 0.3,
-            }),
+            reference_lines: vec![ReferenceLine { name: "exact".into(), value: 0.05, band: Some(0.1) }],
+            slope_triangle: Some(SlopeTriangle { slope: 2.0, at: (0.2, 0.01), decades: 0.3 }),
             x_range: None,
             y_range: None,
         }
@@ -178,13 +165,7 @@ mod tests {
                 _ => {}
             }
         }
-        let all = [
-            "Convergence",
-            "cell size h (m)",
-            "relative error",
-            "scheme",
-            "exact",
-        ];
+        let all = ["Convergence", "cell size h (m)", "relative error", "scheme", "exact"];
         for text in all.into_iter().chain(["2", "1", "0.1", "0.2", "0.5"]) {
             assert!(texts.iter().any(|t| t == text), "{text}: {texts:?}");
         }
@@ -194,15 +175,7 @@ mod tests {
     #[test]
     fn curves_go_straight_on_beyond_their_axes_and_gaps_stay_open() {
         let nan = (f64::NAN, 0.0);
-        let points = vec![
-            (0.0, 0.0),
-            (2.0, 2.0),
-            nan,
-            (0.5, 0.0),
-            (1.0, 0.5),
-            nan,
-            nan,
-        ];
+        let points = vec![(0.0, 0.0), (2.0, 2.0), nan, (0.5, 0.0), (1.0, 0.5), nan, nan];
         let chart = Chart {
             x_range: Some((0.0, 1.0)),
             y_range: Some((0.0, 1.0)),
@@ -212,9 +185,7 @@ mod tests {
         let curves = document.lines().find(|l| l.contains("#0072B2")).unwrap();
         let numbers = curves.split(|c: char| !c.is_ascii_digit());
         let numbers: Vec<i32> = numbers.filter_map(|n| n.parse().ok()).skip(3).collect();
-        let [left, bottom, right, top, middle, b, r, half] = numbers[..] else {
-            panic!("{curves}")
-        };
+        let [left, bottom, right, top, middle, b, r, half] = numbers[..] else { panic!("{curves}") };
         // The box is 1180 by 760 pixels.
         let fine = page::FINE as i32;
         assert_eq!([right - left, bottom - top], [1180 * fine, 760 * fine]);
@@ -225,16 +196,9 @@ mod tests {
     #[test]
     fn marks_lie_within_the_picture_and_those_beyond_the_axes_are_left_out() {
         let points = vec![(0.0, 0.5), (0.5, 1.0), (1.0, 0.0), (0.5, 3.0), (-1.0, 0.5)];
-        let series = Series {
-            marker: Marker::Circle,
-            dash: Dash::None,
-            ..Series::line("", points, 0)
-        };
-        let chart = Chart {
-            x_range: Some((0.0, 1.0)),
-            y_range: Some((0.0, 1.0)),
-            ..Chart::new("", ["x", "y"], vec![series])
-        };
+        let series = Series { marker: Marker::Circle, dash: Dash::None, ..Series::line("", points, 0) };
+        let chart =
+            Chart { x_range: Some((0.0, 1.0)), y_range: Some((0.0, 1.0)), ..Chart::new("", ["x", "y"], vec![series]) };
         let document = svg(&[chart], 1);
         let marks = document.lines().filter(|l| l.contains("<circle"));
         assert_eq!(marks.filter(|l| l.contains("#0072B2")).count(), 3);

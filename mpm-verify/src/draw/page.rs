@@ -34,12 +34,7 @@ enum Medium<'a> {
 }
 
 /// The pixels over `coarser` of what is drawn on a page; `path` names it in errors.
-pub(super) fn pixels(
-    path: &Path,
-    size: Point,
-    coarser: u32,
-    draw: impl Fn(&mut Page),
-) -> Result<RgbImage, PlotError> {
+pub(super) fn pixels(path: &Path, size: Point, coarser: u32, draw: impl Fn(&mut Page)) -> Result<RgbImage, PlotError> {
     let (width, height) = fine_size(size);
     let mut buffer = vec![255; 3 * (width * height) as usize];
     let backend = BitMapBackend::with_buffer(&mut buffer, (width, height));
@@ -48,11 +43,7 @@ pub(super) fn pixels(
 }
 
 /// Writes what is drawn on a page as PNG, and as SVG beside it.
-pub(super) fn save_both(
-    path: &Path,
-    size: Point,
-    draw: impl Fn(&mut Page),
-) -> Result<(), PlotError> {
+pub(super) fn save_both(path: &Path, size: Point, draw: impl Fn(&mut Page)) -> Result<(), PlotError> {
     let mut text = String::new();
     let area = SVGBackend::with_string(&mut text, fine_size(size)).into_drawing_area();
     Page::draw(path, Medium::Vector(area), &draw)?;
@@ -167,10 +158,7 @@ fn dashes(points: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
         let length = |from: Point| (to.0 - from.0).hypot(to.1 - from.1);
         while length(from) > left {
             from = between(from, to, left / length(from));
-            parts
-                .last_mut()
-                .into_iter()
-                .for_each(|part| part.push(from));
+            parts.last_mut().into_iter().for_each(|part| part.push(from));
             left = pattern[parts.len() % pattern.len()];
             parts.push(vec![from]);
         }
@@ -237,15 +225,8 @@ fn compact(text: &str, (width, height): (u32, u32)) -> String {
     let head = format!("width=\"{width}\" height=\"{height}\"");
     let family = format!(" font-family=\"{FAMILY}\"");
     let root = format!("width=\"{wide}\" height=\"{high}\" stroke-linejoin=\"round\"{family}");
-    let defaults = [
-        &family,
-        " opacity=\"1\"",
-        " stroke=\"none\"",
-        " stroke-width=\"1\"",
-    ];
-    let text = defaults
-        .iter()
-        .fold(text.to_owned(), |text, known| text.replace(*known, ""));
+    let defaults = [&family, " opacity=\"1\"", " stroke=\"none\"", " stroke-width=\"1\""];
+    let text = defaults.iter().fold(text.to_owned(), |text, known| text.replace(*known, ""));
     let text = text.replacen(&head, &root, 1);
     let (mut document, mut open) = (String::with_capacity(text.len()), None);
     for line in text.lines() {
@@ -280,17 +261,8 @@ mod tests {
     #[test]
     fn lines_are_seen_within_a_frame() {
         let frame = [0.0, 0.0, 10.0, 10.0];
-        let line = [
-            (-5.0, 5.0),
-            (5.0, 5.0),
-            (5.0, 20.0),
-            (20.0, 5.0),
-            (8.0, 5.0),
-        ];
-        let parts = [
-            vec![(0.0, 5.0), (5.0, 5.0), (5.0, 10.0)],
-            vec![(10.0, 5.0), (8.0, 5.0)],
-        ];
+        let line = [(-5.0, 5.0), (5.0, 5.0), (5.0, 20.0), (20.0, 5.0), (8.0, 5.0)];
+        let parts = [vec![(0.0, 5.0), (5.0, 5.0), (5.0, 10.0)], vec![(10.0, 5.0), (8.0, 5.0)]];
         assert_eq!(clipped(&line, frame), parts);
         assert!(clipped(&[(-5.0, 11.0), (15.0, 11.0)], frame).is_empty());
     }

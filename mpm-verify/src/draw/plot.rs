@@ -26,15 +26,8 @@ struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     fn new(path: &Path, chart: &'a Chart, (width, height): Point) -> Result<Self, PlotError> {
-        let axes = [
-            chart.axis(path, false, width)?,
-            chart.axis(path, true, height)?,
-        ];
-        Ok(Self {
-            chart,
-            axes: Axes::new(axes, [&chart.x_label, &chart.y_label], 0.0),
-            entries: Entry::all(chart),
-        })
+        let axes = [chart.axis(path, false, width)?, chart.axis(path, true, height)?];
+        Ok(Self { chart, axes: Axes::new(axes, [&chart.x_label, &chart.y_label], 0.0), entries: Entry::all(chart) })
     }
 
     /// Draws axes, bands, curves and markers.
@@ -70,12 +63,7 @@ impl<'a> Plan<'a> {
             }
             let slope = chart.slope_triangle.map_or(0.0, |t| t.slope);
             let label = slope.to_string().replace('-', "−");
-            page.text(
-                &label,
-                (b.0 + 10.0, between(b, c, 0.5).1),
-                SMALL,
-                (0.0, 0.5),
-            );
+            page.text(&label, (b.0 + 10.0, between(b, c, 0.5).1), SMALL, (0.0, 0.5));
             let (gap, anchor) = if c.1 < b.1 { (9.0, 0.0) } else { (-9.0, 1.0) };
             page.text("1", (between(a, b, 0.5).0, a.1 + gap), SMALL, (0.5, anchor));
         }
@@ -114,8 +102,7 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
         return Err(PlotError::no_data(path, "a figure without charts"));
     }
     // Every chart has the same margins, so that the axes of a grid are aligned.
-    let [left, right, below] =
-        [0, 1, 2].map(|side| largest(plans.iter().map(|p| p.axes.room()[side])));
+    let [left, right, below] = [0, 1, 2].map(|side| largest(plans.iter().map(|p| p.axes.room()[side])));
     let titles = || charts.iter().map(|c| &*c.title).collect();
     let sheet = |room| Sheet::new("", titles(), columns, size, room);
     let common = Entry::common(plans.iter().map(|p| &p.entries[..]));
@@ -146,20 +133,11 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
     let legend = Legend::new(&common, if beside { 0.0 } else { width - EDGE });
     let first = sheet.frame(0);
     let (at, size) = match beside {
-        true => (
-            (width + BESIDE, first[1]),
-            (
-                width + BESIDE + legend.width,
-                height.max(first[1] + legend.height),
-            ),
-        ),
+        true => ((width + BESIDE, first[1]), (width + BESIDE + legend.width, height.max(first[1] + legend.height))),
         false => {
             let centred = (first[0] + width - right - legend.width) / 2.0;
             let at = centred.min(width - legend.width).max(EDGE);
-            let size = (
-                width.max(EDGE + legend.width),
-                height + BELOW + legend.height,
-            );
+            let size = (width.max(EDGE + legend.width), height + BELOW + legend.height);
             ((at, height + BELOW), size)
         }
     };

@@ -22,20 +22,14 @@ pub fn write_small_png(path: &Path, image: &RgbImage) -> Result<(), PlotError> {
             encoder.set_palette(palette);
             encoder.write_header()?.write_image_data(&indices)
         }
-        None => encoder(bytes, size, png::ColorType::Rgb)
-            .write_header()?
-            .write_image_data(image),
+        None => encoder(bytes, size, png::ColorType::Rgb).write_header()?.write_image_data(image),
     };
     written(path, write)
 }
 
 /// Writes pictures of one size as an animated PNG that repeats for ever, each shown for a `delay` of hundredths of a
 /// second; beside it one from the middle, `NAME.still.png`, for who shows the first alone.
-pub(super) fn save_animation(
-    path: &Path,
-    frames: &[RgbImage],
-    delay: u16,
-) -> Result<(), PlotError> {
+pub(super) fn save_animation(path: &Path, frames: &[RgbImage], delay: u16) -> Result<(), PlotError> {
     let first = frames.first();
     let size = first.ok_or_else(|| PlotError::new(path, &"no pictures"))?;
     written(path, |bytes| {
@@ -51,11 +45,7 @@ pub(super) fn save_animation(
     write_small_png(&path.with_extension("still.png"), &frames[frames.len() / 2])
 }
 
-fn encoder(
-    bytes: &mut Vec<u8>,
-    (width, height): (u32, u32),
-    colour: png::ColorType,
-) -> png::Encoder<'_, &mut Vec<u8>> {
+fn encoder(bytes: &mut Vec<u8>, (width, height): (u32, u32), colour: png::ColorType) -> png::Encoder<'_, &mut Vec<u8>> {
     let mut encoder = png::Encoder::new(bytes, width, height);
     encoder.set_color(colour);
     encoder.set_depth(png::BitDepth::Eight);
@@ -65,10 +55,7 @@ fn encoder(
     encoder
 }
 
-fn written(
-    path: &Path,
-    write: impl FnOnce(&mut Vec<u8>) -> Result<(), png::EncodingError>,
-) -> Result<(), PlotError> {
+fn written(path: &Path, write: impl FnOnce(&mut Vec<u8>) -> Result<(), png::EncodingError>) -> Result<(), PlotError> {
     let mut bytes = Vec::new();
     write(&mut bytes).map_err(|e| PlotError::new(path, &e))?;
     write_whole(path, &bytes).map_err(|e| PlotError::new(path, &e))

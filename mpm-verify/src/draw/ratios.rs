@@ -78,18 +78,8 @@ pub fn draw_ratios(path: &Path, ratios: &Ratios) -> Result<(), PlotError> {
                 let frame = [outer.min(inner), top, outer.max(inner), bottom];
                 page.rectangle(frame, HALVES[k], opacity);
             }
-            page.text(
-                &ratios.sides[k],
-                (outer, top - 30.0),
-                TITLE,
-                (k as f64, 0.5),
-            );
-            page.text(
-                &ratios.ends[k],
-                (outer, bottom + 56.0),
-                SMALL,
-                (k as f64, 0.5),
-            );
+            page.text(&ratios.sides[k], (outer, top - 30.0), TITLE, (k as f64, 0.5));
+            page.text(&ratios.ends[k], (outer, bottom + 56.0), SMALL, (k as f64, 0.5));
         }
         for exponent in (-(reach as i32)..=reach as i32).filter(|e| e % 2 == 0) {
             let x = place(Ratio::Of(2f64.powi(exponent)));

@@ -44,10 +44,7 @@ impl Sheet {
         let over = (largest(titles.iter().map(Block::width)) - panel.0) / 2.0;
         let (left, right) = (left.max(over).ceil(), right.max(over).ceil());
         let above = (TITLE_GAP + largest(titles.iter().map(Block::height))).ceil();
-        let pitch = (
-            left + panel.0.ceil() + right + GAP,
-            above + (panel.1 + below).ceil() + GAP,
-        );
+        let pitch = (left + panel.0.ceil() + right + GAP, above + (panel.1 + below).ceil() + GAP);
         let width = columns * pitch.0 - GAP;
         let heading = Block::new(heading, HEADING, width);
         let top = (EDGE + 1.2 * heading.height()).round();
@@ -65,10 +62,7 @@ impl Sheet {
     /// The box of a panel.
     pub(super) fn frame(&self, k: usize) -> Frame {
         let (row, column) = ((k / self.columns) as f64, (k % self.columns) as f64);
-        let (left, top) = (
-            self.start.0 + column * self.pitch.0,
-            self.start.1 + row * self.pitch.1,
-        );
+        let (left, top) = (self.start.0 + column * self.pitch.0, self.start.1 + row * self.pitch.1);
         [left, top, left + self.panel.0, top + self.panel.1]
     }
 
@@ -103,18 +97,13 @@ impl Bar {
     ) -> Self {
         let (range, top) = (widen(range, 0.0), sheet.start.1);
         let bottom = sheet.frame(sheet.titles.len().saturating_sub(1))[3];
-        let length = (bottom - top - 2.0 * TIP)
-            .clamp(LENGTHS.0, LENGTHS.1)
-            .floor();
+        let length = (bottom - top - 2.0 * TIP).clamp(LENGTHS.0, LENGTHS.1).floor();
         let foot = ((top + bottom + length) / 2.0).max(top + TIP + length);
         Self {
             scale: Axis::new(range, false, length, true),
             label: Block::new(label, LABEL, length + 2.0 * TIP),
             colouring,
-            beyond: [
-                values.clone().any(|v| *v < range.0),
-                values.clone().any(|v| *v > range.1),
-            ],
+            beyond: [values.clone().any(|v| *v < range.0), values.clone().any(|v| *v > range.1)],
             corner: (sheet.end.0 + BAR_GAP, foot.round()),
         }
     }

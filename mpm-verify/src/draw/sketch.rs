@@ -40,12 +40,8 @@ pub(crate) fn svg(sketch: &Sketch, title: &str) -> String {
         Shape::Body(corners) => Some(corners.iter().map(place)),
         _ => None,
     });
-    let mut drawing = Drawing {
-        body: body.flatten().collect(),
-        lines: Vec::new(),
-        boxes: Vec::new(),
-        elements: String::new(),
-    };
+    let mut drawing =
+        Drawing { body: body.flatten().collect(), lines: Vec::new(), boxes: Vec::new(), elements: String::new() };
     for shape in &sketch.shapes {
         match shape {
             Shape::Body(corners) => drawing.body(&corners.iter().map(place).collect::<Vec<_>>()),
@@ -89,12 +85,7 @@ fn left([x, y]: Point) -> Point {
 fn around(frames: impl Iterator<Item = Frame>) -> Frame {
     let both = |a: Frame, b: Frame| {
         let (low, high) = (f64::min, f64::max);
-        [
-            low(a[0], b[0]),
-            low(a[1], b[1]),
-            high(a[2], b[2]),
-            high(a[3], b[3]),
-        ]
+        [low(a[0], b[0]), low(a[1], b[1]), high(a[2], b[2]), high(a[3], b[3])]
     };
     frames.reduce(both).unwrap_or_default()
 }
@@ -115,16 +106,8 @@ fn beside(at: Point, direction: Point, text: &str) -> Frame {
         s if s.abs() > 0.5 => s.signum() * size / 2.0,
         s => s * size,
     };
-    let (x, y) = (
-        at[0] + shift(direction[0], width),
-        at[1] + shift(direction[1], height),
-    );
-    [
-        x - width / 2.0,
-        y - height / 2.0,
-        x + width / 2.0,
-        y + height / 2.0,
-    ]
+    let (x, y) = (at[0] + shift(direction[0], width), at[1] + shift(direction[1], height));
+    [x - width / 2.0, y - height / 2.0, x + width / 2.0, y + height / 2.0]
 }
 
 /// Text with the word after an underscore as a subscript.
@@ -135,9 +118,7 @@ fn subscripted(text: &str) -> String {
     let end = tail.find(|c: char| !c.is_alphanumeric());
     let parts = tail.split_at(end.unwrap_or(tail.len()));
     let [head, index, rest] = [head, parts.0, parts.1].map(escape);
-    format!(
-        "{head}<tspan dy=\"3\" font-size=\"75%\">{index}</tspan><tspan dy=\"-3\">{rest}</tspan>"
-    )
+    format!("{head}<tspan dy=\"3\" font-size=\"75%\">{index}</tspan><tspan dy=\"-3\">{rest}</tspan>")
 }
 
 struct Drawing {
@@ -163,16 +144,12 @@ impl Drawing {
         let corner = |[x, y]: &Point| format!("{x:.1},{y:.1}");
         let corners: Vec<String> = corners.iter().map(corner).collect();
         let points = corners.join(" ");
-        let _ = writeln!(
-            self.elements,
-            r#"<polygon points="{points}" fill="currentColor" {style}/>"#
-        );
+        let _ = writeln!(self.elements, r#"<polygon points="{points}" fill="currentColor" {style}/>"#);
     }
 
     fn body(&mut self, corners: &[Point]) {
         let next = corners.iter().cycle().skip(1);
-        self.lines
-            .extend(corners.iter().zip(next).map(|(a, b)| [*a, *b]));
+        self.lines.extend(corners.iter().zip(next).map(|(a, b)| [*a, *b]));
         let style = r#"fill-opacity="0.1" stroke-linejoin="round""#;
         self.polygon(corners, &format!(r#"{style} stroke-width="{PLAIN}""#));
     }
@@ -222,9 +199,7 @@ impl Drawing {
             let distance = |p: &Point| dot([end[0] - p[0], end[1] - p[1]], outwards);
             let level = |p: &&Point| dot([end[0] - p[0], end[1] - p[1]], direction).abs() < 0.1;
             let nearest = self.body.iter().filter(level).map(distance);
-            let reach = nearest
-                .reduce(f64::min)
-                .map_or(TICK, |nearest| nearest - TICK);
+            let reach = nearest.reduce(f64::min).map_or(TICK, |nearest| nearest - TICK);
             let (inner, outer) = (along(end, outwards, -reach), along(end, outwards, TICK));
             self.line(inner, outer, FINE);
         }
@@ -233,12 +208,9 @@ impl Drawing {
 
     fn dot(&mut self, [x, y]: Point) {
         let reach = DOT + 1.0;
-        self.boxes
-            .push([x - reach, y - reach, x + reach, y + reach]);
-        let _ = writeln!(
-            self.elements,
-            r#"<circle cx="{x:.1}" cy="{y:.1}" r="{DOT}" fill="currentColor" stroke="none"/>"#
-        );
+        self.boxes.push([x - reach, y - reach, x + reach, y + reach]);
+        let _ =
+            writeln!(self.elements, r#"<circle cx="{x:.1}" cy="{y:.1}" r="{DOT}" fill="currentColor" stroke="none"/>"#);
     }
 
     /// Text beside a point, on the side that `towards` shows, or on it.
@@ -262,11 +234,7 @@ impl Drawing {
         let places = distances.flat_map(|d| directions.map(|way| (along(at, way, DOT + d), way)));
         let hidden = |(place, direction): &(Point, Point)| {
             let frame = beside(*place, *direction, label);
-            let lines = self
-                .lines
-                .iter()
-                .filter(|line| crosses(line, frame))
-                .count();
+            let lines = self.lines.iter().filter(|line| crosses(line, frame)).count();
             lines + self.boxes.iter().filter(|b| overlap(frame, **b)).count()
         };
         if let Some((place, direction)) = places.min_by_key(hidden) {
@@ -298,10 +266,7 @@ mod tests {
 
     /// A tapered membrane, clamped on its left.
     fn membrane() -> Sketch {
-        let probe = |at: Point, label: &str| Shape::Probe {
-            at,
-            label: label.to_owned(),
-        };
+        let probe = |at: Point, label: &str| Shape::Probe { at, label: label.to_owned() };
         Sketch {
             shapes: vec![
                 Shape::Body(vec![[0.0, 0.0], [48.0, 44.0], [48.0, 60.0], [0.0, 44.0]]),
@@ -341,26 +306,16 @@ mod tests {
         let frame = |l: &str| {
             let label: String = l.split(['<', '>']).skip(2).step_by(2).collect();
             let (x, y) = (number(l, "x"), number(l, "y") - 0.35 * FONT);
-            beside(
-                [x, y],
-                [0.0, 0.0],
-                &label.replace("&lt;", "<").replace("&gt;", ">"),
-            )
+            beside([x, y], [0.0, 0.0], &label.replace("&lt;", "<").replace("&gt;", ">"))
         };
         let labels = text.lines().filter(|l| l.starts_with("<text"));
         let frames: Vec<Frame> = labels.map(frame).collect();
         assert_eq!(frames.len(), 5);
         let lines = text.lines().filter(|l| l.starts_with("<line"));
         let ends = |l: &str| ["x1", "y1", "x2", "y2"].map(|n| number(l, n));
-        let lines: Vec<_> = lines
-            .map(ends)
-            .map(|[a, b, c, d]| [[a, b], [c, d]])
-            .collect();
+        let lines: Vec<_> = lines.map(ends).map(|[a, b, c, d]| [[a, b], [c, d]]).collect();
         for (k, label) in frames.iter().enumerate() {
-            assert!(
-                !frames[..k].iter().any(|other| overlap(*label, *other)),
-                "{k}"
-            );
+            assert!(!frames[..k].iter().any(|other| overlap(*label, *other)), "{k}");
             assert!(!lines.iter().any(|line| crosses(line, *label)), "{k}");
         }
     }

@@ -155,11 +155,7 @@ impl Screen {
     fn new(window: &[(f64, f64); 3], most: f64) -> Self {
         let (st, ct) = AZIMUTH.to_radians().sin_cos();
         let (se, ce) = ELEVATION.to_radians().sin_cos();
-        let view = [
-            [ct, 0.0, -st],
-            [-se * st, ce, -se * ct],
-            [ce * st, se, ce * ct],
-        ];
+        let view = [[ct, 0.0, -st], [-se * st, ce, -se * ct], [ce * st, se, ce * ct]];
         // The middle of the window's projection and its half sides.
         let reach = |direction: Place| {
             let of = |k: usize, sign: f64| 0.5 * (window[k].1 + sign * window[k].0) * direction[k];
@@ -223,10 +219,8 @@ impl Screen {
                 let middle = middle as i32;
                 (middle - reach).max(0)..(middle + reach + 1).min(end)
             };
-            let part =
-                |pixel: i32, middle: f64| (f64::from(pixel) + 0.5 - middle) / (scale * radius);
-            for (y, x) in span(down, height).flat_map(|y| span(across, width).map(move |x| (y, x)))
-            {
+            let part = |pixel: i32, middle: f64| (f64::from(pixel) + 0.5 - middle) / (scale * radius);
+            for (y, x) in span(down, height).flat_map(|y| span(across, width).map(move |x| (y, x))) {
                 let (dx, dy) = (part(x, across), part(y, down));
                 let rest = (1.0 - dx * dx - dy * dy).max(0.0).sqrt();
                 let front = depth / f64::from(FINE) + radius * rest;
@@ -267,13 +261,7 @@ impl Ruler {
         .map(|(name, range, ends, tick, side)| {
             let ends = ends.map(|at| screen.flat(at));
             let length = (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1);
-            Self {
-                name,
-                ends,
-                scale: Axis::new(range, false, length, side == LEFT),
-                tick,
-                side,
-            }
+            Self { name, ends, scale: Axis::new(range, false, length, side == LEFT), tick, side }
         })
     }
 
@@ -386,9 +374,7 @@ mod tests {
             ("A slope", |f| f.window[1] = (1.0, 1.0)),
             ("block", |f| f.window[0] = (10.0, 20.0)),
             ("block", |f| f.panels[0].size = 0.0),
-            ("36 points but 35 values", |f| {
-                f.panels[0].values.truncate(35)
-            }),
+            ("36 points but 35 values", |f| f.panels[0].values.truncate(35)),
         ];
         for (name, spoil) in cases {
             let mut spoilt = figure();

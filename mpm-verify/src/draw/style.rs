@@ -38,21 +38,12 @@ pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
         TransferName::Apic => Dash::Dashed,
         TransferName::Xpic2 | TransferName::Musl => Dash::Dotted,
     };
-    Series {
-        name: scheme.title(),
-        points,
-        colour,
-        marker,
-        dash,
-    }
+    Series { name: scheme.title(), points, colour, marker, dash }
 }
 
 /// The same against time: of too many points for markers.
 pub(crate) fn history(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
-    Series {
-        marker: Marker::None,
-        ..series(scheme, points)
-    }
+    Series { marker: Marker::None, ..series(scheme, points) }
 }
 
 /// Schemes whose curves share a pair of axes.
@@ -86,24 +77,15 @@ impl Panels {
     pub(crate) fn new(schemes: &BTreeSet<Scheme>) -> Self {
         let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis()).collect();
         // Of one basis, as all the same curves.
-        let others: BTreeSet<Scheme> = schemes
-            .iter()
-            .map(|s| s.with(BasisName::Linear, s.remedy()))
-            .collect();
+        let others: BTreeSet<Scheme> = schemes.iter().map(|s| s.with(BasisName::Linear, s.remedy())).collect();
         let transfers: BTreeSet<_> = others.iter().map(|s| s.transfer()).collect();
         if schemes.len() <= MOST_CURVES && transfers.len() == 1 {
-            return Self(vec![Panel {
-                title: String::new(),
-                schemes: schemes.iter().copied().collect(),
-            }]);
+            return Self(vec![Panel { title: String::new(), schemes: schemes.iter().copied().collect() }]);
         }
         // Each panel has the same curves, be they empty, and so all have one legend.
         let of_basis = |basis: BasisName| Panel {
             title: basis.to_string(),
-            schemes: others
-                .iter()
-                .map(|other| other.with(basis, other.remedy()))
-                .collect(),
+            schemes: others.iter().map(|other| other.with(basis, other.remedy())).collect(),
         };
         Self(bases.into_iter().map(of_basis).collect())
     }
@@ -147,20 +129,11 @@ mod tests {
     use super::*;
 
     fn schemes(bases: &[BasisName], transfers: &[TransferName]) -> BTreeSet<Scheme> {
-        let remedies = [
-            RemedyName::None,
-            RemedyName::FbarRecursive,
-            RemedyName::FbarTotal,
-            RemedyName::FbarRate,
-        ];
+        let remedies = [RemedyName::None, RemedyName::FbarRecursive, RemedyName::FbarTotal, RemedyName::FbarRate];
         let mut all = BTreeSet::new();
         for &basis in bases {
             for remedy in remedies {
-                all.extend(
-                    transfers
-                        .iter()
-                        .map(|&transfer| Scheme::explicit(basis, remedy, transfer)),
-                );
+                all.extend(transfers.iter().map(|&transfer| Scheme::explicit(basis, remedy, transfer)));
             }
         }
         all
@@ -196,10 +169,7 @@ mod tests {
         all.pop_last();
         let panels = looks(&all);
         let plain = |panel: &[Series]| -> Vec<Series> {
-            let plain = |s: &Series| Series {
-                marker: Marker::None,
-                ..s.clone()
-            };
+            let plain = |s: &Series| Series { marker: Marker::None, ..s.clone() };
             panel.iter().map(plain).collect()
         };
         assert_eq!(plain(&panels[0]), plain(&panels[1]));
@@ -213,21 +183,11 @@ mod tests {
     fn a_picture_has_six_panels_at_most() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.png");
-        let all = schemes(
-            &[BasisName::Gimp, BasisName::Bspline2],
-            &[TransferName::Flip, TransferName::Apic],
-        );
-        let chart = |_: &usize, panel: &Panel| {
-            Chart::new("", ["", ""], panel.curves(|_| vec![(1.0, 1.0), (2.0, 2.0)]))
-        };
+        let all = schemes(&[BasisName::Gimp, BasisName::Bspline2], &[TransferName::Flip, TransferName::Apic]);
+        let chart = |_: &usize, panel: &Panel| Chart::new("", ["", ""], panel.curves(|_| vec![(1.0, 1.0), (2.0, 2.0)]));
         let files = Panels::new(&all).draw(&path, 0..4, chart).unwrap();
         assert_eq!(files, [path.clone(), path.with_file_name("a-2.png")]);
         assert!(files.iter().all(|file| file.exists()));
-        assert!(
-            Panels(Vec::new())
-                .draw(&path, 0..4, chart)
-                .unwrap()
-                .is_empty()
-        );
+        assert!(Panels(Vec::new()).draw(&path, 0..4, chart).unwrap().is_empty());
     }
 }

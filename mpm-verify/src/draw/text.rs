@@ -5,9 +5,7 @@ use super::largest;
 use super::page::{FINE, Page, Point, ink, spot};
 use plotters::element::Text;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{
-    Color, FontDesc, FontFamily, FontStyle, FontTransform, TextStyle, register_font,
-};
+use plotters::style::{Color, FontDesc, FontFamily, FontStyle, FontTransform, TextStyle, register_font};
 use std::sync::Once;
 
 /// A font: its size (the em, in pixels), and whether it is bold.
@@ -88,11 +86,7 @@ impl Page<'_> {
     pub(super) fn block(&mut self, block: &Block, (x, y): Point, turned: bool) {
         for (k, line) in block.text.lines().enumerate() {
             let middle = (k as f64 + 0.5) * LEADING * block.font.0;
-            let at = if turned {
-                (x + middle, y)
-            } else {
-                (x, y + middle)
-            };
+            let at = if turned { (x + middle, y) } else { (x, y + middle) };
             self.line_of_text(line, at, block.font, 0.5, turned);
         }
     }
@@ -120,11 +114,7 @@ impl Page<'_> {
             false => (at.0 + along, at.1 + down * font.0),
         };
         let whole = !self.has_pixels();
-        let plain = if whole {
-            line.to_owned()
-        } else {
-            line.replace(BAR, "")
-        };
+        let plain = if whole { line.to_owned() } else { line.replace(BAR, "") };
         let start = -anchor * font.width(&plain);
         let foot = spot(place(0.0, LIFT[usize::from(whole)]));
         self.put(&Text::new(plain, foot, style));

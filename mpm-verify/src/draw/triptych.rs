@@ -38,9 +38,7 @@ pub(crate) fn triptych(old: &RgbImage, new: &RgbImage) -> RgbImage {
                 RED
             } else {
                 let ink = new.get_pixel_checked(x, y).unwrap_or(&WHITE);
-                Rgb(ink
-                    .0
-                    .map(|c| (255.0 - FADED * (255.0 - f64::from(c))).round() as u8))
+                Rgb(ink.0.map(|c| (255.0 - FADED * (255.0 - f64::from(c))).round() as u8))
             };
             all.put_pixel(2 * (width + GAP) + x, y, pixel);
         }

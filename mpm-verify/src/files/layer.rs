@@ -145,12 +145,7 @@ pub(crate) mod fault {
     ) -> (T, Vec<(Step, PathBuf)>) {
         let root = root.to_path_buf();
         let log = Vec::new();
-        machines().push(Machine {
-            root: root.clone(),
-            fault,
-            at,
-            log,
-        });
+        machines().push(Machine { root: root.clone(), fault, at, log });
         let result = work();
         let mut all = machines();
         let place = all.iter().position(|m| m.root == root).unwrap();

@@ -32,12 +32,7 @@ pub fn hold(folder: &Path) -> Result<Held, Error> {
         return Err(Error::file(&path, "a link, which is not followed"));
     }
     loop {
-        let options = File::options()
-            .read(true)
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(&path);
+        let options = File::options().read(true).write(true).create(true).truncate(false).open(&path);
         let mut lock = options.map_err(|e| Error::file(folder, format!("not writable: {e}")))?;
         match lock.try_lock() {
             Ok(()) => {}
@@ -57,21 +52,10 @@ pub fn hold(folder: &Path) -> Result<Held, Error> {
         }
         let arguments: Vec<String> = std::env::args().skip(1).collect();
         let now = jiff::Timestamp::now();
-        let holder = format!(
-            "process {}, `{}`, since {now}",
-            std::process::id(),
-            arguments.join(" ")
-        );
-        let said = lock
-            .set_len(0)
-            .and_then(|()| lock.write_all(holder.as_bytes()));
+        let holder = format!("process {}, `{}`, since {now}", std::process::id(), arguments.join(" "));
+        let said = lock.set_len(0).and_then(|()| lock.write_all(holder.as_bytes()));
         said.map_err(|e| Error::file(&path, e))?;
-        return Ok(Held {
-            file: path,
-            folder: folder.to_path_buf(),
-            made,
-            _lock: lock,
-        });
+        return Ok(Held { file: path, folder: folder.to_path_buf(), made, _lock: lock });
     }
 }
 
@@ -108,10 +92,7 @@ mod tests {
         let folder = root.path().join("out");
         let held = hold(&folder).unwrap();
         let error = hold(&folder).unwrap_err().to_string();
-        let me = format!(
-            "another process writes to this folder: process {}, `",
-            std::process::id()
-        );
+        let me = format!("another process writes to this folder: process {}, `", std::process::id());
         assert!(error.contains(&me), "{error}");
         drop(held);
         assert!(!folder.exists(), "a folder that stays empty goes");

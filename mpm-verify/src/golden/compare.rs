@@ -31,20 +31,14 @@ impl Goldens {
     /// There is no such folder. A file that is missing or damaged is drift of its case.
     pub fn open(root: &Path) -> Result<Self, Error> {
         if !root.is_dir() {
-            return Err(Error::file(
-                root,
-                "no folder of goldens: name one with --golden",
-            ));
+            return Err(Error::file(root, "no folder of goldens: name one with --golden"));
         }
         let read = |name| match file(root, name) {
             path if path.exists() => Golden::read(&path).map_err(|e| e.to_string()),
             _ => Ok(Golden::default()),
         };
         let names = cases::all().iter().map(|case| case.name);
-        Ok(Self {
-            root: root.to_path_buf(),
-            cases: names.map(|name| (name, read(name))).collect(),
-        })
+        Ok(Self { root: root.to_path_buf(), cases: names.map(|name| (name, read(name))).collect() })
     }
 
     /// Puts runs of one case in the place of what is kept of them, and draws its pictures anew. Other runs of the plan
@@ -201,14 +195,9 @@ impl<'a> Now<'a> {
             Some((_, name)) => name.to_owned(),
             None => column.quantity.clone(),
         };
-        let mut worst = (
-            f64::NEG_INFINITY,
-            mismatch(&label, "the golden has no number"),
-        );
+        let mut worst = (f64::NEG_INFINITY, mismatch(&label, "the golden has no number"));
         for point in &column.points {
-            let place = point
-                .time
-                .map_or(String::new(), |t| format!("at time {t}; "));
+            let place = point.time.map_or(String::new(), |t| format!("at time {t}; "));
             let Some(value) = self.find(&column.quantity, point) else {
                 return mismatch(&label, &format!("{place}the run has no such number"));
             };

@@ -37,11 +37,7 @@ type Cells = (Option<f64>, f64, f64);
 
 impl From<Cells> for Point {
     fn from((time, value, response): Cells) -> Self {
-        Self {
-            time,
-            value,
-            response,
-        }
+        Self { time, value, response }
     }
 }
 
@@ -64,15 +60,8 @@ impl Column {
     /// A quantity of one number.
     #[must_use]
     pub fn single(quantity: String, value: f64, response: f64) -> Self {
-        let point = Point {
-            time: None,
-            value,
-            response,
-        };
-        Self {
-            quantity,
-            points: vec![point],
-        }
+        let point = Point { time: None, value, response };
+        Self { quantity, points: vec![point] }
     }
 
     /// The largest of its numbers.
@@ -179,9 +168,7 @@ impl Golden {
             }
             if column.is_blunt() || column.points.iter().any(|p| p.response < 0.0) {
                 let scale = column.scale();
-                return Err(format!(
-                    "{name}: a golden responds by 0 to {BLUNT:.0e} of its scale, {scale:e}"
-                ));
+                return Err(format!("{name}: a golden responds by 0 to {BLUNT:.0e} of its scale, {scale:e}"));
             }
         }
         Ok(())
@@ -203,11 +190,7 @@ impl Golden {
     #[must_use]
     pub fn shown(&self) -> Vec<Run> {
         let all = || self.runs.iter().filter(|run| run.has_series());
-        let setting = |run: &Run| {
-            run.name
-                .split_once('/')
-                .map(|(_, setting)| setting.to_owned())
-        };
+        let setting = |run: &Run| run.name.split_once('/').map(|(_, setting)| setting.to_owned());
         let count = |run: &&Run| all().filter(|r| setting(r) == setting(run)).count();
         // Of as many, the first.
         let most = all().rev().max_by_key(count).and_then(setting);
@@ -217,8 +200,7 @@ impl Golden {
 
     /// Replaces runs of the same name and keeps the others that are among `planned`, in its order.
     pub fn bless(&mut self, new: Vec<Run>, planned: &[String], record: &Record, reason: &str) {
-        self.runs
-            .retain(|old| new.iter().all(|r| r.name != old.name));
+        self.runs.retain(|old| new.iter().all(|r| r.name != old.name));
         self.runs.extend(new);
         self.runs.retain(|run| planned.contains(&run.name));
         let place = |run: &Run| planned.iter().position(|name| *name == run.name);
@@ -245,10 +227,7 @@ impl Golden {
             Ok(format!("{{\"name\":{name},\"columns\":[\n{columns}\n]}}"))
         });
         let runs = runs.collect::<serde_json::Result<Vec<String>>>()?;
-        Ok(format!(
-            "{{\"schema\":{SCHEMA},\"blessings\":[\n{blessings}\n],\"runs\":[\n{}\n]}}\n",
-            runs.join(",\n")
-        ))
+        Ok(format!("{{\"schema\":{SCHEMA},\"blessings\":[\n{blessings}\n],\"runs\":[\n{}\n]}}\n", runs.join(",\n")))
     }
 
     /// Writes the file, whole.

@@ -17,10 +17,7 @@ impl Run {
     ///
     /// # Errors
     /// The case is not known, or a series can't be read.
-    pub fn of(
-        (record, folder): (&Record, &Path),
-        (twin, twin_folder): (&Record, &Path),
-    ) -> Result<Self, Error> {
+    pub fn of((record, folder): (&Record, &Path), (twin, twin_folder): (&Record, &Path)) -> Result<Self, Error> {
         let mut columns = metrics(record, twin);
         let [of_run, of_twin] = [folder, twin_folder].map(|f| Table::read(&f.join(series::FILE)));
         let (of_run, of_twin) = (of_run?, of_twin?);
@@ -32,10 +29,7 @@ impl Run {
             }
         }
         columns.extend(counts(record, twin));
-        Ok(Self {
-            name: record.folder(),
-            columns,
-        })
+        Ok(Self { name: record.folder(), columns })
     }
 }
 
@@ -49,11 +43,7 @@ fn metrics(record: &Record, twin: &Record) -> Vec<Column> {
         let value = metric.value?;
         let response = (value - twin.metrics.get(name)?.value?).abs();
         let quantity = format!("metric/{name} ({})", metric.unit);
-        Some(Column::single(
-            quantity,
-            rounded(value, 10),
-            rounded(response, 2),
-        ))
+        Some(Column::single(quantity, rounded(value, 10), rounded(response, 2)))
     });
     both.filter(|column| !column.is_blunt()).collect()
 }
@@ -92,10 +82,7 @@ fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column>
             });
         }
     }
-    let mut column = Column {
-        quantity: format!("{SERIES}{header}"),
-        points,
-    };
+    let mut column = Column { quantity: format!("{SERIES}{header}"), points };
     while column.is_blunt() {
         column.points.pop();
     }

@@ -114,10 +114,7 @@ fn of_drift(found: Finding) -> Verdict {
 
 /// A failed comparison that has no numbers.
 fn mismatch(metric: &str, why: &str) -> Verdict {
-    Verdict {
-        outcome: Outcome::Failed,
-        ..of_drift(Finding::not_applicable(metric, why))
-    }
+    Verdict { outcome: Outcome::Failed, ..of_drift(Finding::not_applicable(metric, why)) }
 }
 
 /// The name of a column without its unit.

@@ -38,9 +38,7 @@ pub(super) fn curves(runs: &[Run], abscissa: &str) -> Result<RgbImage, Error> {
         .collect();
     let charts = charts?;
     let width = if charts.len() == 1 { NARROW } else { WIDTH };
-    small(width, |path| {
-        draw_charts(path, &charts, charts.len().min(2))
-    })
+    small(width, |path| draw_charts(path, &charts, charts.len().min(2)))
 }
 
 /// A column of a run, as its scheme looks everywhere.
@@ -54,10 +52,7 @@ fn curve(run: &Run, header: &str) -> Result<Series, Error> {
 }
 
 /// What `draw` writes, so wide and in few shades.
-pub(super) fn small(
-    width: u32,
-    draw: impl Fn(&Path) -> Result<(), PlotError>,
-) -> Result<RgbImage, Error> {
+pub(super) fn small(width: u32, draw: impl Fn(&Path) -> Result<(), PlotError>) -> Result<RgbImage, Error> {
     let folder = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
     let path = folder.path().join("picture.png");
     draw(&path)?;
@@ -87,8 +82,7 @@ pub(super) fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
 /// It can't be written.
 pub(super) fn write_small(picture: &RgbImage, path: &Path) -> Result<(), Error> {
     let mut bytes = Vec::new();
-    let encoder =
-        PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+    let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
     let written = picture.write_with_encoder(encoder);
     written.map_err(|e| Error::file(path, e))?;
     write_whole(path, &bytes)
@@ -115,12 +109,7 @@ mod tests {
         draw(&path).unwrap();
         let whole = read_picture(&path).unwrap();
         assert_eq!(blank.height(), whole.height() * 480 / whole.width());
-        assert!(
-            blank
-                .pixels()
-                .flat_map(|p| p.0)
-                .all(|channel| channel % 17 == 0)
-        );
+        assert!(blank.pixels().flat_map(|p| p.0).all(|channel| channel % 17 == 0));
         assert!(blank.pixels().any(|p| *p == Rgb([255; 3])));
         // Every shade is the nearest of sixteen.
         let shades = small(480, |path| {
@@ -133,44 +122,21 @@ mod tests {
             assert_eq!(pixel.0, [nearest; 3], "{y}");
         }
         let run = |times: &[f64]| {
-            let points = times.iter().map(|t| Point {
-                time: Some(*t),
-                value: 2.0,
-                response: 0.0,
-            });
-            let column = |quantity: &str| Column {
-                quantity: quantity.to_owned(),
-                points: points.clone().collect(),
-            };
-            let columns = vec![
-                column("series/a (m)"),
-                column("metric/b (m)"),
-                column("series/c (m)"),
-            ];
-            Run {
-                name: "gimp-fbar-consistent-flip/h2".to_owned(),
-                columns,
-            }
+            let points = times.iter().map(|t| Point { time: Some(*t), value: 2.0, response: 0.0 });
+            let column = |quantity: &str| Column { quantity: quantity.to_owned(), points: points.clone().collect() };
+            let columns = vec![column("series/a (m)"), column("metric/b (m)"), column("series/c (m)")];
+            Run { name: "gimp-fbar-consistent-flip/h2".to_owned(), columns }
         };
         let ink = |picture: &RgbImage| {
             let coloured = |p: &&Rgb<u8>| p.0[0] != p.0[1] || p.0[1] != p.0[2];
             picture.pixels().filter(coloured).count()
         };
-        let [one, two] =
-            [&[1.0][..], &[1.0, 1.5, 2.0]].map(|t| curves(&[run(t)], "time (s)").unwrap());
-        assert!(
-            ink(&one) > 0 && ink(&two) > ink(&one),
-            "{} {}",
-            ink(&one),
-            ink(&two)
-        );
+        let [one, two] = [&[1.0][..], &[1.0, 1.5, 2.0]].map(|t| curves(&[run(t)], "time (s)").unwrap());
+        assert!(ink(&one) > 0 && ink(&two) > ink(&one), "{} {}", ink(&one), ink(&two));
         // Two charts side by side.
         assert!(one.height() < blank.height());
         // A curve a run, as its scheme looks, with a legend.
-        let other = Run {
-            name: "bspline2-none-flip/h2".to_owned(),
-            columns: run(&[1.2, 1.4]).columns,
-        };
+        let other = Run { name: "bspline2-none-flip/h2".to_owned(), columns: run(&[1.2, 1.4]).columns };
         let both = curves(&[run(&[1.0]), other.clone()], "time (s)").unwrap();
         assert!(both != curves(&[run(&[1.0]), run(&[1.2, 1.4])], "time (s)").unwrap());
         // A chart has its own column, and what is no series has none.
@@ -180,10 +146,7 @@ mod tests {
             curves(&[part], "time (s)").unwrap()
         };
         assert!(part(1) == part(2) && part(1) != part(3));
-        let unknown = Run {
-            name: "a/h2".to_owned(),
-            ..other
-        };
+        let unknown = Run { name: "a/h2".to_owned(), ..other };
         assert!(curves(&[unknown], "time (s)").is_err() && curves(&[], "time (s)").is_err());
     }
 }

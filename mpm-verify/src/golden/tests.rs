@@ -27,14 +27,9 @@ impl Made {
         for (name, value) in [("tip_uy", 10.0), ("mass", -2.0)] {
             let unit = "m".to_owned();
             let value = Some(value);
-            record
-                .metrics
-                .insert(name.to_owned(), Measured { value, unit });
+            record.metrics.insert(name.to_owned(), Measured { value, unit });
         }
-        let made = Self {
-            folder: tempfile::tempdir().unwrap(),
-            record,
-        };
+        let made = Self { folder: tempfile::tempdir().unwrap(), record };
         fs::create_dir(made.goldens()).unwrap();
         made.write("series.csv", &made.series());
         made.write("particles.csv", &Self::particles());
@@ -47,9 +42,7 @@ impl Made {
     }
 
     fn write(&self, file: &str, columns: &[(&str, Vec<f64>)]) {
-        let columns = columns
-            .iter()
-            .map(|(name, values)| ((*name).to_owned(), values.clone()));
+        let columns = columns.iter().map(|(name, values)| ((*name).to_owned(), values.clone()));
         let table = Table::of_columns(columns.collect());
         table.write(&self.folder.path().join(file)).unwrap();
     }
@@ -99,10 +92,7 @@ impl Made {
     }
 
     fn drifting(&self) -> Vec<String> {
-        self.drift()
-            .into_iter()
-            .map(|(metric, ..)| metric)
-            .collect()
+        self.drift().into_iter().map(|(metric, ..)| metric).collect()
     }
 }
 
@@ -112,10 +102,7 @@ fn a_run_is_that_which_was_blessed() {
     let run = made.run();
     // What was blessed before stays.
     let earlier = Golden {
-        runs: vec![Run {
-            name: Made::of(0).run().name,
-            columns: run.columns.clone(),
-        }],
+        runs: vec![Run { name: Made::of(0).run().name, columns: run.columns.clone() }],
         blessings: vec!["2026-01-01: first".to_owned()],
     };
     let path = file(&made.goldens(), "cook");
@@ -123,31 +110,13 @@ fn a_run_is_that_which_was_blessed() {
     made.bless();
     let both = Golden::read(&path).unwrap();
     assert_eq!(both.runs, [earlier.runs[0].clone(), run.clone()]);
-    assert_eq!(
-        (both.blessings.len(), &both.blessings[0]),
-        (2, &earlier.blessings[0])
-    );
+    assert_eq!((both.blessings.len(), &both.blessings[0]), (2, &earlier.blessings[0]));
     let names: Vec<&str> = run.columns.iter().map(|c| &*c.quantity).collect();
     let (numbers, counts) = names.split_at(4);
     let watched = ["series/tip_uy (m)", "series/log_jacobian_gap_rms (-)"];
-    assert_eq!(
-        numbers,
-        [
-            "metric/mass (m)",
-            "metric/tip_uy (m)",
-            watched[0],
-            watched[1]
-        ]
-    );
-    assert!(
-        counts.iter().all(|c| c.starts_with("work/")) && counts.len() == 7,
-        "{counts:?}"
-    );
-    let kept: Vec<_> = run.columns[2]
-        .points
-        .iter()
-        .map(|p| (p.time, p.value))
-        .collect();
+    assert_eq!(numbers, ["metric/mass (m)", "metric/tip_uy (m)", watched[0], watched[1]]);
+    assert!(counts.iter().all(|c| c.starts_with("work/")) && counts.len() == 7, "{counts:?}");
+    let kept: Vec<_> = run.columns[2].points.iter().map(|p| (p.time, p.value)).collect();
     let every_second = (1..=8).map(f64::from).map(|t| (Some(t), t * t));
     assert_eq!(kept, every_second.collect::<Vec<_>>());
 
@@ -159,24 +128,10 @@ fn a_run_is_that_which_was_blessed() {
 
     let verdicts = made.compare();
     assert_eq!(verdicts.len(), run.columns.len());
-    assert!(
-        verdicts
-            .iter()
-            .all(|v| v.outcome == Outcome::Right && v.check == CHECK)
-    );
-    let of_series = verdicts
-        .iter()
-        .find(|v| v.metric == "series tip_uy (m)")
-        .unwrap();
-    assert_eq!(
-        (of_series.tolerance, of_series.kind),
-        (Some(64e-7), Kind::Drift)
-    );
-    assert!(
-        of_series.source.contains("as it should be"),
-        "{}",
-        of_series.source
-    );
+    assert!(verdicts.iter().all(|v| v.outcome == Outcome::Right && v.check == CHECK));
+    let of_series = verdicts.iter().find(|v| v.metric == "series tip_uy (m)").unwrap();
+    assert_eq!((of_series.tolerance, of_series.kind), (Some(64e-7), Kind::Drift));
+    assert!(of_series.source.contains("as it should be"), "{}", of_series.source);
 }
 
 /// Of a metric, of a row of a series as far as its column's scale allows, and of a count not at all.
@@ -189,35 +144,17 @@ fn what_moves_by_more_than_its_tolerance_drifts() {
         assert_eq!(made.drifting().len(), usize::from(drifts), "{moved}");
     }
     let drift = made.drift();
-    assert_eq!(
-        (&*drift[0].0, drift[0].1.unwrap().is_nan()),
-        ("tip_uy (m)", true)
-    );
+    assert_eq!((&*drift[0].0, drift[0].1.unwrap().is_nan()), ("tip_uy (m)", true));
     made.record = sound.clone();
     made.record.metrics.remove("tip_uy");
     let none = made.drift();
-    assert!(
-        none.len() == 1 && none[0].2.contains("the run has no such number"),
-        "{none:?}"
-    );
+    assert!(none.len() == 1 && none[0].2.contains("the run has no such number"), "{none:?}");
     made.record = sound.clone();
     made.record.work.steps += 1;
-    assert_eq!(
-        made.drift(),
-        [(
-            "count of steps".to_owned(),
-            Some(4.0),
-            made.drift()[0].2.clone()
-        )]
-    );
+    assert_eq!(made.drift(), [("count of steps".to_owned(), Some(4.0), made.drift()[0].2.clone())]);
     made.record = sound;
     // The row at 1 s is the second; of those that are not kept nothing is said.
-    for (row, moved, drifts) in [
-        (1, 6e-6, false),
-        (1, 7e-6, true),
-        (0, 1.0, false),
-        (15, -7e-6, true),
-    ] {
+    for (row, moved, drifts) in [(1, 6e-6, false), (1, 7e-6, true), (0, 1.0, false), (15, -7e-6, true)] {
         let mut series = made.series();
         series[1].1[row] += moved;
         made.write("series.csv", &series);
@@ -225,15 +162,8 @@ fn what_moves_by_more_than_its_tolerance_drifts() {
         assert_eq!(drift.len(), usize::from(drifts), "{row} {moved} {drift:?}");
         if drifts {
             let time = 0.5 * (row as f64 + 1.0);
-            assert_eq!(
-                (&*drift[0].0, drift[0].1),
-                ("series tip_uy (m)", Some(series[1].1[row]))
-            );
-            assert!(
-                drift[0].2.starts_with(&format!("at time {time}; blessed ")),
-                "{}",
-                drift[0].2
-            );
+            assert_eq!((&*drift[0].0, drift[0].1), ("series tip_uy (m)", Some(series[1].1[row])));
+            assert!(drift[0].2.starts_with(&format!("at time {time}; blessed ")), "{}", drift[0].2);
         }
     }
     // Of two that have moved, that which has moved further.
@@ -247,10 +177,7 @@ fn what_moves_by_more_than_its_tolerance_drifts() {
     made.write("series.csv", &series);
     let drift = made.drift();
     assert_eq!(drift.len(), 3, "both columns, and the picture");
-    assert!(
-        drift[0].2.contains("at time 1; the run has no such number"),
-        "{drift:?}"
-    );
+    assert!(drift[0].2.contains("at time 1; the run has no such number"), "{drift:?}");
     series[0].1[1] = 1.0 + 7e-9;
     made.write("series.csv", &series);
     assert_eq!(made.drifting(), [""; 0]);
@@ -265,14 +192,8 @@ fn without_a_golden_the_reason_is_told() {
     made.record = sound;
     made.record.set.push("load=2".to_owned());
     let verdicts = made.compare();
-    assert_eq!(
-        (verdicts.len(), verdicts[0].outcome),
-        (1, Outcome::NotJudged)
-    );
-    assert_eq!(
-        verdicts[0].source,
-        "goldens are kept of the runs of tier pr only"
-    );
+    assert_eq!((verdicts.len(), verdicts[0].outcome), (1, Outcome::NotJudged));
+    assert_eq!(verdicts[0].source, "goldens are kept of the runs of tier pr only");
     let made = Made::of(1);
     let file = file(&made.goldens(), "cook");
     fs::write(&file, "damaged").unwrap();
@@ -296,25 +217,15 @@ fn the_picture_of_the_first_run_is_kept_and_compared() {
     let setting = |run: &str| run.split_once('/').unwrap().1.to_owned();
     let first = made.run().name;
     let other = other.iter().position(|run| setting(run) != setting(&first));
-    let other = Made {
-        folder: made.folder,
-        record: Made::of(other.unwrap()).record,
-    };
+    let other = Made { folder: made.folder, record: Made::of(other.unwrap()).record };
     let before = fs::read(&path).unwrap();
     other.bless();
     assert_eq!(fs::read(&path).unwrap(), before);
     assert_eq!(other.compare().len(), other.run().columns.len());
-    let made = Made {
-        record: Made::of(0).record,
-        ..other
-    };
+    let made = Made { record: Made::of(0).record, ..other };
     assert_eq!(made.drifting(), [""; 0]);
     let columns = made.run().columns.len();
-    assert_eq!(
-        made.compare().len(),
-        columns + 3,
-        "the picture, the field and its picture"
-    );
+    assert_eq!(made.compare().len(), columns + 3, "the picture, the field and its picture");
     // Drawn from what was blessed where that holds, so that it shows no rounding.
     let mut series = made.series();
     series[1].1.fill(5.0);
@@ -329,10 +240,7 @@ fn the_picture_of_the_first_run_is_kept_and_compared() {
     series[1].1[15] = 40.0;
     made.write("series.csv", &series);
     let drift = made.drift();
-    assert_eq!(
-        (drift.len(), &*drift[1].0),
-        (2, "different pixels of the picture")
-    );
+    assert_eq!((drift.len(), &*drift[1].0), (2, "different pixels of the picture"));
     assert!(drift[1].1 > Some(20.0), "{drift:?}");
     let goldens = Goldens::open(&made.goldens()).unwrap();
     let [old, new] = goldens.pictures(&made.record, made.folder.path()).unwrap();
@@ -372,18 +280,12 @@ fn counts_are_summed_over_the_runs_of_a_case() {
     golden.write(&path).unwrap();
     let count = golden.runs.len() as u64;
     assert!(count > 2);
-    assert_eq!(
-        pairs(root.path(), "cook").unwrap(),
-        10 * count * (count + 1) / 2
-    );
+    assert_eq!(pairs(root.path(), "cook").unwrap(), 10 * count * (count + 1) / 2);
     assert_eq!(nonzeros(root.path(), "cook").unwrap(), 7);
     let gone = golden.runs.pop().unwrap();
     golden.write(&path).unwrap();
     let said = pairs(root.path(), "cook").unwrap_err().to_string();
-    assert!(
-        said.contains(&format!("cook.json: no golden of {}", gone.name)),
-        "{said}"
-    );
+    assert!(said.contains(&format!("cook.json: no golden of {}", gone.name)), "{said}");
     assert!(nonzeros(root.path(), "none").is_err());
 }
 

@@ -37,10 +37,7 @@ pub(crate) fn run(
     record.set = set.iter().map(|s| (*s).to_owned()).collect();
     record.parameters = Parameters::new(parameters, &record.set).unwrap();
     for (name, value) in metrics {
-        let metric = Measured {
-            value: Some(*value),
-            unit: "-".to_owned(),
-        };
+        let metric = Measured { value: Some(*value), unit: "-".to_owned() };
         record.metrics.insert((*name).to_owned(), metric);
     }
     record

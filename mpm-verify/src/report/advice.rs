@@ -23,21 +23,13 @@ fn table(readme: &str) -> Option<Table> {
         let cells = line.trim_matches('|').split('|').enumerate();
         let cell = |(k, cell): (usize, &str)| {
             let text = Text::marked(&without_comments(cell.trim())).unlinked();
-            if k == 0 {
-                Cell::head(text)
-            } else {
-                Cell::from(text)
-            }
+            if k == 0 { Cell::head(text) } else { Cell::from(text) }
         };
         Row::from(cells.map(cell).collect::<Vec<_>>())
     });
     let head = rows.next()?.cells;
     let rows = rows.skip(1).collect();
-    Some(Table {
-        class: "prose",
-        head,
-        rows,
-    })
+    Some(Table { class: "prose", head, rows })
 }
 
 fn without_comments(cell: &str) -> String {
@@ -69,10 +61,7 @@ mod tests {
         assert!(rows.len() >= 8);
         for row in rows {
             let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
-            assert!(
-                cells.len() == 5 && cells.iter().all(|c| !c.is_empty()),
-                "{row}"
-            );
+            assert!(cells.len() == 5 && cells.iter().all(|c| !c.is_empty()), "{row}");
             assert!(Scheme::parse(cells[1].trim_matches('`')).is_ok(), "{row}");
             assert!(!row.contains("<!--") && !row.contains("]("), "{row}");
         }

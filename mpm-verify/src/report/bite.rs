@@ -18,10 +18,7 @@ fn beyond(verdict: &Verdict) -> Vec<f64> {
             let by = far(tolerance).max(1e-6 * reference.abs());
             vec![reference + by, reference - by]
         }
-        None => vec![
-            tolerance + far(tolerance).max(1e-3),
-            tolerance - far(tolerance).max(1e-3),
-        ],
+        None => vec![tolerance + far(tolerance).max(1e-3), tolerance - far(tolerance).max(1e-3)],
     }
 }
 
@@ -35,9 +32,7 @@ fn turns_red(record: &Record, verdict: &Verdict, value: f64) -> bool {
         measured.value = Some(value);
     }
     let same = |v: &Verdict| v.check == verdict.check && v.metric == verdict.metric;
-    case.judge(&moved)
-        .iter()
-        .any(|v| same(v) && v.outcome == Outcome::Failed)
+    case.judge(&moved).iter().any(|v| same(v) && v.outcome == Outcome::Failed)
 }
 
 #[test]
@@ -58,9 +53,7 @@ fn every_check_of_a_run_turns_red_beyond_twice_its_tolerance() {
             if !holds || !of_metric || verdict.kind == Kind::Bookkeeping || red.contains(&name) {
                 continue;
             }
-            let reds = beyond(&verdict)
-                .into_iter()
-                .any(|value| turns_red(record, &verdict, value));
+            let reds = beyond(&verdict).into_iter().any(|value| turns_red(record, &verdict, value));
             if reds {
                 green.remove(&name);
                 red.insert(name);

@@ -49,13 +49,8 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         let errors = errors(all().filter(|c| c.set == set), "cell size h (m)", |p| p.h);
         let finish = |quantity: &Quantity, _: &Panel, chart: Chart| {
             let curves = || chart.series.iter().map(|s| &s.points[..]);
-            let slope_triangle = quantity
-                .order
-                .and_then(|slope| below_the_curves(slope, curves()));
-            Chart {
-                slope_triangle,
-                ..with_uncertainty(quantity, chart)
-            }
+            let slope_triangle = quantity.order.and_then(|slope| below_the_curves(slope, curves()));
+            Chart { slope_triangle, ..with_uncertainty(quantity, chart) }
         };
         pictures.extend(errors.draw(case, (&name, &caption), out, finish)?);
     }
@@ -78,17 +73,8 @@ fn slug(set: &[String]) -> String {
 }
 
 fn write_points(convergence: &[Convergence], path: &Path) -> Result<(), Error> {
-    let header = [
-        "quantity",
-        "scheme",
-        "changed",
-        "level",
-        "set",
-        "h (m)",
-        "value",
-        "cpu_s (s)",
-        "particle_node_pairs",
-    ];
+    let header =
+        ["quantity", "scheme", "changed", "level", "set", "h (m)", "value", "cpu_s (s)", "particle_node_pairs"];
     let rows = convergence.iter().flat_map(|c| {
         c.points.iter().map(|p| {
             vec![
@@ -111,37 +97,17 @@ fn write_points(convergence: &[Convergence], path: &Path) -> Result<(), Error> {
 type Cost = (&'static str, &'static str, &'static str, fn(&Point) -> f64);
 
 const COSTS: [Cost; 2] = [
-    (
-        "work-precision.png",
-        "particle–node pairs visited",
-        "particle–node pairs",
-        |p| p.particle_node_pairs as f64,
-    ),
-    (CPU_PICTURE, "CPU time (one thread)", "CPU time (s)", |p| {
-        p.cpu_s
-    }),
+    ("work-precision.png", "particle–node pairs visited", "particle–node pairs", |p| p.particle_node_pairs as f64),
+    (CPU_PICTURE, "CPU time (one thread)", "CPU time (s)", |p| p.cpu_s),
 ];
 
-fn errors<'a>(
-    curves: impl Iterator<Item = &'a Convergence>,
-    label: &'static str,
-    x: fn(&Point) -> f64,
-) -> Errors<'a> {
+fn errors<'a>(curves: impl Iterator<Item = &'a Convergence>, label: &'static str, x: fn(&Point) -> f64) -> Errors<'a> {
     let entry = |c: &'a Convergence| {
         let (scheme, metric) = (c.scheme, &*c.metric);
         let points = c.points.iter();
-        points.map(move |p| Entry {
-            scheme,
-            metric,
-            x: x(p),
-            value: p.value,
-        })
+        points.map(move |p| Entry { scheme, metric, x: x(p), value: p.value })
     };
-    Errors {
-        entries: curves.flat_map(entry).collect(),
-        label,
-        is_logarithmic: true,
-    }
+    Errors { entries: curves.flat_map(entry).collect(), label, is_logarithmic: true }
 }
 
 fn with_uncertainty(quantity: &Quantity, chart: Chart) -> Chart {
@@ -150,10 +116,7 @@ fn with_uncertainty(quantity: &Quantity, chart: Chart) -> Chart {
         value,
         band: None,
     });
-    Chart {
-        reference_lines: uncertainty.into_iter().collect(),
-        ..chart
-    }
+    Chart { reference_lines: uncertainty.into_iter().collect(), ..chart }
 }
 
 /// The runs of the schemes of a panel as dots, their best ones joined, and the front over all schemes.
@@ -164,10 +127,7 @@ fn by_cost(errors: &Errors, quantity: &Quantity, panel: &Panel, chart: Chart) ->
         dash: Dash::None,
         ..curve
     });
-    let curves = chart.series.iter().cloned().map(|curve| Series {
-        points: price::front(curve.points, GAIN),
-        ..curve
-    });
+    let curves = chart.series.iter().cloned().map(|curve| Series { points: price::front(curve.points, GAIN), ..curve });
     let front = price::front(errors.points(quantity, |_| true), 1.0);
     let here = errors.points(quantity, |s| panel.schemes.contains(&s));
     let line = Series::line("front", price::steps(&front), FRONT);
@@ -178,12 +138,7 @@ fn by_cost(errors: &Errors, quantity: &Quantity, panel: &Panel, chart: Chart) ->
         dash: Dash::None,
         ..line.clone()
     };
-    let series = [line]
-        .into_iter()
-        .chain(dots)
-        .chain(curves)
-        .chain([rings])
-        .collect();
+    let series = [line].into_iter().chain(dots).chain(curves).chain([rings]).collect();
     with_uncertainty(quantity, Chart { series, ..chart })
 }
 
@@ -227,24 +182,14 @@ mod tests {
         let errors = errors(curves.iter(), COSTS[0].2, COSTS[0].3);
         let quantity = error(metric("e", "-", ""), "error");
         let schemes = curves.iter().map(|c| c.scheme).collect();
-        let panel = Panel {
-            title: String::new(),
-            schemes,
-        };
+        let panel = Panel { title: String::new(), schemes };
         let chart = by_cost(&errors, &quantity, &panel, errors.chart(&quantity, &panel));
         let points = |name: &str| {
             let own = chart.series.iter().filter(|s| s.name.contains(name));
             own.map(|s| s.points.clone()).collect::<Vec<_>>()
         };
         assert_eq!(points("none"), [[(10.0, 0.5), (50.0, 0.2), (100.0, 0.1)]]);
-        let best = [
-            (10.0, 0.5),
-            (40.0, 0.3),
-            (50.0, 0.2),
-            (100.0, 0.1),
-            (200.0, 0.099),
-            (400.0, 0.02),
-        ];
+        let best = [(10.0, 0.5), (40.0, 0.3), (50.0, 0.2), (100.0, 0.1), (200.0, 0.099), (400.0, 0.02)];
         assert_eq!(points("on the front"), [best]);
         let dots = chart.series.iter().filter(|s| s.marker == Marker::Dot);
         assert_eq!(dots.map(|s| s.points.len()).collect::<Vec<_>>(), [5, 2]);

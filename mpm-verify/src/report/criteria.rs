@@ -3,8 +3,7 @@
 
 use crate::record::Record;
 use crate::results::{
-    Column, Format, Label, PAIR, ResultTable, SHORT, fixed, is_flip, order, percent, scientific,
-    share,
+    Column, Format, Label, PAIR, ResultTable, SHORT, fixed, is_flip, order, percent, scientific, share,
 };
 use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
 
@@ -53,10 +52,7 @@ impl Runs {
                 return String::new();
             };
             let is_other = |r: &&&Record| other.has(r) && r.remedy() == remedy(run);
-            let other = all
-                .iter()
-                .find(is_other)
-                .map_or(f64::NAN, |r| r.value(ERROR));
+            let other = all.iter().find(is_other).map_or(f64::NAN, |r| r.value(ERROR));
             SHORT.text(run.value(ERROR) / other)
         })
     }
@@ -132,12 +128,8 @@ fn transfers() -> ResultTable {
     };
     let columns = [
         Column::text("FLIP, 2 per direction (µm)", error).of(own),
-        over("APIC ×", |r| {
-            r.transfer() == TransferName::Apic && r.is_default()
-        }),
-        over("XPIC(2) ×", |r| {
-            r.transfer() == TransferName::Xpic2 && r.is_default()
-        }),
+        over("APIC ×", |r| r.transfer() == TransferName::Apic && r.is_default()),
+        over("XPIC(2) ×", |r| r.transfer() == TransferName::Xpic2 && r.is_default()),
         over("3 per direction ×", |r| r.set == ["ppc_per_direction=3"]),
         over("4 ×", |r| r.set == ["ppc_per_direction=4"]),
     ];
@@ -162,25 +154,16 @@ fn spaces() -> ResultTable {
     const UNDRAINED: Runs = Runs("undrained", "n32", &[]);
     let first_step = "… overshoot of a first step of c_v Δt/h² = 1/4";
     let centre = "mandel, ν = 0.25, n16: error of the pressure at the centre, over p₀";
-    let (moving, loaded) = (
-        "consolidation, 0.3 M₀, n16: error of the settlement",
-        "… 1 M₀, n32: error of the settlement",
-    );
+    let (moving, loaded) =
+        ("consolidation, 0.3 M₀, n16: error of the settlement", "… 1 M₀, n32: error of the settlement");
     let in_h = "… order in h";
     let short = scientific(2);
     let columns = [
-        FIXED.shows(
-            "terzaghi, n40: error of p/q in space",
-            "pressure_l2_steps",
-            short,
-        ),
+        FIXED.shows("terzaghi, n40: error of p/q in space", "pressure_l2_steps", short),
         FIXED.order(in_h, "pressure_l2_steps"),
         FIRST_STEP.shows(first_step, "overshoot_first_step", percent(1)),
         PLATES.shows(centre, "centre_pressure_error", short),
-        PLATES.order(
-            "… order in h, without that of steps",
-            "centre_pressure_error_space",
-        ),
+        PLATES.order("… order in h, without that of steps", "centre_pressure_error_space"),
         MOVING.shows(moving, "settlement_error", share(2)),
         MOVING.order(in_h, "settlement_error_steps"),
         LOADED.shows(loaded, "settlement_error", share(2)),
@@ -188,16 +171,8 @@ fn spaces() -> ResultTable {
         CROSSING.order(in_h, ERROR),
         CROSSING.shows("… error of p", "pressure_l2", short),
         CROSSING.order(in_h, "pressure_l2"),
-        UNDRAINED.shows(
-            "undrained, n32: Chapelle and Bathe's β",
-            "inf_sup",
-            fixed(3),
-        ),
-        FINE.shows(
-            "entries of a matrix, terzaghi n160",
-            "matrix_entries",
-            fixed(0),
-        ),
+        UNDRAINED.shows("undrained, n32: Chapelle and Bathe's β", "inf_sup", fixed(3)),
+        FINE.shows("entries of a matrix, terzaghi n160", "matrix_entries", fixed(0)),
         SETTLED.shows("… consolidation n64", "matrix_entries", fixed(0)),
         CROSSING.shows("… mms-poro n32", "matrix_entries", fixed(0)),
         FINE.cpu("CPU (s), terzaghi n160, 40 steps"),

@@ -21,11 +21,7 @@ const PAIRS_PER_SECOND: f64 = 8e8;
 /// The cases, a line each: what they are, how many runs each tier has, and what the runs of tier pr cost as far as
 /// `pairs` gives their particle–node pairs; with a tier, its runs.
 #[must_use]
-pub fn list_text(
-    cases: &[Case],
-    tier: Option<Tier>,
-    pairs: impl Fn(&str) -> Option<u64>,
-) -> String {
+pub fn list_text(cases: &[Case], tier: Option<Tier>, pairs: impl Fn(&str) -> Option<u64>) -> String {
     if let Some(tier) = tier {
         let runs = cases.iter().flat_map(|case| {
             let runs = case.runs(tier).into_iter();
@@ -34,22 +30,14 @@ pub fn list_text(
         return runs.collect();
     }
     let [quick, pr, nightly, long] = Tier::NAMES;
-    let mut t = format!(
-        "{:20} {:38} {quick:>5} {pr:>4} {nightly:>7} {long:>5}  CPU of pr\n",
-        "case", "what it is",
-    );
+    let mut t = format!("{:20} {:38} {quick:>5} {pr:>4} {nightly:>7} {long:>5}  CPU of pr\n", "case", "what it is",);
     for case in cases {
         let [quick, pr, nightly, long] = Tier::ALL.map(|tier| case.runs(tier).len());
-        let cost = pairs(case.name).filter(|n| *n > 0).map_or_else(
-            || number(None),
-            |n| format!("{:>5.0} s", (n as f64 / PAIRS_PER_SECOND).ceil()),
-        );
+        let cost = pairs(case.name)
+            .filter(|n| *n > 0)
+            .map_or_else(|| number(None), |n| format!("{:>5.0} s", (n as f64 / PAIRS_PER_SECOND).ceil()));
         let title = cut(case.title, 38);
-        let _ = writeln!(
-            t,
-            "{:20} {title:38} {quick:>5} {pr:>4} {nightly:>7} {long:>5}  {cost:>9}",
-            case.name
-        );
+        let _ = writeln!(t, "{:20} {title:38} {quick:>5} {pr:>4} {nightly:>7} {long:>5}  {cost:>9}", case.name);
     }
     t + "\nRuns by tier; each has those of the tiers before it. CPU time is estimated from the goldens' counts.\n\
          `list --tier TIER` names its runs, `explain CASE` says all about a case, `run CASE` runs it.\n"
@@ -68,9 +56,7 @@ pub fn list_json(cases: &[Case], tier: Option<Tier>) -> Value {
         if let Some(tier) = tier {
             let runs = case.runs(tier).into_iter();
             entry["tier"] = json!(tier.to_string());
-            entry["runs"] = runs
-                .map(|s| json!({"scheme": s.scheme, "level": s.level.name, "set": s.set}))
-                .collect();
+            entry["runs"] = runs.map(|s| json!({"scheme": s.scheme, "level": s.level.name, "set": s.set})).collect();
         }
         entry
     };
@@ -107,15 +93,9 @@ pub fn explain(case: &Case) -> String {
     let checks = case.checks.iter();
     let checks = checks.map(|c| format!("{} [{}]  {}", c.name, kind(c.kind), c.statement).into());
     list("Checks", checks.collect());
-    let references = case
-        .references
-        .iter()
-        .map(|reference| reference.as_str().into());
+    let references = case.references.iter().map(|reference| reference.as_str().into());
     list("References", references.collect());
-    list(
-        "Limits",
-        case.limits.iter().map(|&limit| limit.into()).collect(),
-    );
+    list("Limits", case.limits.iter().map(|&limit| limit.into()).collect());
     document.terminal()
 }
 
@@ -186,10 +166,7 @@ pub(super) fn judged(r: &Record) -> String {
     let told = r.verdicts.iter();
     let told = told.filter(|v| v.kind != Kind::Bookkeeping || v.failed());
     t.extend(told.map(verdict_line));
-    let counted = r
-        .verdicts
-        .iter()
-        .filter(|v| v.kind == Kind::Bookkeeping && !v.failed());
+    let counted = r.verdicts.iter().filter(|v| v.kind == Kind::Bookkeeping && !v.failed());
     let counted: Vec<&str> = counted.map(|v| &*v.check).collect();
     if !counted.is_empty() {
         let _ = writeln!(t, "{:14}  {} hold", "bookkeeping", counted.join(", "));
@@ -267,16 +244,11 @@ pub fn failures(summary: &Summary) -> String {
     }
     for record in summary.cases.iter().flat_map(|c| &c.records) {
         let drifting: Vec<&Verdict> = record.verdicts.iter().filter(|v| v.drifts()).collect();
-        let worst = drifting
-            .iter()
-            .max_by(|a, b| relative_difference(a).total_cmp(&relative_difference(b)));
+        let worst = drifting.iter().max_by(|a, b| relative_difference(a).total_cmp(&relative_difference(b)));
         let name = format!("{} {}", record.case, record.folder());
         if let Some(worst) = worst {
             let count = drifting.len();
-            let differ = format!(
-                "{name}: {count} values differ from the golden, most of all {}",
-                drift_line(worst)
-            );
+            let differ = format!("{name}: {count} values differ from the golden, most of all {}", drift_line(worst));
             t += &painted(Outcome::Failed, "FAILED [DRIFT]");
             t += &wrapped(&differ, " ", "  ");
         }
@@ -304,29 +276,13 @@ pub fn verification(summary: &Summary) -> String {
 pub fn verification_line(summary: &Summary) -> String {
     let c = summary.counts;
     let (of, what) = match summary.exit_code() {
-        ExitCode::Good => (
-            Outcome::Right,
-            format!(
-                "nothing failed; {} of {} runs are wrong as known",
-                c.wrong_as_known_runs, c.runs
-            ),
-        ),
-        ExitCode::Drift => (
-            Outcome::Failed,
-            format!(
-                "FAILED: {} values have drifted from the goldens; no check failed",
-                c.drifted
-            ),
-        ),
-        _ => (
-            Outcome::Failed,
-            format!(
-                "FAILED: {} of {} runs, {} checks",
-                c.failed_runs,
-                c.runs,
-                summary.failures()
-            ),
-        ),
+        ExitCode::Good => {
+            (Outcome::Right, format!("nothing failed; {} of {} runs are wrong as known", c.wrong_as_known_runs, c.runs))
+        }
+        ExitCode::Drift => {
+            (Outcome::Failed, format!("FAILED: {} values have drifted from the goldens; no check failed", c.drifted))
+        }
+        _ => (Outcome::Failed, format!("FAILED: {} of {} runs, {} checks", c.failed_runs, c.runs, summary.failures())),
     };
     format!("Verdict: {}\n", painted(of, &what))
 }
@@ -387,16 +343,12 @@ mod tests {
 
     #[test]
     fn a_run_ends_with_its_verdict() {
-        let limit = Finding::above("m", 2.0, 1.0, "it makes energy")
-            .verdict("makes-energy", Kind::KnownLimit);
+        let limit = Finding::above("m", 2.0, 1.0, "it makes energy").verdict("makes-energy", Kind::KnownLimit);
         let exact = Finding::within("m", 1.0, 1.0, 0.0, "").verdict("exact", Kind::Truth);
         let cook = cases::find("cook").unwrap();
         let text = record(cook, &run("h2", vec![exact, limit]));
         assert!(text.contains("it makes energy"), "{text}");
         let last = text.lines().last().unwrap();
-        assert!(
-            last.contains("wrong as known: makes-energy; 1 check right"),
-            "{last}"
-        );
+        assert!(last.contains("wrong as known: makes-energy; 1 check right"), "{last}");
     }
 }

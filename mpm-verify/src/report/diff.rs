@@ -38,9 +38,8 @@ impl Difference {
     /// # Errors
     /// A summary is missing, damaged or of another schema, or a picture can't be read.
     pub fn between(old: &Path, new: &Path) -> Result<Self, Error> {
-        let summary = |folder: &Path| -> Result<Summary, Error> {
-            read_versioned(&folder.join("summary.json"), SCHEMA)
-        };
+        let summary =
+            |folder: &Path| -> Result<Summary, Error> { read_versioned(&folder.join("summary.json"), SCHEMA) };
         let (a, b) = (summary(old)?, summary(new)?);
         let mut pictures = Vec::new();
         let mut files = BTreeSet::new();
@@ -48,11 +47,8 @@ impl Difference {
             list_pictures(folder, folder, &mut files)?;
         }
         for file in files {
-            let change = PictureChange {
-                old: read_picture(&old.join(&file))?,
-                new: read_picture(&new.join(&file))?,
-                file,
-            };
+            let change =
+                PictureChange { old: read_picture(&old.join(&file))?, new: read_picture(&new.join(&file))?, file };
             if change.old != change.new {
                 pictures.push(change);
             }
@@ -86,8 +82,7 @@ impl Difference {
     /// The difference as JSON; of pictures the names of the files.
     #[must_use]
     pub fn json(&self) -> Value {
-        let entry =
-            |what: &str, old: Value, new: Value| json!({"what": what, "old": old, "new": new});
+        let entry = |what: &str, old: Value, new: Value| json!({"what": what, "old": old, "new": new});
         let numbers = self.numbers.iter();
         let verdicts = self.verdicts.iter();
         json!({
@@ -150,11 +145,7 @@ impl Difference {
 }
 
 /// Entries of two tables that are not the same; `absent` stands for one that is not there.
-fn changes<T: Copy + PartialEq>(
-    old: BTreeMap<String, T>,
-    new: BTreeMap<String, T>,
-    absent: T,
-) -> Vec<(String, T, T)> {
+fn changes<T: Copy + PartialEq>(old: BTreeMap<String, T>, new: BTreeMap<String, T>, absent: T) -> Vec<(String, T, T)> {
     let names: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
     let value = |table: &BTreeMap<String, T>, name: &String| *table.get(name).unwrap_or(&absent);
     names
@@ -190,12 +181,7 @@ fn numbers(summary: &Summary) -> BTreeMap<String, Option<f64>> {
 
 fn outcomes(summary: &Summary) -> BTreeMap<String, &'static str> {
     let name = |case: &str, run: Option<String>, v: &Verdict| {
-        format!(
-            "{case} {} {}: {}",
-            run.unwrap_or_default(),
-            v.check,
-            v.metric
-        )
+        format!("{case} {} {}: {}", run.unwrap_or_default(), v.check, v.metric)
     };
     summary
         .verdicts()
@@ -218,9 +204,7 @@ fn list_pictures(root: &Path, folder: &Path, found: &mut BTreeSet<PathBuf>) -> R
     let shown = pictures.iter().filter(|path| !shows_time(path));
     found.extend(shown.filter_map(|path| path.strip_prefix(root).map(Path::to_path_buf).ok()));
     let folders = files::folders_in(folder)?;
-    folders
-        .iter()
-        .try_for_each(|inner| list_pictures(root, inner, found))
+    folders.iter().try_for_each(|inner| list_pictures(root, inner, found))
 }
 
 fn read_picture(path: &Path) -> Result<Option<RgbImage>, Error> {

@@ -29,11 +29,7 @@ pub(super) fn draw(
             write_small_png(&out.join(&file), &triptych(&golden, &now))?;
             pictures.push(Picture {
                 file,
-                caption: format!(
-                    "Drift of {} {}: golden, now, difference.",
-                    record.case,
-                    record.folder()
-                ),
+                caption: format!("Drift of {} {}: golden, now, difference.", record.case, record.folder()),
             });
         }
     }

@@ -29,18 +29,14 @@ pub(super) struct Errors<'a> {
 impl Errors<'_> {
     fn of(&self, quantity: &Quantity) -> impl Iterator<Item = &Entry<'_>> {
         let metric = quantity.metric.name;
-        self.entries
-            .iter()
-            .filter(move |entry| entry.metric == metric)
+        self.entries.iter().filter(move |entry| entry.metric == metric)
     }
 
     /// The sizes of an error of some schemes. One of zero has no logarithm.
     pub(super) fn points(&self, quantity: &Quantity, is_shown: impl Fn(Scheme) -> bool) -> Points {
         let own = self.of(quantity).filter(|entry| is_shown(entry.scheme));
         let points = own.map(|entry| (entry.x, entry.value.abs()));
-        points
-            .filter(|(x, y)| (*x > 0.0 || !self.is_logarithmic) && *y > 0.0)
-            .collect()
+        points.filter(|(x, y)| (*x > 0.0 || !self.is_logarithmic) && *y > 0.0).collect()
     }
 
     /// The curves of the schemes of a panel.
@@ -50,16 +46,8 @@ impl Errors<'_> {
             false => quantity.label.to_owned(),
         };
         let series = panel.curves(|scheme| self.points(quantity, |s| s == scheme));
-        let x_scale = if self.is_logarithmic {
-            Scale::Log10
-        } else {
-            Scale::Linear
-        };
-        Chart {
-            x_scale,
-            y_scale: Scale::Log10,
-            ..Chart::new(panel.title.clone(), [self.label, &label], series)
-        }
+        let x_scale = if self.is_logarithmic { Scale::Log10 } else { Scale::Linear };
+        Chart { x_scale, y_scale: Scale::Log10, ..Chart::new(panel.title.clone(), [self.label, &label], series) }
     }
 
     /// Draws a row of panels for every error of a case that has something to show, each as `finish` makes it.

@@ -34,14 +34,8 @@ pub(super) enum Fate {
 
 impl Fate {
     /// As a legend has them.
-    pub(super) const ALL: [Self; 6] = [
-        Self::Right,
-        Self::WrongAsKnown,
-        Self::Noisy,
-        Self::BreaksDown,
-        Self::NotJudged,
-        Self::Failed,
-    ];
+    pub(super) const ALL: [Self; 6] =
+        [Self::Right, Self::WrongAsKnown, Self::Noisy, Self::BreaksDown, Self::NotJudged, Self::Failed];
 
     /// Of a run with its verdicts.
     pub(super) fn of(record: &Record) -> Self {

@@ -40,8 +40,7 @@ pub(super) fn faults() -> Vec<Fault> {
 /// How many of the faults a check of a case sees.
 pub(super) fn seen(faults: &[Fault], case: &str, check: &str) -> usize {
     let own = faults.iter().filter_map(|fault| fault.seen_by.get(case));
-    own.filter(|checks| checks.iter().any(|c| c == check))
-        .count()
+    own.filter(|checks| checks.iter().any(|c| c == check)).count()
 }
 
 #[cfg(test)]

@@ -15,8 +15,7 @@ pub(super) fn summary() -> Summary {
     let pass = Finding::within("at_rest", 1.0, 1.0, 0.0, "").verdict("at-rest", Kind::Truth);
     let fail = Finding::at_most("mid_edge_uy", 2.0, 1.0, NASTY).verdict("mid-edge", Kind::Truth);
     let skipped = Finding::not_applicable("tip_uy", NASTY).verdict("tip", Kind::Truth);
-    let broke =
-        Finding::within("run", 0.0, 1.0, 0.0, NASTY).verdict("completes", Kind::Bookkeeping);
+    let broke = Finding::within("run", 0.0, 1.0, 0.0, NASTY).verdict("completes", Kind::Bookkeeping);
     let mut failed = record("h2", vec![pass.clone(), fail]);
     failed.set = vec!["cfl=0.1".to_owned(), NASTY.to_owned()];
     let mut broken = record("h0.5", vec![broke]);
@@ -43,14 +42,8 @@ pub(super) fn summary() -> Summary {
         },
         cases: vec![CaseStudy {
             verdicts: vec![pass.clone()],
-            night: Some(Night {
-                date: jiff::civil::date(2026, 1, 2),
-                commit: NASTY.to_owned(),
-            }),
-            ..CaseStudy::new(
-                "cook",
-                vec![record("h1", vec![pass, skipped]), failed, broken],
-            )
+            night: Some(Night { date: jiff::civil::date(2026, 1, 2), commit: NASTY.to_owned() }),
+            ..CaseStudy::new("cook", vec![record("h1", vec![pass, skipped]), failed, broken])
         }],
     }
 }

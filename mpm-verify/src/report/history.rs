@@ -70,13 +70,9 @@ fn read(path: &Path) -> Result<Vec<Row>, Error> {
     let sound = |row: Row| {
         // What stands here is shown and written again.
         Night::new(&row.night.to_string(), &row.commit).map_err(|e| Error::file(path, e))?;
-        let acts =
-            |cell: &String| cell.starts_with(['=', '+', '-', '@']) || cell.contains(is_unfit);
+        let acts = |cell: &String| cell.starts_with(['=', '+', '-', '@']) || cell.contains(is_unfit);
         if [&row.case, &row.run, &row.quantity].into_iter().any(acts) {
-            return Err(Error::file(
-                path,
-                "damaged: a cell that a spreadsheet or a terminal acts on",
-            ));
+            return Err(Error::file(path, "damaged: a cell that a spreadsheet or a terminal acts on"));
         }
         Ok(row)
     };
@@ -128,18 +124,9 @@ mod tests {
     fn a_cell_that_a_spreadsheet_computes_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(FILE);
-        for (run, sound) in [
-            ("gimp-none-flip", true),
-            ("=1+1", false),
-            ("@a", false),
-            ("a\u{1b}", false),
-        ] {
+        for (run, sound) in [("gimp-none-flip", true), ("=1+1", false), ("@a", false), ("a\u{1b}", false)] {
             let row = format!("2026-01-01,c,cook,{run},cpu_s,1.5\n");
-            write_whole(
-                &path,
-                format!("night,commit,case,run,quantity,value\n{row}").as_bytes(),
-            )
-            .unwrap();
+            write_whole(&path, format!("night,commit,case,run,quantity,value\n{row}").as_bytes()).unwrap();
             assert_eq!(read(&path).is_ok(), sound, "{run}");
         }
     }
@@ -159,15 +146,9 @@ mod tests {
         add("cook", "2026-01-01", "b");
         add("cook", "2026-01-02", "c");
         let rows = read(&folder.path().join(FILE)).unwrap();
-        let told = rows
-            .iter()
-            .map(|r| format!("{} {} {}", r.night, r.commit, r.case));
+        let told = rows.iter().map(|r| format!("{} {} {}", r.night, r.commit, r.case));
         // In the order of time and cases; the time taken and the pairs visited are one row each.
-        let expected = [
-            "2026-01-01 b cook",
-            "2026-01-02 c cook",
-            "2026-01-02 a column",
-        ];
+        let expected = ["2026-01-01 b cook", "2026-01-02 c cook", "2026-01-02 a column"];
         assert_eq!(told.collect::<Vec<_>>(), expected.map(|t| [t, t]).concat());
     }
 }

@@ -71,14 +71,8 @@ fn status(verdict: &Verdict) -> TestCaseStatus {
     };
     let (of, told) = match verdict.outcome {
         Outcome::NotJudged => (outcome(verdict.outcome), verdict.source.clone()),
-        Outcome::WrongAsKnown => (
-            outcome(verdict.outcome),
-            format!("{}: {}", demand(verdict), verdict.source),
-        ),
-        _ => (
-            kind(verdict.kind),
-            format!("{}: {}", demand(verdict), verdict.source),
-        ),
+        Outcome::WrongAsKnown => (outcome(verdict.outcome), format!("{}: {}", demand(verdict), verdict.source)),
+        _ => (kind(verdict.kind), format!("{}: {}", demand(verdict), verdict.source)),
     };
     status.set_type(of).set_message(told);
     status
@@ -86,9 +80,7 @@ fn status(verdict: &Verdict) -> TestCaseStatus {
 
 fn broke_down(failure: &Failure) -> TestCaseStatus {
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-    status
-        .set_type(&*failure.kind)
-        .set_message(&*failure.message);
+    status.set_type(&*failure.kind).set_message(&*failure.message);
     status
 }
 

@@ -30,16 +30,8 @@ pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
     let former = read(&results)?;
     let mut fresh = Vec::new();
     for study in &found.cases {
-        let why = || {
-            format!(
-                "{} is of no night: --night and --commit of `report`",
-                study.case
-            )
-        };
-        let night = study
-            .night
-            .as_ref()
-            .ok_or_else(|| Error::file(&path, why()))?;
+        let why = || format!("{} is of no night: --night and --commit of `report`", study.case);
+        let night = study.night.as_ref().ok_or_else(|| Error::file(&path, why()))?;
         fresh.extend(rows_of(study, night, &former)?);
     }
     let (count, rows) = (fresh.len(), merge(former, fresh));
@@ -55,17 +47,10 @@ pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
 /// a page may cite them.
 fn rows_of(study: &CaseStudy, night: &Night, former: &[Row]) -> Result<Vec<Row>, Error> {
     let case = cases::find(&study.case)?;
-    let mut cited: BTreeSet<&str> = case
-        .headlines
-        .iter()
-        .filter_map(|h| Some(h.metric?.name))
-        .collect();
+    let mut cited: BTreeSet<&str> = case.headlines.iter().filter_map(|h| Some(h.metric?.name)).collect();
     cited.extend(case.quantities.iter().map(|q| q.metric.name));
     cited.extend(
-        former
-            .iter()
-            .filter(|row| row.case == study.case)
-            .flat_map(|row| row.metrics.keys().map(String::as_str)),
+        former.iter().filter(|row| row.case == study.case).flat_map(|row| row.metrics.keys().map(String::as_str)),
     );
     let records = study.records.iter();
     Ok(records.map(|r| Row::of(r, night, &cited)).collect())
@@ -83,19 +68,10 @@ fn require_small(path: &Path, bytes: usize, most: usize) -> Result<(), Error> {
 /// more are gone.
 fn merge(former: Vec<Row>, fresh: Vec<Row>) -> Vec<Row> {
     let key = |row: &Row| row.run().map(str::to_owned);
-    let mut again: BTreeMap<[String; 4], Row> =
-        fresh.iter().map(|row| (key(row), row.clone())).collect();
-    let former = former
-        .into_iter()
-        .filter(|row| cases::find(&row.case).is_ok());
-    let mut rows: Vec<Row> = former
-        .map(|row| again.remove(&key(&row)).unwrap_or(row))
-        .collect();
-    rows.extend(
-        fresh
-            .into_iter()
-            .filter(|row| again.contains_key(&key(row))),
-    );
+    let mut again: BTreeMap<[String; 4], Row> = fresh.iter().map(|row| (key(row), row.clone())).collect();
+    let former = former.into_iter().filter(|row| cases::find(&row.case).is_ok());
+    let mut rows: Vec<Row> = former.map(|row| again.remove(&key(&row)).unwrap_or(row)).collect();
+    rows.extend(fresh.into_iter().filter(|row| again.contains_key(&key(row))));
     rows.sort_by_key(|row| cases::place(&row.case));
     rows
 }
@@ -116,15 +92,13 @@ mod tests {
     fn after(former: &[Row], case: &str, date: &str, levels: &[(&str, f64)]) -> Vec<Row> {
         let runs = levels.iter().map(|(level, value)| {
             let exact = Finding::within("tip_ux", *value, 1.0, 0.0, "").verdict("tip", Kind::Truth);
-            let counted =
-                Finding::within("run", 1.0, 1.0, 0.0, "").verdict("completes", Kind::Bookkeeping);
+            let counted = Finding::within("run", 1.0, 1.0, 0.0, "").verdict("completes", Kind::Bookkeeping);
             let mut run = record(level, vec![exact, counted]);
             run.case = case.to_owned();
             let (value, unit) = (Some(*value), "m".to_owned());
             for name in ["tip_ux", "cited_by_a_page"] {
                 let unit = unit.clone();
-                run.metrics
-                    .insert(name.to_owned(), Measured { value, unit });
+                run.metrics.insert(name.to_owned(), Measured { value, unit });
             }
             run
         });
@@ -146,28 +120,14 @@ mod tests {
     #[test]
     fn rows_are_replaced_run_by_run_and_the_others_keep_their_night() {
         let former = study("column", "2026-01-01", &[("n8", 1.0)]);
-        let former = [
-            former,
-            study("cook", "2026-01-01", &[("h2", 1.0), ("h1", 1.0)]),
-        ]
-        .concat();
+        let former = [former, study("cook", "2026-01-01", &[("h2", 1.0), ("h1", 1.0)])].concat();
         let fresh = study("cook", "2026-01-02", &[("h1", 2.0), ("h0.5", 1.0)]);
         let rows = merge(former, fresh);
-        let told: Vec<_> = rows
-            .iter()
-            .map(|r| format!("{} {} {} {}", r.case, r.level, r.night, r.failed))
-            .collect();
-        let expected = [
-            "cook h2 2026-01-01 0",
-            "cook h1 2026-01-02 1",
-            "cook h0.5 2026-01-02 0",
-            "column n8 2026-01-01 0",
-        ];
+        let told: Vec<_> = rows.iter().map(|r| format!("{} {} {} {}", r.case, r.level, r.night, r.failed)).collect();
+        let expected =
+            ["cook h2 2026-01-01 0", "cook h1 2026-01-02 1", "cook h0.5 2026-01-02 0", "column n8 2026-01-01 0"];
         assert_eq!(told, expected);
-        assert!(
-            rows.iter().all(|r| r.right + r.failed == 1),
-            "no bookkeeping"
-        );
+        assert!(rows.iter().all(|r| r.right + r.failed == 1), "no bookkeeping");
     }
 
     #[test]

@@ -17,11 +17,8 @@ use crate::scheme::Scheme;
 pub(super) const PANELS: [&str; 3] = ["explicit", "implicit", "poro"];
 /// Whose runs find the largest stable CFL number, the metric, the parameters that they change, and what the column is called.
 const CRITICAL_STEP: (&str, &str) = ("critical-step", "critical_cfl");
-const STEPS: [(&[&str], &str); 3] = [
-    (&["dimension=1"], "CFL, 1D"),
-    (&[], "CFL, 2D"),
-    (&["dimension=1", "layout=cut"], "CFL, cut"),
-];
+const STEPS: [(&[&str], &str); 3] =
+    [(&["dimension=1"], "CFL, 1D"), (&[], "CFL, 2D"), (&["dimension=1", "layout=cut"], "CFL, cut")];
 const COST: &str = "cost ÷ least";
 /// How the runs of a scheme in a case came out.
 pub(super) struct Cell {
@@ -89,10 +86,7 @@ pub(super) struct Panel<'a> {
 }
 
 /// A panel for every kind of solver that there are runs of.
-pub(super) fn panels<'a>(
-    records: impl IntoIterator<Item = &'a Record>,
-    speed: &Speed,
-) -> Vec<Panel<'a>> {
+pub(super) fn panels<'a>(records: impl IntoIterator<Item = &'a Record>, speed: &Speed) -> Vec<Panel<'a>> {
     let records: Vec<&Record> = records.into_iter().collect();
     let panel = |name| {
         let own = records.iter().filter(|r| panel_of(r.scheme()) == name);
@@ -131,11 +125,7 @@ impl<'a> Panel<'a> {
                 run.map_or_else(String::new, |r| fixed(2).text(r.value(CRITICAL_STEP.1)))
             };
             let numbers = STEPS.map(step).into_iter().chain([speed.median(*scheme)]);
-            Line {
-                scheme: scheme.title(),
-                numbers: numbers.collect(),
-                cells: cases.iter().map(cell).collect(),
-            }
+            Line { scheme: scheme.title(), numbers: numbers.collect(), cells: cases.iter().map(cell).collect() }
         };
         let mut lines: Vec<Line> = schemes.iter().map(line).collect();
         let titles = STEPS.map(|(_, title)| title).into_iter().chain([COST]);
@@ -148,14 +138,7 @@ impl<'a> Panel<'a> {
                 }
             }
         }
-        Self {
-            name,
-            cases,
-            numbers,
-            lines,
-            errors,
-            told,
-        }
+        Self { name, cases, numbers, lines, errors, told }
     }
 
     /// The table, with the cases in columns whose titles `title` links; on a page, cells have links too.
@@ -163,15 +146,9 @@ impl<'a> Panel<'a> {
         let number = |text: &str| document::Cell::of(text, "number");
         let first = |name: &str, numbers: Vec<&str>| {
             let numbers = numbers.into_iter().map(number);
-            [document::Cell::head(name)]
-                .into_iter()
-                .chain(numbers)
-                .collect::<Vec<_>>()
+            [document::Cell::head(name)].into_iter().chain(numbers).collect::<Vec<_>>()
         };
-        let cases = self
-            .cases
-            .iter()
-            .map(|case| document::Cell::of(title(case), "steep"));
+        let cases = self.cases.iter().map(|case| document::Cell::of(title(case), "steep"));
         let cell = |cell: &Option<Cell>| match cell {
             None => document::Cell::default(),
             Some(c) => {
@@ -179,24 +156,16 @@ impl<'a> Panel<'a> {
                     true => Text::link(&*c.mark, format!("{}.html", c.case)),
                     false => Text::from(&*c.mark),
                 };
-                document::Cell::of(mark, &c.class)
-                    .titled(&*c.words)
-                    .aside(&*c.share)
+                document::Cell::of(mark, &c.class).titled(&*c.words).aside(&*c.share)
             }
         };
         let row = |line: &Line| {
             let numbers = line.numbers.iter().map(String::as_str).collect();
-            first(&line.scheme, numbers)
-                .into_iter()
-                .chain(line.cells.iter().map(cell))
-                .into()
+            first(&line.scheme, numbers).into_iter().chain(line.cells.iter().map(cell)).into()
         };
         Table {
             class: "map",
-            head: first("scheme", self.numbers.clone())
-                .into_iter()
-                .chain(cases)
-                .collect(),
+            head: first("scheme", self.numbers.clone()).into_iter().chain(cases).collect(),
             rows: self.lines.iter().map(row).collect(),
         }
     }
@@ -204,8 +173,7 @@ impl<'a> Panel<'a> {
     /// What the marks of errors say; empty where there are none.
     pub(super) fn marks(&self) -> Text {
         let marks = self.errors.iter().zip('a'..='z');
-        let marks =
-            marks.map(|(kind, mark)| Text::from(format!("{mark}: ")).then(Text::code(*kind)));
+        let marks = marks.map(|(kind, mark)| Text::from(format!("{mark}: ")).then(Text::code(*kind)));
         match self.errors.is_empty() {
             true => Text::default(),
             false => Text::joined(marks, ", ").then("."),

@@ -40,9 +40,7 @@ mod words;
 use crate::case::Case;
 use crate::cases;
 use crate::error::Error;
-use crate::files::{
-    discard, files_in, folders_in, read_text, require_inside, write_dense_json, write_whole,
-};
+use crate::files::{discard, files_in, folders_in, read_text, require_inside, write_dense_json, write_whole};
 use crate::gallery::{Gallery, Picture};
 use crate::golden::Goldens;
 use crate::night::Night;
@@ -86,12 +84,7 @@ pub fn write_report(
 }
 
 /// Draws all pictures of a case.
-fn draw(
-    study: &CaseStudy,
-    gathered: &Gathered,
-    goldens: &Goldens,
-    out: &Path,
-) -> Result<Vec<Picture>, Error> {
+fn draw(study: &CaseStudy, gathered: &Gathered, goldens: &Goldens, out: &Path) -> Result<Vec<Picture>, Error> {
     let case = cases::find(&study.case)?;
     let mut pictures = drift::draw(study, gathered, goldens, out)?;
     pictures.extend(draw_own(case, study, gathered, out)?);
@@ -107,12 +100,7 @@ fn draw(
 }
 
 /// Draws what only this case has.
-fn draw_own(
-    case: &Case,
-    study: &CaseStudy,
-    gathered: &Gathered,
-    out: &Path,
-) -> Result<Vec<Picture>, Error> {
+fn draw_own(case: &Case, study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Picture>, Error> {
     let folder = |r: &Record| gathered.folder(r).map(Path::to_path_buf);
     let mut gallery = Gallery::new(&study.case, &study.records, &folder, out);
     (case.pictures)(&mut gallery)?;
@@ -123,8 +111,7 @@ fn draw_own(
 /// earlier report, and stays. Its first line alone claims all, which holds while a report is being written, and of one that
 /// was killed.
 const OWN: &str = ".mpm-verify";
-const CLAIM: &str =
-    "mpm-verify writes and removes the pages, pictures and tables of this folder.\n";
+const CLAIM: &str = "mpm-verify writes and removes the pages, pictures and tables of this folder.\n";
 
 /// Draws and writes into `out`, in place of what this program wrote there before, and keeps account of it.
 ///
@@ -165,14 +152,7 @@ pub fn discard_report(out: &Path) -> Result<(), Error> {
 
 /// The files in `out` that have the place and the kind of a report's, of whatever cases: their paths from there.
 fn places(out: &Path) -> Result<Vec<PathBuf>, Error> {
-    let pages = [
-        SUMMARY,
-        "summary.md",
-        "junit.xml",
-        "index.html",
-        "faults.html",
-    ]
-    .map(PathBuf::from);
+    let pages = [SUMMARY, "summary.md", "junit.xml", "index.html", "faults.html"].map(PathBuf::from);
     let mut files = pages.to_vec();
     files.extend(["png", "svg"].map(|e| PathBuf::from(format!("{}.{e}", speed::NAME))));
     for case in cases::all() {

@@ -29,9 +29,7 @@ pub(super) fn front(mut points: Vec<(f64, f64)>, gain: f64) -> Vec<(f64, f64)> {
 
 /// A front with the corners of the steps between its points: no point is below the line.
 pub(super) fn steps(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let corners = front
-        .windows(2)
-        .flat_map(|pair| [(pair[1].0, pair[0].1), pair[1]]);
+    let corners = front.windows(2).flat_map(|pair| [(pair[1].0, pair[0].1), pair[1]]);
     front.iter().take(1).copied().chain(corners).collect()
 }
 
@@ -89,15 +87,8 @@ impl Prices {
             Self::over(&own.collect::<Vec<_>>(), q, &study.records)
         };
         let priced = |of_stress| {
-            let mut errors = case
-                .quantities
-                .iter()
-                .filter(move |q| q.is_error && is_of_stress(q) == of_stress);
-            if of_stress {
-                errors.next_back()
-            } else {
-                errors.next()
-            }
+            let mut errors = case.quantities.iter().filter(move |q| q.is_error && is_of_stress(q) == of_stress);
+            if of_stress { errors.next_back() } else { errors.next() }
         };
         let priced = [priced(false), priced(true)].into_iter().flatten();
         priced.filter_map(of_metric).collect()
@@ -121,22 +112,14 @@ impl Prices {
         reached.sort_by(f64::total_cmp);
         let target = reached[reached.len() / 2];
         let row = |(scheme, own): (&Scheme, &Vec<&Convergence>)| {
-            let costs = own
-                .iter()
-                .filter_map(|c| Some((cost(&c.points, target)?, &c.set)));
+            let costs = own.iter().filter_map(|c| Some((cost(&c.points, target)?, &c.set)));
             let cheapest = costs.min_by(|(a, _), (b, _)| a.pairs.total_cmp(&b.pairs));
             let set = cheapest.map_or(Vec::new(), |(_, set)| set.clone());
             let is_wrong = runs.iter().any(|run| {
                 let own = run.scheme() == *scheme && run.set == set;
                 own && outcome_of_run(run) == Outcome::WrongAsKnown
             });
-            Price {
-                scheme: *scheme,
-                least: least(own),
-                cost: cheapest.map(|(cost, _)| cost),
-                set,
-                is_wrong,
-            }
+            Price { scheme: *scheme, least: least(own), cost: cheapest.map(|(cost, _)| cost), set, is_wrong }
         };
         let mut rows: Vec<Price> = schemes.iter().map(row).collect();
         let key = |row: &Price| row.cost.map_or(f64::INFINITY, |c| c.pairs);
@@ -194,9 +177,7 @@ impl Price {
     /// The scheme, what it was run with, and whether it is wrong there.
     pub(super) fn name(&self) -> String {
         let parts = std::iter::once(self.scheme.title()).chain(self.set.iter().cloned());
-        let mark = self
-            .is_wrong
-            .then(|| words::shown(Outcome::WrongAsKnown)[0].to_owned());
+        let mark = self.is_wrong.then(|| words::shown(Outcome::WrongAsKnown)[0].to_owned());
         parts.chain(mark).collect::<Vec<_>>().join(" ")
     }
 
@@ -207,10 +188,7 @@ impl Price {
         };
         let bound = if cost.at_most { "≤ " } else { "" };
         let short = |value: f64| words::number(Some(value));
-        [
-            format!("{bound}{}", short(rounded(1e-6 * cost.pairs))),
-            format!("{bound}{}", short(rounded(cost.cpu_s))),
-        ]
+        [format!("{bound}{}", short(rounded(1e-6 * cost.pairs))), format!("{bound}{}", short(rounded(cost.cpu_s)))]
     }
 }
 
@@ -233,20 +211,13 @@ fn cost(points: &[Point], target: f64) -> Option<Cost> {
     }
     let fine = &points[reached];
     let Some(coarse) = reached.checked_sub(1).map(|k| &points[k]) else {
-        return Some(Cost {
-            pairs: fine.particle_node_pairs as f64,
-            cpu_s: fine.cpu_s,
-            at_most: true,
-        });
+        return Some(Cost { pairs: fine.particle_node_pairs as f64, cpu_s: fine.cpu_s, at_most: true });
     };
     let log = |p: &Point| p.value.abs().max(f64::MIN_POSITIVE).ln();
     let share = (log(coarse) - target.ln()) / (log(coarse) - log(fine));
     let between = |a: f64, b: f64| a.powf(1.0 - share) * b.powf(share);
     Some(Cost {
-        pairs: between(
-            coarse.particle_node_pairs as f64,
-            fine.particle_node_pairs as f64,
-        ),
+        pairs: between(coarse.particle_node_pairs as f64, fine.particle_node_pairs as f64),
         cpu_s: between(coarse.cpu_s, fine.cpu_s),
         at_most: false,
     })
@@ -255,13 +226,7 @@ fn cost(points: &[Point], target: f64) -> Option<Cost> {
 impl Prices {
     /// Cheapest first.
     pub(super) fn table(&self) -> Sheet {
-        let head = [
-            "scheme",
-            "particle–node pairs (10⁶)",
-            "CPU time (s)",
-            "× cheapest",
-            "least error",
-        ];
+        let head = ["scheme", "particle–node pairs (10⁶)", "CPU time (s)", "× cheapest", "least error"];
         let row = |row: &Price| {
             let [pairs, cpu] = row.shown();
             let least = words::number(Some(rounded(row.least)));
@@ -342,11 +307,7 @@ mod tests {
         let dear = [point(0.4, 400), point(0.1, 6400)];
         let curves = [
             curve(RemedyName::None, &[], &dear),
-            curve(
-                RemedyName::None,
-                &["cfl=0.6"],
-                &[coarse.clone(), fine.clone()],
-            ),
+            curve(RemedyName::None, &["cfl=0.6"], &[coarse.clone(), fine.clone()]),
             curve(RemedyName::FbarRate, &[], &[fine.clone(), fine]),
             curve(RemedyName::FbarTotal, &[], &[coarse]),
         ];
@@ -359,15 +320,9 @@ mod tests {
             run.set = vec![set.to_owned()];
             run
         };
-        let runs = [
-            run(RemedyName::None, "cfl=0.6"),
-            run(RemedyName::FbarRate, "cfl=0.6"),
-        ];
+        let runs = [run(RemedyName::None, "cfl=0.6"), run(RemedyName::FbarRate, "cfl=0.6")];
         let prices = Prices::over(&curves.each_ref(), &quantity, &runs).unwrap();
-        let told = prices
-            .rows
-            .iter()
-            .map(|row| format!("{} {}", row.name(), prices.relative(row)));
+        let told = prices.rows.iter().map(|row| format!("{} {}", row.name(), prices.relative(row)));
         let told: Vec<_> = told.collect();
         assert_eq!(told, ["gimp none cfl=0.6 ≈ 1.0", "gimp fbar-rate ≤ 1.0"]);
         assert_eq!(prices.target, 0.1);

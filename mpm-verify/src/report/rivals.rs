@@ -34,13 +34,7 @@ const fn problem(
     motion: (&'static str, &'static str),
     pressure: fn(&Record) -> f64,
 ) -> Problem {
-    Problem {
-        case,
-        set: &[],
-        schemes,
-        motion,
-        pressure,
-    }
+    Problem { case, set: &[], schemes, motion, pressure }
 }
 
 const DISPLACEMENT: (&str, &str) = ("u (m)", "displacement_l2");
@@ -56,48 +50,17 @@ fn no_pressure(_: &Record) -> f64 {
 
 const PROBLEMS: [Problem; 9] = [
     problem("mms-axis", (Bspline2, Standard), DISPLACEMENT, stress),
-    problem(
-        "mms-wall-pressure",
-        (Bspline2, Standard),
-        DISPLACEMENT,
-        stress,
-    ),
-    problem(
-        "mms-vortex-box",
-        (Gimp, FbarConsistent),
-        DISPLACEMENT,
-        stress,
-    ),
+    problem("mms-wall-pressure", (Bspline2, Standard), DISPLACEMENT, stress),
+    problem("mms-vortex-box", (Gimp, FbarConsistent), DISPLACEMENT, stress),
     problem("vibrating-bar", (Bspline2, Standard), FREQUENCY, stress),
-    Problem {
-        set: &["duration=24"],
-        ..problem("standing-wave", (Bspline2, Standard), FREQUENCY, stress)
-    },
-    problem(
-        "discs",
-        (Gimp, Standard),
-        ("energy", "energy_error_accumulated"),
-        no_pressure,
-    ),
-    problem(
-        "cook",
-        (Gimp, FbarConsistent),
-        ("deflection", "fem_tip_error"),
-        |r| r.value("mean_stress_rms_error"),
-    ),
+    Problem { set: &["duration=24"], ..problem("standing-wave", (Bspline2, Standard), FREQUENCY, stress) },
+    problem("discs", (Gimp, Standard), ("energy", "energy_error_accumulated"), no_pressure),
+    problem("cook", (Gimp, FbarConsistent), ("deflection", "fem_tip_error"), |r| r.value("mean_stress_rms_error")),
     // Prandtl's mean stress under the footing is −(1 + π) s_u.
-    problem(
-        "footing",
-        (Gimp, FbarConsistent),
-        ("N_c by B", "prandtl_error"),
-        |r| r.value("mean_stress_0.25_0.25") / (1.0 + PI) + 1.0,
-    ),
-    problem(
-        "slope-stability",
-        (Gimp, FbarConsistent),
-        ("factor", "factor_error"),
-        no_pressure,
-    ),
+    problem("footing", (Gimp, FbarConsistent), ("N_c by B", "prandtl_error"), |r| {
+        r.value("mean_stress_0.25_0.25") / (1.0 + PI) + 1.0
+    }),
+    problem("slope-stability", (Gimp, FbarConsistent), ("factor", "factor_error"), no_pressure),
 ];
 
 impl Problem {
@@ -198,11 +161,7 @@ pub(super) fn table<'a>(records: &[&'a Record]) -> (Sheet, Vec<&'a Record>, Stri
         rows.push(problem.row(implicit, Some(explicit)));
         told.extend([explicit, implicit]);
         let ratio = ratio(implicit, explicit);
-        let side = if ratio < 1.0 {
-            &mut cheaper
-        } else {
-            &mut dearer
-        };
+        let side = if ratio < 1.0 { &mut cheaper } else { &mut dearer };
         side.push(format!("{} {}", problem.case, SHORT.text(ratio)));
     }
     let advice = format!(
@@ -230,10 +189,7 @@ mod tests {
             None => Scheme::flip(basis, remedy),
         };
         r.solver = r.scheme.solver().to_owned();
-        let value = Measured {
-            value: Some(error),
-            unit: "-".to_owned(),
-        };
+        let value = Measured { value: Some(error), unit: "-".to_owned() };
         r.metrics.insert("fem_tip_error".to_owned(), value);
         r.time.cpu_s = cpu;
         r

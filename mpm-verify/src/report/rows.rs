@@ -5,9 +5,7 @@ use crate::error::Error;
 use crate::files::{read_rows, rows_text};
 use crate::night::Night;
 use crate::parameter::Parameters;
-use crate::record::{
-    BREAKS_DOWN, Discretisation, Failure, Measured, Record, Status, Timing, Version, WorkDone,
-};
+use crate::record::{BREAKS_DOWN, Discretisation, Failure, Measured, Record, Status, Timing, Version, WorkDone};
 use crate::scheme::Scheme;
 use crate::spec::RunSpec;
 use crate::verdict::{Kind, Outcome, Verdict};
@@ -118,19 +116,8 @@ impl Row {
             value: None,
             message: self.status.clone(),
         });
-        let discretisation = Discretisation {
-            dim: 0,
-            h: self.h,
-            ppc: 0,
-            dt: f64::NAN,
-            wall: String::new(),
-        };
-        let spec = RunSpec {
-            scheme,
-            level: case.levels[0],
-            set,
-            perturbed: false,
-        };
+        let discretisation = Discretisation { dim: 0, h: self.h, ppc: 0, dt: f64::NAN, wall: String::new() };
+        let spec = RunSpec { scheme, level: case.levels[0], set, perturbed: false };
         Some(Record {
             level: self.level.clone(),
             status: match self.status == "ok" {
@@ -146,14 +133,8 @@ impl Row {
                 particle_node_pairs: self.particle_node_pairs,
                 ..WorkDone::default()
             },
-            time: Timing {
-                wall_s: f64::NAN,
-                cpu_s: self.cpu_s,
-            },
-            version: Version {
-                mpm_verify: String::new(),
-                source: self.program.clone(),
-            },
+            time: Timing { wall_s: f64::NAN, cpu_s: self.cpu_s },
+            version: Version { mpm_verify: String::new(), source: self.program.clone() },
             ..Record::blank(&self.case, &spec, &parameters, discretisation, 0)
         })
     }
@@ -164,12 +145,7 @@ impl Row {
         let known = if self.status == "ok" { "" } else { BREAKS_DOWN };
         let counts = [
             (self.right, Kind::Truth, "", Outcome::Right),
-            (
-                self.wrong_as_known,
-                Kind::KnownLimit,
-                known,
-                Outcome::WrongAsKnown,
-            ),
+            (self.wrong_as_known, Kind::KnownLimit, known, Outcome::WrongAsKnown),
             (self.failed, Kind::Truth, "", Outcome::Failed),
         ];
         let verdict = |(_, kind, check, outcome): &(usize, Kind, &str, Outcome)| Verdict {
@@ -263,10 +239,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Row>, Error> {
 /// Rows as CSV.
 pub(super) fn text(rows: &[Row]) -> Result<Vec<u8>, Error> {
     let mut names = Names::default();
-    let row = |row: &Row| Row {
-        cells: names.cells(&row.case, &row.metrics),
-        ..row.clone()
-    };
+    let row = |row: &Row| Row { cells: names.cells(&row.case, &row.metrics), ..row.clone() };
     rows_text(rows.iter().map(row)).map_err(|e| Error::Input(format!("rows: {e}")))
 }
 
@@ -291,9 +264,7 @@ mod tests {
             ("bar", &[("b", 8.0)]),
         ];
         let rows = rows.map(|(case, metrics)| {
-            let metrics = metrics
-                .iter()
-                .map(|(name, value)| ((*name).to_owned(), *value));
+            let metrics = metrics.iter().map(|(name, value)| ((*name).to_owned(), *value));
             (case, metrics.collect::<BTreeMap<_, _>>())
         });
         let (mut out, mut back) = (Names::default(), Names::default());
@@ -320,8 +291,7 @@ mod tests {
             message: String::new(),
         });
         let (value, unit) = (Some(-0.25), "m".to_owned());
-        run.metrics
-            .insert("tip_ux".to_owned(), Measured { value, unit });
+        run.metrics.insert("tip_ux".to_owned(), Measured { value, unit });
         let night = Night::new("2026-01-01", "commit").unwrap();
         let row = Row::of(&run, &night, &BTreeSet::from(["tip_ux"]));
         let again = row.record().unwrap();
@@ -330,10 +300,7 @@ mod tests {
         assert_eq!(again.status, run.status);
         let error = again.error.as_ref().unwrap();
         assert_eq!((error.time, &*error.kind), (1.5, "off-grid"));
-        let unknown = Row {
-            set: "no_such=1".to_owned(),
-            ..row
-        };
+        let unknown = Row { set: "no_such=1".to_owned(), ..row };
         assert!(unknown.record().is_none());
     }
 }

@@ -36,19 +36,12 @@ impl Ours {
     /// # Errors
     /// The file of rows is damaged.
     pub fn beside(scored: &Scored) -> Result<Self, Error> {
-        let built = || {
-            Path::new(env!("CARGO_MANIFEST_DIR"))
-                .join("..")
-                .join(RESULTS)
-        };
+        let built = || Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(RESULTS);
         let here = PathBuf::from(RESULTS);
         let file = if here.exists() { here } else { built() };
         if !file.exists() {
             let absent = format!("our runs: no {RESULTS} here; a checkout of the project has it");
-            return Ok(Self {
-                runs: Vec::new(),
-                absent: Some(absent),
-            });
+            return Ok(Self { runs: Vec::new(), absent: Some(absent) });
         }
         let of_case = |row: &rows::Row| row.case == scored.case.name;
         let kept = rows::read(&file)?.into_iter().filter(of_case);
@@ -56,10 +49,7 @@ impl Ours {
         let asked = &scored.record;
         let own = match asked.is_default() {
             true => (scored.case.own_runs)(&kept),
-            false => kept
-                .iter()
-                .filter(|r| r.parameters == asked.parameters)
-                .collect(),
+            false => kept.iter().filter(|r| r.parameters == asked.parameters).collect(),
         };
         let same = own.into_iter().filter(|r| r.level == asked.level);
         let mut runs: Vec<Record> = same.filter(|r| r.status == Status::Ok).cloned().collect();
@@ -114,8 +104,7 @@ fn notes(scored: &Scored) -> Vec<String> {
     let missing: Vec<String> = scored.missing.iter().map(name).collect();
     let told = [("Not given", &missing), ("Not asked for", &scored.unknown)];
     let told = told.into_iter().filter(|(_, names)| !names.is_empty());
-    told.map(|(what, names)| format!("{what}: {}.", names.join(", ")))
-        .collect()
+    told.map(|(what, names)| format!("{what}: {}.", names.join(", "))).collect()
 }
 
 /// On the terminal: what is measured, verdicts, our runs, and the verdict in one line.

@@ -132,9 +132,7 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
     together::draw(&mut gallery)?;
     solvers::draw(&mut gallery)?;
     for record in &mut records {
-        record
-            .metrics
-            .retain(|name, _| !IN_TABLES.contains(&&**name));
+        record.metrics.retain(|name, _| !IN_TABLES.contains(&&**name));
     }
     let mut studies = Vec::new();
     for case in cases::all() {
@@ -152,9 +150,7 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
 }
 
 fn drawn_of(case: &str, from: Source) -> bool {
-    SHOWN
-        .iter()
-        .any(|(folder, _, source)| *folder == case && *source == from)
+    SHOWN.iter().any(|(folder, _, source)| *folder == case && *source == from)
 }
 
 /// Draws what the cases draw of their runs; returns the runs' tier.
@@ -189,8 +185,7 @@ fn fit(picture: &RgbImage, to: &Path) -> Result<(), Error> {
     let draft = tempfile::NamedTempFile::new().map_err(|e| Error::file(to, e))?;
     let mut share = 1.0;
     loop {
-        let [width, height] =
-            [picture.width(), picture.height()].map(|n| (share * f64::from(n)) as u32);
+        let [width, height] = [picture.width(), picture.height()].map(|n| (share * f64::from(n)) as u32);
         if width < LEAST_WIDTH {
             let cause = format!("more than {MOST} bytes even {width} pixels wide");
             return Err(Error::file(to, cause));
@@ -222,15 +217,10 @@ cook,gimp-none-flip,h1,,1,ok,3,1,0,0,1448,7026,183125664,0.9,2026-01-01,now,fem_
     fn what_there_is_is_drawn_and_the_rest_is_named_and_left() {
         let root = tempfile::tempdir().unwrap();
         let shown = |file: &str| root.path().join(PLACE).join(file);
-        crate::files::write_whole(
-            &root.path().join("reports/nightly/results.csv"),
-            ROWS.as_bytes(),
-        )
-        .unwrap();
+        crate::files::write_whole(&root.path().join("reports/nightly/results.csv"), ROWS.as_bytes()).unwrap();
         crate::files::write_whole(&shown("column/creep.svg"), b"former").unwrap();
         let told = draw(root.path(), &[]).unwrap();
-        let (drawn, left): (Vec<&str>, Vec<&str>) =
-            told.lines().partition(|line| line.ends_with(": drawn"));
+        let (drawn, left): (Vec<&str>, Vec<&str>) = told.lines().partition(|line| line.ends_with(": drawn"));
         assert_eq!(drawn, ["cook/convergence.svg: drawn"], "{told}");
         assert_eq!(left.len(), SHOWN.len() - 1);
         assert!(told.contains("column/creep.svg: left, for want of runs of tier pr"));
@@ -256,18 +246,12 @@ cook,gimp-none-flip,h1,,1,ok,3,1,0,0,1448,7026,183125664,0.9,2026-01-01,now,fem_
         // Noise: no file of it is small.
         let mut random = fastrand::Rng::with_seed(1);
         let noise = RgbImage::from_fn(600, 300, |_, _| image::Rgb([(); 3].map(|()| random.u8(..))));
-        noise
-            .save_with_format(&from, image::ImageFormat::Png)
-            .unwrap();
+        noise.save_with_format(&from, image::ImageFormat::Png).unwrap();
         assert!(fs::metadata(&from).unwrap().len() > MOST);
         assert!(place(&from, &chart).is_err() && !chart.exists());
         assert!(place(&from, &field).is_err());
-        let smooth = RgbImage::from_fn(1200, 600, |x, y| {
-            image::Rgb([(x / 5) as u8, (y / 3) as u8, random.u8(..2)])
-        });
-        smooth
-            .save_with_format(&from, image::ImageFormat::Png)
-            .unwrap();
+        let smooth = RgbImage::from_fn(1200, 600, |x, y| image::Rgb([(x / 5) as u8, (y / 3) as u8, random.u8(..2)]));
+        smooth.save_with_format(&from, image::ImageFormat::Png).unwrap();
         fs::write(&chart, "former").unwrap();
         place(&from, &field).unwrap();
         assert!(fs::metadata(&field).unwrap().len() <= MOST && !chart.exists());

@@ -29,26 +29,13 @@ pub fn draw(case: &Case, record: &Record, folder: &Path) -> Result<Vec<Picture>,
 }
 
 /// Draws the run in `folder`: its particles, and what it went through.
-pub(super) fn own(
-    case: &Case,
-    record: &Record,
-    folder: &Path,
-    out: &Path,
-) -> Result<Vec<Picture>, Error> {
-    let pictures = [
-        field(case, record, folder, out)?,
-        history(case, record, folder, out)?,
-    ];
+pub(super) fn own(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Vec<Picture>, Error> {
+    let pictures = [field(case, record, folder, out)?, history(case, record, folder, out)?];
     Ok(pictures.into_iter().flatten().collect())
 }
 
 /// Draws the particles of a plane run in `folder` at its end, coloured by what its readers should see first.
-fn field(
-    case: &Case,
-    record: &Record,
-    folder: &Path,
-    out: &Path,
-) -> Result<Option<Picture>, Error> {
+fn field(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Option<Picture>, Error> {
     let path = folder.join("particles.csv");
     if !path.exists() || record.discretisation.dim != 2 {
         return Ok(None);
@@ -57,9 +44,7 @@ fn field(
     let value = view.map_or("mean_stress", |view| view.value);
     let table = Table::read(&path)?;
     let header = table.iter().map(|(header, _)| header);
-    let label = header
-        .filter(|h| h.split(" (").next() == Some(value))
-        .last();
+    let label = header.filter(|h| h.split(" (").next() == Some(value)).last();
     let (Some(label), Some(range)) = (label, bulk(table.column(value))) else {
         return Ok(None);
     };
@@ -89,10 +74,7 @@ fn field(
 fn bulk(values: &[f64]) -> Option<(f64, f64)> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
-    let (low, high) = (
-        sorted.get(sorted.len() / 100)?,
-        sorted.get(sorted.len() * 99 / 100)?,
-    );
+    let (low, high) = (sorted.get(sorted.len() / 100)?, sorted.get(sorted.len() * 99 / 100)?);
     let most = low.abs().max(high.abs());
     match low * high < 0.0 {
         true => Some((-most, most)),
@@ -102,12 +84,7 @@ fn bulk(values: &[f64]) -> Option<(f64, f64)> {
 }
 
 /// Draws the columns of the time series of the run in `folder` that its readers should see first, a chart each.
-fn history(
-    case: &Case,
-    record: &Record,
-    folder: &Path,
-    out: &Path,
-) -> Result<Option<Picture>, Error> {
+fn history(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Option<Picture>, Error> {
     let path = folder.join(series::FILE);
     if !path.exists() || case.watched.is_empty() {
         return Ok(None);
@@ -119,11 +96,7 @@ fn history(
         let points = at.copied().zip(values.copied()).collect();
         let header = table.iter().map(|(header, _)| header);
         let label = header.filter(|h| h.split(" (").next() == Some(name)).last();
-        Chart::new(
-            "",
-            [table.abscissa(), label.unwrap_or(name)],
-            vec![Series::line("", points, 0)],
-        )
+        Chart::new("", [table.abscissa(), label.unwrap_or(name)], vec![Series::line("", points, 0)])
     };
     let charts: Vec<Chart> = case.watched.iter().map(chart).collect();
     let file = format!("{}/history.png", record.case);

@@ -10,36 +10,16 @@ use crate::scheme::RemedyName::{self, FbarConsistent, None as Standard};
 use crate::scheme::RuleName;
 
 /// One curve each.
-const MARKERS: [Marker; 4] = [
-    Marker::Circle,
-    Marker::Square,
-    Marker::Triangle,
-    Marker::Diamond,
-];
+const MARKERS: [Marker; 4] = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];
 
 /// A problem, with the functions and the remedy to take for it, its title, the error that is compared and what this is called.
-type Problem = (
-    &'static str,
-    (BasisName, RemedyName),
-    &'static str,
-    (&'static str, &'static str),
-);
+type Problem = (&'static str, (BasisName, RemedyName), &'static str, (&'static str, &'static str));
 
 const MOTION: (&str, &str) = ("displacement_l2", "rms error of u (m)");
 
 const PROBLEMS: [Problem; 4] = [
-    (
-        "mms-axis",
-        (Bspline2, Standard),
-        "A wave that steps follow (ν = 0.3)",
-        MOTION,
-    ),
-    (
-        "mms-vortex-box",
-        (Gimp, FbarConsistent),
-        "A vortex, slow beside its waves (ν = 0.4999)",
-        MOTION,
-    ),
+    ("mms-axis", (Bspline2, Standard), "A wave that steps follow (ν = 0.3)", MOTION),
+    ("mms-vortex-box", (Gimp, FbarConsistent), "A vortex, slow beside its waves (ν = 0.4999)", MOTION),
     (
         "footing",
         (Gimp, FbarConsistent),
@@ -80,11 +60,7 @@ fn panel<'a>(records: &'a [Record], (case, schemes, title, error): Problem) -> P
     Panel::new(title, ["CPU time (s)", error.1])
         .log_x()
         .log_y()
-        .points_by(
-            runs.into_iter().map(|(_, r)| r),
-            |r| curve(r).unwrap_or_default(),
-            point,
-        )
+        .points_by(runs.into_iter().map(|(_, r)| r), |r| curve(r).unwrap_or_default(), point)
         .least(2)
         .styled(|k, curve| Series {
             dash: match &*curve.name {
@@ -103,8 +79,5 @@ fn panel<'a>(records: &'a [Record], (case, schemes, title, error): Problem) -> P
 /// The picture can't be written.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let panels = PROBLEMS.map(|problem| panel(gallery.records, problem));
-    Figure::new("solvers", "", panels)
-        .columns(2)
-        .whole()
-        .draw(gallery)
+    Figure::new("solvers", "", panels).columns(2).whole().draw(gallery)
 }

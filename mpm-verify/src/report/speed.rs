@@ -55,13 +55,7 @@ impl Speed {
             let row = [(*title).to_owned(), of, first.name(), pairs, cpu];
             row.into_iter().chain(remedies.iter().map(ratio)).collect()
         };
-        let head = [
-            "problem",
-            "target: error",
-            "cheapest scheme",
-            "pairs (10⁶)",
-            "CPU (s)",
-        ];
+        let head = ["problem", "target: error", "cheapest scheme", "pairs (10⁶)", "CPU (s)"];
         let head = head.into_iter().chain(remedies.iter().map(|r| r.text()));
         Sheet::new(head).with(self.0.iter().map(row))
     }
@@ -88,9 +82,8 @@ impl Speed {
     /// When F̄ is worth its price, and which scheme to take.
     pub(super) fn advice(&self) -> String {
         let [motion, stress] = [false, true].map(|of_stress| {
-            let worth = |(_, p): &&(&'static str, Prices)| {
-                p.of_stress == of_stress && ratio(p).is_some_and(is_worth_it)
-            };
+            let worth =
+                |(_, p): &&(&'static str, Prices)| p.of_stress == of_stress && ratio(p).is_some_and(is_worth_it);
             list(self.0.iter().filter(worth).map(|(title, _)| *title))
         });
         let mut elsewhere: Vec<f64> = self
@@ -110,14 +103,10 @@ impl Speed {
         };
         let never = |remedy: RemedyName, name: &str| {
             let not = |(_, p): &&(&str, Prices)| p.has(remedy) && p.cheapest(remedy).is_none();
-            let titles = self
-                .0
-                .iter()
-                .filter(not)
-                .map(|(title, p)| match p.of_stress {
-                    true => format!("{title} (pressure)"),
-                    false => format!("{title} (motion)"),
-                });
+            let titles = self.0.iter().filter(not).map(|(title, p)| match p.of_stress {
+                true => format!("{title} (pressure)"),
+                false => format!("{title} (motion)"),
+            });
             format!("{name} never reaches the target in: {}.", list(titles))
         };
         format!(
@@ -133,24 +122,13 @@ impl Speed {
 
     /// The basis with which a remedy reaches most targets at the least cost.
     fn basis(&self, remedy: RemedyName) -> String {
-        let of_all = self
-            .0
-            .iter()
-            .filter_map(|(_, p)| Some(p.cheapest(remedy)?.scheme.basis()));
+        let of_all = self.0.iter().filter_map(|(_, p)| Some(p.cheapest(remedy)?.scheme.basis()));
         let of_all: Vec<BasisName> = of_all.collect();
         let count = |basis: &BasisName| of_all.iter().filter(|b| *b == basis).count();
-        let best = distinct(of_all.iter().copied())
-            .into_iter()
-            .max_by_key(count);
+        let best = distinct(of_all.iter().copied()).into_iter().max_by_key(count);
         best.map_or_else(
             || "–".to_owned(),
-            |basis| {
-                format!(
-                    "{basis} (the cheapest on {} of {})",
-                    count(&basis),
-                    of_all.len()
-                )
-            },
+            |basis| format!("{basis} (the cheapest on {} of {})", count(&basis), of_all.len()),
         )
     }
 
@@ -158,30 +136,21 @@ impl Speed {
     pub(super) fn draw(&self, out: &Path) -> Result<Option<Picture>, Error> {
         let row = |title: &&'static str| {
             let of = |of_stress| {
-                let mut own = self
-                    .0
-                    .iter()
-                    .filter(|(of, p)| of == title && p.of_stress == of_stress);
+                let mut own = self.0.iter().filter(|(of, p)| of == title && p.of_stress == of_stress);
                 own.next().and_then(|(_, p)| ratio(p))
             };
             ((*title).to_owned(), vec![of(false), of(true)])
         };
-        let mut rows: Vec<_> = distinct(self.0.iter().map(|(title, _)| *title))
-            .iter()
-            .map(row)
-            .collect();
+        let mut rows: Vec<_> = distinct(self.0.iter().map(|(title, _)| *title)).iter().map(row).collect();
         rows.retain(|(_, ratios)| ratios.iter().any(Option::is_some));
         if rows.is_empty() {
             return Ok(None);
         }
         let ratios = Ratios {
-            title: "fbar-consistent over no remedy: particle–node pairs for the same error"
-                .to_owned(),
+            title: "fbar-consistent over no remedy: particle–node pairs for the same error".to_owned(),
             sides: ["fbar-consistent is cheaper", "no remedy is cheaper"].map(str::to_owned),
             ends: ["no remedy never gets there", "fbar-consistent never"].map(str::to_owned),
-            kinds: ["error of the motion", "error of the pressure"]
-                .map(str::to_owned)
-                .to_vec(),
+            kinds: ["error of the motion", "error of the pressure"].map(str::to_owned).to_vec(),
             rows,
         };
         let file = format!("{NAME}.png");
@@ -228,13 +197,9 @@ mod tests {
             let mut run = record(level, Vec::new());
             run.scheme = Scheme::flip(BasisName::Gimp, remedy);
             (run.discretisation.h, run.work.particle_node_pairs) = (h, pairs);
-            for (name, value) in ["fem_edge_mean_error", "mean_stress_rms_error"]
-                .into_iter()
-                .zip(errors)
-            {
+            for (name, value) in ["fem_edge_mean_error", "mean_stress_rms_error"].into_iter().zip(errors) {
                 let (value, unit) = (Some(value), "-".to_owned());
-                run.metrics
-                    .insert(name.to_owned(), Measured { value, unit });
+                run.metrics.insert(name.to_owned(), Measured { value, unit });
             }
             run
         };
@@ -251,20 +216,13 @@ mod tests {
     fn the_price_of_a_remedy_is_that_of_the_motion_and_that_of_the_pressure() {
         let mut study = cook();
         // What half reach is what the worse of two reaches.
-        study.records[3].metrics.insert(
-            "fem_edge_mean_error".to_owned(),
-            Measured {
-                value: Some(0.45),
-                unit: "-".to_owned(),
-            },
-        );
+        study.records[3]
+            .metrics
+            .insert("fem_edge_mean_error".to_owned(), Measured { value: Some(0.45), unit: "-".to_owned() });
         let speed = Speed::of([&study]);
         let rows = speed.table().rows;
         assert_eq!(rows.len(), 2);
-        assert_eq!(
-            rows[1][..3],
-            ["Cook's membrane", "rms error of σ_m (Pa) 0.1", "gimp none"]
-        );
+        assert_eq!(rows[1][..3], ["Cook's membrane", "rms error of σ_m (Pa) 0.1", "gimp none"]);
         assert_eq!(rows[1][5..], ["1.0", "4.0"]);
     }
 
@@ -283,25 +241,13 @@ mod tests {
         let speed = Speed::of([&cook()]);
         let advice = speed.advice();
         assert!(
-            advice.starts_with(
-                "Take F̄ (fbar-consistent) for the motion in: none; for the pressure in: none."
-            ),
+            advice.starts_with("Take F̄ (fbar-consistent) for the motion in: none; for the pressure in: none."),
             "{advice}"
         );
         let folder = tempfile::tempdir().unwrap();
         let picture = speed.draw(folder.path()).unwrap().unwrap();
-        assert!(
-            folder
-                .path()
-                .join(picture.file)
-                .with_extension("svg")
-                .exists()
-        );
+        assert!(folder.path().join(picture.file).with_extension("svg").exists());
         assert!(Speed::of([]).draw(folder.path()).unwrap().is_none());
-        assert!(
-            is_worth_it(Ratio::Least)
-                && is_worth_it(Ratio::Of(0.5))
-                && !is_worth_it(Ratio::Of(1.0))
-        );
+        assert!(is_worth_it(Ratio::Least) && is_worth_it(Ratio::Of(0.5)) && !is_worth_it(Ratio::Of(1.0)));
     }
 }

@@ -49,9 +49,7 @@ pub(super) fn of_rows(studies: Vec<CaseStudy>, nights: &Sheet) -> Result<String,
     let mut document = Document::new("Verification, all runs that are kept");
     // Of its checks a row counts those alone that judge.
     document.paragraph(lines(&summary.counts.to_string(), 2));
-    document.paragraph(Text::marked(
-        "The map of schemes and cases: `docs/hard-cases.md`.",
-    ));
+    document.paragraph(Text::marked("The map of schemes and cases: `docs/hard-cases.md`."));
     body(&mut document, &summary, &Speed::of(&summary.cases), nights)?;
     Ok(document.markdown())
 }
@@ -65,12 +63,7 @@ fn runs(summary: &Summary) -> impl Iterator<Item = &Record> {
     summary.cases.iter().flat_map(|study| &study.records)
 }
 
-fn body(
-    document: &mut Document,
-    summary: &Summary,
-    speed: &Speed,
-    programs: &Sheet,
-) -> Result<(), Error> {
+fn body(document: &mut Document, summary: &Summary, speed: &Speed, programs: &Sheet) -> Result<(), Error> {
     if !speed.is_empty() {
         document.section("", "Speed against error");
         document.paragraph(speed.advice());
@@ -117,12 +110,7 @@ pub(super) fn programs(summary: &Summary) -> Sheet {
 
 fn failures(document: &mut Document, summary: &Summary) {
     for (_, record, message) in verdicts::broken(summary) {
-        let run = format!(
-            ": {} {} {}: {message}",
-            record.case,
-            record.scheme(),
-            record.level
-        );
+        let run = format!(": {} {} {}: {message}", record.case, record.scheme(), record.level);
         document.paragraph(Text::marked("**Broke down**").then(run));
     }
     let failed = summary.verdicts().filter(|(.., v)| v.misses_the_truth());
@@ -192,8 +180,7 @@ mod tests {
                 run.discretisation.h = h;
                 for (name, value) in [("mean_stress_rms_error", -h * h), ("tip_ux", h)] {
                     let (value, unit) = (Some(value), "-".to_owned());
-                    run.metrics
-                        .insert(name.to_owned(), Measured { value, unit });
+                    run.metrics.insert(name.to_owned(), Measured { value, unit });
                 }
                 records.push(run);
             }
@@ -202,9 +189,7 @@ mod tests {
         let text = orders(all.iter()).markdown();
         let rows: Vec<&str> = text.lines().skip(2).collect();
         let row = |changed: &str| {
-            format!(
-                "| mean_stress_rms_error | gimp none | {changed} | h2–h0.5 | -0.25 | 2.00 ± 0.00 | 2.00, 2.00 |"
-            )
+            format!("| mean_stress_rms_error | gimp none | {changed} | h2–h0.5 | -0.25 | 2.00 ± 0.00 | 2.00, 2.00 |")
         };
         assert_eq!(rows, [row(""), row("load=2")]);
     }

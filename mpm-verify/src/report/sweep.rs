@@ -32,12 +32,7 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
                 if error.is_finite() {
                     let words = [metric.name, &scheme.to_string(), runs.level].map(str::to_owned);
                     rows.push([words, [value, x, error].map(|x| x.to_string())].concat());
-                    entries.push(Entry {
-                        scheme,
-                        metric: metric.name,
-                        x,
-                        value: error,
-                    });
+                    entries.push(Entry { scheme, metric: metric.name, x, value: error });
                 }
             }
         }
@@ -53,11 +48,7 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
             "Error at level {} over the values of {parameter}, for every scheme that ran at least {LEAST_VALUES} of them.",
             runs.level
         );
-        let errors = Errors {
-            entries,
-            label,
-            is_logarithmic: sweep.logarithmic,
-        };
+        let errors = Errors { entries, label, is_logarithmic: sweep.logarithmic };
         let shown = (&*format!("{name}.png"), &*caption);
         pictures.extend(errors.draw(case, shown, out, |_, _, chart| chart)?);
     }
@@ -126,8 +117,7 @@ mod tests {
         run.set = set.iter().map(|s| (*s).to_owned()).collect();
         run.parameters = Parameters::new(&cook().parameters, &run.set).unwrap();
         let (value, unit) = (Some(0.01), "-".to_owned());
-        run.metrics
-            .insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
+        run.metrics.insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
         run
     }
 

@@ -80,9 +80,7 @@ impl Page {
         let mut studies = Vec::new();
         for case in cases::all() {
             let own = || rows.iter().filter(|row| row.case == case.name);
-            let (Some(oldest), Some(newest)) =
-                (own().map(|r| r.night).min(), own().map(|r| r.night).max())
-            else {
+            let (Some(oldest), Some(newest)) = (own().map(|r| r.night).min(), own().map(|r| r.night).max()) else {
                 continue;
             };
             let records: Vec<Record> = own().filter_map(rows::Row::record).collect();
@@ -104,11 +102,7 @@ impl Page {
             return Err(Error::file(&file, cause));
         }
         let same = file.exists() && read_text(&file)? == text;
-        let stale = if same {
-            Vec::new()
-        } else {
-            vec!["all of it".to_owned()]
-        };
+        let stale = if same { Vec::new() } else { vec!["all of it".to_owned()] };
         Ok(Self { file, stale, text })
     }
 
@@ -173,17 +167,12 @@ impl Page {
 
 /// Every table by its name, in Markdown, with the oldest of the runs that it tells of.
 fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
-    let kept = rows
-        .iter()
-        .filter_map(|row| Some((row.record()?, row.night)));
+    let kept = rows.iter().filter_map(|row| Some((row.record()?, row.night)));
     let kept: Vec<(Record, Date)> = kept.collect();
     let records = || kept.iter().map(|(r, _)| r);
     let oldest = |told: &[&Record]| {
         let is_told = |r: &Record| told.iter().any(|t| std::ptr::eq(*t, r));
-        let oldest = kept
-            .iter()
-            .filter(|(r, _)| is_told(r))
-            .min_by_key(|(_, night)| *night);
+        let oldest = kept.iter().filter(|(r, _)| is_told(r)).min_by_key(|(_, night)| *night);
         oldest.map_or_else(String::new, |(r, night)| {
             let program = &r.version.source;
             format!("\n*Oldest run: night of {night}, program {program}.*\n")
@@ -206,32 +195,19 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
     };
     let prices = match speed.is_empty() {
         true => String::new(),
-        false => format!(
-            "{}\n{}\n",
-            speed.table().markdown(),
-            wrapped(&speed.advice())
-        ),
+        false => format!("{}\n{}\n", speed.table().markdown(), wrapped(&speed.advice())),
     };
     let (sheet, told, advice) = rivals::table(&records().collect::<Vec<_>>());
     let rivals = match told.is_empty() {
         true => String::new(),
-        false => format!(
-            "{}\n{}\n{}",
-            sheet.markdown(),
-            wrapped(&advice),
-            oldest(&told)
-        ),
+        false => format!("{}\n{}\n{}", sheet.markdown(), wrapped(&advice), oldest(&told)),
     };
     let panels = map::panels(records(), &speed);
     let map = map::PANELS.map(|name| {
         let text = panels.iter().find(|panel| panel.name == name).map(|panel| {
             let page = |case: &str| Text::link(case, format!("{case}.md"));
             let marks = panel.marks().markdown();
-            let below = if marks.is_empty() {
-                marks
-            } else {
-                format!("\n{marks}\n")
-            };
+            let below = if marks.is_empty() { marks } else { format!("\n{marks}\n") };
             panel.table(page, false).markdown() + &below + &oldest(&panel.told)
         });
         (format!("map-{name}"), text.unwrap_or_default())
@@ -263,9 +239,7 @@ slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-
         write(RESULTS, ROWS);
         write("README.md", shown);
         let all = tables(&[]);
-        let others = all
-            .keys()
-            .filter(|name| !shown.contains(&format!("table {name} ")));
+        let others = all.keys().filter(|name| !shown.contains(&format!("table {name} ")));
         let others = others.map(|name| format!("{BEGIN}{name}{CLOSE}\n{END}\n"));
         write("docs/others.md", &others.collect::<String>());
         root
@@ -306,26 +280,14 @@ slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-
     #[test]
     fn what_nothing_fills_is_named_with_file_and_line() {
         let unknown = refusal("\n<!-- table slopes -->\n<!-- end -->\n");
-        assert!(
-            unknown.contains("README.md: line 2: unknown table \"slopes\""),
-            "{unknown}"
-        );
-        for open in [
-            "<!-- table slope -->\n|",
-            "<!-- table slope -->\n<!-- table cook -->\n<!-- end -->\n",
-        ] {
+        assert!(unknown.contains("README.md: line 2: unknown table \"slopes\""), "{unknown}");
+        for open in ["<!-- table slope -->\n|", "<!-- table slope -->\n<!-- table cook -->\n<!-- end -->\n"] {
             let endless = refusal(open);
-            assert!(
-                endless.contains("line 1: the block slope does not end"),
-                "{endless}"
-            );
+            assert!(endless.contains("line 1: the block slope does not end"), "{endless}");
         }
         for block in ["<!-- results -->\n<!-- end -->\n", "<!-- end -->\n"] {
             let unfilled = refusal(block);
-            assert!(
-                unfilled.contains("line 1: nothing fills the block"),
-                "{unfilled}"
-            );
+            assert!(unfilled.contains("line 1: nothing fills the block"), "{unfilled}");
         }
     }
 

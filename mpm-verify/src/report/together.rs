@@ -47,16 +47,7 @@ const fn plot(
     (metric, label): (&'static str, &'static str),
 ) -> Plot {
     let (set, over, linear, exact) = (None, CellSize, false, None);
-    Plot {
-        case,
-        schemes,
-        set,
-        over,
-        metric,
-        label,
-        linear,
-        exact,
-    }
+    Plot { case, schemes, set, over, metric, label, linear, exact }
 }
 
 impl Plot {
@@ -65,10 +56,7 @@ impl Plot {
     }
 
     const fn linear(self) -> Self {
-        Self {
-            linear: true,
-            ..self
-        }
+        Self { linear: true, ..self }
     }
 }
 
@@ -85,18 +73,9 @@ const REMEDIES: &[&str] = &[
     "bspline2-fbar-rate-flip",
     "bspline2-fbar-consistent-flip",
 ];
-const NONE_AND_OURS: &[&str] = &[
-    "gimp-none-flip",
-    "gimp-fbar-consistent-flip",
-    "bspline2-none-flip",
-    "bspline2-fbar-consistent-flip",
-];
-const BASES: &[&str] = &[
-    "linear-none-flip",
-    "gimp-none-flip",
-    "bspline2-none-flip",
-    "bspline3-none-flip",
-];
+const NONE_AND_OURS: &[&str] =
+    &["gimp-none-flip", "gimp-fbar-consistent-flip", "bspline2-none-flip", "bspline2-fbar-consistent-flip"];
+const BASES: &[&str] = &["linear-none-flip", "gimp-none-flip", "bspline2-none-flip", "bspline3-none-flip"];
 const QUASI_STATIC: &[&str] = &[
     "quasi-static-linear-none",
     "quasi-static-linear-fbar-consistent",
@@ -114,11 +93,7 @@ const POROUS: &[&str] = &[
     "poro-linear-equal",
     "poro-linear-ppp",
 ];
-const INF_SUP: &[&str] = &[
-    "poro-gimp-two-grid",
-    "poro-gimp-equal",
-    "poro-bspline2-two-grid",
-];
+const INF_SUP: &[&str] = &["poro-gimp-two-grid", "poro-gimp-equal", "poro-bspline2-two-grid"];
 const THIN: &[&str] = &[
     "linear-none-flip",
     "linear-fbar-consistent-flip",
@@ -156,27 +131,14 @@ const PICTURES: [(&str, [Plot; 6]); 3] = [
         [
             plot("mms-static", QUASI_STATIC, DISPLACEMENT),
             plot("mms-poro", POROUS, ("pressure_l2", "rms error of p (Pa)")),
-            plot(
-                "vibrating-bar",
-                REMEDIES,
-                ("frequency_error", "|relative error of the frequency|"),
-            ),
+            plot("vibrating-bar", REMEDIES, ("frequency_error", "|relative error of the frequency|")),
             Plot {
                 exact: Some(1.0),
-                ..plot(
-                    "thin",
-                    THIN,
-                    ("frequency_ratio", "frequency over the exact one"),
-                )
-                .linear()
+                ..plot("thin", THIN, ("frequency_ratio", "frequency over the exact one")).linear()
             },
             Plot {
                 set: Some(&["ppc_per_direction=2"]),
-                ..plot(
-                    "sparse",
-                    QUASI_STATIC,
-                    ("error_median", "median error of the displacement"),
-                )
+                ..plot("sparse", QUASI_STATIC, ("error_median", "median error of the displacement"))
             },
             plot("undrained", INF_SUP, ("inf_sup", "inf–sup constant")),
         ],
@@ -184,39 +146,24 @@ const PICTURES: [(&str, [Plot; 6]); 3] = [
     (
         "hard-cases",
         [
-            plot(
-                "critical-step",
-                BASES,
-                ("critical_cfl", "largest stable CFL number, up to one"),
-            )
-            .over(Prediction("predicted_cfl")),
-            plot("stretch", BASES, ("stress_noise", "noise of the stress"))
-                .over(Prediction("predicted_noise")),
-            plot(
-                "spin",
-                TRANSFERS,
-                ("angular_momentum_error", "loss of angular momentum"),
-            )
-            .over(Parameter("turns", "turns", "r4")),
-            plot(
-                "shock",
-                NONE_AND_OURS,
-                ("overshoot", "overshoot of the stress"),
-            )
-            .over(Parameter("mach", "Mach number", "n64")),
-            plot(
-                "newton",
-                QUASI_STATIC,
-                ("equilibrium_error", "error of equilibrium"),
-            )
-            .over(Parameter("load_steps", "load steps", "n8")),
-            plot(
-                "conditioning",
-                TWO_GRIDS,
-                ("log10_cond_uu", "log₁₀ of the condition number"),
-            )
-            .over(Parameter("alpha", "ghost penalty α", "h0.1"))
-            .linear(),
+            plot("critical-step", BASES, ("critical_cfl", "largest stable CFL number, up to one"))
+                .over(Prediction("predicted_cfl")),
+            plot("stretch", BASES, ("stress_noise", "noise of the stress")).over(Prediction("predicted_noise")),
+            plot("spin", TRANSFERS, ("angular_momentum_error", "loss of angular momentum"))
+                .over(Parameter("turns", "turns", "r4")),
+            plot("shock", NONE_AND_OURS, ("overshoot", "overshoot of the stress")).over(Parameter(
+                "mach",
+                "Mach number",
+                "n64",
+            )),
+            plot("newton", QUASI_STATIC, ("equilibrium_error", "error of equilibrium")).over(Parameter(
+                "load_steps",
+                "load steps",
+                "n8",
+            )),
+            plot("conditioning", TWO_GRIDS, ("log10_cond_uu", "log₁₀ of the condition number"))
+                .over(Parameter("alpha", "ghost penalty α", "h0.1"))
+                .linear(),
         ],
     ),
 ];
@@ -247,41 +194,23 @@ impl Plot {
         let is_own = |r: &&Record| r.case == self.case && self.abscissa(case, r).is_some();
         let runs: Vec<&Record> = records.iter().filter(is_own).collect();
         let point = |r: &Record| {
-            let (x, y) = (
-                self.abscissa(case, r).unwrap_or(f64::NAN),
-                r.value(self.metric),
-            );
+            let (x, y) = (self.abscissa(case, r).unwrap_or(f64::NAN), r.value(self.metric));
             (x, if self.linear { y } else { y.abs() })
         };
         let panel = Panel::new(case.title, [x, self.label]).log_x();
         let panel = if self.linear { panel } else { panel.log_y() };
         let mut panel = panel.points_of(schemes, &runs, point);
         if let Prediction(_) = self.over {
-            panel = panel
-                .styled(|_, curve| Series {
-                    dash: Dash::None,
-                    ..curve
-                })
-                .identity("as predicted", PREDICTION);
+            panel = panel.styled(|_, curve| Series { dash: Dash::None, ..curve }).identity("as predicted", PREDICTION);
         }
         if let CellSize = self.over {
-            let mut own = case
-                .quantities
-                .iter()
-                .filter(|q| q.metric.name == self.metric);
-            panel = own
-                .next()
-                .and_then(|q| q.order)
-                .into_iter()
-                .fold(panel, Panel::order);
+            let mut own = case.quantities.iter().filter(|q| q.metric.name == self.metric);
+            panel = own.next().and_then(|q| q.order).into_iter().fold(panel, Panel::order);
         }
-        Ok(self.exact.into_iter().fold(panel, |panel, value| {
-            panel.level(ReferenceLine {
-                name: "exact".to_owned(),
-                value,
-                band: None,
-            })
-        }))
+        Ok(self
+            .exact
+            .into_iter()
+            .fold(panel, |panel, value| panel.level(ReferenceLine { name: "exact".to_owned(), value, band: None })))
     }
 
     /// Where a run stands, if it is on the curve of its scheme.
@@ -299,9 +228,7 @@ impl Plot {
                 let own = run.level == level && others.eq(fixed.iter());
                 let changed = run.set.iter().find_map(value);
                 let default = || case.parameters.iter().find(|p| p.name == name);
-                changed
-                    .or_else(|| default()?.default.parse().ok())
-                    .filter(|_| own)
+                changed.or_else(|| default()?.default.parse().ok()).filter(|_| own)
             }
         }
     }
@@ -345,8 +272,7 @@ mod tests {
             run.scheme = Scheme::parse("gimp-none-flip").unwrap();
             run.set = set.iter().map(|s| (*s).to_owned()).collect();
             let (value, unit) = (Some(overshoot), "-".to_owned());
-            run.metrics
-                .insert("overshoot".to_owned(), Measured { value, unit });
+            run.metrics.insert("overshoot".to_owned(), Measured { value, unit });
             run
         };
         let runs = [

@@ -19,14 +19,8 @@ pub(super) struct Values(Vec<(String, Record)>);
 
 impl Values {
     pub(super) fn new(rows: &[Row]) -> Self {
-        let named = rows
-            .iter()
-            .filter_map(|row| Some((row.run().join(" "), row.record()?)));
-        Self(
-            named
-                .map(|(name, record)| (name.trim_end().to_owned(), record))
-                .collect(),
-        )
+        let named = rows.iter().filter_map(|row| Some((row.run().join(" "), row.record()?)));
+        Self(named.map(|(name, record)| (name.trim_end().to_owned(), record)).collect())
     }
 
     /// A line with its numbers as they should be, and what those that are not are of.
@@ -54,8 +48,7 @@ impl Values {
     fn number(&self, of: &str) -> Result<String, Error> {
         let refuse = |cause: &str| Error::Input(format!("the number \"{of}\": {cause}"));
         let parts = of.rsplit_once(' ');
-        let (of_what, format) =
-            parts.ok_or_else(|| refuse("a run, a metric and a format are wanted"))?;
+        let (of_what, format) = parts.ok_or_else(|| refuse("a run, a metric and a format are wanted"))?;
         let format = read(format).ok_or_else(|| refuse("a format is 2, e1, 1% or +1%"))?;
         let value = |of: &str| self.value(of).map_err(refuse);
         let value = match of_what.split_once(" / ") {
@@ -76,9 +69,7 @@ impl Values {
             "breakdown" => record.error.as_ref().map_or(f64::NAN, |e| e.time),
             metric => record.value(metric),
         };
-        Some(value)
-            .filter(|v| v.is_finite())
-            .ok_or("its row keeps no such metric")
+        Some(value).filter(|v| v.is_finite()).ok_or("its row keeps no such metric")
     }
 }
 
@@ -113,9 +104,7 @@ mod tests {
     fn a_number_in_a_sentence_is_filled_and_a_changed_one_is_stale() {
         let line = |first: &str, second: &str| {
             let run = "cook gimp-none-flip h1 load=2 mid_edge_uy";
-            format!(
-                "Off by <!--= {run} +1%-->{first}<!--/--> or <!--= {run} 4-->{second}<!--/-->.\n"
-            )
+            format!("Off by <!--= {run} +1%-->{first}<!--/--> or <!--= {run} 4-->{second}<!--/-->.\n")
         };
         let (filled, stale) = values().fill(&line("+9 %", "−0.0123")).unwrap();
         assert_eq!(filled, line("−1.2 %", "−0.0123"));
@@ -135,15 +124,10 @@ mod tests {
         for (of, cause) in [
             ("cook gimp-none-flip h1 mid_edge_uy 2", "no such run"),
             ("cook gimp-none-flip h1 load=2 tip 2", "no such metric"),
-            (
-                "cook gimp-none-flip h1 load=2 mid_edge_uy +2",
-                "a format is",
-            ),
+            ("cook gimp-none-flip h1 load=2 mid_edge_uy +2", "a format is"),
             ("2", "are wanted"),
         ] {
-            let error = values()
-                .fill(&format!("<!--= {of}-->1<!--/-->"))
-                .unwrap_err();
+            let error = values().fill(&format!("<!--= {of}-->1<!--/-->")).unwrap_err();
             assert!(error.to_string().contains(cause), "{error}");
         }
         let endless = values().fill("<!--= cook 2-->1").unwrap_err().to_string();

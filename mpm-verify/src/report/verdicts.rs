@@ -12,16 +12,7 @@ use crate::table::Sheet;
 use crate::verdict::{Kind, Outcome, Verdict};
 use std::path::Path;
 
-const HEAD: [&str; 8] = [
-    "outcome",
-    "kind",
-    "check",
-    "metric",
-    "value",
-    "reference",
-    "tolerance",
-    "source",
-];
+const HEAD: [&str; 8] = ["outcome", "kind", "check", "metric", "value", "reference", "tolerance", "source"];
 
 /// A number as it is, which drift may need.
 fn exact(value: Option<f64>) -> String {
@@ -51,11 +42,7 @@ pub(super) fn table<'a>(verdicts: impl IntoIterator<Item = (Option<Text>, &'a Ve
         "value" | "reference" | "tolerance" => Cell::of(title, "number"),
         _ => Cell::from(title),
     });
-    Table {
-        class: "",
-        head: run.into_iter().chain(head).collect(),
-        rows,
-    }
+    Table { class: "", head: run.into_iter().chain(head).collect(), rows }
 }
 
 /// What differs from the goldens, run by run.
@@ -87,39 +74,24 @@ pub(super) fn write(study: &CaseStudy, out: &Path) -> Result<(), Error> {
     let mut head = HEAD.map(str::to_owned).to_vec();
     head.insert(3, "run".to_owned());
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
-    let rows = of_case(study)
-        .filter(|(_, v)| v.kind != Kind::Drift)
-        .map(|(run, v)| {
-            let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
-            let words = [outcome(v.outcome), kind(v.kind), &v.check, &run, &v.metric];
-            let numbers = [v.value, v.reference, v.tolerance].map(number);
-            [
-                &words.map(str::to_owned)[..],
-                &numbers,
-                std::slice::from_ref(&v.source),
-            ]
-            .concat()
-        });
+    let rows = of_case(study).filter(|(_, v)| v.kind != Kind::Drift).map(|(run, v)| {
+        let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
+        let words = [outcome(v.outcome), kind(v.kind), &v.check, &run, &v.metric];
+        let numbers = [v.value, v.reference, v.tolerance].map(number);
+        [&words.map(str::to_owned)[..], &numbers, std::slice::from_ref(&v.source)].concat()
+    });
     write_csv(&out.join(&study.case).join("verdicts.csv"), &head, rows)
 }
 
 /// The verdicts on the runs of a case, then those on runs together.
-pub(super) fn of_case(
-    study: &CaseStudy,
-) -> impl Iterator<Item = (Option<&Record>, &Verdict)> + Clone {
-    let single = study
-        .records
-        .iter()
-        .flat_map(|r| r.verdicts.iter().map(move |v| (Some(r), v)));
+pub(super) fn of_case(study: &CaseStudy) -> impl Iterator<Item = (Option<&Record>, &Verdict)> + Clone {
+    let single = study.records.iter().flat_map(|r| r.verdicts.iter().map(move |v| (Some(r), v)));
     single.chain(study.verdicts.iter().map(|v| (None, v)))
 }
 
 /// The runs that broke down and were not known to, each with the message.
 pub(super) fn broken(summary: &Summary) -> impl Iterator<Item = (&CaseStudy, &Record, &str)> {
-    let runs = summary
-        .cases
-        .iter()
-        .flat_map(|study| study.records.iter().map(move |r| (study, r)));
+    let runs = summary.cases.iter().flat_map(|study| study.records.iter().map(move |r| (study, r)));
     runs.filter_map(|(study, r)| {
         let error = r.error.as_ref().filter(|_| r.broke_down())?;
         Some((study, r, &*error.message))
@@ -147,27 +119,15 @@ pub(super) fn nearest<'a>(case: &Case, study: &'a CaseStudy) -> Option<Nearest<'
         shown.then_some(distance / tolerance)
     };
     let all = study.records.iter().filter(right);
-    let all = all.flat_map(|r| {
-        r.verdicts
-            .iter()
-            .filter_map(move |v| Some((r, v, share(v)?)))
-    });
+    let all = all.flat_map(|r| r.verdicts.iter().filter_map(move |v| Some((r, v, share(v)?))));
     let judged: Vec<(&Record, &Verdict, f64)> = all.collect();
-    let errors = case
-        .quantities
-        .iter()
-        .filter(|q| q.is_error)
-        .map(|q| q.metric);
+    let errors = case.quantities.iter().filter(|q| q.is_error).map(|q| q.metric);
     let mut metrics = errors.chain(case.metrics.iter().copied());
     let (run, v, _) = metrics.find_map(|metric| {
         let own = judged.iter().filter(|(_, v, _)| v.metric == metric.name);
         own.min_by(|a, b| a.2.total_cmp(&b.2))
     })?;
-    let unit = case
-        .metrics
-        .iter()
-        .find(|m| m.name == v.metric)
-        .map_or("-", |m| m.unit);
+    let unit = case.metrics.iter().find(|m| m.name == v.metric).map_or("-", |m| m.unit);
     Some(Nearest {
         error: quantity(distance(v), unit),
         tolerance: quantity(v.tolerance, unit),
@@ -186,8 +146,7 @@ mod tests {
     #[test]
     fn the_nearest_value_is_of_a_run_that_is_right() {
         let edge = |distance: f64| {
-            Finding::within("fem_edge_mean_error", 1.0 + distance, 1.0, 0.1, "")
-                .verdict("edge", Kind::Truth)
+            Finding::within("fem_edge_mean_error", 1.0 + distance, 1.0, 0.1, "").verdict("edge", Kind::Truth)
         };
         let wrong = Finding::within("at_rest", 0.0, 1.0, 0.0, "").verdict("at-rest", Kind::Truth);
         let runs = vec![

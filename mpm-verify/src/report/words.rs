@@ -10,16 +10,10 @@ use crate::verdict::{Kind, Outcome, Verdict};
 
 /// What made the runs of a case: the program, the night and the commit, as far as they are known.
 pub(super) fn made_by(study: &CaseStudy) -> [String; 3] {
-    let program = study
-        .program()
-        .map(|v| format!("mpm-verify {}, source {}", v.mpm_verify, v.source));
+    let program = study.program().map(|v| format!("mpm-verify {}, source {}", v.mpm_verify, v.source));
     let night = study.night.as_ref();
-    [
-        program,
-        night.map(|n| n.date.to_string()),
-        night.map(|n| n.commit.clone()),
-    ]
-    .map(|known| known.unwrap_or_else(|| "–".to_owned()))
+    [program, night.map(|n| n.date.to_string()), night.map(|n| n.commit.clone())]
+        .map(|known| known.unwrap_or_else(|| "–".to_owned()))
 }
 
 /// Name of a kind of check.
@@ -49,22 +43,12 @@ pub(super) fn outcome(outcome: Outcome) -> &'static str {
 }
 
 /// All outcomes, in the order of counts.
-pub(super) const OUTCOMES: [Outcome; 4] = [
-    Outcome::Right,
-    Outcome::WrongAsKnown,
-    Outcome::NotJudged,
-    Outcome::Failed,
-];
+pub(super) const OUTCOMES: [Outcome; 4] = [Outcome::Right, Outcome::WrongAsKnown, Outcome::NotJudged, Outcome::Failed];
 
 /// A run in words.
 pub(super) fn name(record: &Record) -> String {
     let set = record.set.iter().map(|assignment| format!(" {assignment}"));
-    format!(
-        "{} {}{}",
-        record.scheme(),
-        record.level,
-        set.collect::<String>()
-    )
+    format!("{} {}{}", record.scheme(), record.level, set.collect::<String>())
 }
 
 /// Names in a sentence.
@@ -81,8 +65,7 @@ pub(super) fn sentence(record: &Record) -> String {
     let found = outcome_of_run(record);
     let checks = |outcome: Outcome| {
         let own = record.verdicts.iter().filter(move |v| v.outcome == outcome);
-        let names: Vec<&str> =
-            distinct(own.filter(|v| v.judges() || v.failed()).map(|v| &*v.check));
+        let names: Vec<&str> = distinct(own.filter(|v| v.judges() || v.failed()).map(|v| &*v.check));
         names
     };
     let right = match checks(Outcome::Right).len() {
@@ -158,18 +141,13 @@ pub(super) fn order(c: &Convergence) -> String {
 
 /// The orders of an error between successive levels, or a dash.
 pub(super) fn local_orders(c: &Convergence) -> String {
-    c.order
-        .as_ref()
-        .map_or_else(|| number(None), Order::between)
+    c.order.as_ref().map_or_else(|| number(None), Order::between)
 }
 
 /// The commands that accept the drift of each case that has drifted and misses no truth.
 pub(super) fn bless_commands(summary: &Summary) -> Vec<String> {
-    let meets = |name: &str, test: fn(&Verdict) -> bool| {
-        summary
-            .verdicts()
-            .any(|(study, _, v)| study.case == name && test(v))
-    };
+    let meets =
+        |name: &str, test: fn(&Verdict) -> bool| summary.verdicts().any(|(study, _, v)| study.case == name && test(v));
     let cases = summary.cases.iter().map(|study| study.case.as_str());
     cases
         .filter(|case| meets(case, Verdict::drifts) && !meets(case, Verdict::misses_the_truth))
@@ -185,60 +163,31 @@ mod tests {
 
     #[test]
     fn numbers_have_five_digits() {
-        let shown =
-            [19_291.447, 0.083_734_2, 1.742e-9, 100_000.0, -0.0, 1.0].map(|x| number(Some(x)));
+        let shown = [19_291.447, 0.083_734_2, 1.742e-9, 100_000.0, -0.0, 1.0].map(|x| number(Some(x)));
         assert_eq!(shown, ["19291", "0.083734", "1.74e-9", "100000", "0", "1"]);
     }
 
     #[test]
     fn a_demand_says_on_which_side_of_its_bound_a_value_should_be() {
         let found = |finding: Finding| demand(&finding.verdict("c", Kind::Truth));
-        assert_eq!(
-            found(Finding::at_most("m", 1.0, 2.0, "")),
-            "1, demanded ≤ 2"
-        );
-        assert_eq!(
-            found(Finding::at_most("m", 3.0, 2.0, "")),
-            "3, demanded ≤ 2"
-        );
+        assert_eq!(found(Finding::at_most("m", 1.0, 2.0, "")), "1, demanded ≤ 2");
+        assert_eq!(found(Finding::at_most("m", 3.0, 2.0, "")), "3, demanded ≤ 2");
         assert_eq!(found(Finding::above("m", 3.0, 2.0, "")), "3, demanded > 2");
         assert_eq!(found(Finding::above("m", 1.0, 2.0, "")), "1, demanded > 2");
-        assert_eq!(
-            found(Finding::within("m", 1.0, 2.0, 0.5, "")),
-            "1 against 2 ± 0.5"
-        );
+        assert_eq!(found(Finding::within("m", 1.0, 2.0, 0.5, "")), "1 against 2 ± 0.5");
     }
 
     /// A known limit is said even where everything else is right.
     #[test]
     fn the_sentence_on_a_run_names_what_decides() {
-        let found = |holds, kind| {
-            Finding::at_most("m", if holds { 0.0 } else { 2.0 }, 1.0, "").verdict("c", kind)
-        };
+        let found = |holds, kind| Finding::at_most("m", if holds { 0.0 } else { 2.0 }, 1.0, "").verdict("c", kind);
         let right = found(true, Kind::Truth);
-        let limit = Verdict {
-            check: "locked".to_owned(),
-            ..found(true, Kind::KnownLimit)
-        };
+        let limit = Verdict { check: "locked".to_owned(), ..found(true, Kind::KnownLimit) };
         let mass = found(true, Kind::Bookkeeping);
-        let said = |verdicts: &[&Verdict]| {
-            sentence(&record(
-                "h2",
-                verdicts.iter().map(|v| (*v).clone()).collect(),
-            ))
-        };
-        assert_eq!(
-            said(&[&right, &limit, &mass]),
-            "wrong as known: locked; 1 check right"
-        );
+        let said = |verdicts: &[&Verdict]| sentence(&record("h2", verdicts.iter().map(|v| (*v).clone()).collect()));
+        assert_eq!(said(&[&right, &limit, &mass]), "wrong as known: locked; 1 check right");
         assert_eq!(said(&[&right, &mass]), "right: 1 check right");
-        assert_eq!(
-            said(&[&mass]),
-            "not judged: no check against the truth applies"
-        );
-        assert_eq!(
-            said(&[&found(false, Kind::Truth), &limit]),
-            "FAILED: c; no other check holds"
-        );
+        assert_eq!(said(&[&mass]), "not judged: no check against the truth applies");
+        assert_eq!(said(&[&found(false, Kind::Truth), &limit]), "FAILED: c; no other check holds");
     }
 }

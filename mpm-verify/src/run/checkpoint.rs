@@ -45,10 +45,7 @@ impl Saving {
     /// At the default interval, going on from what there is.
     #[must_use]
     pub fn resuming() -> Self {
-        Self {
-            every: Duration::from_secs(EVERY_S),
-            resume: true,
-        }
+        Self { every: Duration::from_secs(EVERY_S), resume: true }
     }
 }
 
@@ -107,10 +104,7 @@ pub enum Refusal {
         here: String,
     },
     /// The series is not the one that the checkpoint was written beside.
-    #[error(
-        "{} is not the series that it was written with",
-        crate::run::series::FILE
-    )]
+    #[error("{} is not the series that it was written with", crate::run::series::FILE)]
     Series,
     /// What stands beside a record is not what the run wrote.
     #[error("{name} is {found}, not the {recorded} that the run has written")]
@@ -131,10 +125,7 @@ impl Refusal {
     /// As an error about a file.
     #[must_use]
     pub fn of(self, path: &Path) -> Error {
-        Error::Checkpoint {
-            path: path.to_path_buf(),
-            refusal: Box::new(self),
-        }
+        Error::Checkpoint { path: path.to_path_buf(), refusal: Box::new(self) }
     }
 }
 
@@ -163,12 +154,7 @@ impl Identity {
     pub fn of_record(record: &Record) -> Self {
         Self {
             program: record.version.clone(),
-            run: run(
-                &record.case,
-                record.scheme(),
-                &record.level,
-                record.perturbed,
-            ),
+            run: run(&record.case, record.scheme(), &record.level, record.perturbed),
             parameters: record.parameters.clone(),
         }
     }
@@ -179,20 +165,14 @@ impl Identity {
     /// What it differs in first: run, parameters, program.
     pub fn require(&self, found: &Self) -> Result<(), Refusal> {
         if found.run != self.run {
-            return Err(Refusal::Run {
-                found: found.run.clone(),
-                asked: self.run.clone(),
-            });
+            return Err(Refusal::Run { found: found.run.clone(), asked: self.run.clone() });
         }
         let differences = found.parameters.differences(&self.parameters);
         if let Some((name, found, asked)) = differences.into_iter().next() {
             return Err(Refusal::Parameter { name, found, asked });
         }
         if found.program != self.program {
-            return Err(Refusal::Program {
-                found: found.program.source.clone(),
-                here: self.program.source.clone(),
-            });
+            return Err(Refusal::Program { found: found.program.source.clone(), here: self.program.source.clone() });
         }
         Ok(())
     }
@@ -234,17 +214,11 @@ impl Checkpoint {
     fn decode(bytes: &[u8], identity: &Identity) -> Result<Self, Refusal> {
         let content = sound_content(bytes)?;
         let unreadable = |e: &dyn ToString| Refusal::Content(e.to_string());
-        let (json, rest) =
-            postcard::take_from_bytes::<&str>(content).map_err(|e| unreadable(&e))?;
+        let (json, rest) = postcard::take_from_bytes::<&str>(content).map_err(|e| unreadable(&e))?;
         let found = serde_json::from_str(json).map_err(|e| unreadable(&e))?;
         identity.require(&found)?;
-        let ((series, time), memory) =
-            postcard::take_from_bytes(rest).map_err(|e| unreadable(&e))?;
-        Ok(Self {
-            series,
-            time,
-            memory: Saved::from_bytes(memory.to_vec()),
-        })
+        let ((series, time), memory) = postcard::take_from_bytes(rest).map_err(|e| unreadable(&e))?;
+        Ok(Self { series, time, memory: Saved::from_bytes(memory.to_vec()) })
     }
 
     /// Writes it, whole or not at all.
@@ -254,8 +228,7 @@ impl Checkpoint {
     fn write(&self, folder: &Path, identity: &Identity) -> Result<(), Error> {
         let path = folder.join(FILE);
         let json = serde_json::to_string(identity).map_err(|e| Error::file(&path, e))?;
-        let about = postcard::to_stdvec(&(json, (self.series, self.time)))
-            .map_err(|e| Error::file(&path, e))?;
+        let about = postcard::to_stdvec(&(json, (self.series, self.time))).map_err(|e| Error::file(&path, e))?;
         let memory = self.memory.bytes();
         let mut checksum = Hasher::new();
         checksum.update(&about);
@@ -278,10 +251,7 @@ fn sound_content(bytes: &[u8]) -> Result<&[u8], Refusal> {
     let Some(rest) = bytes.strip_prefix(&MAGIC) else {
         return Err(Refusal::NotACheckpoint);
     };
-    let missing = |expected| Refusal::Truncated {
-        found: bytes.len() as u64,
-        expected,
-    };
+    let missing = |expected| Refusal::Truncated { found: bytes.len() as u64, expected };
     let head = |size: usize| missing((MAGIC.len() + size) as u64);
     let (format, rest) = rest.split_first_chunk().ok_or_else(|| head(4))?;
     if u32::from_le_bytes(*format) != FORMAT {
@@ -297,10 +267,7 @@ fn sound_content(bytes: &[u8]) -> Result<&[u8], Refusal> {
     let checksum = u32::from_le_bytes(*checksum);
     match crc32fast::hash(content) {
         found if found == checksum => Ok(content),
-        found => Err(Refusal::Damaged {
-            found,
-            expected: checksum,
-        }),
+        found => Err(Refusal::Damaged { found, expected: checksum }),
     }
 }
 
@@ -325,12 +292,7 @@ impl Keeper {
     /// Of a run in `folder` that begins, or goes on, now.
     #[must_use]
     pub fn new(folder: &Path, identity: Identity, every: Duration) -> Self {
-        Self {
-            folder: folder.to_path_buf(),
-            identity,
-            every,
-            last: Instant::now(),
-        }
+        Self { folder: folder.to_path_buf(), identity, every, last: Instant::now() }
     }
 
     /// Whether it is time for the next checkpoint.

@@ -8,8 +8,7 @@ pub mod vtu;
 use crate::case::Case;
 use crate::error::Error;
 use crate::files::{
-    Mark, SNAPSHOTS, TABLE, discard, files_in, make_folder, read, require_inside, snapshot_file,
-    write_csv, write_json,
+    Mark, SNAPSHOTS, TABLE, discard, files_in, make_folder, read, require_inside, snapshot_file, write_csv, write_json,
 };
 use crate::job::{Column, Job, Snapshot};
 use crate::parameter::Parameters;
@@ -67,9 +66,7 @@ pub fn execute(
         .map_err(|e| Error::Input(format!("{threads} threads can't be started: {e}")))?;
     // The scene as well is built by no more threads.
     let begun = pool.install(|| (case.begin)(spec, &parameters));
-    let mut job = begun
-        .and_then(size::require_particles)
-        .map_err(|e| size::given(e, spec))?;
+    let mut job = begun.and_then(size::require_particles).map_err(|e| size::given(e, spec))?;
     let mut journal = None;
     let mut before = Timing::default();
     if let Some((folder, saving)) = place {
@@ -79,11 +76,7 @@ pub fn execute(
     }
     let (pulse, share) = (job.pulse(), AtomicU64::new(0));
     let look = || {
-        progress(Progress {
-            share: f64::from_bits(share.load(Relaxed)),
-            steps: pulse.steps(),
-            time: pulse.time(),
-        });
+        progress(Progress { share: f64::from_bits(share.load(Relaxed)), steps: pulse.steps(), time: pulse.time() });
     };
     let come = |done: f64| {
         share.store(done.to_bits(), Relaxed);
@@ -95,11 +88,7 @@ pub fn execute(
         let time = clock.time();
         let discretisation = job.discretisation();
         let blank = Record::blank(case.name, spec, &parameters, discretisation, threads);
-        let mut record = Record {
-            work: job.work(),
-            time,
-            ..blank
-        };
+        let mut record = Record { work: job.work(), time, ..blank };
         match failure {
             Some(failure) => {
                 record.status = Status::Failed;
@@ -148,11 +137,7 @@ enum CpuClock {
 
 impl CpuClock {
     fn start(threads: usize) -> Self {
-        if threads == 1 {
-            Self::Thread(cpu_time::ThreadTime::now())
-        } else {
-            Self::Process(ProcessTime::now())
-        }
+        if threads == 1 { Self::Thread(cpu_time::ThreadTime::now()) } else { Self::Process(ProcessTime::now()) }
     }
 
     fn seconds(&self) -> f64 {
@@ -172,11 +157,7 @@ struct Clock {
 
 impl Clock {
     fn start(threads: usize, before: Timing) -> Self {
-        Self {
-            before,
-            begun: Instant::now(),
-            processor: CpuClock::start(threads),
-        }
+        Self { before, begun: Instant::now(), processor: CpuClock::start(threads) }
     }
 
     fn time(&self) -> Timing {
@@ -196,12 +177,7 @@ struct Journal {
 
 impl Journal {
     /// Goes on from the checkpoint, if there is one and it is asked for, or begins; and the time taken before.
-    fn open(
-        folder: &Path,
-        saving: Saving,
-        identity: Identity,
-        job: &mut dyn Job,
-    ) -> Result<(Self, Timing), Error> {
+    fn open(folder: &Path, saving: Saving, identity: Identity, job: &mut dyn Job) -> Result<(Self, Timing), Error> {
         make_folder(folder)?;
         require_inside(folder, Path::new(SNAPSHOTS))?;
         let found = match saving.resume {
@@ -212,8 +188,7 @@ impl Journal {
             None => None,
             Some(checkpoint) => {
                 let refused = |refusal: Refusal| refusal.of(&folder.join(checkpoint::FILE));
-                job.restore(&checkpoint.memory)
-                    .map_err(|e| refused(e.into()))?;
+                job.restore(&checkpoint.memory).map_err(|e| refused(e.into()))?;
                 let series = Series::resume(folder, checkpoint.series)?;
                 let series = series.ok_or_else(|| refused(Refusal::Series))?;
                 Some((series, checkpoint.time))
@@ -230,11 +205,8 @@ impl Journal {
                 (series, Timing::default())
             }
         };
-        let journal = Self {
-            folder: folder.to_path_buf(),
-            series,
-            keeper: Keeper::new(folder, identity, saving.every),
-        };
+        let journal =
+            Self { folder: folder.to_path_buf(), series, keeper: Keeper::new(folder, identity, saving.every) };
         Ok((journal, before))
     }
 
@@ -256,13 +228,8 @@ impl Journal {
             return Ok(());
         }
         let memory = job.save();
-        let memory =
-            memory.map_err(|e| Refusal::from(e).of(&self.folder.join(checkpoint::FILE)))?;
-        self.keeper.keep(&Checkpoint {
-            series: self.series.secure()?,
-            time: clock.time(),
-            memory,
-        })
+        let memory = memory.map_err(|e| Refusal::from(e).of(&self.folder.join(checkpoint::FILE)))?;
+        self.keeper.keep(&Checkpoint { series: self.series.secure()?, time: clock.time(), memory })
     }
 }
 
@@ -299,12 +266,7 @@ pub fn require_tables(record: &Record, folder: &Path) -> Result<(), Error> {
             };
             let (found, recorded) = (told(found), told(recorded));
             let name = name.clone();
-            return Err(Refusal::File {
-                name,
-                found,
-                recorded,
-            }
-            .of(&folder.join(RECORD)));
+            return Err(Refusal::File { name, found, recorded }.of(&folder.join(RECORD)));
         }
     }
     Ok(())
@@ -369,41 +331,16 @@ fn failure(error: &mpm_core::Error) -> Failure {
     };
     let finite = |value: f64| Some(value).filter(|v| v.is_finite());
     match *error {
-        mpm_core::Error::Breakdown {
-            time,
-            step,
-            particle,
-            fault,
-        } => Failure {
-            kind: fault.kind().to_owned(),
-            time,
-            step,
-            particle,
-            value: finite(fault.value()),
-            message,
-        },
-        mpm_core::Error::NoConvergence {
-            time,
-            step,
-            residual,
-            ..
-        } => Failure {
-            time,
-            step,
-            ..before_any_step("no-convergence", finite(residual))
-        },
-        mpm_core::Error::Singular { time, step, .. } => Failure {
-            time,
-            step,
-            ..before_any_step("singular", None)
-        },
-        mpm_core::Error::Lost {
-            time, step, value, ..
-        } => Failure {
-            time,
-            step,
-            ..before_any_step("lost-share", finite(value))
-        },
+        mpm_core::Error::Breakdown { time, step, particle, fault } => {
+            Failure { kind: fault.kind().to_owned(), time, step, particle, value: finite(fault.value()), message }
+        }
+        mpm_core::Error::NoConvergence { time, step, residual, .. } => {
+            Failure { time, step, ..before_any_step("no-convergence", finite(residual)) }
+        }
+        mpm_core::Error::Singular { time, step, .. } => Failure { time, step, ..before_any_step("singular", None) },
+        mpm_core::Error::Lost { time, step, value, .. } => {
+            Failure { time, step, ..before_any_step("lost-share", finite(value)) }
+        }
         mpm_core::Error::Input { value, .. } => before_any_step("input", finite(value)),
         mpm_core::Error::Memory(_) => before_any_step("memory", None),
     }
@@ -443,16 +380,9 @@ fn snapshots_for_paraview(folder: &Path) -> Result<Vec<(f64, String)>, Error> {
 }
 
 fn write_columns(file: &Path, columns: &[Column]) -> Result<(), Error> {
-    let header: Vec<String> = columns
-        .iter()
-        .map(|c| format!("{} ({})", c.name, c.unit))
-        .collect();
+    let header: Vec<String> = columns.iter().map(|c| format!("{} ({})", c.name, c.unit)).collect();
     let rows = columns.first().map_or(0, |c| c.values.len());
-    write_csv(
-        file,
-        &header,
-        (0..rows).map(|k| columns.iter().map(|c| c.values[k].to_string()).collect()),
-    )
+    write_csv(file, &header, (0..rows).map(|k| columns.iter().map(|c| c.values[k].to_string()).collect()))
 }
 
 #[cfg(test)]

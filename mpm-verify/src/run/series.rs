@@ -79,22 +79,13 @@ impl Series {
     }
 
     fn on(path: PathBuf, file: Output, bytes: u64, checksum: Hasher) -> Self {
-        let tallied = Tallied {
-            file,
-            bytes,
-            checksum,
-        };
+        let tallied = Tallied { file, bytes, checksum };
         let writer = csv::Writer::from_writer(tallied);
         Self { path, writer }
     }
 
-    fn write(
-        &mut self,
-        write: impl FnOnce(&mut csv::Writer<Tallied>) -> csv::Result<()>,
-    ) -> Result<(), Error> {
-        write(&mut self.writer)
-            .and_then(|()| Ok(self.writer.flush()?))
-            .map_err(|e| Error::file(&self.path, e))
+    fn write(&mut self, write: impl FnOnce(&mut csv::Writer<Tallied>) -> csv::Result<()>) -> Result<(), Error> {
+        write(&mut self.writer).and_then(|()| Ok(self.writer.flush()?)).map_err(|e| Error::file(&self.path, e))
     }
 
     /// Adds a row, below the names of its columns if it is the first.
@@ -117,14 +108,8 @@ impl Series {
     /// The file can't be written.
     pub fn secure(&self) -> Result<Mark, Error> {
         let tallied = self.writer.get_ref();
-        tallied
-            .file
-            .sync()
-            .map_err(|e| Error::file(&self.path, e))?;
-        Ok(Mark {
-            bytes: tallied.bytes,
-            checksum: tallied.checksum.clone().finalize(),
-        })
+        tallied.file.sync().map_err(|e| Error::file(&self.path, e))?;
+        Ok(Mark { bytes: tallied.bytes, checksum: tallied.checksum.clone().finalize() })
     }
 }
 

@@ -46,17 +46,12 @@ impl Size {
         // Allocations are counted thread by thread, so that the scene must be built on one.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         let pool = pool.map_err(|e| Error::Input(format!("a thread can't be started: {e}")))?;
-        pool.install(|| Self::found(case, spec, &parameters))
-            .map_err(|e| given(e, spec))
+        pool.install(|| Self::found(case, spec, &parameters)).map_err(|e| given(e, spec))
     }
 
     fn found(case: &Case, spec: &RunSpec, parameters: &Parameters) -> Result<Self, Error> {
         let mut coarsest: Option<(Self, f64)> = None;
-        for factor in (2..=MOST_LARGER)
-            .rev()
-            .filter(|n| is_fit(*n))
-            .map(f64::from)
-        {
+        for factor in (2..=MOST_LARGER).rev().filter(|n| is_fit(*n)).map(f64::from) {
             let mut of_larger_cells = spec.clone();
             of_larger_cells.level.h *= factor;
             let Ok((size, dimension)) = Self::built(case, &of_larger_cells, parameters) else {
@@ -113,9 +108,7 @@ impl Size {
     pub fn require(self, memory: Option<f64>, spec: &RunSpec) -> Result<(), Error> {
         let refuse = |why: String| Err(given(Error::Input(format!("{why}: {self}")), spec));
         match memory {
-            _ if self.particles > MOST_PARTICLES => {
-                refuse(format!("more than {MOST_PARTICLES:e} particles"))
-            }
+            _ if self.particles > MOST_PARTICLES => refuse(format!("more than {MOST_PARTICLES:e} particles")),
             Some(memory) if self.bytes > memory => refuse(format!(
                 "the scene is larger than the {:.3} GiB of memory that it may have (--memory)",
                 memory / GIBIBYTE
@@ -155,10 +148,7 @@ impl std::fmt::Display for Size {
             true => format!("{:.1} MiB", self.bytes / MEBIBYTE),
             false => format!("{:.1} GiB", self.bytes / GIBIBYTE),
         };
-        write!(
-            f,
-            "{particles} particles, {nodes} nodes, {memory} at the start"
-        )
+        write!(f, "{particles} particles, {nodes} nodes, {memory} at the start")
     }
 }
 
@@ -198,11 +188,7 @@ pub(super) fn given(error: Error, spec: &RunSpec) -> Error {
         return error;
     };
     let said = error.to_string();
-    let names = |set: &&String| {
-        set.split('=')
-            .next()
-            .is_some_and(|name| said.contains(name))
-    };
+    let names = |set: &&String| set.split('=').next().is_some_and(|name| said.contains(name));
     match spec.set.iter().all(|set| names(&set)) {
         true => error,
         false => Error::Input(format!("{said}; with {}", spec.set.join(", "))),
@@ -255,23 +241,9 @@ mod tests {
     #[test]
     fn what_the_machine_cannot_hold_is_refused_before_it_is_built() {
         for (name, level, set) in [
-            (
-                "landslide",
-                0,
-                &[
-                    "width=1000",
-                    "floor=500",
-                    "crest=200",
-                    "height=100",
-                    "ppc_per_direction=8",
-                ][..],
-            ),
+            ("landslide", 0, &["width=1000", "floor=500", "crest=200", "height=100", "ppc_per_direction=8"][..]),
             ("mms-axis", 4, &["dimension=3", "ppc_per_direction=5"]),
-            (
-                "column",
-                1,
-                &["height=1000", "width=1000", "ppc_per_direction=5"],
-            ),
+            ("column", 1, &["height=1000", "width=1000", "ppc_per_direction=5"]),
         ] {
             let case = cases::find(name).unwrap();
             let spec = spec(case, level, set);
@@ -285,12 +257,7 @@ mod tests {
             assert!(said.contains("than") && said.contains(set[0]), "{said}");
             assert_eq!(said.lines().count(), 1);
         }
-        let all = Size {
-            particles: 5e9,
-            nodes: 1.0,
-            bytes: 1.0,
-            worked_out: true,
-        };
+        let all = Size { particles: 5e9, nodes: 1.0, bytes: 1.0, worked_out: true };
         let case = cases::find("column").unwrap();
         let refused = all.require(None, &spec(case, 0, &[])).unwrap_err();
         assert!(refused.to_string().contains("particles"));
@@ -301,10 +268,7 @@ mod tests {
         let case = cases::find("column").unwrap();
         for set in ["height=0.001", "width=0.001"] {
             let error = Size::of(case, &spec(case, 0, &[set])).unwrap_err();
-            assert!(
-                error.to_string().ends_with(&format!("with {set}")),
-                "{error}"
-            );
+            assert!(error.to_string().ends_with(&format!("with {set}")), "{error}");
         }
         let named = Size::of(case, &spec(case, 0, &["bulk_modulus=0.001", "height=2"]));
         let named = named.unwrap_err().to_string();
@@ -313,12 +277,7 @@ mod tests {
 
     #[test]
     fn scenes_side_by_side_share_the_memory() {
-        let sizes = [1.0, 3.0, 2.0].map(|bytes| Size {
-            particles: 1.0,
-            nodes: 1.0,
-            bytes,
-            worked_out: false,
-        });
+        let sizes = [1.0, 3.0, 2.0].map(|bytes| Size { particles: 1.0, nodes: 1.0, bytes, worked_out: false });
         require_together(&sizes, 3.0, 1).unwrap();
         require_together(&sizes, 5.0, 2).unwrap();
         let refusal = require_together(&sizes, 4.9, 2).unwrap_err();

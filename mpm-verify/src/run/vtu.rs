@@ -57,10 +57,7 @@ fn grid(columns: &[Column]) -> io::Result<Vec<u8>> {
     let particles = columns.first().map_or(0, |c| c.values.len());
     let n = particles.to_string();
     let size = [("NumberOfPoints", &*n), ("NumberOfCells", &*n)];
-    let compressor = [
-        ("header_type", "UInt64"),
-        ("compressor", "vtkZLibDataCompressor"),
-    ];
+    let compressor = [("header_type", "UInt64"), ("compressor", "vtkZLibDataCompressor")];
     let mut w = begin("UnstructuredGrid", &compressor)?;
     let mut appended = Vec::new();
     open(&mut w, "UnstructuredGrid", &[])?;
@@ -99,19 +96,13 @@ fn describe_points(
 }
 
 /// Describes a cell for every particle.
-fn describe_cells(
-    w: &mut Writer<Vec<u8>>,
-    particles: usize,
-    appended: &mut Vec<u8>,
-) -> io::Result<()> {
+fn describe_cells(w: &mut Writer<Vec<u8>>, particles: usize, appended: &mut Vec<u8>) -> io::Result<()> {
     let counted = |from: usize| (from..from + particles).flat_map(|k| (k as u64).to_le_bytes());
     let [points, ends] = [0, 1].map(|from| counted(from).collect::<Vec<u8>>());
     open(w, "Cells", &[])?;
-    for (kind, name, bytes) in [
-        ("Int64", "connectivity", points),
-        ("Int64", "offsets", ends),
-        ("UInt8", "types", vec![VERTEX; particles]),
-    ] {
+    for (kind, name, bytes) in
+        [("Int64", "connectivity", points), ("Int64", "offsets", ends), ("UInt8", "types", vec![VERTEX; particles])]
+    {
         array(w, (kind, name, "1"), &bytes, appended)?;
     }
     close(w, "Cells")
@@ -160,11 +151,7 @@ fn compress(bytes: &[u8], appended: &mut Vec<u8>) -> io::Result<()> {
 fn begin(kind: &str, more: &[(&str, &str)]) -> io::Result<Writer<Vec<u8>>> {
     let mut w = Writer::new_with_indent(Vec::new(), b' ', 1);
     w.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let common = [
-        ("type", kind),
-        ("version", "1.0"),
-        ("byte_order", "LittleEndian"),
-    ];
+    let common = [("type", kind), ("version", "1.0"), ("byte_order", "LittleEndian")];
     open(&mut w, "VTKFile", &[&common, more].concat())?;
     Ok(w)
 }
@@ -234,12 +221,8 @@ mod tests {
         let of_array = |(_, a): &(String, Attributes)| {
             let bytes = inflate(&document[data + a["offset"].parse::<usize>().unwrap()..]);
             let numbers = match &*a["type"] {
-                "Float32" => (bytes.chunks(4))
-                    .map(|b| f64::from(f32::from_le_bytes(b.try_into().unwrap())))
-                    .collect(),
-                "Int64" => (bytes.chunks(8))
-                    .map(|b| i64::from_le_bytes(b.try_into().unwrap()) as f64)
-                    .collect(),
+                "Float32" => (bytes.chunks(4)).map(|b| f64::from(f32::from_le_bytes(b.try_into().unwrap()))).collect(),
+                "Int64" => (bytes.chunks(8)).map(|b| i64::from_le_bytes(b.try_into().unwrap()) as f64).collect(),
                 _ => bytes.into_iter().map(f64::from).collect(),
             };
             (a["Name"].clone(), numbers)
@@ -301,12 +284,6 @@ mod tests {
         let (elements, _) = parse(&collection(&members).unwrap());
         let sets = elements.iter().filter(|(name, _)| name == "DataSet");
         let sets: Vec<_> = sets.map(|(_, a)| (&*a["timestep"], &*a["file"])).collect();
-        assert_eq!(
-            sets,
-            [
-                ("0.025", "snapshots/000.025.vtu"),
-                ("1", "snapshots/001.000.vtu")
-            ]
-        );
+        assert_eq!(sets, [("0.025", "snapshots/000.025.vtu"), ("1", "snapshots/001.000.vtu")]);
     }
 }

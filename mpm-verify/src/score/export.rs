@@ -23,22 +23,14 @@ const START: &str = "start.csv";
 ///
 /// # Errors
 /// The parameters make no scene, or a file can't be written.
-pub fn export(
-    case: &Case,
-    foreign: &Foreign,
-    spec: &RunSpec,
-    folder: &Path,
-) -> Result<Vec<String>, Error> {
+pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> Result<Vec<String>, Error> {
     let parameters = Parameters::new(&case.parameters, &spec.set)?;
     let start = (foreign.start)(spec, &parameters)?;
     make_folder(folder)?;
     let columns = start.into_iter();
     let columns = columns.map(|c| (format!("{} ({})", c.name, c.unit), c.values));
     Table::of_columns(columns.collect()).write(&folder.join(START))?;
-    write_json(
-        &folder.join("parameters.json"),
-        &described(case, foreign, spec, &parameters),
-    )?;
+    write_json(&folder.join("parameters.json"), &described(case, foreign, spec, &parameters))?;
     let demands = demands(case, foreign, spec, &parameters);
     let header = ["check", "metric", "unit", "reference", "tolerance", "why"].map(str::to_owned);
     let number = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
@@ -66,9 +58,10 @@ pub fn export(
 /// The problem, as data.
 fn described(case: &Case, foreign: &Foreign, spec: &RunSpec, parameters: &Parameters) -> Value {
     let values = serde_json::to_value(parameters).unwrap_or_default();
-    let told = case.parameters.iter().map(
-        |p| json!({"name": p.name, "value": values[p.name], "unit": p.unit, "meaning": p.meaning}),
-    );
+    let told = case
+        .parameters
+        .iter()
+        .map(|p| json!({"name": p.name, "value": values[p.name], "unit": p.unit, "meaning": p.meaning}));
     json!({
         "case": case.name,
         "title": case.title,
@@ -105,19 +98,13 @@ impl<'a> Form<'a> {
         let changed = spec.set.iter().filter_map(|set| set.split_once('='));
         let of_text = |text: &str| serde_json::from_str(text).unwrap_or(json!(text));
         let parts = foreign.parts();
-        let file = |part: Part| {
-            parts
-                .contains(&part)
-                .then(|| format!("{}.csv", part.name()))
-        };
+        let file = |part: Part| parts.contains(&part).then(|| format!("{}.csv", part.name()));
         Self {
             schema: SCHEMA,
             code: Named { name: "my code" },
             case: case.name,
             level: spec.level.name,
-            parameters: changed
-                .map(|(name, text)| (name.to_owned(), of_text(text)))
-                .collect(),
+            parameters: changed.map(|(name, text)| (name.to_owned(), of_text(text))).collect(),
             particles: file(Part::Particles),
             series: file(Part::Series),
             scheme: "what it does, in your words",
@@ -134,10 +121,7 @@ fn demands<'a>(
     parameters: &Parameters,
 ) -> Vec<(Verdict, &'a Group)> {
     let metrics = foreign.groups.iter().flat_map(|g| &g.metrics);
-    let zero = |unit: &str| Measured {
-        value: Some(0.0),
-        unit: unit.to_owned(),
-    };
+    let zero = |unit: &str| Measured { value: Some(0.0), unit: unit.to_owned() };
     let discretisation = (foreign.discretisation)(spec, parameters, f64::NAN);
     let mut record = Record::blank(case.name, spec, parameters, discretisation, 0);
     record.metrics = metrics.map(|m| (m.name.to_owned(), zero(m.unit))).collect();
@@ -167,23 +151,10 @@ fn readme(
          Of the parameters that are named above:\n\n",
         spec.level.h
     );
-    let named = |p: &&Parameter| {
-        foreign
-            .setup
-            .iter()
-            .any(|s| s.contains(&format!("`{}`", p.name)))
-    };
+    let named = |p: &&Parameter| foreign.setup.iter().any(|s| s.contains(&format!("`{}`", p.name)));
     let rows = case.parameters.iter().filter(named);
-    let rows = rows.map(|p| {
-        vec![
-            format!("`{}`", p.name),
-            parameters.text(*p),
-            p.unit.to_owned(),
-        ]
-    });
-    t += &Sheet::new(["parameter", "value", "unit"])
-        .with(rows)
-        .markdown();
+    let rows = rows.map(|p| vec![format!("`{}`", p.name), parameters.text(*p), p.unit.to_owned()]);
+    t += &Sheet::new(["parameter", "value", "unit"]).with(rows).markdown();
     t += "\n## Files\n\n";
     for file in files {
         let what = match *file {
@@ -209,9 +180,7 @@ fn readme(
     }
     t += "\nA column that is missing is not judged. Others may stand beside these.\n\n## What is judged\n\n";
     let rows = demands.iter().map(|(v, group)| {
-        let columns: Vec<String> = (group.columns.iter())
-            .map(|c| format!("`{}`", c.name))
-            .collect();
+        let columns: Vec<String> = (group.columns.iter()).map(|c| format!("`{}`", c.name)).collect();
         vec![v.check.clone(), v.metric.clone(), columns.join(", ")]
     });
     t += &Sheet::new(["check", "of", "from"]).with(rows).markdown();

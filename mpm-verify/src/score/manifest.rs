@@ -31,9 +31,7 @@ impl TryFrom<String> for Line {
         let fits = (1..=LONGEST).contains(&count) && !text.chars().any(is_unfit);
         match fits && !text.trim().is_empty() {
             true => Ok(Self(text)),
-            false => Err(format!(
-                "a text of {count} characters where a line of 1 to {LONGEST} is allowed"
-            )),
+            false => Err(format!("a text of {count} characters where a line of 1 to {LONGEST} is allowed")),
         }
     }
 }
@@ -51,9 +49,7 @@ impl TryFrom<String> for FileName {
         let short = name.chars().count() <= LONGEST && !name.chars().any(is_unfit);
         match plain && short && !name.contains(['/', '\\']) {
             true => Ok(Self(name)),
-            false => Err(format!(
-                "file {name:?} where the name of a file beside {FILE} is allowed"
-            )),
+            false => Err(format!("file {name:?} where the name of a file beside {FILE} is allowed")),
         }
     }
 }
@@ -69,9 +65,7 @@ impl TryFrom<f64> for Positive {
     fn try_from(value: f64) -> Result<Self, String> {
         match value.is_finite() && value > 0.0 {
             true => Ok(Self(value)),
-            false => Err(format!(
-                "{value} where a positive, finite number is allowed"
-            )),
+            false => Err(format!("{value} where a positive, finite number is allowed")),
         }
     }
 }
@@ -231,9 +225,7 @@ mod tests {
             let name = FileName::try_from(fit.to_owned());
             assert_eq!(name, Ok(FileName(fit.to_owned())));
         }
-        for unfit in [
-            "", ".", "..", "/", "/a", "../a", "a/b", "a/", "a\\b", "a\nb", &longer,
-        ] {
+        for unfit in ["", ".", "..", "/", "/a", "../a", "a/b", "a/", "a\\b", "a\nb", &longer] {
             let said = FileName::try_from(unfit.to_owned()).unwrap_err();
             assert!(said.starts_with(&format!("file {unfit:?} where")), "{said}");
         }
@@ -255,8 +247,7 @@ mod tests {
         assert_eq!(read(&sound).unwrap(), ["a=true", "b=0.5", "c=word", "d=3"]);
         let twice = read_text("{\"b\": 1, \"b\": 2}").unwrap();
         assert_eq!(twice, ["b=1", "b=2"]);
-        let many =
-            |count: usize| Value::Object((0..count).map(|k| (k.to_string(), json!(k))).collect());
+        let many = |count: usize| Value::Object((0..count).map(|k| (k.to_string(), json!(k))).collect());
         assert_eq!(read(&many(MOST)).unwrap().len(), MOST);
         for (unfit, named) in [
             (many(MOST + 1), "more parameters than the 100"),
@@ -264,10 +255,7 @@ mod tests {
             (json!({"a": null}), "a: a number, boolean or word"),
             (json!({"a": ""}), "a: a text of 0 characters"),
             (json!({"": 1}), "a text of 0 characters"),
-            (
-                json!([1]),
-                "names of parameters with numbers, booleans or words",
-            ),
+            (json!([1]), "names of parameters with numbers, booleans or words"),
         ] {
             let said = read(&unfit).unwrap_err().to_string();
             assert!(said.contains(named), "{said}");
@@ -296,10 +284,7 @@ mod tests {
         assert_eq!(linear.basis, BasisName::Linear);
         let cost = json!({"cpu_s": 2.5, "wall_s": 3.5, "steps": 4, "threads": 5, "machine": "m"});
         let costly = with("cost", cost).unwrap().cost;
-        assert_eq!(
-            (costly.cpu_s, costly.wall_s),
-            (Some(Positive(2.5)), Some(Positive(3.5)))
-        );
+        assert_eq!((costly.cpu_s, costly.wall_s), (Some(Positive(2.5)), Some(Positive(3.5))));
         assert_eq!((costly.steps, costly.threads), (Some(4), Some(5)));
         for (key, value, named) in [
             ("schema", json!(2), "schema 2 where 1 is read"),

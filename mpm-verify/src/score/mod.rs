@@ -47,14 +47,8 @@ impl Scored {
         let (case, foreign) = find_scored(&manifest.case.0).map_err(refuse("case"))?;
         let level = find_level(case, &manifest.level.0).map_err(refuse("level"))?;
         let set = manifest.parameters.clone();
-        let parameters =
-            Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters")(e.into()))?;
-        let spec = RunSpec {
-            scheme: (foreign.judged_as)(manifest.basis),
-            level,
-            set,
-            perturbed: false,
-        };
+        let parameters = Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters")(e.into()))?;
+        let spec = RunSpec { scheme: (foreign.judged_as)(manifest.basis), level, set, perturbed: false };
         let dt = manifest.time_step_s.map_or(f64::NAN, |dt| dt.0);
         let given = Given {
             discretisation: (foreign.discretisation)(&spec, &parameters, dt),
@@ -76,41 +70,23 @@ impl Scored {
         for group in &foreign.groups {
             if group.columns.iter().all(|c| given.has(c)) {
                 let values = (group.measure)(&given)?;
-                let mut values: BTreeMap<&str, f64> = values
-                    .into_iter()
-                    .map(|(m, value)| (m.name, value))
-                    .collect();
+                let mut values: BTreeMap<&str, f64> = values.into_iter().map(|(m, value)| (m.name, value)).collect();
                 for metric in &group.metrics {
                     // What should have been measured and was not is no number, which no check passes.
                     let value = values.remove(metric.name).filter(|v| v.is_finite());
                     let unit = metric.unit.to_owned();
-                    record
-                        .metrics
-                        .insert(metric.name.to_owned(), Measured { value, unit });
+                    record.metrics.insert(metric.name.to_owned(), Measured { value, unit });
                 }
             }
         }
         record.verdicts = judge(case, foreign, &given, &record);
-        Ok(Self {
-            manifest,
-            case,
-            record,
-            missing,
-            unknown,
-        })
+        Ok(Self { manifest, case, record, missing, unknown })
     }
 }
 
 /// The tables that a manifest names.
-fn tables(
-    folder: &Path,
-    manifest: &Manifest,
-    foreign: &Foreign,
-) -> Result<Vec<(Part, PathBuf, Table)>, Error> {
-    let named = [
-        (Part::Particles, &manifest.particles),
-        (Part::Series, &manifest.series),
-    ];
+fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<Vec<(Part, PathBuf, Table)>, Error> {
+    let named = [(Part::Particles, &manifest.particles), (Part::Series, &manifest.series)];
     let asked = foreign.parts();
     let mut tables = Vec::new();
     for (part, name) in named {
@@ -155,12 +131,7 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, record: &Record) -> Vec<
         }
         let lacking = lacking.map(|c| format!("{} of the {}", c.header(), c.part.name()));
         let why = format!("missing: {}", lacking.collect::<Vec<_>>().join(", "));
-        Some(Verdict {
-            outcome: Outcome::NotJudged,
-            value: None,
-            source: why,
-            ..v
-        })
+        Some(Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v })
     });
     judged.collect()
 }

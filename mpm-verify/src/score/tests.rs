@@ -96,10 +96,7 @@ fn the_reference_told_as_a_result_is_right() {
     }
     assert_eq!((record.time.cpu_s, record.time.wall_s), (2.5, 3.5));
     assert_eq!((record.work.steps, record.work.particles), (4, 0));
-    assert_eq!(
-        (record.discretisation.dt, record.discretisation.h),
-        (0.25, 0.125)
-    );
+    assert_eq!((record.discretisation.dt, record.discretisation.h), (0.25, 0.125));
     assert_eq!(record.set, ["load=0.3"]);
     assert_eq!((&*record.case, &*record.level), ("consolidation", "n8"));
     assert_eq!(scored.manifest.code.name.0, "my code");
@@ -114,12 +111,7 @@ fn a_wrong_column_fails_and_without_it_nothing_is_judged() {
     let result = Answer::of_column();
     result.change(SETTLED, Some(|s| 1.3 * s));
     let wrong = result.score().unwrap();
-    let of = |settlement| {
-        [
-            ("settlement", settlement),
-            ("base-pressure", Outcome::Right),
-        ]
-    };
+    let of = |settlement| [("settlement", settlement), ("base-pressure", Outcome::Right)];
     assert_eq!(outcomes(&wrong), of(Outcome::Failed));
     result.change(SETTLED, None);
     let without = result.score().unwrap();
@@ -154,11 +146,7 @@ fn particles_may_be_a_grid_of_vtk_and_a_series_may_not() {
     let columns = of_particles.map(|a| {
         let zeros = || vec![0.0; start.rows()];
         let values = start.get(&a.header()).map_or_else(zeros, <[f64]>::to_vec);
-        crate::job::Column {
-            name: a.name,
-            unit: a.unit,
-            values,
-        }
+        crate::job::Column { name: a.name, unit: a.unit, values }
     });
     let columns: Vec<_> = columns.collect();
     write_vtu(&result.path("particles.vtu"), &columns).unwrap();
@@ -173,21 +161,12 @@ fn particles_may_be_a_grid_of_vtk_and_a_series_may_not() {
         refused.to_string()
     };
     let said = refused("series", json!("particles.vtu"));
-    assert!(
-        said.contains("series \"particles.vtu\"; allowed: a .csv file"),
-        "{said}"
-    );
+    assert!(said.contains("series \"particles.vtu\"; allowed: a .csv file"), "{said}");
     let said = refused("particles", json!("particles.txt"));
-    assert!(
-        said.contains("particles \"particles.txt\"; allowed: a .csv or .vtu file"),
-        "{said}"
-    );
+    assert!(said.contains("particles \"particles.txt\"; allowed: a .csv or .vtu file"), "{said}");
     refused("series", Value::Null);
     let said = refused("particles", Value::Null);
-    assert!(
-        said.contains("no table; this case is scored by: particles, series"),
-        "{said}"
-    );
+    assert!(said.contains("no table; this case is scored by: particles, series"), "{said}");
 }
 
 #[test]
@@ -195,11 +174,7 @@ fn what_a_manifest_names_is_refused_by_its_key() {
     for (key, value, named) in [
         ("case", json!("cok"), "case: unknown case"),
         ("level", json!("n9"), "level: unknown level"),
-        (
-            "parameters",
-            json!({"laod": 1}),
-            "parameters: unknown parameter",
-        ),
+        ("parameters", json!({"laod": 1}), "parameters: unknown parameter"),
         ("series", json!("none.csv"), "none.csv"),
     ] {
         let result = Answer::of_column();
@@ -216,40 +191,21 @@ fn what_a_manifest_names_is_refused_by_its_key() {
 #[test]
 fn what_is_exported_is_the_problem() {
     let result = Answer::of_column();
-    let names = [
-        "start.csv",
-        "parameters.json",
-        "reference.csv",
-        CURVE,
-        FILE,
-        "README.md",
-    ];
+    let names = ["start.csv", "parameters.json", "reference.csv", CURVE, FILE, "README.md"];
     assert_eq!(result.files, names);
     let problem = result.json("parameters.json");
-    assert_eq!(
-        (&problem["case"], &problem["level"]),
-        (&json!("consolidation"), &json!("n8"))
-    );
-    assert_eq!(
-        (&problem["cell_size_m"], &problem["dimension"]),
-        (&json!(0.125), &json!(1))
-    );
+    assert_eq!((&problem["case"], &problem["level"]), (&json!("consolidation"), &json!("n8")));
+    assert_eq!((&problem["cell_size_m"], &problem["dimension"]), (&json!(0.125), &json!(1)));
     let load = problem["parameters"].as_array().unwrap();
     let load = load.iter().find(|p| p["name"] == "load").unwrap();
     assert_eq!(load["value"], json!(0.3));
     let manifest = result.json(FILE);
     assert_eq!(manifest["parameters"], json!({"load": 0.3}));
-    assert_eq!(
-        (&manifest["series"], &manifest["particles"]),
-        (&json!("series.csv"), &Value::Null)
-    );
+    assert_eq!((&manifest["series"], &manifest["particles"]), (&json!("series.csv"), &Value::Null));
     let reference = result.text("reference.csv");
     let rows: Vec<&str> = reference.lines().collect();
     assert_eq!(rows[0], "check,metric,unit,reference,tolerance,why");
-    for (row, begin) in rows[1..]
-        .iter()
-        .zip(["settlement,settlement_error,-,", "base-pressure,"])
-    {
+    for (row, begin) in rows[1..].iter().zip(["settlement,settlement_error,-,", "base-pressure,"]) {
         assert!(row.starts_with(begin), "{row}");
     }
     assert_eq!(rows.len(), 3);
@@ -273,10 +229,7 @@ fn what_is_exported_is_the_problem() {
     // Parameters that no line of the problem names are not among those that it shows.
     assert!(!readme.contains("| `refine` |"), "{readme}");
     let both = Answer::exported("cook", "h2", &[]).text("README.md");
-    assert!(
-        both.contains("## `particles.csv`: a row a particle, in any order"),
-        "{both}"
-    );
+    assert!(both.contains("## `particles.csv`: a row a particle, in any order"), "{both}");
     // The unit is that of the metric; of a load that has no reference nothing is demanded.
     let cook = Answer::exported("cook", "h2", &[]).text("reference.csv");
     assert!(cook.contains("\nmid-edge,mid_edge_uy,m,0.26"), "{cook}");

@@ -23,17 +23,11 @@ type Kind = (&'static str, usize, fn([u8; 8]) -> f64);
 /// From the first bytes, the lowest first.
 const KINDS: [Kind; 10] = [
     ("Float64", 8, f64::from_le_bytes),
-    ("Float32", 4, |b| {
-        f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-    }),
+    ("Float32", 4, |b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
     ("Int64", 8, |b| i64::from_le_bytes(b) as f64),
     ("UInt64", 8, |b| u64::from_le_bytes(b) as f64),
-    ("Int32", 4, |b| {
-        f64::from(i32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-    }),
-    ("UInt32", 4, |b| {
-        f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-    }),
+    ("Int32", 4, |b| f64::from(i32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
+    ("UInt32", 4, |b| f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
     ("Int16", 2, |b| f64::from(i16::from_le_bytes([b[0], b[1]]))),
     ("UInt16", 2, |b| f64::from(u16::from_le_bytes([b[0], b[1]]))),
     ("Int8", 1, |b| f64::from(b[0] as i8)),
@@ -83,9 +77,7 @@ fn table(bytes: &[u8]) -> Result<Table, String> {
     let points = layout.points.ok_or("no piece with NumberOfPoints")?;
     let mut columns: Vec<(String, Vec<f64>)> = Vec::new();
     for array in arrays {
-        let numbers = array
-            .numbers(&layout, points, data)
-            .map_err(|said| format!("array {:?}: {said}", array.name))?;
+        let numbers = array.numbers(&layout, points, data).map_err(|said| format!("array {:?}: {said}", array.name))?;
         if array.of_points {
             for (axis, name) in AXES.iter().enumerate() {
                 let along = numbers.iter().skip(axis).step_by(3).copied();
@@ -100,11 +92,7 @@ fn table(bytes: &[u8]) -> Result<Table, String> {
             return Err(format!("array {name:?} is there twice"));
         }
         if let Some(row) = values.iter().position(|v| !v.is_finite()) {
-            return Err(format!(
-                "array {name:?}, point {}: {}",
-                row + 1,
-                values[row]
-            ));
+            return Err(format!("array {name:?}, point {}: {}", row + 1, values[row]));
         }
     }
     match columns.is_empty() {
@@ -205,9 +193,7 @@ impl Array {
                 }
             }
             other => {
-                return Err(format!(
-                    "format {other:?}; allowed: ascii, binary, appended"
-                ));
+                return Err(format!("format {other:?}; allowed: ascii, binary, appended"));
             }
         };
         match numbers.len() == count {
@@ -217,12 +203,7 @@ impl Array {
     }
 
     /// So many numbers of packed bytes: their length, or the sizes of compressed blocks, goes before them.
-    fn unpack(
-        &self,
-        layout: &Layout,
-        count: usize,
-        from: &mut impl Read,
-    ) -> Result<Vec<f64>, String> {
+    fn unpack(&self, layout: &Layout, count: usize, from: &mut impl Read) -> Result<Vec<f64>, String> {
         let known = KINDS.iter().find(|(name, ..)| *name == self.kind);
         let (_, size, value) = known.ok_or_else(|| format!("type {:?}", self.kind))?;
         let whole = (count * size) as u64;
@@ -234,15 +215,11 @@ impl Array {
             if blocks > MOST_BLOCKS {
                 return Err(wrong("too many blocks"));
             }
-            let sizes = (0..blocks)
-                .map(|_| header())
-                .collect::<Result<Vec<_>, _>>()?;
+            let sizes = (0..blocks).map(|_| header()).collect::<Result<Vec<_>, _>>()?;
             for size in sizes {
                 let mut packed = from.by_ref().take(size);
                 let left = (whole + 1).saturating_sub(bytes.len() as u64);
-                let inflated = ZlibDecoder::new(&mut packed)
-                    .take(left)
-                    .read_to_end(&mut bytes);
+                let inflated = ZlibDecoder::new(&mut packed).take(left).read_to_end(&mut bytes);
                 inflated.map_err(|e| wrong(&e.to_string()))?;
                 std::io::copy(&mut packed, &mut std::io::sink()).map_err(|e| e.to_string())?;
             }
@@ -257,9 +234,7 @@ impl Array {
         if bytes.len() as u64 != whole {
             return Err(wrong(&format!("{} bytes", bytes.len())));
         }
-        let numbers = bytes
-            .chunks_exact(*size)
-            .map(|bytes| value(layout.lowest_first(bytes)));
+        let numbers = bytes.chunks_exact(*size).map(|bytes| value(layout.lowest_first(bytes)));
         Ok(numbers.collect())
     }
 }
@@ -323,10 +298,7 @@ struct Base64<'a> {
 
 impl<'a> Base64<'a> {
     fn new(text: &'a [u8]) -> Self {
-        Self {
-            text: text.iter(),
-            ready: Vec::new(),
-        }
+        Self { text: text.iter(), ready: Vec::new() }
     }
 
     /// Decodes the next four characters.

@@ -51,8 +51,7 @@ impl Completeness {
 
     fn compare(plan: &Plan, rows: &[Row], program: &str) -> Self {
         let run = |row: &Row| [&row.case, &row.scheme, &row.level, &row.set].map(String::clone);
-        let made: BTreeMap<[String; 4], &str> =
-            rows.iter().map(|row| (run(row), &*row.program)).collect();
+        let made: BTreeMap<[String; 4], &str> = rows.iter().map(|row| (run(row), &*row.program)).collect();
         let mut cases: Vec<(String, Known)> = Vec::new();
         for run in &plan.runs {
             if cases.last().is_none_or(|(case, _)| *case != run.case) {
@@ -71,11 +70,7 @@ impl Completeness {
                 Some(_) => {}
             }
         }
-        Self {
-            tier: plan.tier.clone(),
-            program: program.to_owned(),
-            cases,
-        }
+        Self { tier: plan.tier.clone(), program: program.to_owned(), cases }
     }
 
     /// Whether every planned run has a row.
@@ -85,10 +80,9 @@ impl Completeness {
     pub fn require(&self) -> Result<(), Error> {
         match self.missing() {
             0 => Ok(()),
-            missing => Err(Error::Input(format!(
-                "incomplete: {missing} of {} planned runs have no row",
-                self.planned()
-            ))),
+            missing => {
+                Err(Error::Input(format!("incomplete: {missing} of {} planned runs have no row", self.planned())))
+            }
         }
     }
 
@@ -191,13 +185,7 @@ mod tests {
         let file = tempfile::NamedTempFile::new().unwrap();
         let mut text = "case,scheme,night,level,set,program,new\n".to_owned();
         for row in &rows {
-            let Row {
-                case,
-                scheme,
-                level,
-                set,
-                program,
-            } = row;
+            let Row { case, scheme, level, set, program } = row;
             text += &format!("{case},{scheme},2026-01-01,{level},{set},{program},1\n");
         }
         std::fs::write(file.path(), &text).unwrap();

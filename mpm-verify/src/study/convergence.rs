@@ -162,8 +162,7 @@ mod tests {
         run.set = set.iter().map(|s| (*s).to_owned()).collect();
         run.discretisation.h = h;
         let (value, unit) = (Some(h * h), "-".to_owned());
-        run.metrics
-            .insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
+        run.metrics.insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
         run
     }
 
@@ -195,11 +194,7 @@ mod tests {
     /// The numbers of levels with the case's own time step and with another one that a level each has run with.
     fn levels_of(case: &str, metric: &str) -> Vec<(String, usize)> {
         let sets: [&[&str]; 3] = [&[], &[], &["cfl=0.2"]];
-        let mut records: Vec<Record> = LEVELS
-            .iter()
-            .zip(sets)
-            .map(|((name, h), set)| run(name, *h, set))
-            .collect();
+        let mut records: Vec<Record> = LEVELS.iter().zip(sets).map(|((name, h), set)| run(name, *h, set)).collect();
         for record in &mut records {
             let error = record.metrics["fem_edge_mean_error"].clone();
             record.metrics.insert(metric.to_owned(), error);

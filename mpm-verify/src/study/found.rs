@@ -49,14 +49,10 @@ fn require_possible(record: &Record) -> Result<(), Refusal> {
     let (d, time) = (&record.discretisation, record.time);
     let above = |value: f64| value.is_finite() && value > 0.0;
     let lengths = [d.h, d.dt].into_iter().all(above);
-    let times = [time.wall_s, time.cpu_s]
-        .into_iter()
-        .all(|t| t.is_finite() && t >= 0.0);
+    let times = [time.wall_s, time.cpu_s].into_iter().all(|t| t.is_finite() && t >= 0.0);
     let counts = (1..=3).contains(&d.dim) && record.machine.cores > 0 && record.machine.threads > 0;
     match lengths && times && counts {
         true => Ok(()),
-        false => Err(Refusal::Content(
-            "a size, step, time or number of threads that no run has".to_owned(),
-        )),
+        false => Err(Refusal::Content("a size, step, time or number of threads that no run has".to_owned())),
     }
 }

@@ -90,12 +90,8 @@ impl Gathered {
         }
         let plans = read_plans(folders)?;
         let (_, whole) = &plans[0];
-        let mut gathered = Self {
-            tier: whole.tier.clone(),
-            studies: Vec::new(),
-            folders: BTreeMap::new(),
-            gap: whole.gap()?,
-        };
+        let mut gathered =
+            Self { tier: whole.tier.clone(), studies: Vec::new(), folders: BTreeMap::new(), gap: whole.gap()? };
         let mut missing = Vec::new();
         for run in &whole.runs {
             let root = plans[run.shard - 1].0;
@@ -108,9 +104,7 @@ impl Gathered {
             gathered.folders.insert(place, folder);
             match gathered.studies.last_mut() {
                 Some(study) if study.case == run.case => study.records.push(record),
-                _ => gathered
-                    .studies
-                    .push(CaseStudy::new(&run.case, vec![record])),
+                _ => gathered.studies.push(CaseStudy::new(&run.case, vec![record])),
             }
         }
         let [first, ..] = missing[..] else {
@@ -143,10 +137,7 @@ impl Gathered {
     ///
     /// # Errors
     /// A case that is not known, or an error of `drift`.
-    pub fn judge(
-        &self,
-        drift: impl Fn(&Record) -> Result<Vec<Verdict>, Error> + Sync,
-    ) -> Result<Summary, Error> {
+    pub fn judge(&self, drift: impl Fn(&Record) -> Result<Vec<Verdict>, Error> + Sync) -> Result<Summary, Error> {
         let cases = self.studies.iter().map(|study| judged(study, &drift));
         Ok(Summary::new(&self.tier, cases.collect::<Result<_, _>>()?))
     }
@@ -162,10 +153,7 @@ impl Gathered {
     ) -> Result<CaseStudy, Error> {
         match self.studies.iter().find(|study| study.case == case.name) {
             Some(study) => judged(study, &drift),
-            None => Err(Error::Input(format!(
-                "the folder has no runs of {}",
-                case.name
-            ))),
+            None => Err(Error::Input(format!("the folder has no runs of {}", case.name))),
         }
     }
 }
@@ -241,18 +229,11 @@ fn read_plans(folders: &[PathBuf]) -> Result<Vec<(&Path, Plan)>, Error> {
         }
     }
     let given = |k: &usize| plans.iter().any(|(_, p)| p.shard.index == *k);
-    let missing: Vec<String> = (1..=whole.shard.count)
-        .filter(|k| !given(k))
-        .map(|k| k.to_string())
-        .collect();
+    let missing: Vec<String> = (1..=whole.shard.count).filter(|k| !given(k)).map(|k| k.to_string()).collect();
     if missing.is_empty() {
         Ok(plans)
     } else {
-        Err(Error::Input(format!(
-            "of {} shards these are missing: {}",
-            whole.shard.count,
-            missing.join(", ")
-        )))
+        Err(Error::Input(format!("of {} shards these are missing: {}", whole.shard.count, missing.join(", "))))
     }
 }
 

@@ -45,9 +45,7 @@ impl Shard {
             .map(|(index, count)| Self { index, count })
             .filter(|s| (1..=s.count).contains(&s.index) && s.count <= MAX_SHARDS)
             .ok_or_else(|| {
-                Error::Input(format!(
-                    "--shard \"{text}\" is not allowed; allowed: i/n with 1 ≤ i ≤ n ≤ {MAX_SHARDS}"
-                ))
+                Error::Input(format!("--shard \"{text}\" is not allowed; allowed: i/n with 1 ≤ i ≤ n ≤ {MAX_SHARDS}"))
             })
     }
 }
@@ -114,11 +112,7 @@ impl Plan {
     ///
     /// # Errors
     /// The cases have no runs in this tier, or fewer than there are shards.
-    pub fn new<'a>(
-        cases: impl IntoIterator<Item = &'a Case>,
-        tier: Tier,
-        shard: Shard,
-    ) -> Result<Self, Error> {
+    pub fn new<'a>(cases: impl IntoIterator<Item = &'a Case>, tier: Tier, shard: Shard) -> Result<Self, Error> {
         let mut runs = Vec::new();
         let mut costs = Vec::new();
         for case in cases {
@@ -134,23 +128,14 @@ impl Plan {
             }
         }
         if runs.len() < shard.count {
-            return Err(Error::Input(format!(
-                "tier {tier} has {} runs for {} shards",
-                runs.len(),
-                shard.count
-            )));
+            return Err(Error::Input(format!("tier {tier} has {} runs for {} shards", runs.len(), shard.count)));
         }
         let mut order: Vec<usize> = (0..runs.len()).collect();
         order.sort_by(|&a, &b| costs[b].total_cmp(&costs[a]));
         for (turn, k) in order.into_iter().enumerate() {
             runs[k].shard = turn % shard.count + 1;
         }
-        Ok(Self {
-            schema: SCHEMA,
-            tier: tier.to_string(),
-            shard,
-            runs,
-        })
+        Ok(Self { schema: SCHEMA, tier: tier.to_string(), shard, runs })
     }
 
     /// The runs of this folder.
@@ -175,9 +160,7 @@ impl Plan {
             let case = cases::find(name)?;
             let planned: BTreeSet<String> = case.runs(tier).iter().map(RunSpec::folder).collect();
             let own = self.runs.iter().filter(|run| run.case == *name);
-            let own: BTreeSet<String> = own
-                .map(|run| run_folder(run.scheme, &run.level, &run.set))
-                .collect();
+            let own: BTreeSet<String> = own.map(|run| run_folder(run.scheme, &run.level, &run.set)).collect();
             if own != planned {
                 let (found, all) = (own.intersection(&planned).count(), planned.len());
                 return Ok(Some(format!(
@@ -223,9 +206,7 @@ impl Plan {
     fn check(&self) -> Result<(), String> {
         let Shard { index, count } = self.shard;
         if !(1..=MAX_SHARDS).contains(&count) || !(1..=count).contains(&index) {
-            return Err(format!(
-                "shard {index}/{count}; allowed: 1 ≤ i ≤ n ≤ {MAX_SHARDS}"
-            ));
+            return Err(format!("shard {index}/{count}; allowed: 1 ≤ i ≤ n ≤ {MAX_SHARDS}"));
         }
         if self.runs.is_empty() {
             return Err("no runs".to_owned());
@@ -234,16 +215,11 @@ impl Plan {
         let mut seen = BTreeSet::new();
         for run in &self.runs {
             let folder = run.folder();
-            let names = run.resolve().and_then(|(case, spec)| {
-                Ok(Parameters::new(&case.parameters, &spec.set).map(drop)?)
-            });
+            let names =
+                run.resolve().and_then(|(case, spec)| Ok(Parameters::new(&case.parameters, &spec.set).map(drop)?));
             names.map_err(|e| e.to_string())?;
             if !(1..=count).contains(&run.shard) {
-                return Err(format!(
-                    "{}: shard {}; allowed: 1 to {count}",
-                    folder.display(),
-                    run.shard
-                ));
+                return Err(format!("{}: shard {}; allowed: 1 to {count}", folder.display(), run.shard));
             }
             if !seen.insert(folder.clone()) {
                 return Err(format!("{} is there twice", folder.display()));
@@ -260,14 +236,9 @@ mod tests {
     #[test]
     fn shards_are_read_and_bad_ones_refused() {
         assert_eq!(Shard::parse("2/4").unwrap(), Shard { index: 2, count: 4 });
-        for bad in [
-            "0/4", "5/4", "1", "a/b", "1/0", "-1/4", "1/4/2", "1/100000", "+1/4", "1/+4",
-        ] {
+        for bad in ["0/4", "5/4", "1", "a/b", "1/0", "-1/4", "1/4/2", "1/100000", "+1/4", "1/+4"] {
             let error = Shard::parse(bad).unwrap_err().to_string();
-            assert!(
-                error.contains(bad) && error.contains("1 ≤ i ≤ n"),
-                "{error}"
-            );
+            assert!(error.contains(bad) && error.contains("1 ≤ i ≤ n"), "{error}");
         }
     }
 
@@ -299,10 +270,7 @@ mod tests {
 
     #[test]
     fn more_shards_than_runs_are_refused() {
-        let shard = Shard {
-            index: 1,
-            count: 100,
-        };
+        let shard = Shard { index: 1, count: 100 };
         assert!(Plan::new(cases::all(), Tier::Quick, shard).is_err());
     }
 }

@@ -130,12 +130,7 @@ impl Task {
 ///
 /// # Errors
 /// A folder can't be written, or a scene can't be built.
-pub fn run_all(
-    tasks: &[Task],
-    saving: Saving,
-    workers: usize,
-    listener: &dyn Listener,
-) -> Result<Vec<Record>, Error> {
+pub fn run_all(tasks: &[Task], saving: Saving, workers: usize, listener: &dyn Listener) -> Result<Vec<Record>, Error> {
     let mut order: Vec<usize> = (0..tasks.len()).collect();
     let cost = |k: usize| (tasks[k].case.cost)(&tasks[k].spec);
     order.sort_by(|&a, &b| cost(b).total_cmp(&cost(a)));
@@ -151,11 +146,7 @@ pub fn run_all(
 
 /// Does `work` for every number of `order`, begun in that order, at most `workers` at a time; the results
 /// come back by rising number.
-fn side_by_side<T: Send>(
-    order: Vec<usize>,
-    workers: usize,
-    work: impl Fn(usize) -> T + Sync,
-) -> Vec<T> {
+fn side_by_side<T: Send>(order: Vec<usize>, workers: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let workers = workers.min(order.len());
     let queue = Mutex::new(order.into_iter());
     let results = Mutex::new(Vec::new());

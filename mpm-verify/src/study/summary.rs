@@ -108,11 +108,7 @@ impl fmt::Display for Counts {
             self.not_judged_runs,
             self.failed_runs
         )?;
-        writeln!(
-            f,
-            "Broke down: {} unexpectedly, {} as known.",
-            self.broke_down, self.broke_down_as_known
-        )?;
+        writeln!(f, "Broke down: {} unexpectedly, {} as known.", self.broke_down, self.broke_down_as_known)?;
         writeln!(
             f,
             "Checks: {} right, {} wrong as known, {} not judged, {} FAILED.",
@@ -149,12 +145,7 @@ impl Summary {
     #[must_use]
     pub fn new(tier: &str, mut cases: Vec<CaseStudy>) -> Self {
         cases.sort_by_key(|study| cases::place(&study.case));
-        let mut summary = Self {
-            schema: SCHEMA,
-            tier: tier.to_owned(),
-            counts: Counts::default(),
-            cases,
-        };
+        let mut summary = Self { schema: SCHEMA, tier: tier.to_owned(), counts: Counts::default(), cases };
         summary.counts = count(&summary);
         summary
     }
@@ -183,10 +174,7 @@ impl Summary {
     /// All verdicts, each with the run it is about (none for those on runs together).
     pub fn verdicts(&self) -> impl Iterator<Item = (&CaseStudy, Option<&Record>, &Verdict)> {
         self.cases.iter().flat_map(|study| {
-            let single = study
-                .records
-                .iter()
-                .flat_map(move |r| r.verdicts.iter().map(move |v| (study, Some(r), v)));
+            let single = study.records.iter().flat_map(move |r| r.verdicts.iter().map(move |v| (study, Some(r), v)));
             single.chain(study.verdicts.iter().map(move |v| (study, None, v)))
         })
     }

@@ -49,14 +49,7 @@ impl FbarConsistent {
     /// With relaxation β (dimensionless, zero for none).
     #[must_use]
     pub fn new(relaxation: f64) -> Self {
-        Self {
-            relaxation,
-            hold: 0.0,
-            kept: Vec::new(),
-            averaged: Vec::new(),
-            next: Vec::new(),
-            rest: Vec::new(),
-        }
+        Self { relaxation, hold: 0.0, kept: Vec::new(), averaged: Vec::new(), next: Vec::new(), rest: Vec::new() }
     }
 
     /// With a stiffness ε² K of what Π cannot see that is at least `times` the smooth pressure Π p at every particle,
@@ -72,12 +65,7 @@ impl FbarConsistent {
     }
 
     /// Takes (I − Π) θ (I − Π) J̄ off the next J̄.
-    fn relax<const D: usize>(
-        &mut self,
-        particles: &Particles<D>,
-        shear: &[f64],
-        average: &mut dyn Average<D>,
-    ) {
+    fn relax<const D: usize>(&mut self, particles: &Particles<D>, shear: &[f64], average: &mut dyn Average<D>) {
         self.rest.clone_from(&self.next);
         average.average(particles, &mut self.rest);
         let relaxation = self.relaxation;
@@ -135,12 +123,7 @@ impl<const D: usize> Remedy<D> for FbarConsistent {
         self.relaxation > 0.0
     }
 
-    fn force_mean(
-        &mut self,
-        particles: &Particles<D>,
-        average: &mut dyn Average<D>,
-        of_force: &mut Vec<f64>,
-    ) {
+    fn force_mean(&mut self, particles: &Particles<D>, average: &mut dyn Average<D>, of_force: &mut Vec<f64>) {
         fill(of_force, particles.len(), |chunk| {
             let stress = Eights::of(&particles.stress[chunk.clone()]);
             let j = Eights::of(&particles.jacobian[chunk.clone()]);
@@ -170,12 +153,7 @@ impl<const D: usize> Remedy<D> for FbarConsistent {
         average: &mut dyn Average<D>,
     ) -> Option<&[f64]> {
         self.averaged.clone_from(&deformation.volume_change);
-        let Self {
-            averaged,
-            rest,
-            kept,
-            ..
-        } = self;
+        let Self { averaged, rest, kept, .. } = self;
         sharpened(particles, average, averaged, rest, kept);
         fill_with_products(&mut self.next, &particles.j_bar, &self.averaged);
         if self.relaxation > 0.0 {

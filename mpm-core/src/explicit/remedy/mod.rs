@@ -99,13 +99,7 @@ impl<const D: usize> DeformationChunk<'_, D> {
 
     /// Keeps that of the `k`-th eight: ΔF, its determinant and the displacement (m).
     #[inline(always)]
-    pub fn keep(
-        &mut self,
-        k: usize,
-        delta_f: &[[Eight; D]; D],
-        volume_change: Eight,
-        increment: &[Eight; D],
-    ) {
+    pub fn keep(&mut self, k: usize, delta_f: &[[Eight; D]; D], volume_change: Eight, increment: &[Eight; D]) {
         self.delta_f[k] = *delta_f;
         self.increment[k] = *increment;
         store_numbers(self.volume_change, k, volume_change);
@@ -123,8 +117,7 @@ impl<const D: usize> DeformationChunk<'_, D> {
     /// ΔF̄ of the `k`-th eight, Eq. (25), from J̄ at the begin of the step and the `next`.
     #[inline(always)]
     pub fn averaged(&self, k: usize, j_bar: Eight, next: Eight) -> [[Eight; D]; D] {
-        let stretch =
-            stretch_of_volume::<Eight, D>(next / (j_bar * numbers(self.volume_change, k)));
+        let stretch = stretch_of_volume::<Eight, D>(next / (j_bar * numbers(self.volume_change, k)));
         self.delta_f[k].map(|row| row.map(|entry| entry * stretch))
     }
 
@@ -175,13 +168,7 @@ pub trait Remedy<const D: usize>: Memory + Send {
 
     /// Before the forces are formed: fills `mean` with the mean stress (Pa) that enters them by [`force_stress`], of a
     /// remedy that averages the pressure as well; of others `mean` stays empty, and the law's stress enters them.
-    fn force_mean(
-        &mut self,
-        _particles: &Particles<D>,
-        _average: &mut dyn Average<D>,
-        _mean: &mut Vec<f64>,
-    ) {
-    }
+    fn force_mean(&mut self, _particles: &Particles<D>, _average: &mut dyn Average<D>, _mean: &mut Vec<f64>) {}
 
     /// After ΔF and J are known: J̄ⁿ⁺¹ of every particle, unless that is J. Positions, volumes and J̄ are still those
     /// of the step's start; it can be asked for again after other ΔF. Who takes the step makes it that of the
@@ -203,11 +190,7 @@ fn fill_with_products(out: &mut Vec<f64>, a: &[f64], b: &[f64]) {
 }
 
 /// Fills `out` with numbers, `n` in all. `of_chunk(particles)` gives what makes those of the `k`-th eight of them.
-fn fill<F: Fn(usize) -> Eight>(
-    out: &mut Vec<f64>,
-    n: usize,
-    of_chunk: impl Fn(Range<usize>) -> F + Sync,
-) {
+fn fill<F: Fn(usize) -> Eight>(out: &mut Vec<f64>, n: usize, of_chunk: impl Fn(Range<usize>) -> F + Sync) {
     out.resize(n, 0.0);
     for_each_piece(&mut out[..], n, CHUNK, &|begin, out| {
         let f = of_chunk(begin..begin + out.len());
@@ -229,11 +212,7 @@ fn mean<T: Real, const D: usize>(stress: &SymmetricTensor<T>) -> T {
 
 /// The stress that enters the forces where a remedy gives its `mean`: (J̄/J) dev σ and that mean; `ratio` is J̄/J.
 #[inline(always)]
-pub fn force_stress<T: Real, const D: usize>(
-    stress: &SymmetricTensor<T>,
-    ratio: T,
-    of_force: T,
-) -> SymmetricTensor<T> {
+pub fn force_stress<T: Real, const D: usize>(stress: &SymmetricTensor<T>, ratio: T, of_force: T) -> SymmetricTensor<T> {
     stress.scale_add_identity(ratio, of_force - ratio * mean::<T, D>(stress))
 }
 

@@ -16,12 +16,7 @@ impl<const D: usize> Remedy<D> for Standard {
         false
     }
 
-    fn next_j_bar(
-        &mut self,
-        _: &Particles<D>,
-        _: &Deformation<D>,
-        _: &mut dyn Average<D>,
-    ) -> Option<&[f64]> {
+    fn next_j_bar(&mut self, _: &Particles<D>, _: &Deformation<D>, _: &mut dyn Average<D>) -> Option<&[f64]> {
         None
     }
 }

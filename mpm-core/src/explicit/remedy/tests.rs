@@ -41,12 +41,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
         let lattice = Lattice::new(grid, WallTreatment::OpenKnot);
         let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
         particles.permute(&order);
-        Self {
-            reach: Reach::of(&lattice, &particles.position, &particles.half_size),
-            lattice,
-            particles,
-            slabs,
-        }
+        Self { reach: Reach::of(&lattice, &particles.position, &particles.half_size), lattice, particles, slabs }
     }
 
     fn average(&self, field: &[f64]) -> Vec<f64> {
@@ -57,10 +52,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
 }
 
 /// The deformation of particles by these ΔF.
-fn deformation<const D: usize>(
-    remedy: &dyn Remedy<D>,
-    delta_f: &[SMatrix<f64, D, D>],
-) -> Deformation<D> {
+fn deformation<const D: usize>(remedy: &dyn Remedy<D>, delta_f: &[SMatrix<f64, D, D>]) -> Deformation<D> {
     let n = delta_f.len();
     let mut deformation = Deformation::of(remedy, n);
     if remedy.averages() {
@@ -75,19 +67,13 @@ fn deformation<const D: usize>(
 }
 
 /// Makes `next` the J̄ of the particles; returns ΔF̄.
-fn take(
-    particles: &mut Particles<2>,
-    deformation: &mut Deformation<2>,
-    next: &[f64],
-) -> Vec<SMatrix<f64, 2, 2>> {
+fn take(particles: &mut Particles<2>, deformation: &mut Deformation<2>, next: &[f64]) -> Vec<SMatrix<f64, 2, 2>> {
     let chunk = deformation.chunk();
     let mut averaged = vec![SMatrix::zeros(); next.len()];
     for k in 0..blocks(next.len()) {
         let j_bar = numbers(&particles.j_bar, k);
         let delta_f = chunk.averaged(k, j_bar, numbers(next, k));
-        store(&mut averaged, k, |l| {
-            SMatrix::from_fn(|a, b| delta_f[a][b].part(l))
-        });
+        store(&mut averaged, k, |l| SMatrix::from_fn(|a, b| delta_f[a][b].part(l)));
     }
     particles.j_bar.copy_from_slice(next);
     averaged
@@ -113,8 +99,7 @@ fn properties<const S: usize, B: Basis<S>>(places: &[[f64; 4]]) {
     // Symmetry: (r, V Π q) = (q, V Π r); positivity and contraction: 0 ≤ (q, VΠq) ≤ (q, Vq).
     let r: Vec<f64> = q.iter().map(|x| (7.0 * x).sin()).collect();
     let volume = &bench.particles.volume;
-    let product =
-        |a: &[f64], b: &[f64]| -> f64 { (0..a.len()).map(|p| volume[p] * a[p] * b[p]).sum() };
+    let product = |a: &[f64], b: &[f64]| -> f64 { (0..a.len()).map(|p| volume[p] * a[p] * b[p]).sum() };
     let (pq, pr) = (bench.average(&q), bench.average(&r));
     let scale = product(&q, &q) + product(&r, &r) + 1.0;
     let (small, qq) = (ROUNDING * scale, product(&q, &q));
@@ -149,9 +134,7 @@ fn spread<const S: usize, B: Basis<S>>(per_cell: usize) -> f64 {
     let cells = 20;
     let grid = Grid::new(h, [Axis::open(0.0, cells)]).unwrap();
     let spacing = h / per_cell as f64;
-    let positions: Vec<[f64; 1]> = (0..cells * per_cell)
-        .map(|k| [(k as f64 + 0.5) * spacing])
-        .collect();
+    let positions: Vec<[f64; 1]> = (0..cells * per_cell).map(|k| [(k as f64 + 0.5) * spacing]).collect();
     let particles = Particles::new(positions, spacing, 1.0, [0.5 * spacing]).unwrap();
     let bench = Bench::<1, S, B>::new(grid, particles);
     let places = bench.particles.position.iter();
@@ -185,14 +168,9 @@ fn the_spread_of_the_average_is_as_stated_for_each_basis() {
 type Gradients = Vec<SMatrix<f64, 2, 2>>;
 
 /// A body of 36 particles with given ΔF; their determinants, the body and ΔF̄ of the last step.
-fn small_body(
-    remedy: &mut dyn Remedy<2>,
-    steps: usize,
-) -> (Vec<f64>, Bench<2, 3, Gimp>, Gradients) {
+fn small_body(remedy: &mut dyn Remedy<2>, steps: usize) -> (Vec<f64>, Bench<2, 3, Gimp>, Gradients) {
     let grid = Grid::new(1.0, [Axis::open(0.0, 6), Axis::open(0.0, 6)]).unwrap();
-    let positions = (0..36)
-        .map(|k| [2.25 + 0.3 * f64::from(k % 6), 2.25 + 0.3 * f64::from(k / 6)])
-        .collect();
+    let positions = (0..36).map(|k| [2.25 + 0.3 * f64::from(k % 6), 2.25 + 0.3 * f64::from(k / 6)]).collect();
     let particles = Particles::new(positions, 0.09, 1.0, [0.15; 2]).unwrap();
     let mut bench = Bench::<2, 3, Gimp>::new(grid, particles);
     remedy.attach(&mut bench.particles);
@@ -234,8 +212,7 @@ fn the_family_differs_in_the_averaged_jacobian_alone() {
     let expected = |kind: &str| -> Vec<f64> {
         let (first, bench, _) = small_body(&mut Standard, 1);
         let (second, _, _) = small_body(&mut Standard, 2);
-        let product =
-            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
+        let product = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
         match kind {
             "recursive" => bench.average(&product(&bench.average(&first), &second)),
             "total" => bench.average(&product(&first, &second)),
@@ -275,11 +252,7 @@ fn strained<const S: usize, B: Basis<S>>(
     law: &NeoHookean,
     places: &[[f64; 4]],
     carried: &[Carried],
-) -> (
-    Bench<2, S, B>,
-    Vec<SymmetricTensor>,
-    Vec<SMatrix<f64, 2, 2>>,
-) {
+) -> (Bench<2, S, B>, Vec<SymmetricTensor>, Vec<SMatrix<f64, 2, 2>>) {
     let (mut bench, _) = scattered::<S, B>(places);
     let p = &mut bench.particles;
     let mut states = Vec::new();
@@ -304,10 +277,7 @@ fn strained<const S: usize, B: Basis<S>>(
 /// The power that the forces take from the grid, Σ V σ : ∇v with the stress of the force, is the rate of the
 /// stored energy Σ V⁰ W(F̄), whatever the velocities, the clouds and the parting of J̄ from J. The rate is
 /// a central difference over ±ε: its error is of order ε² of third derivatives plus rounding over ε.
-fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
-    places: &[[f64; 4]],
-    carried: &[Carried],
-) {
+fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(places: &[[f64; 4]], carried: &[Carried]) {
     // Pressures are up to a thousand; the second remedy keeps from a hundredth to all of what Π cannot see.
     for times in [0.0, 10.0] {
         power_of_remedy_is_the_rate_of_energy::<S, B>(times, places, carried);
@@ -348,15 +318,10 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
         let next = next.unwrap().to_vec();
         let delta_f = take(&mut moved, &mut deformation, &next);
         let energy = |k: usize| law.energy(&law.update(&embed(&delta_f[k]), 1.0, &states[k]).1);
-        (0..moved.len())
-            .map(|k| moved.reference_volume[k] * energy(k))
-            .sum()
+        (0..moved.len()).map(|k| moved.reference_volume[k] * energy(k)).sum()
     };
     let rate = (stored(1.0) - stored(-1.0)) / (2.0 * epsilon);
-    assert!(
-        (rate - power).abs() < 1e-7 * scale,
-        "{rate} {power} {scale}"
-    );
+    assert!((rate - power).abs() < 1e-7 * scale, "{rate} {power} {scale}");
 }
 
 /// Strains are held against a pressure: without one no bit changes, and uniform growth has no unseen part.
@@ -368,12 +333,8 @@ fn holding_does_nothing_without_pressure_or_disorder() {
     assert_eq!(plain.particles.j_bar, held.particles.j_bar);
 
     let law = NeoHookean::new(70.0, 0.49).unwrap();
-    let places: Vec<[f64; 4]> = (0..60)
-        .map(|k| [7.31, 3.77, 5.13, 1.91].map(|f| (f * f64::from(k)).fract()))
-        .collect();
-    let moved: Vec<Carried> = (places.iter())
-        .map(|[a, b, c, d]| ([a - 0.5, b - 0.5], [*c, *d, *a, *b]))
-        .collect();
+    let places: Vec<[f64; 4]> = (0..60).map(|k| [7.31, 3.77, 5.13, 1.91].map(|f| (f * f64::from(k)).fract())).collect();
+    let moved: Vec<Carried> = (places.iter()).map(|[a, b, c, d]| ([a - 0.5, b - 0.5], [*c, *d, *a, *b])).collect();
     let (bench, _, _) = strained::<3, Gimp>(&law, &places, &moved);
     let mut average = averages!(bench);
     let mut remedy = FbarConsistent::default().holding(10.0, 5e3).unwrap();
@@ -388,10 +349,7 @@ fn holding_does_nothing_without_pressure_or_disorder() {
 }
 
 fn carried() -> impl Strategy<Value = Vec<Carried>> {
-    let pair = (
-        prop::array::uniform2(-1.0..1.0_f64),
-        prop::array::uniform4(-1.0..1.0_f64),
-    );
+    let pair = (prop::array::uniform2(-1.0..1.0_f64), prop::array::uniform4(-1.0..1.0_f64));
     prop::collection::vec(pair, 120)
 }
 

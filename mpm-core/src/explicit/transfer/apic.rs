@@ -79,10 +79,7 @@ pub struct Affine<const D: usize, const S: usize> {
 
 impl<const D: usize, const S: usize> Default for Affine<D, S> {
     fn default() -> Self {
-        Self {
-            arms: [[[0.0; EIGHT]; S]; D],
-            slope: [[[0.0; EIGHT]; D]; D],
-        }
+        Self { arms: [[[0.0; EIGHT]; S]; D], slope: [[[0.0; EIGHT]; D]; D] }
     }
 }
 
@@ -104,9 +101,7 @@ impl<const D: usize> Transfer<D> for Apic {
     type Receives = Moments<D>;
 
     fn attach(&self, particles: &mut Particles<D>) {
-        particles
-            .affine
-            .resize(particles.position.len(), SMatrix::zeros());
+        particles.affine.resize(particles.position.len(), SMatrix::zeros());
     }
 
     #[inline(always)]
@@ -119,10 +114,7 @@ impl<const D: usize> Transfer<D> for Apic {
         affine: Option<&[SMatrix<f64, D, D>; EIGHT]>,
     ) -> Affine<D, S> {
         let arms = lattice.arms(functions, x);
-        let mut gives = Affine {
-            arms: arms.map(|arms| arms.map(Eight::to_array)),
-            ..Affine::default()
-        };
+        let mut gives = Affine { arms: arms.map(|arms| arms.map(Eight::to_array)), ..Affine::default() };
         if let Some(affine) = affine {
             let (moment, affine) = (second_moment(functions, &arms), matrix_entries(affine));
             let smallest = Eight::splat(SINGULAR * lattice.grid.h * lattice.grid.h);

@@ -27,12 +27,7 @@ impl Flip {
     /// # Errors
     /// `eta` outside [0, 1].
     pub fn new(eta: f64) -> Result<Self, Error> {
-        require(
-            (0.0..=1.0).contains(&eta),
-            "PIC/FLIP blend",
-            eta,
-            "from 0 (PIC) to 1 (FLIP)",
-        )?;
+        require((0.0..=1.0).contains(&eta), "PIC/FLIP blend", eta, "from 0 (PIC) to 1 (FLIP)")?;
         Ok(Self { eta })
     }
 

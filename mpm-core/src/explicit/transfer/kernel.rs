@@ -24,12 +24,7 @@ pub struct Given<const D: usize> {
 
 impl<const D: usize> Default for Given<D> {
     fn default() -> Self {
-        Self {
-            momentum: [[0.0; EIGHT]; D],
-            mass: [0.0; EIGHT],
-            flux: [[[0.0; EIGHT]; D]; D],
-            external: None,
-        }
+        Self { momentum: [[0.0; EIGHT]; D], mass: [0.0; EIGHT], flux: [[[0.0; EIGHT]; D]; D], external: None }
     }
 }
 
@@ -133,11 +128,7 @@ pub struct Received<const D: usize> {
 
 impl<const D: usize> Default for Received<D> {
     fn default() -> Self {
-        Self {
-            velocity: [[0.0; EIGHT]; D],
-            increment: [[0.0; EIGHT]; D],
-            gradient: [[[0.0; EIGHT]; D]; D],
-        }
+        Self { velocity: [[0.0; EIGHT]; D], increment: [[0.0; EIGHT]; D], gradient: [[[0.0; EIGHT]; D]; D] }
     }
 }
 

@@ -47,10 +47,7 @@ impl<const D: usize> Transfer<D> for Musl {
         nodes: &[NodalState],
         held: &[Prescribed],
     ) -> u64 {
-        self.sweep.begin(nodes, |node| NodalState {
-            motion: node.change,
-            change: Node::ZERO,
-        });
+        self.sweep.begin(nodes, |node| NodalState { motion: node.change, change: Node::ZERO });
         self.sweep.there_and_back(lattice, particles, slabs);
         let Sweep { nodes: own, mapped } = &mut self.sweep;
         for ((own, mapped), node) in own.iter_mut().zip(mapped).zip(nodes) {

@@ -38,35 +38,27 @@ impl Sweep {
         let (x, mass) = (&particles.position, &particles.mass);
         let nodes = &self.nodes;
         self.mapped.fill(Node::ZERO);
-        scatter(
-            &mut self.mapped,
-            lattice.plane(),
-            slabs,
-            |slab, mapped, origin| {
-                let mass = &mass[slab.clone()];
-                let x = Eights::of(&x[slab]);
-                let mut stencils = Stencils::on(lattice);
-                for k in 0..blocks(mass.len()) {
-                    x.fetch(k + AHEAD);
-                    let functions = lattice.functions(&components(x.at(k)), &particles.half_size);
-                    lattice.stencils(&functions, &mut stencils);
-                    for l in 0..entries(mass.len(), k) {
-                        let sum = mapped_velocity(stencils.at(l), nodes) * mass[k * EIGHT + l];
-                        add_momentum(stencils.at(l), sum, mapped, origin);
-                    }
+        scatter(&mut self.mapped, lattice.plane(), slabs, |slab, mapped, origin| {
+            let mass = &mass[slab.clone()];
+            let x = Eights::of(&x[slab]);
+            let mut stencils = Stencils::on(lattice);
+            for k in 0..blocks(mass.len()) {
+                x.fetch(k + AHEAD);
+                let functions = lattice.functions(&components(x.at(k)), &particles.half_size);
+                lattice.stencils(&functions, &mut stencils);
+                for l in 0..entries(mass.len(), k) {
+                    let sum = mapped_velocity(stencils.at(l), nodes) * mass[k * EIGHT + l];
+                    add_momentum(stencils.at(l), sum, mapped, origin);
                 }
-            },
-        );
+            }
+        });
         lattice.fold(&mut self.mapped);
     }
 }
 
 /// Σ_i w_ip u_i.
 #[inline(always)]
-fn mapped_velocity<const D: usize, const S: usize>(
-    stencil: StencilRef<'_, D, S>,
-    nodes: &[NodalState],
-) -> Node {
+fn mapped_velocity<const D: usize, const S: usize>(stencil: StencilRef<'_, D, S>, nodes: &[NodalState]) -> Node {
     let (last, stride) = (stencil.last(), stencil.stride());
     let (lines, rows) = Stencil::<D, S>::OUTER;
     let mut sum = Node::ZERO;

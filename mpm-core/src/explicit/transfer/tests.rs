@@ -65,12 +65,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
         let lattice = Lattice::new(grid, wall);
         let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
         particles.permute(&order);
-        Self {
-            nodes: vec![NodalState::default(); lattice.len()],
-            lattice,
-            particles,
-            slabs,
-        }
+        Self { nodes: vec![NodalState::default(); lattice.len()], lattice, particles, slabs }
     }
 
     /// Particles at the given shares of the axes' lengths, with masses between ½ and 1.5.
@@ -78,10 +73,8 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
         let mut axes = [Axis::bounded(-1.0, 5, (Side::Wall, Side::Open)); D];
         axes[D - 1] = Axis::walls(0.5, 4);
         let grid = Grid::new(H, axes).unwrap();
-        let positions = shares
-            .iter()
-            .map(|s| std::array::from_fn(|a| axes[a].lo + s[a] * (axes[a].hi(H) - axes[a].lo)))
-            .collect();
+        let positions =
+            shares.iter().map(|s| std::array::from_fn(|a| axes[a].lo + s[a] * (axes[a].hi(H) - axes[a].lo))).collect();
         let mut frozen = Self::new(grid, wall, positions);
         for (m, s) in frozen.particles.mass.iter_mut().zip(shares) {
             *m = 0.5 + s[0];
@@ -93,26 +86,21 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
         transfer.attach(&mut self.particles);
         let (lattice, p) = (&self.lattice, &self.particles);
         self.nodes.fill(NodalState::default());
-        scatter(
-            &mut self.nodes,
-            lattice.plane(),
-            &self.slabs,
-            |slab, nodes, origin| {
-                for k in slab {
-                    let x = eight_times(&p.position[k]);
-                    let functions = lattice.functions(&x, &p.half_size);
-                    let mut stencils = Stencils::on(lattice);
-                    lattice.stencils(&functions, &mut stencils);
-                    let (mass, volume) = (Eight::splat(p.mass[k]), Eight::splat(p.volume[k]));
-                    let mut given = Given::default();
-                    let stress = SymmetricTensor::pack(|_| p.stress[k]);
-                    given.set(mass, &eight_times(&p.velocity[k]), volume, &stress, None);
-                    let affine = p.affine.get(k).map(|affine| [*affine; EIGHT]);
-                    let gives = transfer.give(lattice, &functions, &x, mass, affine.as_ref());
-                    transfer.particle_to_grid(stencils.at(3), &given, &gives, nodes, origin);
-                }
-            },
-        );
+        scatter(&mut self.nodes, lattice.plane(), &self.slabs, |slab, nodes, origin| {
+            for k in slab {
+                let x = eight_times(&p.position[k]);
+                let functions = lattice.functions(&x, &p.half_size);
+                let mut stencils = Stencils::on(lattice);
+                lattice.stencils(&functions, &mut stencils);
+                let (mass, volume) = (Eight::splat(p.mass[k]), Eight::splat(p.volume[k]));
+                let mut given = Given::default();
+                let stress = SymmetricTensor::pack(|_| p.stress[k]);
+                given.set(mass, &eight_times(&p.velocity[k]), volume, &stress, None);
+                let affine = p.affine.get(k).map(|affine| [*affine; EIGHT]);
+                let gives = transfer.give(lattice, &functions, &x, mass, affine.as_ref());
+                transfer.particle_to_grid(stencils.at(3), &given, &gives, nodes, origin);
+            }
+        });
         lattice.fold(&mut self.nodes);
         for node in &mut self.nodes {
             let mass = node.mass();
@@ -125,15 +113,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
         let p = &mut self.particles;
         for k in 0..p.position.len() {
             let (v, b) = (&mut p.velocity[k], p.affine.get_mut(k));
-            receive(
-                transfer,
-                lattice,
-                &p.position[k],
-                &p.half_size,
-                &self.nodes,
-                v,
-                b,
-            );
+            receive(transfer, lattice, &p.position[k], &p.half_size, &self.nodes, v, b);
         }
     }
 
@@ -171,8 +151,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
             for a in 0..D {
                 linear[a] += p.mass[k] * p.velocity[k][a];
                 for b in 0..D {
-                    let orbit =
-                        p.position[k][a] * p.velocity[k][b] - p.position[k][b] * p.velocity[k][a];
+                    let orbit = p.position[k][a] * p.velocity[k][b] - p.position[k][b] * p.velocity[k][a];
                     let spin = affine.map_or(0.0, |m| m[(b, a)] - m[(a, b)]);
                     angular[(a, b)] += p.mass[k] * (orbit + spin);
                 }
@@ -202,9 +181,7 @@ fn affine_field_survives<const D: usize, const S: usize, B: Basis<S>>(
     let mut frozen = Frozen::<D, S, B>::scattered(wall, shares);
     let gradient = SMatrix::<f64, D, D>::from_fn(|a, b| numbers[3 * a + b]);
     let field = |x: &[f64; D]| -> [f64; D] {
-        std::array::from_fn(|a| {
-            numbers[9 + a] + (0..D).map(|b| gradient[(a, b)] * x[b]).sum::<f64>()
-        })
+        std::array::from_fn(|a| numbers[9 + a] + (0..D).map(|b| gradient[(a, b)] * x[b]).sum::<f64>())
     };
     let moments: Vec<SMatrix<f64, D, D>> = (0..shares.len())
         .map(|k| {
@@ -230,24 +207,16 @@ fn affine_field_survives<const D: usize, const S: usize, B: Basis<S>>(
 }
 
 /// Any velocities and moments B = C D, decided by the shares.
-fn stir<const D: usize, const S: usize, B: Basis<S>>(
-    frozen: &mut Frozen<D, S, B>,
-    shares: &[[f64; 3]],
-) {
+fn stir<const D: usize, const S: usize, B: Basis<S>>(frozen: &mut Frozen<D, S, B>, shares: &[[f64; 3]]) {
     for (k, s) in shares.iter().enumerate() {
         let d = frozen.spread_of(k);
         let p = &mut frozen.particles;
         p.velocity[k] = std::array::from_fn(|a| (9.0 * s[a] + 40.0 * s[2 - a]).sin());
-        p.affine.push(SMatrix::from_fn(|a, b| {
-            d[b] * (7.0 * s[a] - 30.0 * s[b] + a as f64).cos()
-        }));
+        p.affine.push(SMatrix::from_fn(|a, b| d[b] * (7.0 * s[a] - 30.0 * s[b] + a as f64).cos()));
     }
 }
 
-fn transfers_conserve<const D: usize, const S: usize, B: Basis<S>>(
-    wall: WallTreatment,
-    shares: &[[f64; 3]],
-) {
+fn transfers_conserve<const D: usize, const S: usize, B: Basis<S>>(wall: WallTreatment, shares: &[[f64; 3]]) {
     let scale = shares.len() as f64;
     // APIC: linear and angular momentum to the grid and back; total energy falls on either way.
     let mut frozen = Frozen::<D, S, B>::scattered(wall, shares);
@@ -276,10 +245,7 @@ fn transfers_conserve<const D: usize, const S: usize, B: Basis<S>>(
         for (p, q) in linear.iter().zip(frozen.momenta().0) {
             assert!((p - q).abs() < ROUNDING * scale, "momentum");
         }
-        (
-            frozen.particles.kinetic_energy() + frozen.affine_energy(),
-            frozen.nodal_energy(),
-        )
+        (frozen.particles.kinetic_energy() + frozen.affine_energy(), frozen.nodal_energy())
     };
     let (flip, nodal) = after(&mut |f| f.transfer(&mut Flip::default()));
     let (pic, _) = after(&mut |f| f.transfer(&mut Flip::new(0.0).unwrap()));
@@ -351,9 +317,7 @@ fn factor<const S: usize, B: Basis<S>>(n: usize, k: f64, transfer: &mut impl Tra
     let cells = 12;
     let grid = Grid::new(H, [Axis::periodic(0.0, cells)]).unwrap();
     let spacing = H / n as f64;
-    let positions = (0..cells * n)
-        .map(|p| [(p as f64 + 0.5) * spacing])
-        .collect();
+    let positions = (0..cells * n).map(|p| [(p as f64 + 0.5) * spacing]).collect();
     let mut frozen = Frozen::<1, S, B>::new(grid, WallTreatment::OpenKnot, positions);
     let mut wave = vec![0.0; frozen.lattice.len()];
     let lattice = &frozen.lattice;
@@ -368,8 +332,7 @@ fn factor<const S: usize, B: Basis<S>>(n: usize, k: f64, transfer: &mut impl Tra
     let before = frozen.particles.velocity.clone();
     frozen.transfer(transfer);
     let after = &frozen.particles.velocity;
-    let product =
-        |a: &[[f64; 1]], b: &[[f64; 1]]| -> f64 { a.iter().zip(b).map(|(a, b)| a[0] * b[0]).sum() };
+    let product = |a: &[[f64; 1]], b: &[[f64; 1]]| -> f64 { a.iter().zip(b).map(|(a, b)| a[0] * b[0]).sum() };
     let factor = product(after, &before) / product(&before, &before);
     for (a, b) in after.iter().zip(&before) {
         assert!((a[0] - factor * b[0]).abs() < ROUNDING, "not a mode");
@@ -431,8 +394,7 @@ fn what_no_node_sees_flip_keeps_and_every_other_transfer_removes() {
 #[test]
 fn xpic_moves_a_particle_with_the_mean_of_its_velocities_and_not_through_a_wall() {
     let grid = Grid::new(H, [Axis::walls(0.0, 8)]).unwrap();
-    let mut frozen =
-        Frozen::<1, 3, QuadraticBSpline>::new(grid, WallTreatment::OpenKnot, vec![[0.0]]);
+    let mut frozen = Frozen::<1, 3, QuadraticBSpline>::new(grid, WallTreatment::OpenKnot, vec![[0.0]]);
     frozen.particles.velocity[0] = [-1.0];
     let lattice = &frozen.lattice;
     let stencil = lattice.stencil(&[0.0], &[0.25 * H]);
@@ -440,15 +402,8 @@ fn xpic_moves_a_particle_with_the_mean_of_its_velocities_and_not_through_a_wall(
     // The node on the wall as mapped, −1, then held: velocity 0, change 1.
     frozen.nodes[wall].motion = Node::from([0.0, 0.0, 0.0, 0.1]);
     frozen.nodes[wall].change = Node::from([1.0, 0.0, 0.0, 0.0]);
-    let held = [Prescribed {
-        node: wall,
-        axis: 0,
-        velocity: 0.0,
-        full_velocity: 0.0,
-        bound: Bound::Equal,
-        force: 0.0,
-        by: 0,
-    }];
+    let held =
+        [Prescribed { node: wall, axis: 0, velocity: 0.0, full_velocity: 0.0, bound: Bound::Equal, force: 0.0, by: 0 }];
     let mut xpic = Xpic::new(1).unwrap();
     let (particles, slabs, nodes) = (&frozen.particles, &frozen.slabs, &frozen.nodes);
     assert_eq!(xpic.prepare(lattice, particles, slabs, nodes, &held), 0);

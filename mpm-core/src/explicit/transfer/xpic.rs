@@ -49,16 +49,8 @@ impl Xpic {
     /// # Errors
     /// An order outside 1..=5.
     pub fn new(order: u32) -> Result<Self, Error> {
-        require(
-            (1..=MAX_ORDER).contains(&order),
-            "order of XPIC",
-            f64::from(order),
-            "from 1 (PIC) to 5",
-        )?;
-        Ok(Self {
-            order,
-            sweep: Sweep::default(),
-        })
+        require((1..=MAX_ORDER).contains(&order), "order of XPIC", f64::from(order), "from 1 (PIC) to 5")?;
+        Ok(Self { order, sweep: Sweep::default() })
     }
 }
 
@@ -80,10 +72,7 @@ impl<const D: usize> Transfer<D> for Xpic {
         self.sweep.begin(nodes, |node| {
             let mut before = node.motion - node.change;
             before.as_mut_array()[3] = 0.0;
-            NodalState {
-                motion: before,
-                change: before,
-            }
+            NodalState { motion: before, change: before }
         });
         for _ in 1..self.order {
             self.sweep.there_and_back(lattice, particles, slabs);

@@ -117,10 +117,7 @@ fn a_block_bounces_on_the_barrier_and_keeps_its_energy() {
 
 #[test]
 fn a_block_bounces_with_newmark_too() {
-    let rule = TimeRule::Newmark {
-        alpha: 0.25,
-        delta: 0.5,
-    };
+    let rule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
     assert!(bounced(rule, 2e-3) < 0.1);
 }
 
@@ -163,21 +160,14 @@ fn rests<const D: usize, I: Interpolation<2>, M: Law>(law: M, remedy: Remedy) {
     let each = weight / (2 * CELLS) as f64;
     let contact = floor(&scene.body.particles, 0.5 * DISTANCE, each);
     let rollers = [End::Lo, End::Hi].map(|end| Wall::new(0, end, WallKind::Roller));
-    let scene = scene
-        .constrain_all(rollers)
-        .contact(contact)
-        .load(Gravity(Box::new(|_| [0.0, -1.0])));
-    let settings = Settings::new(1.0)
-        .remedy(remedy)
-        .stabilised(Stabilisation::Ghost(0.01));
+    let scene = scene.constrain_all(rollers).contact(contact).load(Gravity(Box::new(|_| [0.0, -1.0])));
+    let settings = Settings::new(1.0).remedy(remedy).stabilised(Stabilisation::Ghost(0.01));
     let mut solver = Solver::<2, I, M>::new(scene, settings).unwrap();
     solver.step().unwrap();
     let force = solver.on(Part::Contact(0)).force;
     assert!((force[1] + weight).abs() < 1e-8 * weight, "{force:?}");
     assert_eq!(force[0], 0.0);
-    let sides: f64 = (0..2)
-        .map(|k| solver.on(Part::Constraint(k)).force[1])
-        .sum();
+    let sides: f64 = (0..2).map(|k| solver.on(Part::Constraint(k)).force[1]).sum();
     assert_eq!(sides, 0.0);
     let contact = &solver.scene.contacts[0];
     let gaps = solver.particles().position.iter();

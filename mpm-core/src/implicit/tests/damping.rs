@@ -16,12 +16,7 @@ struct Swing {
 impl Swing {
     fn new(damping: f64, dt: f64) -> Self {
         let (now, unsolved) = ([0.0, 0.0, 1.0], 0);
-        Self {
-            damping,
-            dt,
-            now,
-            unsolved,
-        }
+        Self { damping, dt, now, unsolved }
     }
 
     /// F at the end of an increment.
@@ -41,9 +36,8 @@ impl Swing {
     fn inside(&mut self) {
         let [_, v, a] = self.now;
         let (stiffness, push) = (4.0 / self.dt.powi(2), 4.0 * v / self.dt + a);
-        let solution = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
-            .into_iter()
-            .find_map(|(forward, pulled)| {
+        let solution =
+            [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].into_iter().find_map(|(forward, pulled)| {
                 let share = 1.0 - self.damping * forward * pulled;
                 let x = (share * self.force(0.0) + push) / (stiffness + share);
                 let velocity = 2.0 * x / self.dt - v;
@@ -85,10 +79,7 @@ fn damping_inside_a_step_leaves_steps_without_a_solution() {
 #[test]
 fn damping_by_the_step_before_does_not_come_to_rest() {
     let [short, middle, long] = [1.0, 10.0, 100.0].map(|dt| sixty(dt, Swing::lagged).1);
-    assert!(
-        short < 1e-2 && middle > 100.0 && long > 1.0,
-        "{short} {middle} {long}"
-    );
+    assert!(short < 1e-2 && middle > 100.0 && long > 1.0, "{short} {middle} {long}");
 }
 
 #[test]

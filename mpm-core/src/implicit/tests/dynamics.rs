@@ -4,10 +4,7 @@ use super::*;
 use crate::stage::{Gravity, RigidNodes, smooth_rise};
 
 const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.05 };
-const NEWMARK: TimeRule = TimeRule::Newmark {
-    alpha: 0.25,
-    delta: 0.5,
-};
+const NEWMARK: TimeRule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
 /// A wave crosses a cell in 25 ms.
 const DT: f64 = 0.01;
 
@@ -18,10 +15,7 @@ fn tumbling<M: Law>(law: M) -> Scene<2, M> {
     let p = &mut scene.body.particles;
     for k in 0..p.len() {
         let [x, y] = p.position[k];
-        p.velocity[k] = [
-            0.3 - 0.8 * (y - CENTRE) + 0.5 * (x - CENTRE),
-            0.1 + 1.1 * (x - CENTRE),
-        ];
+        p.velocity[k] = [0.3 - 0.8 * (y - CENTRE) + 0.5 * (x - CENTRE), 0.1 + 1.1 * (x - CENTRE)];
         p.position[k] = [x + shift, y + shift];
         p.reference[k] = p.position[k];
     }
@@ -96,10 +90,7 @@ fn a_body_falls_freely() {
         for ((x0, x), v) in p.reference.iter().zip(&p.position).zip(&p.velocity) {
             let fallen = x[1] - (x0[1] + 3.0 * H);
             assert!((fallen + 0.5 * 9.81 * time * time).abs() < 1e-9, "{rule:?}");
-            assert!(
-                (v[1] + 9.81 * time).abs() < 1e-9 && v[0].abs() < 1e-9,
-                "{rule:?}"
-            );
+            assert!((v[1] + 9.81 * time).abs() < 1e-9 && v[0].abs() < 1e-9, "{rule:?}");
         }
     }
 }
@@ -109,11 +100,7 @@ fn a_body_falls_freely() {
 fn what_is_held_moves_as_it_is_told_at_every_time() {
     const SPEED: f64 = 0.3;
     let ramp = 6.0 * DT;
-    let plate = RigidNodes {
-        extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2],
-        velocity: [Some(SPEED), None],
-        ramp,
-    };
+    let plate = RigidNodes { extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2], velocity: [Some(SPEED), None], ramp };
     let mut scene = tumbling(rubber());
     scene.body.particles.velocity.fill([0.0; 2]);
     let settings = Settings::new(DT).rule(MIDPOINT);
@@ -133,10 +120,7 @@ fn swinging() -> Scene<2, NeoHookean> {
     let mut scene = full::<2, _>(CELLS, Places::Uniform, rubber());
     let p = &mut scene.body.particles;
     for (x, v) in p.position.iter().zip(&mut p.velocity) {
-        *v = [
-            0.1 * (std::f64::consts::PI * x[0] / (H * CELLS as f64)).sin(),
-            0.0,
-        ];
+        *v = [0.1 * (std::f64::consts::PI * x[0] / (H * CELLS as f64)).sin(), 0.0];
     }
     let roller = |axis, end| Wall::new(axis, end, WallKind::Roller);
     let ends = [0, 1].map(|axis| [roller(axis, End::Lo), roller(axis, End::Hi)]);
@@ -145,9 +129,7 @@ fn swinging() -> Scene<2, NeoHookean> {
 
 /// Positions of the box's particles after 0.08 s in this number of steps, in seeding order.
 fn swung(rule: TimeRule, steps: u32) -> Vec<[f64; 2]> {
-    let settings = Settings::new(0.08 / f64::from(steps))
-        .rule(rule)
-        .tolerance(1e-12);
+    let settings = Settings::new(0.08 / f64::from(steps)).rule(rule).tolerance(1e-12);
     let mut solver = Solver::<2, Quadratics<2>, _>::new(swinging(), settings).unwrap();
     solver.advance(steps as usize).unwrap();
     let p = solver.particles();

@@ -14,26 +14,18 @@ pub(super) const MASS: f64 = 1e3 * (H * CELLS as f64) * (H * CELLS as f64);
 const EACH: f64 = MASS / (2 * CELLS) as f64;
 pub(super) const TOLERANCE: f64 = 1e-12;
 pub(super) const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.1 };
-pub(super) const NEWMARK: TimeRule = TimeRule::Newmark {
-    alpha: 0.25,
-    delta: 0.5,
-};
+pub(super) const NEWMARK: TimeRule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
 
 type Block = Solver<2, Quadratics<2>, NeoHookean>;
 
 /// K is the slope of the forces of sticks that were stretched before, so far that no trial changes what they do: all
 /// particles that touch do the same.
-fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law>(
-    law: M,
-    remedy: Remedy,
-    friction: Friction,
-) {
+fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law>(law: M, remedy: Remedy, friction: Friction) {
     let mut solver = strained::<D, I, M>(law, remedy);
     let face = RigidFace::half_space(D - 1, End::Lo, 0.0).unwrap();
     let particles = &solver.scene.body.particles;
     let barrier = Barrier::carrying(1e3, 0.5 * H).unwrap();
-    let mut contact =
-        RigidContact::new(face.touching(particles, 0.2 * H), barrier).with_friction(friction);
+    let mut contact = RigidContact::new(face.touching(particles, 0.2 * H), barrier).with_friction(friction);
     contact.attach(particles.len());
     let along = [0.2 * H, -0.1 * H];
     let before = std::array::from_fn(|a| if a == D - 1 { 0.0 } else { along[a] });
@@ -87,12 +79,8 @@ pub(super) fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Se
     let contact = floor(&scene.body.particles, 0.5 * DISTANCE, EACH);
     let friction = friction(stick(contact.barrier()));
     let gravity = move |t: f64| [if t > 1.0 { slope } else { 0.0 }, -1.0];
-    let settings = settings
-        .stabilised(Stabilisation::Extension)
-        .tolerance(TOLERANCE);
-    let scene = scene
-        .contact(contact.with_friction(friction))
-        .load(Gravity(Box::new(gravity)));
+    let settings = settings.stabilised(Stabilisation::Extension).tolerance(TOLERANCE);
+    let scene = scene.contact(contact.with_friction(friction)).load(Gravity(Box::new(gravity)));
     Solver::new(scene, settings).unwrap()
 }
 
@@ -120,10 +108,7 @@ pub(super) fn settle(solver: &mut Block) {
 
 /// Goes on by another rule, from rest.
 fn go_on(solver: &mut Block, rule: TimeRule, dt: f64) {
-    solver.settings = Settings {
-        dt,
-        ..solver.settings.rule(rule)
-    };
+    solver.settings = Settings { dt, ..solver.settings.rule(rule) };
     let particles = &mut solver.scene.body.particles;
     particles.velocity = vec![[0.0; 2]; particles.len()];
     particles.acceleration = particles.velocity.clone();
@@ -184,10 +169,9 @@ fn slips_within_coulombs_law(solver: &Block) {
 #[test]
 fn beyond_the_angle_of_friction_a_block_slides_at_its_acceleration() {
     let slope = 2.0 * MU;
-    for (rule, stabilisation, dt, steps) in [
-        (MIDPOINT, Stabilisation::Extension, 0.02, 300),
-        (NEWMARK, Stabilisation::Ghost(0.01), 0.01, 80),
-    ] {
+    for (rule, stabilisation, dt, steps) in
+        [(MIDPOINT, Stabilisation::Extension, 0.02, 300), (NEWMARK, Stabilisation::Ghost(0.01), 0.01, 80)]
+    {
         let mut solver = resting(slope);
         go_on(&mut solver, rule, dt);
         solver.settings = solver.settings.stabilised(stabilisation);
@@ -318,8 +302,5 @@ fn friction_with_f_bar_has_to_be_rough() {
         ..full(CELLS, Places::Uniform, rubber())
     };
     let error = Block::new(scene, settings).err().unwrap().to_string();
-    assert!(
-        error.contains("friction coefficient") && error.contains("0.3"),
-        "{error}"
-    );
+    assert!(error.contains("friction coefficient") && error.contains("0.3"), "{error}");
 }

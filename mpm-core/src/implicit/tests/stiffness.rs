@@ -5,20 +5,13 @@ use crate::fixture::{apart, multiply, noise, slope};
 use nalgebra::DMatrix;
 
 /// A strained body with free faces, held at one end, on a trial of random increments.
-pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law>(
-    law: M,
-    remedy: Remedy,
-) -> Solver<D, I, M> {
-    let f = SMatrix::<f64, D, D>::from_fn(|i, j| {
-        f64::from(u8::from(i == j)) + 0.04 * noise(3 * i + j + 1)
-    });
+pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law>(law: M, remedy: Remedy) -> Solver<D, I, M> {
+    let f = SMatrix::<f64, D, D>::from_fn(|i, j| f64::from(u8::from(i == j)) + 0.04 * noise(3 * i + j + 1));
     let mut scene = full::<D, _>(CELLS, Places::Uniform, law);
     scene.body.particles = scene.body.particles.deformed(|x| (*x, f));
     scene.body = Body::new(scene.body.law, scene.body.particles).unwrap();
     let wall = Wall::new(0, End::Lo, WallKind::Fixed);
-    let settings = Settings::new(1.0)
-        .remedy(remedy)
-        .stabilised(Stabilisation::Ghost(0.01));
+    let settings = Settings::new(1.0).remedy(remedy).stabilised(Stabilisation::Ghost(0.01));
     let mut solver = Solver::new(scene.constrain(wall), settings).unwrap();
     solver.sort();
     solver
@@ -26,20 +19,13 @@ pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law>(
 
 fn random_values(count: usize, held: &[Option<f64>], size: f64, seed: usize) -> Vec<f64> {
     let free = |k: usize| {
-        if held[k].is_some() {
-            0.0
-        } else {
-            size * noise(seed + k)
-        }
+        if held[k].is_some() { 0.0 } else { size * noise(seed + k) }
     };
     (0..count).map(free).collect()
 }
 
 /// K x is what central differences of the forces along x extrapolate to, and the assembled matrix times x without F̄.
-fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
-    law: M,
-    remedy: Remedy,
-) {
+fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(law: M, remedy: Remedy) {
     slope_of_the_forces(&strained::<D, I, M>(law, remedy), remedy);
 }
 
@@ -84,29 +70,11 @@ fn ground() -> HenckyJ2 {
 #[test]
 fn stiffness_is_the_slope_of_the_forces() {
     for remedy in [Remedy::None, Remedy::FbarConsistent] {
-        every_basis!(
-            tangent_is_the_slope_of_the_forces,
-            1,
-            NeoHookean::new(YOUNG, POISSON).unwrap(),
-            remedy
-        );
-        every_basis!(
-            tangent_is_the_slope_of_the_forces,
-            2,
-            NeoHookean::new(YOUNG, 0.49).unwrap(),
-            remedy
-        );
-        every_basis!(
-            tangent_is_the_slope_of_the_forces,
-            2,
-            Hencky::new(YOUNG, POISSON).unwrap(),
-            remedy
-        );
+        every_basis!(tangent_is_the_slope_of_the_forces, 1, NeoHookean::new(YOUNG, POISSON).unwrap(), remedy);
+        every_basis!(tangent_is_the_slope_of_the_forces, 2, NeoHookean::new(YOUNG, 0.49).unwrap(), remedy);
+        every_basis!(tangent_is_the_slope_of_the_forces, 2, Hencky::new(YOUNG, POISSON).unwrap(), remedy);
         tangent_is_the_slope_of_the_forces::<2, Quadratics<2>, _>(ground(), remedy);
-        tangent_is_the_slope_of_the_forces::<3, Means<3>, _>(
-            Hencky::new(YOUNG, POISSON).unwrap(),
-            remedy,
-        );
+        tangent_is_the_slope_of_the_forces::<3, Means<3>, _>(Hencky::new(YOUNG, POISSON).unwrap(), remedy);
     }
     for update in [JaumannUpdate::Split, JaumannUpdate::Linear] {
         let law = Hypoelastic::new(YOUNG, POISSON, update).unwrap();
@@ -152,11 +120,7 @@ fn stiffness_is_symmetric_where_there_is_a_potential() {
 /// Pressures of nodes that are eliminated from what preconditions, Eq. (13), resist a strain that is alike everywhere
 /// as the average does, except for the share that is kept where averages see nothing.
 fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D>>() {
-    let scene = full::<D, _>(
-        CELLS,
-        Places::Uniform,
-        NeoHookean::new(YOUNG, 0.49).unwrap(),
-    );
+    let scene = full::<D, _>(CELLS, Places::Uniform, NeoHookean::new(YOUNG, 0.49).unwrap());
     let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
     let solver = Solver::<D, I, _>::new(scene.constrain(wall), settings).unwrap();
@@ -194,9 +158,7 @@ fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D
         })
         .collect();
     let product = multiply(pattern, &values, &with_pressures(&pressures));
-    let forces: Vec<f64> = (0..x.len())
-        .map(|k| product[k / D * width + k % D])
-        .collect();
+    let forces: Vec<f64> = (0..x.len()).map(|k| product[k / D * width + k % D]).collect();
     let excess = energy(&forces) / exact - 1.0;
     let kept = average::UNSEEN.powi(2) * (1.0 + 1e-9);
     assert!((-1e-9..=kept).contains(&excess), "{excess}");

@@ -1,9 +1,7 @@
 //! One run goes on with the body of another: sticks go along, what is excavated is gone, and what rests begins to move.
 
 use super::contact::{floor, rubber};
-use super::friction::{
-    MASS, MIDPOINT, MU, NEWMARK, TOLERANCE, block, coulomb, places, settle, stick,
-};
+use super::friction::{MASS, MIDPOINT, MU, NEWMARK, TOLERANCE, block, coulomb, places, settle, stick};
 use super::*;
 use crate::grid::Side;
 use crate::simulation::Part;
@@ -21,10 +19,7 @@ fn a_block_that_rests_on_its_sticks_rests_in_the_next_run() {
         let mut next = block(0.9 * MU, coulomb, Settings::new(0.02).rule(rule));
         next.ledger.time = first.ledger.time;
         next.take_over(&body).unwrap();
-        assert_eq!(
-            next.scene.contacts[0].sticks(),
-            first.scene.contacts[0].sticks()
-        );
+        assert_eq!(next.scene.contacts[0].sticks(), first.scene.contacts[0].sticks());
         next.advance(steps).unwrap();
         let stiffness = 8.0 * stick(next.scene.contacts[0].barrier());
         let bound = steps as f64 * TOLERANCE * MASS / stiffness;
@@ -51,9 +46,7 @@ fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2, Means<2>, NeoHooke
         .constrain_all(rollers)
         .load(Gravity(Box::new(|_| [0.0, -1.0])));
     let scene = if lies { scene.contact(contact) } else { scene };
-    let settings = Settings::new(1.0)
-        .rule(rule)
-        .stabilised(Stabilisation::Ghost(0.01));
+    let settings = Settings::new(1.0).rule(rule).stabilised(Stabilisation::Ghost(0.01));
     Solver::new(scene, settings).unwrap()
 }
 
@@ -72,10 +65,7 @@ fn what_is_excavated_is_gone_and_the_rest_stays_as_it_was() {
     assert_eq!(kept.len(), 40);
     let stress = all.seeded(|k| all.stress[k]);
     assert_eq!(kept.seeded(|k| kept.stress[k]), stress[..40]);
-    assert_eq!(
-        kept.seeded(|k| kept.position[k]),
-        all.seeded(|k| all.position[k])[..40]
-    );
+    assert_eq!(kept.seeded(|k| kept.position[k]), all.seeded(|k| all.position[k])[..40]);
     cut.step().unwrap();
     let force = cut.on(Part::Contact(0)).force[1];
     assert!((force / weight(&cut) + 1.0).abs() < 1e-8, "{force}");
@@ -88,10 +78,7 @@ fn a_body_of_fewer_particles_is_refused() {
     let few = pile(5, TimeRule::Static, true);
     let mut many = pile(8, TimeRule::Static, true);
     let error = many.take_over(&few.body().unwrap()).unwrap_err();
-    assert!(
-        error.to_string().contains("40 in the saved state, 64"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("40 in the saved state, 64"), "{error}");
     let hand_over = Saved::of(&(few.scene.body.save().unwrap(), 7_u8)).unwrap();
     assert!(many.take_over(&hand_over).is_err());
 }
@@ -124,12 +111,8 @@ fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>, Hencky
     let rollers = [0, 1].map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));
     let rises = rule == TimeRule::Static;
     let gravity = move |time: f64| [0.0, if rises { time } else { 1.0 }];
-    let scene = filled(axes, CELLS, Places::Uniform, law)
-        .constrain_all(rollers)
-        .load(Gravity(Box::new(gravity)));
-    let settings = Settings::new(dt)
-        .rule(rule)
-        .stabilised(Stabilisation::Ghost(0.01));
+    let scene = filled(axes, CELLS, Places::Uniform, law).constrain_all(rollers).load(Gravity(Box::new(gravity)));
+    let settings = Settings::new(dt).rule(rule).stabilised(Stabilisation::Ghost(0.01));
     Solver::new(scene, settings).unwrap()
 }
 
@@ -143,10 +126,7 @@ fn clay_beyond_its_strength_is_told_and_moves_on_from_its_last_equilibrium() {
     let strength = 150.0;
     let mut still = hanging(strength, TimeRule::Static, 1.0);
     let error = still.step().unwrap_err();
-    assert!(
-        error.to_string().contains("no equilibrium found beyond"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("no equilibrium found beyond"), "{error}");
     let (carried, mass) = (still.time(), still.totals().mass);
     let share = carried * 1000.0 / strength;
     assert!(2.0 * 0.99 < share && share < 4.0 * 1.01, "{share}");

@@ -152,10 +152,7 @@ impl CamClay {
             return None;
         }
         let yields = value;
-        let mut bracket = Bracket {
-            low: T::default(),
-            high: number(f64::MAX),
-        };
+        let mut bracket = Bracket { low: T::default(), high: number(f64::MAX) };
         for _ in 0..MOST_STEPS {
             if !(value.abs() - number(ACCURACY)).any_positive() {
                 break;
@@ -173,9 +170,6 @@ impl CamClay {
         // Without convergence there is no stress.
         let missed = value.abs() - number(LOOSE);
         volume = missed.if_positive(number(f64::NAN), volume);
-        Some(End {
-            volume: yields.if_positive(volume, trial.volume),
-            shear_remains: yields.if_positive(remains, one),
-        })
+        Some(End { volume: yields.if_positive(volume, trial.volume), shear_remains: yields.if_positive(remains, one) })
     }
 }

@@ -51,19 +51,15 @@ fn stretches(axes: [f64; 3]) -> Matrix3<f64> {
 /// Paths of many steps, and some of a step or two by a tenth.
 fn increments() -> impl Strategy<Value = Vec<Matrix3<f64>>> {
     let path = |size: f64, steps: usize| {
-        let increment = prop::array::uniform9(-size..size)
-            .prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a));
+        let increment =
+            prop::array::uniform9(-size..size).prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a));
         prop::collection::vec(increment, 1..steps)
     };
     prop_oneof![path(3e-3, 30), path(0.02, 6), path(0.1, 3)]
 }
 
 /// The plastic strain of a step, tension positive: what the elastic trial strain is more than the elastic strain.
-fn plastic_step(
-    before: &CamClayState,
-    increment: &Matrix3<f64>,
-    after: &CamClayState,
-) -> Matrix3<f64> {
+fn plastic_step(before: &CamClayState, increment: &Matrix3<f64>, after: &CamClayState) -> Matrix3<f64> {
     let trial = before.elastic.push_forward(increment).ln().to_matrix();
     (trial - after.elastic.ln().to_matrix()) * 0.5
 }
@@ -150,8 +146,8 @@ fn flow_is_associated_for_the_ellipse_alone() {
             let shear = (flow[(1, 1)] - flow[(0, 0)]) * 2.0 / 3.0;
             assert!(shear > 0.01);
             let normal = gradient(&law, stresses(&law, &state));
-            let angle = (compression * normal[1] - shear * normal[0])
-                / (compression.hypot(shear) * normal[0].hypot(normal[1]));
+            let angle =
+                (compression * normal[1] - shear * normal[0]) / (compression.hypot(shear) * normal[0].hypot(normal[1]));
             let associated = (alpha, gamma) == (1.0, 1.0);
             // Differences of a quadratic function are exact, of the others nearly so.
             assert_eq!(angle.abs() < 1e-8, associated, "{alpha} {gamma}: {angle}");
@@ -164,10 +160,8 @@ fn flow_is_associated_for_the_ellipse_alone() {
 fn the_return_finds_its_end_from_anywhere() {
     for (alpha, gamma) in shapes() {
         for psi in [1e-3, 0.06, 0.5] {
-            let law = CamClay::new(elasticity(), RATIO, psi, PRECONSOLIDATION, 30e3)
-                .unwrap()
-                .shaped(alpha, gamma)
-                .unwrap();
+            let law =
+                CamClay::new(elasticity(), RATIO, psi, PRECONSOLIDATION, 30e3).unwrap().shaped(alpha, gamma).unwrap();
             for volume in [-0.6, -0.1, -1e-3, 0.0, 1e-3, 0.03] {
                 for shear in [0.0, 1e-6, 1e-3, 0.1, 2.0] {
                     let trial = Trial {
@@ -185,10 +179,7 @@ fn the_return_finds_its_end_from_anywhere() {
                     // p_c has the rounding of both strains over ψ.
                     let strains = end.volume.abs() + trial.volume.abs();
                     let allowed = 1e-12 + 4e-14 * strains / psi;
-                    assert!(
-                        off.abs() < allowed,
-                        "{alpha} {gamma} {psi} {volume} {shear}: {off}"
-                    );
+                    assert!(off.abs() < allowed, "{alpha} {gamma} {psi} {volume} {shear}: {off}");
                     assert!(end.shear_remains > 0.0 && end.shear_remains <= 1.0);
                 }
             }
@@ -256,11 +247,7 @@ fn eight_are_as_one_where_some_flow() {
         let law = clay(60e3).shaped(alpha, gamma).unwrap();
         let increment = |k: usize| {
             let size = 10.0_f64.powi(-(k as i32) / 2 - 1);
-            let mut f = stretches([
-                -size,
-                if k.is_multiple_of(3) { size } else { 0.0 },
-                0.1 * size,
-            ]);
+            let mut f = stretches([-size, if k.is_multiple_of(3) { size } else { 0.0 }, 0.1 * size]);
             f[(0, 1)] = if k.is_multiple_of(2) { size } else { 0.0 };
             f
         };
@@ -285,9 +272,7 @@ fn eight_are_as_one_where_some_flow() {
 #[test]
 fn clay_that_cannot_be_is_refused_by_name() {
     let refused = |m: f64, psi: f64, pc: f64, p: f64, name: &str| {
-        let error = CamClay::new(elasticity(), m, psi, pc, p)
-            .unwrap_err()
-            .to_string();
+        let error = CamClay::new(elasticity(), m, psi, pc, p).unwrap_err().to_string();
         assert!(error.contains(name), "{error}");
     };
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -296,13 +281,7 @@ fn clay_that_cannot_be_is_refused_by_name() {
         refused(1.0, 0.1, bad, 1.0, "preconsolidation = ");
         refused(1.0, 0.1, 2.0, bad, "initial effective pressure = ");
     }
-    refused(
-        1.0,
-        0.1,
-        2.0,
-        2.1,
-        "initial effective pressure = 2.1 is not allowed",
-    );
+    refused(1.0, 0.1, 2.0, 2.1, "initial effective pressure = 2.1 is not allowed");
     for bad in [0.0, -0.5, 1.5, f64::NAN] {
         for (alpha, gamma, name) in [(bad, 1.0, "α = "), (1.0, bad, "γ = ")] {
             let error = clay(1e3).shaped(alpha, gamma).unwrap_err().to_string();

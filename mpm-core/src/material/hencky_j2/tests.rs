@@ -43,8 +43,8 @@ fn stretches(axes: [f64; 3]) -> Matrix3<f64> {
 }
 
 fn increments() -> impl Strategy<Value = Vec<Matrix3<f64>>> {
-    let increment = prop::array::uniform9(-0.05..0.05_f64)
-        .prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a));
+    let increment =
+        prop::array::uniform9(-0.05..0.05_f64).prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a));
     prop::collection::vec(increment, 1..20)
 }
 
@@ -194,10 +194,7 @@ fn plane_strain_yields_at_the_undrained_strength() {
 fn simple_shear_flows_at_its_closed_form_and_converges_with_first_order() {
     let law = perfect();
     let stretch = KAPPA / (8.0_f64.sqrt() * law.elasticity.shear_modulus);
-    let exact = [
-        KAPPA / (2.0_f64.sqrt() * (2.0 * stretch).cosh()),
-        KAPPA * (2.0 * stretch).tanh() / 2.0_f64.sqrt(),
-    ];
+    let exact = [KAPPA / (2.0_f64.sqrt() * (2.0 * stretch).cosh()), KAPPA * (2.0 * stretch).tanh() / 2.0_f64.sqrt()];
     let errors = [2e-3, 1e-3, 5e-4].map(|step| {
         let mut increment = Matrix3::identity();
         increment[(0, 1)] = step;
@@ -220,9 +217,8 @@ fn simple_shear_flows_at_its_closed_form_and_converges_with_first_order() {
 /// of flow stays, so the return is exact for any step.
 #[test]
 fn softening_is_integrated_exactly_where_the_direction_stays() {
-    for (law, end) in [softening(), softening_linearly()]
-        .into_iter()
-        .flat_map(|law| [0.01_f64, 0.1, 1.0].map(|end| (law, end)))
+    for (law, end) in
+        [softening(), softening_linearly()].into_iter().flat_map(|law| [0.01_f64, 0.1, 1.0].map(|end| (law, end)))
     {
         let left = |plastic: f64| {
             2.0 * law.elasticity.shear_modulus * (2.0_f64.sqrt() * end - 1.5_f64.sqrt() * plastic)
@@ -260,16 +256,9 @@ fn the_slope_of_the_flow_does_not_lag() {
     // Excess from 25 times the strength down to what counts as none.
     for k in 0..350 {
         let trial = KAPPA * (1.0 + 25.0 * 0.9_f64.powi(k));
-        let flow = law.strength.flow(
-            Dual::<1>::variable(trial, 0),
-            2.0 * law.elasticity.shear_modulus,
-            Dual::splat(0.0),
-        );
-        assert_eq!(
-            flow.value,
-            law.strength
-                .flow(trial, 2.0 * law.elasticity.shear_modulus, 0.0)
-        );
+        let flow =
+            law.strength.flow(Dual::<1>::variable(trial, 0), 2.0 * law.elasticity.shear_modulus, Dual::splat(0.0));
+        assert_eq!(flow.value, law.strength.flow(trial, 2.0 * law.elasticity.shear_modulus, 0.0));
         let off = flow.slope[0] * left(PER_FLOW * flow.value) - 1.0;
         assert!(off.abs() < tolerance, "{trial}: {off}");
     }

@@ -38,10 +38,7 @@ fn tangent_is_the_slope<M: Law>(law: &M, delta_f: &Matrix3<f64>, state: &M::Stat
         let exact = (second * 16.0 - first) / 15.0;
         let uncertain = (exact - second).norm() + UNITS * f64::EPSILON * scale / (STEP / 4.0);
         let error = (slope(3 * i + j) - exact).norm();
-        assert!(
-            error <= uncertain,
-            "{i}{j}: off by {error}, known to {uncertain}"
-        );
+        assert!(error <= uncertain, "{i}{j}: off by {error}, known to {uncertain}");
     }
 }
 
@@ -50,14 +47,8 @@ fn tangent_is_the_slope<M: Law>(law: &M, delta_f: &Matrix3<f64>, state: &M::Stat
 fn special() -> Vec<Matrix3<f64>> {
     let mut shear = Matrix3::identity();
     shear[(0, 1)] = 0.7;
-    let axes = [
-        [1.0, 1.0, 1.0],
-        [1.0001, 1.0, 1.0],
-        [1.2, 1.2, 1.2],
-        [1.3, 1.3, 0.8],
-        [0.2, 1.0, 5.0],
-        [5.0, 0.2, 0.2],
-    ];
+    let axes =
+        [[1.0, 1.0, 1.0], [1.0001, 1.0, 1.0], [1.2, 1.2, 1.2], [1.3, 1.3, 0.8], [0.2, 1.0, 5.0], [5.0, 0.2, 0.2]];
     let stretched = axes.map(|a| Matrix3::from_diagonal(&Vector3::from(a)));
     stretched.into_iter().chain([shear]).collect()
 }
@@ -99,17 +90,8 @@ macro_rules! every_law_has_a_tangent {
     };
 }
 
-every_law_has_a_tangent!(
-    neo_hookean,
-    NeoHookean {
-        lambda: 5.0,
-        mu: 2.0
-    }
-);
-every_law_has_a_tangent!(
-    hencky_solid,
-    HenckyJ2::new(70.0, 0.4, Strength::perfect(1e9).unwrap()).unwrap()
-);
+every_law_has_a_tangent!(neo_hookean, NeoHookean { lambda: 5.0, mu: 2.0 });
+every_law_has_a_tangent!(hencky_solid, HenckyJ2::new(70.0, 0.4, Strength::perfect(1e9).unwrap()).unwrap());
 every_law_has_a_tangent!(hencky_law, Hencky::new(70.0, 0.4).unwrap());
 
 proptest! {
@@ -133,10 +115,7 @@ fn of_a_viscous_fluid() {
 
 #[test]
 fn of_an_artificial_viscosity() {
-    let own = NeoHookean {
-        lambda: 5.0,
-        mu: 2.0,
-    };
+    let own = NeoHookean { lambda: 5.0, mu: 2.0 };
     let law = Viscous::new(own, 1.0, 1e-3, [0.06, 1.5]).unwrap();
     let state = law.initial_state();
     let swells = |f: &Matrix3<f64>| (f.determinant() - 1.0).abs() > 1e-3;

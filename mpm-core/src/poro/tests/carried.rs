@@ -34,11 +34,7 @@ fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
     let mut acceleration = [0.0; D];
     acceleration[D - 1] = -10.0;
     let water = Water::new(POROSITY, kozeny_carman())
-        .gravity(Gravity {
-            water: 1000.0,
-            grains: 2600.0,
-            acceleration,
-        })
+        .gravity(Gravity { water: 1000.0, grains: 2600.0, acceleration })
         .start(move |x| 1e4 * (top - x[D - 1]))
         .face(face);
     let grid = Grid::new(H, [Axis::open(0.0, ALL); D]).unwrap();
@@ -62,9 +58,7 @@ fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
 fn water_at_rest_is_carried_through_the_cells() {
     let dt = H * H / (KAPPA * MODULUS);
     for pressure_space in SPACES {
-        let settings = Settings::new(dt)
-            .ghosts(0.1, 0.01)
-            .pressure_space(pressure_space);
+        let settings = Settings::new(dt).ghosts(0.1, 0.01).pressure_space(pressure_space);
         for settings in [settings, settings.ghost_on_increments(0.1)] {
             is_carried_along::<1, Means<1>>(settings);
             is_carried_along::<2, Means<2>>(settings);
@@ -116,9 +110,7 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
             let apart = (place[0] - x[0]).rem_euclid(TOP);
             (1.0 - apart.min(TOP - apart) / (2.0 * H)).max(0.0)
         };
-        let sum = |of: &dyn Fn(usize) -> f64| -> f64 {
-            (0..places.len()).map(|p| hat(&places[p]) * of(p)).sum()
-        };
+        let sum = |of: &dyn Fn(usize) -> f64| -> f64 { (0..places.len()).map(|p| hat(&places[p]) * of(p)).sum() };
         let mean = sum(&|p| volume[p] * pressure[p]) / sum(&|p| volume[p]);
         if solver.water_space.originals[node] == node {
             let error = told[node] / mean - 1.0;

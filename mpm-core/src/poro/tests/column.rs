@@ -16,9 +16,7 @@ fn one_element_consolidates_as_its_closed_form() {
     let load = 1e-6 * modulus;
     let upper = |x: &[f64; 1]| x[0] > 0.5 * H;
     let face = Face::loaded(&scene.body.particles, upper, (0, End::Hi), move |_| [-load]);
-    let water = Water::new(POROSITY, Conductivity::Constant(KAPPA))
-        .drained(|x| x[0] > 0.5 * H)
-        .face(face);
+    let water = Water::new(POROSITY, Conductivity::Constant(KAPPA)).drained(|x| x[0] > 0.5 * H).face(face);
     let dt = 0.1 * H * H / (KAPPA * modulus);
     let settings = Settings::new(dt).pressure_space(PressureSpace::Equal);
     let mut solver = Solver::<1, Hats<1>, _>::new(scene, water, settings).unwrap();
@@ -56,14 +54,10 @@ fn imbalance<const D: usize, I: OfHats<D>>(settings: Settings) -> f64 {
 fn the_exact_rate_loses_no_water() {
     let dt = 0.05 / (KAPPA * MODULUS);
     for pressure_space in SPACES {
-        let settings = Settings::new(dt)
-            .ghosts(0.1, 0.01)
-            .pressure_space(pressure_space);
+        let settings = Settings::new(dt).ghosts(0.1, 0.01).pressure_space(pressure_space);
         assert!(imbalance::<1, Means<1>>(settings) < 1e-8);
         assert!(imbalance::<2, Means<2>>(settings) < 1e-8);
-        let logarithmic = settings
-            .volume_rate(VolumeRate::Logarithmic)
-            .tangent(Tangent::Consistent);
+        let logarithmic = settings.volume_rate(VolumeRate::Logarithmic).tangent(Tangent::Consistent);
         let lost = imbalance::<1, Means<1>>(logarithmic);
         assert!(lost > 1e-4, "{lost}");
     }
@@ -73,9 +67,7 @@ fn the_exact_rate_loses_no_water() {
 #[test]
 fn a_column_is_a_bar_in_any_dimension() {
     fn settled<const D: usize, I: OfHats<D>>(space: PressureSpace) -> Vec<f64> {
-        let settings = Settings::new(0.05 / (KAPPA * MODULUS))
-            .ghosts(0.1, 0.01)
-            .pressure_space(space);
+        let settings = Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01).pressure_space(space);
         let mut solver = loaded::<D, I>(0.2 * MODULUS, settings);
         solver.advance(2).unwrap();
         let p = solver.particles();
@@ -128,15 +120,10 @@ fn newton_converges_quadratically() {
     };
     let (exact, residuals) = of(Tangent::Consistent, Predictor::Particles);
     let inner: Vec<f64> = residuals.iter().copied().filter(|r| *r > 1e-10).collect();
-    let [.., a, b, c] = inner[..] else {
-        panic!("{residuals:?}")
-    };
+    let [.., a, b, c] = inner[..] else { panic!("{residuals:?}") };
     let order = (c / b).ln() / (b / a).ln();
     assert!(order > 1.7, "{order} {residuals:?}");
-    for (tangent, predictor) in [
-        (Tangent::Symmetric, Predictor::Particles),
-        (Tangent::Consistent, Predictor::Zero),
-    ] {
+    for (tangent, predictor) in [(Tangent::Symmetric, Predictor::Particles), (Tangent::Consistent, Predictor::Zero)] {
         let (settlement, _) = of(tangent, predictor);
         assert!((settlement / exact - 1.0).abs() < 1e-9);
     }
@@ -185,9 +172,7 @@ fn pores_that_close_are_a_typed_error() {
 /// Twenty times the modulus at once, drained: an undamped correction would close the pores.
 #[test]
 fn pores_stay_open_under_any_load() {
-    let settings = Settings::new(100.0 / (KAPPA * MODULUS))
-        .ghosts(0.1, 0.01)
-        .tangent(Tangent::Consistent);
+    let settings = Settings::new(100.0 / (KAPPA * MODULUS)).ghosts(0.1, 0.01).tangent(Tangent::Consistent);
     let mut solver = loaded::<1, Means<1>>(20.0 * MODULUS, settings);
     solver.step().unwrap();
     for n in solver.field(Field::Porosity) {
@@ -206,18 +191,9 @@ fn pores_stay_open_under_any_load() {
 fn grains_settle_under_their_weight_in_water() {
     let heavier = 1600.0 * 10.0 * (1.0 - POROSITY);
     let scene = standing::<1, _>(porous(), straight);
-    let top = Face::drained(
-        &scene.body.particles,
-        topmost,
-        (0, End::Hi),
-        1e4 * KAPPA / H,
-    );
+    let top = Face::drained(&scene.body.particles, topmost, (0, End::Hi), 1e4 * KAPPA / H);
     let water = Water::new(POROSITY, kozeny_carman())
-        .gravity(Gravity {
-            water: 1000.0,
-            grains: 2600.0,
-            acceleration: [-10.0],
-        })
+        .gravity(Gravity { water: 1000.0, grains: 2600.0, acceleration: [-10.0] })
         .start(|x| 1e4 * (TOP - x[0]))
         .face(top);
     let settings = Settings {
@@ -257,9 +233,7 @@ fn nothing_is_forgotten() {
         let settings = Settings {
             pressure_space,
             growth: 1.1,
-            ..Settings::new(0.05 / (KAPPA * MODULUS))
-                .ghosts(0.1, 0.01)
-                .ghost_on_increments(0.01)
+            ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01).ghost_on_increments(0.01)
         };
         let new = || loaded::<2, Means<2>>(0.3 * MODULUS, settings);
         let mut whole = new();
@@ -317,17 +291,11 @@ fn a_start_that_is_deformed_has_deformed_domains() {
     }
     // Too long for means over a cell at most, and by so much; hats know no domain.
     let stretched = |x: &[f64; 2]| ([x[0], 0.5 * x[1]], SMatrix::from([[1.0, 0.0], [0.0, 2.2]]));
-    let begun = Solver::<2, Means<2>, _>::new(
-        standing::<2, _>(porous(), stretched),
-        water(),
-        Settings::new(1.0),
-    );
+    let begun = Solver::<2, Means<2>, _>::new(standing::<2, _>(porous(), stretched), water(), Settings::new(1.0));
     match begun.err() {
-        Some(Error::Breakdown {
-            step: 0,
-            fault: Fault::WideDomain(cells),
-            ..
-        }) => assert!((cells - 0.55).abs() < 1e-12),
+        Some(Error::Breakdown { step: 0, fault: Fault::WideDomain(cells), .. }) => {
+            assert!((cells - 0.55).abs() < 1e-12)
+        }
         other => panic!("{other:?}"),
     }
     let scene = standing::<2, _>(porous(), stretched);

@@ -5,11 +5,7 @@ use super::*;
 /// None, that of the paper, and one on increments; of displacements all have the same.
 fn ghosts(dt: f64) -> [Settings; 3] {
     let settings = Settings::new(dt).tangent(Tangent::Consistent);
-    [
-        settings.ghosts(0.1, 0.0),
-        settings.ghosts(0.1, 0.01),
-        settings.ghosts(0.1, 0.0).ghost_on_increments(0.01),
-    ]
+    [settings.ghosts(0.1, 0.0), settings.ghosts(0.1, 0.01), settings.ghosts(0.1, 0.0).ghost_on_increments(0.01)]
 }
 
 /// A column whose height is this share of that of the cells, under 0.3 of its modulus and drained at its top.
@@ -50,10 +46,7 @@ fn settlements(settings: Settings) -> [f64; 3] {
 fn a_column_settles_more_with_ghosts() {
     let [none, paper, increments] = ghosts(0.005 / (KAPPA * MODULUS)).map(settlements);
     let change = |of: [f64; 3]| -> [f64; 3] { [0, 1, 2].map(|k| of[k] / none[k] - 1.0) };
-    for (found, told) in [
-        (change(paper), [0.008, 0.008, 0.003_f64]),
-        (change(increments), [0.24, -0.003, -0.003]),
-    ] {
+    for (found, told) in [(change(paper), [0.008, 0.008, 0.003_f64]), (change(increments), [0.24, -0.003, -0.003])] {
         for (found, told) in found.into_iter().zip(told) {
             let digits = 0.1 * told.abs() + 5e-4;
             assert!((found - told).abs() < digits, "{found} {told}");
@@ -104,9 +97,7 @@ fn leaks(settings: Settings) -> [f64; 2] {
     let volume = 4.0 * half_size[0] * half_size[1];
     let particles = Particles::new(places, volume, 1000.0, half_size).unwrap();
     let loaded = |x: &[f64; 2]| x[1] > height * (TOP - 0.5 * H) && x[0] < 0.5 * TOP;
-    let load = Face::loaded(&particles, loaded, (1, End::Hi), |t| {
-        [0.0, -0.1 * MODULUS * (0.1 * t).min(1.0)]
-    });
+    let load = Face::loaded(&particles, loaded, (1, End::Hi), |t| [0.0, -0.1 * MODULUS * (0.1 * t).min(1.0)]);
     let sides = [(0, End::Lo), (0, End::Hi), (1, End::Lo)];
     let rollers = sides.map(|(axis, end)| Wall::new(axis, end, WallKind::Roller));
     let body = Body::new(porous(), particles).unwrap();
@@ -116,9 +107,7 @@ fn leaks(settings: Settings) -> [f64; 2] {
     [10, 20].map(|steps| {
         solver.advance(steps).unwrap();
         let jacobian = &solver.particles().jacobian;
-        jacobian
-            .iter()
-            .fold(0.0, |most: f64, j| most.max((j - 1.0).abs()))
+        jacobian.iter().fold(0.0, |most: f64, j| most.max((j - 1.0).abs()))
     })
 }
 
@@ -128,10 +117,7 @@ fn leaks(settings: Settings) -> [f64; 2] {
 fn a_ghost_on_increments_leaks_once() {
     let [none, paper, increments] = ghosts(1.0).map(leaks);
     let lost = [0, 1].map(|k| increments[k] - none[k]);
-    assert!(
-        lost[0] > 0.2 * none[0] && lost[0] < 0.5 * none[0],
-        "{lost:?} of {none:?}"
-    );
+    assert!(lost[0] > 0.2 * none[0] && lost[0] < 0.5 * none[0], "{lost:?} of {none:?}");
     assert!(lost[1] < lost[0], "{lost:?}");
     // That of the paper is nothing where no water flows.
     assert!((paper[1] / none[1] - 1.0).abs() < 1e-3);

@@ -30,28 +30,16 @@ fn faces_that_the_body_does_not_bear_are_refused() {
         Face::loaded(&scene.body.particles, select, top, |_| [-1.0])
     };
     let column = || standing::<1, _>(porous(), straight);
-    refused(
-        column(),
-        water().face(face(|_| false)),
-        "particles of a loaded or drained face",
-    );
+    refused(column(), water().face(face(|_| false)), "particles of a loaded or drained face");
     refused(jutting(), water().face(face(topmost)), "in an empty cell");
     let particles = column().body.particles;
     let drained = |penalty| Face::drained(&particles, topmost, top, penalty);
     refused(jutting(), water().face(drained(1.0)), "in an empty cell");
     for penalty in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        refused(
-            column(),
-            water().face(drained(penalty)),
-            "penalty of a drained face",
-        );
+        refused(column(), water().face(drained(penalty)), "penalty of a drained face");
     }
     let nobody = Face::drained(&particles, |_| false, top, 1.0);
-    refused(
-        column(),
-        water().face(nobody),
-        "particles of a loaded or drained face",
-    );
+    refused(column(), water().face(nobody), "particles of a loaded or drained face");
     let aside = Face::drained(&particles, topmost, (1, End::Hi), 1.0);
     refused(column(), water().face(aside), "axis of a face");
     let force = Face::loaded(&particles, topmost, top, |_| [f64::NAN]);
@@ -67,11 +55,7 @@ fn a_face_that_comes_into_an_empty_cell_breaks_the_run() {
     let mut solver = loaded::<1, Hats<1>>(-0.03 * MODULUS, Settings::new(0.05 / (KAPPA * MODULUS)));
     let broken = (0..9).find_map(|_| solver.step().err());
     match broken {
-        Some(Error::Breakdown {
-            step: 1..,
-            fault: Fault::EmptyCell(share),
-            ..
-        }) => assert!(share > 1e-4, "{share}"),
+        Some(Error::Breakdown { step: 1.., fault: Fault::EmptyCell(share), .. }) => assert!(share > 1e-4, "{share}"),
         other => panic!("{other:?}"),
     }
 }
@@ -92,13 +76,7 @@ fn the_sum_of_a_load_is_checked_in_every_step() {
     solver.step().unwrap();
     solver.water.faces[0].sides += 1;
     match solver.step() {
-        Err(Error::Lost {
-            step: 1,
-            what: "load of a face",
-            value,
-            whole,
-            ..
-        }) => {
+        Err(Error::Lost { step: 1, what: "load of a face", value, whole, .. }) => {
             let sides = (2 * WIDE) as f64;
             assert!((whole / value - (1.0 + 1.0 / sides)).abs() < 1e-9);
         }
@@ -119,9 +97,7 @@ fn unevenness<I: OfHats<2>>(solver: &mut Solver<2, I, ImprovedHencky>) -> f64 {
     solver.step().unwrap();
     let p = solver.particles();
     let upper = (0..p.len()).filter(|k| topmost(&p.reference[*k]));
-    let moved: Vec<f64> = upper
-        .map(|k| p.position[k][1] - p.reference[k][1])
-        .collect();
+    let moved: Vec<f64> = upper.map(|k| p.position[k][1] - p.reference[k][1]).collect();
     let [lo, hi] = [f64::min, f64::max].map(|f| moved.iter().copied().reduce(f).unwrap());
     (hi - lo) / hi.abs().max(lo.abs())
 }
@@ -176,30 +152,12 @@ fn tied_nodes_are_one_unknown() {
 fn plates_that_are_none_are_refused() {
     let column = || standing::<2, _>(porous(), straight);
     let plate = |axis, takes: fn(&[f64; 2]) -> bool| Plate::new(axis, takes, |_| -1.0);
-    refused(
-        column(),
-        water().plate(plate(2, uppermost)),
-        "axis of a plate",
-    );
-    refused(
-        column(),
-        water().plate(plate(1, |_| false)),
-        "nodes of a plate",
-    );
+    refused(column(), water().plate(plate(2, uppermost)), "axis of a plate");
+    refused(column(), water().plate(plate(1, |_| false)), "nodes of a plate");
     // Nodes in the empty cells above the body alone.
-    refused(
-        column(),
-        water().plate(plate(1, |x| x[1] > TOP + 0.5 * H)),
-        "force of a plate",
-    );
+    refused(column(), water().plate(plate(1, |x| x[1] > TOP + 0.5 * H)), "force of a plate");
     let another = "a constraint or another plate";
-    refused(
-        column(),
-        water().plate(plate(1, |x| x[1] < 0.5 * H)),
-        another,
-    );
-    let twice = water()
-        .plate(plate(1, uppermost))
-        .plate(plate(1, |x| x[0] < 0.5 * H && uppermost(x)));
+    refused(column(), water().plate(plate(1, |x| x[1] < 0.5 * H)), another);
+    let twice = water().plate(plate(1, uppermost)).plate(plate(1, |x| x[0] < 0.5 * H && uppermost(x)));
     refused(column(), twice, another);
 }

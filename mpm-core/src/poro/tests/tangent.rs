@@ -16,11 +16,7 @@ fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D, I, Im
     let mut acceleration = [0.3; D];
     acceleration[D - 1] = -10.0;
     let water = Water::new(POROSITY, kozeny_carman())
-        .gravity(Gravity {
-            water: 1000.0,
-            grains: 2600.0,
-            acceleration,
-        })
+        .gravity(Gravity { water: 1000.0, grains: 2600.0, acceleration })
         .face(Face::drained(particles, topmost, top, 100.0 * KAPPA / H))
         .plate(Plate::new(D - 1, uppermost, |_| -1e3));
     let mut solver = Solver::new(scene, water, settings).unwrap();
@@ -35,11 +31,7 @@ fn random(setting: &Setting<2>, seed: usize) -> Vec<f64> {
 
 fn sized(displacements: usize, count: usize, seed: usize) -> Vec<f64> {
     let of = |k: usize| {
-        if k < displacements {
-            0.02 * H
-        } else {
-            0.1 * MODULUS
-        }
+        if k < displacements { 0.02 * H } else { 0.1 * MODULUS }
     };
     (0..count).map(|k| of(k) * noise(seed + k)).collect()
 }
@@ -52,10 +44,7 @@ fn matrix_is_the_slope<const D: usize, I: OfHats<D>>(settings: Settings) {
     let setting = solver.setting(dt, Vec::new()).unwrap();
     let step = solver.equations(&setting, dt);
     let (displacements, count) = (setting.unknowns.displacements, setting.unknowns.count);
-    let (at, x) = (
-        sized(displacements, count, 7),
-        sized(displacements, count, 1000),
-    );
+    let (at, x) = (sized(displacements, count, 7), sized(displacements, count, 1000));
     let residual = |s: f64| {
         let moved: Vec<f64> = at.iter().zip(&x).map(|(u, x)| u + s * x).collect();
         step.residual(&step.trial(&moved).unwrap())
@@ -92,10 +81,7 @@ fn the_matrix_is_the_slope_of_the_residual() {
             matrix_is_the_slope::<2, Means<2>>(settings);
         }
     }
-    let settings = Settings::new(1.0)
-        .ghosts(0.1, 0.01)
-        .ghost_on_increments(0.01)
-        .tangent(Tangent::Consistent);
+    let settings = Settings::new(1.0).ghosts(0.1, 0.01).ghost_on_increments(0.01).tangent(Tangent::Consistent);
     matrix_is_the_slope::<3, Means<3>>(settings);
 }
 
@@ -125,9 +111,7 @@ fn asymmetry(settings: Settings) -> f64 {
 /// logarithmic one the coupling is not.
 #[test]
 fn the_exact_rate_makes_a_symmetric_matrix() {
-    let symmetric = Settings::new(1.0)
-        .ghosts(0.1, 0.01)
-        .ghost_on_increments(0.01);
+    let symmetric = Settings::new(1.0).ghosts(0.1, 0.01).ghost_on_increments(0.01);
     assert!(asymmetry(symmetric) < 1e-13);
     let consistent = symmetric.tangent(Tangent::Consistent);
     assert!(asymmetry(consistent) > 1e-4);

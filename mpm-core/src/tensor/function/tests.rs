@@ -6,17 +6,12 @@ use nalgebra::Matrix3;
 use proptest::prelude::*;
 
 fn tensors() -> impl Strategy<Value = SymmetricTensor> {
-    prop::array::uniform9(-1.0..1.0_f64)
-        .prop_map(|a| SymmetricTensor::symmetric_part(&Matrix3::from_row_slice(&a)))
+    prop::array::uniform9(-1.0..1.0_f64).prop_map(|a| SymmetricTensor::symmetric_part(&Matrix3::from_row_slice(&a)))
 }
 
 /// The tensor with its third axis made a principal one.
 fn planar(a: SymmetricTensor) -> SymmetricTensor {
-    SymmetricTensor {
-        yz: 0.0,
-        xz: 0.0,
-        ..a
-    }
+    SymmetricTensor { yz: 0.0, xz: 0.0, ..a }
 }
 
 /// The tensor with the same principal axes and mapped eigenvalues.
@@ -95,10 +90,7 @@ proptest! {
 #[test]
 fn small_strains_keep_their_digits() {
     for stretch in [1.0 + 1e-9, 1.0 + 1e-5, 0.999, 1.05] {
-        let b = SymmetricTensor {
-            xx: stretch,
-            ..SymmetricTensor::identity()
-        };
+        let b = SymmetricTensor { xx: stretch, ..SymmetricTensor::identity() };
         let (found, exact) = (b.ln(), (stretch - 1.0_f64).ln_1p());
         assert!((found.xx / exact - 1.0).abs() < 2e-15, "{stretch}");
         assert!(found.yy.abs() < 1e-16 && found.xy == 0.0);
@@ -107,9 +99,6 @@ fn small_strains_keep_their_digits() {
 
 #[test]
 fn what_is_not_finite_stays_so() {
-    let broken = SymmetricTensor {
-        xy: f64::NAN,
-        ..SymmetricTensor::identity()
-    };
+    let broken = SymmetricTensor { xy: f64::NAN, ..SymmetricTensor::identity() };
     assert!(broken.ln().trace().is_nan() && broken.exp().trace().is_nan());
 }

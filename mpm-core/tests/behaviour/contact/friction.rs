@@ -7,11 +7,9 @@ use mpm_core::stage::{smooth_rise, smooth_stroke};
 pub(super) fn on_a_slope(mu: f64, slope: f64, speed: f64) -> Setting<2> {
     let mut particles = block::<2>(16);
     particles.velocity.fill([speed, 0.0]);
-    let contact = RigidContact::new(floor(&particles, REST_GAP), barrier())
-        .with_friction(Friction::new(mu, stick()).unwrap());
-    under(scene(particles, vec![contact]), move |_| {
-        [slope * GRAVITY, -GRAVITY]
-    })
+    let contact =
+        RigidContact::new(floor(&particles, REST_GAP), barrier()).with_friction(Friction::new(mu, stick()).unwrap());
+    under(scene(particles, vec![contact]), move |_| [slope * GRAVITY, -GRAVITY])
 }
 
 /// While all slide, the stick of each is on Coulomb's cone in every step: it stretches in a step by more than its limit
@@ -38,10 +36,7 @@ fn a_sliding_block_follows_coulomb() {
         let [u, v] = [0, 1].map(|a| totals.momentum[a] / totals.mass);
         let slid = speed + slope * GRAVITY * time - mu * (GRAVITY * time + v);
         let short = u - slid;
-        assert!(
-            short >= -ROUNDING && short <= mu * GRAVITY * stretching + ROUNDING,
-            "{short}"
-        );
+        assert!(short >= -ROUNDING && short <= mu * GRAVITY * stretching + ROUNDING, "{short}");
         assert!(solver.work().sorts > 1 || speed == 0.0);
     }
 }
@@ -54,9 +49,7 @@ fn a_block_sticks_below_the_angle_of_friction() {
     run(&mut solver, 200.0);
     let (weight, left) = (solver.totals().mass * GRAVITY, out_of_balance(&solver));
     assert!(left < AT_REST * weight, "{left}");
-    assert!(
-        (solver.on(Part::Contact(0)).force[0] - slope * weight).abs() <= left + ROUNDING * weight
-    );
+    assert!((solver.on(Part::Contact(0)).force[0] - slope * weight).abs() <= left + ROUNDING * weight);
     let stretch = slope * LOAD / stick();
     let before = shift(&solver, 0);
     // Sticks may have given up some stretch in the oscillations before rest, at most their limit.
@@ -70,8 +63,8 @@ fn a_block_sticks_below_the_angle_of_friction() {
 #[test]
 fn a_rough_stick_does_not_creep() {
     let particles = block::<2>(16);
-    let contact = RigidContact::new(floor(&particles, REST_GAP), barrier())
-        .with_friction(Friction::rough(stick()).unwrap());
+    let contact =
+        RigidContact::new(floor(&particles, REST_GAP), barrier()).with_friction(Friction::rough(stick()).unwrap());
     let shear = 0.5 * GRAVITY;
     let scene = damped(under(scene(particles, vec![contact]), move |t| {
         let share = smooth_rise((t - 40.0).max(0.0), 5.0) - smooth_rise((t - 120.0).max(0.0), 5.0);
@@ -99,12 +92,9 @@ fn a_moving_plate_takes_a_block_along() {
     let particles = block::<2>(16);
     let (speed, ramp, pull) = ([0.1, 0.02], 12.0, -0.05);
     let face = floor(&particles, REST_GAP).moving(speed, ramp).unwrap();
-    let contact =
-        RigidContact::new(face, barrier()).with_friction(Friction::rough(stick()).unwrap());
-    let mut solver = started(under(scene(particles, vec![contact]), move |t| {
-        [pull * smooth_rise(t, 12.0), -GRAVITY]
-    }))
-    .unwrap();
+    let contact = RigidContact::new(face, barrier()).with_friction(Friction::rough(stick()).unwrap());
+    let mut solver =
+        started(under(scene(particles, vec![contact]), move |t| [pull * smooth_rise(t, 12.0), -GRAVITY])).unwrap();
     run(&mut solver, 30.0);
     assert!(solver.work().sorts > 3);
     let stroke = smooth_stroke(solver.time(), ramp);

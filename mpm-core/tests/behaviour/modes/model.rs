@@ -24,13 +24,7 @@ pub(super) enum Kind {
     Consistent,
 }
 
-pub(super) const KINDS: [Kind; 5] = [
-    Kind::None,
-    Kind::Recursive,
-    Kind::Total,
-    Kind::Rate,
-    Kind::Consistent,
-];
+pub(super) const KINDS: [Kind; 5] = [Kind::None, Kind::Recursive, Kind::Total, Kind::Rate, Kind::Consistent];
 
 impl Kind {
     pub(super) fn remedy<const D: usize>(self) -> Box<dyn Remedy<D>> {
@@ -56,12 +50,7 @@ pub(super) struct Bloch<const S: usize, B> {
 impl<const S: usize, B: Basis<S>> Bloch<S, B> {
     pub(super) fn new(n: usize, theta: f64) -> Self {
         let basis = B::new(&Axis::periodic(0.0, CELLS), H, WallTreatment::OpenKnot);
-        Self {
-            nodes: basis.nodes().position,
-            basis,
-            n,
-            theta,
-        }
+        Self { nodes: basis.nodes().position, basis, n, theta }
     }
 
     /// The nodal wave, φ, and h times its gradient, ψ, as the particles of the first cell see them after
@@ -69,9 +58,7 @@ impl<const S: usize, B: Basis<S>> Bloch<S, B> {
     pub(super) fn seen(&self, shift: f64) -> (Wave, Wave) {
         let see = |j| {
             let x = (j as f64 + 0.5) * H / self.n as f64 + shift;
-            let at = self
-                .basis
-                .weights(x.rem_euclid(LENGTH), 0.5 * H / self.n as f64);
+            let at = self.basis.weights(x.rem_euclid(LENGTH), 0.5 * H / self.n as f64);
             let mut sums = (Complex::ZERO, Complex::ZERO);
             for k in 0..S {
                 let wave = Complex::cis(self.theta * self.nodes[at.first + k] / H);
@@ -91,11 +78,7 @@ impl<const S: usize, B: Basis<S>> Bloch<S, B> {
 
 /// (a, b) = (1/n) Σ a* b.
 pub(super) fn product(a: &Wave, b: &Wave) -> Complex<f64> {
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| a.conj() * b)
-        .sum::<Complex<f64>>()
-        / a.len() as f64
+    a.iter().zip(b).map(|(a, b)| a.conj() * b).sum::<Complex<f64>>() / a.len() as f64
 }
 
 /// a ← a + factor b.
@@ -107,9 +90,7 @@ pub(super) fn add(a: &mut Wave, factor: Complex<f64>, b: &Wave) {
 
 /// Deterministic noise.
 pub(super) fn noise(n: usize, seed: usize) -> Wave {
-    (0..n)
-        .map(|j| Complex::cis((1 + seed + j) as f64 * 2.4) * (1.0 + (7.7 * j as f64).sin()))
-        .collect()
+    (0..n).map(|j| Complex::cis((1 + seed + j) as f64 * 2.4) * (1.0 + (7.7 * j as f64).sin())).collect()
 }
 
 /// The wave number kh of `m` waves on the grid.
@@ -130,21 +111,12 @@ pub(super) struct Moving {
 impl Moving {
     pub(super) fn new(velocity: Wave) -> Self {
         let zero = vec![Complex::ZERO; velocity.len()];
-        Self {
-            velocity,
-            jacobian: zero.clone(),
-            j_bar: zero.clone(),
-            place: zero,
-        }
+        Self { velocity, jacobian: zero.clone(), j_bar: zero.clone(), place: zero }
     }
 
     /// The root of the energy, kinetic and stored; J and the places only drift.
     pub(super) fn norm(&self) -> f64 {
-        [&self.velocity, &self.j_bar]
-            .map(|q| product(q, q).re)
-            .iter()
-            .sum::<f64>()
-            .sqrt()
+        [&self.velocity, &self.j_bar].map(|q| product(q, q).re).iter().sum::<f64>().sqrt()
     }
 
     /// One step of Courant number `tau` under the mean stress `mean` (over ρc²), with the particles `shift`

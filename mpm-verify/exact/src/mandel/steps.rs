@@ -19,9 +19,7 @@ pub fn of_particles(ratio: f64, cells: Cells, apart: bool, step: f64, count: i32
     for k in 0..count {
         let (matrix, storage) = &factors[usize::from(k > 0)];
         let mut right = DVector::zeros(x.len());
-        right
-            .rows_mut(2 * n, cells.of_water)
-            .copy_from(&(storage * &x));
+        right.rows_mut(2 * n, cells.of_water).copy_from(&(storage * &x));
         right[x.len() - 1] = -1.0;
         if !matrix.solve_mut(&mut right) {
             right.fill(f64::NAN);

@@ -52,11 +52,8 @@ impl Slope {
     #[must_use]
     pub fn sliding(&self, friction: f64, cohesion: f64, unit_weight: f64) -> Sliding {
         let [least, most] = [self.on_ground(0.0).x, self.run() + BEHIND * self.height];
-        let of =
-            |back: f64, angle: f64| self.slides(back, angle, [friction, cohesion, unit_weight]);
-        SEARCH.least([least, most], |back| {
-            SEARCH.least([0.0, FRAC_PI_2], |angle| of(back, angle))
-        })
+        let of = |back: f64, angle: f64| self.slides(back, angle, [friction, cohesion, unit_weight]);
+        SEARCH.least([least, most], |back| SEARCH.least([0.0, FRAC_PI_2], |angle| of(back, angle)))
     }
 
     fn slides(&self, back: f64, angle: f64, [mu, c, gamma]: [f64; 3]) -> Sliding {
@@ -65,11 +62,7 @@ impl Slope {
         // The wedge's base meets the face, if it is steeper, or the crest.
         let slope = self.height / run;
         let on_face = back / (tan / slope - 1.0);
-        let width = if tan > slope && back + on_face < run {
-            on_face
-        } else {
-            self.height / tan
-        };
+        let width = if tan > slope && back + on_face < run { on_face } else { self.height / tan };
         let wedge = self.area(back + width) - self.area(back) - 0.5 * width * width * tan;
         let toe = self.on_ground(0.0).x;
         let foot = self.area(back) - self.area(toe);
@@ -80,16 +73,7 @@ impl Slope {
         let slips = 2.0 * drives / (b + (b * b + 4.0 * a * drives).sqrt());
         let shears = drives / (c * (inside + back - toe));
         let share = slips.max(shears);
-        Sliding {
-            factor: if share > 0.0 {
-                1.0 / share
-            } else {
-                f64::INFINITY
-            },
-            back,
-            angle,
-            entry: back + width,
-        }
+        Sliding { factor: if share > 0.0 { 1.0 / share } else { f64::INFINITY }, back, angle, entry: back + width }
     }
 
     /// Height (m) of the uncut ground at a distance from its toe.
@@ -104,10 +88,7 @@ impl Slope {
     }
 }
 
-const SEARCH: Search = Search {
-    samples: 64,
-    sections: 40,
-};
+const SEARCH: Search = Search { samples: 64, sections: 40 };
 
 #[cfg(test)]
 mod tests {
@@ -137,11 +118,7 @@ mod tests {
         near(found.entry, 1.0 + 1.0 / tan, 1e-12);
         // The best angle on a smooth base, where only 2t + 1/t counts, has tan θ = 1/√2, with a back there.
         let smooth = |t: f64| slope(0.0).slides(1.0, t.atan(), [0.0, C, GAMMA]).factor;
-        near(
-            smooth(0.5_f64.sqrt()),
-            2.0 * 2.0_f64.sqrt() * C / (0.5 * GAMMA),
-            1e-9,
-        );
+        near(smooth(0.5_f64.sqrt()), 2.0 * 2.0_f64.sqrt() * C / (0.5 * GAMMA), 1e-9);
         assert!(smooth(0.5) > smooth(0.5_f64.sqrt()) && smooth(1.0) > smooth(0.5_f64.sqrt()));
     }
 
@@ -193,10 +170,7 @@ mod tests {
                 let angle = FRAC_PI_2 * f64::from(k % 200 + 1) / 201.0;
                 least = least.min(slope.slides(back, angle, [mu, C, GAMMA]).factor);
             }
-            assert!(
-                best.factor <= least && least < best.factor * 1.01,
-                "{best:?} {least}"
-            );
+            assert!(best.factor <= least && least < best.factor * 1.01, "{best:?} {least}");
         }
     }
 }

@@ -46,11 +46,7 @@ fn taylors_table_is_met() {
 /// dangerous: c/γH and the depth factor that the circle touches.
 #[test]
 fn taylors_toe_circles_are_met() {
-    for (degrees, expected, depth_factor) in [
-        (45.0, 0.170, 1.062),
-        (30.0, 0.156, 1.301),
-        (15.0, 0.145, 2.117),
-    ] {
+    for (degrees, expected, depth_factor) in [(45.0, 0.170, 1.062), (30.0, 0.156, 1.301), (15.0, 0.145, 2.117)] {
         let toe = slope(degrees, 100.0).on_face(SEARCH);
         assert_eq!(toe.circle.exit, Vector2::zeros());
         near(1.0 / toe.number, expected, 1e-3);
@@ -132,12 +128,7 @@ fn flat_arcs_are_culmanns_planes_and_circles_are_worse() {
         let radius = 1e5;
         let away = (radius * radius - 0.25 * (entry - exit).norm_squared()).sqrt();
         let centre = entry / 2.0 + away * Vector2::new(-sin, cos);
-        let arc = Circle {
-            centre,
-            radius,
-            exit,
-            entry,
-        };
+        let arc = Circle { centre, radius, exit, entry };
         let culmann = 4.0 * beta.sin() / (1.0 - beta.cos());
         near(s.number(&arc), culmann, 1e-3);
         assert!(s.stability_number() < culmann);
@@ -175,8 +166,7 @@ fn the_mass_over_a_cut_is_that_of_strips() {
             continue;
         }
         let left = y.max(0.2);
-        let right =
-            m.circle.centre.x + (m.circle.radius.powi(2) - (y - m.circle.centre.y).powi(2)).sqrt();
+        let right = m.circle.centre.x + (m.circle.radius.powi(2) - (y - m.circle.centre.y).powi(2)).sqrt();
         area += right - left;
         moment += 0.5 * (right * right - left * left);
     }
@@ -203,11 +193,7 @@ fn only_the_ratio_of_weight_and_strength_matters() {
     let n = small.stability_number();
     near(large.stability_number(), n, 1e-9);
     near(large.critical().area, 144.0 * small.critical().area, 1e-3);
-    near(
-        large.factor_of_safety(30e3, 18e3).unwrap(),
-        n * 30.0 / 216.0,
-        1e-9,
-    );
+    near(large.factor_of_safety(30e3, 18e3).unwrap(), n * 30.0 / 216.0, 1e-9);
 }
 
 /// At c = γH/N the work of gravity is dissipated.
@@ -259,10 +245,7 @@ fn area_and_centroid_are_the_limit_of_fine_slices() {
         };
         let size = exact.iter().copied().fold(0.0, f64::max);
         let [coarse, fine] = [error(100), error(10_000)];
-        assert!(
-            fine < 1e-3 * coarse && fine < 1e-6 * size,
-            "{coarse} {fine}"
-        );
+        assert!(fine < 1e-3 * coarse && fine < 1e-6 * size, "{coarse} {fine}");
     }
 }
 
@@ -277,10 +260,7 @@ fn critical_arcs_lie_in_the_soil_above_the_base() {
         for i in 0..=1000 {
             let x = c.point(f64::from(i) / 1000.0);
             near((x - c.centre).norm(), c.radius, 1e-12 * c.radius);
-            assert!(
-                x.y >= c.lowest().y - 1e-12 && x.y >= -s.depth() - 1e-9,
-                "{x}"
-            );
+            assert!(x.y >= c.lowest().y - 1e-12 && x.y >= -s.depth() - 1e-9, "{x}");
             assert!(x.y <= ground(&s, x.x) + 1e-9, "{x}");
         }
     }
@@ -304,12 +284,7 @@ fn cut(s: &Slope, centre: Vector2<f64>, radius: f64) -> Option<Circle> {
         }
         Vector2::new(wet, ground(s, wet))
     };
-    Some(Circle {
-        centre,
-        radius,
-        exit: crossing(at(first - 1), at(first)),
-        entry: crossing(at(last + 1), at(last)),
-    })
+    Some(Circle { centre, radius, exit: crossing(at(first - 1), at(first)), entry: crossing(at(last + 1), at(last)) })
 }
 
 /// Every circle of a grid, those that enter on the face too, by slices.
@@ -341,10 +316,7 @@ fn no_circle_of_a_scan_is_worse_than_the_critical_one() {
 
 #[test]
 fn a_finer_search_finds_the_same() {
-    let fine = Search {
-        samples: 29,
-        sections: 50,
-    };
+    let fine = Search { samples: 29, sections: 50 };
     for (degrees, depth_factor) in SLOPES {
         let s = slope(degrees, depth_factor);
         let found = s.number(&s.least(fine).circle);
@@ -388,17 +360,10 @@ fn what_is_out_of_range_is_refused_by_name() {
     ];
     for (name, refusal) in refusals {
         let text = refusal.unwrap_err().to_string();
-        assert!(
-            text.starts_with(name) && text.contains("allowed: "),
-            "{text}"
-        );
+        assert!(text.starts_with(name) && text.contains("allowed: "), "{text}");
     }
     let s = slope(45.0, 1.0);
-    for (name, [c, gamma]) in [
-        ("cohesion", [0.0, 1.0]),
-        ("cohesion", [f64::NAN, 1.0]),
-        ("unit_weight", [1.0, -1.0]),
-    ] {
+    for (name, [c, gamma]) in [("cohesion", [0.0, 1.0]), ("cohesion", [f64::NAN, 1.0]), ("unit_weight", [1.0, -1.0])] {
         let text = s.factor_of_safety(c, gamma).unwrap_err().to_string();
         assert!(text.starts_with(name), "{text}");
     }

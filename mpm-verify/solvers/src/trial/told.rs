@@ -64,15 +64,8 @@ const FIELDS: [(&str, Field, i32); 5] = [
 ];
 
 /// What is told of `run`, seen from `frame`, of a scene on `grid`.
-pub(super) fn columns<const D: usize>(
-    run: &mut dyn Simulation<D>,
-    frame: &Frame<D>,
-    grid: &Grid<D>,
-) -> Vec<Column> {
-    let mut told = Told {
-        frame,
-        columns: Vec::new(),
-    };
+pub(super) fn columns<const D: usize>(run: &mut dyn Simulation<D>, frame: &Frame<D>, grid: &Grid<D>) -> Vec<Column> {
+    let mut told = Told { frame, columns: Vec::new() };
     let d = D as i32;
     told.add("time", [0, 0, 1], false, vec![run.time()]);
     let p = run.particles();
@@ -85,15 +78,11 @@ pub(super) fn columns<const D: usize>(
         values: places,
     });
     if !p.velocity.is_empty() {
-        let velocity = vectors(p, |k| {
-            frame.vector_of_scene(&p.velocity[k], frame.scale(0, 1))
-        });
+        let velocity = vectors(p, |k| frame.vector_of_scene(&p.velocity[k], frame.scale(0, 1)));
         told.push("velocity", [0, 1, -1], false, velocity);
     }
     let stress = p.seeded(|k| frame.stress_of_scene(&p.stress[k]));
-    let components = stress
-        .iter()
-        .flat_map(|s| [s.xx, s.yy, s.zz, s.xy, s.yz, s.xz]);
+    let components = stress.iter().flat_map(|s| [s.xx, s.yy, s.zz, s.xy, s.yz, s.xz]);
     told.push("stress", [1, 0, 0], false, components.collect());
     told.push("J", [0; 3], false, p.seeded(|k| p.jacobian[k]));
     told.add("volume", [0, d, 0], false, p.seeded(|k| p.volume[k]));
@@ -105,10 +94,7 @@ pub(super) fn columns<const D: usize>(
         }
     }
     told.sums(run);
-    for (name, part) in [
-        ("constraint", Part::Constraint as fn(usize) -> Part),
-        ("contact", Part::Contact),
-    ] {
+    for (name, part) in [("constraint", Part::Constraint as fn(usize) -> Part), ("contact", Part::Contact)] {
         for place in 0.. {
             let reaction = run.on(part(place));
             if reaction.force[0].is_nan() {
@@ -149,13 +135,7 @@ struct Told<'a, const D: usize> {
 impl<const D: usize> Told<'_, D> {
     /// What the scene's own frame has.
     fn push(&mut self, name: &str, unit: [i32; 3], summed: bool, values: Vec<f64>) {
-        self.columns.push(Column {
-            name: name.to_owned(),
-            unit,
-            summed,
-            periods: vec![f64::INFINITY],
-            values,
-        });
+        self.columns.push(Column { name: name.to_owned(), unit, summed, periods: vec![f64::INFINITY], values });
     }
 
     /// Scalars of the frame.
@@ -176,11 +156,7 @@ impl<const D: usize> Told<'_, D> {
     fn reaction(&mut self, name: &str, reaction: &Reaction) {
         let d = D as i32;
         self.vector(&format!("force on {name}"), [1, d - 1, 0], &reaction.force);
-        self.vector(
-            &format!("impulse on {name}"),
-            [1, d - 1, 1],
-            &reaction.impulse,
-        );
+        self.vector(&format!("impulse on {name}"), [1, d - 1, 1], &reaction.impulse);
     }
 
     fn sums(&mut self, run: &dyn Simulation<D>) {
@@ -205,12 +181,7 @@ impl<const D: usize> Told<'_, D> {
         }
         let (least, greatest) = totals.jacobian;
         let gaps = [totals.log_jacobian_gap_rms, totals.log_jacobian_gap_max];
-        self.push(
-            "J and its gaps",
-            [0; 3],
-            false,
-            vec![least, greatest, gaps[0], gaps[1]],
-        );
+        self.push("J and its gaps", [0; 3], false, vec![least, greatest, gaps[0], gaps[1]]);
         self.add("free force", [1, d - 1, 0], true, vec![residual.free_force]);
         self.vector("held force", [1, d - 1, 0], &residual.held_force);
     }

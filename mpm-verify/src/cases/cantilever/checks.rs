@@ -5,12 +5,7 @@ use super::*;
 
 /// Largest relative error of the corner's u_y with quadratic splines, by level: the discretisation error that has been
 /// asked for, half of it from one level to the next.
-const ERRORS: [(&str, f64); 4] = [
-    ("h0.1", 6e-3),
-    ("h0.05", 2.5e-3),
-    ("h0.025", 1e-3),
-    ("h0.0125", 5e-4),
-];
+const ERRORS: [(&str, f64); 4] = [("h0.1", 6e-3), ("h0.05", 2.5e-3), ("h0.025", 1e-3), ("h0.0125", 5e-4)];
 /// Condition at which a matrix in double precision is useless.
 const BOUND: f64 = 12.0;
 /// Relative error that serendipity elements have at every level: more than three times what splines may have on the
@@ -47,10 +42,7 @@ impl Beam<'_> {
 
     /// Relative error of the corner's u_y that is asked for at the level.
     fn asked(&self) -> Option<f64> {
-        ERRORS
-            .iter()
-            .find(|(level, _)| *level == self.level)
-            .map(|(_, error)| *error)
+        ERRORS.iter().find(|(level, _)| *level == self.level).map(|(_, error)| *error)
     }
 }
 
@@ -59,18 +51,13 @@ pub(super) fn checks() -> Vec<Check> {
     type Demand = crate::demand::Demand<Cantilever>;
     let mass = 1000.0 * run::VOLUME;
     let stress = STRESSES.iter().map(|&(metric, at)| {
-        let known = move |b: &Beam| {
-            b.stresses()
-                .ok()
-                .and_then(|s| Some((s.at(at)?, s.uncertainty_stress)))
-        };
+        let known = move |b: &Beam| b.stresses().ok().and_then(|s| Some((s.at(at)?, s.uncertainty_stress)));
         Demand::within(
             metric,
             move |b| known(b).map_or(f64::NAN, |(exact, _)| exact.value),
             move |b| {
-                known(b).map_or(f64::NAN, |(exact, uncertainty)| {
-                    b.record.discretisation.h * exact.gradient + uncertainty
-                })
+                known(b)
+                    .map_or(f64::NAN, |(exact, uncertainty)| b.record.discretisation.h * exact.gradient + uncertainty)
             },
         )
         .when(move |b| known(b).is_some())
@@ -122,46 +109,32 @@ pub(super) fn checks() -> Vec<Check> {
 
 /// Runs that have come to their end, in the order of the plan.
 fn ended(records: &[Record]) -> Vec<Beam<'_>> {
-    records
-        .iter()
-        .filter(|r| r.status == Status::Ok)
-        .filter_map(Run::of)
-        .collect()
+    records.iter().filter(|r| r.status == Status::Ok).filter_map(Run::of).collect()
 }
 
 fn falls(records: &[Record]) -> Vec<Finding> {
     let runs = ended(records);
     let stabilised = |(by, name): (Stabilised, &str)| {
-        let own = |b: &&Beam| {
-            b.is_splines() && b.stabilisation == by && b.changes_none_but(&["stabilisation"])
-        };
+        let own = |b: &&Beam| b.is_splines() && b.stabilisation == by && b.changes_none_but(&["stabilisation"]);
         let mut own: Vec<&Beam> = runs.iter().filter(own).collect();
         own.sort_by(|a, b| b.h.total_cmp(&a.h));
         let fall = |metric: Metric, pair: &[&Beam]| {
             let (coarse, fine) = (pair[0].metric(metric), pair[1].metric(metric));
-            let what = format!(
-                "{name}: {} at {} over that at {}",
-                metric.name, pair[1].level, pair[0].level
-            );
+            let what = format!("{name}: {} at {} over that at {}", metric.name, pair[1].level, pair[0].level);
             Finding::at_most(what, fine / coarse, 1.0, "convergence under refinement")
         };
         let pairs = own.windows(2);
-        let found =
-            pairs.flat_map(|pair| [CORNER_ERROR, STRESS_ERROR].map(|metric| fall(metric, pair)));
+        let found = pairs.flat_map(|pair| [CORNER_ERROR, STRESS_ERROR].map(|metric| fall(metric, pair)));
         found.collect::<Vec<_>>()
     };
-    let both = [
-        (Stabilised::Ghost, "ghost"),
-        (Stabilised::Extension, "extension"),
-    ];
+    let both = [(Stabilised::Ghost, "ghost"), (Stabilised::Extension, "extension")];
     both.into_iter().flat_map(stabilised).collect()
 }
 
 fn steps(records: &[Record]) -> Vec<Finding> {
     let runs = ended(records);
     let at = |steps: i32| {
-        let own =
-            |b: &&Beam| b.changes_none_but(&["load_steps"]) && b.is_splines() && b.level == "h0.05";
+        let own = |b: &&Beam| b.changes_none_but(&["load_steps"]) && b.is_splines() && b.level == "h0.05";
         runs.iter().filter(own).find(|b| b.load_steps == steps)
     };
     let (Some(few), Some(own), Some(many)) = (at(5), at(20), at(160)) else {
@@ -170,12 +143,7 @@ fn steps(records: &[Record]) -> Vec<Finding> {
     let change = (few.metric(CORNER_UY) - many.metric(CORNER_UY)).abs();
     let error = own.metric(CORNER_ERROR) * own.metric(CORNER_UY).abs();
     let why = "the path doesn't matter to an elastic law; only the grid is reset more often";
-    vec![Finding::at_most(
-        "change of corner_uy (m) by 5 to 160 steps",
-        change,
-        error,
-        why,
-    )]
+    vec![Finding::at_most("change of corner_uy (m) by 5 to 160 steps", change, error, why)]
 }
 
 fn diverges(records: &[Record]) -> Vec<Finding> {
@@ -184,23 +152,12 @@ fn diverges(records: &[Record]) -> Vec<Finding> {
     let mut own: Vec<&Beam> = runs.iter().filter(of_q8).collect();
     own.sort_by(|a, b| b.h.total_cmp(&a.h));
     let why = "functions of serendipity elements have kinks at all faces, which particles cross: integration errs by a share that cells don't lessen";
-    let error = |b: &&Beam| {
-        Finding::above(
-            format!("corner_error at {}", b.level),
-            b.metric(CORNER_ERROR),
-            DIVERGED,
-            why,
-        )
-    };
+    let error =
+        |b: &&Beam| Finding::above(format!("corner_error at {}", b.level), b.metric(CORNER_ERROR), DIVERGED, why);
     let mut found: Vec<Finding> = own.iter().map(error).collect();
     if let [coarsest, .., finest] = own[..] {
         let ratio = finest.metric(CORNER_ERROR) / coarsest.metric(CORNER_ERROR);
-        found.push(Finding::above(
-            "error at the finest over that at the coarsest",
-            ratio,
-            1.0,
-            why,
-        ));
+        found.push(Finding::above("error at the finest over that at the coarsest", ratio, 1.0, why));
     }
     found
 }
@@ -208,9 +165,7 @@ fn diverges(records: &[Record]) -> Vec<Finding> {
 fn linear_update(records: &[Record]) -> Vec<Finding> {
     let runs = ended(records);
     let at = |steps: i32| {
-        let own = |b: &&Beam| {
-            b.law == LawName::JaumannLinear && b.basis() == Bspline2 && b.level == "h0.05"
-        };
+        let own = |b: &&Beam| b.law == LawName::JaumannLinear && b.basis() == Bspline2 && b.level == "h0.05";
         runs.iter().filter(own).find(|b| b.load_steps == steps)
     };
     let errors = [10, 20, 40].map(|steps| at(steps).map(|b| b.metric(CORNER_ERROR)));
@@ -220,11 +175,6 @@ fn linear_update(records: &[Record]) -> Vec<Finding> {
     let why = "the paper's Eqs. (9) and (10) are linear in the step";
     vec![
         Finding::above("error at 10 steps over that at 20", ten / twenty, 1.5, why),
-        Finding::above(
-            "error at 20 steps over that at 40",
-            twenty / forty,
-            1.5,
-            why,
-        ),
+        Finding::above("error at 20 steps over that at 40", twenty / forty, 1.5, why),
     ]
 }

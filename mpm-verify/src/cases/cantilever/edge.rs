@@ -17,11 +17,7 @@ impl Edge {
         let references = setup.seed();
         let probe = |&(metric, at)| Some((metric, at, PointProbe::new(&references, at, setup.h)?));
         let stress = STRESSES.iter().filter_map(probe).collect();
-        Self {
-            references,
-            counts: setup.counts(),
-            stress,
-        }
+        Self { references, counts: setup.counts(), stress }
     }
 
     /// A field, in seeding order, extrapolated to the right side at every row of particles, from below.
@@ -45,18 +41,10 @@ impl Edge {
     }
 
     /// Metrics of the displacements along x and y (m).
-    pub(super) fn of_displacement(
-        &self,
-        [ux, uy]: [&[f64]; 2],
-        setup: &Setup<Cantilever>,
-    ) -> Vec<(Metric, f64)> {
+    pub(super) fn of_displacement(&self, [ux, uy]: [&[f64]; 2], setup: &Setup<Cantilever>) -> Vec<(Metric, f64)> {
         let ([corner_x, mean_x], [corner_y, mean_y]) = (self.tip(ux), self.tip(uy));
-        let mut values = vec![
-            (CORNER_UX, corner_x),
-            (CORNER_UY, corner_y),
-            (EDGE_MEAN_UX, mean_x),
-            (EDGE_MEAN_UY, mean_y),
-        ];
+        let mut values =
+            vec![(CORNER_UX, corner_x), (CORNER_UY, corner_y), (EDGE_MEAN_UX, mean_x), (EDGE_MEAN_UY, mean_y)];
         if let Ok(truth) = solution(setup) {
             let [_, corner] = truth.bottom_right;
             values.push((CORNER_ERROR, (corner_y / corner - 1.0).abs()));
@@ -90,7 +78,5 @@ impl Edge {
 
 /// The least and the greatest.
 pub(super) fn extremes(field: &[f64]) -> [f64; 2] {
-    (field.iter()).fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], s| {
-        [lo.min(*s), hi.max(*s)]
-    })
+    (field.iter()).fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], s| [lo.min(*s), hi.max(*s)])
 }

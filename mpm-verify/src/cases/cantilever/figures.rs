@@ -19,15 +19,11 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
 
 /// The beam by quadratic splines, and by the paper's elements and choices: its Figure 2.
 fn beams(gallery: &mut Gallery) -> Result<(), Error> {
-    let shown: [(_, _, _, &[&str]); 2] = [
-        (Bspline2, "quadratic splines", "h0.05", &[]),
-        (Q8, "serendipity elements", "h0.1", &PAPER),
-    ];
+    let shown: [(_, _, _, &[&str]); 2] =
+        [(Bspline2, "quadratic splines", "h0.05", &[]), (Q8, "serendipity elements", "h0.1", &PAPER)];
     let mut panels = Vec::new();
     for (basis, title, level, set) in shown {
-        let of = |r: &&Record| {
-            r.basis() == basis && r.level == level && r.set == set && r.status == Status::Ok
-        };
+        let of = |r: &&Record| r.basis() == basis && r.level == level && r.set == set && r.status == Status::Ok;
         let Some(record) = gallery.records.iter().find(of) else {
             return Ok(());
         };
@@ -80,11 +76,7 @@ fn paths<'a>(gallery: &Gallery<'a>) -> Result<Vec<Panel<'a>>, Error> {
     type Name = fn(&Record) -> Option<String>;
     let x = ("edge_mean_ux", "edge mean u_x (m)", 0);
     let y = ("edge_mean_uy", "edge mean u_y (m)", 1);
-    let figures: [(&str, Name, _); 3] = [
-        ("Figure 3", factor, y),
-        ("Figure 4a", points, x),
-        ("Figure 4b", points, y),
-    ];
+    let figures: [(&str, Name, _); 3] = [("Figure 3", factor, y), ("Figure 4a", points, x), ("Figure 4b", points, y)];
     let default = gallery.records.iter().find(|r| r.is_default());
     let panel = |(title, name_of, (column, label, axis)): (&str, Name, (&str, &str, usize))| {
         let runs = gallery.records.iter().filter(|r| name_of(r).is_some());
@@ -95,17 +87,8 @@ fn paths<'a>(gallery: &Gallery<'a>) -> Result<Vec<Panel<'a>>, Error> {
             })?
             .styled(|k, curve| Series { colour: k, ..curve })
             .by_run(|r, curve| {
-                let marker = if r.status == Status::Ok {
-                    Marker::None
-                } else {
-                    Marker::Cross
-                };
-                Series {
-                    name: name_of(r).unwrap_or_default(),
-                    marker,
-                    dash: Dash::Solid,
-                    ..curve
-                }
+                let marker = if r.status == Status::Ok { Marker::None } else { Marker::Cross };
+                Series { name: name_of(r).unwrap_or_default(), marker, dash: Dash::Solid, ..curve }
             })
             .curve(Series {
                 name: "corner, as the paper prints it".to_owned(),
@@ -118,11 +101,7 @@ fn paths<'a>(gallery: &Gallery<'a>) -> Result<Vec<Panel<'a>>, Error> {
         if let Some(known) = setup.and_then(|c| solution(&c).ok())
             && let Some(mean) = known.right_edge_mean
         {
-            panel = panel.level(ReferenceLine::known_to(
-                "finite elements (Hencky)",
-                mean[axis],
-                known.uncertainty,
-            ));
+            panel = panel.level(ReferenceLine::known_to("finite elements (Hencky)", mean[axis], known.uncertainty));
         }
         Ok(panel)
     };
@@ -137,39 +116,20 @@ fn errors<'a>(
     own: impl Fn(&Record) -> bool,
 ) -> Panel<'a> {
     [Linear, Gimp, Bspline2, Bspline3, Q8].into_iter().fold(
-        Panel::new("", [label, "error of the corner's u_y (%)"])
-            .log_x()
-            .log_y(),
+        Panel::new("", [label, "error of the corner's u_y (%)"]).log_x().log_y(),
         |panel, basis| {
-            let runs = gallery
-                .records
-                .iter()
-                .filter(|r| r.basis() == basis && r.status == Status::Ok && own(r));
+            let runs = gallery.records.iter().filter(|r| r.basis() == basis && r.status == Status::Ok && own(r));
             panel
-                .points_by(
-                    runs,
-                    |r| r.basis().to_string(),
-                    |r| (x(r), 100.0 * r.metric(CORNER_ERROR)),
-                )
-                .styled(|_, curve| Series {
-                    colour: basis as usize,
-                    ..curve
-                })
+                .points_by(runs, |r| r.basis().to_string(), |r| (x(r), 100.0 * r.metric(CORNER_ERROR)))
+                .styled(|_, curve| Series { colour: basis as usize, ..curve })
         },
     )
 }
 
 /// Whether a run has the stabilisation of its basis: serendipity elements the soft stiffness.
 fn is_held(r: &Record) -> bool {
-    let soft: &[&str] = if r.basis() == Q8 {
-        &["stabilisation=soft"]
-    } else {
-        &[]
-    };
-    r.set
-        .iter()
-        .filter(|s| !s.starts_with("load_steps"))
-        .eq(soft)
+    let soft: &[&str] = if r.basis() == Q8 { &["stabilisation=soft"] } else { &[] };
+    r.set.iter().filter(|s| !s.starts_with("load_steps")).eq(soft)
 }
 
 /// The paper's Figures 3 and 4, the convergence that explains them, and that over load steps.
@@ -177,15 +137,8 @@ fn charts(gallery: &mut Gallery) -> Result<(), Error> {
     let steps = |r: &Record| Setup::<Cantilever>::number_of(r, |c| f64::from(c.load_steps));
     let mut panels = paths(gallery)?;
     let twenty = |r: &Record| is_held(r) && steps(r) == 20.0;
-    panels.push(errors(
-        gallery,
-        "cell size (m)",
-        |r| r.discretisation.h,
-        twenty,
-    ));
-    panels.push(errors(gallery, "load steps", steps, |r| {
-        is_held(r) && r.level == "h0.05"
-    }));
+    panels.push(errors(gallery, "cell size (m)", |r| r.discretisation.h, twenty));
+    panels.push(errors(gallery, "load steps", steps, |r| is_held(r) && r.level == "h0.05"));
     Figure::new(
         "figures",
         "The paper's elements, points and linear update at h = 0.1 m, 20 load steps: mean displacement of the right side over the weight, for shares of soft stiffness (its Figure 3; without any the run stops) and numbers of particles (its Figure 4). It prints where the corner goes, (−0.38, −0.61) m. Below, what explains them: the error of the corner's u_y against the finite elements, over the cell size with 20 load steps, and over the load steps at h = 0.05 m. Serendipity elements do not converge.",

@@ -9,11 +9,7 @@ const START_X: Asked = Asked::particle("reference_x", "m", "x before anything mo
 const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
 const MOVED_X: Asked = Asked::particle("ux", "m", "displacement along x under the whole weight");
 const MOVED_Y: Asked = Asked::particle("uy", "m", "displacement along y under the whole weight");
-const STRESS: Asked = Asked::particle(
-    "stress_xx",
-    "Pa",
-    "Cauchy stress σ_xx under the whole weight, tension positive",
-);
+const STRESS: Asked = Asked::particle("stress_xx", "Pa", "Cauchy stress σ_xx under the whole weight, tension positive");
 
 /// The edge of a given result, its setup, and `columns` in the order of our particles.
 fn given_edge<const N: usize>(
@@ -37,31 +33,14 @@ pub(in crate::cases) fn foreign() -> Foreign {
         judged_as: |_| Scheme::quasi_static(Bspline2, RemedyName::None),
         discretisation: |spec, parameters, _| {
             let setup = Setup::<Cantilever>::of_spec(spec, parameters);
-            let [ppc, steps] = setup.map_or([0.0; 2], |c| {
-                [
-                    (c.points_per_direction as f64).powi(2),
-                    f64::from(c.load_steps),
-                ]
-            });
-            Discretisation {
-                dim: 2,
-                h: spec.level.h,
-                ppc: ppc as u32,
-                dt: 1.0 / steps,
-                wall: "open-knot".to_owned(),
-            }
+            let [ppc, steps] =
+                setup.map_or([0.0; 2], |c| [(c.points_per_direction as f64).powi(2), f64::from(c.load_steps)]);
+            Discretisation { dim: 2, h: spec.level.h, ppc: ppc as u32, dt: 1.0 / steps, wall: "open-knot".to_owned() }
         },
         groups: vec![
             Group {
                 columns: &[START_X, START_Y, MOVED_X, MOVED_Y],
-                metrics: vec![
-                    CORNER_UX,
-                    CORNER_UY,
-                    EDGE_MEAN_UX,
-                    EDGE_MEAN_UY,
-                    CORNER_ERROR,
-                    EDGE_MEAN_ERROR,
-                ],
+                metrics: vec![CORNER_UX, CORNER_UY, EDGE_MEAN_UX, EDGE_MEAN_UY, CORNER_ERROR, EDGE_MEAN_ERROR],
                 measure: |given| {
                     let (edge, setup, [ux, uy]) = given_edge(given, [&MOVED_X, &MOVED_Y])?;
                     Ok(edge.of_displacement([&ux, &uy], &setup))
@@ -77,11 +56,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
             },
         ],
         start: |spec, parameters| {
-            Ok(start_columns(
-                Setup::<Cantilever>::of_spec(spec, parameters)?
-                    .scene()?
-                    .particles(),
-            ))
+            Ok(start_columns(Setup::<Cantilever>::of_spec(spec, parameters)?.scene()?.particles()))
         },
         setup: &[
             "Plane strain, 0 ≤ x ≤ 1 m, 0 ≤ y ≤ 0.3 m; the side x = 0 is clamped, all others are free.",

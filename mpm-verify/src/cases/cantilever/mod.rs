@@ -17,12 +17,8 @@ use reference::solution;
 use run::{DEPTH, LENGTH};
 
 /// Levels with their titles.
-const LEVELS: [(&str, &str); 4] = [
-    ("h0.1", "h = 0.1 m"),
-    ("h0.05", "0.05"),
-    ("h0.025", "0.025"),
-    ("h0.0125", "0.0125"),
-];
+const LEVELS: [(&str, &str); 4] =
+    [("h0.1", "h = 0.1 m"), ("h0.05", "0.05"), ("h0.025", "0.025"), ("h0.0125", "0.0125")];
 /// The paper's choices.
 const PAPER: [&str; 3] = ["law=jaumann-linear", "points=gauss", "stabilisation=soft"];
 
@@ -105,18 +101,9 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let sizes = [
-        ("h0.1", 0.1),
-        ("h0.05", 0.05),
-        ("h0.025", 0.025),
-        ("h0.0125", 0.0125),
-    ];
+    let sizes = [("h0.1", 0.1), ("h0.05", 0.05), ("h0.025", 0.025), ("h0.0125", 0.0125)];
     let levels = sizes.map(|(name, h)| Level { name, h });
-    let metrics: Vec<Metric> = OWN
-        .iter()
-        .copied()
-        .chain(STRESSES.iter().map(|(metric, _)| *metric))
-        .collect();
+    let metrics: Vec<Metric> = OWN.iter().copied().chain(STRESSES.iter().map(|(metric, _)| *metric)).collect();
     Case {
         description: "An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \
                       the case by which the implicit paper shows its method. Quadratic splines with a ghost penalty converge to the \
@@ -163,27 +150,16 @@ pub(super) fn case() -> Case {
 fn breaks_down(r: &Record) -> Option<&'static str> {
     let c = Setup::<Cantilever>::of_record(r).ok()?;
     if c.stabilisation == Stabilised::None {
-        return Some(
-            "without stabilisation functions at the rim see fewer strains than they have unknowns",
-        );
+        return Some("without stabilisation functions at the rim see fewer strains than they have unknowns");
     }
-    (c.basis() == Q8 && c.load_steps > 20)
-        .then_some("particles of serendipity elements leave the body")
+    (c.basis() == Q8 && c.load_steps > 20).then_some("particles of serendipity elements leave the body")
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
     let schemes = |bases: &[BasisName]| -> Vec<Scheme> {
-        bases
-            .iter()
-            .map(|basis| Scheme::quasi_static(*basis, RemedyName::None))
-            .collect()
+        bases.iter().map(|basis| Scheme::quasi_static(*basis, RemedyName::None)).collect()
     };
-    let (splines, cubic, gimp, q8) = (
-        schemes(&[Bspline2]),
-        schemes(&[Bspline3]),
-        schemes(&[Gimp]),
-        schemes(&[Q8]),
-    );
+    let (splines, cubic, gimp, q8) = (schemes(&[Bspline2]), schemes(&[Bspline3]), schemes(&[Gimp]), schemes(&[Q8]));
     let low = schemes(&[Linear, Gimp]);
     let paper = PAPER.join(" ");
     let linear_gauss = "law=jaumann-linear points=gauss";
@@ -196,81 +172,26 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Pr, "h0.05", &splines, "law=jaumann")
         .runs(Pr, "h0.1 h0.05", &splines, "stabilisation=extension")
         .runs(Nightly, "h0.025", &splines, "stabilisation=extension")
-        .runs(
-            Nightly,
-            "h0.1 h0.05 h0.025",
-            &gimp,
-            "stabilisation=extension",
-        )
+        .runs(Nightly, "h0.1 h0.05 h0.025", &gimp, "stabilisation=extension")
         .runs(Nightly, "h0.0125", &splines, "")
         .runs(Nightly, "h0.025 h0.0125", &low, "")
         .runs(Nightly, "h0.1 h0.05", &cubic, "")
         .runs(Nightly, "h0.05 h0.025", &q8, "stabilisation=soft")
         .runs(Long, "h0.0125", &q8, "stabilisation=soft")
         .runs(Long, "h0.025 h0.0125", &cubic, "")
-        .runs(
-            Nightly,
-            "h0.1",
-            &schemes(&[Linear, Gimp, Bspline2, Bspline3, Q8]),
-            "stabilisation=none",
-        )
-        .each(
-            Nightly,
-            "h0.05",
-            &splines,
-            [5, 10, 40, 80, 160].map(|n| format!("load_steps={n}")),
-        )
-        .each(
-            Nightly,
-            "h0.05",
-            &splines,
-            [10, 40].map(|n| format!("law=jaumann load_steps={n}")),
-        )
-        .each(
-            Nightly,
-            "h0.05",
-            &splines,
-            [10, 20, 40, 80].map(|n| format!("law=jaumann-linear load_steps={n}")),
-        )
+        .runs(Nightly, "h0.1", &schemes(&[Linear, Gimp, Bspline2, Bspline3, Q8]), "stabilisation=none")
+        .each(Nightly, "h0.05", &splines, [5, 10, 40, 80, 160].map(|n| format!("load_steps={n}")))
+        .each(Nightly, "h0.05", &splines, [10, 40].map(|n| format!("law=jaumann load_steps={n}")))
+        .each(Nightly, "h0.05", &splines, [10, 20, 40, 80].map(|n| format!("law=jaumann-linear load_steps={n}")))
         .runs(Nightly, "h0.05", &splines, "points=gauss")
-        .each(
-            Nightly,
-            "h0.05",
-            &splines,
-            [2, 3, 6].map(|n| format!("points_per_direction={n}")),
-        )
-        .each(
-            Nightly,
-            "h0.05",
-            &splines,
-            ["0.1", "0.001"].map(|f| format!("stabilisation_factor={f}")),
-        )
-        .runs(
-            Nightly,
-            "h0.05",
-            &splines,
-            "stabilisation=soft stabilisation_factor=0.1",
-        )
+        .each(Nightly, "h0.05", &splines, [2, 3, 6].map(|n| format!("points_per_direction={n}")))
+        .each(Nightly, "h0.05", &splines, ["0.1", "0.001"].map(|f| format!("stabilisation_factor={f}")))
+        .runs(Nightly, "h0.05", &splines, "stabilisation=soft stabilisation_factor=0.1")
         .runs(Nightly, "h0.05", &splines, "stabilisation=soft")
-        .runs(
-            Nightly,
-            "h0.05",
-            &splines,
-            "stabilisation=soft stabilisation_factor=0.001",
-        )
-        .runs(
-            Nightly,
-            "h0.05",
-            &splines,
-            "stabilisation=soft stabilisation_factor=0.0001",
-        )
+        .runs(Nightly, "h0.05", &splines, "stabilisation=soft stabilisation_factor=0.001")
+        .runs(Nightly, "h0.05", &splines, "stabilisation=soft stabilisation_factor=0.0001")
         .runs(Nightly, "h0.05", &splines, "law=neo-hookean load_steps=10")
-        .each(
-            Nightly,
-            "h0.05",
-            &gimp,
-            ["points_per_direction=2", "load_steps=5", "load_steps=80"],
-        )
+        .each(Nightly, "h0.05", &gimp, ["points_per_direction=2", "load_steps=5", "load_steps=80"])
         // Ghost penalties of GIMP, beside its own.
         .each(
             Nightly,
@@ -280,18 +201,8 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         )
         // The paper's elements, points, law and stabilisation: Figures 2 to 4.
         .runs(Nightly, "h0.1", &q8, &paper)
-        .runs(
-            Nightly,
-            "h0.1",
-            &q8,
-            &format!("{linear_gauss} stabilisation=none"),
-        )
-        .each(
-            Nightly,
-            "h0.1",
-            &q8,
-            ["0.1", "0.001", "0.0001"].map(|f| format!("{paper} stabilisation_factor={f}")),
-        )
+        .runs(Nightly, "h0.1", &q8, &format!("{linear_gauss} stabilisation=none"))
+        .each(Nightly, "h0.1", &q8, ["0.1", "0.001", "0.0001"].map(|f| format!("{paper} stabilisation_factor={f}")))
         .each(
             Nightly,
             "h0.1",
@@ -303,29 +214,18 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let mut shapes = vec![
-        Shape::Body(vec![
-            [0.0, 0.0],
-            [LENGTH, 0.0],
-            [LENGTH, DEPTH],
-            [0.0, DEPTH],
-        ]),
+        Shape::Body(vec![[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]]),
         Shape::Held([0.0, 0.0], [0.0, DEPTH]),
         Shape::length([0.0, -0.1], [LENGTH, -0.1], "1 m"),
         Shape::length([1.12, 0.0], [1.12, DEPTH], "0.3 m"),
         Shape::note([0.5, 0.24], "4 kN/m³"),
-        Shape::Probe {
-            at: [LENGTH, 0.0],
-            label: "corner".to_owned(),
-        },
+        Shape::Probe { at: [LENGTH, 0.0], label: "corner".to_owned() },
     ];
     for k in 0..4 {
         let x = 0.2 + 0.2 * f64::from(k);
         shapes.push(Shape::Load([x, 0.19], [x, 0.07]));
     }
-    Sketch {
-        shapes,
-        description: "A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight.",
-    }
+    Sketch { shapes, description: "A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight." }
 }
 
 fn tables() -> Vec<ResultTable> {
@@ -336,55 +236,34 @@ fn tables() -> Vec<ResultTable> {
             return "breaks down".to_owned();
         }
         let setup = Setup::<Cantilever>::of_record(r).map_err(|e| e.to_string());
-        let exact = setup
-            .and_then(|c| solution(&c))
-            .map_or(f64::NAN, |s| s.bottom_right[1]);
+        let exact = setup.and_then(|c| solution(&c)).map_or(f64::NAN, |s| s.bottom_right[1]);
         percent(2).text(r.metric(CORNER_UY) / exact - 1.0)
     }
     fn or_dash(changed: &[&str]) -> String {
-        if changed.is_empty() {
-            "–".to_owned()
-        } else {
-            changed.join(", ")
-        }
+        if changed.is_empty() { "–".to_owned() } else { changed.join(", ") }
     }
     fn word(r: &Record, name: &str, default: &str) -> String {
-        let own = r
-            .set
-            .iter()
-            .find_map(|set| set.strip_prefix(name)?.strip_prefix('='));
+        let own = r.set.iter().find_map(|set| set.strip_prefix(name)?.strip_prefix('='));
         own.unwrap_or(default).to_owned()
     }
     const STABILISATION: Label = ("stabilisation", |r| word(r, "stabilisation", "ghost"));
     const LAW: Label = ("law", |r| word(r, "law", "hencky"));
-    const CHANGED: Label = ("changed", |r| {
-        or_dash(&r.set.iter().map(String::as_str).collect::<Vec<_>>())
-    });
+    const CHANGED: Label = ("changed", |r| or_dash(&r.set.iter().map(String::as_str).collect::<Vec<_>>()));
     const BESIDE_PAPER: Label = ("changed", |r| {
-        let more = r
-            .set
-            .iter()
-            .map(String::as_str)
-            .filter(|set| !PAPER.contains(set));
+        let more = r.set.iter().map(String::as_str).filter(|set| !PAPER.contains(set));
         or_dash(&more.collect::<Vec<_>>())
     });
     // The penalty as a share of G = E/2.
-    const ALPHA: Label = ("α_u", |r| {
-        format!(
-            "{}",
-            2.0 * Setup::<Cantilever>::number_of(r, |c| c.stabilisation_factor)
-        )
-    });
-    let errors =
-        |title: fn(&str) -> String, levels: &[(&'static str, &'static str)]| -> Vec<Column> {
-            let column = |&(level, name): &(&'static str, &'static str)| {
-                Column::text(title(name), error).of(move |r| r.level == level)
-            };
-            levels.iter().map(column).collect()
+    const ALPHA: Label =
+        ("α_u", |r| format!("{}", 2.0 * Setup::<Cantilever>::number_of(r, |c| c.stabilisation_factor)));
+    let errors = |title: fn(&str) -> String, levels: &[(&'static str, &'static str)]| -> Vec<Column> {
+        let column = |&(level, name): &(&'static str, &'static str)| {
+            Column::text(title(name), error).of(move |r| r.level == level)
         };
+        levels.iter().map(column).collect()
+    };
     let steps = [5.0, 10.0, 20.0, 40.0, 80.0, 160.0].map(|steps| {
-        Column::text(format!("{steps} steps"), error)
-            .of(move |r| number(r, |c| f64::from(c.load_steps)) == steps)
+        Column::text(format!("{steps} steps"), error).of(move |r| number(r, |c| f64::from(c.load_steps)) == steps)
     });
     let columns = || {
         let kilo = fixed(1).times(1e-3);
@@ -397,22 +276,14 @@ fn tables() -> Vec<ResultTable> {
         ]
     };
     let mut ghosts = errors(|name| format!("error of u_y, {name}"), &LEVELS[..3]);
-    ghosts.extend(Column::levels(
-        [("h0.05", "log₁₀ condition, 0.05")],
-        LOG10_CONDITION,
-        fixed(1),
-    ));
+    ghosts.extend(Column::levels([("h0.05", "log₁₀ condition, 0.05")], LOG10_CONDITION, fixed(1)));
     let of_paper = [
         Column::metric("corner u_x (m)", CORNER_UX, fixed(3)),
         Column::metric("corner u_y (m)", CORNER_UY, fixed(3)),
         Column::metric("edge mean u_y (m)", EDGE_MEAN_UY, fixed(3)),
     ];
     let splines = |r: &Record| r.basis() == Bspline2 && r.level == "h0.05";
-    let keeps_law_and_load = |r: &Record| {
-        r.set
-            .iter()
-            .all(|s| !s.starts_with("law") && !s.starts_with("load"))
-    };
+    let keeps_law_and_load = |r: &Record| r.set.iter().all(|s| !s.starts_with("law") && !s.starts_with("load"));
     vec![
         ResultTable::new(
             "cantilever-cells",
@@ -426,12 +297,7 @@ fn tables() -> Vec<ResultTable> {
             &[LAW],
             steps,
         ),
-        ResultTable::new(
-            "cantilever-choices",
-            move |r| splines(r) && keeps_law_and_load(r),
-            &[CHANGED],
-            columns(),
-        ),
+        ResultTable::new("cantilever-choices", move |r| splines(r) && keeps_law_and_load(r), &[CHANGED], columns()),
         ResultTable::new(
             "cantilever-ghosts",
             |r| r.basis() == Gimp && r.changes_none_but(&["stabilisation_factor"]),

@@ -80,16 +80,12 @@ pub(super) fn stresses(setup: &Setup<Cantilever>) -> Result<&'static Stresses, S
 
 fn document() -> Option<&'static Document> {
     static DOCUMENT: OnceLock<Option<Document>> = OnceLock::new();
-    DOCUMENT
-        .get_or_init(|| serde_json::from_str(SOLUTIONS).ok())
-        .as_ref()
+    DOCUMENT.get_or_init(|| serde_json::from_str(SOLUTIONS).ok()).as_ref()
 }
 
 /// The solution of a setup: displacements depend on ν and weight over E alone.
 pub(super) fn solution(setup: &Setup<Cantilever>) -> Result<&'static Solution, String> {
-    let stored = &document()
-        .ok_or("the stored reference can't be read")?
-        .solutions;
+    let stored = &document().ok_or("the stored reference can't be read")?.solutions;
     let load = setup.weight / setup.young_modulus;
     if (load - 0.04).abs() > 1e-12 || setup.poisson_ratio != 0.0 {
         return Err("the reference is for ν = 0 and weight/E = 0.04/m".to_owned());
@@ -107,17 +103,10 @@ pub(super) fn describe() -> Vec<String> {
         return Vec::new();
     };
     let s = &document.solutions;
-    let laws = [
-        ("Hencky", &s.hencky),
-        ("neo-Hookean", &s.neo_hookean),
-        ("Jaumann", &s.jaumann),
-    ];
+    let laws = [("Hencky", &s.hencky), ("neo-Hookean", &s.neo_hookean), ("Jaumann", &s.jaumann)];
     let line = |(name, s): (&str, &Solution)| {
         let [ux, uy] = s.bottom_right;
-        format!(
-            "{name}: corner (1, 0) moves by ({ux:.6}, {uy:.6}) m ± {:.0e} m",
-            s.uncertainty
-        )
+        format!("{name}: corner (1, 0) moves by ({ux:.6}, {uy:.6}) m ± {:.0e} m", s.uncertainty)
     };
     let mut lines = vec![document.method.clone()];
     lines.extend(laws.map(line));

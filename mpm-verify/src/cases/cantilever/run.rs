@@ -72,9 +72,7 @@ impl Setup<Cantilever> {
             LawName::Hencky => self.with(Hencky::new(young, ratio)?),
             LawName::NeoHookean => self.with(NeoHookean::new(young, ratio)?),
             LawName::Jaumann => self.with(Hypoelastic::new(young, ratio, JaumannUpdate::Split)?),
-            LawName::JaumannLinear => {
-                self.with(Hypoelastic::new(young, ratio, JaumannUpdate::Linear)?)
-            }
+            LawName::JaumannLinear => self.with(Hypoelastic::new(young, ratio, JaumannUpdate::Linear)?),
         }
     }
 
@@ -84,15 +82,10 @@ impl Setup<Cantilever> {
         let lower = cells(below, h);
         let along = Axis::bounded(0.0, cells(LENGTH + beyond, h), (Side::Wall, Side::Open));
         let up = Axis::open(-h * lower as f64, lower + cells(DEPTH + above, h));
-        let particles =
-            Particles::new(self.seed(), spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
+        let particles = Particles::new(self.seed(), spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
         let weight = self.weight / DENSITY;
         let scene = Scene::new(Grid::new(h, [along, up])?, Body::new(law, particles)?)
-            .constrain(Wall {
-                axis: 0,
-                end: End::Lo,
-                kind: WallKind::Fixed,
-            })
+            .constrain(Wall { axis: 0, end: End::Lo, kind: WallKind::Fixed })
             .load(BodyForce(Box::new(move |_, share| [0.0, -weight * share])));
         let stabilisation = match self.stabilisation {
             Stabilised::None => Stabilisation::None,
@@ -144,16 +137,12 @@ impl Problem<2> for Bending {
         let why = "1/m: below, rounding hides the answer, and above, shear alone takes the tip off the grid";
         let what = "weight (1 + poisson_ratio) / young_modulus";
         require_quotient(what, strain, WEIGHT_OVER_MODULUS, why)?;
-        Ok(Self {
-            edge: Edge::new(&setup),
-            setup,
-        })
+        Ok(Self { edge: Edge::new(&setup), setup })
     }
 
     fn discretisation(&self) -> Discretisation {
         let ppc = self.setup.points_per_direction.pow(2);
-        self.setup
-            .discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
+        self.setup.discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
     }
 
     fn begin(&self, _: &Steps) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
@@ -169,17 +158,8 @@ impl Problem<2> for Bending {
         seen.force_ratio = seen.force_ratio.max(convergence.force_ratio);
         seen.force_rounding = seen.force_rounding.max(convergence.force_rounding);
         seen.energy_ratio = seen.energy_ratio.max(convergence.energy_ratio);
-        let last = |k: usize| {
-            convergence
-                .residuals
-                .iter()
-                .rev()
-                .nth(k)
-                .copied()
-                .unwrap_or(0.0)
-        };
-        let [[corner_x, mean_x], [corner_y, mean_y]] =
-            [0, 1].map(|axis| self.edge.tip(&displacement(run, axis)));
+        let last = |k: usize| convergence.residuals.iter().rev().nth(k).copied().unwrap_or(0.0);
+        let [[corner_x, mean_x], [corner_y, mean_y]] = [0, 1].map(|axis| self.edge.tip(&displacement(run, axis)));
         let [least, greatest] = extremes(&stress_xx(run));
         let totals = run.totals();
         Ok(row! {
@@ -207,8 +187,7 @@ impl Problem<2> for Bending {
     }
 
     fn particles<'a>(&self, _: &Steps, columns: Columns<'a, 2>) -> Columns<'a, 2> {
-        let moved =
-            |p: &Particles<2>, k: usize, axis: usize| p.position[k][axis] - p.reference[k][axis];
+        let moved = |p: &Particles<2>, k: usize, axis: usize| p.position[k][axis] - p.reference[k][axis];
         columns
             .references()
             .each("ux", "m", |p, k| moved(p, k, 0))

@@ -10,10 +10,7 @@ use crate::prelude::*;
 use run::HALF_AXES;
 use std::collections::BTreeMap;
 
-const LEVELS: [Level; 1] = [Level {
-    name: "h0.1",
-    h: 0.1,
-}];
+const LEVELS: [Level; 1] = [Level { name: "h0.1", h: 0.1 }];
 /// Unknowns of the displacement, at most.
 const UNKNOWNS: f64 = 500.0;
 /// Rounding of equal values of two runs.
@@ -26,9 +23,7 @@ choices! {
     enum PressureGhost { Conductivity = "conductivity", Storage = "storage" }
 }
 
-const PRESSURE_GHOST: Parameter = PressureGhost::Conductivity
-    .by_default()
-    .named("pressure_ghost");
+const PRESSURE_GHOST: Parameter = PressureGhost::Conductivity.by_default().named("pressure_ghost");
 
 parameters! {
     /// Parameters of the half ellipse.
@@ -65,8 +60,10 @@ pub(super) fn case() -> Case {
         description: "Half an ellipse at forty places within one cell of the pressure: condition numbers of the matrices of displacement and \
                       pressure and of the whole, for strengths of the ghost penalties, and what these cost a cantilever.",
         references: vec![
-            "Theory: a penalty is positive semidefinite, so that it lowers no eigenvalue and no body bends more.".to_owned(),
-            "Figure 8 of Pretti et al., doi:10.1002/nme.7630, as its text tells: its numbers were not at hand.".to_owned(),
+            "Theory: a penalty is positive semidefinite, so that it lowers no eigenvalue and no body bends more."
+                .to_owned(),
+            "Figure 8 of Pretti et al., doi:10.1002/nme.7630, as its text tells: its numbers were not at hand."
+                .to_owned(),
         ],
         limits: &[
             "Matrices of an undeformed body at small strain, of the solver's functions and facets but assembled here.",
@@ -90,8 +87,7 @@ pub(super) fn case() -> Case {
 }
 
 fn plan() -> Vec<Family> {
-    let [two, equal] =
-        [TwoGrid, Equal].map(|space| [Gimp, Linear].map(|basis| Scheme::poro(basis, space)));
+    let [two, equal] = [TwoGrid, Equal].map(|space| [Gimp, Linear].map(|basis| Scheme::poro(basis, space)));
     Plan::of(&LEVELS)
         .runs(Quick, "h0.1", &two[..1], "positions=8")
         .runs(Pr, "h0.1", &two, "")
@@ -100,12 +96,7 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "h0.1", &two, "pressure_ghost=storage")
         .runs(Nightly, "h0.1", &two, "mobility=1")
         .runs(Nightly, "h0.1", &two, "alpha=0 mobility=1")
-        .each(
-            Nightly,
-            "h0.1",
-            &two,
-            ["alpha=0.001", "alpha=0.01", "alpha=1", "alpha=10"],
-        )
+        .each(Nightly, "h0.1", &two, ["alpha=0.001", "alpha=0.01", "alpha=1", "alpha=10"])
         .done()
 }
 
@@ -132,48 +123,59 @@ fn checks() -> Vec<Check> {
     type Check = CheckOf<Ellipse>;
     const WORK: &str = "the work of a load falls as stiffness grows";
     let spread = |[most, least]: [Metric; 2], name: String| {
-        Quantity::new(name, move |r: &Run<Ellipse>| {
-            r.metric(most) - r.metric(least)
-        })
+        Quantity::new(name, move |r: &Run<Ellipse>| r.metric(most) - r.metric(least))
     };
     let flat = |pair: [Metric; 2], bound: f64| {
-        Demand::at_most(
-            spread(pair, format!("spread of {}", pair[0].name)),
-            move |_| bound,
-        )
+        Demand::at_most(spread(pair, format!("spread of {}", pair[0].name)), move |_| bound)
     };
     vec![
-        Check::truth("mirror", "condition numbers of a place and of its mirror image agree to rounding: n ε times the condition number")
-            .at_most(MIRROR_ERROR, |e| {
-                let condition = 10.0_f64.powf(e.metric(COND_UU));
-                UNKNOWNS * f64::EPSILON * condition
-            })
-            .because("ellipse, particles and both grids are symmetric, and so is the set of places"),
-        Check::truth("no-eigenvalue-falls", "the least eigenvalues of displacement and pressure, over all places, do not fall as α grows")
-            .study(|records| {
-                let why = "a penalty is positive semidefinite";
-                let pairs = [SOFTEST_UU, SOFTEST_PP].into_iter().flat_map(|metric| over_strength(records, metric));
-                let found = |(name, [before, after]): (_, [f64; 2])| Finding::above(name, after / before, 1.0 - ROUNDING, why);
-                pairs.map(found).collect()
-            })
-            .because(""),
-        Check::truth("no-body-bends-more", "the cantilever's deflection changes by nothing without a penalty and by less than nothing with one")
-            .at_most(DEFLECTION_CHANGE, |e| if e.alpha > 0.0 { -ROUNDING } else { ROUNDING })
-            .because(WORK),
+        Check::truth(
+            "mirror",
+            "condition numbers of a place and of its mirror image agree to rounding: n ε times the condition number",
+        )
+        .at_most(MIRROR_ERROR, |e| {
+            let condition = 10.0_f64.powf(e.metric(COND_UU));
+            UNKNOWNS * f64::EPSILON * condition
+        })
+        .because("ellipse, particles and both grids are symmetric, and so is the set of places"),
+        Check::truth(
+            "no-eigenvalue-falls",
+            "the least eigenvalues of displacement and pressure, over all places, do not fall as α grows",
+        )
+        .study(|records| {
+            let why = "a penalty is positive semidefinite";
+            let pairs = [SOFTEST_UU, SOFTEST_PP].into_iter().flat_map(|metric| over_strength(records, metric));
+            let found =
+                |(name, [before, after]): (_, [f64; 2])| Finding::above(name, after / before, 1.0 - ROUNDING, why);
+            pairs.map(found).collect()
+        })
+        .because(""),
+        Check::truth(
+            "no-body-bends-more",
+            "the cantilever's deflection changes by nothing without a penalty and by less than nothing with one",
+        )
+        .at_most(DEFLECTION_CHANGE, |e| if e.alpha > 0.0 { -ROUNDING } else { ROUNDING })
+        .because(WORK),
         Check::truth("deflection-falls-with-strength", "the cantilever's deflection falls as α grows")
             .study(|records| {
                 let pairs = over_strength(records, DEFLECTION_CHANGE).into_iter();
                 pairs.map(|(name, [before, after])| Finding::at_most(name, after - before, ROUNDING, WORK)).collect()
             })
             .because(""),
-        Check::known_limit("cuts-spoil-matrices", "GIMP without penalties, forty places: the displacement's condition number varies by more than a decade")
-            .when(|e| e.basis() == Gimp && e.alpha == 0.0 && e.positions >= PLACES)
-            .above(spread([COND_UU, COND_UU_LEAST], "spread of log10_cond_uu".to_owned()), |_| 1.0)
-            .because("a function that hardly sees the body has hardly a stiffness"),
-        Check::regression("flat", "α = 0.1, forty places: log10 of the condition numbers varies by at most 0.3 (uu) and 0.4 (pp)")
-            .when(|e| e.alpha == 0.1 && e.positions >= PLACES)
-            .each([flat([COND_UU, COND_UU_LEAST], 0.3), flat([COND_PP, COND_PP_LEAST], 0.4)])
-            .because("as observed"),
+        Check::known_limit(
+            "cuts-spoil-matrices",
+            "GIMP without penalties, forty places: the displacement's condition number varies by more than a decade",
+        )
+        .when(|e| e.basis() == Gimp && e.alpha == 0.0 && e.positions >= PLACES)
+        .above(spread([COND_UU, COND_UU_LEAST], "spread of log10_cond_uu".to_owned()), |_| 1.0)
+        .because("a function that hardly sees the body has hardly a stiffness"),
+        Check::regression(
+            "flat",
+            "α = 0.1, forty places: log10 of the condition numbers varies by at most 0.3 (uu) and 0.4 (pp)",
+        )
+        .when(|e| e.alpha == 0.1 && e.positions >= PLACES)
+        .each([flat([COND_UU, COND_UU_LEAST], 0.3), flat([COND_PP, COND_PP_LEAST], 0.4)])
+        .because("as observed"),
     ]
 }
 
@@ -182,19 +184,14 @@ fn over_strength(records: &[Record], metric: Metric) -> Vec<(String, [f64; 2])> 
     let mut ladders: BTreeMap<(String, usize), Vec<(f64, f64)>> = BTreeMap::new();
     let runs = records.iter().filter_map(Run::<Ellipse>::of);
     for e in runs.filter(|e| e.changes_none_but(&["alpha", "positions"])) {
-        let ladder = ladders
-            .entry((e.scheme.to_string(), e.positions))
-            .or_default();
+        let ladder = ladders.entry((e.scheme.to_string(), e.positions)).or_default();
         ladder.push((e.alpha, e.metric(metric)));
     }
     let mut all = Vec::new();
     for ((scheme, places), mut points) in ladders {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         for pair in points.windows(2) {
-            let name = format!(
-                "{} of {scheme} at {places} places, α from {} to {}",
-                metric.name, pair[0].0, pair[1].0
-            );
+            let name = format!("{} of {scheme} at {places} places, α from {} to {}", metric.name, pair[0].0, pair[1].0);
             all.push((name, [pair[0].1, pair[1].1]));
         }
     }
@@ -202,12 +199,8 @@ fn over_strength(records: &[Record], metric: Metric) -> Vec<(String, [f64; 2])> 
 }
 
 fn tables() -> Vec<ResultTable> {
-    const ALPHA: Label = ("α", |r| {
-        Setup::<Ellipse>::number_of(r, |e| e.alpha).to_string()
-    });
-    const WATER: Label = ("κ Δt G/h_p²", |r| {
-        Setup::<Ellipse>::number_of(r, |e| e.mobility).to_string()
-    });
+    const ALPHA: Label = ("α", |r| Setup::<Ellipse>::number_of(r, |e| e.alpha).to_string());
+    const WATER: Label = ("κ Δt G/h_p²", |r| Setup::<Ellipse>::number_of(r, |e| e.mobility).to_string());
     const OVER: Label = ("ghost of p over", |r| r.parameters.text(PRESSURE_GHOST));
     let two = |title, metric| Column::metric(title, metric, fixed(2));
     vec![
@@ -229,8 +222,7 @@ fn tables() -> Vec<ResultTable> {
             "conditioning-whole",
             |r| r.changes_none_but(&["alpha", "mobility", "pressure_ghost"]),
             &[SCHEME, WATER, ALPHA, OVER],
-            [("raw", COND), ("scaled", COND_SCALED)]
-                .map(|(title, metric)| Column::metric(title, metric, fixed(1))),
+            [("raw", COND), ("scaled", COND_SCALED)].map(|(title, metric)| Column::metric(title, metric, fixed(1))),
         ),
     ]
 }

@@ -25,10 +25,7 @@ const BEAM_FLOOR: f64 = 2.0;
 /// Points along a cell at which held functions are zero.
 const POINTS: usize = 4;
 /// Moduli over G, of ν = ¼.
-const MODULI: Moduli = Moduli {
-    lambda: 1.0,
-    mu: 1.0,
-};
+const MODULI: Moduli = Moduli { lambda: 1.0, mu: 1.0 };
 /// The whole matrix is analysed in one of this number of places.
 const OF_WHOLE: usize = 4;
 
@@ -47,10 +44,7 @@ pub(super) struct Found {
 fn spread(values: impl Iterator<Item = f64>) -> [f64; 3] {
     let (mut least, mut sum, mut most, mut count) = (f64::INFINITY, 0.0, f64::NEG_INFINITY, 0.0);
     for value in values {
-        (least, most) = (
-            if value < least { value } else { least },
-            if value > most { value } else { most },
-        );
+        (least, most) = (if value < least { value } else { least }, if value > most { value } else { most });
         (sum, count) = (sum + value, count + 1.0);
     }
     [least, sum / count, most]
@@ -66,10 +60,7 @@ impl Analysis for Setup<Ellipse> {
         if basis && space {
             return Ok(setup);
         }
-        Err(Error::Input(format!(
-            "scheme = {}; allowed: poro with linear or gimp and two-grid or equal",
-            setup.scheme
-        )))
+        Err(Error::Input(format!("scheme = {}; allowed: poro with linear or gimp and two-grid or equal", setup.scheme)))
     }
 
     fn discretisation(&self) -> Discretisation {
@@ -145,8 +136,7 @@ impl Setup<Ellipse> {
         let h = self.h;
         let half = HALF_AXES;
         let cells = half.map(|a| a.ceil() as usize);
-        let inside =
-            |x: &[f64; 2]| (x[0] / h / half[0]).powi(2) + (x[1] / h / half[1]).powi(2) < 1.0;
+        let inside = |x: &[f64; 2]| (x[0] / h / half[0]).powi(2) + (x[1] / h / half[1]).powi(2) < 1.0;
         let corner = [-(cells[0] as f64) * h, 0.0];
         let count = [2 * cells[0] * PARTICLES, cells[1] * PARTICLES];
         let mut cloud = Cloud::new(corner, count, h / PARTICLES as f64, inside);
@@ -163,17 +153,11 @@ impl Setup<Ellipse> {
         let h = self.h;
         let axes = [Axis::open(0.0, CELLS[0]), Axis::walls(0.0, CELLS[1])];
         let grid = Grid::new(h, axes)?;
-        let of_pressure = if self.space() == Some(Equal) {
-            grid
-        } else {
-            coarse(&grid)?
-        };
+        let of_pressure = if self.space() == Some(Equal) { grid } else { coarse(&grid)? };
         let (of_u, of_p) = (I::on(grid)?, I::on(of_pressure)?);
         let cloud = self.cloud(k);
         let points = CELLS[0] * POINTS;
-        let held: Vec<[f64; 2]> = (0..=points)
-            .map(|i| [i as f64 / POINTS as f64 * h, 0.0])
-            .collect();
+        let held: Vec<[f64; 2]> = (0..=points).map(|i| [i as f64 / POINTS as f64 * h, 0.0]).collect();
         let u = Field::new(&of_u, &cloud, &held);
         let p = Field::new(&of_p, &cloud, &held);
         let domains = || cloud.domains();
@@ -186,21 +170,14 @@ impl Setup<Ellipse> {
         let whole = k.is_multiple_of(OF_WHOLE).then(|| {
             let cell = of_pressure.h * of_pressure.h;
             let mobility = self.mobility * cell;
-            let over = mobility
-                + if self.pressure_ghost == PressureGhost::Storage {
-                    cell
-                } else {
-                    0.0
-                };
+            let over = mobility + if self.pressure_ghost == PressureGhost::Storage { cell } else { 0.0 };
             let of_pressure = flow * mobility + of_water * (self.alpha * over);
             let whole = saddle(&solid, &of_pressure, &u.coupling(&p, &cloud));
             [log10_condition(&whole), log10_condition(&scaled(&whole))]
         });
         let both = [&solid, &water].map(eigenvalues);
         let ends = |of: &Vec<f64>| Some((*of.first()?, *of.last()?));
-        let [of_solid, of_water] = both
-            .each_ref()
-            .map(|of| ends(of).unwrap_or((f64::NAN, f64::NAN)));
+        let [of_solid, of_water] = both.each_ref().map(|of| ends(of).unwrap_or((f64::NAN, f64::NAN)));
         Ok(Found {
             own: [of_solid, of_water].map(|(least, most)| (most / least).abs().log10()),
             softest: [of_solid.0, of_water.0],
@@ -211,18 +188,13 @@ impl Setup<Ellipse> {
     /// Change by α of the mean deflection of the cantilever with the functions `I`.
     fn deflection_change<I: OfHats<2>>(&self) -> Result<f64, mpm_core::Error> {
         let h = self.h;
-        let axes = [
-            Axis::walls(0.0, BEAM_GRID[0]),
-            Axis::open(0.0, BEAM_GRID[1]),
-        ];
+        let axes = [Axis::walls(0.0, BEAM_GRID[0]), Axis::open(0.0, BEAM_GRID[1])];
         let functions = I::on(Grid::new(h, axes)?)?;
         let count = BEAM.map(|cells| cells * PARTICLES);
         let spacing = h / PARTICLES as f64;
         let cloud = Cloud::new([0.0, BEAM_FLOOR * h], count, spacing, |_| true);
         let points = BEAM_GRID[1] * POINTS;
-        let held: Vec<[f64; 2]> = (0..=points)
-            .map(|i| [0.0, i as f64 / POINTS as f64 * h])
-            .collect();
+        let held: Vec<[f64; 2]> = (0..=points).map(|i| [0.0, i as f64 / POINTS as f64 * h]).collect();
         let u = Field::new(&functions, &cloud, &held);
         let weight = u.load(&cloud, |_| 1.0);
         let mut force = nalgebra::DVector::zeros(2 * u.count);
@@ -232,11 +204,7 @@ impl Setup<Ellipse> {
         let stiffness = u.stiffness(&cloud, MODULI);
         let ghost = u.penalty(&functions.ghost(self.alpha, 2, cloud.domains()), 2);
         let work = |matrix: DMatrix<f64>| {
-            let factors = matrix.cholesky().ok_or(mpm_core::Error::Singular {
-                time: 0.0,
-                step: 0,
-                iteration: 0,
-            })?;
+            let factors = matrix.cholesky().ok_or(mpm_core::Error::Singular { time: 0.0, step: 0, iteration: 0 })?;
             Ok::<f64, mpm_core::Error>(factors.solve(&force).dot(&force))
         };
         let plain = work(stiffness.clone())?;
@@ -245,11 +213,7 @@ impl Setup<Ellipse> {
 }
 
 /// [A, −B; −Bᵀ, −C], of couplings of each axis.
-fn saddle(
-    solid: &DMatrix<f64>,
-    water: &DMatrix<f64>,
-    coupling: &[DMatrix<f64>; 2],
-) -> DMatrix<f64> {
+fn saddle(solid: &DMatrix<f64>, water: &DMatrix<f64>, coupling: &[DMatrix<f64>; 2]) -> DMatrix<f64> {
     let (n, m) = (solid.nrows(), water.nrows());
     let mut whole = DMatrix::zeros(n + m, n + m);
     whole.view_mut((0, 0), (n, n)).copy_from(solid);

@@ -14,8 +14,7 @@ const SMALL: f64 = 0.003;
 
 pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<Consolidation>;
-    const AGAINST_EXACT: &str =
-        "exact solution; a column that is a cell longer or shorter, and backward Euler's steps";
+    const AGAINST_EXACT: &str = "exact solution; a column that is a cell longer or shorter, and backward Euler's steps";
     // On cells of h the end of the column is not known to less than h: T = c_v t/H² then changes by 2 h/H, a settlement over H by
     // h/H at most. Backward Euler's own error is known where its steps are.
     vec![
@@ -89,11 +88,7 @@ fn balance_error(c: &Run<Consolidation>) -> f64 {
 /// Whether the cells of the pressure resolve the layer.
 fn resolves(r: &Record) -> bool {
     Setup::<Consolidation>::holds(r, |c| {
-        let cell = if c.space() == Some(TwoGrid) {
-            2.0 * c.h
-        } else {
-            c.h
-        };
+        let cell = if c.space() == Some(TwoGrid) { 2.0 * c.h } else { c.h };
         layer(c.load).is_some_and(|layer| RESOLVING * cell <= layer)
     })
 }
@@ -101,8 +96,7 @@ fn resolves(r: &Record) -> bool {
 /// GIMP's three finest runs that change the load alone, by load and scheme, coarsest first.
 fn ladders(records: &[Record]) -> BTreeMap<(String, Scheme), Vec<&Record>> {
     let mut ladders: BTreeMap<_, Vec<&Record>> = BTreeMap::new();
-    let own =
-        |r: &&Record| r.basis() == Gimp && r.status == Status::Ok && r.changes_none_but(&["load"]);
+    let own = |r: &&Record| r.basis() == Gimp && r.status == Status::Ok && r.changes_none_but(&["load"]);
     for r in records.iter().filter(own) {
         let key = (number(r, |c| c.load).to_string(), r.scheme());
         ladders.entry(key).or_default().push(r);
@@ -141,20 +135,9 @@ fn richardson(records: &[Record]) -> Vec<Finding> {
         let exact = exact.first()?.settlement;
         let settled = [coarse, middle, fine].map(|r| r.metric(SETTLEMENT_EARLY));
         let index = index(settled, THEORY, resolves(coarse));
-        let metric = format!(
-            "error of {} of {scheme} at {load} M₀",
-            SETTLEMENT_EARLY.name
-        );
-        let why = format!(
-            "Roache's index of the two finest, order {:.2}, factor {}",
-            index.order, index.safe
-        );
-        Some(Finding::at_most(
-            metric,
-            (settled[2] - exact).abs(),
-            index.bound,
-            why,
-        ))
+        let metric = format!("error of {} of {scheme} at {load} M₀", SETTLEMENT_EARLY.name);
+        let why = format!("Roache's index of the two finest, order {:.2}, factor {}", index.order, index.safe);
+        Some(Finding::at_most(metric, (settled[2] - exact).abs(), index.bound, why))
     };
     ladders(records).into_iter().filter_map(of).collect()
 }

@@ -12,11 +12,7 @@ const TIME: Asked = Asked::series(
     "T = c_v t/H², c_v = κ₀ M₀; at least four rows, about T = 0.1, 0.2, 0.3, 0.5, 0.75, 1, 1.5 and 2",
 );
 const SETTLEMENT: Asked = Asked::series("settlement", "-", "settlement of the top over H");
-const BASE: Asked = Asked::series(
-    "base_pressure",
-    "-",
-    "pore pressure at the floor over the load",
-);
+const BASE: Asked = Asked::series("base_pressure", "-", "pore pressure at the floor over the load");
 
 pub(in crate::cases) fn foreign() -> Foreign {
     Foreign {
@@ -31,12 +27,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
         groups: vec![
             Group {
                 columns: &[TIME, SETTLEMENT],
-                metrics: vec![
-                    SETTLEMENT_ERROR,
-                    SETTLEMENT_ERROR_STEPS,
-                    SETTLEMENT_EARLY,
-                    SETTLEMENT_END,
-                ],
+                metrics: vec![SETTLEMENT_ERROR, SETTLEMENT_ERROR_STEPS, SETTLEMENT_EARLY, SETTLEMENT_END],
                 measure: |given| Ok(setup(given)?.settlement_metrics(&rows(given))),
             },
             Group {
@@ -76,10 +67,6 @@ fn setup(given: &Given) -> Result<Setup<Consolidation>, Error> {
 /// The rows that a code gives; missing values are zero, which no group takes.
 fn rows(given: &Given) -> Vec<At> {
     let at = |asked: &Asked, k: usize| given.column(asked).get(k).copied().unwrap_or_default();
-    let row = |(k, t): (usize, &f64)| At {
-        t: *t,
-        settlement: at(&SETTLEMENT, k),
-        base: at(&BASE, k),
-    };
+    let row = |(k, t): (usize, &f64)| At { t: *t, settlement: at(&SETTLEMENT, k), base: at(&BASE, k) };
     given.column(&TIME).iter().enumerate().map(row).collect()
 }

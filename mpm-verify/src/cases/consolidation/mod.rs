@@ -14,14 +14,8 @@ use crate::prelude::*;
 use reference::{At, solution};
 use run::HEIGHT;
 
-const LEVELS: [(&str, f64); 6] = [
-    ("n8", 8.0),
-    ("n16", 16.0),
-    ("n32", 32.0),
-    ("n64", 64.0),
-    ("n128", 128.0),
-    ("n256", 256.0),
-];
+const LEVELS: [(&str, f64); 6] =
+    [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0), ("n128", 128.0), ("n256", 256.0)];
 /// Ghost penalties, on displacements, on pressures, and on both as other cases have them.
 const GHOSTS: [&str; 9] = [
     "ghost_displacement=0.01",
@@ -83,7 +77,8 @@ pub(super) fn case() -> Case {
         description: "A column full of water settles by a fifth or by two fifths of its height as it drains at its top: the surface leaves \
                       the grid's lines, particles cross cells, pores close and let less water through.",
         references: vec![
-            "references/consolidation.py: Chebyshev collocation, and finite volumes that agree with it to 10⁻⁸.".to_owned(),
+            "references/consolidation.py: Chebyshev collocation, and finite volumes that agree with it to 10⁻⁸."
+                .to_owned(),
             "The same of backward Euler's steps: the error of space by itself.".to_owned(),
         ],
         limits: &[
@@ -178,27 +173,16 @@ fn tables() -> Vec<ResultTable> {
     const RATE: Label = ("rate", |r| r.parameters.text(VOLUME_RATE));
     const STEPS: Label = ("steps", |r| number(r, |c| c.count()).to_string());
     let errors = |levels: &[(&'static str, f64)], title: &str| {
-        let levels = levels
-            .iter()
-            .map(|(level, n)| (*level, format!("{title}n = {n}")));
+        let levels = levels.iter().map(|(level, n)| (*level, format!("{title}n = {n}")));
         Column::levels(levels, SETTLEMENT_ERROR_STEPS, share(3))
     };
     let mut of_cells = errors(&LEVELS, "");
     of_cells.push(Column::order(SETTLEMENT_ERROR_STEPS));
-    of_cells.extend(Column::levels(
-        [("n16", "with that of time, n = 16")],
-        SETTLEMENT_ERROR,
-        share(2),
-    ));
+    of_cells.extend(Column::levels([("n16", "with that of time, n = 16")], SETTLEMENT_ERROR, share(2)));
     let of_drains = [100.0, 1e3, 1e4].into_iter().flat_map(|drain| {
         LEVELS[..3].iter().map(move |(level, n)| {
             let at = move |r: &Record| r.level == *level && number(r, |c| c.drain) == drain;
-            Column::metric(
-                format!("β h/κ₀ = {drain}, n = {n}"),
-                SETTLEMENT_ERROR_STEPS,
-                share(3),
-            )
-            .of(at)
+            Column::metric(format!("β h/κ₀ = {drain}, n = {n}"), SETTLEMENT_ERROR_STEPS, share(3)).of(at)
         })
     });
     let of_water = [
@@ -230,19 +214,13 @@ fn tables() -> Vec<ResultTable> {
         .across(),
         ResultTable::new(
             "consolidation-ghosts",
-            move |r| {
-                is_two_grid(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"])
-            },
+            move |r| is_two_grid(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"]),
             &[GHOST_U, GHOST_P],
             errors(&LEVELS[..3], "error of settlement, "),
         ),
         ResultTable::new(
             "consolidation-water",
-            move |r| {
-                is_two_grid(r)
-                    && r.level == "n16"
-                    && r.changes_none_but(&["load", "refine", "volume_rate"])
-            },
+            move |r| is_two_grid(r) && r.level == "n16" && r.changes_none_but(&["load", "refine", "volume_rate"]),
             &[LOADED, RATE, STEPS],
             of_water,
         ),

@@ -27,18 +27,11 @@ struct Row {
 
 static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     let row = |line: &str| {
-        let numbers = line
-            .split(',')
-            .map(str::parse)
-            .collect::<Result<Vec<f64>, _>>();
+        let numbers = line.split(',').map(str::parse).collect::<Result<Vec<f64>, _>>();
         let [load, refine, t, settlement, base, _] = numbers.ok()?[..] else {
             return None;
         };
-        let at = At {
-            t,
-            settlement,
-            base,
-        };
+        let at = At { t, settlement, base };
         Some(Row { load, refine, at })
     };
     TABLE.lines().skip(1).filter_map(row).collect()
@@ -66,11 +59,7 @@ pub(super) fn between(seen: &[At], t: f64) -> Option<At> {
     let next = seen.partition_point(|at| at.t < t);
     let middle = next.clamp(2, seen.len().checked_sub(2)?.max(2));
     let near = seen.get(middle - 2..middle + 2)?;
-    let mut sum = At {
-        t,
-        settlement: 0.0,
-        base: 0.0,
-    };
+    let mut sum = At { t, settlement: 0.0, base: 0.0 };
     for a in near {
         let others = near.iter().filter(|b| b.t != a.t);
         let weight: f64 = others.map(|b| (t - b.t) / (a.t - b.t)).product();
@@ -118,9 +107,8 @@ mod tests {
             let error = |steps| {
                 let own = solution(load, Some(steps));
                 let exact = solution(load, None);
-                (own.iter().zip(exact)).fold(0.0_f64, |most, (own, exact)| {
-                    most.max((own.settlement / exact.settlement - 1.0).abs())
-                })
+                (own.iter().zip(exact))
+                    .fold(0.0_f64, |most, (own, exact)| most.max((own.settlement / exact.settlement - 1.0).abs()))
             };
             let ratio = error(4.0) / error(8.0);
             assert!((ratio - 2.0).abs() < 0.05, "{load}: {ratio}");
@@ -138,20 +126,13 @@ mod tests {
                 crate::exact::terzaghi::settlement(at.t - begun) / f64::from(parts)
             };
             let linear = 0.003 * (0..parts).map(of_part).sum::<f64>();
-            assert!(
-                (at.settlement / linear - 1.0).abs() < 0.02,
-                "{at:?} {linear}"
-            );
+            assert!((at.settlement / linear - 1.0).abs() < 0.02, "{at:?} {linear}");
         }
     }
 
     #[test]
     fn a_cubic_is_met_between_its_values() {
-        let of = |t: f64| At {
-            t,
-            settlement: t.powi(3) - t,
-            base: 2.0 - t * t,
-        };
+        let of = |t: f64| At { t, settlement: t.powi(3) - t, base: 2.0 - t * t };
         let seen: Vec<At> = [0.1, 0.25, 0.4, 0.7, 1.1, 2.0].map(of).into();
         for t in [0.12, 0.4, 0.5, 1.9, 2.0] {
             let found = between(&seen, t).unwrap();

@@ -57,8 +57,7 @@ impl Setup<Consolidation> {
     pub(super) fn settlement_metrics(&self, seen: &[At]) -> Vec<(Metric, f64)> {
         let [whole, of_steps] = self.exact();
         let off = |own: &At, exact: &At| own.settlement / exact.settlement - 1.0;
-        let [early, end] = [between(seen, 0.1), seen.last().copied()]
-            .map(|at| at.map_or(f64::NAN, |at| at.settlement));
+        let [early, end] = [between(seen, 0.1), seen.last().copied()].map(|at| at.map_or(f64::NAN, |at| at.settlement));
         vec![
             (SETTLEMENT_ERROR, largest(seen, &whole, off)),
             (SETTLEMENT_ERROR_STEPS, largest(seen, &of_steps, off)),
@@ -82,8 +81,7 @@ impl Setup<Consolidation> {
     pub(super) fn errors_of_steps(&self) -> [f64; 2] {
         let [whole, of_steps] = self.exact();
         let pairs = || of_steps.iter().zip(&whole);
-        let settlement =
-            pairs().map(|(own, exact)| (own.settlement / exact.settlement - 1.0).abs());
+        let settlement = pairs().map(|(own, exact)| (own.settlement / exact.settlement - 1.0).abs());
         let base = pairs().map(|(own, exact)| (own.base - exact.base).abs());
         [settlement.fold(0.0, f64::max), base.fold(0.0, f64::max)]
     }
@@ -137,11 +135,7 @@ impl Problem<1> for Setup<Consolidation> {
         // Nothing moves by its weight: any density will do.
         let particles = Particles::new(self.start_at(places), spacing, 1000.0, [0.5 * spacing])?;
         let law = ImprovedHencky::new(BULK, SHEAR, POROSITY)?;
-        let floor = Wall {
-            axis: 0,
-            end: End::Lo,
-            kind: WallKind::Roller,
-        };
+        let floor = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
         let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(floor);
         let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
         let load = self.whole_load();
@@ -151,12 +145,7 @@ impl Problem<1> for Setup<Consolidation> {
         let c = KAPPA * (1.0 - POROSITY).powi(2) / POROSITY.powi(3);
         let water = Water::new(POROSITY, Conductivity::KozenyCarman(c))
             .face(Face::loaded(particles, topmost, top, traction))
-            .face(Face::drained(
-                particles,
-                topmost,
-                top,
-                self.drain * KAPPA / h,
-            ));
+            .face(Face::drained(particles, topmost, top, self.drain * KAPPA / h));
         let (first, growth) = self.first_and_growth();
         let settings = Settings {
             growth,

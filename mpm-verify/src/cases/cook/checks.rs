@@ -42,12 +42,7 @@ const NEARLY_INCOMPRESSIBLE: (f64, f64) = (0.49, 0.499);
 /// The probe (m) that is two cells of 1 m away from the free lower side.
 const NEAR_FREE_SIDE: [f64; 2] = [24.0, 24.0];
 /// Particles at two per direction, by cell size.
-const COUNTS: [(f64, f64); 4] = [
-    (2.0, 1448.0),
-    (1.0, 5776.0),
-    (0.5, 23_072.0),
-    (0.25, 92_224.0),
-];
+const COUNTS: [(f64, f64); 4] = [(2.0, 1448.0), (1.0, 5776.0), (0.5, 23_072.0), (0.25, 92_224.0)];
 
 const DIFFUSES: &str = "Π is no projection: Eq. (26) averages the average and so diffuses J̄";
 const COMPRESSIBLE: &str = "F̄ is meant for ν ≥ 0.49: see too-soft-when-compressible";
@@ -231,10 +226,7 @@ pub(super) fn checks() -> Vec<Check> {
 }
 
 fn is_free_of_locking(r: &Record) -> bool {
-    matches!(
-        r.remedy(),
-        RemedyName::FbarTotal | RemedyName::FbarRate | RemedyName::FbarConsistent
-    )
+    matches!(r.remedy(), RemedyName::FbarTotal | RemedyName::FbarRate | RemedyName::FbarConsistent)
 }
 
 /// Whether a run has inertia, and comes to rest or doesn't.
@@ -349,11 +341,8 @@ impl Measure {
         let exact = self.exact(reference);
         let relative = if h > RESOLVED {
             // The stored shift is for a load at h/4 from the side, two particles per direction.
-            let inset = if r.parameters.is(LOAD_AT, COLUMN) {
-                2.0 / r.parameters.number(PPC_PER_DIRECTION)
-            } else {
-                0.0
-            };
+            let inset =
+                if r.parameters.is(LOAD_AT, COLUMN) { 2.0 / r.parameters.number(PPC_PER_DIRECTION) } else { 0.0 };
             let moved = load_shift(h).map_or(0.0, |s| inset * self.shift(s).abs());
             moved / exact + self.element_error() * h
         } else {
@@ -393,13 +382,7 @@ fn displacement(r: &Record, of: Measure) -> Vec<Finding> {
     }
     let (exact, tolerance) = (of.exact(reference), of.tolerance(r, reference));
     let value = r.metric(metric);
-    vec![Finding::within(
-        metric,
-        value,
-        exact,
-        tolerance,
-        source(reference),
-    )]
+    vec![Finding::within(metric, value, exact, tolerance, source(reference))]
 }
 
 /// By how much a displacement falls short of the reference, where a body is known to be too stiff.

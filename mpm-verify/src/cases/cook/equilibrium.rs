@@ -124,17 +124,9 @@ impl Watch<2> for Pressed {
         values.extend([
             (m::LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
             (m::REACTION_UY, reaction),
-            (
-                m::REACTION_ERROR,
-                (reaction / self.parameters.number(LOAD) + 1.0)
-                    .abs()
-                    .max(ROUNDING),
-            ),
+            (m::REACTION_ERROR, (reaction / self.parameters.number(LOAD) + 1.0).abs().max(ROUNDING)),
             (m::MASS, totals.mass),
-            (
-                m::SEEDED_VOLUME,
-                totals.mass / self.parameters.number(DENSITY),
-            ),
+            (m::SEEDED_VOLUME, totals.mass / self.parameters.number(DENSITY)),
             (m::NEWTON_ITERATIONS, run.work().newton_iterations as f64),
             (m::LINEAR_ITERATIONS, run.work().linear_iterations as f64),
         ]);

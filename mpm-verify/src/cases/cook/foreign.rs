@@ -13,11 +13,8 @@ const START_X: Asked = Asked::particle("reference_x", "m", "x before anything mo
 const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
 const MOVED_X: Asked = Asked::particle("ux", "m", "displacement along x at rest");
 const MOVED_Y: Asked = Asked::particle("uy", "m", "displacement along y at rest");
-const MEAN_STRESS: Asked = Asked::particle(
-    "mean_stress",
-    "Pa",
-    "mean normal stress at rest, (σ_xx + σ_yy + σ_zz)/3, tension positive",
-);
+const MEAN_STRESS: Asked =
+    Asked::particle("mean_stress", "Pa", "mean normal stress at rest, (σ_xx + σ_yy + σ_zz)/3, tension positive");
 const REACTION: Asked = Asked::series(
     "reaction_y",
     "N/m",
@@ -54,10 +51,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
             },
             Group {
                 columns: &[START_X, START_Y, MEAN_STRESS],
-                metrics: [m::MEAN_STRESS_RMS_ERROR, m::MEAN_STRESS_RMS]
-                    .into_iter()
-                    .chain(stresses)
-                    .collect(),
+                metrics: [m::MEAN_STRESS_RMS_ERROR, m::MEAN_STRESS_RMS].into_iter().chain(stresses).collect(),
                 measure: |given| {
                     let (probes, references) = probes(given)?;
                     let stress = given.column(&MEAN_STRESS);
@@ -104,8 +98,7 @@ fn probes(given: &Given) -> Result<(Probes, Vec<[f64; 2]>), Error> {
 }
 
 fn energy_gain(given: &Given) -> Measured {
-    let [kinetic, stress, load, losses] =
-        [&KINETIC, &STRESS_WORK, &LOAD_WORK, &LOSSES].map(|c| given.column(c));
+    let [kinetic, stress, load, losses] = [&KINETIC, &STRESS_WORK, &LOAD_WORK, &LOSSES].map(|c| given.column(c));
     let rows = 0..kinetic.len();
     let defects = rows.map(|k| energy_defect(kinetic[k], stress[k], losses[k], load[k]));
     let gain = defects.fold(0.0, f64::max) / load.last().copied().unwrap_or(f64::NAN);

@@ -38,9 +38,6 @@ mod tests {
 
     #[test]
     fn the_papers_particle_counts_are_met_exactly() {
-        assert_eq!(
-            [2.0, 1.0, 0.5, 0.25].map(|h| seed(0.5 * h).len()),
-            [1448, 5776, 23_072, 92_224]
-        );
+        assert_eq!([2.0, 1.0, 0.5, 0.25].map(|h| seed(0.5 * h).len()), [1448, 5776, 23_072, 92_224]);
     }
 }

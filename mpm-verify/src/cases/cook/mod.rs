@@ -78,9 +78,7 @@ pub(super) fn case() -> Case {
         own_runs: checks::own_runs,
         begin: Box::new(|spec, parameters| {
             Ok(match spec.scheme {
-                Scheme::Implicit(_) | Scheme::Poro(_) => {
-                    Box::new(Pressed::drive(spec, parameters)?)
-                }
+                Scheme::Implicit(_) | Scheme::Poro(_) => Box::new(Pressed::drive(spec, parameters)?),
                 Scheme::Explicit(_) => {
                     forbid_static(spec, parameters)?;
                     Box::new(Loaded::drive(spec, parameters)?)
@@ -121,9 +119,7 @@ const LARGE_LOADS: [&[&str]; 5] = [
 
 /// Quasi-static, without a remedy and with ours.
 fn statics(bases: &[BasisName]) -> Vec<Scheme> {
-    let of = |&basis: &BasisName| {
-        [RemedyName::None, FbarConsistent].map(|remedy| Scheme::quasi_static(basis, remedy))
-    };
+    let of = |&basis: &BasisName| [RemedyName::None, FbarConsistent].map(|remedy| Scheme::quasi_static(basis, remedy));
     bases.iter().flat_map(of).collect()
 }
 
@@ -150,12 +146,7 @@ fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
         family(Nightly, &[h2], &every, &[]),
         family(Nightly, &[h1], &every, &[]),
         family(Nightly, &[half, quarter], &gimp(&[none]), GIMPS),
-        family(
-            Nightly,
-            &[half, quarter],
-            &pairs(&[Bspline2], &[none]),
-            LARGE,
-        ),
+        family(Nightly, &[half, quarter], &pairs(&[Bspline2], &[none]), LARGE),
         family(Nightly, &[half], &rate, LARGE),
         family(Nightly, &[half], &pairs(&three, &REMEDIES[..4]), &[]),
         family(Nightly, &[h2], &pairs(&three, &[FbarRecursive]), HALVED),
@@ -164,18 +155,8 @@ fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
         family(Nightly, &[h1], &averages, &["poisson_ratio=0.49"]),
         family(Nightly, &[h1], &averages, &["poisson_ratio=0.4999"]),
         family(Nightly, &[h1], &totals, &["load_at=edge"]),
-        family(
-            Nightly,
-            &[h1],
-            &pairs(&[Bspline2], &[none, FbarRate]),
-            &["wall=wall-line"],
-        ),
-        family(
-            Nightly,
-            &[h1],
-            &gimp(&[FbarRate]),
-            &["rest_window=1", "max_periods=5"],
-        ),
+        family(Nightly, &[h1], &pairs(&[Bspline2], &[none, FbarRate]), &["wall=wall-line"]),
+        family(Nightly, &[h1], &gimp(&[FbarRate]), &["rest_window=1", "max_periods=5"]),
         family(Long, &[quarter], &pairs(&three, &[FbarRecursive]), &[]),
         family(Long, &[quarter], &two(&[FbarTotal]), LARGE),
         family(Long, &[quarter], &cubic, LARGE),

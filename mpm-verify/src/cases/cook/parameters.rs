@@ -7,9 +7,8 @@ pub(super) use common::{DAMPING, FLIP, PPC_PER_DIRECTION};
 
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("70");
 pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.499");
-pub(super) const DENSITY: Parameter = common::DENSITY
-    .with_default("1")
-    .meaning("density ρ; the state of rest does not depend on it");
+pub(super) const DENSITY: Parameter =
+    common::DENSITY.with_default("1").meaning("density ρ; the state of rest does not depend on it");
 parameters! { pub(super) const:
     LOAD = "load", "N/m", "1", number(1e-12, 1e12, false),
         "total upward dead load on the right side, per metre of depth";

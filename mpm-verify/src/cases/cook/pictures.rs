@@ -30,24 +30,16 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
 }
 
 /// One series per scheme over the levels, of records for which `measure` is finite.
-fn over_levels(
-    runs: &Exhibit,
-    remedies: &[RemedyName],
-    measure: impl Fn(&Record) -> (f64, f64),
-) -> Vec<Series> {
+fn over_levels(runs: &Exhibit, remedies: &[RemedyName], measure: impl Fn(&Record) -> (f64, f64)) -> Vec<Series> {
     let of_scheme = |(basis, remedy): (BasisName, RemedyName)| {
         let own = |r: &&&Record| r.basis() == basis && r.remedy() == remedy;
         let points = runs.records.iter().filter(own).map(|r| measure(r));
-        let mut points: Vec<(f64, f64)> = points
-            .filter(|(x, y)| x.is_finite() && y.is_finite())
-            .collect();
+        let mut points: Vec<(f64, f64)> = points.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let curve = || series(Scheme::flip(basis, remedy), points.clone());
         (!points.is_empty()).then(curve)
     };
-    let pairs = BASES
-        .into_iter()
-        .flat_map(|b| remedies.iter().map(move |&r| (b, r)));
+    let pairs = BASES.into_iter().flat_map(|b| remedies.iter().map(move |&r| (b, r)));
     pairs.filter_map(of_scheme).collect()
 }
 
@@ -60,16 +52,8 @@ fn charts(runs: &mut Exhibit, name: &str, charts: &[Chart], caption: &str) -> Re
 
 fn fields(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let mut panels = Vec::new();
-    let has = |level: &&str| {
-        runs.records
-            .iter()
-            .any(|r| r.basis() == basis && r.level == **level)
-    };
-    let levels: Vec<&str> = ["h0.5", "h1", "h2"]
-        .into_iter()
-        .filter(has)
-        .take(2)
-        .collect();
+    let has = |level: &&str| runs.records.iter().any(|r| r.basis() == basis && r.level == **level);
+    let levels: Vec<&str> = ["h0.5", "h1", "h2"].into_iter().filter(has).take(2).collect();
     for level in levels.into_iter().rev() {
         for remedy in [RemedyName::None, RemedyName::FbarConsistent] {
             let Some(record) = runs.find(basis, remedy, level) else {
@@ -77,11 +61,7 @@ fn fields(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
             };
             let table = runs.gallery.table(record, "particles.csv")?;
             panels.push(FieldPanel {
-                title: format!(
-                    "{}, h = {} m",
-                    remedy_title(remedy),
-                    record.discretisation.h
-                ),
+                title: format!("{}, h = {} m", remedy_title(remedy), record.discretisation.h),
                 points: table.points("x", "y"),
                 values: table.column("mean_stress").to_vec(),
                 size: spacing(record),
@@ -109,12 +89,7 @@ fn fields(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
 }
 
 fn displacement(runs: &mut Exhibit) -> Result<(), Error> {
-    let at_rest = [
-        RemedyName::None,
-        RemedyName::FbarTotal,
-        RemedyName::FbarRate,
-        RemedyName::FbarConsistent,
-    ];
+    let at_rest = [RemedyName::None, RemedyName::FbarTotal, RemedyName::FbarRate, RemedyName::FbarConsistent];
     let chart = |title: &str, metric: Metric, error: Metric| {
         let curves = over_levels(runs, &at_rest, |r| (r.discretisation.h, r.metric(metric)));
         let reference = runs.records.iter().find_map(|r| {
@@ -159,11 +134,7 @@ fn rest(runs: &mut Exhibit) -> Result<(), Error> {
     };
     let (tip, gap) = ("tip_uy", "log_jacobian_gap_rms");
     let both = [
-        Chart::new(
-            "Tip",
-            ["time (s)", "u_y (m)"],
-            against_time(tip, &remedies)?,
-        ),
+        Chart::new("Tip", ["time (s)", "u_y (m)"], against_time(tip, &remedies)?),
         Chart::new(
             "True against averaged Jacobian",
             ["time (s)", "rms ln(J / averaged J)"],
@@ -174,8 +145,6 @@ fn rest(runs: &mut Exhibit) -> Result<(), Error> {
         runs,
         "rest",
         &both,
-        &format!(
-            "Approach to rest with GIMP at {level}: the recursive F̄ creeps and never rests, the others stop."
-        ),
+        &format!("Approach to rest with GIMP at {level}: the recursive F̄ creeps and never rests, the others stop."),
     )
 }

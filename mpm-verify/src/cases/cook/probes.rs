@@ -52,11 +52,7 @@ impl Probes {
     }
 
     /// What is measured of displacements along x and y (m).
-    pub(super) fn of_displacement(
-        &self,
-        [ux, uy]: [&[f64]; 2],
-        parameters: &Parameters,
-    ) -> Vec<(Metric, f64)> {
+    pub(super) fn of_displacement(&self, [ux, uy]: [&[f64]; 2], parameters: &Parameters) -> Vec<(Metric, f64)> {
         let mid_edge = self.mid_edge.value(uy);
         let edge_mean = self.edge_mean(uy);
         let tip = self.tip.value(uy);
@@ -86,10 +82,8 @@ impl Probes {
         parameters: &Parameters,
     ) -> Vec<(Metric, f64)> {
         let error = stress_error(references, parameters, mean_stress);
-        let mut values = vec![
-            (m::MEAN_STRESS_RMS_ERROR, error),
-            (m::MEAN_STRESS_RMS, rms(mean_stress.iter().copied())),
-        ];
+        let mut values =
+            vec![(m::MEAN_STRESS_RMS_ERROR, error), (m::MEAN_STRESS_RMS, rms(mean_stress.iter().copied()))];
         let probed = self.stress.iter();
         values.extend(probed.map(|(metric, probe)| (*metric, probe.value(mean_stress))));
         values

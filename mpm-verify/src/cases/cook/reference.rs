@@ -68,8 +68,7 @@ impl Solution {
 }
 
 fn document() -> Result<&'static Document, String> {
-    static DOCUMENT: LazyLock<Option<Document>> =
-        LazyLock::new(|| serde_json::from_str(SOLUTIONS).ok());
+    static DOCUMENT: LazyLock<Option<Document>> = LazyLock::new(|| serde_json::from_str(SOLUTIONS).ok());
     let unreadable = || "the stored reference can't be read".to_owned();
     DOCUMENT.as_ref().ok_or_else(unreadable)
 }
@@ -89,11 +88,7 @@ pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, Str
         return Err(format!("the reference is for load/E = 1/70, not {ratio}"));
     }
     let nu = parameters.number(POISSON_RATIO);
-    document
-        .solutions
-        .iter()
-        .find(|s| s.poisson_ratio == nu)
-        .ok_or_else(|| format!("no reference at ν = {nu}"))
+    document.solutions.iter().find(|s| s.poisson_ratio == nu).ok_or_else(|| format!("no reference at ν = {nu}"))
 }
 
 /// Deflections of the right side (m) under a large load.
@@ -114,8 +109,7 @@ pub(super) fn large_load(parameters: &Parameters, inset: f64) -> Option<&'static
         poisson_ratio: f64,
         solutions: Vec<LargeLoad>,
     }
-    static DOCUMENT: LazyLock<Option<Document>> =
-        LazyLock::new(|| serde_json::from_str(LARGE_LOADS).ok());
+    static DOCUMENT: LazyLock<Option<Document>> = LazyLock::new(|| serde_json::from_str(LARGE_LOADS).ok());
     let document = DOCUMENT.as_ref()?;
     let ratio = parameters.number(LOAD) / parameters.number(YOUNG_MODULUS);
     let same = |s: &&LargeLoad| {
@@ -171,11 +165,7 @@ impl Field {
                     *value = Some(stress);
                 }
             }
-            Field {
-                columns,
-                rows,
-                values,
-            }
+            Field { columns, rows, values }
         });
         &STORED
     }
@@ -235,12 +225,7 @@ mod tests {
 
     #[test]
     fn the_stored_solutions_agree_with_the_stored_field() {
-        let solution = document()
-            .unwrap()
-            .solutions
-            .iter()
-            .find(|s| s.poisson_ratio == 0.499)
-            .unwrap();
+        let solution = document().unwrap().solutions.iter().find(|s| s.poisson_ratio == 0.499).unwrap();
         for point in &solution.mean_stress {
             let field = Field::stored().interpolate([point.x, point.y]).unwrap();
             // Bilinear interpolation over 0.5 m: half a lattice step squared over eight, times the

@@ -2,9 +2,8 @@
 
 use super::geometry::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT, seed};
 use super::parameters::{
-    ALL, CFL, COLUMN, DAMPING, DENSITY, FLIP, GHOST, KINETIC_DAMPING, LOAD, LOAD_AT, LOAD_RAMP,
-    LOAD_STEPS, MAX_PERIODS, OF_EXPLICIT, OF_QUASI_STATIC, POISSON_RATIO, PPC_PER_DIRECTION,
-    REST_WINDOW, YOUNG_MODULUS,
+    ALL, CFL, COLUMN, DAMPING, DENSITY, FLIP, GHOST, KINETIC_DAMPING, LOAD, LOAD_AT, LOAD_RAMP, LOAD_STEPS,
+    MAX_PERIODS, OF_EXPLICIT, OF_QUASI_STATIC, POISSON_RATIO, PPC_PER_DIRECTION, REST_WINDOW, YOUNG_MODULUS,
 };
 use crate::cases::observe::{forbid, settings};
 use crate::cases::parameters::require_quotient;
@@ -36,10 +35,7 @@ pub(super) fn period(parameters: &Parameters) -> f64 {
 }
 
 fn law(parameters: &Parameters) -> Result<NeoHookean, mpm_core::Error> {
-    NeoHookean::new(
-        parameters.number(YOUNG_MODULUS),
-        parameters.number(POISSON_RATIO),
-    )
+    NeoHookean::new(parameters.number(YOUNG_MODULUS), parameters.number(POISSON_RATIO))
 }
 
 /// The time step (s) on cells of size `h` (m).
@@ -81,10 +77,7 @@ pub(super) fn forbid_explicit(spec: &RunSpec, parameters: &Parameters) -> Result
 ///
 /// # Errors
 /// The parameters make no body.
-pub(super) fn start(
-    spec: &RunSpec,
-    parameters: &Parameters,
-) -> Result<Particles<2>, mpm_core::Error> {
+pub(super) fn start(spec: &RunSpec, parameters: &Parameters) -> Result<Particles<2>, mpm_core::Error> {
     let mut particles = particles(spec, parameters)?;
     let spacing = spec.level.h / parameters.number(PPC_PER_DIRECTION);
     for load in loads(parameters, (spacing, 0.0), &particles) {
@@ -95,12 +88,7 @@ pub(super) fn start(
 
 fn particles(spec: &RunSpec, parameters: &Parameters) -> Result<Particles<2>, mpm_core::Error> {
     let spacing = spec.level.h / parameters.number(PPC_PER_DIRECTION);
-    Particles::new(
-        spec.start_at(seed(spacing)),
-        spacing * spacing,
-        parameters.number(DENSITY),
-        [0.5 * spacing; 2],
-    )
+    Particles::new(spec.start_at(seed(spacing)), spacing * spacing, parameters.number(DENSITY), [0.5 * spacing; 2])
 }
 
 /// The membrane, its clamp and its load, which grows over `ramp` (s), with so much more `headroom` (m).
@@ -118,10 +106,7 @@ fn scene(
         h,
         [
             Axis::bounded(0.0, cells(LENGTH + right), (Side::Wall, Side::Open)),
-            Axis::open(
-                -below,
-                cells(below + LEFT_HEIGHT + RIGHT_HEIGHT + above + headroom),
-            ),
+            Axis::open(-below, cells(below + LEFT_HEIGHT + RIGHT_HEIGHT + above + headroom)),
         ],
     )?;
     let particles = particles(spec, parameters)?;
@@ -138,14 +123,10 @@ fn scene(
 ///
 /// # Errors
 /// The parameters don't make a scene.
-pub(super) fn begin(
-    spec: &RunSpec,
-    parameters: &Parameters,
-) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+pub(super) fn begin(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
     let number = |p| parameters.number(p);
     let dt = time_step(spec.level.h, parameters)?;
-    let mut settings =
-        settings(spec, parameters, dt, number(DAMPING))?.transfer(Flip::new(number(FLIP))?);
+    let mut settings = settings(spec, parameters, dt, number(DAMPING))?.transfer(Flip::new(number(FLIP))?);
     if parameters.boolean(KINETIC_DAMPING) {
         settings = settings.filter_particles(KineticDamping::default());
     }
@@ -157,10 +138,7 @@ pub(super) fn begin(
 ///
 /// # Errors
 /// As [`begin`].
-pub(super) fn equilibrium(
-    spec: &RunSpec,
-    parameters: &Parameters,
-) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+pub(super) fn equilibrium(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
     let mut settings = Settings::new(1.0 / parameters.number(LOAD_STEPS));
     if parameters.number(GHOST) > 0.0 {
         settings = settings.stabilised(Stabilisation::Ghost(parameters.number(GHOST)));
@@ -174,22 +152,14 @@ pub(super) fn equilibrium(
 
 /// The dead load: on the last column of particles, or on the last two with shares 3/2 and −1/2,
 /// whose resultant acts on the side itself.
-fn loads(
-    parameters: &Parameters,
-    (spacing, ramp): (f64, f64),
-    particles: &Particles<2>,
-) -> Vec<DeadForce<2>> {
+fn loads(parameters: &Parameters, (spacing, ramp): (f64, f64), particles: &Particles<2>) -> Vec<DeadForce<2>> {
     let total = parameters.number(LOAD);
     let column = |share: f64, from_edge: f64| {
         DeadForce::shared([0.0, share * total], ramp, particles, |x| {
             (x[0] - (LENGTH - from_edge * spacing)).abs() < 0.25 * spacing
         })
     };
-    if parameters.is(LOAD_AT, COLUMN) {
-        vec![column(1.0, 0.5)]
-    } else {
-        vec![column(1.5, 0.5), column(-0.5, 1.5)]
-    }
+    if parameters.is(LOAD_AT, COLUMN) { vec![column(1.0, 0.5)] } else { vec![column(1.5, 0.5), column(-0.5, 1.5)] }
 }
 
 #[cfg(test)]
@@ -207,12 +177,7 @@ mod tests {
                 load.add(0.0, &mut particles);
             }
             let force: f64 = particles.external_force.iter().map(|f| f[1]).sum();
-            let moment: f64 = particles
-                .external_force
-                .iter()
-                .zip(&particles.reference)
-                .map(|(f, x)| f[1] * x[0])
-                .sum();
+            let moment: f64 = particles.external_force.iter().zip(&particles.reference).map(|(f, x)| f[1] * x[0]).sum();
             let arm = if name == "edge" { 48.0 } else { 47.75 };
             assert!((force - 1.0).abs() < 1e-12);
             assert!((moment - arm).abs() < 1e-10);

@@ -10,12 +10,7 @@ use crate::results::{BASIS, CELLS, Column, PAIR, ResultTable, SCHEME, fixed, is_
 use crate::scheme::{RemedyName, TransferName};
 
 /// Levels and what they are called.
-const LEVELS: [(&str, &str); 4] = [
-    ("h2", "h = 2 m"),
-    ("h1", "h = 1 m"),
-    ("h0.5", "h = ½ m"),
-    ("h0.25", "h = ¼ m"),
-];
+const LEVELS: [(&str, &str); 4] = [("h2", "h = 2 m"), ("h1", "h = 1 m"), ("h0.5", "h = ½ m"), ("h0.25", "h = ¼ m")];
 
 /// The error of the mid-edge deflection; of a run that never rests, when it was measured.
 fn mid_edge(r: &Record) -> String {
@@ -42,14 +37,10 @@ pub(super) fn all() -> Vec<ResultTable> {
 fn statics() -> ResultTable {
     let of = |level: &'static str| move |r: &Record| r.level == level;
     let error = |r: &Record| percent(2).text(r.metric(m::FEM_MID_EDGE_ERROR));
-    let errors = LEVELS.map(|(level, title)| {
-        Column::text(format!("mid-edge error, {title}"), error).of(of(level))
-    });
-    let checkerboard =
-        Column::metric("checkerboard, h = 1 m", m::CHECKERBOARD_RATIO, fixed(2)).of(of("h1"));
-    let cpu = LEVELS.map(|(level, title)| {
-        Column::value(format!("CPU (s), {title}"), |r| r.time.cpu_s, fixed(1)).of(of(level))
-    });
+    let errors = LEVELS.map(|(level, title)| Column::text(format!("mid-edge error, {title}"), error).of(of(level)));
+    let checkerboard = Column::metric("checkerboard, h = 1 m", m::CHECKERBOARD_RATIO, fixed(2)).of(of("h1"));
+    let cpu = LEVELS
+        .map(|(level, title)| Column::value(format!("CPU (s), {title}"), |r| r.time.cpu_s, fixed(1)).of(of(level)));
     ResultTable::new(
         "cook-static",
         |r| r.transfer() == TransferName::None && r.changes_none_but(&[LOAD_STEPS.name]),
@@ -64,16 +55,7 @@ fn rims() -> ResultTable {
     ResultTable::new(
         "cook-rim",
         |r| r.transfer() == TransferName::None && r.level == "h1",
-        &[
-            SCHEME,
-            ("changed", |r| {
-                if r.is_default() {
-                    "–".to_owned()
-                } else {
-                    r.set.join(", ")
-                }
-            }),
-        ],
+        &[SCHEME, ("changed", |r| if r.is_default() { "–".to_owned() } else { r.set.join(", ") })],
         [
             Column::text("mid-edge error", error(m::FEM_MID_EDGE_ERROR)),
             Column::value("of the load at its place", rim::mid_edge_error, percent(2)),
@@ -85,19 +67,13 @@ fn rims() -> ResultTable {
 }
 
 fn results() -> ResultTable {
-    let errors = LEVELS.map(|(level, title)| {
-        Column::text(format!("mid-edge error, {title}"), mid_edge).of(move |r| r.level == level)
-    });
+    let errors = LEVELS
+        .map(|(level, title)| Column::text(format!("mid-edge error, {title}"), mid_edge).of(move |r| r.level == level));
     let checkerboards = LEVELS.map(|(level, title)| {
         let title = format!("checkerboard, {title}");
         Column::metric(title, m::CHECKERBOARD_RATIO, fixed(2)).of(move |r| r.level == level)
     });
-    ResultTable::new(
-        "cook",
-        is_shown,
-        &[SCHEME],
-        errors.into_iter().chain(checkerboards),
-    )
+    ResultTable::new("cook", is_shown, &[SCHEME], errors.into_iter().chain(checkerboards))
 }
 
 /// What is said first: locking, creep and where convergence stops.
@@ -115,8 +91,7 @@ fn overview() -> ResultTable {
         format!("{}, {noise}", mid_edge(r))
     };
     let column = |(remedy, level, h): (RemedyName, &'static str, &str)| {
-        Column::text(format!("{remedy}, {h}"), text)
-            .of(move |r| r.remedy() == remedy && r.level == level)
+        Column::text(format!("{remedy}, {h}"), text).of(move |r| r.remedy() == remedy && r.level == level)
     };
     ResultTable::new("cook-overview", is_shown, &[BASIS], RUNS.map(column))
 }
@@ -135,9 +110,8 @@ fn poisson() -> ResultTable {
         ("0.499", &[]),
         ("0.4999", &["poisson_ratio=0.4999"]),
     ];
-    let errors = RATIOS.map(|(ratio, set)| {
-        Column::text(format!("mid-edge error, ν = {ratio}"), mid_edge).of(move |r| r.set == set)
-    });
+    let errors = RATIOS
+        .map(|(ratio, set)| Column::text(format!("mid-edge error, ν = {ratio}"), mid_edge).of(move |r| r.set == set));
     let checkerboards = RATIOS.map(|(ratio, set)| {
         let title = format!("checkerboard, ν = {ratio}");
         Column::metric(title, m::CHECKERBOARD_RATIO, fixed(2)).of(move |r| r.set == set)

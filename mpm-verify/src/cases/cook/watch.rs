@@ -5,9 +5,7 @@ use super::metrics as m;
 use super::parameters::{DENSITY, LOAD_RAMP, MAX_PERIODS, PPC_PER_DIRECTION, REST_WINDOW};
 use super::probes::Probes;
 use super::scene::{begin, check_together, period, time_step};
-use crate::cases::observe::{
-    checkerboard, column, discretisation, mean_stress, position_columns, reference_columns,
-};
+use crate::cases::observe::{checkerboard, column, discretisation, mean_stress, position_columns, reference_columns};
 use crate::drive::{Drive, Stage, Watch};
 use crate::error::Error;
 use crate::job::Column;
@@ -114,10 +112,7 @@ pub(super) fn of_shape(
     let board = checkerboard(&mean_stress, &averaged);
     let mut values = probes.of_displacement([&ux, &uy], parameters);
     values.extend(probes.of_stress(references, &mean_stress, parameters));
-    values.extend([
-        (m::CHECKERBOARD_RMS, board),
-        (m::CHECKERBOARD_RATIO, board / stress_rms),
-    ]);
+    values.extend([(m::CHECKERBOARD_RMS, board), (m::CHECKERBOARD_RATIO, board / stress_rms)]);
     values
 }
 
@@ -297,10 +292,7 @@ impl Watch<2> for Loaded {
             (m::WORK_RESIDUAL, last.iter().copied().fold(0.0, f64::max)),
             (m::REACTION_UY, -run.residual().held_force[1]),
             (m::MASS, totals.mass),
-            (
-                m::SEEDED_VOLUME,
-                totals.mass / self.parameters.number(DENSITY),
-            ),
+            (m::SEEDED_VOLUME, totals.mass / self.parameters.number(DENSITY)),
             (m::ENERGY_GAIN, seen.energy_defect.0 / load_work),
             (m::ENERGY_LOSS, seen.energy_defect.1 / load_work),
             (m::PERIOD, self.period),

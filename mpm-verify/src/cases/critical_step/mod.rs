@@ -12,10 +12,7 @@ use crate::problem::begin;
 use mpm_core::material::{NeoHookean, Viscous};
 use run::{PERIOD, Trials};
 
-const LEVELS: [Level; 1] = [Level {
-    name: "n6",
-    h: 1.0 / PERIOD as f64,
-}];
+const LEVELS: [Level; 1] = [Level { name: "n6", h: 1.0 / PERIOD as f64 }];
 /// Relative resolution of a critical CFL number, by bisection and by the growth that noise needs to be seen.
 const SEEN: f64 = 0.02;
 
@@ -112,39 +109,18 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "n6", &all, "layout=jittered")
         .runs(Nightly, "n6", &plain, "layout=cut")
         .runs(Nightly, "n6", &space, "dimension=3")
-        .each(
-            Pr,
-            "n6",
-            &plain,
-            ["0.5", "1"].map(|c| format!("dimension=1 linear_viscosity={c}")),
-        )
-        .each(
-            Nightly,
-            "n6",
-            &flip,
-            [1, 3, 4].map(|n| format!("dimension=1 ppc_per_direction={n}")),
-        )
+        .each(Pr, "n6", &plain, ["0.5", "1"].map(|c| format!("dimension=1 linear_viscosity={c}")))
+        .each(Nightly, "n6", &flip, [1, 3, 4].map(|n| format!("dimension=1 ppc_per_direction={n}")))
         .done()
 }
 
 fn sketch() -> Sketch {
-    let dot = |x| Shape::Probe {
-        at: [x, 0.5],
-        label: String::new(),
-    };
-    let mut shapes = vec![Shape::Body(vec![
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [1.0, 1.0],
-        [0.0, 1.0],
-    ])];
+    let dot = |x| Shape::Probe { at: [x, 0.5], label: String::new() };
+    let mut shapes = vec![Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])];
     shapes.extend([0.125, 0.375, 0.625, 0.875].map(dot));
     shapes.push(Shape::note([0.5, 0.8], "noise"));
     shapes.push(Shape::length([0.0, -0.1], [1.0, -0.1], "6 h, periodic"));
-    Sketch {
-        shapes,
-        description: "A periodic lattice of particles, six cells in a period, at rest but for noise.",
-    }
+    Sketch { shapes, description: "A periodic lattice of particles, six cells in a period, at rest but for noise." }
 }
 
 impl Setup<Step> {

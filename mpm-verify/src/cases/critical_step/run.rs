@@ -77,11 +77,7 @@ impl<const D: usize, M: Solvable<D> + Material> Trials<D, M> {
     /// Places of the particles of a cell along an axis, in cells.
     fn places(&self, axis: usize) -> Vec<f64> {
         let n = self.setup.ppc_per_direction;
-        let jitter = if self.setup.layout == Layout::Jittered {
-            JITTER
-        } else {
-            0.0
-        };
+        let jitter = if self.setup.layout == Layout::Jittered { JITTER } else { 0.0 };
         let place = |k: usize| (k as f64 + 0.5 + jitter * noise(axis * n + k)) / n as f64;
         (0..n).map(place).collect()
     }
@@ -90,11 +86,7 @@ impl<const D: usize, M: Solvable<D> + Material> Trials<D, M> {
     fn shift(&self) -> f64 {
         // The functions of a point begin at a grid line, those of GIMP half a particle beside it.
         let first = self.half_size();
-        let edge = if self.scheme.basis == Gimp {
-            0.0
-        } else {
-            first
-        };
+        let edge = if self.scheme.basis == Gimp { 0.0 } else { first };
         ROOM as f64 - edge - self.setup.cut
     }
 
@@ -103,11 +95,7 @@ impl<const D: usize, M: Solvable<D> + Material> Trials<D, M> {
         let stretch = self.setup.stretch;
         let axes: Vec<Vec<f64>> = (0..D)
             .map(|axis| {
-                let shift = if axis == 0 && self.is_cut() {
-                    self.shift()
-                } else {
-                    0.0
-                };
+                let shift = if axis == 0 && self.is_cut() { self.shift() } else { 0.0 };
                 let places = self.places(axis);
                 let cell = |c: usize| places.iter().map(move |x| (x + c as f64 + shift) * h);
                 (0..PERIOD).flat_map(cell).collect()
@@ -125,8 +113,8 @@ impl<const D: usize, M: Solvable<D> + Material> Trials<D, M> {
         let size = 2.0 * self.half_size() * h;
         let volume = size.powi(D as i32) / stretch;
         let places = self.setup.start_at(places);
-        let mut particles = Particles::new(places, volume, DENSITY, [0.5 * size; D])?
-            .deformed(|x| (*x, stretched(stretch)));
+        let mut particles =
+            Particles::new(places, volume, DENSITY, [0.5 * size; D])?.deformed(|x| (*x, stretched(stretch)));
         for (k, v) in particles.velocity.iter_mut().flatten().enumerate() {
             *v = NOISE * self.speed * noise(k);
         }
@@ -140,11 +128,7 @@ impl<const D: usize, M: Solvable<D> + Material> Trials<D, M> {
         let grid = Grid::new(h, std::array::from_fn(axis))?;
         let scene = Scene::new(grid, Body::new(self.material, particles)?);
         let settings = Settings::new(courant_time_step(cfl, h, self.speed));
-        solver(
-            self.setup.scheme,
-            scene,
-            settings.remedy(self.scheme.remedy.build()),
-        )
+        solver(self.setup.scheme, scene, settings.remedy(self.scheme.remedy.build()))
     }
 
     /// The lattice as linear analysis sees it.
@@ -199,11 +183,7 @@ impl<const D: usize, M: Solvable<D> + Material> Problem<D> for Trials<D, M> {
     fn new(setup: Setup<Step>) -> Result<Self, Error> {
         let Scheme::Explicit(scheme) = setup.scheme else {
             let solver = setup.scheme.solver();
-            return Err(Error::unknown(
-                "solver with a largest step",
-                solver,
-                ["explicit"],
-            ));
+            return Err(Error::unknown("solver with a largest step", solver, ["explicit"]));
         };
         let (stretch, viscosity) = (setup.stretch, setup.linear_viscosity);
         let out_of_range = |name: &str, value: f64, place: &str, allowed: f64| {
@@ -220,13 +200,7 @@ impl<const D: usize, M: Solvable<D> + Material> Problem<D> for Trials<D, M> {
         let law = NeoHookean::new(YOUNG_MODULUS, setup.poisson_ratio)?;
         let (stress, state) = law.at_rest(&stretched::<3>(stretch));
         let speed = (law.wave_modulus(stretch, &stress, &state) / DENSITY).sqrt();
-        Ok(Self {
-            scheme,
-            law,
-            material: M::of(law, &setup)?,
-            speed,
-            setup,
-        })
+        Ok(Self { scheme, law, material: M::of(law, &setup)?, speed, setup })
     }
 
     fn discretisation(&self) -> Discretisation {
@@ -234,10 +208,7 @@ impl<const D: usize, M: Solvable<D> + Material> Problem<D> for Trials<D, M> {
         let ppc = self.setup.ppc_per_direction.pow(D as u32);
         // The lattice has no walls.
         let wall = String::new();
-        Discretisation {
-            wall,
-            ..self.setup.discretisation(D, ppc, longest)
-        }
+        Discretisation { wall, ..self.setup.discretisation(D, ppc, longest) }
     }
 
     fn begin(&self, seen: &Grown) -> Result<Box<dyn Simulation<D>>, Fault> {
@@ -250,9 +221,7 @@ impl<const D: usize, M: Solvable<D> + Material> Problem<D> for Trials<D, M> {
             phase.enter(self.trial(cfl)?, None)?;
         }
         // Nodes count too: a wave that changes sign from node to node may leave the particles between alone.
-        let energy = |phase: &Phase<D>| {
-            phase.run.totals().kinetic_energy + phase.run.residual().kinetic_energy
-        };
+        let energy = |phase: &Phase<D>| phase.run.totals().kinetic_energy + phase.run.residual().kinetic_energy;
         let (start, begun) = (energy(phase), phase.work().steps);
         let steps = self.setup.steps as u64;
         let mut growth = 1.0;

@@ -115,8 +115,7 @@ impl Setting {
                 .collect();
             // The product over the axes, with something else in place of the value along one.
             let but = |axis: usize, of: &dyn Fn(&Seen) -> Complex<f64>| -> Complex<f64> {
-                let factor =
-                    |(a, seen): (usize, &&Seen)| if a == axis { of(seen) } else { seen.value };
+                let factor = |(a, seen): (usize, &&Seen)| if a == axis { of(seen) } else { seen.value };
                 at.iter().enumerate().map(factor).product()
             };
             let value = but(0, &|s| s.value);
@@ -124,11 +123,7 @@ impl Setting {
             kept += share * value.norm_sqr();
             for (a, seen) in at.iter().enumerate() {
                 let arm = but(a, &|s| s.arm).norm_sqr();
-                affine += if seen.moment > 0.0 {
-                    share * arm / seen.moment
-                } else {
-                    0.0
-                };
+                affine += if seen.moment > 0.0 { share * arm / seen.moment } else { 0.0 };
             }
             curved += share * (but(0, &|s| s.curvature).conj() * value).re;
             volume += &slopes * (value.conj() * share);
@@ -139,11 +134,7 @@ impl Setting {
             strains += (unit + &slopes * conjugate.transpose()) * Complex::from(0.5 * share);
         }
         let seen = volume.conjugate() * volume.transpose();
-        let filtered = if kept > ROUNDING {
-            seen.clone() / Complex::from(kept)
-        } else {
-            seen.clone() * zero
-        };
+        let filtered = if kept > ROUNDING { seen.clone() / Complex::from(kept) } else { seen.clone() * zero };
         let volumes = match self.scheme.remedy {
             RemedyName::None => traces.clone(),
             RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => seen,
@@ -160,11 +151,7 @@ impl Setting {
         let matrix = volumes * Complex::from(bulk) + deviators * Complex::from(2.0 * self.shear);
         let greatest = matrix.symmetric_eigenvalues().max();
         let length: f64 = traces.diagonal().iter().map(|c| c.re).sum();
-        Symbol {
-            kept,
-            affine,
-            stiffness: greatest + self.mean_stress * (length + curved),
-        }
+        Symbol { kept, affine, stiffness: greatest + self.mean_stress * (length + curved) }
     }
 
     /// Largest g = τ² × stiffness by the Jury conditions of the two by two matrix of a wave.
@@ -214,10 +201,7 @@ impl Setting {
         // their stress 1 + 2 c₁/τ times as large, that of all 1 + c₁/τ times.
         let half = 0.5 * self.viscosity;
         let damped = (half * half + squared).sqrt() - half;
-        Some([
-            if grows { 0.0 } else { damped },
-            if grows { fed.sqrt() } else { 0.0 },
-        ])
+        Some([if grows { 0.0 } else { damped }, if grows { fed.sqrt() } else { 0.0 }])
     }
 }
 
@@ -236,16 +220,9 @@ mod tests {
             (BasisName::Bspline3, [1.49, 2.27, 2.11, 1.98]),
         ];
         for (basis, expected) in table {
-            for (remedy, cfl) in [None, FbarRate, FbarConsistent, FbarRecursive]
-                .into_iter()
-                .zip(expected)
-            {
+            for (remedy, cfl) in [None, FbarRate, FbarConsistent, FbarRecursive].into_iter().zip(expected) {
                 let setting = Setting {
-                    scheme: Explicit {
-                        basis,
-                        remedy,
-                        transfer: TransferName::Flip,
-                    },
+                    scheme: Explicit { basis, remedy, transfer: TransferName::Flip },
                     places: vec![vec![0.25, 0.75]],
                     half_size: 0.25,
                     period: 48,
@@ -255,10 +232,7 @@ mod tests {
                     viscosity: 0.0,
                 };
                 let [found, fed] = setting.predicted().unwrap();
-                assert!(
-                    (found - cfl).abs() < 0.01 && fed == 0.0,
-                    "{basis} {remedy}: {found} {cfl}"
-                );
+                assert!((found - cfl).abs() < 0.01 && fed == 0.0, "{basis} {remedy}: {found} {cfl}");
             }
         }
     }

@@ -18,8 +18,10 @@ const COARSE: f64 = 0.25;
 /// Duration (s) of the runs whose known limits were found by running.
 const WHOLE: f64 = 2.0;
 
-const MAKES_ENERGY: &str = "force and rate of volume average differently, so that the stress gives work for nothing: docs/remedy.md";
-const DRIFTS: &str = "averages of averages let the true volumes drift until particles turn inside out: docs/dam-break.md";
+const MAKES_ENERGY: &str =
+    "force and rate of volume average differently, so that the stress gives work for nothing: docs/remedy.md";
+const DRIFTS: &str =
+    "averages of averages let the true volumes drift until particles turn inside out: docs/dam-break.md";
 
 /// Share of the front's error, a cell, that the time step may add to it.
 const TIME_STEP: f64 = 0.1;
@@ -104,11 +106,7 @@ impl Water<'_> {
 
     /// Relative tolerance of forces at rest.
     fn at_rest(&self) -> f64 {
-        if self.is_exact() {
-            AT_REST.0
-        } else {
-            AT_REST.1
-        }
+        if self.is_exact() { AT_REST.0 } else { AT_REST.1 }
     }
 
     /// Bound on the error of the pressure at rest: off by h in layers as thick as h, it is off by h^(3/2) in the mean.
@@ -151,9 +149,7 @@ impl Water<'_> {
 
     /// Scheme and changed parameters.
     fn name(&self) -> String {
-        format!("{} {}", self.scheme, self.set.join(" "))
-            .trim_end()
-            .to_owned()
+        format!("{} {}", self.scheme, self.set.join(" ")).trim_end().to_owned()
     }
 }
 
@@ -247,11 +243,7 @@ pub(super) fn checks() -> Vec<Check> {
 
 /// The runs that have come to their end.
 fn finished(records: &[Record]) -> Vec<Water<'_>> {
-    records
-        .iter()
-        .filter(|r| r.status == Status::Ok)
-        .filter_map(Run::of)
-        .collect()
+    records.iter().filter(|r| r.status == Status::Ok).filter_map(Run::of).collect()
 }
 
 /// Whether an assignment `name=value` is of the parameter `name`.
@@ -261,17 +253,11 @@ fn sets(assignment: &str, name: &str) -> bool {
 
 /// The runs of each scheme of F̄ with FLIP that are divided in time in one way, coarsest first.
 fn ladders<'a, 'r>(runs: &'a [Water<'r>]) -> Vec<Vec<&'a Water<'r>>> {
-    let judged =
-        |w: &&Water| w.changes_none_but(&["cfl", "duration"]) && w.is_averaged() && w.is_flip();
+    let judged = |w: &&Water| w.changes_none_but(&["cfl", "duration"]) && w.is_averaged() && w.is_flip();
     let mut own: Vec<&Water> = runs.iter().filter(judged).collect();
     own.sort_by(|a, b| b.h.total_cmp(&a.h));
     let kinds = crate::distinct(own.iter().map(|w| (w.scheme, &w.set)));
-    let of_kind = |kind| {
-        own.iter()
-            .filter(|w| (w.scheme, &w.set) == kind)
-            .copied()
-            .collect()
-    };
+    let of_kind = |kind| own.iter().filter(|w| (w.scheme, &w.set) == kind).copied().collect();
     kinds.into_iter().map(of_kind).collect()
 }
 
@@ -280,18 +266,10 @@ fn falls(runs: &[Water], metric: Metric) -> Vec<Finding> {
     let ladders = ladders(runs);
     let fall = |pair: &[&Water]| {
         let (coarse, fine) = (pair[0].metric(metric), pair[1].metric(metric));
-        let source = format!(
-            "{}: {} against {}",
-            pair[0].name(),
-            pair[1].level,
-            pair[0].level
-        );
+        let source = format!("{}: {} against {}", pair[0].name(), pair[1].level, pair[0].level);
         Finding::at_most(metric, fine, coarse, source)
     };
-    ladders
-        .iter()
-        .flat_map(|ladder| ladder.windows(2).map(fall))
-        .collect()
+    ladders.iter().flat_map(|ladder| ladder.windows(2).map(fall)).collect()
 }
 
 /// Whether sums over the whole flow converge.
@@ -306,10 +284,7 @@ fn late(runs: &[Water]) -> Vec<Finding> {
             for three in ladder.windows(3) {
                 let [a, b, c] = [0, 1, 2].map(|k: usize| three[k].metric(metric));
                 let [coarse, middle, fine] = [0, 1, 2].map(|k: usize| &three[k].level);
-                let source = format!(
-                    "{}: from {middle} to {fine}, against from {coarse} to {middle}",
-                    three[0].name()
-                );
+                let source = format!("{}: from {middle} to {fine}, against from {coarse} to {middle}", three[0].name());
                 let bound = (b - a).abs() + spread(runs, three[0], metric);
                 found.push(Finding::at_most(metric, (c - b).abs(), bound, source));
             }
@@ -333,18 +308,9 @@ fn against_standard(runs: &[Water]) -> Vec<Finding> {
             let same = (w.basis(), w.transfer()) == (run.basis(), run.transfer());
             !w.is_averaged() && same && same_but_scheme(w, run)
         })?;
-        let source = format!(
-            "{} {} against standard MPM",
-            run.scheme,
-            run.record.folder()
-        );
+        let source = format!("{} {} against standard MPM", run.scheme, run.record.folder());
         Some([PRESSURE_RMS, CHECKERBOARD_RMS].map(|metric| {
-            Finding::at_most(
-                metric,
-                run.metric(metric),
-                SMOOTHER * standard.metric(metric),
-                source.clone(),
-            )
+            Finding::at_most(metric, run.metric(metric), SMOOTHER * standard.metric(metric), source.clone())
         }))
     });
     found.flatten().collect()
@@ -355,13 +321,7 @@ fn starts(runs: &[Water]) -> Vec<Finding> {
     let found = changed(runs, |w| w.start == Rest::GravityStage, "start").map(|(run, own)| {
         let exact = own.metric(FRONT_X_EARLY);
         let source = format!("{} {}: the exact start", run.scheme, run.level);
-        Finding::within(
-            FRONT_X_EARLY,
-            run.metric(FRONT_X_EARLY),
-            exact,
-            STARTS * (exact - LENGTH),
-            source,
-        )
+        Finding::within(FRONT_X_EARLY, run.metric(FRONT_X_EARLY), exact, STARTS * (exact - LENGTH), source)
     });
     found.collect()
 }
@@ -371,10 +331,7 @@ fn time_steps(runs: &[Water]) -> Vec<Finding> {
     let ours = |w: &Water| w.remedy() == FbarConsistent && w.is_flip();
     let found = changed(runs, ours, "cfl").map(|(run, own)| {
         let (value, exact) = (run.metric(FRONT_X_EARLY), own.metric(FRONT_X_EARLY));
-        let source = format!(
-            "{} {}: CFL number {} against {}",
-            run.scheme, run.level, run.cfl, own.cfl
-        );
+        let source = format!("{} {}: CFL number {} against {}", run.scheme, run.level, run.cfl, own.cfl);
         Finding::within(FRONT_X_EARLY, value, exact, TIME_STEP * run.h, source)
     });
     found.collect()
@@ -387,18 +344,11 @@ fn changed<'a, 'r>(
     which: impl Fn(&Water) -> bool,
     name: &str,
 ) -> impl Iterator<Item = (&'a Water<'r>, &'a Water<'r>)> {
-    let own = runs
-        .iter()
-        .filter(move |w| which(w) && w.set.iter().any(|set| sets(set, name)));
+    let own = runs.iter().filter(move |w| which(w) && w.set.iter().any(|set| sets(set, name)));
     own.filter_map(move |run| {
         let rest = || run.set.iter().filter(|set| !sets(set, name));
-        let same = |w: &&Water| {
-            (w.scheme, &w.level) == (run.scheme, &run.level) && w.set.iter().eq(rest())
-        };
+        let same = |w: &&Water| (w.scheme, &w.level) == (run.scheme, &run.level) && w.set.iter().eq(rest());
         let own = runs.iter().find(same)?;
-        own.set
-            .iter()
-            .all(|set| sets(set, "duration"))
-            .then_some((run, own))
+        own.set.iter().all(|set| sets(set, "duration")).then_some((run, own))
     })
 }

@@ -49,12 +49,7 @@ fn level_title(level: &str) -> String {
 }
 
 /// The water at `time` (s) in colours of its pressure, if the run has kept it.
-fn panel(
-    runs: &Exhibit,
-    record: &Record,
-    time: f64,
-    title: String,
-) -> Result<Option<FieldPanel>, Error> {
+fn panel(runs: &Exhibit, record: &Record, time: f64, title: String) -> Result<Option<FieldPanel>, Error> {
     let Some(table) = runs.gallery.snapshot(record, time)? else {
         return Ok(None);
     };
@@ -69,11 +64,7 @@ fn panel(
 }
 
 /// A column of panels, one for each of the remedies, if all have kept this time.
-fn column(
-    runs: &Exhibit,
-    (basis, level): (BasisName, &str),
-    time: f64,
-) -> Result<Vec<FieldPanel>, Error> {
+fn column(runs: &Exhibit, (basis, level): (BasisName, &str), time: f64) -> Result<Vec<FieldPanel>, Error> {
     let mut panels = Vec::new();
     for remedy in SHOWN {
         let title = format!("{}, {time:.1} s", remedy_title(remedy));
@@ -115,9 +106,7 @@ fn snapshots(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
         return Ok(());
     }
     let count = columns.len();
-    let panels = (0..SHOWN.len() * count)
-        .map(|k| columns[k % count][k / count].clone())
-        .collect();
+    let panels = (0..SHOWN.len() * count).map(|k| columns[k % count][k / count].clone()).collect();
     let of = basis_title(basis);
     runs.fields(
         &format!("snapshots-{basis}"),

@@ -140,10 +140,7 @@ impl Flow {
         if self.at(time).is_none() {
             return f64::NAN;
         }
-        let values: Vec<f64> = (self.rows.iter())
-            .filter(|row| row.time < time + 1e-6)
-            .map(f)
-            .collect();
+        let values: Vec<f64> = (self.rows.iter()).filter(|row| row.time < time + 1e-6).map(f).collect();
         values.iter().sum::<f64>() / values.len() as f64
     }
 
@@ -158,9 +155,7 @@ impl Flow {
         let speeds = (self.rows.windows(2))
             .filter(|pair| until(&pair[1]))
             .map(|pair| (pair[1].front - pair[0].front) / (pair[1].time - pair[0].time));
-        let energy: Vec<f64> = std::iter::once(at_start)
-            .chain(self.rows.iter().map(State::energy))
-            .collect();
+        let energy: Vec<f64> = std::iter::once(at_start).chain(self.rows.iter().map(State::energy)).collect();
         let motion = || {
             let rows = self.rows.iter().map(State::motion);
             std::iter::once(at_start).chain(rows)
@@ -172,24 +167,15 @@ impl Flow {
             (FRONT_RMS_ERROR, rms(errors)),
             (FRONT_SPEED_MAX, speeds.fold(0.0, f64::max)),
             (ARRIVAL_TIME, arrival),
-            (
-                ARRIVAL_ERROR,
-                passage(near_end).map_or(f64::NAN, |(time, _)| (arrival - time).abs()),
-            ),
+            (ARRIVAL_ERROR, passage(near_end).map_or(f64::NAN, |(time, _)| (arrival - time).abs())),
             (BACK_LEVEL_EARLY, at(0.4, |r| r.back_level)),
             (ENERGY_RATIO, at(0.4, State::energy) / at_start),
             (ENERGY_RATIO_2S, at(2.0, State::energy) / at_start),
             (ENERGY_GAIN, gains.fold(0.0, f64::max) / at_start),
-            (
-                ENERGY_EXCESS,
-                energy.iter().copied().fold(0.0, f64::max) / at_start - 1.0,
-            ),
+            (ENERGY_EXCESS, energy.iter().copied().fold(0.0, f64::max) / at_start - 1.0),
             (MOTION_RATIO_2S, at(2.0, State::motion) / at_start),
             (MOTION_EXCESS, motion().fold(0.0, f64::max) / at_start - 1.0),
-            (
-                MOTION_LOSS,
-                1.0 - motion().fold(f64::INFINITY, f64::min) / at_start,
-            ),
+            (MOTION_LOSS, 1.0 - motion().fold(f64::INFINITY, f64::min) / at_start),
             (PRESSURE_RMS, at(0.4, |r| r.pressure_rms)),
             (CHECKERBOARD_RMS, at(0.4, |r| r.checkerboard_rms)),
             (TENSION_SHARE, at(0.4, |r| r.tension)),
@@ -198,10 +184,7 @@ impl Flow {
             (CENTRE_X_MEAN, self.mean(2.0, |r| r.centre[0])),
             (CENTRE_Y_MEAN, self.mean(2.0, |r| r.centre[1])),
             (WALL_IMPULSE, 2.0 * self.mean(2.0, |r| r.front_force)),
-            (
-                JACOBIAN_MIN,
-                all(|r| r.jacobian.0).fold(f64::INFINITY, f64::min),
-            ),
+            (JACOBIAN_MIN, all(|r| r.jacobian.0).fold(f64::INFINITY, f64::min)),
             (JACOBIAN_MAX, all(|r| r.jacobian.1).fold(0.0, f64::max)),
             (LOG_JACOBIAN_GAP, at(0.4, |r| r.log_jacobian_gap)),
         ]
@@ -223,9 +206,7 @@ mod tests {
                 ..State::default()
             }
         };
-        Flow {
-            rows: (1..=100).map(row).collect(),
-        }
+        Flow { rows: (1..=100).map(row).collect() }
     }
 
     fn metric(flow: &Flow, of: Metric) -> f64 {

@@ -7,16 +7,8 @@ use super::*;
 use crate::cases::observe::{column, start_columns};
 use crate::foreign::{Asked, Foreign, Given, Group, Measured};
 
-const TIME: Asked = Asked::series(
-    "time",
-    "s",
-    "time since the gate was removed, a row every 0.005 s",
-);
-const FRONT: Asked = Asked::series(
-    "front",
-    "m",
-    "x of the outermost particle and half its spacing",
-);
+const TIME: Asked = Asked::series("time", "s", "time since the gate was removed, a row every 0.005 s");
+const FRONT: Asked = Asked::series("front", "m", "x of the outermost particle and half its spacing");
 const KINETIC: Asked = Asked::series("kinetic_energy", "J/m", "kinetic energy");
 const POTENTIAL: Asked = Asked::series("potential_energy", "J/m", "Σ m g y, zero at the floor");
 const STRESS_WORK: Asked = Asked::series(
@@ -33,19 +25,11 @@ const COVERED: Asked = Asked::series(
 pub(in crate::cases) fn foreign() -> Foreign {
     Foreign {
         judged_as: |_| Scheme::flip(Bspline2, FbarConsistent),
-        discretisation: |spec, parameters, dt| {
-            crate::cases::observe::discretisation(2, spec, parameters, dt)
-        },
+        discretisation: |spec, parameters, dt| crate::cases::observe::discretisation(2, spec, parameters, dt),
         groups: vec![
             Group {
                 columns: &[TIME, FRONT],
-                metrics: vec![
-                    FRONT_X_EARLY,
-                    FRONT_RMS_ERROR,
-                    FRONT_SPEED_MAX,
-                    ARRIVAL_TIME,
-                    ARRIVAL_ERROR,
-                ],
+                metrics: vec![FRONT_X_EARLY, FRONT_RMS_ERROR, FRONT_SPEED_MAX, ARRIVAL_TIME, ARRIVAL_ERROR],
                 measure: of_flow,
             },
             Group {
@@ -58,11 +42,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
                 metrics: vec![ENERGY_RATIO, ENERGY_RATIO_2S, ENERGY_EXCESS],
                 measure: of_flow,
             },
-            Group {
-                columns: &[TIME, COVERED],
-                metrics: vec![COVERED_EARLY],
-                measure: of_flow,
-            },
+            Group { columns: &[TIME, COVERED], metrics: vec![COVERED_EARLY], measure: of_flow },
         ],
         start: |spec, parameters| {
             let run = Dam::new(Setup::of_spec(spec, parameters)?)?.released()?;
@@ -80,10 +60,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
         ],
         curves: |_| {
             let (time, front) = front_curve().into_iter().unzip();
-            let columns = vec![
-                ("time (s)".to_owned(), time),
-                ("front (m)".to_owned(), front),
-            ];
+            let columns = vec![("time (s)".to_owned(), time), ("front (m)".to_owned(), front)];
             vec![("reference-front.csv", columns)]
         },
     }

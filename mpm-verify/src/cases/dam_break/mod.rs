@@ -17,12 +17,7 @@ use crate::prelude::*;
 use crate::results::BASIS;
 use reference::{DEPTH, GRAVITY, LENGTH, TANK};
 
-const LEVELS: [(&str, f64); 4] = [
-    ("h0.5", 0.5),
-    ("h0.25", 0.25),
-    ("h0.125", 0.125),
-    ("h0.0625", 0.0625),
-];
+const LEVELS: [(&str, f64); 4] = [("h0.5", 0.5), ("h0.25", 0.25), ("h0.125", 0.125), ("h0.0625", 0.0625)];
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Runs over the levels take larger steps than the case's own.
 const LADDER: &str = "cfl=0.3";
@@ -132,18 +127,8 @@ const QUANTITIES: &[Studied] = &[
 ];
 
 const SWEEPS: &[Sweep] = &[
-    Sweep {
-        parameter: CFL,
-        label: "CFL number (–)",
-        abscissa: |cfl| cfl,
-        logarithmic: true,
-    },
-    Sweep {
-        parameter: PIC_RATE,
-        label: "PIC share per unit of time (1/s)",
-        abscissa: |rate| rate,
-        logarithmic: true,
-    },
+    Sweep { parameter: CFL, label: "CFL number (–)", abscissa: |cfl| cfl, logarithmic: true },
+    Sweep { parameter: PIC_RATE, label: "PIC share per unit of time (1/s)", abscissa: |rate| rate, logarithmic: true },
 ];
 
 pub(super) fn case() -> Case {
@@ -202,11 +187,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     all.push(Scheme::flip(Bspline3, FbarConsistent));
     let ours = flip(&[FbarConsistent]);
     let finest = flip(&[FbarRecursive, FbarConsistent]);
-    let others: Vec<Scheme> = all
-        .iter()
-        .filter(|s| !finest.contains(s))
-        .copied()
-        .collect();
+    let others: Vec<Scheme> = all.iter().filter(|s| !finest.contains(s)).copied().collect();
     let three = flip(&[none, FbarRecursive, FbarConsistent]);
     let make_energy = pairs(&[Gimp], &[FbarTotal, FbarRate]);
     let studies = [
@@ -228,12 +209,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "h0.5 h0.25", &all, "")
         .runs(Nightly, "h0.5 h0.25 h0.125", &all, LADDER)
         .runs(Nightly, "h0.0625", &finest, LADDER)
-        .runs(
-            Nightly,
-            "h0.5 h0.25 h0.125",
-            &ours,
-            "cfl=0.3 ppc_per_direction=3",
-        )
+        .runs(Nightly, "h0.5 h0.25 h0.125", &ours, "cfl=0.3 ppc_per_direction=3")
         .each(Nightly, "h0.25", &ours, studies)
         .runs(Long, "h0.0625", &others, LADDER)
         .done()
@@ -241,12 +217,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let shapes = vec![
-        Shape::Body(vec![
-            [0.0, 0.0],
-            [LENGTH, 0.0],
-            [LENGTH, DEPTH],
-            [0.0, DEPTH],
-        ]),
+        Shape::Body(vec![[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]]),
         Shape::Held([TANK, 0.0], [0.0, 0.0]),
         Shape::Held([0.0, 0.0], [0.0, 3.0]),
         Shape::Held([TANK, 3.0], [TANK, 0.0]),
@@ -285,8 +256,7 @@ fn overview() -> ResultTable {
         format!("{front}, {}", share(0).text(r.metric(MOTION_RATIO_2S)))
     };
     let column = |(remedy, level): (RemedyName, &'static str)| {
-        Column::text(format!("{remedy}, {} m", &level[1..]), text)
-            .of(move |r| r.remedy() == remedy && r.level == level)
+        Column::text(format!("{remedy}, {} m", &level[1..]), text).of(move |r| r.remedy() == remedy && r.level == level)
     };
     ResultTable::new(
         "dam-break",
@@ -322,10 +292,7 @@ fn of_flow() -> ResultTable {
 
 /// The value of a parameter as it was set, or its default.
 fn word(r: &Record, name: &str, default: &str) -> String {
-    let own = r
-        .set
-        .iter()
-        .find_map(|set| set.strip_prefix(name)?.strip_prefix('='));
+    let own = r.set.iter().find_map(|set| set.strip_prefix(name)?.strip_prefix('='));
     own.unwrap_or(default).to_owned()
 }
 
@@ -339,11 +306,7 @@ fn at_rest() -> ResultTable {
     let force = |r: &Record| r.metric(BASE_REACTION_RATIO) - 1.0;
     ResultTable::new(
         "dam-break-start",
-        |r| {
-            r.status == Status::Ok
-                && is_flip(r)
-                && AT_REST.iter().any(|set| r.set.join(" ") == *set)
-        },
+        |r| r.status == Status::Ok && is_flip(r) && AT_REST.iter().any(|set| r.set.join(" ") == *set),
         &[
             SCHEME,
             CELLS,
@@ -365,10 +328,7 @@ fn studies() -> ResultTable {
         "dam-break-studies",
         |r| {
             let ours = r.remedy() == FbarConsistent && BASES.contains(&r.basis());
-            let flow = r
-                .set
-                .iter()
-                .all(|set| !set.starts_with("cfl=") && !set.starts_with("duration="));
+            let flow = r.set.iter().all(|set| !set.starts_with("cfl=") && !set.starts_with("duration="));
             ours && flow && is_flip(r) && r.level == "h0.25"
         },
         &[SCHEME, CHANGED],
@@ -377,11 +337,7 @@ fn studies() -> ResultTable {
             Column::metric("rms error (m)", FRONT_RMS_ERROR, fixed(3)),
             Column::metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3)),
             Column::metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3)),
-            Column::metric(
-                "impulse on the wall (kN s/m)",
-                WALL_IMPULSE,
-                fixed(2).times(1e-3),
-            ),
+            Column::metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3)),
         ],
     )
 }
@@ -396,11 +352,7 @@ fn sums() -> ResultTable {
         },
         &[SCHEME, CELLS, CHANGED],
         [
-            Column::metric(
-                "impulse on the wall (kN s/m)",
-                WALL_IMPULSE,
-                fixed(2).times(1e-3),
-            ),
+            Column::metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3)),
             Column::metric("mean x (m)", CENTRE_X_MEAN, fixed(3)),
             Column::metric("mean y (m)", CENTRE_Y_MEAN, fixed(3)),
             Column::metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3)),

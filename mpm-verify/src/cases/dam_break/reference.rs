@@ -101,9 +101,7 @@ fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
 pub(super) fn front_curve() -> Vec<(f64, f64)> {
     let s = solution();
     let columns = s.time.iter().zip(&s.front);
-    columns
-        .map(|(t, x)| (t * time_scale(), LENGTH + DEPTH * x))
-        .collect()
+    columns.map(|(t, x)| (t * time_scale(), LENGTH + DEPTH * x)).collect()
 }
 
 #[cfg(test)]

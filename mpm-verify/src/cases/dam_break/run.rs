@@ -100,19 +100,15 @@ impl Dam {
 
     /// The water in the tank, under gravity that rises over `rise` (s).
     fn tank(&self, rise: f64) -> Result<Scene<2, NewtonianFluid>, Fault> {
-        let kind = if self.setup.wall_contact == Contact::Sticky {
-            WallKind::Roller
-        } else {
-            WallKind::Separable
-        };
+        let kind = if self.setup.wall_contact == Contact::Sticky { WallKind::Roller } else { WallKind::Separable };
         let walls = [(1, End::Lo), (0, End::Lo), (0, End::Hi)];
-        let weight = Gravity(Box::new(move |time| {
-            [0.0, -GRAVITY * smooth_rise(time, rise)]
-        }));
+        let weight = Gravity(Box::new(move |time| [0.0, -GRAVITY * smooth_rise(time, rise)]));
         let body = Body::new(self.law, self.particles()?)?;
-        Ok(Scene::new(grid(self.setup.h)?, body)
-            .load(weight)
-            .constrain_all(walls.map(|(axis, end)| Wall { axis, end, kind })))
+        Ok(Scene::new(grid(self.setup.h)?, body).load(weight).constrain_all(walls.map(|(axis, end)| Wall {
+            axis,
+            end,
+            kind,
+        })))
     }
 
     fn settings(&self) -> Result<Settings<2>, Fault> {
@@ -126,11 +122,7 @@ impl Dam {
         let places = perturbed(places, self.setup.seed as u64);
         let (volume, half_size) = (self.spacing * self.spacing, [0.5 * self.spacing; 2]);
         let particles = Particles::new(places, volume, self.water.density, half_size)?;
-        Ok(if self.is_staged() {
-            particles
-        } else {
-            particles.deformed(|x| compressed(&self.water, x))
-        })
+        Ok(if self.is_staged() { particles } else { particles.deformed(|x| compressed(&self.water, x)) })
     }
 }
 
@@ -145,9 +137,7 @@ fn grid(h: f64) -> Result<Grid<2>, Fault> {
 fn seed(spacing: f64) -> Vec<[f64; 2]> {
     let count = |length: f64| (length / spacing).round() as usize;
     let coordinate = |k: usize| (k as f64 + 0.5) * spacing;
-    (0..count(LENGTH))
-        .flat_map(|i| (0..count(DEPTH)).map(move |j| [coordinate(i), coordinate(j)]))
-        .collect()
+    (0..count(LENGTH)).flat_map(|i| (0..count(DEPTH)).map(move |j| [coordinate(i), coordinate(j)])).collect()
 }
 
 /// Positions that differ from `places` in their last bits, at random, by the `seed`; zero keeps them.
@@ -180,10 +170,7 @@ fn gate_of(basis: BasisName, h: f64) -> RigidNodes<2> {
         Bspline3 => h,
     };
     RigidNodes {
-        extent: [
-            [LENGTH - reach, f64::INFINITY],
-            [f64::NEG_INFINITY, f64::INFINITY],
-        ],
+        extent: [[LENGTH - reach, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY]],
         velocity: [Some(0.0), None],
         ramp: 0.0,
     }
@@ -221,10 +208,8 @@ impl Dam {
         let of_depth = || run.particles().reference.iter().zip(&pressures);
         let off = of_depth().map(|(x, pressure)| pressure - self.water.pressure(x[1]));
         start.profile_error = rms(off) / self.water.pressure(0.0);
-        let lower: Vec<(f64, f64)> = of_depth()
-            .filter(|(x, _)| x[1] < 0.5 * DEPTH)
-            .map(|(x, pressure)| (x[1], *pressure))
-            .collect();
+        let lower: Vec<(f64, f64)> =
+            of_depth().filter(|(x, _)| x[1] < 0.5 * DEPTH).map(|(x, pressure)| (x[1], *pressure)).collect();
         start.base_pressure = fit_line(&lower).map_or(f64::NAN, |line| line.intercept);
     }
 
@@ -283,7 +268,8 @@ impl Problem<2> for Dam {
             height: DEPTH,
         };
         let pressure = water.density * GRAVITY * DEPTH;
-        let why = "above which weight compresses the water by more than the 0.1 % that the force on the gate is granted";
+        let why =
+            "above which weight compresses the water by more than the 0.1 % that the force on the gate is granted";
         let what = "density g H / bulk_modulus";
         require_quotient(what, pressure / water.bulk_modulus, 0.0..=1e-3, why)?;
         let law = NewtonianFluid::new(water.bulk_modulus, setup.viscosity)?;
@@ -301,16 +287,11 @@ impl Problem<2> for Dam {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup
-            .discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
+        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
     }
 
     fn begin(&self, seen: &Observed) -> Result<Box<dyn Simulation<2>>, Fault> {
-        if seen.free {
-            self.released()
-        } else {
-            self.behind_the_gate()
-        }
+        if seen.free { self.released() } else { self.behind_the_gate() }
     }
 
     fn row(&self, seen: &mut Observed, phase: &mut Phase<2>) -> Result<Row, Fault> {
@@ -351,9 +332,7 @@ impl Problem<2> for Dam {
             return None;
         }
         let pressures = pressures(&mut *phase.run, Field::MeanStress);
-        let columns = Columns::positions(&mut *phase.run)
-            .each("pressure", "Pa", |_, k| pressures[k])
-            .done();
+        let columns = Columns::positions(&mut *phase.run).each("pressure", "Pa", |_, k| pressures[k]).done();
         Some(Snapshot { time, columns })
     }
 
@@ -438,9 +417,7 @@ mod tests {
         assert_eq!(block.len(), 3200);
         assert!((covered(&block, 0.05) - 8.0).abs() < 1e-9);
         // A hole of one strip is closed.
-        let holed: Vec<[f64; 2]> = (block.iter().copied())
-            .filter(|x| !(1.0..1.1).contains(&x[0]))
-            .collect();
+        let holed: Vec<[f64; 2]> = (block.iter().copied()).filter(|x| !(1.0..1.1).contains(&x[0])).collect();
         assert!((covered(&holed, 0.05) - 8.0).abs() < 1e-9);
     }
 }

@@ -13,10 +13,7 @@ fn columns(disc: &[[f64; 2]], h: f64) -> Vec<[[f64; 2]; 2]> {
     let ends = disc.chunk_by(alike).map(|column| {
         let ys = || column.iter().map(|[_, y]| y / h);
         let x = column[0][0] / h;
-        let [low, high] = [
-            ys().fold(f64::INFINITY, f64::min),
-            ys().fold(f64::NEG_INFINITY, f64::max),
-        ];
+        let [low, high] = [ys().fold(f64::INFINITY, f64::min), ys().fold(f64::NEG_INFINITY, f64::max)];
         [[x; 2], [low, high]]
     });
     ends.collect()
@@ -42,9 +39,7 @@ pub(super) fn until_met(setup: &Setup<Discs>, duration: f64) -> Option<f64> {
         let others: Vec<_> = second.iter().map(|column| seen(column, -way)).collect();
         let meets = |own: [[f64; 2]; 2]| {
             let common = |a: [f64; 2], b: [f64; 2]| a[0] <= b[1] && b[0] <= a[1];
-            others
-                .iter()
-                .any(|other| common(own[0], other[0]) && common(own[1], other[1]))
+            others.iter().any(|other| common(own[0], other[0]) && common(own[1], other[1]))
         };
         first.iter().any(|column| meets(seen(column, way)))
     };

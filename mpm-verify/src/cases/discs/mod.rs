@@ -131,9 +131,9 @@ pub(super) fn case() -> Case {
         pictures,
         tables: tables(),
         breaks_down: |r| match r.scheme() {
-            Scheme::Explicit(e) if e.basis == Linear && e.transfer == Flip => Some(
-                "a particle that enters a cell meets nodes with hardly any mass, which its stress throws ahead",
-            ),
+            Scheme::Explicit(e) if e.basis == Linear && e.transfer == Flip => {
+                Some("a particle that enters a cell meets nodes with hardly any mass, which its stress throws ahead")
+            }
             Scheme::Implicit(_) if number(r, |d| d.lumped) == 0.0 => {
                 Some("a consistent mass is singular where a function sees few particles")
             }
@@ -151,11 +151,7 @@ fn cost(spec: &RunSpec) -> f64 {
     let values = Parameters::new(&Discs::list(), &spec.set).map_err(Error::from);
     let setup = values.and_then(|values| Setup::<Discs>::of_spec(spec, &values));
     let steps = setup.map_or(0, |setup| setup.timing().1);
-    let a_step = if matches!(spec.scheme, Scheme::Explicit(_)) {
-        1e-5
-    } else {
-        1e-3
-    };
+    let a_step = if matches!(spec.scheme, Scheme::Explicit(_)) { 1e-5 } else { 1e-3 };
     a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
 }
 
@@ -189,37 +185,12 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "h0.05", &both, "offset=0.1 step_factor=10")
         .runs(Nightly, "h0.05", &both, "")
         .runs(Nightly, "h0.025", &both, "step_factor=100")
-        .each(
-            Nightly,
-            "h0.05",
-            &midpoint,
-            ["1", "0.03", "0"].map(|b| format!("lumped={b} step_factor=100")),
-        )
-        .each(
-            Nightly,
-            "h0.05",
-            &midpoint,
-            ["1", "0.03"].map(|b| format!("lumped={b} offset=0.1 step_factor=100")),
-        )
-        .each(
-            Nightly,
-            "h0.05",
-            &all,
-            ["offset=0.1", "offset=0.2", "offset=0.5", "offset=0.65"],
-        )
+        .each(Nightly, "h0.05", &midpoint, ["1", "0.03", "0"].map(|b| format!("lumped={b} step_factor=100")))
+        .each(Nightly, "h0.05", &midpoint, ["1", "0.03"].map(|b| format!("lumped={b} offset=0.1 step_factor=100")))
+        .each(Nightly, "h0.05", &all, ["offset=0.1", "offset=0.2", "offset=0.5", "offset=0.65"])
         .each(Nightly, "h0.05", &blended, ["flip=0.99", "flip=0"])
-        .each(
-            Nightly,
-            "h0.05",
-            &blended,
-            ["flip=0.99 offset=0.1", "flip=0 offset=0.1"],
-        )
-        .each(
-            Nightly,
-            "h0.05",
-            &blended,
-            ["flip=0.99 offset=0.4", "flip=0 offset=0.4"],
-        )
+        .each(Nightly, "h0.05", &blended, ["flip=0.99 offset=0.1", "flip=0 offset=0.1"])
+        .each(Nightly, "h0.05", &blended, ["flip=0.99 offset=0.4", "flip=0 offset=0.4"])
         .done()
 }
 
@@ -350,9 +321,7 @@ fn tables() -> Vec<ResultTable> {
     const LUMPED: Label = ("β", |r| number(r, |d| d.lumped).to_string());
     const LEVEL: Label = ("level", |r| r.level.clone());
     let at = |offset: f64| move |r: &Record| number(r, |d| d.offset) == offset;
-    let is_explicit = |r: &Record| {
-        matches!(r.scheme(), Scheme::Explicit(_)) && r.changes_none_but(&["offset", "flip"])
-    };
+    let is_explicit = |r: &Record| matches!(r.scheme(), Scheme::Explicit(_)) && r.changes_none_but(&["offset", "flip"]);
     // Energy over the time step.
     let over_steps = |name: &str, offset: f64| {
         let columns = [1.0, 10.0, 100.0].into_iter().flat_map(|factor| {
@@ -362,24 +331,18 @@ fn tables() -> Vec<ResultTable> {
                 Column::metric("loss", ENERGY_LOSS, percent(3)).of(of),
             ]
         });
-        let shows =
-            move |r: &Record| at(offset)(r) && r.changes_none_but(&["step_factor", "offset"]);
+        let shows = move |r: &Record| at(offset)(r) && r.changes_none_but(&["step_factor", "offset"]);
         ResultTable::new(name, shows, &[SCHEME], columns)
     };
     let balance = [
         Column::metric("energy at the end", ENERGY_END, percent(3)),
         Column::metric("lumped mass took", LUMPING_LOSS, percent(3)),
-        Column::metric(
-            "accumulated energy off by",
-            ENERGY_ERROR_ACCUMULATED,
-            percent(3),
-        ),
+        Column::metric("accumulated energy off by", ENERGY_ERROR_ACCUMULATED, percent(3)),
         Column::metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT),
         Column::metric("linear momentum off by", MOMENTUM_ERROR, SHORT),
     ];
     let long = |r: &Record| {
-        number(r, |d| d.step_factor.value()) == 100.0
-            && r.changes_none_but(&["step_factor", "offset", "lumped"])
+        number(r, |d| d.step_factor.value()) == 100.0 && r.changes_none_but(&["step_factor", "offset", "lumped"])
     };
     let explicit = [0.0, 0.1, 0.2].into_iter().flat_map(|offset| {
         [
@@ -387,12 +350,7 @@ fn tables() -> Vec<ResultTable> {
             Column::metric("speed", RESTITUTION, fixed(3)).of(at(offset)),
         ]
     });
-    let turning = Column::metric(
-        "angular momentum off by, 0.1 m",
-        ANGULAR_MOMENTUM_ERROR,
-        SHORT,
-    )
-    .of(at(0.1));
+    let turning = Column::metric("angular momentum off by, 0.1 m", ANGULAR_MOMENTUM_ERROR, SHORT).of(at(0.1));
     let passing = [0.4, 0.5, 0.65].into_iter().flat_map(|offset| {
         [
             Column::metric(format!("free until, {offset} m"), FREE_UNTIL, fixed(1)).of(at(offset)),
@@ -433,17 +391,12 @@ fn energies(gallery: &mut Gallery) -> Result<(), Error> {
     };
     let panel = |factor: f64| {
         let own = move |r: &&Record| {
-            let plain =
-                r.status == Status::Ok && r.level == "h0.05" && r.remedy() == RemedyName::None;
-            let steps = number(r, |d| d.step_factor.value()) == factor
-                && r.changes_none_but(&["step_factor"]);
+            let plain = r.status == Status::Ok && r.level == "h0.05" && r.remedy() == RemedyName::None;
+            let steps = number(r, |d| d.step_factor.value()) == factor && r.changes_none_but(&["step_factor"]);
             plain && steps && is_drawn(r)
         };
-        let panel = Panel::new(
-            format!("{factor} × 2.5 ms"),
-            ["time (s)", "change of the energy (%)"],
-        )
-        .x_range(20.0, 37.5);
+        let panel =
+            Panel::new(format!("{factor} × 2.5 ms"), ["time (s)", "change of the energy (%)"]).x_range(20.0, 37.5);
         let panel = panel.histories(gallery, gallery.records.iter().filter(own), |_, t| {
             t.pairs(["time", "energy_change"], |t, e| (t, 100.0 * e))
         })?;
@@ -458,10 +411,7 @@ fn energies(gallery: &mut Gallery) -> Result<(), Error> {
             ..curve
         }))
     };
-    let panels = [1.0, 10.0, 100.0]
-        .map(panel)
-        .into_iter()
-        .collect::<Result<Vec<_>, Error>>()?;
+    let panels = [1.0, 10.0, 100.0].map(panel).into_iter().collect::<Result<Vec<_>, Error>>()?;
     Figure::new(
         "energy",
         "Kinetic and stored energy over the start; the paper's Figure 6 shows its accumulated one. Newmark's rule gains while the discs touch.",
@@ -476,9 +426,7 @@ fn contact(gallery: &mut Gallery) -> Result<(), Error> {
     const ROW: f64 = 0.25;
     let mut panels = Vec::new();
     for basis in [Linear, Gimp, Bspline2] {
-        let own = |r: &&Record| {
-            r.basis() == basis && r.scheme().solver() == "midpoint" && r.status == Status::Ok
-        };
+        let own = |r: &&Record| r.basis() == basis && r.scheme().solver() == "midpoint" && r.status == Status::Ok;
         let Some(record) = gallery.records.iter().find(own) else {
             continue;
         };

@@ -44,11 +44,7 @@ impl Setup<Discs> {
 
     /// Way of a free disc in a run, along each axis (m).
     fn way(&self) -> f64 {
-        let lasts = if self.offset > 0.0 {
-            DURATION_ASIDE
-        } else {
-            DURATION
-        };
+        let lasts = if self.offset > 0.0 { DURATION_ASIDE } else { DURATION };
         lasts * AT_SPEED
     }
 
@@ -72,9 +68,7 @@ impl Setup<Discs> {
         let place = |k: usize| (k as f64 + 0.5) * spacing;
         let [[x0, y0], _] = CENTRES;
         let first = (0..along * along).map(|k| [place(k / along), place(k % along)]);
-        let first: Vec<[f64; 2]> = first
-            .filter(|[x, y]| (x - x0).hypot(y - y0) <= RADIUS)
-            .collect();
+        let first: Vec<[f64; 2]> = first.filter(|[x, y]| (x - x0).hypot(y - y0) <= RADIUS).collect();
         let aside = self.aside();
         let first: Vec<[f64; 2]> = first.iter().map(|[x, y]| [x + aside, y - aside]).collect();
         let mirrored = |[x, y]: &[f64; 2]| [2.0 * MIDDLE - x, 2.0 * MIDDLE - y];
@@ -132,11 +126,7 @@ impl Collision {
         let totals = run.totals();
         let p = run.particles();
         let mut sums = Sums {
-            energies: [
-                totals.kinetic_energy,
-                totals.stored_energy,
-                totals.accumulated.stress_work,
-            ],
+            energies: [totals.kinetic_energy, totals.stored_energy, totals.accumulated.stress_work],
             ..Sums::default()
         };
         for (k, ((x, v), m)) in p.position.iter().zip(&p.velocity).zip(&p.mass).enumerate() {
@@ -194,9 +184,7 @@ impl Collision {
         seen.gain = seen.gain.max(rise);
         seen.loss = seen.loss.max(-rise);
         seen.accumulated = seen.accumulated.max((energy([k, a - a0]) / k0 - 1.0).abs());
-        seen.node_gap = seen
-            .node_gap
-            .max((k - run.residual().kinetic_energy) / whole);
+        seen.node_gap = seen.node_gap.max((k - run.residual().kinetic_energy) / whole);
         let change = [0, 1].map(|i| sums.momentum[i] - start.momentum[i]);
         let momentum = change[0].hypot(change[1]) / start.magnitude;
         seen.momentum = seen.momentum.max(momentum);
@@ -234,27 +222,15 @@ impl Problem<2> for Collision {
         let (dt, steps) = setup.timing();
         let half = setup.seed().len() / 2;
         let free = until_met(&setup, steps as f64 * dt);
-        Ok(Self {
-            setup,
-            steps,
-            half,
-            free,
-        })
+        Ok(Self { setup, steps, half, free })
     }
 
     fn unseen(&self) -> Extremes {
-        Extremes {
-            closest: f64::INFINITY,
-            ..Extremes::default()
-        }
+        Extremes { closest: f64::INFINITY, ..Extremes::default() }
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(
-            2,
-            self.setup.ppc_per_direction.pow(2),
-            self.setup.timing().0,
-        )
+        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.setup.timing().0)
     }
 
     fn begin(&self, _: &Extremes) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
@@ -283,9 +259,7 @@ impl Problem<2> for Collision {
     }
 
     fn row(&self, seen: &mut Extremes, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
-        let start = *seen
-            .start
-            .get_or_insert_with(|| self.sums(phase.run.as_ref()));
+        let start = *seen.start.get_or_insert_with(|| self.sums(phase.run.as_ref()));
         let finer = CELL / self.setup.h;
         let steps = (ROW * finer / self.setup.step_factor.value()).round() as u64;
         let steps = steps.min(self.steps - seen.steps);
@@ -323,17 +297,12 @@ impl Problem<2> for Collision {
     fn snapshot(&self, seen: &Extremes, phase: &mut Phase<2>) -> Option<Snapshot> {
         (seen.rows == IN_CONTACT).then(|| Snapshot {
             time: phase.run.time(),
-            columns: self
-                .particles(seen, Columns::positions(phase.run.as_mut()))
-                .done(),
+            columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done(),
         })
     }
 
     fn particles<'a>(&self, _: &Extremes, columns: Columns<'a, 2>) -> Columns<'a, 2> {
-        columns
-            .velocities()
-            .each("mean_stress", "Pa", |p, k| p.stress[k].mean())
-            .jacobian()
+        columns.velocities().each("mean_stress", "Pa", |p, k| p.stress[k].mean()).jacobian()
     }
 
     fn metrics(&self, seen: &Extremes, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
@@ -350,19 +319,13 @@ impl Problem<2> for Collision {
             (ENERGY_LOSS, seen.loss),
             (ENERGY_END, (k + s) / (k0 + s0) - 1.0),
             (ENERGY_ERROR_ACCUMULATED, seen.accumulated),
-            (
-                LUMPING_LOSS,
-                run.totals().accumulated.lumping_loss / (k0 + s0),
-            ),
+            (LUMPING_LOSS, run.totals().accumulated.lumping_loss / (k0 + s0)),
             (NODE_ENERGY_GAP, seen.node_gap),
             (MOMENTUM_ERROR, seen.momentum.max(LEAST)),
             (ANGULAR_MOMENTUM_ERROR, seen.angular.max(LEAST)),
             (ENERGY_EXCHANGED, seen.exchanged),
             (RESTITUTION, after[0].hypot(after[1]) / closing),
-            (
-                DEFLECTION,
-                (after[0] - before[0]).hypot(after[1] - before[1]) / closing,
-            ),
+            (DEFLECTION, (after[0] - before[0]).hypot(after[1] - before[1]) / closing),
             (FLIGHT_ERROR, seen.flight[0].max(LEAST)),
             (FLIGHT_STRAIN, seen.flight[1].max(LEAST)),
             (ASYMMETRY, self.asymmetry(run).max(LEAST_ASYMMETRY)),

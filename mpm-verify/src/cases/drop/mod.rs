@@ -82,7 +82,8 @@ pub(super) fn case() -> Case {
         breaks_down: |r| {
             let soft = Setup::<Drop>::number_of(r, |b| b.stiffness) < 0.1;
             let explicit = r.scheme().rule().is_none();
-            (soft && explicit).then_some("a barrier that a step passes: the gap at its end is closed, and the program says so")
+            (soft && explicit)
+                .then_some("a barrier that a step passes: the gap at its end is closed, and the program says so")
         },
         ..Case::of::<2, run::Falling>("drop", "A block bounces", ALL)
     }
@@ -93,46 +94,23 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let none = RemedyName::None;
     let mut explicit = pairs(&[Gimp, Bspline2, Bspline3], &[none, FbarConsistent]);
     explicit.extend([Apic, Xpic2].map(|t| Scheme::explicit(Gimp, none, t)));
-    let slow = implicit(
-        &[RuleName::Midpoint, RuleName::Newmark],
-        &[Gimp, Bspline2],
-        &[none],
-    );
+    let slow = implicit(&[RuleName::Midpoint, RuleName::Newmark], &[Gimp, Bspline2], &[none]);
     let mut plan = Plan::of(levels)
         .runs(Quick, "n8", &explicit[..1], "")
         .each(Pr, "n8", &explicit, ["", "slant=5", "stiffness=10"])
-        .each(
-            Pr,
-            "n8",
-            &slow,
-            ["step_factor=10", "step_factor=10 stiffness=100"],
-        )
-        .each(
-            Nightly,
-            "n8",
-            &explicit,
-            ["stiffness=0.01", "slant=0", "speed=0.1"],
-        );
+        .each(Pr, "n8", &slow, ["step_factor=10", "step_factor=10 stiffness=100"])
+        .each(Nightly, "n8", &explicit, ["stiffness=0.01", "slant=0", "speed=0.1"]);
     for set in ["", "slant=5", "stiffness=10"] {
-        plan = plan
-            .runs(Nightly, "n16", &explicit, set)
-            .runs(Nightly, "n8", &slow, set);
+        plan = plan.runs(Nightly, "n16", &explicit, set).runs(Nightly, "n8", &slow, set);
     }
-    plan.runs(Nightly, "n8", &slow, "step_factor=30")
-        .runs(Nightly, "n16", &slow, "step_factor=10")
-        .done()
+    plan.runs(Nightly, "n8", &slow, "step_factor=30").runs(Nightly, "n16", &slow, "step_factor=10").done()
 }
 
 fn sketch() -> Sketch {
     let (side, up) = (0.5, 0.25);
     Sketch {
         shapes: vec![
-            Shape::Body(vec![
-                [0.0, up],
-                [side, up],
-                [side, up + side],
-                [0.0, up + side],
-            ]),
+            Shape::Body(vec![[0.0, up], [side, up], [side, up + side], [0.0, up + side]]),
             Shape::Load([0.25, up + 0.3], [0.45, up + 0.1]),
             Shape::Held([-0.2, 0.0], [1.0, 0.0]),
             Shape::length([0.0, up + side + 0.08], [side, up + side + 0.08], "0.5 m"),
@@ -181,8 +159,6 @@ fn tables() -> Vec<ResultTable> {
         Column::metric("restitution", RESTITUTION, fixed(3)),
         Column::metric("spin", SPIN, fixed(3)),
     ];
-    let shows = |r: &Record| {
-        r.level == "n8" && matches!(r.basis(), Gimp | Bspline2) && r.remedy() == RemedyName::None
-    };
+    let shows = |r: &Record| r.level == "n8" && matches!(r.basis(), Gimp | Bspline2) && r.remedy() == RemedyName::None;
     vec![ResultTable::new("drop", shows, &[SCHEME, SET], columns)]
 }

@@ -144,18 +144,12 @@ impl Problem<2> for Falling {
     }
 
     fn unseen(&self) -> Extremes {
-        Extremes {
-            least_gap: f64::INFINITY,
-            ..Extremes::default()
-        }
+        Extremes { least_gap: f64::INFINITY, ..Extremes::default() }
     }
 
     fn discretisation(&self) -> Discretisation {
         let ppc = self.setup.ppc_per_direction.pow(2);
-        Discretisation {
-            wall: "none".to_owned(),
-            ..self.setup.discretisation(2, ppc, self.dt)
-        }
+        Discretisation { wall: "none".to_owned(), ..self.setup.discretisation(2, ppc, self.dt) }
     }
 
     fn begin(&self, _: &Extremes) -> Result<Box<dyn Simulation<2>>, Fault> {
@@ -205,9 +199,7 @@ impl Problem<2> for Falling {
     }
 
     fn particles<'a>(&self, _: &Extremes, columns: Columns<'a, 2>) -> Columns<'a, 2> {
-        columns
-            .velocities()
-            .each("mean_stress", "Pa", |p, k| p.stress[k].mean())
+        columns.velocities().each("mean_stress", "Pa", |p, k| p.stress[k].mean())
     }
 
     fn metrics(&self, seen: &Extremes, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
@@ -217,10 +209,7 @@ impl Problem<2> for Falling {
         let friction = self.setup.friction;
         let mut values = vec![
             (ENERGY_GAIN, seen.gain),
-            (
-                ENERGY_END,
-                (totals.kinetic_energy + totals.stored_energy) / self.energy,
-            ),
+            (ENERGY_END, (totals.kinetic_energy + totals.stored_energy) / self.energy),
             (STORED_MOST, seen.stored),
             (LEAST_GAP, seen.least_gap),
             (COULOMB_EXCESS, seen.excess / seen.across),

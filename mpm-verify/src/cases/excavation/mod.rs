@@ -13,11 +13,7 @@ use crate::prelude::*;
 use RuleName::{Midpoint, Newmark, QuasiStatic};
 use scene::{Ground, HEIGHT};
 
-const LEVELS: [Level; 3] = [
-    Level::new("h0.1", 0.1),
-    Level::new("h0.05", 0.05),
-    Level::new("h0.025", 0.025),
-];
+const LEVELS: [Level; 3] = [Level::new("h0.1", 0.1), Level::new("h0.05", 0.05), Level::new("h0.025", 0.025)];
 /// Newton's tolerance times the root of the number of nodes that its norm is of.
 const EQUILIBRIUM: f64 = 1e-8;
 /// Newton's tolerance times the number of steps and the forces that swing over those that drive.
@@ -177,13 +173,7 @@ fn cost(spec: &RunSpec) -> f64 {
 fn sketch() -> Sketch {
     Sketch {
         shapes: vec![
-            Shape::Body(vec![
-                [0.0, 0.0],
-                [2.3, 0.0],
-                [2.3, 0.2],
-                [1.5, 1.0],
-                [0.0, 1.0],
-            ]),
+            Shape::Body(vec![[0.0, 0.0], [2.3, 0.0], [2.3, 0.2], [1.5, 1.0], [0.0, 1.0]]),
             Shape::Body(vec![[2.3, 0.0], [2.5, 0.0], [2.3, 0.2]]),
             Shape::Held([3.5, 0.0], [0.0, 0.0]),
             Shape::Held([0.0, 0.0], [0.0, 1.0]),
@@ -223,12 +213,7 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, three, &resting, "")
         .runs(Nightly, three, &resting, "gravity=step")
         .runs(Nightly, two, &resting, "residual=5e3")
-        .each(
-            Nightly,
-            two,
-            midpoint,
-            ["residual=5e3", "gravity=step", "base=friction"],
-        )
+        .each(Nightly, two, midpoint, ["residual=5e3", "gravity=step", "base=friction"])
         .runs(Nightly, "h0.05", &moving[1..], "base=friction")
         .each(Nightly, three, means, ["base=friction", LATERAL])
         .runs(Nightly, two, midpoint, LATERAL)
@@ -238,12 +223,7 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, two, midpoint, "law=jaumann-j2")
         .each(Nightly, "h0.1", midpoint, ["ghost=0.001", "cfl=1"])
         .runs(Long, "h0.025", &moving, "")
-        .each(
-            Nightly,
-            two,
-            means,
-            [0.1, 0.2, 0.3, 1.0].map(|f| format!("base=friction friction={f}")),
-        )
+        .each(Nightly, two, means, [0.1, 0.2, 0.3, 1.0].map(|f| format!("base=friction friction={f}")))
         .done()
 }
 
@@ -321,16 +301,10 @@ fn moves_by_midpoint(run: &Run<Excavation>) -> bool {
 
 /// Run-outs of all pairs of levels of a scheme.
 fn differs_by_level(records: &[Record]) -> Vec<Finding> {
-    let own = |r: &Run<Excavation>| {
-        r.record.status == Status::Ok && r.is_default() && moves_by_midpoint(r)
-    };
+    let own = |r: &Run<Excavation>| r.record.status == Status::Ok && r.is_default() && moves_by_midpoint(r);
     let own: Vec<Run<Excavation>> = records.iter().filter_map(Run::of).filter(own).collect();
-    let pairs = own
-        .iter()
-        .enumerate()
-        .flat_map(|(k, coarse)| own[k + 1..].iter().map(move |fine| (coarse, fine)));
-    let alike =
-        pairs.filter(|(coarse, fine)| coarse.scheme == fine.scheme && coarse.level != fine.level);
+    let pairs = own.iter().enumerate().flat_map(|(k, coarse)| own[k + 1..].iter().map(move |fine| (coarse, fine)));
+    let alike = pairs.filter(|(coarse, fine)| coarse.scheme == fine.scheme && coarse.level != fine.level);
     alike
         .map(|(coarse, fine)| {
             let ratio = coarse.metric(RUNOUT_END) / fine.metric(RUNOUT_END);
@@ -365,18 +339,9 @@ fn stands(r: &Record) -> String {
 /// Which slope has an equilibrium.
 fn equilibria() -> ResultTable {
     let of = |level: &'static str| move |r: &Record| r.level == level;
-    let columns = [
-        ("h0.1", "h = 0.1 m"),
-        ("h0.05", "0.05 m"),
-        ("h0.025", "0.025 m"),
-    ]
-    .map(|(level, title)| Column::text(title, stands).of(of(level)));
-    ResultTable::new(
-        "excavation-equilibria",
-        is_static,
-        &[SCHEME, CHANGED],
-        columns,
-    )
+    let columns = [("h0.1", "h = 0.1 m"), ("h0.05", "0.05 m"), ("h0.025", "0.025 m")]
+        .map(|(level, title)| Column::text(title, stands).of(of(level)));
+    ResultTable::new("excavation-equilibria", is_static, &[SCHEME, CHANGED], columns)
 }
 
 /// Collapses after the excavation.
@@ -390,12 +355,7 @@ fn collapses() -> ResultTable {
         Column::cpu(),
     ];
     let moving = |r: &Record| !is_static(r);
-    ResultTable::new(
-        "excavation-collapses",
-        moving,
-        &[SCHEME, CHANGED, CELLS],
-        columns,
-    )
+    ResultTable::new("excavation-collapses", moving, &[SCHEME, CHANGED, CELLS], columns)
 }
 
 /// Errors of what is conserved.
@@ -419,9 +379,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     const TIMES: [f64; 2] = [0.5, 1.0];
     /// Length of the plane shown beyond the foot of the cut (m).
     const BEYOND: f64 = 3.5;
-    let own = |r: &&Record| {
-        r.scheme().rule() == Some(Midpoint) && r.is_default() && r.status == Status::Ok
-    };
+    let own = |r: &&Record| r.scheme().rule() == Some(Midpoint) && r.is_default() && r.status == Status::Ok;
     let runs = gallery.records.iter().filter(own);
     let Some(record) = runs.min_by(|a, b| a.discretisation.h.total_cmp(&b.discretisation.h)) else {
         return Ok(());
@@ -433,22 +391,13 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
         let kept = gallery.snapshot(record, time)?;
         tables.extend(kept.map(|table| (format!("{time} s after the excavation"), table)));
     }
-    tables.push((
-        "at the end".to_owned(),
-        gallery.table(record, "particles.csv")?,
-    ));
+    tables.push(("at the end".to_owned(), gallery.table(record, "particles.csv")?));
     let panel = |(title, table): (String, Table)| FieldPanel {
         title,
         points: table.points("x", "y"),
         values: table.column("plastic_strain").to_vec(),
         size: slope.spacing(),
-        outline: vec![
-            (0.0, 0.0),
-            (foot, 0.0),
-            (foot, cut),
-            (crest, HEIGHT),
-            (0.0, HEIGHT),
-        ],
+        outline: vec![(0.0, 0.0), (foot, 0.0), (foot, cut), (crest, HEIGHT), (0.0, HEIGHT)],
     };
     let figure = FieldFigure {
         title: String::new(),

@@ -15,11 +15,7 @@ const KEPT: [f64; 3] = [0.5, 1.0, 2.0];
 
 impl Setup<Excavation> {
     fn reaction(&self, run: &dyn Simulation<2>) -> Reaction {
-        run.on(if self.slides() {
-            Part::Contact(0)
-        } else {
-            Part::Constraint(HELD_BASE)
-        })
+        run.on(if self.slides() { Part::Contact(0) } else { Part::Constraint(HELD_BASE) })
     }
 
     /// Distance (m) of the farthest particle's edge from the foot of the cut.
@@ -63,11 +59,7 @@ impl Setup<Excavation> {
     }
 
     fn after_the_cut(&self) -> Stage {
-        if self.is_static() {
-            Stage::Cut
-        } else {
-            Stage::Collapse
-        }
+        if self.is_static() { Stage::Cut } else { Stage::Collapse }
     }
 }
 
@@ -78,9 +70,7 @@ fn crest_drop(start: &[[f64; 2]], run: &dyn Simulation<2>) -> f64 {
     let first = p.seeded(|k| p.reference[k][1]);
     let top = HEIGHT - 2.0 * p.half_size[1];
     let columns = start.iter().zip(&now).zip(&first);
-    let drops = columns
-        .filter(|(_, y)| **y > top)
-        .map(|((a, b), _)| a[1] - b);
+    let drops = columns.filter(|(_, y)| **y > top).map(|((a, b), _)| a[1] - b);
     drops.fold(0.0, f64::max)
 }
 
@@ -165,12 +155,7 @@ impl Ground {
     }
 
     /// Begins a stage with the ground as it is.
-    fn enter(
-        &self,
-        seen: &mut Seen,
-        phase: &mut Phase<2>,
-        stage: Stage,
-    ) -> Result<(), mpm_core::Error> {
+    fn enter(&self, seen: &mut Seen, phase: &mut Phase<2>, stage: Stage) -> Result<(), mpm_core::Error> {
         if seen.stage.moves() {
             seen.before += phase.run.time();
         }
@@ -289,11 +274,7 @@ impl Problem<2> for Ground {
         let convergence: Convergence = run.convergence().cloned().unwrap_or_default();
         let totals = run.totals();
         let clock = if stage.moves() { run.time() } else { 0.0 };
-        let gravity = if stage == Stage::Gravity {
-            run.time()
-        } else {
-            1.0
-        };
+        let gravity = if stage == Stage::Gravity { run.time() } else { 1.0 };
         let row = row! {
             "time (s)": seen.before + clock,
             "phase (-)": f64::from(stage as u8),
@@ -344,9 +325,7 @@ impl Problem<2> for Ground {
         let near = |kept: &f64| (time - kept).abs() < 1e-6;
         (seen.stage.moves() && KEPT.iter().any(near)).then(|| Snapshot {
             time: seen.before + time,
-            columns: self
-                .particles(seen, Columns::positions(phase.run.as_mut()))
-                .done(),
+            columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done(),
         })
     }
 

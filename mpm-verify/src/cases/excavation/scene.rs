@@ -83,8 +83,7 @@ impl Setup<Excavation> {
     /// # Errors
     /// A residual strength above the peak.
     fn strength(&self) -> Result<Strength, mpm_core::Error> {
-        let [peak, residual, slope] =
-            [self.peak, self.residual, self.softening].map(|c| SQRT_2 * c);
+        let [peak, residual, slope] = [self.peak, self.residual, self.softening].map(|c| SQRT_2 * c);
         Strength::softening_linearly(peak, residual, slope)
     }
 
@@ -222,8 +221,8 @@ impl Ground {
         setup.forbid(&foreign)?;
         let (dt, steps_in_row) = setup.timing()?;
         let spacing = setup.spacing();
-        let [across, up, foot] = [setup.crest + HEIGHT, HEIGHT, setup.foot()]
-            .map(|length| (length / spacing).round() as usize);
+        let [across, up, foot] =
+            [setup.crest + HEIGHT, HEIGHT, setup.foot()].map(|length| (length / spacing).round() as usize);
         let rows = (0..across).flat_map(|i| (0..up).map(move |j| (i, j)));
         // Centres on the face have i + j + 1 = `across`.
         let inside = rows.filter(|(i, j)| i + j < across);
@@ -243,11 +242,7 @@ impl Ground {
     }
 
     fn particles_of(&self, stage: Stage) -> Result<Particles<2>, mpm_core::Error> {
-        let count = if stage.is_whole() {
-            self.places.len()
-        } else {
-            self.kept
-        };
+        let count = if stage.is_whole() { self.places.len() } else { self.kept };
         let (places, spacing) = (self.places[..count].to_vec(), self.setup.spacing());
         let (density, half_size) = (self.setup.density(), [0.5 * spacing; 2]);
         let mut particles = Particles::new(places, spacing * spacing, density, half_size)?;
@@ -259,42 +254,26 @@ impl Ground {
     }
 
     /// The simulation of a stage at its start.
-    pub(super) fn simulation(
-        &self,
-        stage: Stage,
-    ) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    pub(super) fn simulation(&self, stage: Stage) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let setup = &self.setup;
         if setup.law == LawName::Hencky {
             return self.solved(stage, setup.hencky()?);
         }
-        let law = HypoelasticJ2::new(
-            setup.young_modulus,
-            setup.poisson_ratio,
-            JaumannUpdate::Split,
-            setup.strength()?,
-        )?;
+        let law =
+            HypoelasticJ2::new(setup.young_modulus, setup.poisson_ratio, JaumannUpdate::Split, setup.strength()?)?;
         self.solved(stage, law)
     }
 
-    fn solved<M: Law + Solved<2>>(
-        &self,
-        stage: Stage,
-        law: M,
-    ) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn solved<M: Law + Solved<2>>(&self, stage: Stage, law: M) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let body = Body::new(law, self.particles_of(stage)?)?;
         let rises = stage == Stage::Gravity;
         let gravity = move |time: f64| {
             let share = if rises { time } else { 1.0 };
             [0.0, -GRAVITATION * share]
         };
-        let wall = |axis, kind| Wall {
-            axis,
-            end: End::Lo,
-            kind,
-        };
-        let scene = Scene::new(self.setup.grid()?, body)
-            .load(Gravity(Box::new(gravity)))
-            .constrain(wall(0, WallKind::Roller));
+        let wall = |axis, kind| Wall { axis, end: End::Lo, kind };
+        let scene =
+            Scene::new(self.setup.grid()?, body).load(Gravity(Box::new(gravity))).constrain(wall(0, WallKind::Roller));
         let scene = if self.setup.slides() {
             scene.contact(self.setup.contact()?)
         } else {

@@ -62,31 +62,34 @@ impl Setup<Footing> {
     /// Why a soft or heavy ground rings, if it does.
     fn rings(&self) -> Option<String> {
         let slowness = (STIFF * self.density / self.young_modulus).sqrt();
-        let rings = !self.is_implicit()
-            && slowness > 1.0
-            && self.penetration_rate * slowness > SLOW * (1.0 + f64::EPSILON);
-        rings.then(|| format!("waves are {slowness:.1} times slower than in the ground of which {SLOW} m/s is known to be slow"))
+        let rings =
+            !self.is_implicit() && slowness > 1.0 && self.penetration_rate * slowness > SLOW * (1.0 + f64::EPSILON);
+        rings.then(|| {
+            format!("waves are {slowness:.1} times slower than in the ground of which {SLOW} m/s is known to be slow")
+        })
     }
 
     /// Why a run is shown, and not judged.
     fn shown_only(&self) -> Option<String> {
-        let starts = !self.is_implicit()
-            && self.penetration * WIDTH <= 0.5 * self.penetration_rate * self.ramp;
+        let starts = !self.is_implicit() && self.penetration * WIDTH <= 0.5 * self.penetration_rate * self.ramp;
         let dissipates = ![TransferName::Flip, TransferName::None].contains(&self.transfer());
         (self.penetration_rate > SLOW)
             .then(|| format!("pressed faster than {SLOW} m/s, the ground rings"))
             .or_else(|| self.rings())
             .or_else(|| starts.then(|| "the footing still gets under way".to_owned()))
-            .or_else(|| dissipates.then(|| "what this transfer takes from the motion every step resists the footing as a viscosity does".to_owned()))
+            .or_else(|| {
+                dissipates.then(|| {
+                    "what this transfer takes from the motion every step resists the footing as a viscosity does"
+                        .to_owned()
+                })
+            })
     }
 
     /// Why there is no limit load to compare with, if there is none.
     fn no_limit(&self) -> Option<String> {
         let plastic = PLASTIC * self.strength_ratio();
         if 0.75 * self.penetration < plastic {
-            Some(format!(
-                "the ground is fully plastic from s/B = {PLASTIC} s_u/E = {plastic} on only"
-            ))
+            Some(format!("the ground is fully plastic from s/B = {PLASTIC} s_u/E = {plastic} on only"))
         } else if self.penetration > SMALL {
             Some(format!("beyond s/B = {SMALL} the ground changes its shape"))
         } else {
@@ -96,8 +99,7 @@ impl Setup<Footing> {
 
     /// Why the width that the footing acts with is unknown, if it is.
     fn unknown_width(&self) -> Option<String> {
-        let why =
-            "how wide a footing acts through a barrier is not known beforehand: see contacts-agree";
+        let why = "how wide a footing acts through a barrier is not known beforehand: see contacts-agree";
         self.presses_by_barrier().then(|| why.to_owned())
     }
 
@@ -317,13 +319,7 @@ fn contacts(records: &[Record]) -> Vec<Finding> {
         let why = format!(
             "{scheme} {level}: a barrier on particles and held nodes; the edges of either are known to half a cell"
         );
-        Some(Finding::within(
-            NC_B,
-            run.metric(NC_B),
-            held,
-            2.0 * run.h / WIDTH * held,
-            why,
-        ))
+        Some(Finding::within(NC_B, run.metric(NC_B), held, 2.0 * run.h / WIDTH * held, why))
     };
     let through_barrier = runs.iter().filter(|r| r.changes_only("contact"));
     through_barrier.filter_map(found).collect()
@@ -333,9 +329,7 @@ fn contacts(records: &[Record]) -> Vec<Finding> {
 fn orders(records: &[Record]) -> Vec<Finding> {
     let runs: Vec<Run<Footing>> = records.iter().filter_map(Run::of).collect();
     let judged = |r: &&Run<Footing>| {
-        r.is_free_of_locking()
-            && (r.is_default() || r.changes_only("penetration"))
-            && r.effective_width().0 > WIDTH
+        r.is_free_of_locking() && (r.is_default() || r.changes_only("penetration")) && r.effective_width().0 > WIDTH
     };
     let order = |scheme: Scheme| {
         let own = runs.iter().filter(|r| r.scheme == scheme).filter(judged);

@@ -67,9 +67,7 @@ impl LoadCurve<'_> {
     /// Relative growth of the load per 10⁻³ of penetration over B on the plateau.
     fn rise(&self, mean_force: f64) -> f64 {
         let on_plateau = self.rows.iter().filter(|r| self.on_plateau(r));
-        let points: Vec<(f64, f64)> = on_plateau
-            .map(|r| (r.penetration, r.force / mean_force))
-            .collect();
+        let points: Vec<(f64, f64)> = on_plateau.map(|r| (r.penetration, r.force / mean_force)).collect();
         fit_line(&points).map_or(f64::NAN, |line| 1e-3 * line.slope)
     }
 
@@ -100,11 +98,7 @@ impl LoadCurve<'_> {
         for &(metric, penetration) in CURVE {
             let near = |r: &Load| (r.penetration - penetration).abs() <= self.window;
             let reached = penetration + self.window <= self.end * (1.0 + 1e-9);
-            let force = if reached {
-                self.mean(near, |r| r.force)
-            } else {
-                f64::NAN
-            };
+            let force = if reached { self.mean(near, |r| r.force) } else { f64::NAN };
             values.push((metric, self.factor(force, WIDTH)));
         }
         values
@@ -112,8 +106,7 @@ impl LoadCurve<'_> {
 
     /// Force on the base over that on the footing, less one.
     pub(super) fn imbalance(&self) -> f64 {
-        let [force, base] =
-            [|r: &Load| r.force, |r: &Load| r.base].map(|of| self.mean(|r| self.on_plateau(r), of));
+        let [force, base] = [|r: &Load| r.force, |r: &Load| r.base].map(|of| self.mean(|r| self.on_plateau(r), of));
         base / force - 1.0
     }
 }
@@ -125,10 +118,8 @@ impl Surface {
     /// Of particles that start at `reference` (m), `spacing` (m) apart, and move by `flow` (m).
     pub(super) fn new(reference: &[[f64; 2]], flow: &[[f64; 2]], spacing: f64) -> Self {
         let on_surface = |x: &[f64; 2]| x[1] > -0.75 * spacing;
-        let mut surface: Vec<(f64, f64)> = (reference.iter().zip(flow))
-            .filter(|(x, _)| on_surface(x))
-            .map(|(x, u)| (x[0], u[1]))
-            .collect();
+        let mut surface: Vec<(f64, f64)> =
+            (reference.iter().zip(flow)).filter(|(x, _)| on_surface(x)).map(|(x, u)| (x[0], u[1])).collect();
         surface.sort_by(|a, b| a.0.total_cmp(&b.0));
         Self(surface)
     }
@@ -144,12 +135,10 @@ impl Surface {
         // The ground does not change its volume: as much rises beside the footing as sinks under it.
         let beside = mechanism_extent(rough) - 0.5 * WIDTH;
         let half = 0.5 * self.sinking() * 0.5 * WIDTH / beside;
-        (self.0.windows(2).rev())
-            .find(|pair| pair[0].1 >= half && pair[1].1 < half)
-            .map_or(f64::NAN, |pair| {
-                let share = (pair[0].1 - half) / (pair[0].1 - pair[1].1);
-                (pair[0].0 + share * (pair[1].0 - pair[0].0)) / WIDTH
-            })
+        (self.0.windows(2).rev()).find(|pair| pair[0].1 >= half && pair[1].1 < half).map_or(f64::NAN, |pair| {
+            let share = (pair[0].1 - half) / (pair[0].1 - pair[1].1);
+            (pair[0].0 + share * (pair[1].0 - pair[0].0)) / WIDTH
+        })
     }
 
     /// Mean rise within [`BESIDE`] over what the footing sinks.
@@ -161,9 +150,6 @@ impl Surface {
 
     /// What is measured of it.
     pub(super) fn metrics(&self, rough: bool) -> Vec<(Metric, f64)> {
-        vec![
-            (MECHANISM_WIDTH, self.mechanism_width(rough)),
-            (HEAVE, self.heave()),
-        ]
+        vec![(MECHANISM_WIDTH, self.mechanism_width(rough)), (HEAVE, self.heave())]
     }
 }

@@ -44,25 +44,16 @@ fn level_title(level: &str) -> String {
 
 /// Pressure over strength over penetration. What rings at the start is inertia, and would hide the elastic branch.
 fn load(_: &Record, series: &Table) -> Vec<(f64, f64)> {
-    let mut points = series.pairs(["penetration", "pressure_over_strength"], |s, q| {
-        (1e3 * s, q)
-    });
+    let mut points = series.pairs(["penetration", "pressure_over_strength"], |s, q| (1e3 * s, q));
     points.retain(|(_, q)| *q <= MOST);
     points
 }
 
 /// Above: standard and consistent at all levels, whole and about the limit load. Below: all remedies at one.
 fn curves(runs: &mut Exhibit) -> Result<(), Error> {
-    let remedies = [
-        (RemedyName::None, Dash::Dotted),
-        (FbarConsistent, Dash::Solid),
-    ];
+    let remedies = [(RemedyName::None, Dash::Dotted), (FbarConsistent, Dash::Solid)];
     // A curve that no basis has needs no entry in the legend.
-    let has = |remedy, level: &str| {
-        BASES
-            .iter()
-            .any(|&basis| runs.find(basis, remedy, level).is_some())
-    };
+    let has = |remedy, level: &str| BASES.iter().any(|&basis| runs.find(basis, remedy, level).is_some());
     let (mut whole, mut by_remedy) = (Vec::new(), Vec::new());
     for basis in BASES {
         let title = basis_title(basis);
@@ -70,14 +61,9 @@ fn curves(runs: &mut Exhibit) -> Result<(), Error> {
         for (colour, level) in LEVELS.into_iter().enumerate() {
             for (remedy, dash) in remedies.into_iter().filter(|(r, _)| has(*r, level)) {
                 let name = format!("{remedy} B/{}", &level[1..]);
-                let line = |points| Series {
-                    dash,
-                    ..Series::line(name.clone(), points, colour)
-                };
+                let line = |points| Series { dash, ..Series::line(name.clone(), points, colour) };
                 panel = match runs.find(basis, remedy, level) {
-                    Some(record) => panel
-                        .histories(runs.gallery, [record], load)?
-                        .styled(|_, s| line(s.points)),
+                    Some(record) => panel.histories(runs.gallery, [record], load)?.styled(|_, s| line(s.points)),
                     None => panel.curve(line(Vec::new())),
                 };
             }
@@ -87,10 +73,7 @@ fn curves(runs: &mut Exhibit) -> Result<(), Error> {
             let all = COMPARED.iter().filter_map(|r| runs.find(basis, *r, level));
             let panel = panel_of_loads(format!("{title}, {}", level_title(level)))
                 .histories(runs.gallery, all, load)?
-                .by_run(|r, s| Series {
-                    name: remedy_title(r.remedy()),
-                    ..s
-                });
+                .by_run(|r, s| Series { name: remedy_title(r.remedy()), ..s });
             by_remedy.push(with_elements(runs, panel));
         }
     }
@@ -106,13 +89,11 @@ fn curves(runs: &mut Exhibit) -> Result<(), Error> {
 }
 
 fn panel_of_loads<'a>(title: String) -> Panel<'a> {
-    Panel::new(title, ["s/B (10⁻³)", "q / s_u"])
-        .y_range(0.0, MOST)
-        .level(ReferenceLine {
-            name: "2 + π".to_owned(),
-            value: EXACT,
-            band: None,
-        })
+    Panel::new(title, ["s/B (10⁻³)", "q / s_u"]).y_range(0.0, MOST).level(ReferenceLine {
+        name: "2 + π".to_owned(),
+        value: EXACT,
+        band: None,
+    })
 }
 
 /// The curve of vanishing elements beside. Smaller ground is stiffer on the way to the same limit load.
@@ -145,14 +126,7 @@ fn panel(
 }
 
 fn figure(title: String, panels: Vec<FieldPanel>, range: (f64, f64), label: &str) -> FieldFigure {
-    FieldFigure {
-        title,
-        panels,
-        columns: 2,
-        range,
-        label: label.to_owned(),
-        window: None,
-    }
+    FieldFigure { title, panels, columns: 2, range, label: label.to_owned(), window: None }
 }
 
 fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
@@ -186,9 +160,7 @@ fn mechanism(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let of = basis_title(basis);
     let title = format!("{of}, {}", level_title(&record.level));
     let stroke = 0.25 * Setup::<Footing>::number_of(record, |c| c.penetration);
-    let speed = |table: &Table, k: usize| {
-        table.column("plateau_ux")[k].hypot(table.column("plateau_uy")[k]) / stroke
-    };
+    let speed = |table: &Table, k: usize| table.column("plateau_ux")[k].hypot(table.column("plateau_uy")[k]) / stroke;
     let strain = |table: &Table, k: usize| table.column("plastic_strain")[k].log10();
     let velocity = panel(runs, record, title.clone(), speed)?;
     let plastic = panel(runs, record, title, strain)?;

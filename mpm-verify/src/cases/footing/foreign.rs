@@ -8,41 +8,20 @@ use crate::foreign::{Asked, Foreign, Given, Group, Measured};
 
 const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
 const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
-const FLOW_X: Asked = Asked::particle(
-    "plateau_ux",
-    "m",
-    "displacement along x over the last quarter of the penetration",
-);
+const FLOW_X: Asked =
+    Asked::particle("plateau_ux", "m", "displacement along x over the last quarter of the penetration");
 const FLOW_Y: Asked = Asked::particle("plateau_uy", "m", "along y, likewise");
-const MEAN_STRESS: Asked = Asked::particle(
-    "mean_stress",
-    "Pa",
-    "mean normal stress at the end, (σ_xx + σ_yy + σ_zz)/3, tension positive",
-);
+const MEAN_STRESS: Asked =
+    Asked::particle("mean_stress", "Pa", "mean normal stress at the end, (σ_xx + σ_yy + σ_zz)/3, tension positive");
 const PENETRATED: Asked = Asked::series("penetration", "-", "penetration over B");
-const FORCE: Asked = Asked::series(
-    "footing_force",
-    "N/m",
-    "upward force of the ground on the half of the footing that is simulated",
-);
-const BASE: Asked = Asked::series(
-    "base_force",
-    "N/m",
-    "downward force of the ground on its base",
-);
+const FORCE: Asked =
+    Asked::series("footing_force", "N/m", "upward force of the ground on the half of the footing that is simulated");
+const BASE: Asked = Asked::series("base_force", "N/m", "downward force of the ground on its base");
 
 pub(in crate::cases) fn foreign() -> Foreign {
     let curve = CURVE.iter().map(|(metric, _)| *metric);
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
-    let of_load = [
-        NC_B,
-        NC_B_PLUS_H,
-        NC_EFFECTIVE,
-        PRANDTL_ERROR,
-        NC_PEAK,
-        PLATEAU_RISE,
-        ELASTIC_SLOPE,
-    ];
+    let of_load = [NC_B, NC_B_PLUS_H, NC_EFFECTIVE, PRANDTL_ERROR, NC_PEAK, PLATEAU_RISE, ELASTIC_SLOPE];
     Foreign {
         judged_as: |basis| Scheme::flip(basis, FbarConsistent),
         discretisation: |spec, parameters, dt| discretisation(2, spec, parameters, dt),
@@ -92,10 +71,8 @@ pub(in crate::cases) fn foreign() -> Foreign {
         ],
         curves: |_| {
             let (settlement, pressure) = limit_curve().into_iter().unzip();
-            let columns = vec![
-                ("penetration (-)".to_owned(), settlement),
-                ("pressure_over_strength (-)".to_owned(), pressure),
-            ];
+            let columns =
+                vec![("penetration (-)".to_owned(), settlement), ("pressure_over_strength (-)".to_owned(), pressure)];
             vec![("reference-curve.csv", columns)]
         },
     }
@@ -106,11 +83,7 @@ fn setup(given: &Given) -> Result<Setup<Footing>, Error> {
 }
 
 /// Metrics of the load that a code supplies.
-fn of_rows(
-    given: &Given,
-    base: Option<&Asked>,
-    of: fn(&LoadCurve<'_>) -> Vec<(Metric, f64)>,
-) -> Measured {
+fn of_rows(given: &Given, base: Option<&Asked>, of: fn(&LoadCurve<'_>) -> Vec<(Metric, f64)>) -> Measured {
     let (forces, bases) = (given.column(&FORCE), base.map(|b| given.column(b)));
     let penetrations = given.column(&PENETRATED).iter().enumerate();
     let row = |(k, penetration): (usize, &f64)| Load {

@@ -25,9 +25,8 @@ choices! {
     enum Contact { RigidNodes = "rigid-nodes", Barrier = "barrier" }
 }
 
-const PENETRATION_RATE: Parameter = real("m/s", "2e-3", 1e-6, 1.0)
-    .named("penetration_rate")
-    .meaning("speed of the footing after its start");
+const PENETRATION_RATE: Parameter =
+    real("m/s", "2e-3", 1e-6, 1.0).named("penetration_rate").meaning("speed of the footing after its start");
 
 parameters! {
     /// Parameters of the footing.
@@ -140,10 +139,7 @@ pub(super) fn case() -> Case {
             headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (10⁻⁶)", 1e6, 2),
             headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
         ],
-        quantities: vec![error(
-            PRANDTL_ERROR,
-            "relative error of the contact pressure",
-        )],
+        quantities: vec![error(PRANDTL_ERROR, "relative error of the contact pressure")],
         sweeps: vec![Sweep {
             parameter: PENETRATION_RATE,
             label: "penetration rate (m/s)",
@@ -205,12 +201,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "b20", &three, "contact=barrier")
         .runs(Nightly, "b10", &rates, "penetration_rate=4e-3")
         .runs(Nightly, "b10", &rates, "penetration_rate=1e-3")
-        .runs(
-            Nightly,
-            "b10",
-            &both(&[none, FbarRate, FbarConsistent]),
-            ELASTIC,
-        )
+        .runs(Nightly, "b10", &both(&[none, FbarRate, FbarConsistent]), ELASTIC)
         .runs(Nightly, "b20", &ours, ELASTIC)
         .runs(Nightly, "b10", &smooth, "rough=false")
         .runs(Long, "b40", &ours, "ppc_per_direction=4 penetration=0.003")
@@ -237,11 +228,7 @@ fn cost(spec: &RunSpec) -> f64 {
         RemedyName::FbarConsistent => 2.5,
     };
     let dense = spec.set.iter().any(|s| s == "ppc_per_direction=4");
-    let solver = if spec.scheme.rule().is_some() {
-        0.15
-    } else {
-        1.0
-    };
+    let solver = if spec.scheme.rule().is_some() { 0.15 } else { 1.0 };
     solver * sweep * if dense { 4.0 } else { 1.0 } / spec.level.h.powi(3)
 }
 
@@ -249,12 +236,7 @@ fn sketch() -> Sketch {
     let extent = 6.0 * WIDTH;
     let half = 0.5 * WIDTH;
     let shapes = vec![
-        Shape::Body(vec![
-            [0.0, -extent],
-            [extent, -extent],
-            [extent, 0.0],
-            [0.0, 0.0],
-        ]),
+        Shape::Body(vec![[0.0, -extent], [extent, -extent], [extent, 0.0], [0.0, 0.0]]),
         Shape::Body(vec![[0.0, 0.0], [half, 0.0], [half, 0.25], [0.0, 0.25]]),
         Shape::Held([extent, -extent], [0.0, -extent]),
         Shape::Load([0.25 * WIDTH, 1.0], [0.25 * WIDTH, 0.3]),
@@ -322,9 +304,7 @@ fn tables() -> Vec<ResultTable> {
         table_of_mean_stresses(),
         table_of_rates(),
         table_of_slopes(),
-        transfers("footing-transfers", &[PAIR, OF_WIDTH], &["4"], |r| {
-            percent(2).text(from_exact(r))
-        }),
+        transfers("footing-transfers", &[PAIR, OF_WIDTH], &["4"], |r| percent(2).text(from_exact(r))),
         table_of_orders(),
     ]
 }
@@ -394,10 +374,7 @@ fn table_of_slopes() -> ResultTable {
     }
     let found = |r: &Record| scale(r) * r.metric(ELASTIC_SLOPE);
     let expected = |r: &Record| {
-        let slope = |c: &Setup<Footing>| {
-            c.reference_slope()
-                .map_or(f64::NAN, |s| s / strength_ratio())
-        };
+        let slope = |c: &Setup<Footing>| c.reference_slope().map_or(f64::NAN, |s| s / strength_ratio());
         Setup::number_of(r, slope)
     };
     ResultTable::new(
@@ -407,11 +384,7 @@ fn table_of_slopes() -> ResultTable {
         [
             Column::value("slope d(q/s_u)/d(s/B)", found, fixed(0)),
             Column::value("finite elements that act as wide", expected, fixed(0)),
-            Column::value(
-                "difference",
-                move |r| found(r) / expected(r) - 1.0,
-                percent(1),
-            ),
+            Column::value("difference", move |r| found(r) / expected(r) - 1.0, percent(1)),
         ],
     )
 }

@@ -95,8 +95,7 @@ impl Curve {
 }
 
 fn document() -> Result<&'static Document, String> {
-    static DOCUMENT: LazyLock<Option<Document>> =
-        LazyLock::new(|| serde_json::from_str(SOLUTIONS).ok());
+    static DOCUMENT: LazyLock<Option<Document>> = LazyLock::new(|| serde_json::from_str(SOLUTIONS).ok());
     let unreadable = || "the stored reference can't be read".to_owned();
     DOCUMENT.as_ref().ok_or_else(unreadable)
 }
@@ -170,9 +169,7 @@ impl Setup<Footing> {
         let h = self.h;
         let contact = if self.rough { "rough" } else { "smooth" };
         let found = document.meshes.iter().find_map(|s| {
-            let same = close(s.cells * h, WIDTH)
-                && s.formulation == "mean_dilatation"
-                && s.contact == contact;
+            let same = close(s.cells * h, WIDTH) && s.formulation == "mean_dilatation" && s.contact == contact;
             s.limit.filter(|_| same).map(|limit| (s, limit))
         });
         let Some((solution, limit)) = found else {
@@ -180,13 +177,8 @@ impl Setup<Footing> {
         };
         Ok(Curve {
             limit,
-            points: (document.settlements.iter().copied())
-                .zip(solution.pressures.iter().copied())
-                .collect(),
-            name: format!(
-                "B-bar finite elements of the same size, {} mesh",
-                solution.mesh
-            ),
+            points: (document.settlements.iter().copied()).zip(solution.pressures.iter().copied()).collect(),
+            name: format!("B-bar finite elements of the same size, {} mesh", solution.mesh),
         })
     }
 
@@ -195,16 +187,8 @@ impl Setup<Footing> {
         let (curve, document) = (self.reference_curve()?, document()?);
         let wanted = [
             ("poisson_ratio", self.poisson_ratio, document.poisson_ratio),
-            (
-                "domain_width",
-                f64::from(self.domain_width),
-                document.domain,
-            ),
-            (
-                "domain_depth",
-                f64::from(self.domain_depth),
-                document.domain,
-            ),
+            ("domain_width", f64::from(self.domain_width), document.domain),
+            ("domain_depth", f64::from(self.domain_depth), document.domain),
         ];
         for (name, own, value) in wanted {
             if !close(own, value) {
@@ -237,8 +221,7 @@ impl Setup<Footing> {
             Elements::Vanishing => slopes.slope,
             Elements::OfCells => {
                 let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
-                same.ok_or_else(|| format!("no slope with elements of {h} m"))?
-                    .slope
+                same.ok_or_else(|| format!("no slope with elements of {h} m"))?.slope
             }
         };
         Ok(slope * strength_ratio())
@@ -254,10 +237,7 @@ pub(super) fn describe() -> Vec<String> {
         return lines;
     };
     lines.push(document.method.clone());
-    let rough = document
-        .meshes
-        .iter()
-        .filter(|s| s.formulation == "mean_dilatation" && s.contact == "rough");
+    let rough = document.meshes.iter().filter(|s| s.formulation == "mean_dilatation" && s.contact == "rough");
     lines.extend(rough.filter_map(|s| {
         Some(format!(
             "B/{}, {} mesh: limit load {:.4} s_u by B, {:.4} by B + h; slope {:.0}",
@@ -285,13 +265,7 @@ mod tests {
     #[test]
     fn the_finite_elements_agree_with_prandtl_and_are_found() {
         let of = |basis, h, set: &[&str]| {
-            let record = run(
-                &Footing::list(),
-                (basis, FbarConsistent),
-                ("b20", h),
-                set,
-                &[],
-            );
+            let record = run(&Footing::list(), (basis, FbarConsistent), ("b20", h), set, &[]);
             Setup::<Footing>::of_record(&record).unwrap()
         };
         let vanishing = of(Bspline2, 0.05, &[]).reference_curve().unwrap();
@@ -302,11 +276,7 @@ mod tests {
             assert!(CURVE.iter().all(|(_, s)| curve.at(*s).is_some()));
             assert_eq!(curve.at(0.0123), None);
         }
-        assert!(
-            MEAN_STRESSES
-                .iter()
-                .all(|(_, x)| mean_stress_at(*x).is_some())
-        );
+        assert!(MEAN_STRESSES.iter().all(|(_, x)| mean_stress_at(*x).is_some()));
         assert!(of(Gimp, 0.03, &[]).reference_curve().is_err());
         let other = of(Gimp, 0.05, &["poisson_ratio=0.3"]);
         assert!(other.reference_curve().is_ok() && other.whole_reference_curve().is_err());

@@ -31,15 +31,7 @@ const RIM: f64 = 1e-7;
 /// Share of its reach by which the barrier gives way under Prandtl's pressure.
 const GIVES_WAY: f64 = 0.002;
 /// Parameters of an explicit run only, and of a quasi-static run only.
-const OF_EXPLICIT: [&str; 7] = [
-    "density",
-    "penetration_rate",
-    "ramp",
-    "damping",
-    "cfl",
-    "flip",
-    "wall",
-];
+const OF_EXPLICIT: [&str; 7] = ["density", "penetration_rate", "ramp", "damping", "cfl", "flip", "wall"];
 const OF_QUASI_STATIC: [&str; 2] = ["load_steps", "tolerance"];
 
 /// Distance (m) from the axis of a footing of [`WIDTH`] to which the ground rises at the limit load: Prandtl's mechanism under
@@ -130,21 +122,11 @@ impl Setup<Footing> {
                 speed * (ramp + pressed),
             )));
         }
-        Ok(Pace {
-            rate,
-            ramp,
-            dt,
-            steps_per_row: ((ROW * WIDTH / rate / dt).round() as u64).max(1),
-        })
+        Ok(Pace { rate, ramp, dt, steps_per_row: ((ROW * WIDTH / rate / dt).round() as u64).max(1) })
     }
 
     /// Load of the `rows` of a run with this penetration over B at the end of its start, averaged within `window`.
-    pub(super) fn load_curve<'a>(
-        &self,
-        rows: &'a [Load],
-        begun: f64,
-        window: f64,
-    ) -> LoadCurve<'a> {
+    pub(super) fn load_curve<'a>(&self, rows: &'a [Load], begun: f64, window: f64) -> LoadCurve<'a> {
         LoadCurve {
             rows,
             strength: self.undrained_strength,
@@ -157,21 +139,13 @@ impl Setup<Footing> {
     }
 
     /// Metrics of the surface of particles that start at `references` (m) and move by `flow` (m).
-    pub(super) fn of_surface(
-        &self,
-        references: &[[f64; 2]],
-        flow: &[[f64; 2]],
-    ) -> Vec<(Metric, f64)> {
+    pub(super) fn of_surface(&self, references: &[[f64; 2]], flow: &[[f64; 2]]) -> Vec<(Metric, f64)> {
         Surface::new(references, flow, self.spacing()).metrics(self.rough)
     }
 
     /// Rms of the mean normal stress (Pa) of particles that start at `references` (m), and its values over the strength at the
     /// points of the reference.
-    pub(super) fn of_stress(
-        &self,
-        references: &[[f64; 2]],
-        mean_stress: &[f64],
-    ) -> Vec<(Metric, f64)> {
+    pub(super) fn of_stress(&self, references: &[[f64; 2]], mean_stress: &[f64]) -> Vec<(Metric, f64)> {
         let mut values = vec![(MEAN_STRESS_RMS, rms(mean_stress.iter().copied()))];
         for &(metric, point) in MEAN_STRESSES {
             let probe = PointProbe::new(references, point, 2.0 * self.h);
@@ -216,21 +190,14 @@ impl Pressing {
     /// cells that lie half a cell below, without which the surface would not be rigid.
     fn held_nodes(&self) -> RigidNodes<2> {
         RigidNodes {
-            extent: [
-                [f64::NEG_INFINITY, 0.5 * WIDTH],
-                [-0.5 * self.setup.h, f64::INFINITY],
-            ],
+            extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * self.setup.h, f64::INFINITY]],
             velocity: [self.setup.rough.then_some(0.0), Some(-self.pace.rate)],
             ramp: self.pace.ramp,
         }
     }
 
     /// The footing as a barrier on the particles that come near it.
-    fn contact(
-        &self,
-        barrier: Barrier,
-        particles: &Particles<2>,
-    ) -> Result<RigidContact<2>, mpm_core::Error> {
+    fn contact(&self, barrier: Barrier, particles: &Particles<2>) -> Result<RigidContact<2>, mpm_core::Error> {
         let reach = REACH * self.setup.h;
         let face = RigidFace::half_space(1, End::Hi, 0.0)?
             .within([[f64::NEG_INFINITY, 0.5 * WIDTH], [0.0; 2]])
@@ -246,9 +213,9 @@ impl Pressing {
 
     /// Lead of the footing over the ground, over B, under a force (N/m).
     fn lost(&self, force: f64) -> f64 {
-        self.barrier.as_ref().map_or(0.0, |(barrier, particles)| {
-            (barrier.distance() - barrier.gap(force.max(0.0) / particles)) / WIDTH
-        })
+        self.barrier
+            .as_ref()
+            .map_or(0.0, |(barrier, particles)| (barrier.distance() - barrier.gap(force.max(0.0) / particles)) / WIDTH)
     }
 
     /// Force of the ground on the footing in the last step, upward (N/m).
@@ -272,11 +239,7 @@ fn seed(across: usize, down: usize, per_direction: usize, spacing: f64) -> Vec<[
 /// The fixed base and rollers at the sides.
 fn walls() -> [Wall; 3] {
     let wall = |axis, end, kind| Wall { axis, end, kind };
-    [
-        wall(1, End::Lo, WallKind::Fixed),
-        wall(0, End::Lo, WallKind::Roller),
-        wall(0, End::Hi, WallKind::Roller),
-    ]
+    [wall(1, End::Lo, WallKind::Fixed), wall(0, End::Lo, WallKind::Roller), wall(0, End::Hi, WallKind::Roller)]
 }
 
 impl Problem<2> for Pressing {
@@ -294,11 +257,7 @@ impl Problem<2> for Pressing {
         } else {
             None
         };
-        Ok(Self {
-            setup,
-            pace,
-            barrier,
-        })
+        Ok(Self { setup, pace, barrier })
     }
 
     fn discretisation(&self) -> Discretisation {
@@ -331,9 +290,7 @@ impl Problem<2> for Pressing {
             let settings = settings.stabilised(Stabilisation::Ghost(RIM));
             return mpm_solvers::implicit(setup.scheme, scene, settings);
         }
-        let settings = setup
-            .settings(self.pace.dt, setup.damping)?
-            .transfer(Flip::new(setup.flip)?);
+        let settings = setup.settings(self.pace.dt, setup.damping)?.transfer(Flip::new(setup.flip)?);
         mpm_solvers::solver(setup.scheme, scene, settings)
     }
 
@@ -343,11 +300,7 @@ impl Problem<2> for Pressing {
             let start = phase.run.time();
             phase.steps(1)?;
             // Forces are those at the start of an explicit step, at the end of an implicit one.
-            time += if self.setup.is_implicit() {
-                phase.run.time()
-            } else {
-                start
-            };
+            time += if self.setup.is_implicit() { phase.run.time() } else { start };
             force += self.force_on_footing(phase.run.as_ref());
             base -= phase.run.on(Part::Constraint(BASE)).force[1];
         }

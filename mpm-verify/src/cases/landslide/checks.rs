@@ -26,7 +26,8 @@ const EARLY: f64 = 0.5;
 const EARLY_SLIDE: f64 = 1.5;
 /// Reduction, and cells (m), from which on `fbar-recursive` with GIMP throws a grain off the grid in plane strain, and when (s).
 const THROWN: (f64, f64, f64) = (2.0, 0.2, 5.3);
-const THROWS: &str = "a grain is thrown off, likely as averages of averages let the true volumes drift: docs/landslide.md";
+const THROWS: &str =
+    "a grain is thrown off, likely as averages of averages let the true volumes drift: docs/landslide.md";
 /// Rms of σ_m − Πσ_m over γ H that locking exceeds.
 const CHECKERBOARD: f64 = 0.05;
 /// Share of the ground that has moved from which on the slope has failed.
@@ -80,10 +81,7 @@ impl Setup<Landslide> {
         if self.slope().longest_period() > RISE {
             Some("the ground's longest period is longer than the rise of gravity".to_owned())
         } else if self.transfer() == TransferName::Xpic2 {
-            Some(
-                "what XPIC filters from the velocity every step can only creep: docs/cook.md"
-                    .to_owned(),
-            )
+            Some("what XPIC filters from the velocity every step can only creep: docs/cook.md".to_owned())
         } else {
             None
         }
@@ -99,8 +97,7 @@ impl Setup<Landslide> {
 
     /// Whether the reduction is a tenth and more below the lower bound.
     fn stands(&self) -> bool {
-        self.bounds()
-            .is_some_and(|(least, _)| self.reduction < 0.9 * least)
+        self.bounds().is_some_and(|(least, _)| self.reduction < 0.9 * least)
     }
 
     /// Whether the slope must fail: the reduction exceeds the upper bound and what a band of cells bears besides, for long
@@ -108,9 +105,7 @@ impl Setup<Landslide> {
     fn must_fail(&self) -> bool {
         let band = 1.0 + self.h / self.height;
         let reduced_for = self.duration - self.release.max(0.0);
-        let beyond = self
-            .bounds()
-            .is_some_and(|(_, most)| self.reduction > most * band);
+        let beyond = self.bounds().is_some_and(|(_, most)| self.reduction > most * band);
         beyond && reduced_for >= 2.5
     }
 
@@ -142,10 +137,7 @@ fn in_space(c: &Slope) -> bool {
 
 /// The checks of both cases.
 pub(super) fn checks() -> Vec<Check> {
-    [of_rest(), of_energy(), of_slide(), of_width(), of_studies()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [of_rest(), of_energy(), of_slide(), of_width(), of_studies()].into_iter().flatten().collect()
 }
 
 fn of_rest() -> Vec<Check> {
@@ -237,9 +229,7 @@ fn of_width() -> Vec<Check> {
     type Check = CheckOf<Landslide>;
     type Demand = crate::demand::Demand<Landslide>;
     let alike = |metric| Demand::at_most(metric, |_| GROWN_ROUNDING);
-    let off = |metric, tolerance: fn(&Slope) -> f64| {
-        Demand::within(metric, |_| 0.0, tolerance).of_scale(|_| 1.0)
-    };
+    let off = |metric, tolerance: fn(&Slope) -> f64| Demand::within(metric, |_| 0.0, tolerance).of_scale(|_| 1.0);
     vec![
         Check::truth("uniform", "in three dimensions: what was in one place of the section has moved alike over the width at rest and 0.5 s after the reduction, within 10⁻⁴")
             .when(in_space)
@@ -264,17 +254,20 @@ fn of_width() -> Vec<Check> {
 fn of_studies() -> Vec<Check> {
     type Check = CheckOf<Landslide>;
     vec![
-        Check::truth("slice", "in three dimensions: at rest the crest of a slice has sunk as that of the full width, within 10⁻⁴")
-            .study(|records| {
-                let like = |(slice, whole): (Slope, Slope)| {
-                    let expected = whole.metric(SETTLEMENT_AT_REST);
-                    let why = format!("{} {}: the full width", slice.scheme, slice.record.folder());
-                    let value = slice.metric(SETTLEMENT_AT_REST);
-                    Finding::within(SETTLEMENT_AT_REST, value, expected, GROWN_ROUNDING * expected, why)
-                };
-                changed(records, "width").into_iter().map(like).collect()
-            })
-            .because(""),
+        Check::truth(
+            "slice",
+            "in three dimensions: at rest the crest of a slice has sunk as that of the full width, within 10⁻⁴",
+        )
+        .study(|records| {
+            let like = |(slice, whole): (Slope, Slope)| {
+                let expected = whole.metric(SETTLEMENT_AT_REST);
+                let why = format!("{} {}: the full width", slice.scheme, slice.record.folder());
+                let value = slice.metric(SETTLEMENT_AT_REST);
+                Finding::within(SETTLEMENT_AT_REST, value, expected, GROWN_ROUNDING * expected, why)
+            };
+            changed(records, "width").into_iter().map(like).collect()
+        })
+        .because(""),
         // Where the slope fails at once: at the paper's reduction the onset itself is at stake.
         Check::truth("time-step", "fbar-consistent: half the time step moves the toe at 2.5 s by less than a cell")
             .study(|records| {
@@ -295,9 +288,7 @@ fn changed<'a>(records: &'a [Record], parameter: &str) -> Vec<(Slope<'a>, Slope<
     let ended = || records.iter().filter(|r| r.status == Status::Ok);
     let own = |run: &'a Record| {
         let others = || run.set.iter().filter(|set| !changes(set));
-        let same = |r: &&Record| {
-            r.scheme() == run.scheme() && r.level == run.level && r.set.iter().eq(others())
-        };
+        let same = |r: &&Record| r.scheme() == run.scheme() && r.level == run.level && r.set.iter().eq(others());
         Some((Run::of(run)?, Run::of(ended().find(same)?)?))
     };
     let runs = ended().filter(|run| run.set.iter().any(|set| changes(&set)));

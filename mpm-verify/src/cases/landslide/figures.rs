@@ -3,8 +3,7 @@
 use super::*;
 use crate::cases::pictures::{basis_title, is_shown, remedy_title, spacing};
 use crate::draw::{
-    FieldFigure, FieldPanel, SolidFigure, SolidPanel, animate_fields, animate_solids, draw_fields,
-    draw_solids, signed,
+    FieldFigure, FieldPanel, SolidFigure, SolidPanel, animate_fields, animate_solids, draw_fields, draw_solids, signed,
 };
 
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
@@ -78,12 +77,7 @@ impl Shown {
     /// Values in seeding order of the particles in the middle of the width.
     fn in_the_middle<T: Copy>(&self, values: &[T]) -> Vec<T> {
         let from = self.across / 2;
-        values
-            .iter()
-            .skip(from)
-            .step_by(self.across)
-            .copied()
-            .collect()
+        values.iter().skip(from).step_by(self.across).copied().collect()
     }
 }
 
@@ -111,28 +105,17 @@ impl<'a> ShownRuns<'a> {
 
     /// The runs of all remedies with a basis at a level.
     fn remedies(&self, basis: BasisName, level: &str) -> impl Iterator<Item = &'a Record> {
-        REMEDIES
-            .into_iter()
-            .filter_map(move |remedy| self.find(basis, remedy, level))
+        REMEDIES.into_iter().filter_map(move |remedy| self.find(basis, remedy, level))
     }
 
     /// Levels at which remedies can be compared with a basis, the longest runs and the finest first.
     fn levels(&self, basis: BasisName) -> Vec<&'a str> {
-        let compares = |r: &&&Record| {
-            COMPARED
-                .iter()
-                .all(|&remedy| self.find(basis, remedy, &r.level).is_some())
-        };
+        let compares = |r: &&&Record| COMPARED.iter().all(|&remedy| self.find(basis, remedy, &r.level).is_some());
         crate::distinct(self.records.iter().filter(compares).map(|r| &*r.level))
     }
 
     /// All runs with a basis at a level, at `time` (s); none if a run has not kept it.
-    fn at(
-        &self,
-        gallery: &Gallery,
-        (basis, level): (BasisName, &str),
-        time: f64,
-    ) -> Result<Vec<Shown>, Error> {
+    fn at(&self, gallery: &Gallery, (basis, level): (BasisName, &str), time: f64) -> Result<Vec<Shown>, Error> {
         let mut shown = Vec::new();
         for record in self.remedies(basis, level) {
             let Some(particles) = gallery.snapshot(record, time)? else {
@@ -164,13 +147,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
                 snapshots(gallery, &runs, (basis, level), field, &name)?;
             }
             if let Some(level) = finest {
-                snapshots(
-                    gallery,
-                    &runs,
-                    (basis, level),
-                    field,
-                    &format!("{name}-{level}"),
-                )?;
+                snapshots(gallery, &runs, (basis, level), field, &format!("{name}-{level}"))?;
             }
         }
     }
@@ -207,17 +184,11 @@ fn snapshots(
     let mut file = format!("{name}.png");
     let mut place = "";
     if panels.iter().all(|shown| shown.is_solid()) {
-        draw_solids(
-            &gallery.place(&file),
-            &solids(title.clone(), &panels, columns, field),
-        )?;
+        draw_solids(&gallery.place(&file), &solids(title.clone(), &panels, columns, field))?;
         gallery.hang(&file, caption(""));
         (file, place) = (format!("section-{file}"), ", in the middle of the width");
     }
-    draw_fields(
-        &gallery.place(&file),
-        &fields(title.clone(), &panels, columns, field),
-    )?;
+    draw_fields(&gallery.place(&file), &fields(title.clone(), &panels, columns, field))?;
     gallery.hang(&file, caption(place));
     Ok(())
 }
@@ -239,29 +210,15 @@ fn run_out(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
         let of = basis_title(basis);
         // Since the reduction of the strength.
         let panel = |title: &str, records: Vec<_>, (column, (factor, start), label)| {
-            Panel::new(format!("{of}, {title}"), ["time (s)", label]).histories(
-                gallery,
-                records,
-                |_, table| {
-                    let mut points = table.points("time", column);
-                    points.retain(|(time, _)| *time >= 0.0);
-                    points
-                        .iter()
-                        .map(|(time, value)| (*time, factor * (value - start)))
-                        .collect()
-                },
-            )
+            Panel::new(format!("{of}, {title}"), ["time (s)", label]).histories(gallery, records, |_, table| {
+                let mut points = table.points("time", column);
+                points.retain(|(time, _)| *time >= 0.0);
+                points.iter().map(|(time, value)| (*time, factor * (value - start))).collect()
+            })
         };
         for quantity in quantities {
-            let panel = panel(
-                &level_title(level),
-                runs.remedies(basis, level).collect(),
-                quantity,
-            )?;
-            panels.push(panel.by_run(|r, s| Series {
-                name: remedy_title(r.remedy()),
-                ..s
-            }));
+            let panel = panel(&level_title(level), runs.remedies(basis, level).collect(), quantity)?;
+            panels.push(panel.by_run(|r, s| Series { name: remedy_title(r.remedy()), ..s }));
         }
         for quantity in quantities {
             let own = levels.iter().take(LEVEL_COLOURS.len());
@@ -309,10 +266,7 @@ fn animation(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
             animate_fields(&path, &panels.map(flat).collect::<Vec<_>>(), DELAY)?;
         }
         let (level, label) = (level_title(level), field.label);
-        gallery.hang(
-            "slide.png",
-            format!("The slide with GIMP, {level}: {label}."),
-        );
+        gallery.hang("slide.png", format!("The slide with GIMP, {level}: {label}."));
         break;
     }
     Ok(())
@@ -361,10 +315,6 @@ fn solids(title: String, panels: &[&Shown], columns: usize, field: &Field) -> So
         columns,
         range: field.range,
         label: field.label.to_owned(),
-        window: [
-            WINDOW.0,
-            WINDOW.1,
-            (0.0, panels.iter().map(width).fold(0.0, f64::max)),
-        ],
+        window: [WINDOW.0, WINDOW.1, (0.0, panels.iter().map(width).fold(0.0, f64::max))],
     }
 }

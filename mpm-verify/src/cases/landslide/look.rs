@@ -117,9 +117,7 @@ impl Look<'_> {
     /// Places in the columns of the particles in the middle of the width whose reference passes.
     fn in_the_middle(&self, keep: impl Fn(&[f64; 2]) -> bool) -> Vec<usize> {
         let middle = self.across / 2;
-        (0..self.reference.len())
-            .filter(|k| k % self.across == middle && keep(&self.reference[*k]))
-            .collect()
+        (0..self.reference.len()).filter(|k| k % self.across == middle && keep(&self.reference[*k])).collect()
     }
 
     /// Settlement (m) of the particle nearest to the crest's edge.
@@ -129,10 +127,7 @@ impl Look<'_> {
             let x = self.reference[*k];
             (x[0] - edge[0]).hypot(x[1] - edge[1])
         };
-        let nearest = self
-            .in_the_middle(|_| true)
-            .into_iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let nearest = self.in_the_middle(|_| true).into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         nearest.map_or(f64::NAN, |k| self.reference[k][1] - self.positions[k][1])
     }
 
@@ -148,12 +143,8 @@ impl Look<'_> {
         let moved = moved_since(released, self.positions);
         let top = self.section.height - 0.75 * self.spacing;
         let surface = self.in_the_middle(|x| x[1] > top && x[0] < self.section.crest);
-        let failed = surface
-            .iter()
-            .filter(|k| moved.get(**k) > Some(&(MOVED * self.section.height)));
-        let rearmost = failed
-            .map(|k| self.reference[*k][0])
-            .fold(f64::INFINITY, f64::min);
+        let failed = surface.iter().filter(|k| moved.get(**k) > Some(&(MOVED * self.section.height)));
+        let rearmost = failed.map(|k| self.reference[*k][0]).fold(f64::INFINITY, f64::min);
         (self.section.crest - rearmost + 0.5 * self.spacing).max(0.0)
     }
 
@@ -228,24 +219,12 @@ impl Series {
             (FAILURE_TIME, failure.map_or(f64::NAN, |row| row.time)),
             (RETROGRESSION_END, end(&|row| row.retrogression)),
             (SHEAR_BANDS_END, end(&|row| row.bands)),
-            (
-                PLASTIC_DISSIPATION,
-                end(&|row| row.dissipated - start.dissipated),
-            ),
-            (
-                KINETIC_ENERGY_MAX,
-                all(|row| row.kinetic).fold(0.0, f64::max),
-            ),
+            (PLASTIC_DISSIPATION, end(&|row| row.dissipated - start.dissipated)),
+            (KINETIC_ENERGY_MAX, all(|row| row.kinetic).fold(0.0, f64::max)),
             (ENERGY_GAIN, gains().fold(0.0, f64::max) / start.potential),
-            (
-                UNACCOUNTED_ENERGY,
-                end(&|row| (row.accounted() - start.accounted()) / start.potential),
-            ),
+            (UNACCOUNTED_ENERGY, end(&|row| (row.accounted() - start.accounted()) / start.potential)),
             (FALLEN_ENERGY, falls / start.potential),
-            (
-                JACOBIAN_MIN,
-                all(|row| row.jacobian.0).fold(f64::INFINITY, f64::min),
-            ),
+            (JACOBIAN_MIN, all(|row| row.jacobian.0).fold(f64::INFINITY, f64::min)),
             (JACOBIAN_MAX, all(|row| row.jacobian.1).fold(0.0, f64::max)),
             (LOG_JACOBIAN_GAP, end(&|row| row.log_jacobian_gap)),
         ]
@@ -263,9 +242,7 @@ pub(super) fn potential<const D: usize>(particles: &Particles<D>) -> f64 {
 pub(super) fn spread_over_width(moved: &[f64], across: usize) -> f64 {
     let most = moved.iter().copied().fold(0.0, f64::max);
     let range = |place: &[f64]| {
-        let ends = place.iter().fold((f64::INFINITY, 0.0_f64), |(lo, hi), d| {
-            (lo.min(*d), hi.max(*d))
-        });
+        let ends = place.iter().fold((f64::INFINITY, 0.0_f64), |(lo, hi), d| (lo.min(*d), hi.max(*d)));
         ends.1 - ends.0
     };
     moved.chunks(across).map(range).fold(0.0, f64::max) / most
@@ -293,11 +270,7 @@ mod tests {
     }
 
     fn slope() -> (Section, Vec<[f64; 2]>) {
-        let section = Section {
-            height: 5.0,
-            crest: 10.0,
-            run: 5.0,
-        };
+        let section = Section { height: 5.0, crest: 10.0, run: 5.0 };
         (section, section.seed(0.1))
     }
 
@@ -307,18 +280,9 @@ mod tests {
         let released = reference.clone();
         // Everything right of x = 8 m goes down and out; along that line it is sheared.
         let slides = |x: &[f64; 2]| x[0] > 8.0;
-        let positions: Vec<[f64; 2]> = (reference.iter())
-            .map(|x| {
-                if slides(x) {
-                    [x[0] + 1.0, x[1] - 0.5]
-                } else {
-                    *x
-                }
-            })
-            .collect();
-        let strain: Vec<f64> = (reference.iter())
-            .map(|x| if (x[0] - 8.0).abs() < 0.2 { 1.0 } else { 0.0 })
-            .collect();
+        let positions: Vec<[f64; 2]> =
+            (reference.iter()).map(|x| if slides(x) { [x[0] + 1.0, x[1] - 0.5] } else { *x }).collect();
+        let strain: Vec<f64> = (reference.iter()).map(|x| if (x[0] - 8.0).abs() < 0.2 { 1.0 } else { 0.0 }).collect();
         let look = Look {
             section: &section,
             spacing: 0.1,
@@ -335,9 +299,7 @@ mod tests {
         assert_eq!(positions.iter().filter(|x| x[0] >= bulk).count(), 66);
         assert!((look.settlement() - 0.5).abs() < 1e-9);
         assert!((look.retrogression(&released) - 2.0).abs() < 0.06);
-        let [band] = look.bands()[..] else {
-            panic!("{:?}", look.bands())
-        };
+        let [band] = look.bands()[..] else { panic!("{:?}", look.bands()) };
         assert!((band - 2.0).abs() < 0.2, "{band}");
         let failed = look.failed(&released) * 62.5;
         assert!((failed - 22.5).abs() < 0.5, "{failed}");

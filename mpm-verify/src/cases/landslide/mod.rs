@@ -19,18 +19,10 @@ use crate::problem;
 use plane_strain::Beside;
 use run::Slide;
 
-const LEVELS_2D: [Level; 4] = [
-    Level::new("h0.4", 0.4),
-    Level::new("h0.2", 0.2),
-    Level::new("h0.1", 0.1),
-    Level::new("h0.05", 0.05),
-];
-const LEVELS_3D: [Level; 4] = [
-    Level::new("h0.5", 0.5),
-    Level::new("slice-h0.4", 0.4),
-    Level::new("h0.25", 0.25),
-    Level::new("h0.2", 0.2),
-];
+const LEVELS_2D: [Level; 4] =
+    [Level::new("h0.4", 0.4), Level::new("h0.2", 0.2), Level::new("h0.1", 0.1), Level::new("h0.05", 0.05)];
+const LEVELS_3D: [Level; 4] =
+    [Level::new("h0.5", 0.5), Level::new("slice-h0.4", 0.4), Level::new("h0.25", 0.25), Level::new("h0.2", 0.2)];
 /// Standard, the paper's, ours.
 const REMEDIES: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];
 const REDUCTION: Parameter = real("-", "1.65", 1.0, 100.0)
@@ -139,11 +131,7 @@ fn cost(spec: &RunSpec, dimension: i32) -> f64 {
         RemedyName::FbarConsistent => 1.7,
     };
     let short = spec.set.iter().any(|set| set.starts_with("duration="));
-    let across = if spec.level.name.starts_with("slice") {
-        0.3
-    } else {
-        1.0
-    };
+    let across = if spec.level.name.starts_with("slice") { 0.3 } else { 1.0 };
     across * sweep / spec.level.h.powi(dimension + 1) / if short { 3.0 } else { 1.0 }
 }
 
@@ -180,12 +168,7 @@ fn case_of(
                 abscissa: |reduction| reduction,
                 logarithmic: false,
             },
-            Sweep {
-                parameter: slope::CFL,
-                label: "CFL number (–)",
-                abscissa: |cfl| cfl,
-                logarithmic: true,
-            },
+            Sweep { parameter: slope::CFL, label: "CFL number (–)", abscissa: |cfl| cfl, logarithmic: true },
         ],
         watched: &["toe", "settlement", "kinetic_energy", "failed_share"],
         sketch: slope::sketch(size),
@@ -248,12 +231,7 @@ fn plan_2d() -> Vec<Family> {
         .runs(Pr, "h0.4", &all, "duration=1")
         .runs(Nightly, "h0.4 h0.2 h0.1", &all, "")
         .runs(Nightly, "h0.4", &all, "reduction=1 duration=2.5")
-        .each(
-            Nightly,
-            "h0.4 h0.2",
-            &all,
-            ["reduction=1.8", "reduction=2", "cfl=0.175"],
-        )
+        .each(Nightly, "h0.4 h0.2", &all, ["reduction=1.8", "reduction=2", "cfl=0.175"])
         .runs(Nightly, "h0.4", &all, "damping=0.7")
         .runs(Nightly, "h0.4 h0.2", &all, "release=2")
         .runs(Long, "h0.2", &all, "damping=0.7")

@@ -52,10 +52,7 @@ impl Job for Beside {
     fn advance(&mut self) -> Result<Row, mpm_core::Error> {
         let mut row = self.slide.advance()?;
         let plane = self.plane.advance()?.0;
-        row.0.extend([
-            ("plane_strain_toe (m)", plane[TOE].1),
-            ("plane_strain_settlement (m)", plane[SETTLEMENT].1),
-        ]);
+        row.0.extend([("plane_strain_toe (m)", plane[TOE].1), ("plane_strain_settlement (m)", plane[SETTLEMENT].1)]);
         Ok(row)
     }
 

@@ -208,15 +208,9 @@ impl<const D: usize> Slide<D> {
     fn dissipated(&self, seen: &Seen, now: &[f64]) -> Result<Vec<f64>, mpm_core::Error> {
         let strength = self.strength(seen)?;
         let work = |strain: f64| strength.plastic_work(strain);
-        let before = seen
-            .before
-            .dissipated
-            .iter()
-            .zip(&seen.before.plastic_strain);
+        let before = seen.before.dissipated.iter().zip(&seen.before.plastic_strain);
         let added = before.zip(now);
-        Ok(added
-            .map(|((dissipated, before), now)| dissipated + work(*now) - work(*before))
-            .collect())
+        Ok(added.map(|((dissipated, before), now)| dissipated + work(*now) - work(*before)).collect())
     }
 
     /// Rms of σ_m − Πσ_m over γ H.
@@ -276,26 +270,16 @@ fn section_of<const D: usize>(x: &[f64; D]) -> [f64; 2] {
 /// A breakdown, with time and steps of the strengths that held before since the release.
 fn since_release(before: &Before, error: mpm_core::Error) -> mpm_core::Error {
     match error {
-        mpm_core::Error::Breakdown {
-            time,
-            step,
-            particle,
-            fault,
-        } => mpm_core::Error::Breakdown {
-            time: before.time + time,
-            step: before.steps + step,
-            particle,
-            fault,
-        },
+        mpm_core::Error::Breakdown { time, step, particle, fault } => {
+            mpm_core::Error::Breakdown { time: before.time + time, step: before.steps + step, particle, fault }
+        }
         other => other,
     }
 }
 
 /// Plastic strain and mean stress.
 fn fields<const D: usize>(columns: Columns<D>) -> Columns<D> {
-    columns
-        .field("plastic_strain", "-", Field::PlasticStrain)
-        .field("mean_stress", "Pa", Field::MeanStress)
+    columns.field("plastic_strain", "-", Field::PlasticStrain).field("mean_stress", "Pa", Field::MeanStress)
 }
 
 impl<const D: usize> Problem<D> for Slide<D>
@@ -311,11 +295,7 @@ where
         // A wrong reduced strength is an error before anything moves.
         setup.strength(setup.reduction)?;
         let places = setup.start_at(ground.seed());
-        Ok(Self {
-            setup,
-            ground,
-            reference: places.iter().map(section_of).collect(),
-        })
+        Ok(Self { setup, ground, reference: places.iter().map(section_of).collect() })
     }
 
     fn unseen(&self) -> Seen {
@@ -350,9 +330,7 @@ where
     fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
         let base = |phase: &Phase<D>| phase.run.on(Part::Constraint(BASE)).impulse[1];
         let before = base(phase);
-        phase
-            .steps(self.ground.steps_per_row)
-            .map_err(|e| since_release(&seen.before, e))?;
+        phase.steps(self.ground.steps_per_row).map_err(|e| since_release(&seen.before, e))?;
         let mut state = self.observe(seen, phase.run.as_mut())?;
         state.base_force = -(base(phase) - before) / ROW / self.ground.width;
         if seen.reduction.is_none() {
@@ -387,10 +365,7 @@ where
         let shown = SNAPSHOTS.iter().any(|t| (t - time).abs() < 0.5 * ROW);
         let few = self.reference.len() <= ANIMATED;
         let kept = shown || few && rows.is_multiple_of(FRAME);
-        kept.then(|| Snapshot {
-            time,
-            columns: fields(Columns::positions(phase.run.as_mut())).done(),
-        })
+        kept.then(|| Snapshot { time, columns: fields(Columns::positions(phase.run.as_mut())).done() })
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, D>) -> Columns<'a, D> {

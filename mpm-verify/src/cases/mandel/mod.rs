@@ -127,10 +127,7 @@ fn sketch() -> Sketch {
         let x = 0.1 + 0.2 * f64::from(k);
         Shape::Load([x, 0.42], [x, 0.27])
     }));
-    Sketch {
-        shapes,
-        description: "A quarter of a slab between rigid plates, drained at its side.",
-    }
+    Sketch { shapes, description: "A quarter of a slab between rigid plates, drained at its side." }
 }
 
 /// The bounds are derived in `docs/mandel.md`.
@@ -201,32 +198,20 @@ fn checks() -> Vec<Check> {
 
 fn tables() -> Vec<ResultTable> {
     let cells = LEVELS.map(|(level, n)| (level, format!("n = {n}")));
-    let together = LEVELS.map(|(level, n)| {
-        (
-            level,
-            format!("n = {n}, {} steps", 60.0 * (n / 8.0_f64).powi(2)),
-        )
-    });
-    let of_n32 = |title: &str, metric, format| {
-        Column::metric(title, metric, format).of(|r: &Record| r.level == "n32")
-    };
+    let together = LEVELS.map(|(level, n)| (level, format!("n = {n}, {} steps", 60.0 * (n / 8.0_f64).powi(2))));
+    let of_n32 = |title: &str, metric, format| Column::metric(title, metric, format).of(|r: &Record| r.level == "n32");
     let mut of_cells = Column::levels(cells, CENTRE_PRESSURE_ERROR_SPACE, scientific(2));
     of_cells.extend([
         Column::order(CENTRE_PRESSURE_ERROR_SPACE),
-        of_n32(
-            "from the difference equations, n = 32",
-            EQUATIONS_DISTANCE,
-            scientific(1),
-        ),
+        of_n32("from the difference equations, n = 32", EQUATIONS_DISTANCE, scientific(1)),
         of_n32("entries, n = 32", ENTRIES, fixed(0)),
     ]);
     let mut of_together = Column::levels(together, CENTRE_PRESSURE_ERROR, scientific(2));
     of_together.push(Column::order(CENTRE_PRESSURE_ERROR));
     let of_ratios = [0.0, 0.25, 0.4].into_iter().flat_map(|ratio| {
         let own = move |r: &Record| Setup::<Mandel>::holds(r, |c| c.poisson_ratio == ratio);
-        let column = |title: &str, metric, format| {
-            Column::metric(format!("{title}, ν = {ratio}"), metric, format).of(own)
-        };
+        let column =
+            |title: &str, metric, format| Column::metric(format!("{title}, ν = {ratio}"), metric, format).of(own);
         [
             column("error", CENTRE_PRESSURE_ERROR, scientific(2)),
             column("peak", PEAK, fixed(4)),
@@ -254,10 +239,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     const POINTS: u32 = 300;
     let scheme = Scheme::poro(Gimp, TwoGrid);
     let own = |r: &&Record| {
-        r.scheme() == scheme
-            && r.level == "n16"
-            && r.status == Status::Ok
-            && r.changes_none_but(&["poisson_ratio"])
+        r.scheme() == scheme && r.level == "n16" && r.status == Status::Ok && r.changes_none_but(&["poisson_ratio"])
     };
     let runs = gallery.records.iter().filter(own);
     let mut runs: Vec<Run<Mandel>> = runs.filter_map(Run::of).collect();
@@ -270,17 +252,9 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
             (t, exact.at(t).centre)
         });
         panel = panel
-            .curve(Series {
-                name: format!("ν = {ratio}, exact"),
-                colour,
-                ..history(scheme, points.collect())
-            })
+            .curve(Series { name: format!("ν = {ratio}, exact"), colour, ..history(scheme, points.collect()) })
             .histories(gallery, [run.record], |_, table| {
-                table
-                    .points("time_factor", "centre_pressure")
-                    .into_iter()
-                    .step_by(8)
-                    .collect()
+                table.points("time_factor", "centre_pressure").into_iter().step_by(8).collect()
             })?
             .styled(|_, curve| Series {
                 name: format!("ν = {ratio}"),

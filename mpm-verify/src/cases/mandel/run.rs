@@ -108,24 +108,14 @@ impl Setup<Mandel> {
     /// The slab by the difference equations after every step. Means of hats give the outermost particles strains of their own.
     fn of_run(&self) -> Vec<Slab> {
         let apart = self.basis() == Gimp;
-        of_particles(
-            self.poisson_ratio,
-            self.cells(),
-            apart,
-            self.step(),
-            self.steps,
-        )
+        of_particles(self.poisson_ratio, self.cells(), apart, self.step(), self.steps)
     }
 
     /// Largest distances of the solution of the difference equations from the series, where errors are measured.
     pub(super) fn errors_of_equations(&self) -> Slab {
         let (exact, first) = (self.exact(), self.first_measured());
         let steps = (1..=self.steps).zip(self.of_run());
-        let none = Slab {
-            centre: 0.0,
-            settlement: 0.0,
-            bulge: 0.0,
-        };
+        let none = Slab { centre: 0.0, settlement: 0.0, bulge: 0.0 };
         steps.skip(first as usize - 1).fold(none, |most, (k, b)| {
             let a = exact.at(f64::from(k) * self.step());
             Slab {
@@ -173,9 +163,7 @@ impl Consolidation {
     /// The current slab, in the units of the exact one.
     fn slab(&self, run: &dyn Simulation<2>) -> Slab {
         let pressures = run.pressure_nodes();
-        let middle = pressures
-            .iter()
-            .filter(|(x, _)| x[0].abs() < 1e-9 * self.setup.h);
+        let middle = pressures.iter().filter(|(x, _)| x[0].abs() < 1e-9 * self.setup.h);
         let p = run.particles();
         let strain = mean((0..p.len()).map(|k| p.position[k][1] / p.reference[k][1] - 1.0));
         let change = mean((0..p.len()).map(|k| p.volume[k] / p.reference_volume[k] - 1.0));
@@ -209,12 +197,7 @@ impl Problem<2> for Consolidation {
     fn new(setup: Setup<Mandel>) -> Result<Self, Error> {
         let why = "below which rounding hides the answer and above which the strain is not small";
         let allowed = least_strain(f64::from(setup.steps))..=SMALL;
-        require_quotient(
-            "load / (a G) of young_modulus",
-            setup.strain(),
-            allowed,
-            why,
-        )?;
+        require_quotient("load / (a G) of young_modulus", setup.strain(), allowed, why)?;
         let ratio = setup.poisson_ratio;
         Ok(Self {
             exact: setup.exact(),
@@ -238,21 +221,11 @@ impl Problem<2> for Consolidation {
         let grid = Grid::new(h, [axis(0), axis(1)])?;
         let spacing = h / PER_CELL as f64;
         let row = cells[0] * PER_CELL;
-        let places = (0..row * cells[1] * PER_CELL)
-            .map(|k| [k % row, k / row].map(|i| (i as f64 + 0.5) * spacing));
+        let places = (0..row * cells[1] * PER_CELL).map(|k| [k % row, k / row].map(|i| (i as f64 + 0.5) * spacing));
         // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(
-            c.start_at(places),
-            spacing * spacing,
-            1000.0,
-            [0.5 * spacing; 2],
-        )?;
+        let particles = Particles::new(c.start_at(places), spacing * spacing, 1000.0, [0.5 * spacing; 2])?;
         let law = Hencky::new(c.young_modulus, c.poisson_ratio)?;
-        let roller = |axis| Wall {
-            axis,
-            end: End::Lo,
-            kind: WallKind::Roller,
-        };
+        let roller = |axis| Wall { axis, end: End::Lo, kind: WallKind::Roller };
         let scene = Scene::new(grid, Body::new(law, particles)?).constrain_all([0, 1].map(roller));
         let plate = Plate::new(1, move |x| x[1] > HEIGHT - 0.25 * h, move |_| -load);
         let water = Water::new(c.porosity, Conductivity::Constant(c.kappa()))
@@ -278,11 +251,7 @@ impl Problem<2> for Consolidation {
         raise(&mut seen.equations, own.centre, of_run.centre);
         raise(&mut seen.equations, own.settlement, of_run.settlement);
         raise(&mut seen.equations, own.bulge, of_run.bulge);
-        raise(
-            &mut seen.support,
-            -run.on(BELOW).force[1] / self.setup.load,
-            1.0,
-        );
+        raise(&mut seen.support, -run.on(BELOW).force[1] / self.setup.load, 1.0);
         if seen.steps >= self.setup.first_measured() {
             let of_steps = self.of_steps.after(seen.steps, step);
             raise(&mut seen.whole, own.centre, exact.centre);

@@ -5,8 +5,8 @@ mod locking;
 mod time;
 
 pub(in crate::cases) use claims::{
-    Claim, Claims, HATS, JUMPS, LOCKS, NULL_SPACE, OFF_NODE, TRANSFER, VORTEX, between_rollers,
-    feeds_null_space, is_beyond_unseen, is_sound, of_isochoric, of_vortex,
+    Claim, Claims, HATS, JUMPS, LOCKS, NULL_SPACE, OFF_NODE, TRANSFER, VORTEX, between_rollers, feeds_null_space,
+    is_beyond_unseen, is_sound, of_isochoric, of_vortex,
 };
 pub(in crate::cases) use locking::{LOCKING_CURVE, locking};
 pub(in crate::cases) use time::{order_in_time, slowed};
@@ -83,11 +83,7 @@ impl Wave {
             return f64::NAN;
         };
         let density = number(DENSITY);
-        let speed = if self.shear {
-            (law.mu / density).sqrt()
-        } else {
-            law.wave_speed(density)
-        };
+        let speed = if self.shear { (law.mu / density).sqrt() } else { law.wave_speed(density) };
         number(ANGULAR_FREQUENCY) / ((self.number)(&r.values) * speed)
     }
 
@@ -103,9 +99,7 @@ impl Wave {
         }
         let of_steps = phase * phase / 12.0 * self.ratio(r).powi(2);
         if !r.is_implicit() && of_steps > DISPERSION * kh * kh {
-            return Some(
-                "steps of this length err more than the cells: a soft or heavy body is driven",
-            );
+            return Some("steps of this length err more than the cells: a soft or heavy body is driven");
         }
         if is_beyond_unseen(r) {
             return Some("what the average can't see is stiff enough to lock: docs/mms-static.md");
@@ -236,11 +230,7 @@ impl Ladder {
 }
 
 /// Findings on every ladder of some metrics, each with its claims.
-fn on_ladders(
-    check: Gate,
-    of: &[(Metric, Claims)],
-    found: fn(&str, &Ladder) -> Option<Finding>,
-) -> Check {
+fn on_ladders(check: Gate, of: &[(Metric, Claims)], found: fn(&str, &Ladder) -> Option<Finding>) -> Check {
     let of = of.to_vec();
     let study = move |records: &[Record]| {
         let of_metric = |claimed: &_| {
@@ -274,10 +264,7 @@ pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
             },
         ),
         on_ladders(Gate::truth("error-falls", falls), of, |_, l| {
-            let (about, why) = (
-                format!("largest ratio of {}", l.about),
-                "a consistent scheme converges",
-            );
+            let (about, why) = (format!("largest ratio of {}", l.about), "a consistent scheme converges");
             let found = Finding::at_most(about, l.worst_ratio, 1.0, why);
             matches!(l.claim, Claim::Second).then_some(found)
         }),
@@ -312,15 +299,11 @@ pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
 /// The order of the stress where that of the displacement is claimed.
 pub(in crate::cases) fn stress_order(claims: Claims) -> Check {
     let statement = "order of the rms error of σ at least 1 − 0.15, one less than that of u";
-    on_ladders(
-        Gate::truth("order-stress", statement),
-        &[(STRESS_L2, claims)],
-        |about, l| {
-            let why = "gradients of a second-order displacement";
-            let found = Finding::above(about, l.order, FORMAL - 1.0 - SLACK, why);
-            matches!(l.claim, Claim::Second).then_some(found)
-        },
-    )
+    on_ladders(Gate::truth("order-stress", statement), &[(STRESS_L2, claims)], |about, l| {
+        let why = "gradients of a second-order displacement";
+        let found = Finding::above(about, l.order, FORMAL - 1.0 - SLACK, why);
+        matches!(l.claim, Claim::Second).then_some(found)
+    })
 }
 
 #[cfg(test)]

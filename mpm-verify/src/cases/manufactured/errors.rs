@@ -26,10 +26,7 @@ pub(in crate::cases) fn of_displacement<const D: usize>(
 }
 
 /// Magnitudes of the displacement errors of all particles (m).
-pub(in crate::cases) fn of_displacements<const D: usize>(
-    solution: &dyn Exact,
-    run: &dyn Simulation<D>,
-) -> Vec<f64> {
+pub(in crate::cases) fn of_displacements<const D: usize>(solution: &dyn Exact, run: &dyn Simulation<D>) -> Vec<f64> {
     let (p, t) = (run.particles(), run.time());
     let error = |k| of_displacement(solution, p, k, t).norm();
     (0..p.len()).map(error).collect()

@@ -83,9 +83,7 @@ impl<K: Known> ParameterSet for Own<K> {
 }
 
 /// A case of this motion in `D` dimensions, by name, title and description, with the levels, errors and headlines that serve most.
-pub(super) fn known_case<const D: usize, K: Known>(
-    [name, title, description]: [&'static str; 3],
-) -> Case
+pub(super) fn known_case<const D: usize, K: Known>([name, title, description]: [&'static str; 3]) -> Case
 where
     Motion<D, K>: Problem<D, Parameters = Own<K>>,
 {
@@ -129,13 +127,10 @@ parameters! { pub(super) const:
 pub(super) const CFL: Parameter = parameters::CFL
     .with_default("0.3")
     .within(number(1e-4, 100.0, false))
-    .meaning(
-        "CFL number c Δt / h of pressure waves, rounded down so that steps fill the duration; explicit: below 1",
-    );
+    .meaning("CFL number c Δt / h of pressure waves, rounded down so that steps fill the duration; explicit: below 1");
 pub(super) const PPC_PER_DIRECTION: Parameter =
     parameters::PPC_PER_DIRECTION.within(Domain::Integer { least: 1, most: 5 });
-const FLIP: Parameter =
-    parameters::FLIP.meaning("PIC/FLIP blend η of the transfer flip: 1 is FLIP");
+const FLIP: Parameter = parameters::FLIP.meaning("PIC/FLIP blend η of the transfer flip: 1 is FLIP");
 
 /// The parameters of a solution, with other defaults for some; those of every such problem, with the time to run (s);
 /// and the problem's own.

@@ -127,20 +127,13 @@ impl<const D: usize, K: Known> Motion<D, K> {
     /// Velocity errors of all particles (m/s), and projections of displacement and velocity on the exact ones, over these.
     fn velocities(&self, run: &dyn Simulation<D>) -> (Vec<f64>, [f64; 2]) {
         let solution = self.scenario.solution.as_ref();
-        let (p, t, lag) = (
-            run.particles(),
-            run.time(),
-            self.scenario.lag(self.timing.dt),
-        );
+        let (p, t, lag) = (run.particles(), run.time(), self.scenario.lag(self.timing.dt));
         let mut errors = Vec::with_capacity(p.len());
         let mut projections = [(0.0, 0.0); 2];
         for k in 0..p.len() {
             let x = vector(&p.reference[k]);
             let exact = [solution.displacement(&x, t), solution.velocity(&x, t - lag)];
-            let off = [
-                errors::of_displacement(solution, p, k, t),
-                vector(&p.velocity[k]) - exact[1],
-            ];
+            let off = [errors::of_displacement(solution, p, k, t), vector(&p.velocity[k]) - exact[1]];
             for (sums, (exact, off)) in projections.iter_mut().zip(exact.iter().zip(&off)) {
                 sums.0 += (exact + off).dot(exact);
                 sums.1 += exact.norm_squared();
@@ -164,10 +157,7 @@ impl<const D: usize, K: Known> Motion<D, K> {
             let inside = seen.rows.iter().filter(|r| (from..=to).contains(&r.time));
             inside.map(|r| r.mode.abs()).fold(0.0, f64::max)
         };
-        Some([
-            PI / half_period / omega,
-            largest(end - period, end) / largest(0.0, period),
-        ])
+        Some([PI / half_period / omega, largest(end - period, end) / largest(0.0, period)])
     }
 
     /// Metrics of a body at rest: drifts of the cells' means, growth of the kinetic energy, and the pressure at the base.
@@ -190,10 +180,8 @@ impl<const D: usize, K: Known> Motion<D, K> {
         let height = self.scenario.solution.extent()[D - 1];
         let below = |y: f64| y < 0.5 * (height[0] + height[1]);
         let lower = run.particles().reference.iter().zip(&stress);
-        let profile: Vec<(f64, f64)> = lower
-            .filter(|(x, _)| below(x[D - 1]))
-            .map(|(x, s)| (x[D - 1] - height[0], -s.mean()))
-            .collect();
+        let profile: Vec<(f64, f64)> =
+            lower.filter(|(x, _)| below(x[D - 1])).map(|(x, s)| (x[D - 1] - height[0], -s.mean())).collect();
         let base = fit_line(&profile).map_or(f64::NAN, |line| line.intercept);
         vec![
             (J_DRIFT_PER_1E5_STEPS, drift(0)),
@@ -223,12 +211,7 @@ where
             Some(omega) => TAU / omega / ROWS_PER_PERIOD / timing.dt,
             None => timing.steps / ROWS,
         };
-        Ok(Self {
-            scenario,
-            timing,
-            steps_per_row: (row as u64).clamp(1, MOST_STEPS),
-            frequency,
-        })
+        Ok(Self { scenario, timing, steps_per_row: (row as u64).clamp(1, MOST_STEPS), frequency })
     }
 
     fn discretisation(&self) -> Discretisation {
@@ -268,9 +251,7 @@ where
             .each("mean_stress", "Pa", |_, k| force_stress[k].mean())
             .each("mean_stress_error", "Pa", |_, k| mean_stress[k])
             .jacobian()
-            .each("averaged_jacobian", "-", |p, k| {
-                p.j_bar.get(k).copied().unwrap_or(p.jacobian[k])
-            })
+            .each("averaged_jacobian", "-", |p, k| p.j_bar.get(k).copied().unwrap_or(p.jacobian[k]))
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<D>) -> Vec<(Metric, f64)> {

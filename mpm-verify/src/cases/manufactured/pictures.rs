@@ -6,16 +6,13 @@ use crate::draw::{FieldFigure, FieldPanel, draw_fields};
 use crate::prelude::*;
 
 /// Mean stress at the end of runs of one level in the plane, on a scale of ± `most` (Pa): standard, by rates, and ours.
-pub(in crate::cases) fn mean_stress(
-    gallery: &mut Gallery,
-    level: &str,
-    most: f64,
-) -> Result<(), Error> {
+pub(in crate::cases) fn mean_stress(gallery: &mut Gallery, level: &str, most: f64) -> Result<(), Error> {
     let mut panels = Vec::new();
     for scheme in pairs(&SMOOTH, &COMPARED) {
-        let run = gallery.records.iter().find(|r| {
-            r.level == level && r.is_default() && r.scheme() == scheme && r.status == Status::Ok
-        });
+        let run = gallery
+            .records
+            .iter()
+            .find(|r| r.level == level && r.is_default() && r.scheme() == scheme && r.status == Status::Ok);
         let Some(run) = run else {
             continue;
         };
@@ -40,9 +37,6 @@ pub(in crate::cases) fn mean_stress(
         window: None,
     };
     draw_fields(&gallery.place("mean-stress.png"), &figure)?;
-    gallery.hang(
-        "mean-stress.png",
-        format!("Mean stress of the particles at the end, at level {level}."),
-    );
+    gallery.hang("mean-stress.png", format!("Mean stress of the particles at the end, at level {level}."));
     Ok(())
 }

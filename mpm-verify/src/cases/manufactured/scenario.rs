@@ -70,15 +70,9 @@ impl<K: Known> Scenario<K> {
             speed = speed.max(stiff.wave_speed(density));
         }
         let side = self.solution.extent()[0][1] - self.solution.extent()[0][0];
-        let finer = if self.setup.values.is(STEP_SCALING, "h2") {
-            COARSEST * self.setup.h / side
-        } else {
-            1.0
-        };
+        let finer = if self.setup.values.is(STEP_SCALING, "h2") { COARSEST * self.setup.h / side } else { 1.0 };
         let half_size = 0.5 / self.number(PPC_PER_DIRECTION);
-        let cfl = self
-            .setup
-            .cfl_number(self.solution.dimension(), half_size)?;
+        let cfl = self.setup.cfl_number(self.solution.dimension(), half_size)?;
         let longest = courant_time_step(cfl * finer, self.setup.h, speed);
         let steps = (self.number(DURATION) / longest).ceil();
         let dt = self.number(DURATION) / steps;
@@ -95,11 +89,7 @@ impl<K: Known> Scenario<K> {
 
     /// Time (s) by which velocities live before positions.
     pub(super) fn lag(&self, dt: f64) -> f64 {
-        if self.setup.is_explicit() {
-            0.5 * dt
-        } else {
-            0.0
-        }
+        if self.setup.is_explicit() { 0.5 * dt } else { 0.0 }
     }
 
     /// The discretisation in `D` dimensions with steps of `dt` (s).
@@ -111,20 +101,14 @@ impl<K: Known> Scenario<K> {
     fn medium(&self) -> Medium {
         let Material { mu, lambda, .. } = self.solution.material();
         if K::FLUID {
-            Medium::Fluid(NewtonianFluid {
-                bulk_modulus: lambda,
-                viscosity: mu,
-            })
+            Medium::Fluid(NewtonianFluid { bulk_modulus: lambda, viscosity: mu })
         } else {
             Medium::Solid(NeoHookean { mu, lambda })
         }
     }
 
     /// The simulation at its start, with steps of `dt` (s).
-    pub(super) fn begin<const D: usize>(
-        &self,
-        dt: f64,
-    ) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
+    pub(super) fn begin<const D: usize>(&self, dt: f64) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
     where
         NeoHookean: Solvable<D> + Solved<D>,
         NewtonianFluid: Solvable<D> + Solved<D>,
@@ -209,10 +193,7 @@ impl<K: Known> Scenario<K> {
         .deformed(|x| {
             let x = vector(x);
             let f = solution.deformation_gradient(&x, 0.0);
-            (
-                components(&(x + solution.displacement(&x, 0.0))),
-                f.fixed_view::<D, D>(0, 0).into_owned(),
-            )
+            (components(&(x + solution.displacement(&x, 0.0))), f.fixed_view::<D, D>(0, 0).into_owned())
         });
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             *v = components(&solution.velocity(&vector(x), -self.lag(dt)));
@@ -270,9 +251,7 @@ fn solved<const D: usize, M: Solvable<D> + Solved<D>, P: ParameterSet>(
 /// The body force that the motion needs.
 pub(in crate::cases) fn forcing<const D: usize>(solution: &Arc<dyn Exact>) -> BodyForce<D> {
     let exact = Arc::clone(solution);
-    BodyForce(Box::new(move |x: &[f64; D], t| {
-        components(&exact.body_force(&vector(x), t))
-    }))
+    BodyForce(Box::new(move |x: &[f64; D], t| components(&exact.body_force(&vector(x), t))))
 }
 
 /// Components in three dimensions; those that are missing are zero.

@@ -20,14 +20,10 @@ pub(super) fn sketch<K: Known>() -> Sketch {
     // Hatched on the left, seen from the first point to the second: outside, going clockwise.
     let (held, description): (&[(Point, Point)], _) = match K::BOUNDARY {
         Boundary::Periodic => (&[], "One cell of a periodic body at rest."),
-        Boundary::Slope => (
-            &[(b, a)],
-            "A period of the layer at rest, fixed at its foot, free above.",
-        ),
-        Boundary::Vessel => (
-            &[(b, a), (a, d), (c, b)],
-            "The liquid at rest in a vessel with slippery walls, open above.",
-        ),
+        Boundary::Slope => (&[(b, a)], "A period of the layer at rest, fixed at its foot, free above."),
+        Boundary::Vessel => {
+            (&[(b, a), (a, d), (c, b)], "The liquid at rest in a vessel with slippery walls, open above.")
+        }
         Boundary::Walls(kind) => (
             match solution.dimension() {
                 1 => &[(a, d), (c, b)],
@@ -49,8 +45,5 @@ pub(super) fn sketch<K: Known>() -> Sketch {
     if solution.dimension() > 1 {
         length([x1 + beside, y0], [x1 + beside, y1], y1 - y0);
     }
-    Sketch {
-        shapes,
-        description,
-    }
+    Sketch { shapes, description }
 }

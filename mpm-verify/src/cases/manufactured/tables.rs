@@ -1,9 +1,7 @@
 //! Tables of errors and orders that several motions show.
 
 use super::CFL;
-use super::metrics::{
-    DISPLACEMENT_L2, DISPLACEMENT_LINF, DISPLACEMENT_SCALE, MEAN_STRESS_L2, STRESS_L2, VELOCITY_L2,
-};
+use super::metrics::{DISPLACEMENT_L2, DISPLACEMENT_LINF, DISPLACEMENT_SCALE, MEAN_STRESS_L2, STRESS_L2, VELOCITY_L2};
 use crate::prelude::*;
 use crate::results::Format;
 
@@ -55,11 +53,7 @@ pub(in crate::cases) fn orders(name: &str, shows: fn(&Record) -> bool) -> Result
     });
     let columns = [
         levels,
-        finest(
-            "error of u at the finest (m)",
-            DISPLACEMENT_L2,
-            scientific(2),
-        ),
+        finest("error of u at the finest (m)", DISPLACEMENT_L2, scientific(2)),
         slope("order ± (between levels)", DISPLACEMENT_L2, true),
         slope("L∞ of u", DISPLACEMENT_LINF, false),
         slope("v", VELOCITY_L2, false),
@@ -90,19 +84,11 @@ pub(in crate::cases) fn errors<const N: usize>(name: &str, at: [At; N]) -> Resul
 }
 
 /// The error of the mean stress (Pa) with FLIP and the case's own parameters.
-pub(in crate::cases) fn pressure<const N: usize>(
-    name: &str,
-    levels: [&'static str; N],
-) -> ResultTable {
+pub(in crate::cases) fn pressure<const N: usize>(name: &str, levels: [&'static str; N]) -> ResultTable {
     at_places(name, MEAN_STRESS_L2, SHORT, levels.map(|n| (n, n, "")))
 }
 
-fn at_places<const N: usize>(
-    name: &str,
-    metric: Metric,
-    format: Format,
-    places: [At; N],
-) -> ResultTable {
+fn at_places<const N: usize>(name: &str, metric: Metric, format: Format, places: [At; N]) -> ResultTable {
     let column = |at: At| Column::metric(at.0, metric, format).of(move |r| is_at(r, at));
     ResultTable::new(name, is_flip, &[SCHEME], places.map(column)).least(2)
 }
@@ -126,11 +112,7 @@ pub(in crate::cases) fn locking<const N: usize>(name: &str, places: [At; N]) -> 
 }
 
 /// The errors of u and of the mean stress over those of no remedy on the same basis, at levels of a set of parameters.
-pub(in crate::cases) fn price<const N: usize>(
-    name: &str,
-    levels: [&'static str; N],
-    set: &'static str,
-) -> ResultTable {
+pub(in crate::cases) fn price<const N: usize>(name: &str, levels: [&'static str; N], set: &'static str) -> ResultTable {
     let of_level = |level: &'static str| {
         [("u", DISPLACEMENT_L2), ("σ_m", MEAN_STRESS_L2)].map(|(symbol, metric)| {
             Column::row(format!("{level}: {symbol}"), move |runs, all| {
@@ -154,11 +136,7 @@ pub(in crate::cases) fn price<const N: usize>(
 }
 
 /// Errors and what they cost, over solvers and their steps.
-pub(in crate::cases) fn cost(
-    name: &str,
-    levels: [&'static str; 3],
-    shows: fn(&Record) -> bool,
-) -> ResultTable {
+pub(in crate::cases) fn cost(name: &str, levels: [&'static str; 3], shows: fn(&Record) -> bool) -> ResultTable {
     let of_level = |level: &'static str| {
         let at = move |r: &Record| r.level == level;
         [

@@ -9,8 +9,7 @@ use std::f64::consts::PI;
 /// Share of (kh)² by which an equation errs at most: that of the stiffness, docs/modes.md.
 const DISPERSION: f64 = 0.8;
 /// Reason not to judge linear functions once particles have moved.
-const MOVED: &str =
-    "displaced particles shift the quadrature of linear functions, whose gradients jump";
+const MOVED: &str = "displaced particles shift the quadrature of linear functions, whose gradients jump";
 /// Least c_v Δt/h² of a run whose water flows: the bound of two grids in docs/poromechanics.md, the largest.
 const FLOWS: f64 = 0.75;
 
@@ -56,16 +55,9 @@ fn bounds(m: &Run<Motion>) -> [f64; 2] {
     let (moved, pressed) = (m.metric(DISPLACEMENT_SCALE), m.metric(PRESSURE_SCALE));
     let stiff = m.modulus() * PI;
     let of = |h: f64| DISPERSION * (PI * h).powi(2);
-    let pressure_cell = if m.space() == Some(TwoGrid) {
-        2.0 * m.h
-    } else {
-        m.h
-    };
+    let pressure_cell = if m.space() == Some(TwoGrid) { 2.0 * m.h } else { m.h };
     let (solid, water) = (of(m.h), of(pressure_cell));
-    [
-        solid * moved + water * pressed / stiff,
-        water + solid * stiff * moved / pressed,
-    ]
+    [solid * moved + water * pressed / stiff, water + solid * stiff * moved / pressed]
 }
 
 fn has_moved(r: &Record) -> bool {
@@ -86,37 +78,24 @@ fn claim(metric: Metric, runs: &[&Record]) -> Result<(f64, &'static str), &'stat
         diffusivity * r.discretisation.dt / r.discretisation.h.powi(2) >= FLOWS
     };
     if metric != PRESSURE_L2 || runs.iter().all(flows) {
-        return Ok((
-            2.0,
-            "linear fields are reproduced on the cells of either space",
-        ));
+        return Ok((2.0, "linear fields are reproduced on the cells of either space"));
     }
     match runs[0].scheme() {
-        Scheme::Poro(parts) if parts.space == Equal => Err(
-            "where hardly any water flows nothing holds pressures that no change of volume sees",
-        ),
-        _ => Ok((
-            1.0,
-            "where hardly any water flows p is what gradients of u are",
-        )),
+        Scheme::Poro(parts) if parts.space == Equal => {
+            Err("where hardly any water flows nothing holds pressures that no change of volume sees")
+        }
+        _ => Ok((1.0, "where hardly any water flows p is what gradients of u are")),
     }
 }
 
 /// Findings of both metrics on the three finest runs of every ladder without an error of time.
-fn of_ladders(
-    records: &[Record],
-    found: impl Fn(Metric, &[&Record]) -> Option<Finding>,
-) -> Vec<Finding> {
+fn of_ladders(records: &[Record], found: impl Fn(Metric, &[&Record]) -> Option<Finding>) -> Vec<Finding> {
     let mut all = Vec::new();
     for (_, runs) in ladders(records) {
         let Some(runs) = finest(&runs).filter(|runs| !is_of_rates(runs[0])) else {
             continue;
         };
-        all.extend(
-            [DISPLACEMENT_L2, PRESSURE_L2]
-                .into_iter()
-                .filter_map(|metric| found(metric, runs)),
-        );
+        all.extend([DISPLACEMENT_L2, PRESSURE_L2].into_iter().filter_map(|metric| found(metric, runs)));
     }
     all
 }
@@ -125,12 +104,7 @@ fn of_ladders(
 fn order(metric: Metric, runs: &[&Record]) -> (String, f64) {
     let finest = runs[runs.len() - 1];
     let set = finest.set.join(" ");
-    let name = format!(
-        "order of {} of {} to {} {set}",
-        metric.name,
-        finest.scheme(),
-        finest.level
-    );
+    let name = format!("order of {} of {} to {} {set}", metric.name, finest.scheme(), finest.level);
     let order = observed_order(runs, |r| r.discretisation.h, metric);
     (name.trim_end().to_owned(), order)
 }
@@ -146,12 +120,7 @@ fn orders_in_time(records: &[Record]) -> Vec<Finding> {
         runs.sort_by(|a, b| dt(b).total_cmp(&dt(a)));
         let order = observed_order(finest(&runs)?, dt, PRESSURE_L2);
         let name = format!("order in Δt of {} of {scheme} {level}", PRESSURE_L2.name);
-        Some(Finding::above(
-            name,
-            order,
-            1.0 - SLACK,
-            "backward Euler's rule",
-        ))
+        Some(Finding::above(name, order, 1.0 - SLACK, "backward Euler's rule"))
     };
     ladders.into_iter().filter_map(found).collect()
 }

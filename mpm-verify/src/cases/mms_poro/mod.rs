@@ -18,11 +18,7 @@ const LEVELS: [(&str, f64); 4] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n
 const CROSSING: &str = "amplitude=0.04";
 const TIGHT: &str = "conductivity=1e-6";
 /// Steps that err in time.
-const TIMES: [&str; 3] = [
-    "source=rates",
-    "source=rates steps=8",
-    "source=rates steps=16",
-];
+const TIMES: [&str; 3] = ["source=rates", "source=rates steps=8", "source=rates steps=16"];
 
 choices! {
     /// Dependence of the conductivity on the porosity.
@@ -162,9 +158,7 @@ fn sketch() -> Sketch {
 
 fn tables() -> Vec<ResultTable> {
     let errors = |metric: Metric, title: &'static str, levels: usize| {
-        let titles = LEVELS[..levels]
-            .iter()
-            .map(|(level, n)| (*level, format!("{title}, n = {n}")));
+        let titles = LEVELS[..levels].iter().map(|(level, n)| (*level, format!("{title}, n = {n}")));
         let mut columns = Column::levels(titles, metric, scientific(2));
         columns.push(Column::row(format!("order of {title}"), move |runs, _| {
             let found = order(runs.iter().copied(), metric.name);
@@ -174,10 +168,7 @@ fn tables() -> Vec<ResultTable> {
     };
     // Errors of u and p over the cells.
     let cells = |name: &str, set: &'static str, levels: usize| {
-        let columns = [
-            errors(DISPLACEMENT_L2, "u", levels),
-            errors(PRESSURE_L2, "p", levels),
-        ];
+        let columns = [errors(DISPLACEMENT_L2, "u", levels), errors(PRESSURE_L2, "p", levels)];
         let shows = move |r: &Record| r.set.iter().map(String::as_str).eq(set.split_whitespace());
         ResultTable::new(name, shows, &[SCHEME], columns.into_iter().flatten())
     };

@@ -45,9 +45,7 @@ impl Setup<Motion> {
         let bulk = self.young_modulus / (3.0 * (1.0 - 2.0 * self.poisson_ratio));
         let conductivity = match self.conductivity_law {
             Law::Constant => Conductivity::Constant(kappa),
-            Law::KozenyCarman => {
-                Conductivity::KozenyCarman(kappa * (1.0 - porosity).powi(2) / porosity.powi(3))
-            }
+            Law::KozenyCarman => Conductivity::KozenyCarman(kappa * (1.0 - porosity).powi(2) / porosity.powi(3)),
         };
         Ok(SolidAndWater {
             dimension: self.dimension as usize,
@@ -95,11 +93,7 @@ fn largest(values: &[f64]) -> f64 {
 
 impl Moving {
     fn errors<const D: usize>(&self, run: &mut dyn Simulation<D>) -> Errors {
-        let (t, pressure, stress) = (
-            run.time(),
-            run.field(Field::PorePressure),
-            run.force_stress(),
-        );
+        let (t, pressure, stress) = (run.time(), run.field(Field::PorePressure), run.force_stress());
         let p = run.particles();
         let exact = p.reference.iter().map(|x| self.solution.at(place(x), t));
         let exact: Vec<Moment> = exact.collect();
@@ -110,12 +104,8 @@ impl Moving {
         };
         Errors {
             displacement: (0..p.len()).map(off).collect(),
-            pressure: (pressure.iter().zip(&exact))
-                .map(|(p, e)| p - e.pressure)
-                .collect(),
-            stress: (stress.iter().zip(&exact))
-                .map(|(s, e)| (s.to_matrix() - e.stress).norm())
-                .collect(),
+            pressure: (pressure.iter().zip(&exact)).map(|(p, e)| p - e.pressure).collect(),
+            stress: (stress.iter().zip(&exact)).map(|(s, e)| (s.to_matrix() - e.stress).norm()).collect(),
             exact,
         }
     }
@@ -143,38 +133,22 @@ where
         let grid = Grid::new(h, [Axis::walls(0.0, (1.0 / h).round() as usize); D])?;
         let spacing = h / m.ppc_per_direction as f64;
         let along = (1.0 / spacing).round() as usize;
-        let places = (0..along.pow(D as u32))
-            .map(|k| from_fn(|a| ((k / along.pow(a as u32) % along) as f64 + 0.5) * spacing));
-        let particles = Particles::new(
-            m.start_at(places),
-            spacing.powi(D as i32),
-            exact.dry_density(),
-            [0.5 * spacing; D],
-        )?;
-        let rollers = (0..D).flat_map(|axis| {
-            [End::Lo, End::Hi].map(|end| Wall {
-                axis,
-                end,
-                kind: WallKind::Roller,
-            })
-        });
+        let places =
+            (0..along.pow(D as u32)).map(|k| from_fn(|a| ((k / along.pow(a as u32) % along) as f64 + 0.5) * spacing));
+        let particles =
+            Particles::new(m.start_at(places), spacing.powi(D as i32), exact.dry_density(), [0.5 * spacing; D])?;
+        let rollers = (0..D).flat_map(|axis| [End::Lo, End::Hi].map(|end| Wall { axis, end, kind: WallKind::Roller }));
         let force = BodyForce(Box::new(move |x: &[f64; D], t| {
             let force = exact.at(place(x), t).body_force;
             from_fn(|a| force[a])
         }));
-        let scene = Scene::new(grid, Body::new(exact.law, particles)?)
-            .load(force)
-            .constrain_all(rollers);
+        let scene = Scene::new(grid, Body::new(exact.law, particles)?).load(force).constrain_all(rollers);
         let whole = m.source == Source::Steps;
         let [water, grains] = DENSITIES;
         let mut acceleration = [0.0; D];
         acceleration[D - 1] = -exact.gravity;
         let water = Water::new(exact.porosity, exact.conductivity)
-            .gravity(Gravity {
-                water,
-                grains,
-                acceleration,
-            })
+            .gravity(Gravity { water, grains, acceleration })
             .start(move |x| exact.at(place(x), 0.0).pressure)
             .drained(move |x| x[D - 1] > 1.0 - 0.25 * h)
             .source(move |x, span| exact.inflow(place(x), span, whole));

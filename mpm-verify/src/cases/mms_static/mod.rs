@@ -101,11 +101,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let few = schemes(&SMOOTH);
     let averaged = &few[3..];
     let ratios = ["poisson_ratio=0.49", "poisson_ratio=0.499"];
-    let near = [
-        "poisson_ratio=0.49999",
-        "poisson_ratio=0.499999",
-        "poisson_ratio=0.4999999",
-    ];
+    let near = ["poisson_ratio=0.49999", "poisson_ratio=0.499999", "poisson_ratio=0.4999999"];
     Plan::of(levels)
         .runs(Quick, "n8", averaged, "")
         .runs(Pr, THREE, averaged, "")
@@ -132,12 +128,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 fn over_cells(name: &str, set: &'static str) -> ResultTable {
     let levels = ["n8", "n16", "n32"];
     let errors = levels.map(|level| {
-        Column::value(
-            format!("error of u, {level}"),
-            tables::relative_error,
-            share(2),
-        )
-        .of(move |r| r.level == level)
+        Column::value(format!("error of u, {level}"), tables::relative_error, share(2)).of(move |r| r.level == level)
     });
     let titled = levels.map(|level| (level, format!("of σ_m (Pa), {level}")));
     let stress = Column::levels(titled, MEAN_STRESS_L2, SHORT);
@@ -148,15 +139,9 @@ fn over_cells(name: &str, set: &'static str) -> ResultTable {
 /// A number at n16 over Poisson's ratios.
 fn over_ratios(name: &str, value: fn(&Record) -> f64, format: Format) -> ResultTable {
     let columns = RATIOS.map(|ratio| {
-        Column::value(format!("ν = {ratio}"), value, format)
-            .of(move |r| r.parameters.number(POISSON_RATIO) == ratio)
+        Column::value(format!("ν = {ratio}"), value, format).of(move |r| r.parameters.number(POISSON_RATIO) == ratio)
     });
-    ResultTable::new(
-        name,
-        |r| r.level == "n16" && r.changes_none_but(&[POISSON_RATIO.name]),
-        &[SCHEME],
-        columns,
-    )
+    ResultTable::new(name, |r| r.level == "n16" && r.changes_none_but(&[POISSON_RATIO.name]), &[SCHEME], columns)
 }
 
 /// Where the stiffness ε² K of what the average can't see is what locks.
@@ -190,13 +175,12 @@ fn claim(r: &Setup<()>) -> Claim {
     match (r.basis(), r.remedy()) {
         (Linear, _) if r.values.number(LOAD_STEPS) > 1.0 => Claim::Open(JUMPS),
         (_, RemedyName::None) if stiff => Claim::Open(LOCKS),
-        (Bspline3, _) if squeezed => Claim::Open(
-            "two particles per direction don't integrate cubics at a wall that a pressure acts on",
-        ),
-        (Gimp, _) if squeezed => Claim::Observed(
-            [1.5, 3.1],
-            "domains of fixed size part and overlap where the body is strained",
-        ),
+        (Bspline3, _) if squeezed => {
+            Claim::Open("two particles per direction don't integrate cubics at a wall that a pressure acts on")
+        }
+        (Gimp, _) if squeezed => {
+            Claim::Observed([1.5, 3.1], "domains of fixed size part and overlap where the body is strained")
+        }
         _ => Claim::Second,
     }
 }

@@ -29,17 +29,13 @@ impl Known for SlowVortex {
 
     fn parameters() -> Vec<Parameter> {
         let mut all = vortex_pressure::ENTRY.parameters.to_vec();
-        let defaults = [
-            (POISSON_RATIO, "0.4999"),
-            (ANGLE, "0.1"),
-            (PRESSURE, "0"),
-            (ANGULAR_FREQUENCY, "1.570796326794897e-6"),
-        ];
+        let defaults =
+            [(POISSON_RATIO, "0.4999"), (ANGLE, "0.1"), (PRESSURE, "0"), (ANGULAR_FREQUENCY, "1.570796326794897e-6")];
         set_defaults(&mut all, &defaults);
         for p in all.iter_mut().filter(|p| p.name == ANGULAR_FREQUENCY.name) {
-            *p = p.within(number(1e-6, 1e-5, false)).meaning(
-                "angular frequency ω: so low that inertia, which the solver doesn't have, is nothing",
-            );
+            *p = p
+                .within(number(1e-6, 1e-5, false))
+                .meaning("angular frequency ω: so low that inertia, which the solver doesn't have, is nothing");
         }
         all.extend([
             DIMENSION,
@@ -58,9 +54,7 @@ fn solution(p: &Parameters) -> Result<Box<dyn Exact>, exact::Error> {
     }
     if p.number(PRESSURE) != 0.0 {
         let given = p.number(PRESSURE);
-        return Err(exact::Error(format!(
-            "pressure = {given} with dimension = 3; allowed: 0"
-        )));
+        return Err(exact::Error(format!("pressure = {given} with dimension = 3; allowed: 0")));
     }
     (swirl::ENTRY.build)(p)
 }

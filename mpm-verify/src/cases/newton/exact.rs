@@ -37,22 +37,15 @@ impl Column {
     /// None if there is no equilibrium.
     pub(super) fn new(end: f64) -> Option<Self> {
         let step = 1.0 / INTERVALS as f64;
-        let stretches: Option<Vec<f64>> = (0..=INTERVALS)
-            .map(|k| stretch(end * k as f64 * step))
-            .collect();
+        let stretches: Option<Vec<f64>> = (0..=INTERVALS).map(|k| stretch(end * k as f64 * step)).collect();
         let stretches = stretches?;
         let mut displacement = vec![0.0; INTERVALS + 1];
         for k in (0..INTERVALS).rev() {
             let strain = 0.5 * (stretches[k] + stretches[k + 1]) - 1.0;
             displacement[k] = displacement[k + 1] + strain * step;
         }
-        let slopes = stretches
-            .windows(2)
-            .map(|pair| (pair[1] - pair[0]).abs() / step);
-        Some(Self {
-            curvature: slopes.fold(0.0, f64::max),
-            displacement,
-        })
+        let slopes = stretches.windows(2).map(|pair| (pair[1] - pair[0]).abs() / step);
+        Some(Self { curvature: slopes.fold(0.0, f64::max), displacement })
     }
 
     /// Displacement at a distance from the free end, away from the held one, over the height.
@@ -72,10 +65,7 @@ mod tests {
     fn a_stretch_bears_its_stress_and_there_is_a_greatest() {
         for s in [-1.0, -0.1, 0.0, 0.2, 0.36] {
             let l = stretch(s).unwrap();
-            assert!(
-                (l.ln() / l - s).abs() < 1e-12 && l < std::f64::consts::E,
-                "{s} {l}"
-            );
+            assert!((l.ln() / l - s).abs() < 1e-12 && l < std::f64::consts::E, "{s} {l}");
         }
         assert!(stretch(0.368).is_none());
     }

@@ -80,23 +80,10 @@ pub(super) fn case() -> Case {
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {
-    let all = implicit(
-        &[RuleName::QuasiStatic],
-        &[Gimp, Linear, Bspline2],
-        &[RemedyName::None, FbarConsistent],
-    );
-    let splines: Vec<Scheme> = all
-        .iter()
-        .copied()
-        .filter(|s| s.basis() == Bspline2)
-        .collect();
+    let all = implicit(&[RuleName::QuasiStatic], &[Gimp, Linear, Bspline2], &[RemedyName::None, FbarConsistent]);
+    let splines: Vec<Scheme> = all.iter().copied().filter(|s| s.basis() == Bspline2).collect();
     // Loads in one step, and standing columns: iterations that rounding hardly changes.
-    let sure = [
-        "load=0.97",
-        "support=stands",
-        "load=2 support=stands",
-        "load=2 poisson_ratio=0.4999 support=stands",
-    ];
+    let sure = ["load=0.97", "support=stands", "load=2 support=stands", "load=2 poisson_ratio=0.4999 support=stands"];
     // Numbers of load steps, loads beyond the greatest, a floor that is not touched: steps that are cut.
     let cut = [
         "load_steps=10",
@@ -206,22 +193,10 @@ fn tables() -> Vec<ResultTable> {
     };
     let plain = |r: &Record, stands: bool| {
         let setup = Setup::<Newton>::of_record(r);
-        r.level == "n8"
-            && r.remedy() == RemedyName::None
-            && setup.is_ok_and(|c| c.stands() == stands)
+        r.level == "n8" && r.remedy() == RemedyName::None && setup.is_ok_and(|c| c.stands() == stands)
     };
     vec![
-        ResultTable::new(
-            "newton-hangs",
-            move |r| plain(r, false),
-            &[SCHEME, SET],
-            columns(),
-        ),
-        ResultTable::new(
-            "newton-stands",
-            move |r| plain(r, true),
-            &[SCHEME, SET],
-            columns(),
-        ),
+        ResultTable::new("newton-hangs", move |r| plain(r, false), &[SCHEME, SET], columns()),
+        ResultTable::new("newton-stands", move |r| plain(r, true), &[SCHEME, SET], columns()),
     ]
 }

@@ -84,11 +84,7 @@ impl Loaded {
         let each = p.reference.iter().zip(&p.position);
         let moved: Vec<[f64; 2]> = each
             .map(|([_, from], [_, to])| {
-                let distance = if self.setup.stands() {
-                    HEIGHT - from
-                } else {
-                    *from
-                };
+                let distance = if self.setup.stands() { HEIGHT - from } else { *from };
                 let away = exact.at(distance / HEIGHT) * HEIGHT;
                 let along = if self.setup.stands() { away } else { -away };
                 [to - from, along]
@@ -96,14 +92,9 @@ impl Loaded {
             .collect();
         // A standing column moves with the gap as well, which is judged by itself.
         let count = moved.len() as f64;
-        let shift = if self.setup.stands() {
-            moved.iter().map(|[u, exact]| u - exact).sum::<f64>() / count
-        } else {
-            0.0
-        };
-        Some(rms(moved
-            .iter()
-            .map(|[u, exact]| (u - exact - shift) / HEIGHT)))
+        let shift =
+            if self.setup.stands() { moved.iter().map(|[u, exact]| u - exact).sum::<f64>() / count } else { 0.0 };
+        Some(rms(moved.iter().map(|[u, exact]| (u - exact - shift) / HEIGHT)))
     }
 }
 
@@ -115,18 +106,12 @@ impl Problem<2> for Loaded {
         let law = Hencky::new(YOUNG_MODULUS, setup.poisson_ratio)?;
         let modulus = DENSITY * law.wave_speed(DENSITY).powi(2);
         let weight = setup.load * modulus / E;
-        Ok(Self {
-            setup,
-            law,
-            modulus,
-            weight,
-        })
+        Ok(Self { setup, law, modulus, weight })
     }
 
     fn discretisation(&self) -> Discretisation {
         let ppc = self.setup.ppc_per_direction.pow(2);
-        self.setup
-            .discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
+        self.setup.discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
     }
 
     fn begin(&self, _: &Found) -> Result<Box<dyn Simulation<2>>, Fault> {
@@ -144,11 +129,7 @@ impl Problem<2> for Loaded {
         let places = self.setup.start_at((0..counts[0] * counts[1]).map(place));
         let particles = Particles::new(places, spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
         let gravity = self.weight / (DENSITY * HEIGHT);
-        let roller = |axis, end| Wall {
-            axis,
-            end,
-            kind: WallKind::Roller,
-        };
+        let roller = |axis, end| Wall { axis, end, kind: WallKind::Roller };
         let mut scene = Scene::new(grid, Body::new(self.law, particles)?)
             .load(Gravity(Box::new(move |share| [0.0, -share * gravity])))
             .constrain(roller(0, End::Lo))
@@ -196,11 +177,7 @@ impl Problem<2> for Loaded {
     fn metrics(&self, seen: &Found, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
         let run = phase.run.as_ref();
         let carried = run.time();
-        let bearable = if self.setup.stands() {
-            1.0
-        } else {
-            (1.0 / self.setup.load).min(1.0)
-        };
+        let bearable = if self.setup.stands() { 1.0 } else { (1.0 / self.setup.load).min(1.0) };
         let cells = (self.setup.h / HEIGHT).powi(2);
         let mut values = vec![
             (CARRIED, carried),
@@ -213,11 +190,7 @@ impl Problem<2> for Loaded {
             let exact = self.exact(carried);
             values.extend(error.map(|e| (EQUILIBRIUM_ERROR, e)));
             values.extend(exact.map(|e| (BOUND, cells * e.curvature)));
-            let held = if self.setup.stands() {
-                Part::Contact(0)
-            } else {
-                Part::Constraint(UPPER_END)
-            };
+            let held = if self.setup.stands() { Part::Contact(0) } else { Part::Constraint(UPPER_END) };
             let area = ACROSS as f64 * self.setup.h;
             let weight = carried * self.weight * area;
             let force = run.on(held).force[1].abs();

@@ -53,11 +53,7 @@ impl Source {
 
     /// The key, or the head of the table, that a span belongs to.
     fn key(&self, span: &Range<usize>) -> Option<&str> {
-        let start = self
-            .text
-            .get(..span.start)?
-            .rfind('\n')
-            .map_or(0, |k| k + 1);
+        let start = self.text.get(..span.start)?.rfind('\n').map_or(0, |k| k + 1);
         let line = self.text.get(start..)?.lines().next()?;
         if line.trim_start().starts_with('[') {
             return Some(line.trim());
@@ -83,10 +79,7 @@ impl Source {
         let plain = Path::new(name).file_name().is_some_and(|n| n == name);
         match plain {
             true => Ok(self.path.with_file_name(name)),
-            false => Err(self.at(
-                value,
-                format!("file {name:?} where the name of a file beside the scene is allowed"),
-            )),
+            false => Err(self.at(value, format!("file {name:?} where the name of a file beside the scene is allowed"))),
         }
     }
 }

@@ -65,9 +65,7 @@ impl TryFrom<String> for Name {
         let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         match (1..=24).contains(&name.len()) && name.chars().all(fits) {
             true => Ok(Self(name)),
-            false => Err(format!(
-                "name {name:?} where 1 to 24 lower-case letters, digits and hyphens are allowed"
-            )),
+            false => Err(format!("name {name:?} where 1 to 24 lower-case letters, digits and hyphens are allowed")),
         }
     }
 }
@@ -153,20 +151,11 @@ pub(super) struct BodyForm {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub(super) enum ShapeForm {
     /// Seeded from one corner to the opposite one.
-    Box {
-        from_m: Vec<Finite>,
-        to_m: Vec<Finite>,
-    },
+    Box { from_m: Vec<Finite>, to_m: Vec<Finite> },
     /// In the plane of x and y; in three dimensions between two z.
-    Polygon {
-        corners_m: Vec<[Finite; 2]>,
-        z_m: Option<[Finite; 2]>,
-    },
+    Polygon { corners_m: Vec<[Finite; 2]>, z_m: Option<[Finite; 2]> },
     /// A disc, or a ball.
-    Disc {
-        centre_m: Vec<Finite>,
-        radius_m: Positive,
-    },
+    Disc { centre_m: Vec<Finite>, radius_m: Positive },
     /// Places from a CSV file beside the scene, with the columns `x (m)`, `y (m)`, `z (m)`.
     Particles { file: String },
 }
@@ -218,17 +207,9 @@ fn one() -> Finite {
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub(super) enum StrengthForm {
-    Undrained {
-        shear_strength_pa: Finite,
-    },
-    Perfect {
-        norm_pa: Finite,
-    },
-    Softening {
-        peak_pa: Finite,
-        residual_pa: Finite,
-        eta: Finite,
-    },
+    Undrained { shear_strength_pa: Finite },
+    Perfect { norm_pa: Finite },
+    Softening { peak_pa: Finite, residual_pa: Finite, eta: Finite },
 }
 
 #[derive(Debug, Deserialize)]

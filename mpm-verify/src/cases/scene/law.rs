@@ -1,9 +1,7 @@
 //! The laws that a scene file can name.
 
 use super::form::{LawForm, StrengthForm};
-use mpm_core::material::{
-    CamClay, Hencky, HenckyJ2, ImprovedHencky, Law, NeoHookean, NewtonianFluid, Strength,
-};
+use mpm_core::material::{CamClay, Hencky, HenckyJ2, ImprovedHencky, Law, NeoHookean, NewtonianFluid, Strength};
 
 /// A law.
 #[derive(Clone, Copy)]
@@ -19,30 +17,21 @@ pub(super) enum Material {
 impl Material {
     /// Of a form, in a body of a porosity.
     pub(super) fn of(form: &LawForm, porosity: Option<f64>) -> Result<Self, mpm_core::Error> {
-        let soaked =
-            |bulk: f64, shear: f64| ImprovedHencky::new(bulk, shear, porosity.unwrap_or(f64::NAN));
+        let soaked = |bulk: f64, shear: f64| ImprovedHencky::new(bulk, shear, porosity.unwrap_or(f64::NAN));
         Ok(match form {
-            LawForm::NeoHookean {
-                young_modulus_pa: e,
-                poisson_ratio: nu,
-            } => Self::NeoHookean(NeoHookean::new(e.0, nu.0)?),
-            LawForm::Hencky {
-                young_modulus_pa: e,
-                poisson_ratio: nu,
-            } => Self::Hencky(Hencky::new(e.0, nu.0)?),
-            LawForm::HenckyJ2 {
-                young_modulus_pa: e,
-                poisson_ratio: nu,
-                strength,
-            } => Self::HenckyJ2(HenckyJ2::new(e.0, nu.0, strength_of(strength)?)?),
-            LawForm::NewtonianFluid {
-                bulk_modulus_pa: k,
-                viscosity_pa_s: mu,
-            } => Self::NewtonianFluid(NewtonianFluid::new(k.0, mu.0)?),
-            LawForm::ImprovedHencky {
-                bulk_parameter: k,
-                shear_modulus_pa: g,
-            } => Self::ImprovedHencky(soaked(k.0, g.0)?),
+            LawForm::NeoHookean { young_modulus_pa: e, poisson_ratio: nu } => {
+                Self::NeoHookean(NeoHookean::new(e.0, nu.0)?)
+            }
+            LawForm::Hencky { young_modulus_pa: e, poisson_ratio: nu } => Self::Hencky(Hencky::new(e.0, nu.0)?),
+            LawForm::HenckyJ2 { young_modulus_pa: e, poisson_ratio: nu, strength } => {
+                Self::HenckyJ2(HenckyJ2::new(e.0, nu.0, strength_of(strength)?)?)
+            }
+            LawForm::NewtonianFluid { bulk_modulus_pa: k, viscosity_pa_s: mu } => {
+                Self::NewtonianFluid(NewtonianFluid::new(k.0, mu.0)?)
+            }
+            LawForm::ImprovedHencky { bulk_parameter: k, shear_modulus_pa: g } => {
+                Self::ImprovedHencky(soaked(k.0, g.0)?)
+            }
             LawForm::CamClay {
                 bulk_parameter,
                 shear_modulus_pa,
@@ -95,10 +84,6 @@ fn strength_of(form: &StrengthForm) -> Result<Strength, mpm_core::Error> {
     match form {
         StrengthForm::Undrained { shear_strength_pa } => Strength::undrained(shear_strength_pa.0),
         StrengthForm::Perfect { norm_pa } => Strength::perfect(norm_pa.0),
-        StrengthForm::Softening {
-            peak_pa,
-            residual_pa,
-            eta,
-        } => Strength::softening(peak_pa.0, residual_pa.0, eta.0),
+        StrengthForm::Softening { peak_pa, residual_pa, eta } => Strength::softening(peak_pa.0, residual_pa.0, eta.0),
     }
 }

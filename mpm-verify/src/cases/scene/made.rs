@@ -10,32 +10,22 @@ impl<const D: usize> Setup<D> {
     pub(super) fn made(&self) -> Vec<String> {
         let reach: [f64; D] = std::array::from_fn(|a| {
             let along = || self.places.iter().map(|x| x[a]);
-            let (least, most) = (
-                along().fold(f64::MAX, f64::min),
-                along().fold(f64::MIN, f64::max),
-            );
+            let (least, most) = (along().fold(f64::MAX, f64::min), along().fold(f64::MIN, f64::max));
             most - least + self.spacing
         });
         let density = self.form.body.get_ref().density_kg_m3.0;
         // Σ |g| times the reach: the stress below a column as high as the body.
         let weight = |load: &Line<LoadForm>| match load.get_ref() {
-            LoadForm::Gravity {
-                acceleration_m_s2: g,
-                ..
-            } => g
-                .iter()
-                .zip(&reach)
-                .map(|(g, reach)| density * g.0.abs() * reach)
-                .sum(),
+            LoadForm::Gravity { acceleration_m_s2: g, .. } => {
+                g.iter().zip(&reach).map(|(g, reach)| density * g.0.abs() * reach).sum()
+            }
             LoadForm::Force { .. } => 0.0,
         };
         let weight = self.form.loads.iter().map(weight).fold(0.0, f64::max);
         let size: Vec<String> = reach.iter().map(|reach| format!("{reach:.2}")).collect();
         let volume = self.places.len() as f64 * self.spacing.powi(D as i32);
         let of = |phase: &Phase| {
-            let strength = phase.strength.map_or(String::new(), |s| {
-                format!(", undrained shear strength {s:.0} Pa")
-            });
+            let strength = phase.strength.map_or(String::new(), |s| format!(", undrained shear strength {s:.0} Pa"));
             format!(
                 "Phase {}: speed of sound {:.1} m/s{strength}; {} steps of {:.3e} s.",
                 phase.name,
@@ -49,8 +39,6 @@ impl<const D: usize> Setup<D> {
             "Body: {} m, {volume:.2} {unit}, {density} kg/m³; its height weighs {weight:.0} Pa.",
             size.join(" × ")
         );
-        std::iter::once(body)
-            .chain(self.phases.iter().map(of))
-            .collect()
+        std::iter::once(body).chain(self.phases.iter().map(of)).collect()
     }
 }

@@ -54,10 +54,7 @@ impl SceneFile {
     /// # Errors
     /// The file can't be read, or makes no scene: the error names line and key.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let source = Source {
-            path: path.to_path_buf(),
-            text: read_text(path)?,
-        };
+        let source = Source { path: path.to_path_buf(), text: read_text(path)? };
         let form: Form = source.parse()?;
         let format = form.format.get_ref();
         if *format != FORMAT {
@@ -78,10 +75,7 @@ impl SceneFile {
         };
         let found = look(&source, form)?;
         let scheme = found.scheme;
-        let level = Level {
-            name: Box::leak(format!("{:08x}", found.mark).into_boxed_str()),
-            h,
-        };
+        let level = Level { name: Box::leak(format!("{:08x}", found.mark).into_boxed_str()), h };
         let begin = move |_: &RunSpec, _: &Parameters| match dimension {
             1 => begin::<1>(&source),
             2 => begin::<2>(&source),
@@ -89,12 +83,7 @@ impl SceneFile {
         };
         Ok(Self {
             case: case(dimension, level, scheme, found.mass, Box::new(begin)),
-            spec: RunSpec {
-                scheme,
-                level,
-                set: Vec::new(),
-                perturbed: false,
-            },
+            spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false },
             title,
             made: found.made,
         })
@@ -120,24 +109,12 @@ where
     let mut mass = 0.0;
     for phase in &setup.phases {
         let run = Compiled::solve(&setup, phase);
-        let run =
-            run.map_err(|e| Error::file(&source.path, format!("phase {}: {e}", phase.name)))?;
+        let run = run.map_err(|e| Error::file(&source.path, format!("phase {}: {e}", phase.name)))?;
         mass = run.totals().mass;
     }
     let mut all = source.text.clone().into_bytes();
-    all.extend(
-        setup
-            .places
-            .as_flattened()
-            .iter()
-            .flat_map(|x| x.to_le_bytes()),
-    );
-    Ok(Found {
-        scheme: setup.scheme,
-        mass,
-        mark: Mark::of(&all).checksum,
-        made: setup.made(),
-    })
+    all.extend(setup.places.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+    Ok(Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made: setup.made() })
 }
 
 fn begin<const D: usize>(source: &Source) -> Result<Box<dyn Job>, Error>
@@ -147,10 +124,7 @@ where
     let form: Form = source.parse()?;
     let every = form.output.get_ref().snapshot_rows;
     let setup = Setup::<D>::new(source, form)?;
-    Ok(Box::new(Course::drive(
-        setup,
-        every.map(|rows| rows.0 as usize),
-    )?))
+    Ok(Box::new(Course::drive(setup, every.map(|rows| rows.0 as usize))?))
 }
 
 /// The case of a scene in so many dimensions whose body has a `mass` (kg).

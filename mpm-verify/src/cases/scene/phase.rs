@@ -35,34 +35,14 @@ pub(super) fn scheme(source: &Source, form: &Form) -> Result<Scheme, Error> {
     let own = [
         ("cfl", given.cfl.is_some(), &["explicit"][..]),
         ("flip", given.flip.is_some(), &["explicit"]),
-        (
-            "pic_rate_per_s",
-            given.pic_rate_per_s.is_some(),
-            &["explicit"],
-        ),
-        (
-            "kinetic_damping",
-            given.kinetic_damping.is_some(),
-            &["explicit"],
-        ),
+        ("pic_rate_per_s", given.pic_rate_per_s.is_some(), &["explicit"]),
+        ("kinetic_damping", given.kinetic_damping.is_some(), &["explicit"]),
         ("walls", given.walls.is_some(), &["explicit"]),
-        (
-            "tolerance",
-            given.tolerance.is_some(),
-            &["implicit", "poro"],
-        ),
-        (
-            "ghost_penalty",
-            given.ghost_penalty.is_some(),
-            &["implicit", "poro"],
-        ),
+        ("tolerance", given.tolerance.is_some(), &["implicit", "poro"]),
+        ("ghost_penalty", given.ghost_penalty.is_some(), &["implicit", "poro"]),
         ("lumped", given.lumped.is_some(), &["implicit"]),
         ("ghost_pressure", given.ghost_pressure.is_some(), &["poro"]),
-        (
-            "projection_per_pa",
-            given.projection_per_pa.is_some(),
-            &["poro"],
-        ),
+        ("projection_per_pa", given.projection_per_pa.is_some(), &["poro"]),
     ];
     for (name, is_set, kinds) in own {
         if is_set && !kinds.contains(&kind) {
@@ -71,25 +51,15 @@ pub(super) fn scheme(source: &Source, form: &Form) -> Result<Scheme, Error> {
         }
     }
     if form.water.is_some() != (kind == "poro") {
-        let said =
-            "water and a scheme of the kind poro go together: the one is there without the other";
+        let said = "water and a scheme of the kind poro go together: the one is there without the other";
         return Err(source.at(&form.solver, said));
     }
     Ok(scheme)
 }
 
-pub(super) fn phases(
-    source: &Source,
-    form: &Form,
-    scheme: Scheme,
-    h: f64,
-) -> Result<Vec<Phase>, Error> {
-    let porosity = form
-        .water
-        .as_ref()
-        .map(|w: &Line<WaterForm>| w.get_ref().porosity.0);
-    let law =
-        |at: &Line<_>, law: &LawForm| Material::of(law, porosity).map_err(|e| source.at(at, e));
+pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Result<Vec<Phase>, Error> {
+    let porosity = form.water.as_ref().map(|w: &Line<WaterForm>| w.get_ref().porosity.0);
+    let law = |at: &Line<_>, law: &LawForm| Material::of(law, porosity).map_err(|e| source.at(at, e));
     let own = Material::of(form.law.get_ref(), porosity).map_err(|e| source.at(&form.law, e))?;
     let (solver, row) = (form.solver.get_ref(), form.output.get_ref().row_s.0);
     let explicit = matches!(scheme, Scheme::Explicit(_));
@@ -119,11 +89,8 @@ pub(super) fn phases(
         };
         let rows = given.duration_s.0 / (dt * steps_per_row);
         if !(0.5..=MOST_ROWS).contains(&rows) || steps_per_row > MOST_STEPS {
-            let said = format!(
-                "{} s in rows of {} s: 1 to 10⁷ of them are allowed",
-                given.duration_s.0,
-                dt * steps_per_row
-            );
+            let said =
+                format!("{} s in rows of {} s: 1 to 10⁷ of them are allowed", given.duration_s.0, dt * steps_per_row);
             return Err(source.at(phase, said));
         }
         if given.local_damping.is_some() && !explicit {
@@ -145,10 +112,7 @@ pub(super) fn phases(
         });
     }
     match all.is_empty() {
-        true => Err(Error::file(
-            &source.path,
-            "phases: none, where 1 or more are allowed",
-        )),
+        true => Err(Error::file(&source.path, "phases: none, where 1 or more are allowed")),
         false => Ok(all),
     }
 }

@@ -2,8 +2,8 @@
 
 use super::fault::{Line, Source};
 use super::form::{
-    AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, LoadForm,
-    NotNegative, SupportForm, WallForm, WallsForm,
+    AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, LoadForm, NotNegative,
+    SupportForm, WallForm, WallsForm,
 };
 use super::phase::{Phase, phases, scheme};
 use super::shape::{ends, holds, seed, vector};
@@ -16,8 +16,7 @@ use mpm_core::implicit::{self, Stabilisation, TimeRule};
 use mpm_core::material::Law;
 use mpm_core::poro::{self, Conductivity, Face, PressureSpace, Water};
 use mpm_core::stage::{
-    Constraint, DeadForce, End, Gravity, KineticDamping, Load, LocalDamping, RigidNodes, Wall,
-    WallKind, smooth_rise,
+    Constraint, DeadForce, End, Gravity, KineticDamping, Load, LocalDamping, RigidNodes, Wall, WallKind, smooth_rise,
 };
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, explicit};
 
@@ -51,15 +50,7 @@ impl<const D: usize> Setup<D> {
             None => [0.0; D],
         };
         let phases = phases(source, &form, scheme, grid.h)?;
-        let setup = Self {
-            scheme,
-            phases,
-            grid,
-            places,
-            velocity,
-            spacing,
-            form,
-        };
+        let setup = Self { scheme, phases, grid, places, velocity, spacing, form };
         setup.check(source)?;
         Ok(setup)
     }
@@ -67,9 +58,7 @@ impl<const D: usize> Setup<D> {
     /// That what acts has as many components as the grid has axes, and acts in phases that there are.
     fn check(&self, source: &Source) -> Result<(), Error> {
         let known = |at: &std::ops::Range<usize>, phases: &[String]| {
-            let unknown = phases
-                .iter()
-                .find(|name| self.phases.iter().all(|p| p.name != **name));
+            let unknown = phases.iter().find(|name| self.phases.iter().all(|p| p.name != **name));
             match unknown {
                 None => Ok(()),
                 Some(name) => {
@@ -81,14 +70,8 @@ impl<const D: usize> Setup<D> {
         };
         for load in &self.form.loads {
             let (name, numbers, phases) = match load.get_ref() {
-                LoadForm::Gravity {
-                    acceleration_m_s2: g,
-                    phases,
-                    ..
-                } => ("acceleration_m_s2", g, phases),
-                LoadForm::Force {
-                    total_n, phases, ..
-                } => ("total_n", total_n, phases),
+                LoadForm::Gravity { acceleration_m_s2: g, phases, .. } => ("acceleration_m_s2", g, phases),
+                LoadForm::Force { total_n, phases, .. } => ("total_n", total_n, phases),
             };
             vector::<D, _>(source, load, name, numbers)?;
             known(&load.span(), phases)?;
@@ -96,14 +79,9 @@ impl<const D: usize> Setup<D> {
         for support in &self.form.supports {
             let (axes, phases): (Vec<AxisForm>, _) = match support.get_ref() {
                 SupportForm::Wall { axis, phases, .. } => (vec![*axis], phases),
-                SupportForm::Nodes {
-                    velocity_m_s,
-                    phases,
-                    ..
-                } => (velocity_m_s.keys().copied().collect(), phases),
+                SupportForm::Nodes { velocity_m_s, phases, .. } => (velocity_m_s.keys().copied().collect(), phases),
             };
-            axes.iter()
-                .try_for_each(|axis| own_axis::<D, _>(source, support, *axis))?;
+            axes.iter().try_for_each(|axis| own_axis::<D, _>(source, support, *axis))?;
             known(&support.span(), phases)?;
         }
         for contact in &self.form.contacts {
@@ -134,12 +112,7 @@ impl<const D: usize> Setup<D> {
 
     /// Particles per cell.
     pub(super) fn per_cell(&self) -> u32 {
-        self.form
-            .body
-            .get_ref()
-            .particles_per_direction
-            .0
-            .pow(D as u32)
+        self.form.body.get_ref().particles_per_direction.0.pow(D as u32)
     }
 
     /// How B-splines meet walls.
@@ -158,37 +131,24 @@ impl<const D: usize> Setup<D> {
     /// Names of supports, then of contacts, of a phase, in the scene's order.
     pub(super) fn parts(&self, phase: &str) -> [Vec<&str>; 2] {
         let supports = self.form.supports.iter().map(|s| match s.get_ref() {
-            SupportForm::Wall { name, phases, .. } | SupportForm::Nodes { name, phases, .. } => {
-                (name, phases)
-            }
+            SupportForm::Wall { name, phases, .. } | SupportForm::Nodes { name, phases, .. } => (name, phases),
         });
         let contacts = self.form.contacts.iter().map(|c| {
             let form = c.get_ref();
             (&form.name, &form.phases)
         });
         [
-            supports
-                .filter(|(_, phases)| acts(phases, phase))
-                .map(|(name, _)| &*name.0)
-                .collect(),
-            contacts
-                .filter(|(_, phases)| acts(phases, phase))
-                .map(|(name, _)| &*name.0)
-                .collect(),
+            supports.filter(|(_, phases)| acts(phases, phase)).map(|(name, _)| &*name.0).collect(),
+            contacts.filter(|(_, phases)| acts(phases, phase)).map(|(name, _)| &*name.0).collect(),
         ]
     }
 
     /// The scene of a phase, of a body of some law.
-    pub(super) fn scene<M: Law>(
-        &self,
-        law: M,
-        phase: &Phase,
-    ) -> Result<Scene<D, M>, mpm_core::Error> {
+    pub(super) fn scene<M: Law>(&self, law: M, phase: &Phase) -> Result<Scene<D, M>, mpm_core::Error> {
         let body = self.form.body.get_ref();
         let half_size = [0.5 * self.spacing; D];
         let volume = self.spacing.powi(D as i32);
-        let mut particles =
-            Particles::new(self.places.clone(), volume, body.density_kg_m3.0, half_size)?;
+        let mut particles = Particles::new(self.places.clone(), volume, body.density_kg_m3.0, half_size)?;
         particles.velocity.fill(self.velocity);
         let loads = self.loads(&phase.name, &particles)?;
         let contacts = self.contacts(&phase.name)?;
@@ -201,31 +161,16 @@ impl<const D: usize> Setup<D> {
         })
     }
 
-    fn loads(
-        &self,
-        phase: &str,
-        particles: &Particles<D>,
-    ) -> Result<Vec<Box<dyn Load<D>>>, mpm_core::Error> {
+    fn loads(&self, phase: &str, particles: &Particles<D>) -> Result<Vec<Box<dyn Load<D>>>, mpm_core::Error> {
         let mut all: Vec<Box<dyn Load<D>>> = Vec::new();
         for load in &self.form.loads {
             match load.get_ref() {
-                LoadForm::Gravity {
-                    acceleration_m_s2,
-                    rise_s,
-                    phases,
-                } if acts(phases, phase) => {
+                LoadForm::Gravity { acceleration_m_s2, rise_s, phases } if acts(phases, phase) => {
                     let g = components::<D>(acceleration_m_s2);
                     let rise = rise_s.0;
-                    all.push(Box::new(Gravity(Box::new(move |time| {
-                        g.map(|g| g * smooth_rise(time, rise))
-                    }))));
+                    all.push(Box::new(Gravity(Box::new(move |time| g.map(|g| g * smooth_rise(time, rise))))));
                 }
-                LoadForm::Force {
-                    total_n,
-                    on,
-                    rise_s,
-                    phases,
-                } if acts(phases, phase) => {
+                LoadForm::Force { total_n, on, rise_s, phases } if acts(phases, phase) => {
                     let on = holds(on);
                     let total = components(total_n);
                     let force = DeadForce::shared(total, rise_s.0, particles, on);
@@ -248,13 +193,7 @@ impl<const D: usize> Setup<D> {
         let mut all: Vec<Box<dyn Constraint<D>>> = Vec::new();
         for support in &self.form.supports {
             match support.get_ref() {
-                SupportForm::Wall {
-                    axis,
-                    end,
-                    kind,
-                    phases,
-                    ..
-                } if acts(phases, phase) => all.push(Box::new(Wall {
+                SupportForm::Wall { axis, end, kind, phases, .. } if acts(phases, phase) => all.push(Box::new(Wall {
                     axis: *axis as usize,
                     end: end_of(*end),
                     kind: match kind {
@@ -263,13 +202,7 @@ impl<const D: usize> Setup<D> {
                         WallForm::Separable => WallKind::Separable,
                     },
                 })),
-                SupportForm::Nodes {
-                    within,
-                    velocity_m_s,
-                    rise_s,
-                    phases,
-                    ..
-                } if acts(phases, phase) => {
+                SupportForm::Nodes { within, velocity_m_s, rise_s, phases, .. } if acts(phases, phase) => {
                     let axes = [AxisForm::X, AxisForm::Y, AxisForm::Z];
                     all.push(Box::new(RigidNodes {
                         extent: ends(within),
@@ -297,9 +230,7 @@ impl<const D: usize> Setup<D> {
             (None, Some(rate)) => (-rate.0 * phase.dt).exp(),
             (None, None) => 1.0,
         };
-        let mut settings = explicit::Settings::new(phase.dt)
-            .wall(self.walls())
-            .remedy(self.scheme.remedy().build());
+        let mut settings = explicit::Settings::new(phase.dt).wall(self.walls()).remedy(self.scheme.remedy().build());
         if phase.damping > 0.0 {
             settings = settings.filter_forces(LocalDamping::new(phase.damping)?);
         }
@@ -313,13 +244,8 @@ impl<const D: usize> Setup<D> {
     pub(super) fn implicit(&self, phase: &Phase) -> implicit::Settings {
         let form = self.form.solver.get_ref();
         let rule = match self.scheme.rule() {
-            Some(RuleName::Midpoint) => TimeRule::Midpoint {
-                lumped: form.lumped.map_or(0.0, |share| share.0),
-            },
-            Some(RuleName::Newmark) => TimeRule::Newmark {
-                alpha: 0.25,
-                delta: 0.5,
-            },
+            Some(RuleName::Midpoint) => TimeRule::Midpoint { lumped: form.lumped.map_or(0.0, |share| share.0) },
+            Some(RuleName::Newmark) => TimeRule::Newmark { alpha: 0.25, delta: 0.5 },
             Some(RuleName::QuasiStatic) | None => TimeRule::Static,
         };
         let settings = implicit::Settings::new(phase.dt).rule(rule);
@@ -342,9 +268,9 @@ impl<const D: usize> Setup<D> {
         poro::Settings {
             pressure_space: match self.scheme {
                 Scheme::Poro(parts) if parts.space == SpaceName::TwoGrid => PressureSpace::TwoGrid,
-                Scheme::Poro(parts) if parts.space == SpaceName::Ppp => PressureSpace::Projected {
-                    strength: form.projection_per_pa.map_or(f64::NAN, |x| x.0),
-                },
+                Scheme::Poro(parts) if parts.space == SpaceName::Ppp => {
+                    PressureSpace::Projected { strength: form.projection_per_pa.map_or(f64::NAN, |x| x.0) }
+                }
                 _ => PressureSpace::Equal,
             },
             tolerance: form.tolerance.map_or(settings.tolerance, |t| t.0),
@@ -374,9 +300,7 @@ impl<const D: usize> Setup<D> {
             water = water.drained(holds(region));
         }
         let faces = form.faces.iter();
-        Ok(faces.fold(water, |water, face| {
-            water.face(face_of(face.get_ref(), particles))
-        }))
+        Ok(faces.fold(water, |water, face| water.face(face_of(face.get_ref(), particles))))
     }
 }
 
@@ -385,17 +309,14 @@ fn face_of<const D: usize>(form: &FaceForm, particles: &Particles<D>) -> Face<D>
     match (&form.traction_pa, form.drain_penalty_m_pa_s) {
         (Some(traction), _) => {
             let (traction, rise) = (components::<D>(traction), form.rise_s.0);
-            Face::loaded(particles, on, at, move |time| {
-                traction.map(|t| t * smooth_rise(time, rise))
-            })
+            Face::loaded(particles, on, at, move |time| traction.map(|t| t * smooth_rise(time, rise)))
         }
         (None, penalty) => Face::drained(particles, on, at, penalty.map_or(f64::NAN, |p| p.0)),
     }
 }
 
 fn contact<const D: usize>(form: &ContactForm) -> Result<RigidContact<D>, mpm_core::Error> {
-    let mut face = RigidFace::half_space(form.axis as usize, end_of(form.end), form.at_m.0)?
-        .within(ends(&form.within));
+    let mut face = RigidFace::half_space(form.axis as usize, end_of(form.end), form.at_m.0)?.within(ends(&form.within));
     if let Some(velocity) = &form.velocity_m_s {
         face = face.moving(components(velocity), form.rise_s.0)?;
     }
@@ -440,10 +361,7 @@ fn grid<const D: usize>(source: &Source, form: &Form) -> Result<Grid<D>, Error> 
     let given = form.grid.get_ref();
     let lower: [f64; D] = vector(source, &form.grid, "lower_m", &given.lower_m)?;
     if given.ends.len() != D {
-        let said = format!(
-            "ends has {} entries where the grid has {D} axes",
-            given.ends.len()
-        );
+        let said = format!("ends has {} entries where the grid has {D} axes", given.ends.len());
         return Err(source.at(&form.grid, said));
     }
     let all: f64 = given.cells.iter().map(|n| f64::from(n.0)).product();

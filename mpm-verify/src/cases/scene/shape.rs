@@ -68,10 +68,7 @@ fn check_on_grid<const D: usize>(
         let (lo, hi) = (axis.lo, axis.hi(grid.h));
         let off = places.iter().map(|x| x[a]).find(|x| *x < lo || *x > hi);
         if let Some(x) = off {
-            let said = format!(
-                "a particle at {} = {x} m, off the grid, which reaches from {lo} to {hi} m",
-                AXES[a]
-            );
+            let said = format!("a particle at {} = {x} m, off the grid, which reaches from {lo} to {hi} m", AXES[a]);
             return Err(source.at(shape, said));
         }
     }
@@ -138,10 +135,7 @@ impl<const D: usize> Shape<D> {
             }
             ShapeForm::Disc { centre_m, radius_m } => {
                 let centre: [f64; D] = vector(source, at, "centre_m", centre_m)?;
-                let (least, most) = (
-                    centre.map(|c| c - radius_m.0),
-                    centre.map(|c| c + radius_m.0),
-                );
+                let (least, most) = (centre.map(|c| c - radius_m.0), centre.map(|c| c + radius_m.0));
                 let square = (radius_m.0 + margin).powi(2);
                 Ok(Self::between(least, most, spacing, move |x| {
                     let off = x.iter().zip(&centre).map(|(x, c)| (x - c) * (x - c));
@@ -171,39 +165,22 @@ impl<const D: usize> Shape<D> {
                     })
                 };
                 let (least, most) = (end(f64::min, 0), end(f64::max, 1));
-                Ok(Self::between(least, most, spacing, move |x| {
-                    is_inside(&corners, [x[0], x[1]], margin)
-                }))
+                Ok(Self::between(least, most, spacing, move |x| is_inside(&corners, [x[0], x[1]], margin)))
             }
-            ShapeForm::Particles { .. } => Ok(Self {
-                rows: [(0, 1, 0); D],
-                holds: Box::new(|_| false),
-            }),
+            ShapeForm::Particles { .. } => Ok(Self { rows: [(0, 1, 0); D], holds: Box::new(|_| false) }),
         }
     }
 
     /// Between two corners, in the order from the first to the second along each axis.
-    fn between(
-        from: [f64; D],
-        to: [f64; D],
-        spacing: f64,
-        holds: impl Fn(&[f64; D]) -> bool + 'static,
-    ) -> Self {
+    fn between(from: [f64; D], to: [f64; D], spacing: f64, holds: impl Fn(&[f64; D]) -> bool + 'static) -> Self {
         let up = |x: f64| (x / spacing - 0.5 - ON_SIDE).ceil() as i64;
         let down = |x: f64| (x / spacing - 0.5 + ON_SIDE).floor() as i64;
         let row = |from: f64, to: f64| {
             let (least, most) = (up(from.min(to)), down(from.max(to)));
             let count = (most - least + 1).max(0) as u64;
-            if from <= to {
-                (least, 1, count)
-            } else {
-                (most, -1, count)
-            }
+            if from <= to { (least, 1, count) } else { (most, -1, count) }
         };
-        Self {
-            rows: std::array::from_fn(|a| row(from[a], to[a])),
-            holds: Box::new(holds),
-        }
+        Self { rows: std::array::from_fn(|a| row(from[a], to[a])), holds: Box::new(holds) }
     }
 
     fn points(&self) -> f64 {
@@ -251,10 +228,8 @@ fn is_inside(corners: &[[f64; 2]], [x, y]: [f64; 2], margin: f64) -> bool {
         let a = corners[(k + corners.len() - 1) % corners.len()];
         let (along, off) = ([b[0] - a[0], b[1] - a[1]], [x - a[0], y - a[1]]);
         let length = along[0].hypot(along[1]);
-        let (ahead, beside) = (
-            (off[0] * along[0] + off[1] * along[1]) / length,
-            (off[0] * along[1] - off[1] * along[0]) / length,
-        );
+        let (ahead, beside) =
+            ((off[0] * along[0] + off[1] * along[1]) / length, (off[0] * along[1] - off[1] * along[0]) / length);
         if beside.abs() <= margin && (-margin..=length + margin).contains(&ahead) {
             return true;
         }
@@ -266,11 +241,7 @@ fn is_inside(corners: &[[f64; 2]], [x, y]: [f64; 2], margin: f64) -> bool {
 }
 
 /// Places from a table.
-fn from_file<const D: usize>(
-    source: &Source,
-    at: &Line<ShapeForm>,
-    name: &str,
-) -> Result<Vec<[f64; D]>, Error> {
+fn from_file<const D: usize>(source: &Source, at: &Line<ShapeForm>, name: &str) -> Result<Vec<[f64; D]>, Error> {
     let path = source.beside(at, name)?;
     let table = Table::read_finite(&path)?;
     let columns = AXES.map(|axis| table.column(axis));

@@ -4,9 +4,7 @@ use crate::parameter::Parameters;
 use std::path::PathBuf;
 
 fn shipped(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("scenes")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
 }
 
 /// A run of a shipped file, and the same of a case, at their start.
@@ -22,10 +20,7 @@ fn both(file: &str, case: &str, level: &str, set: &[&str]) -> [Box<dyn Job>; 2] 
         perturbed: false,
     };
     let none = Parameters::new(&[], &[]).unwrap();
-    [
-        (scene.case.begin)(&scene.spec, &none).unwrap(),
-        (case.begin)(&spec, &parameters).unwrap(),
-    ]
+    [(scene.case.begin)(&scene.spec, &none).unwrap(), (case.begin)(&spec, &parameters).unwrap()]
 }
 
 /// Places of all particles.
@@ -78,114 +73,33 @@ fn refusal(from: &str, to: &str) -> String {
 fn what_is_wrong_is_named_with_line_and_key() {
     // What is replaced, by what; what the error must say.
     let wrong: [(&str, &str, &[&str]); 23] = [
-        (
-            "cell_size_m",
-            "cell_sise_m",
-            &["line 7", "cell_sise_m", "is `cell_size_m` meant?"],
-        ),
-        (
-            "cell_size_m = 0.5",
-            "cell_size_m = -0.5",
-            &["line 7, cell_size_m", "-0.5", "positive"],
-        ),
-        (
-            "cell_size_m = 0.5",
-            "cell_size_m = \"0.5\"",
-            &["line 7, cell_size_m", "string"],
-        ),
-        (
-            "cells = [60, 14]",
-            "cells = [60, 2]",
-            &["line 9, cells", "2", "4 to 100000"],
-        ),
-        (
-            "lower_m = [0.0, 0.0]",
-            "lower_m = [0.0]",
-            &["line 6, [grid]", "lower_m", "2 axes"],
-        ),
-        (
-            "\"wall-open\", \"wall-open\"",
-            "\"wal-open\", \"wall-open\"",
-            &["line 10, ends", "is `wall-open` meant?"],
-        ),
-        (
-            "[law.hencky-j2]",
-            "[law.hencky-j3]",
-            &["hencky-j3", "hencky-j2"],
-        ),
+        ("cell_size_m", "cell_sise_m", &["line 7", "cell_sise_m", "is `cell_size_m` meant?"]),
+        ("cell_size_m = 0.5", "cell_size_m = -0.5", &["line 7, cell_size_m", "-0.5", "positive"]),
+        ("cell_size_m = 0.5", "cell_size_m = \"0.5\"", &["line 7, cell_size_m", "string"]),
+        ("cells = [60, 14]", "cells = [60, 2]", &["line 9, cells", "2", "4 to 100000"]),
+        ("lower_m = [0.0, 0.0]", "lower_m = [0.0]", &["line 6, [grid]", "lower_m", "2 axes"]),
+        ("\"wall-open\", \"wall-open\"", "\"wal-open\", \"wall-open\"", &["line 10, ends", "is `wall-open` meant?"]),
+        ("[law.hencky-j2]", "[law.hencky-j3]", &["hencky-j3", "hencky-j2"]),
         ("poisson_ratio = 0.49\n", "", &["poisson_ratio", "missing"]),
-        (
-            "poisson_ratio = 0.49",
-            "poisson_ratio = 0.5",
-            &["law", "Poisson's ratio", "0.5"],
-        ),
+        ("poisson_ratio = 0.49", "poisson_ratio = 0.5", &["law", "Poisson's ratio", "0.5"]),
         (
             "[law.hencky-j2]",
             "[law.hencky]\nyoung_modulus_pa = 5e6\npoisson_ratio = 0.3\n[law.hencky-j2]",
             &["law", "one kind of it is allowed"],
         ),
-        (
-            "format = 1",
-            "",
-            &["own.toml: line 1: missing field `format`"],
-        ),
+        ("format = 1", "", &["own.toml: line 1: missing field `format`"]),
         ("cfl = 0.3", "cfl = 3", &["cfl: 3 where", "at most 1"]),
-        (
-            "[30, 0], [30, 1]",
-            "[30, 1], [30, 0]",
-            &["line 15", "side 1 crosses its side 3"],
-        ),
-        (
-            "[10, 5], [0, 5]",
-            "[10, 9], [0, 9]",
-            &[
-                "line 15",
-                "a particle at y = ",
-                "off the grid",
-                "from 0 to 7 m",
-            ],
-        ),
-        (
-            "polygon = {",
-            "polygone = {",
-            &["line 16, polygone", "is `polygon` meant?"],
-        ),
-        (
-            "[10, 5], [0, 5]",
-            "[10, 1e9], [0, 5]",
-            &["line 15", "50000000"],
-        ),
-        (
-            "[0, -9.81], rise_s",
-            "[0, -9.81, 0], rise_s",
-            &["acceleration_m_s2 has 3 numbers", "2 axes"],
-        ),
-        (
-            "phases = [\"weight\"]",
-            "phases = [\"wait\"]",
-            &["\"wait\"", "weight, slide"],
-        ),
+        ("[30, 0], [30, 1]", "[30, 1], [30, 0]", &["line 15", "side 1 crosses its side 3"]),
+        ("[10, 5], [0, 5]", "[10, 9], [0, 9]", &["line 15", "a particle at y = ", "off the grid", "from 0 to 7 m"]),
+        ("polygon = {", "polygone = {", &["line 16, polygone", "is `polygon` meant?"]),
+        ("[10, 5], [0, 5]", "[10, 1e9], [0, 5]", &["line 15", "50000000"]),
+        ("[0, -9.81], rise_s", "[0, -9.81, 0], rise_s", &["acceleration_m_s2 has 3 numbers", "2 axes"]),
+        ("phases = [\"weight\"]", "phases = [\"wait\"]", &["\"wait\"", "weight, slide"]),
         ("axis = \"y\"", "axis = \"z\"", &["axis z"]),
-        (
-            "name = \"base\"",
-            "name = \"=cmd()\"",
-            &["=cmd()", "lower-case letters"],
-        ),
-        (
-            "gimp-fbar-consistent-flip",
-            "gimp-fbar-flip",
-            &["[solver]", "fbar", "fbar-consistent"],
-        ),
-        (
-            "cfl = 0.3",
-            "cfl = 0.3\ntolerance = 1e-9",
-            &["tolerance has no meaning"],
-        ),
-        (
-            "duration_s = 1.0",
-            "duration_s = inf",
-            &["duration_s", "inf"],
-        ),
+        ("name = \"base\"", "name = \"=cmd()\"", &["=cmd()", "lower-case letters"]),
+        ("gimp-fbar-consistent-flip", "gimp-fbar-flip", &["[solver]", "fbar", "fbar-consistent"]),
+        ("cfl = 0.3", "cfl = 0.3\ntolerance = 1e-9", &["tolerance has no meaning"]),
+        ("duration_s = 1.0", "duration_s = inf", &["duration_s", "inf"]),
     ];
     for (from, to, parts) in wrong {
         let said = refusal(from, to);
@@ -201,10 +115,7 @@ fn particles_stand_where_shapes_are() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("own.toml");
     let text = std::fs::read_to_string(shipped("slope.toml")).unwrap();
-    let shape = text
-        .lines()
-        .find(|line| line.starts_with("polygon"))
-        .unwrap();
+    let shape = text.lines().find(|line| line.starts_with("polygon")).unwrap();
     let count = |by: &str| {
         std::fs::write(&path, text.replace(shape, by)).unwrap();
         SceneFile::read(&path).map(|scene| {
@@ -219,19 +130,13 @@ fn particles_stand_where_shapes_are() {
     let twice = format!("{square}\n[[body.shapes]]\nbox = {{ from_m = [2, 0], to_m = [6, 4] }}");
     assert_eq!(count(&twice).unwrap(), 384);
     let disc = count("disc = { centre_m = [10, 3], radius_m = 2.5 }").unwrap();
-    assert!(
-        (disc as f64 / 16.0 - 2.5 * 2.5 * std::f64::consts::PI).abs() < 1.0,
-        "{disc}"
-    );
+    assert!((disc as f64 / 16.0 - 2.5 * 2.5 * std::f64::consts::PI).abs() < 1.0, "{disc}");
     std::fs::write(folder.path().join("p.csv"), "x (m),y (m)\n1.1,1\n2.3,1\n").unwrap();
     assert_eq!(count("particles = { file = \"p.csv\" }").unwrap(), 2);
     for (by, part) in [
         ("particles = { file = \"../p.csv\" }", "beside the scene"),
         ("particles = { file = \"q.csv\" }", "q.csv"),
-        (
-            "box = { from_m = [0, 0], to_m = [0.1, 0.1] }",
-            "without a particle",
-        ),
+        ("box = { from_m = [0, 0], to_m = [0.1, 0.1] }", "without a particle"),
     ] {
         let said = count(by).unwrap_err().to_string();
         assert!(said.contains(part), "{said}");

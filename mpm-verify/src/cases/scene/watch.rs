@@ -38,10 +38,7 @@ fn per_depth(unit: &'static str, dimension: usize) -> &'static str {
 
 /// The metrics of a scene in so many dimensions.
 pub(super) fn metrics_in(dimension: usize) -> Vec<Metric> {
-    let of = |m: &Metric| Metric {
-        unit: per_depth(m.unit, dimension),
-        ..*m
-    };
+    let of = |m: &Metric| Metric { unit: per_depth(m.unit, dimension), ..*m };
     ALL.iter().map(of).collect()
 }
 
@@ -76,10 +73,7 @@ where
     ///
     /// # Errors
     /// The solver refuses the scene.
-    pub(super) fn drive(
-        setup: Setup<D>,
-        snapshot_rows: Option<usize>,
-    ) -> Result<Drive<D, Self>, Error> {
+    pub(super) fn drive(setup: Setup<D>, snapshot_rows: Option<usize>) -> Result<Drive<D, Self>, Error> {
         let mut parts: Vec<String> = Vec::new();
         for phase in &setup.phases {
             for name in setup.parts(&phase.name).concat() {
@@ -89,12 +83,7 @@ where
             }
         }
         let columns = columns::<D>(setup.scheme, &parts);
-        let course = Self {
-            setup,
-            parts,
-            columns,
-            snapshot_rows,
-        };
+        let course = Self { setup, parts, columns, snapshot_rows };
         Ok(Drive::new(course, Seen::default())?)
     }
 
@@ -215,12 +204,7 @@ where
         (seen.row, seen.rows) = (seen.row + 1, seen.rows + 1);
         let run = stage.run.as_ref();
         let totals = run.totals();
-        let mut row = vec![
-            seen.before + run.time(),
-            totals.kinetic_energy,
-            totals.stored_energy,
-            most_moved(run),
-        ];
+        let mut row = vec![seen.before + run.time(), totals.kinetic_energy, totals.stored_energy, most_moved(run)];
         if !matches!(self.setup.scheme, Scheme::Explicit(_)) {
             row.push((run.work().newton_iterations - iterations) as f64);
         }
@@ -236,10 +220,7 @@ where
     fn snapshot(&self, seen: &Seen, stage: &mut Stage<D>) -> Option<Snapshot> {
         let every = self.snapshot_rows?;
         let time = seen.before + stage.run.time();
-        seen.rows.is_multiple_of(every).then(|| Snapshot {
-            time,
-            columns: self.particles(seen, stage),
-        })
+        seen.rows.is_multiple_of(every).then(|| Snapshot { time, columns: self.particles(seen, stage) })
     }
 
     fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {

@@ -57,10 +57,7 @@ impl Jump {
         let lost = 0.5 * density * speed * speed - law.energy(&state);
         let d = STEP * stretch;
         let [less, more] = [-d, d].map(|d| stress(law, stretch + d));
-        let (slope, curvature) = (
-            (more - less) / (2.0 * d),
-            (more - 2.0 * own + less) / (d * d),
-        );
+        let (slope, curvature) = ((more - less) / (2.0 * d), (more - 2.0 * own + less) / (d * d));
         Self {
             stretch,
             stress: own,
@@ -84,8 +81,7 @@ impl Jump {
             let line = self.density * self.speed * self.speed * (1.0 - stretch);
             let q = stretch * (line + stress(&self.law, stretch)) / (self.density * h);
             // q F/(ρ₀ h) = c₁ c ε̇ + c₂ h ε̇², whose root in this form is good for c₂ = 0 too.
-            let rate =
-                2.0 * q / (linear * c + (linear * linear * c * c + 4.0 * quadratic * h * q).sqrt());
+            let rate = 2.0 * q / (linear * c + (linear * linear * c * c + 4.0 * quadratic * h * q).sqrt());
             self.speed * depth * slice / (stretch * rate)
         });
         widths.sum()
@@ -104,10 +100,7 @@ mod tests {
             let v = mach * c;
             let jump = Jump::new(&law, 1000.0, v);
             assert!((jump.speed * (1.0 - jump.stretch) / v - 1.0).abs() < 1e-9);
-            assert!(
-                (-jump.stress / (1000.0 * jump.speed * v) - 1.0).abs() < 1e-6,
-                "{jump:?}"
-            );
+            assert!((-jump.stress / (1000.0 * jump.speed * v) - 1.0).abs() < 1e-6, "{jump:?}");
             // A front heats: nothing is gained.
             assert!(jump.lost > 0.0 && jump.lost < 500.0 * v * v, "{jump:?}");
         }
@@ -118,14 +111,10 @@ mod tests {
         assert!((width / burgers - 1.0).abs() < 0.02, "{width} {burgers}");
         // With a quadratic one alone, ρ₀ h² c₂ Ḟ² = κ (1 − F)(F − F₁): half a period of a sine, κ = ρ₀ (S² − c²)/(1 − F₁).
         let width = weak.width([0.0, 1.5], 0.01, [0.05, 0.95]);
-        let kappa =
-            (weak.speed * weak.speed - c * c) / (1.0 - weak.stretch) / (weak.speed * weak.speed);
+        let kappa = (weak.speed * weak.speed - c * c) / (1.0 - weak.stretch) / (weak.speed * weak.speed);
         let sine = 2.0 * 0.9_f64.asin() * 0.01 * (1.5 / kappa).sqrt();
         assert!((width / sine - 1.0).abs() < 0.02, "{width} {sine}");
         let weak = Jump::new(&law, 1000.0, 1e-3 * c);
-        assert!(
-            (weak.speed / c - 1.0).abs() < 2e-3 && weak.bound < 1e-6,
-            "{weak:?}"
-        );
+        assert!((weak.speed / c - 1.0).abs() < 2e-3 && weak.bound < 1e-6, "{weak:?}");
     }
 }

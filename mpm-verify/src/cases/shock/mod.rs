@@ -62,12 +62,9 @@ pub(super) fn case() -> Case {
         description: "A bar runs into a wall at a tenth to twice the speed of its waves and comes to rest behind a front, whose speed, \
                       stress and loss of energy are exact.",
         references: vec![
-            "Exact: Rankine and Hugoniot's conditions in uniaxial strain, src/cases/shock/jump.rs."
-                .to_owned(),
+            "Exact: Rankine and Hugoniot's conditions in uniaxial strain, src/cases/shock/jump.rs.".to_owned(),
         ],
-        limits: &[
-            "Without an artificial viscosity what a front should take rings behind it: none is the default.",
-        ],
+        limits: &["Without an artificial viscosity what a front should take rings behind it: none is the default."],
         plan: plan(&levels),
         levels,
         checks: checks(),
@@ -76,12 +73,7 @@ pub(super) fn case() -> Case {
             headline(STRESS_ERROR, "mean stress (%)", 100.0, 2),
             headline(OVERSHOOT, "overshoot (%)", 100.0, 0),
             headline(RINGING, "rings (%)", 100.0, 1),
-            headline(
-                ENERGY_LOSS_ERROR,
-                "energy lost, over the exact (%)",
-                100.0,
-                0,
-            ),
+            headline(ENERGY_LOSS_ERROR, "energy lost, over the exact (%)", 100.0, 0),
             headline(LOSS_RATE_ERROR, "rate of the loss (%)", 100.0, 1),
             headline(FRONT_WIDTH, "width of the front (m)", 1.0, 4),
             headline(PREDICTED_WIDTH, "predicted (m)", 1.0, 4),
@@ -100,9 +92,8 @@ pub(super) fn case() -> Case {
         breaks_down: |r| {
             let smeared = r.basis() == Linear && r.remedy() == FbarRecursive;
             let fine = r.discretisation.h < 0.01 && r.is_default();
-            (smeared && fine).then_some(
-                "under a pressure averaged hats are unstable at any step: docs/critical-step.md",
-            )
+            (smeared && fine)
+                .then_some("under a pressure averaged hats are unstable at any step: docs/critical-step.md")
         },
         ..Case::of::<1, run::Bar>("shock", "A bar runs into a wall", ALL)
     }
@@ -169,23 +160,15 @@ impl Run<'_, Shock> {
 
     /// A cell over the way on which the front is measured, and the effect of ringing on the mean stress.
     fn bound(&self) -> f64 {
-        let rings = if self.takes_ringing() {
-            0.0
-        } else {
-            self.metric(JUMP_BOUND)
-        };
+        let rings = if self.takes_ringing() { 0.0 } else { self.metric(JUMP_BOUND) };
         self.h / (0.5 * WAY) + rings
     }
 }
 
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Shock>;
-    let exact = |check: Check, metric| {
-        check
-            .within(metric, |_| 0.0, |r| 2.0 * r.bound())
-            .of_scale(|_| 1.0)
-            .because(JUMPS)
-    };
+    let exact =
+        |check: Check, metric| check.within(metric, |_| 0.0, |r| 2.0 * r.bound()).of_scale(|_| 1.0).because(JUMPS);
     vec![
         exact(
             Check::truth("shock-speed", "the front's speed is the exact one, within two cells over the way on which it is measured and twice what the energy that rings does to the stress; without a remedy and with fbar-consistent, but for linear functions, whose stress fades as they cross cells")
@@ -238,16 +221,10 @@ fn checks() -> Vec<Check> {
 }
 
 fn tables() -> Vec<ResultTable> {
-    const SPEED: Label = ("Mach", |r| {
-        Setup::<Shock>::number_of(r, |s| s.mach).to_string()
-    });
+    const SPEED: Label = ("Mach", |r| Setup::<Shock>::number_of(r, |s| s.mach).to_string());
     const COEFFICIENTS: Label = ("c₁, c₂", |r| {
         let number = |of: fn(&Setup<Shock>) -> f64| Setup::number_of(r, of);
-        format!(
-            "{}, {}",
-            number(|s| s.linear_viscosity),
-            number(|s| s.quadratic_viscosity)
-        )
+        format!("{}, {}", number(|s| s.linear_viscosity), number(|s| s.quadratic_viscosity))
     });
     let columns = [
         Column::metric("speed of the front", SHOCK_SPEED_ERROR, percent(2)),
@@ -269,26 +246,15 @@ fn tables() -> Vec<ResultTable> {
         ("n128", "rate of loss", LOSS_RATE_ERROR, percent(1)),
         ("n256", "256 cells", LOSS_RATE_ERROR, percent(1)),
     ];
-    let of_viscous = of_viscous.map(|(level, title, metric, format)| {
-        Column::metric(title, metric, format).of(move |r| r.level == level)
-    });
+    let of_viscous = of_viscous
+        .map(|(level, title, metric, format)| Column::metric(title, metric, format).of(move |r| r.level == level));
     let is_viscous = |r: &Record| {
         r.changes_none_but(&["mach", "linear_viscosity", "quadratic_viscosity"])
             && Setup::<Shock>::number_of(r, |s| s.quadratic_viscosity) > 0.0
     };
     vec![
         // One grid keeps the page readable.
-        ResultTable::new(
-            "shock",
-            |r| r.changes_none_but(&["mach"]) && r.level == "n128",
-            &[SCHEME, SPEED],
-            columns,
-        ),
-        ResultTable::new(
-            "shock-viscous",
-            is_viscous,
-            &[COEFFICIENTS, SCHEME, SPEED],
-            of_viscous,
-        ),
+        ResultTable::new("shock", |r| r.changes_none_but(&["mach"]) && r.level == "n128", &[SCHEME, SPEED], columns),
+        ResultTable::new("shock-viscous", is_viscous, &[COEFFICIENTS, SCHEME, SPEED], of_viscous),
     ]
 }

@@ -85,19 +85,11 @@ impl Bar {
         let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
         let count = (LENGTH / size).round() as usize;
         let places = (0..count).map(|k| [(k as f64 + 0.5) * size]);
-        let mut particles =
-            Particles::new(self.setup.start_at(places), size, DENSITY, [0.5 * size])?;
+        let mut particles = Particles::new(self.setup.start_at(places), size, DENSITY, [0.5 * size])?;
         particles.velocity.fill([-self.speed]);
-        let wall = Wall {
-            axis: 0,
-            end: End::Lo,
-            kind: WallKind::Roller,
-        };
+        let wall = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
         let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(wall);
-        let settings = self
-            .setup
-            .settings(self.dt, 0.0)?
-            .transfer(Flip::new(self.setup.flip)?);
+        let settings = self.setup.settings(self.dt, 0.0)?.transfer(Flip::new(self.setup.flip)?);
         mpm_solvers::solver(self.setup.scheme, scene, settings)
     }
 
@@ -108,8 +100,7 @@ impl Bar {
         let front = self.jump.speed * run.time();
         let [from, to] = BEHIND.map(|share| share * front);
         let all = (0..p.len()).filter(|k| (from..to).contains(&p.reference[*k][0]));
-        all.map(|k| [stress[k].get(0, 0), p.velocity[k][0]])
-            .collect()
+        all.map(|k| [stress[k].get(0, 0), p.velocity[k][0]]).collect()
     }
 }
 
@@ -127,29 +118,16 @@ impl Problem<1> for Bar {
         let shorter = damping.hypot(1.0) + damping;
         let dt = courant_time_step(setup.cfl / shorter, setup.h, waves);
         let steps = (WAY * LENGTH / jump.speed / dt).ceil() as u64;
-        Ok(Self {
-            setup,
-            law,
-            speed,
-            dt,
-            steps,
-            jump,
-        })
+        Ok(Self { setup, law, speed, dt, steps, jump })
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup
-            .discretisation(1, self.setup.ppc_per_direction, self.dt)
+        self.setup.discretisation(1, self.setup.ppc_per_direction, self.dt)
     }
 
     fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
         match self.setup.is_viscous() {
-            true => self.with(Viscous::new(
-                self.law,
-                DENSITY,
-                self.setup.h,
-                self.setup.viscosity(),
-            )?),
+            true => self.with(Viscous::new(self.law, DENSITY, self.setup.h, self.setup.viscosity())?),
             false => self.with(self.law),
         }
     }
@@ -173,10 +151,7 @@ impl Problem<1> for Bar {
 
     fn particles<'a>(&self, _: &Rows, mut columns: Columns<'a, 1>) -> Columns<'a, 1> {
         let stress = columns.run().force_stress();
-        columns
-            .velocities()
-            .each("stress_xx", "Pa", |_, k| stress[k].get(0, 0))
-            .jacobian()
+        columns.velocities().each("stress_xx", "Pa", |_, k| stress[k].get(0, 0)).jacobian()
     }
 
     fn metrics(&self, seen: &Rows, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {
@@ -185,9 +160,7 @@ impl Problem<1> for Bar {
         let mean = |k: usize| behind.iter().map(|s| s[k]).sum::<f64>() / behind.len() as f64;
         let (stress, exact) = (mean(0), self.jump.stress);
         // Rate of change over the last half of the run.
-        let rate = |points: &[(f64, f64)]| {
-            fit_line(&points[points.len() / 2..]).map_or(f64::NAN, |line| line.slope)
-        };
+        let rate = |points: &[(f64, f64)]| fit_line(&points[points.len() / 2..]).map_or(f64::NAN, |line| line.slope);
         let [kinetic, stored] = ["kinetic_energy", "stored_energy"].map(|name| seen.column(name));
         let energy: Vec<f64> = kinetic.iter().zip(stored).map(|(k, s)| k + s).collect();
         let start = energy[0];

@@ -40,11 +40,7 @@ impl<P: ParameterSet> Setup<P> {
         let number = |p| self.values.number(p);
         let height = number(HEIGHT);
         Slope {
-            section: Section {
-                height,
-                crest: number(CREST),
-                run: height / number(FACE_ANGLE).to_radians().tan(),
-            },
+            section: Section { height, crest: number(CREST), run: height / number(FACE_ANGLE).to_radians().tan() },
             young_modulus: number(YOUNG_MODULUS),
             poisson_ratio: number(POISSON_RATIO),
             density: number(DENSITY),
@@ -91,30 +87,19 @@ impl<const D: usize> Ground<D> {
     ///
     /// # Errors
     /// Parameters that make no law.
-    pub(in crate::cases) fn new<P: ParameterSet>(
-        setup: &Setup<P>,
-        width: f64,
-    ) -> Result<Self, mpm_core::Error> {
+    pub(in crate::cases) fn new<P: ParameterSet>(setup: &Setup<P>, width: f64) -> Result<Self, mpm_core::Error> {
         let (slope, h) = (setup.slope(), setup.h);
         let number = |p| setup.values.number(p);
         let spacing = h / number(PPC_PER_DIRECTION);
         // The speed of waves does not depend on the strength.
-        let wave_speed = slope
-            .law(Strength::perfect(1.0)?)?
-            .wave_speed(slope.density);
+        let wave_speed = slope.law(Strength::perfect(1.0)?)?.wave_speed(slope.density);
         // The largest step of the CFL number of which a whole number makes a row.
-        let steps_per_row = (ROW / courant_time_step(number(CFL), h, wave_speed))
-            .ceil()
-            .max(1.0);
+        let steps_per_row = (ROW / courant_time_step(number(CFL), h, wave_speed)).ceil().max(1.0);
         Ok(Self {
             slope,
             width,
             spacing,
-            across: if D == 3 {
-                (width / spacing).round() as usize
-            } else {
-                1
-            },
+            across: if D == 3 { (width / spacing).round() as usize } else { 1 },
             dt: ROW / steps_per_row,
             steps_per_row: steps_per_row as u64,
             h,
@@ -141,9 +126,7 @@ impl<const D: usize> Ground<D> {
         let coordinate = |k: usize| (k as f64 + 0.5) * self.spacing;
         let section = self.slope.section.seed(self.spacing).into_iter();
         section
-            .flat_map(|[x, y]| {
-                (0..self.across).map(move |k| std::array::from_fn(|a| [x, y, coordinate(k)][a]))
-            })
+            .flat_map(|[x, y]| (0..self.across).map(move |k| std::array::from_fn(|a| [x, y, coordinate(k)][a])))
             .collect()
     }
 
@@ -164,19 +147,14 @@ impl<const D: usize> Ground<D> {
             g
         }));
         let body = Body::new(self.slope.law(strength)?, particles)?;
-        Ok(Scene::new(self.grid()?, body)
-            .load(weight)
-            .constrain_all(walls::<D>()))
+        Ok(Scene::new(self.grid()?, body).load(weight).constrain_all(walls::<D>()))
     }
 }
 
 /// The fixed base, then rollers at the back and, in three dimensions, at the sides.
 fn walls<const D: usize>() -> Vec<Wall> {
     let wall = |axis, end, kind| Wall { axis, end, kind };
-    let mut walls = vec![
-        wall(1, End::Lo, WallKind::Fixed),
-        wall(0, End::Lo, WallKind::Roller),
-    ];
+    let mut walls = vec![wall(1, End::Lo, WallKind::Fixed), wall(0, End::Lo, WallKind::Roller)];
     if D == 3 {
         walls.push(wall(2, End::Lo, WallKind::Roller));
         walls.push(wall(2, End::Hi, WallKind::Roller));

@@ -22,12 +22,7 @@ impl Section {
 
     /// Corners (m), counterclockwise from the origin.
     pub(in crate::cases) fn corners(&self) -> [[f64; 2]; 4] {
-        [
-            [0.0, 0.0],
-            [self.toe(), 0.0],
-            [self.crest, self.height],
-            [0.0, self.height],
-        ]
+        [[0.0, 0.0], [self.toe(), 0.0], [self.crest, self.height], [0.0, self.height]]
     }
 
     /// Whether a place lies inside of the face, not on it.
@@ -55,11 +50,7 @@ mod tests {
 
     #[test]
     fn the_section_has_the_papers_particles() {
-        let section = Section {
-            height: 5.0,
-            crest: 10.0,
-            run: 5.0,
-        };
+        let section = Section { height: 5.0, crest: 10.0, run: 5.0 };
         // 50 of them across make 311,250.
         assert_eq!(section.seed(0.1).len(), 6225);
         let area = section.seed(0.025).len() as f64 * 0.025 * 0.025;

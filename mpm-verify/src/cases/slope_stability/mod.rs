@@ -11,11 +11,7 @@ use super::slope::{self, ground::STABILITY};
 use crate::prelude::*;
 use run::Trials;
 
-const LEVELS: [Level; 3] = [
-    Level::new("h0.4", 0.4),
-    Level::new("h0.2", 0.2),
-    Level::new("h0.1", 0.1),
-];
+const LEVELS: [Level; 3] = [Level::new("h0.4", 0.4), Level::new("h0.2", 0.2), Level::new("h0.1", 0.1)];
 const REMEDIES: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];
 /// Excess over its limit up to which a slope may be called standing.
 const SLOW: f64 = 0.005;
@@ -96,12 +92,7 @@ fn plan() -> Vec<Family> {
     let all = pairs(&[Gimp, Bspline2], &REMEDIES);
     Plan::of(&LEVELS)
         // Three trials of softer ground, whose steps are longer. The limit load does not depend on stiffness.
-        .runs(
-            Pr,
-            "h0.4",
-            &pairs(&[Gimp], &REMEDIES),
-            "young_modulus=6.25e6 most=2 trials=3",
-        )
+        .runs(Pr, "h0.4", &pairs(&[Gimp], &REMEDIES), "young_modulus=6.25e6 most=2 trials=3")
         .runs(Nightly, "h0.4 h0.2", &all, "")
         .runs(Long, "h0.1", &all, "")
         .runs(Pr, "h0.4", &statics[1..2], "most=2 trials=3")
@@ -112,9 +103,7 @@ fn plan() -> Vec<Family> {
 
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Stability>;
-    let bound = |place: usize| {
-        move |c: &Run<Stability>| c.bounds().map_or(f64::NAN, |bounds| bounds[place])
-    };
+    let bound = |place: usize| move |c: &Run<Stability>| c.bounds().map_or(f64::NAN, |bounds| bounds[place]);
     let (lower, upper) = (bound(0), bound(1));
     vec![
         Check::truth("lower-bound", "all: the factor is above the lower bound of limit analysis less half the last bracket")
@@ -141,9 +130,7 @@ fn checks() -> Vec<Check> {
 
 /// Runs of fbar-consistent with the default parameters that came to their end.
 fn ours(records: &[Record]) -> Vec<Run<'_, Stability>> {
-    let ours = |r: &Run<Stability>| {
-        r.remedy() == FbarConsistent && r.record.status == Status::Ok && r.is_default()
-    };
+    let ours = |r: &Run<Stability>| r.remedy() == FbarConsistent && r.record.status == Status::Ok && r.is_default();
     records.iter().filter_map(Run::of).filter(ours).collect()
 }
 
@@ -159,18 +146,9 @@ fn agrees(records: &[Record]) -> Vec<Finding> {
         let tolerance = r.resolution() + moving.resolution() + SLOW * expected;
         let why = format!("{} {}: the explicit run", r.scheme, r.level);
         let value = r.metric(STRENGTH_REDUCTION_FACTOR);
-        Some(Finding::within(
-            STRENGTH_REDUCTION_FACTOR,
-            value,
-            expected,
-            tolerance,
-            why,
-        ))
+        Some(Finding::within(STRENGTH_REDUCTION_FACTOR, value, expected, tolerance, why))
     };
-    ours.iter()
-        .filter(|r| r.is_implicit())
-        .filter_map(found)
-        .collect()
+    ours.iter().filter(|r| r.is_implicit()).filter_map(found).collect()
 }
 
 /// Each level against the coarser one.
@@ -182,9 +160,7 @@ fn converges(records: &[Record]) -> Vec<Finding> {
         runs.sort_by(|a, b| b.h.total_cmp(&a.h));
         for pair in runs.windows(2) {
             let (coarse, fine) = (pair[0], pair[1]);
-            let off = |r: &Run<Stability>| {
-                (r.metric(STRENGTH_REDUCTION_FACTOR) - r.factor(STABILITY.0)).abs()
-            };
+            let off = |r: &Run<Stability>| (r.metric(STRENGTH_REDUCTION_FACTOR) - r.factor(STABILITY.0)).abs();
             let known_to = fine.resolution() + fine.factor(STABILITY.2 - STABILITY.0);
             found.push(Finding::at_most(
                 STRENGTH_REDUCTION_FACTOR,
@@ -207,8 +183,7 @@ fn tables() -> Vec<ResultTable> {
         format!("{factor:.3} ({stands:.3} … {fails:.3})")
     };
     let levels = [("h0.4", "h = 0.4 m"), ("h0.2", "0.2 m"), ("h0.1", "0.1 m")];
-    let of_level =
-        levels.map(|(level, title)| Column::text(title, bounds).of(move |r| r.level == level));
+    let of_level = levels.map(|(level, title)| Column::text(title, bounds).of(move |r| r.level == level));
     let cpu = levels.map(|(level, title)| {
         let text = |r: &Record| SHORT.text(r.time.cpu_s);
         Column::text(format!("CPU (s), {title}"), text).of(move |r| r.level == level)
@@ -220,11 +195,6 @@ fn tables() -> Vec<ResultTable> {
             |r| r.is_default() && is_flip(r) && r.level == "h0.2",
             |r| fixed(2).text(r.metric(STRENGTH_REDUCTION_FACTOR)),
         ),
-        ResultTable::new(
-            "slope-stability",
-            Record::is_default,
-            &[SCHEME],
-            of_level.into_iter().chain(cpu),
-        ),
+        ResultTable::new("slope-stability", Record::is_default, &[SCHEME], of_level.into_iter().chain(cpu)),
     ]
 }

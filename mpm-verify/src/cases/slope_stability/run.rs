@@ -54,12 +54,7 @@ pub(super) struct Seen {
 impl Seen {
     /// Largest factor at which it stands and least at which it fails, of those tried.
     fn bracket(&self) -> (f64, f64) {
-        let of = |fails| {
-            self.trials
-                .iter()
-                .filter(move |t| t.fails == fails)
-                .map(|t| t.factor)
-        };
+        let of = |fails| self.trials.iter().filter(move |t| t.fails == fails).map(|t| t.factor);
         let stands = of(false).fold(1.0, f64::max);
         (stands, of(true).fold(f64::INFINITY, f64::min))
     }
@@ -102,11 +97,7 @@ impl Setup<Stability> {
     /// The factor to try next: the largest, then the middle of the bracket.
     fn next_factor(&self, seen: &Seen) -> f64 {
         let (stands, fails) = seen.bracket();
-        if seen.trials.is_empty() {
-            self.most
-        } else {
-            0.5 * (stands + fails)
-        }
+        if seen.trials.is_empty() { self.most } else { 0.5 * (stands + fails) }
     }
 
     /// Whether no factor is left to try.
@@ -161,12 +152,7 @@ impl Trials {
     }
 
     /// A trial of ground that was at `rest` (m), with the strength of the current simulation.
-    fn try_factor(
-        &self,
-        factor: f64,
-        rest: &[[f64; 2]],
-        phase: &mut Phase<2>,
-    ) -> Result<Trial, mpm_core::Error> {
+    fn try_factor(&self, factor: f64, rest: &[[f64; 2]], phase: &mut Phase<2>) -> Result<Trial, mpm_core::Error> {
         let height = self.setup.height;
         let (mut moved, mut time, mut fails) = (0.0, 0.0, false);
         let looks = match self.setup.is_implicit() {
@@ -183,12 +169,7 @@ impl Trials {
                 break;
             }
         }
-        Ok(Trial {
-            factor,
-            fails,
-            moved,
-            time,
-        })
+        Ok(Trial { factor, fails, moved, time })
     }
 }
 
@@ -203,8 +184,7 @@ impl Problem<2> for Trials {
         })?;
         let strain = setup.density * GRAVITY * setup.height / setup.young_modulus;
         let quotient = "density g height / young_modulus";
-        let why =
-            "above which it sinks elastically, γ H²/(2 E), by what a slope that fails moves by";
+        let why = "above which it sinks elastically, γ H²/(2 E), by what a slope that fails moves by";
         require_quotient(quotient, strain, 0.0..=2.0 * FAILS, why)?;
         let ground = Ground::new(&setup, 1.0)?;
         Ok(Self { setup, ground })
@@ -294,12 +274,7 @@ mod tests {
     fn slope(set: &[&str]) -> Setup<Stability> {
         let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
         let values = Parameters::new(&Stability::list(), &set).unwrap();
-        let spec = RunSpec {
-            scheme: Scheme::flip(Gimp, RemedyName::None),
-            level: LEVELS[0],
-            set,
-            perturbed: false,
-        };
+        let spec = RunSpec { scheme: Scheme::flip(Gimp, RemedyName::None), level: LEVELS[0], set, perturbed: false };
         Setup::of_spec(&spec, &values).unwrap()
     }
 
@@ -308,12 +283,7 @@ mod tests {
         let mut seen = Seen::default();
         while !slope.is_known(&seen) {
             let factor = slope.next_factor(&seen);
-            seen.trials.push(Trial {
-                factor,
-                fails: factor > limit,
-                moved: 0.01 * factor,
-                time: LOOK,
-            });
+            seen.trials.push(Trial { factor, fails: factor > limit, moved: 0.01 * factor, time: LOOK });
         }
         let values = slope.measure(&seen, 1.0);
         let value = move |of: Metric| values.iter().find(|(m, _)| *m == of).unwrap().1;

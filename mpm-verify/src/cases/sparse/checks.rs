@@ -55,31 +55,19 @@ impl Cloud<'_> {
     }
 
     fn about(&self, name: &str) -> String {
-        let text = format!(
-            "{name} of {} {} {}",
-            self.scheme,
-            self.level,
-            self.set.join(" ")
-        );
+        let text = format!("{name} of {} {} {}", self.scheme, self.level, self.set.join(" "));
         text.trim_end().to_owned()
     }
 
     /// Twelve times the variance of the centre of mass of a cell, of a judged run.
     fn centre(&self) -> Option<f64> {
-        self.is_judged()
-            .then(|| centre_of(self.layout, self.per_direction()))?
+        self.is_judged().then(|| centre_of(self.layout, self.per_direction()))?
     }
 
     /// The run of the same scheme and level with another layout and number of particles, all else the same.
-    fn like<'a, 'r>(
-        &self,
-        runs: &'a [Cloud<'r>],
-        layout: Layout,
-        per_direction: usize,
-    ) -> Option<&'a Cloud<'r>> {
+    fn like<'a, 'r>(&self, runs: &'a [Cloud<'r>], layout: Layout, per_direction: usize) -> Option<&'a Cloud<'r>> {
         let others = |run: &Cloud| -> Vec<String> {
-            let changed =
-                |s: &&String| !s.starts_with("layout=") && !s.starts_with("ppc_per_direction=");
+            let changed = |s: &&String| !s.starts_with("layout=") && !s.starts_with("ppc_per_direction=");
             run.set.iter().filter(changed).cloned().collect()
         };
         runs.iter().find(|other| {
@@ -156,7 +144,8 @@ fn noise(records: &[Record]) -> Vec<Finding> {
     let found = runs.iter().filter_map(|run| {
         let ratio = (run.centre()? / centre_of(Layout::Random, 2.0)?).sqrt();
         let own = run.noise(&runs)? / run.like(&runs, Layout::Random, 2)?.noise(&runs)?;
-        let why = "a force on nodes is off by the stress times how far the centre of a cell's particles is from its own";
+        let why =
+            "a force on nodes is off by the stress times how far the centre of a cell's particles is from its own";
         Some(Finding::within(run.about("noise"), own, ratio, LEFT_OUT * ratio, why))
     });
     found.collect()
@@ -164,9 +153,7 @@ fn noise(records: &[Record]) -> Vec<Finding> {
 
 fn softens(records: &[Record]) -> Vec<Finding> {
     let runs: Vec<Cloud> = records.iter().filter_map(Run::of).collect();
-    let judged = runs
-        .iter()
-        .filter(|c| c.is_judged() && c.layout == Layout::Random);
+    let judged = runs.iter().filter(|c| c.is_judged() && c.layout == Layout::Random);
     let found = judged.filter_map(|run| {
         let lattice = run.like(&runs, Layout::Lattice, run.ppc_per_direction)?;
         let why = "strains that answer the noise store less than none: the mean stiffness is that of exact quadrature less their energy";
@@ -181,9 +168,7 @@ fn orders(records: &[Record], judged: impl Fn(&Cloud) -> bool) -> Vec<(String, f
     let runs: Vec<Cloud> = records.iter().filter_map(Run::of).collect();
     let firsts = runs.iter().filter(|c| judged(c) && c.level == "n8");
     let found = firsts.filter_map(|first| {
-        let ladder = runs
-            .iter()
-            .filter(|c| c.scheme == first.scheme && c.set == first.set);
+        let ladder = runs.iter().filter(|c| c.scheme == first.scheme && c.set == first.set);
         let points: Vec<_> = ladder.map(|c| (c.h, c.metric(ERROR_MEDIAN))).collect();
         let order = fit_order(&points)?.order;
         (points.len() >= 3).then(|| (first.about("order"), order))
@@ -211,28 +196,13 @@ mod tests {
         let chance = |k: usize| 0.5 * noise(k);
         let near = |found: f64, layout, n| {
             let exact = centre_of(layout, n).unwrap();
-            assert!(
-                (found / exact - 1.0).abs() < 0.05,
-                "{layout:?}: {found} {exact}"
-            );
+            assert!((found / exact - 1.0).abs() < 0.05, "{layout:?}: {found} {exact}");
         };
-        near(
-            tried(4, |c, k| Some(chance(4 * c + k))),
-            Layout::Random,
-            2.0,
-        );
+        near(tried(4, |c, k| Some(chance(4 * c + k))), Layout::Random, 2.0);
         // A line of two parts stands for the square: along an axis each part has two of the four.
         let part = |k: usize| 0.5 * (k % 2) as f64 - 0.25;
-        near(
-            tried(4, |c, k| Some(part(k) + 0.5 * chance(4 * c + k))),
-            Layout::Jittered,
-            2.0,
-        );
+        near(tried(4, |c, k| Some(part(k) + 0.5 * chance(4 * c + k))), Layout::Jittered, 2.0);
         let lacks = |c: usize| ((chance(c) + 0.5) * 4.0) as usize;
-        near(
-            tried(4, |c, k| (k != lacks(c)).then(|| part(k))),
-            Layout::Holes,
-            2.0,
-        );
+        near(tried(4, |c, k| (k != lacks(c)).then(|| part(k))), Layout::Holes, 2.0);
     }
 }

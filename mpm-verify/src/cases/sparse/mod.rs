@@ -44,8 +44,7 @@ pub(super) fn case() -> Case {
                       where particles lie anywhere, smaller cells hardly help; where one lies in each part of a cell, more particles do.",
         references: vec![
             "Exact: the vortex of mms-vortex-box, turned by a hundredth of a radian.".to_owned(),
-            "The error of random points and what it does to a stiffness, docs/sparse.md."
-                .to_owned(),
+            "The error of random points and what it does to a stiffness, docs/sparse.md.".to_owned(),
         ],
         limits: &[
             "Particles of equal volume, which stay where they are: no cloud here is of a motion's own making.",
@@ -80,18 +79,8 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let layout = |name: &str, number: &String| format!("layout={name} {number}");
     let lattice = [layout("lattice", &two), layout("lattice", &three)];
     let random = [two.clone(), three.clone()];
-    let better = [
-        layout("jittered", &two),
-        layout("jittered", &three),
-        layout("holes", &two),
-        layout("holes", &three),
-    ];
-    let sixteen = [
-        layout("lattice", &four),
-        four.clone(),
-        layout("jittered", &four),
-        layout("holes", &four),
-    ];
+    let better = [layout("jittered", &two), layout("jittered", &three), layout("holes", &two), layout("holes", &three)];
+    let sixteen = [layout("lattice", &four), four.clone(), layout("jittered", &four), layout("holes", &four)];
     Plan::of(levels)
         .runs(Quick, "n8", &splines, &two)
         .runs(Pr, "n8", &few, "")
@@ -118,12 +107,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let sides = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]];
-    let mut shapes = vec![Shape::Body(vec![
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [1.0, 1.0],
-        [0.0, 1.0],
-    ])];
+    let mut shapes = vec![Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])];
     let mut last = [0.0, 0.0];
     for next in sides {
         shapes.push(Shape::Held(last, next));
@@ -134,10 +118,7 @@ fn sketch() -> Sketch {
         Shape::Load([0.25, 0.6], [0.25, 0.4]),
         Shape::length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
     ]);
-    Sketch {
-        shapes,
-        description: "A square of 1 m between slippery walls, whose middle turns.",
-    }
+    Sketch { shapes, description: "A square of 1 m between slippery walls, whose middle turns." }
 }
 
 fn tables() -> Vec<ResultTable> {
@@ -158,17 +139,10 @@ fn tables() -> Vec<ResultTable> {
             Column::metric("break down", BROKEN, share(0)),
         ]
     };
-    let splines =
-        |r: &Record| r.level == "n16" && r.scheme().to_string() == "quasi-static-bspline2-none";
+    let splines = |r: &Record| r.level == "n16" && r.scheme().to_string() == "quasi-static-bspline2-none";
     let ones = |r: &Record| r.level == "n16" && r.is_default();
-    let order = Column::levels(
-        ["n8", "n16", "n32"].map(|level| (level, level)),
-        ERROR_MEDIAN,
-        fixed(4),
-    );
-    let four = |r: &Record| {
-        r.changes_none_but(&["layout", "ppc_per_direction"]) && per_direction(r) == 2.0
-    };
+    let order = Column::levels(["n8", "n16", "n32"].map(|level| (level, level)), ERROR_MEDIAN, fixed(4));
+    let four = |r: &Record| r.changes_none_but(&["layout", "ppc_per_direction"]) && per_direction(r) == 2.0;
     vec![
         ResultTable::new("sparse-layouts", splines, &[LAYOUTS, NUMBER], columns()),
         ResultTable::new("sparse-one", ones, &[SCHEME], columns()),

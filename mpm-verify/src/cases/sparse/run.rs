@@ -54,8 +54,7 @@ impl Analysis for Clouds {
         };
         if setup.layout == Layout::Holes && setup.ppc_per_direction < 2 {
             return Err(Error::Input(
-                "ppc_per_direction = 1 with layout = holes leaves no particle; allowed: from 2 on"
-                    .to_owned(),
+                "ppc_per_direction = 1 with layout = holes leaves no particle; allowed: from 2 on".to_owned(),
             ));
         }
         let duration = if slow { SLOW } else { MOVING };
@@ -64,26 +63,15 @@ impl Analysis for Clouds {
             format!("angle={ANGLE}"),
             format!("angular_frequency={}", 0.5 * PI / duration),
         ];
-        let solution: Arc<dyn Exact> =
-            (ENTRY.build)(&Parameters::new(ENTRY.parameters, &set)?)?.into();
-        let Material {
-            mu,
-            lambda,
-            density,
-        } = solution.material();
+        let solution: Arc<dyn Exact> = (ENTRY.build)(&Parameters::new(ENTRY.parameters, &set)?)?.into();
+        let Material { mu, lambda, density } = solution.material();
         let law = NeoHookean { mu, lambda };
         let longest = match slow {
             true => duration,
             false => courant_time_step(setup.cfl, setup.h, law.wave_speed(density)),
         };
         let steps = (duration / longest).ceil();
-        Ok(Self {
-            solution,
-            law,
-            dt: duration / steps,
-            steps: steps as u64,
-            setup,
-        })
+        Ok(Self { solution, law, dt: duration / steps, steps: steps as u64, setup })
     }
 
     fn discretisation(&self) -> Discretisation {
@@ -147,10 +135,7 @@ impl Analysis for Clouds {
 
     fn work(&self, rows: &[Cloud]) -> WorkDone {
         let add = |sum: WorkDone, row: &Cloud| row.work.after(sum);
-        let none = WorkDone {
-            particles: self.cloud(0).len() as u64,
-            ..WorkDone::default()
-        };
+        let none = WorkDone { particles: self.cloud(0).len() as u64, ..WorkDone::default() };
         rows.iter().fold(none, add)
     }
 }
@@ -204,8 +189,7 @@ impl Clouds {
         let volume = 1.0 / places.len() as f64;
         let half = 0.5 * self.setup.h / self.per_direction() as f64;
         let density = self.solution.material().density;
-        let mut particles =
-            Particles::new(self.setup.start_at(places), volume, density, [half; 2])?;
+        let mut particles = Particles::new(self.setup.start_at(places), volume, density, [half; 2])?;
         // Velocities of an explicit run live half a step before places.
         let since = -0.5 * self.dt;
         if let Scheme::Explicit(_) = self.setup.scheme {

@@ -10,16 +10,7 @@ use crate::parameter::Parameters;
 use crate::prelude::*;
 use run::{RADIUS, Spin};
 
-const LEVELS: [Level; 2] = [
-    Level {
-        name: "r4",
-        h: 0.25,
-    },
-    Level {
-        name: "r8",
-        h: 0.125,
-    },
-];
+const LEVELS: [Level; 2] = [Level { name: "r4", h: 0.25 }, Level { name: "r8", h: 0.125 }];
 /// Rounding that a sum over the particles gathers in many steps.
 const ROUNDING: f64 = 1e-9;
 /// Turns up to which a disc is judged by the exact one; beyond them by the losses of its transfer.
@@ -65,8 +56,7 @@ pub(super) fn case() -> Case {
         description: "A free elastic disc starts in the exact state of one that turns, and turns ten or a hundred times: angular momentum, \
                       energy and radius of every basis and transfer.",
         references: vec![
-            "The rotating disc in plane strain at small strain (Timoshenko & Goodier 1951, §32)."
-                .to_owned(),
+            "The rotating disc in plane strain at small strain (Timoshenko & Goodier 1951, §32).".to_owned(),
             "Conservation of momentum, angular momentum and energy.".to_owned(),
         ],
         limits: &[
@@ -77,12 +67,7 @@ pub(super) fn case() -> Case {
         levels: LEVELS.to_vec(),
         checks: checks(),
         headlines: vec![
-            headline(
-                ANGULAR_MOMENTUM_ERROR,
-                "angular momentum off by (–)",
-                1.0,
-                6,
-            ),
+            headline(ANGULAR_MOMENTUM_ERROR, "angular momentum off by (–)", 1.0, 6),
             headline(ENERGY_END, "energy at the end (%)", 100.0, 2),
             headline(ENERGY_GAIN, "gain (%)", 100.0, 3),
             headline(STRETCH_MEAN_ERROR, "stretch off by (%)", 100.0, 1),
@@ -99,13 +84,12 @@ pub(super) fn case() -> Case {
 
 /// The reason why a disc is known to break down.
 fn breaks_down(r: &Record) -> Option<&'static str> {
-    const SWELLS: &str =
-        "the disc swells until it leaves the grid: see musl-swells and gimp-swells";
+    const SWELLS: &str = "the disc swells until it leaves the grid: see musl-swells and gimp-swells";
     let hundred = Setup::<Disc>::number_of(r, |d| d.turns) >= 100.0;
     match (r.transfer(), r.basis(), r.remedy()) {
-        (TransferName::Flip, Linear, _) => Some(
-            "a rim that reaches over a grid line by a little has nodes of hardly any mass: docs/critical-step.md",
-        ),
+        (TransferName::Flip, Linear, _) => {
+            Some("a rim that reaches over a grid line by a little has nodes of hardly any mass: docs/critical-step.md")
+        }
         (TransferName::Musl, _, _) if hundred => Some(SWELLS),
         (TransferName::Musl, Linear, _) if r.is_default() && r.level == "r8" => Some(SWELLS),
         (TransferName::Apic, Gimp, FbarConsistent) if hundred => Some(SWELLS),
@@ -114,8 +98,7 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
 }
 
 fn cost(spec: &RunSpec) -> f64 {
-    let values = Parameters::new(&<Disc as crate::parameter::ParameterSet>::list(), &spec.set)
-        .map_err(Error::from);
+    let values = Parameters::new(&<Disc as crate::parameter::ParameterSet>::list(), &spec.set).map_err(Error::from);
     let disc = values.and_then(|values| Spin::new(Setup::of_spec(spec, &values)?));
     let steps = disc.map_or(0, |disc| disc.steps);
     1e-6 * steps as f64 * (RADIUS / spec.level.h).powi(2)
@@ -131,11 +114,7 @@ fn plan() -> Vec<Family> {
     // The scheme that breaks down at once is left to the night.
     let lives = |scheme: &&Scheme| **scheme != Scheme::flip(Linear, none);
     let alive: Vec<Scheme> = all.iter().filter(lives).copied().collect();
-    let smooth: Vec<Scheme> = all
-        .iter()
-        .filter(|s| s.basis() != Linear)
-        .copied()
-        .collect();
+    let smooth: Vec<Scheme> = all.iter().filter(|s| s.basis() != Linear).copied().collect();
     Plan::of(&LEVELS)
         .runs(Quick, "r4", &blended[..1], "")
         .runs(Pr, "r4", &alive, "")
@@ -246,12 +225,8 @@ fn checks() -> Vec<Check> {
 }
 
 fn tables() -> Vec<ResultTable> {
-    const BLEND: Label = ("η", |r| {
-        Setup::<Disc>::number_of(r, |d| d.flip).to_string()
-    });
-    const TURNED: Label = ("turns", |r| {
-        Setup::<Disc>::number_of(r, |d| d.turns).to_string()
-    });
+    const BLEND: Label = ("η", |r| Setup::<Disc>::number_of(r, |d| d.flip).to_string());
+    const TURNED: Label = ("turns", |r| Setup::<Disc>::number_of(r, |d| d.turns).to_string());
     const CELLS: Label = ("level", |r| r.level.clone());
     let columns = [
         Column::metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT),
@@ -261,13 +236,6 @@ fn tables() -> Vec<ResultTable> {
         Column::metric("largest", STRETCH_ERROR, percent(1)),
         Column::metric("angle", PHASE_ERROR, percent(2)),
     ];
-    let shows = |r: &Record| {
-        r.changes_none_but(&["flip", "turns"]) && Setup::<Disc>::number_of(r, |d| d.turns) >= 10.0
-    };
-    vec![ResultTable::new(
-        "spin",
-        shows,
-        &[SCHEME, BLEND, TURNED, CELLS],
-        columns,
-    )]
+    let shows = |r: &Record| r.changes_none_but(&["flip", "turns"]) && Setup::<Disc>::number_of(r, |d| d.turns) >= 10.0;
+    vec![ResultTable::new("spin", shows, &[SCHEME, BLEND, TURNED, CELLS], columns)]
 }

@@ -65,8 +65,7 @@ impl Problem<2> for Spin {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup
-            .discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
+        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
     }
 
     /// Velocities live half a step before positions.
@@ -79,12 +78,7 @@ impl Problem<2> for Spin {
         let place = |k: usize| (k as f64 + 0.5) * size - RADIUS;
         let places = (0..along * along).map(|k| [place(k / along), place(k % along)]);
         let places = places.filter(|[x, y]| x.hypot(*y) <= RADIUS);
-        let particles = Particles::new(
-            self.setup.start_at(places),
-            size * size,
-            DENSITY,
-            [0.5 * size; 2],
-        )?;
+        let particles = Particles::new(self.setup.start_at(places), size * size, DENSITY, [0.5 * size; 2])?;
         let mut particles = particles.deformed(|x| self.state(x));
         let (sin, cos) = (-0.5 * self.omega * self.dt).sin_cos();
         for (v, [x, y]) in particles.velocity.iter_mut().zip(&particles.position) {
@@ -92,10 +86,7 @@ impl Problem<2> for Spin {
             *v = [-self.omega * earlier[1], self.omega * earlier[0]];
         }
         let scene = Scene::new(grid, Body::new(self.law, particles)?);
-        let settings = self
-            .setup
-            .settings(self.dt, 0.0)?
-            .transfer(Flip::new(self.setup.flip)?);
+        let settings = self.setup.settings(self.dt, 0.0)?.transfer(Flip::new(self.setup.flip)?);
         mpm_solvers::solver(self.setup.scheme, scene, settings)
     }
 
@@ -109,10 +100,7 @@ impl Problem<2> for Spin {
     }
 
     fn particles<'a>(&self, _: &Rows, columns: Columns<'a, 2>) -> Columns<'a, 2> {
-        columns
-            .velocities()
-            .each("mean_stress", "Pa", |p, k| p.stress[k].mean())
-            .jacobian()
+        columns.velocities().each("mean_stress", "Pa", |p, k| p.stress[k].mean()).jacobian()
     }
 
     fn metrics(&self, seen: &Rows, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
@@ -129,18 +117,13 @@ impl Problem<2> for Spin {
         ]
         .map(|name| seen.column(name));
         let rows = 0..spun.len();
-        let largest =
-            |of: &dyn Fn(usize) -> f64| rows.clone().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let largest = |of: &dyn Fn(usize) -> f64| rows.clone().map(of).fold(f64::NEG_INFINITY, f64::max);
         let end = spun.len() - 1;
         let energy = |k: usize| kinetic[k] + stored[k];
         let gain = |k: usize| energy(k) / energy(0) - 1.0;
         let share = |k: usize| spun[k] / spun[0];
         // The rms radius of these particles at rest.
-        let squares = p
-            .mass
-            .iter()
-            .zip(&p.reference)
-            .map(|(m, [x, y])| m * (x * x + y * y));
+        let squares = p.mass.iter().zip(&p.reference).map(|(m, [x, y])| m * (x * x + y * y));
         let rest = (squares.sum::<f64>() / totals.mass).sqrt();
         let exact = |k: usize| (own[k] / own[0]).powi(2);
         let stretch = |k: usize| (radius[k] - rest) / (radius[0] - rest) - exact(k);
@@ -153,10 +136,7 @@ impl Problem<2> for Spin {
         });
         let rim = totals.mass * self.omega * RADIUS;
         vec![
-            (
-                ANGULAR_MOMENTUM_ERROR,
-                largest(&|k| (share(k) - 1.0).abs()).max(LEAST),
-            ),
+            (ANGULAR_MOMENTUM_ERROR, largest(&|k| (share(k) - 1.0).abs()).max(LEAST)),
             (ANGULAR_MOMENTUM_END, share(end)),
             (MOMENTUM_ERROR, largest(&|k| momentum[k] / rim).max(LEAST)),
             (ENERGY_GAIN, largest(&gain)),
@@ -164,10 +144,7 @@ impl Problem<2> for Spin {
             (ENERGY_END, gain(end)),
             (STRETCH_ERROR, largest(&|k| stretch(k).abs())),
             (STRETCH_MEAN_ERROR, mean),
-            (
-                PHASE_ERROR,
-                steps.sum::<f64>() / (self.omega * run.time()) - 1.0,
-            ),
+            (PHASE_ERROR, steps.sum::<f64>() / (self.omega * run.time()) - 1.0),
             (STORED_SHARE, stored[0] / energy(0)),
             (MASS, totals.mass),
         ]
@@ -210,12 +187,7 @@ mod tests {
         let set = vec![set.to_owned()];
         let values = Parameters::new(&Disc::list(), &set)?;
         let scheme = Scheme::flip(basis, RemedyName::None);
-        let spec = RunSpec {
-            scheme,
-            level: LEVELS[0],
-            set,
-            perturbed: false,
-        };
+        let spec = RunSpec { scheme, level: LEVELS[0], set, perturbed: false };
         Spin::new(Setup::of_spec(&spec, &values)?)
     }
 
@@ -241,11 +213,7 @@ mod tests {
             [s.get(0, 0), s.get(1, 1)]
         };
         let load = DENSITY * disc.omega.powi(2);
-        assert!(
-            stress(RADIUS)[0].abs() < 1e-3 * load,
-            "{:?} {load}",
-            stress(RADIUS)
-        );
+        assert!(stress(RADIUS)[0].abs() < 1e-3 * load, "{:?} {load}", stress(RADIUS));
         for r in [0.2, 0.5, 0.9] {
             let d = 1e-4;
             let [radial, hoop] = stress(r);

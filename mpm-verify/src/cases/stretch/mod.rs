@@ -11,10 +11,7 @@ use crate::prelude::*;
 use run::{SWING, Stretching};
 use theory::FREE;
 
-const LEVELS: [Level; 1] = [Level {
-    name: "n8",
-    h: 0.5 / FREE as f64,
-}];
+const LEVELS: [Level; 1] = [Level { name: "n8", h: 0.5 / FREE as f64 }];
 /// The plane, crushed to the same J.
 const PLANE: &str = "dimension=2 end=0.2236";
 /// Relative resolution of the stretch of a stop, and effect of the free part's noise on the speed of waves.
@@ -93,11 +90,7 @@ pub(super) fn case() -> Case {
 fn plan() -> Vec<Family> {
     let none = RemedyName::None;
     let all = pairs(&BASES, &REMEDIES);
-    let slow = implicit(
-        &[RuleName::QuasiStatic],
-        &BASES[..3],
-        &[none, FbarConsistent],
-    );
+    let slow = implicit(&[RuleName::QuasiStatic], &BASES[..3], &[none, FbarConsistent]);
     // Torn pieces answer rounding.
     let sure = implicit(&[RuleName::QuasiStatic], &BASES[..3], &[none]);
     let plain = pairs(&BASES, &[none]);
@@ -126,8 +119,7 @@ fn plan() -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let high = 0.12;
-    let body =
-        |from: f64, to: f64| Shape::Body(vec![[from, 0.0], [to, 0.0], [to, high], [from, high]]);
+    let body = |from: f64, to: f64| Shape::Body(vec![[from, 0.0], [to, 0.0], [to, high], [from, high]]);
     Sketch {
         shapes: vec![
             body(0.0, 1.0),
@@ -231,12 +223,7 @@ fn tables() -> Vec<ResultTable> {
     vec![
         ResultTable::new("stretch", Record::is_default, &[SCHEME], pulled),
         ResultTable::new("crush", |r| r.set == ["end=0.05"], &[SCHEME], crushed()),
-        ResultTable::new(
-            "crush-plane",
-            |r| r.set.join(" ") == PLANE,
-            &[SCHEME],
-            crushed(),
-        ),
+        ResultTable::new("crush-plane", |r| r.set.join(" ") == PLANE, &[SCHEME], crushed()),
         ResultTable::new("stretch-steps", long, &[set, SCHEME], stops),
     ]
 }

@@ -71,11 +71,7 @@ impl<const D: usize> Constraint<D> for Held<D> {
     }
 
     fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>> {
-        Box::new(Self {
-            middle: frame.place(&self.middle),
-            beyond: frame.scale(0, 1) * self.beyond,
-            rate: self.rate,
-        })
+        Box::new(Self { middle: frame.place(&self.middle), beyond: frame.scale(0, 1) * self.beyond, rate: self.rate })
     }
 }
 
@@ -107,10 +103,7 @@ impl Stretching {
     }
 
     fn lattice(&self) -> Lattice {
-        Lattice {
-            basis: self.setup.basis(),
-            half_size: 0.5 / self.setup.ppc_per_direction as f64,
-        }
+        Lattice { basis: self.setup.basis(), half_size: 0.5 / self.setup.ppc_per_direction as f64 }
     }
 
     /// Places in cells of the particles of the undeformed body.
@@ -135,8 +128,7 @@ impl Stretching {
     /// The first stretch at which the exact places leave neighbours without a common node.
     fn predicted_parting(&self) -> Option<f64> {
         let lattice = self.lattice();
-        self.stretches(SCAN)
-            .find(|stretch| lattice.parted(self.places_at(*stretch)))
+        self.stretches(SCAN).find(|stretch| lattice.parted(self.places_at(*stretch)))
     }
 
     /// The first stretch at which a wave of the free nodes has a negative stiffness in the exact state.
@@ -169,8 +161,7 @@ impl Stretching {
     fn predicted_stop(&self) -> Option<f64> {
         let h = self.setup.h;
         let ends = self.places().last().map_or(0.0, |x| x * h) * self.rate.abs();
-        self.stretches(SCAN)
-            .find(|stretch| (self.state(*stretch)[1] + ends) * self.dt > h)
+        self.stretches(SCAN).find(|stretch| (self.state(*stretch)[1] + ends) * self.dt > h)
     }
 
     /// Mean over the free part of the stress over the exact one, and rms of what it differs from one by; of a free part
@@ -209,21 +200,12 @@ where
             false => f64::from(setup.rows),
         };
         let (dt, steps) = (duration / steps.ceil(), steps.ceil() as u64);
-        Ok(Self {
-            setup,
-            law,
-            rate,
-            dt,
-            steps,
-        })
+        Ok(Self { setup, law, rate, dt, steps })
     }
 
     fn discretisation(&self) -> Discretisation {
         let ppc = self.setup.ppc_per_direction.pow(D as u32);
-        Discretisation {
-            wall: "none".to_owned(),
-            ..self.setup.discretisation(D, ppc, self.dt)
-        }
+        Discretisation { wall: "none".to_owned(), ..self.setup.discretisation(D, ppc, self.dt) }
     }
 
     fn begin(&self, _: &Observed) -> Result<Box<dyn Simulation<D>>, Fault> {
@@ -242,11 +224,7 @@ where
         let longest = self.half_length() * self.setup.end.max(1.0);
         let room = longest as usize + HELD;
         let grid = Grid::new(h, [Axis::open(-(room as f64) * h, 2 * room); D])?;
-        let held = Held {
-            middle: [0.0; D],
-            beyond: FREE as f64 * h,
-            rate: self.rate,
-        };
+        let held = Held { middle: [0.0; D], beyond: FREE as f64 * h, rate: self.rate };
         let scene = Scene::new(grid, Body::new(self.law, particles)?).constrain(held);
         match self.setup.scheme {
             Scheme::Explicit(e) => {
@@ -326,14 +304,8 @@ where
             (UNSTABLE_STRETCH, unstable),
             (PREDICTED_TEAR_STRETCH, parting),
             (STOPPED_STRETCH, seen.stopped),
-            (
-                PREDICTED_STOP_STRETCH,
-                self.predicted_stop().filter(|_| stops),
-            ),
-            (
-                STRESS_NOISE,
-                Some(errors.map(|[_, e]| *e).fold(0.0, f64::max)),
-            ),
+            (PREDICTED_STOP_STRETCH, self.predicted_stop().filter(|_| stops)),
+            (STRESS_NOISE, Some(errors.map(|[_, e]| *e).fold(0.0, f64::max))),
             (PREDICTED_NOISE, Some(predicted)),
             (STRESS_KEPT, Some(seen.kept)),
         ];

@@ -58,27 +58,17 @@ impl Lattice {
         self.least_stiffness(places, axial, stress) < -ROUNDING * axial
     }
 
-    fn tangent<const S: usize, B: Basis<S>>(
-        &self,
-        places: &[f64],
-        axial: f64,
-        stress: f64,
-    ) -> DMatrix<f64> {
+    fn tangent<const S: usize, B: Basis<S>>(&self, places: &[f64], axial: f64, stress: f64) -> DMatrix<f64> {
         let cells = FREE + BESIDE;
         let axis = Axis::open(-(cells as f64), 2 * cells);
         let functions = B::new(&axis, 1.0, WallTreatment::OpenKnot);
         let nodes = functions.nodes().position;
-        let free: Vec<usize> = (0..nodes.len())
-            .filter(|i| nodes[*i].abs() < FREE as f64 - NEARBY)
-            .collect();
-        let near = places
-            .iter()
-            .filter(|x| x.abs() < (FREE + BESIDE / 2) as f64);
+        let free: Vec<usize> = (0..nodes.len()).filter(|i| nodes[*i].abs() < FREE as f64 - NEARBY).collect();
+        let near = places.iter().filter(|x| x.abs() < (FREE + BESIDE / 2) as f64);
         let mut stiffness = DMatrix::zeros(free.len(), free.len());
         let mut mass = vec![0.0; free.len()];
         for x in near {
-            let [here, behind, ahead] =
-                [*x, x - NEARBY, x + NEARBY].map(|x| functions.weights(x, self.half_size));
+            let [here, behind, ahead] = [*x, x - NEARBY, x + NEARBY].map(|x| functions.weights(x, self.half_size));
             let of = |found: &mpm_core::basis::AxisWeights<S>, node: usize| {
                 let k = node.checked_sub(found.first).filter(|k| *k < S);
                 k.map_or([0.0; 2], |k| [found.w[k], found.dw[k]])

@@ -100,18 +100,10 @@ fn balance_error(s: &Run<Strip>) -> f64 {
 }
 
 /// Runs of one scheme that change the same parameters, by these in words, coarsest first, where there are at least `deciding`.
-fn ladders(
-    records: &[Record],
-    own: impl Fn(&Record) -> bool,
-    deciding: usize,
-) -> BTreeMap<String, Vec<&Record>> {
+fn ladders(records: &[Record], own: impl Fn(&Record) -> bool, deciding: usize) -> BTreeMap<String, Vec<&Record>> {
     let mut ladders: BTreeMap<String, Vec<&Record>> = BTreeMap::new();
     for r in records.iter().filter(|r| own(r) && r.status == Status::Ok) {
-        let set = if r.set.is_empty() {
-            "own parameters".to_owned()
-        } else {
-            r.set.join(" ")
-        };
+        let set = if r.set.is_empty() { "own parameters".to_owned() } else { r.set.join(" ") };
         let kind = format!("{}, {set}", r.scheme());
         ladders.entry(kind).or_default().push(r);
     }
@@ -173,19 +165,12 @@ fn squares(records: &[Record]) -> Vec<Finding> {
         Some(Finding::within(name, ratio(fine), 1.0, bound, why))
     };
     let own = |r: &Record| is_set(r, SQUARE) || is_set(r, SQUARE_UNDRAINED);
-    ladders(records, own, 2)
-        .into_iter()
-        .filter_map(of)
-        .collect()
+    ladders(records, own, 2).into_iter().filter_map(of).collect()
 }
 
 fn uniform(records: &[Record]) -> Vec<Finding> {
-    let own = records
-        .iter()
-        .filter(|r| r.status == Status::Ok && is_set_but_steps(r, UNIFORM));
-    let points: Vec<(f64, f64)> = own
-        .map(|r| (r.discretisation.dt, r.metric(UNIFORM_ERROR)))
-        .collect();
+    let own = records.iter().filter(|r| r.status == Status::Ok && is_set_but_steps(r, UNIFORM));
+    let points: Vec<(f64, f64)> = own.map(|r| (r.discretisation.dt, r.metric(UNIFORM_ERROR))).collect();
     if points.len() < DECIDING {
         return Vec::new();
     }
@@ -197,10 +182,7 @@ fn uniform(records: &[Record]) -> Vec<Finding> {
 
 fn one_limit(records: &[Record]) -> Vec<Finding> {
     let mut runs: BTreeMap<(Scheme, &str), Vec<&Record>> = BTreeMap::new();
-    for r in records
-        .iter()
-        .filter(|r| r.status == Status::Ok && is_set_but_steps(r, CLAY))
-    {
+    for r in records.iter().filter(|r| r.status == Status::Ok && is_set_but_steps(r, CLAY)) {
         runs.entry((r.scheme(), &*r.level)).or_default().push(r);
     }
     let of = |((scheme, level), runs): (&(Scheme, &str), &Vec<&Record>)| {
@@ -222,9 +204,7 @@ fn one_limit(records: &[Record]) -> Vec<Finding> {
 
 fn limits(records: &[Record]) -> Vec<Finding> {
     let of = |(kind, runs): (String, Vec<&Record>)| {
-        let over = of_finest(&runs, |r| {
-            r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl())
-        })?;
+        let over = of_finest(&runs, |r| r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()))?;
         let moved = number(runs.last()?, |s| s.penetration / s.half_width);
         let metric = format!("{} of {kind} over Prandtl's", LIMITING_LOAD.name);
         let why = "(2 + π) s_u, and Roache's index of three levels";

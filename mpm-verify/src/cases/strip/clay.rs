@@ -18,11 +18,7 @@ fn root(ends: (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = ends;
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if of(middle) > 0.0 {
-            low = middle
-        } else {
-            high = middle
-        }
+        if of(middle) > 0.0 { low = middle } else { high = middle }
     }
     0.5 * (low + high)
 }
@@ -50,12 +46,10 @@ impl Setup<Strip> {
     fn strength(&self) -> f64 {
         let start = self.volume_strain(self.initial_pressure);
         let lacks = |v: f64| {
-            let hardened =
-                ((start - v) / self.plastic_compressibility).exp() * self.preconsolidation;
+            let hardened = ((start - v) / self.plastic_compressibility).exp() * self.preconsolidation;
             hardened - 2.0 * self.effective_pressure(v) / self.shape_gamma
         };
-        self.critical_ratio * self.effective_pressure(root((0.0, self.closed()), lacks))
-            / 3.0_f64.sqrt()
+        self.critical_ratio * self.effective_pressure(root((0.0, self.closed()), lacks)) / 3.0_f64.sqrt()
     }
 
     /// Prandtl's limit load of a strip on it (Pa), (2 + π) s_u beside the load on the whole surface.
@@ -107,9 +101,8 @@ impl Setup<Strip> {
             let second = self.clay_rates(at(first, 0.5));
             let third = self.clay_rates(at(second, 0.5));
             let last = self.clay_rates(at(third, 1.0));
-            state = std::array::from_fn(|i| {
-                state[i] + STEP / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + last[i])
-            });
+            state =
+                std::array::from_fn(|i| state[i] + STEP / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + last[i]));
             strain += STEP;
             let now = bears(state, strain);
             if now >= load {
@@ -133,11 +126,7 @@ mod tests {
     #[test]
     fn strength_is_what_the_law_comes_to() {
         let mut spec = case().runs(Quick).remove(0);
-        for set in [
-            "initial_pressure=1e4",
-            "",
-            "preconsolidation=1e5 young_modulus=1e7",
-        ] {
+        for set in ["initial_pressure=1e4", "", "preconsolidation=1e5 young_modulus=1e7"] {
             spec.set = set.split_whitespace().map(str::to_owned).collect();
             let parameters = Parameters::new(&Strip::list(), &spec.set).unwrap();
             let strip = Setup::<Strip>::of_spec(&spec, &parameters).unwrap();

@@ -20,35 +20,18 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
 /// The finest of the runs of two grids that `own` takes.
 fn finest<'g>(gallery: &Gallery<'g>, own: impl Fn(&Record) -> bool) -> Option<&'g Record> {
     LEVELS.iter().rev().find_map(|(level, _)| {
-        let like = |r: &&Record| {
-            is_of(r, TwoGrid) && r.status == Status::Ok && r.level == *level && own(r)
-        };
+        let like = |r: &&Record| is_of(r, TwoGrid) && r.status == Status::Ok && r.level == *level && own(r);
         gallery.records.iter().find(like)
     })
 }
 
-fn panel(
-    record: &Record,
-    table: &Table,
-    title: String,
-    column: &str,
-    of: impl Fn(f64) -> f64,
-) -> FieldPanel {
+fn panel(record: &Record, table: &Table, title: String, column: &str, of: impl Fn(f64) -> f64) -> FieldPanel {
     FieldPanel {
         title,
-        values: table
-            .column(column)
-            .iter()
-            .map(|value| of(*value))
-            .collect(),
+        values: table.column(column).iter().map(|value| of(*value)).collect(),
         points: table.points("x", "y"),
         size: spacing(record),
-        outline: vec![
-            (0.0, SIDE),
-            (1.0, SIDE),
-            (1.0, SIDE + 0.1),
-            (0.0, SIDE + 0.1),
-        ],
+        outline: vec![(0.0, SIDE), (1.0, SIDE), (1.0, SIDE + 0.1), (0.0, SIDE + 0.1)],
     }
 }
 
@@ -78,9 +61,8 @@ fn fields(
 
 /// Pressure over the load of elastic soil at shares of the load, and of clay at its limit: Figures 10 and 11(b).
 fn pressures(gallery: &mut Gallery) -> Result<(), Error> {
-    let of = |record, table: &Table, title: String, load: f64| {
-        panel(record, table, title, "pore_pressure", |p| p / load)
-    };
+    let of =
+        |record, table: &Table, title: String, load: f64| panel(record, table, title, "pore_pressure", |p| p / load);
     let mut panels = Vec::new();
     if let Some(record) = finest(gallery, Record::is_default) {
         let (load, duration) = (number(record, |s| s.load), number(record, |s| s.duration));
@@ -131,26 +113,17 @@ fn settlements(gallery: &mut Gallery) -> Result<(), Error> {
     type Own = fn(&Record) -> bool;
     let kinds: [(&str, Own); 3] = [
         ("elastic", is_elastic_but_steps),
-        ("Cam clay", |r| {
-            holds(r, |s| s.is_plastic()) && is_set_but_steps(r, CLAY)
-        }),
+        ("Cam clay", |r| holds(r, |s| s.is_plastic()) && is_set_but_steps(r, CLAY)),
         ("undrained, stiff Cam clay", is_limit),
     ];
     let panel = |(title, own): (&str, Own)| {
-        let runs = gallery
-            .records
-            .iter()
-            .filter(|r| is_of(r, TwoGrid) && r.level == "b4" && r.status == Status::Ok && own(r));
+        let runs =
+            gallery.records.iter().filter(|r| is_of(r, TwoGrid) && r.level == "b4" && r.status == Status::Ok && own(r));
         let panel = Panel::new(title, ["settlement/B (%)", "q (kPa)"]);
-        let panel = panel.histories(gallery, runs, |_, t| {
-            t.pairs(["settlement", "load"], |s, q| (100.0 * s, 1e-3 * q))
-        })?;
+        let panel =
+            panel.histories(gallery, runs, |_, t| t.pairs(["settlement", "load"], |s, q| (100.0 * s, 1e-3 * q)))?;
         let named = panel.by_run(|r, curve| {
-            let given = if holds(r, |s| s.is_driven()) {
-                "settlement, "
-            } else {
-                ""
-            };
+            let given = if holds(r, |s| s.is_driven()) { "settlement, " } else { "" };
             let name = format!("{given}{} steps", number(r, |s| f64::from(s.steps)));
             Series { name, ..curve }
         });
@@ -160,10 +133,5 @@ fn settlements(gallery: &mut Gallery) -> Result<(), Error> {
         }))
     };
     let panels: Result<Vec<Panel>, Error> = kinds.map(panel).into_iter().collect();
-    Figure::new(
-        "load-settlement",
-        "Load over settlement at h = B/4 in several steps.",
-        panels?,
-    )
-    .draw(gallery)
+    Figure::new("load-settlement", "Load over settlement at h = B/4 in several steps.", panels?).draw(gallery)
 }

@@ -32,8 +32,7 @@ const CLAY: &str = "law=cam-clay load=1e5";
 const CLAY_BELOW: &str = "law=cam-clay load=5.5e4";
 /// Stiff undrained clay under a load, and under a settlement.
 const LIMIT_LOAD: &str = "conductivity=1e-16 law=cam-clay load=7.2e4 steps=72 young_modulus=1e8";
-const LIMIT_SETTLEMENT: &str =
-    "conductivity=1e-16 control=settlement law=cam-clay young_modulus=1e8";
+const LIMIT_SETTLEMENT: &str = "conductivity=1e-16 control=settlement law=cam-clay young_modulus=1e8";
 /// Clay under a load on its whole surface that water leaves freely.
 const UNIFORM: &str = "duration=1e10 half_width=5 law=cam-clay load=1e5";
 
@@ -190,36 +189,11 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "b2", two_grid, SQUARE)
         .runs(Long, "b2 b4", two_grid, SQUARE)
         .runs(Long, "b2 b4", two_grid, SQUARE_LARGE)
-        .each(
-            Pr,
-            "b2",
-            two_grid,
-            [10, 20, 40].map(|n| format!("{UNIFORM} steps={n}")),
-        )
-        .each(
-            Nightly,
-            "b4",
-            two_grid,
-            [1, 2, 5, 10, 40].map(|n| format!("steps={n}")),
-        )
-        .each(
-            Nightly,
-            "b4",
-            two_grid,
-            [10, 40].map(|n| format!("{CLAY} steps={n}")),
-        )
-        .runs(
-            Nightly,
-            "b4",
-            two_grid,
-            "law=cam-clay load=1e5 shape_alpha=0.6 shape_gamma=0.9",
-        )
-        .runs(
-            Nightly,
-            "b4",
-            two_grid,
-            "ghost_displacement=0 ghost_pressure=0",
-        )
+        .each(Pr, "b2", two_grid, [10, 20, 40].map(|n| format!("{UNIFORM} steps={n}")))
+        .each(Nightly, "b4", two_grid, [1, 2, 5, 10, 40].map(|n| format!("steps={n}")))
+        .each(Nightly, "b4", two_grid, [10, 40].map(|n| format!("{CLAY} steps={n}")))
+        .runs(Nightly, "b4", two_grid, "law=cam-clay load=1e5 shape_alpha=0.6 shape_gamma=0.9")
+        .runs(Nightly, "b4", two_grid, "ghost_displacement=0 ghost_pressure=0")
         .runs(Nightly, "b4", two_grid, "ghost_displacement=0")
         .runs(Nightly, "b4", two_grid, "ghost_pressure=0")
         .runs(Nightly, "b4", two_grid, "ghost_displacement=0.01")
@@ -240,10 +214,7 @@ fn sketch() -> Sketch {
         let x = 0.125 + 0.25 * f64::from(k);
         Shape::Load([x, 5.7], [x, 5.05])
     }));
-    Sketch {
-        shapes,
-        description: "Half of a flexible strip on a square of soil whose surface is drained.",
-    }
+    Sketch { shapes, description: "Half of a flexible strip on a square of soil whose surface is drained." }
 }
 
 fn number(r: &Record, of: fn(&Setup<Strip>) -> f64) -> f64 {
@@ -308,16 +279,8 @@ fn tables() -> Vec<ResultTable> {
         let found = order(runs.iter().copied(), ROUGHNESS.name);
         found.map_or_else(|| "–".to_owned(), |o| o.to_string())
     }));
-    of_large.extend(Column::levels(
-        [("b4", "p/q least")],
-        LEAST_PRESSURE,
-        fixed(3),
-    ));
-    of_large.extend(Column::levels(
-        [("b4", "q (kPa)")],
-        LAST_LOAD,
-        fixed(2).times(1e-3),
-    ));
+    of_large.extend(Column::levels([("b4", "p/q least")], LEAST_PRESSURE, fixed(3)));
+    of_large.extend(Column::levels([("b4", "q (kPa)")], LAST_LOAD, fixed(2).times(1e-3)));
     let of_steps = [
         Column::metric("settlement/B", SETTLEMENT, fixed(4)),
         Column::metric("last load (kPa)", LAST_LOAD, fixed(2).times(1e-3)),
@@ -330,12 +293,7 @@ fn tables() -> Vec<ResultTable> {
         iterations(),
     ];
     let of_limit = LEVELS.map(|(level, n)| {
-        let over = |r: &Record| {
-            format!(
-                "{:.4}",
-                r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl())
-            )
-        };
+        let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()));
         Column::text(format!("q/Prandtl's, B/h = {n}"), over).of(move |r| r.level == level)
     });
     let of_square = [
@@ -349,10 +307,8 @@ fn tables() -> Vec<ResultTable> {
     ];
     let is_large = |r: &Record| r.is_default() || is_set(r, CLAY_BELOW);
     let is_b4 = |r: &Record| is_of(r, TwoGrid) && r.level == "b4";
-    let is_of_steps =
-        move |r: &Record| is_b4(r) && (is_elastic_but_steps(r) || is_set_but_steps(r, CLAY));
-    let is_of_ghosts =
-        move |r: &Record| is_b4(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"]);
+    let is_of_steps = move |r: &Record| is_b4(r) && (is_elastic_but_steps(r) || is_set_but_steps(r, CLAY));
+    let is_of_ghosts = move |r: &Record| is_b4(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"]);
     vec![
         ResultTable::new("strip-small", is_small, &[WATER, SCHEME], of_small),
         ResultTable::new("strip-large", is_large, &[SOIL, SCHEME], of_large),
@@ -363,17 +319,8 @@ fn tables() -> Vec<ResultTable> {
             "strip-uniform",
             |r| is_set_but_steps(r, UNIFORM),
             &[STEPS],
-            [Column::metric(
-                "error of settlement",
-                UNIFORM_ERROR,
-                share(3),
-            )],
+            [Column::metric("error of settlement", UNIFORM_ERROR, share(3))],
         ),
-        ResultTable::new(
-            "strip-square",
-            |r| holds(r, |s| s.dimension == 3),
-            &[LOADED, WATER, SCHEME, SIZE],
-            of_square,
-        ),
+        ResultTable::new("strip-square", |r| holds(r, |s| s.dimension == 3), &[LOADED, WATER, SCHEME, SIZE], of_square),
     ]
 }

@@ -44,8 +44,7 @@ impl Solution {
 
 fn document() -> Option<&'static Document> {
     static READ: OnceLock<Option<Document>> = OnceLock::new();
-    READ.get_or_init(|| serde_json::from_str(SOLUTIONS).ok())
-        .as_ref()
+    READ.get_or_init(|| serde_json::from_str(SOLUTIONS).ok()).as_ref()
 }
 
 impl Setup<Strip> {
@@ -56,8 +55,7 @@ impl Setup<Strip> {
 
     /// The solution that a run should have, if there is one.
     pub(super) fn reference(&self) -> Option<&'static Solution> {
-        let elastic =
-            self.law == Soil::Elastic && self.half_width == 1.0 && self.poisson_ratio == 0.25;
+        let elastic = self.law == Soil::Elastic && self.half_width == 1.0 && self.poisson_ratio == 0.25;
         let small = self.load <= LARGEST;
         let steps = self.steps == 20 && self.duration == 2000.0 && self.conductivity == 1e-6;
         let moduli = self.young_modulus == 1e6 && self.porosity == 0.4;
@@ -65,16 +63,8 @@ impl Setup<Strip> {
             return None;
         }
         let all = document()?;
-        let all = if self.dimension == 3 {
-            &all.square
-        } else {
-            &all.strip
-        };
-        let of = if self.is_undrained() {
-            &all.undrained
-        } else {
-            &all.drained
-        };
+        let all = if self.dimension == 3 { &all.square } else { &all.strip };
+        let of = if self.is_undrained() { &all.undrained } else { &all.drained };
         of.iter().find(|s| (s.h - self.h).abs() < 1e-9 * self.h)
     }
 }
@@ -120,8 +110,7 @@ mod tests {
         for row in 32..40 {
             let depth = 5.0 - (row as f64 + 0.5) * 0.125;
             let sides = [-1.0, 1.0].map(|sign| 1.0 + sign * 0.0625);
-            let part =
-                |a: f64, b: f64| (a * b / (depth * (a * a + b * b + depth * depth).sqrt())).atan();
+            let part = |a: f64, b: f64| (a * b / (depth * (a * a + b * b + depth * depth).sqrt())).atan();
             let seen: f64 = sides.iter().flat_map(|a| sides.map(|b| part(*a, b))).sum();
             let exact = seen / (2.0 * std::f64::consts::PI);
             let found = fine.pressure(0, row);

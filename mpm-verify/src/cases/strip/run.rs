@@ -51,11 +51,7 @@ impl Setup<Strip> {
 
     /// Load on the whole surface (Pa).
     fn surcharge(&self) -> f64 {
-        if self.is_plastic() {
-            self.initial_pressure
-        } else {
-            0.0
-        }
+        if self.is_plastic() { self.initial_pressure } else { 0.0 }
     }
 
     fn elasticity(&self) -> Result<ImprovedHencky, mpm_core::Error> {
@@ -110,9 +106,7 @@ impl Setup<Strip> {
         let mut top = [0; D];
         top[D - 1] = self.row() - 1;
         let next = p.reference.iter().position(|x| self.place(x) == top);
-        next.map_or(f64::NAN, |k| {
-            (p.reference[k][D - 1] - p.position[k][D - 1]) / self.half_width
-        })
+        next.map_or(f64::NAN, |k| (p.reference[k][D - 1] - p.position[k][D - 1]) / self.half_width)
     }
 
     /// Load on the strip (Pa) beside that on the whole surface.
@@ -174,25 +168,16 @@ impl Setup<Strip> {
     }
 
     /// Distances of the pressures over the load from the reference's; of a square, of the particles next to a plane of symmetry.
-    fn pressure_errors<const D: usize>(
-        &self,
-        pressures: &[f64],
-        far: bool,
-    ) -> impl Iterator<Item = f64> {
+    fn pressure_errors<const D: usize>(&self, pressures: &[f64], far: bool) -> impl Iterator<Item = f64> {
         let known = self.reference();
         let here = |place: &[usize; D]| place[1..D - 1].iter().all(|i| *i == 0);
         let places = self.places::<D>().zip(pressures);
         let places = places.filter(move |(place, _)| here(place) && (!far || self.is_far(*place)));
-        places.map(move |(place, p)| {
-            known.map_or(f64::NAN, |s| p - s.pressure(place[0], place[D - 1]))
-        })
+        places.map(move |(place, p)| known.map_or(f64::NAN, |s| p - s.pressure(place[0], place[D - 1])))
     }
 
     /// The simulation at its start, of soil of the law `law`.
-    fn ground<const D: usize, M: Law + Soaked<D>>(
-        &self,
-        law: M,
-    ) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    fn ground<const D: usize, M: Law + Soaked<D>>(&self, law: M) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
         let (h, up) = (self.h, D - 1);
         let cells = |length: f64| (length / h).round() as usize;
         let mut axes = [Axis::walls(0.0, cells(SIDE)); D];
@@ -232,11 +217,7 @@ impl Setup<Strip> {
             extent[up] = [SIDE, f64::INFINITY];
             let mut velocity = [None; D];
             velocity[up] = Some(-self.penetration / duration);
-            scene.constrain(RigidNodes {
-                extent,
-                velocity,
-                ramp: 0.0,
-            })
+            scene.constrain(RigidNodes { extent, velocity, ramp: 0.0 })
         } else {
             let under = move |x: &[f64; D]| surface(x) && x[..up].iter().all(|x| *x < half_width);
             let given = move |t: f64| downward(load * t / duration);
@@ -292,9 +273,7 @@ impl Seen {
         let before = begun.iter().chain(&self.path);
         let mut parts = before.zip(&self.path);
         let part = parts.find(|(_, after)| after[0] >= settlement);
-        part.map_or(f64::NAN, |([s, q], [t, r])| {
-            q + (r - q) * (settlement - s) / (t - s)
-        })
+        part.map_or(f64::NAN, |([s, q], [t, r])| q + (r - q) * (settlement - s) / (t - s))
     }
 
     /// Growth of the load in the last quarter of all steps, over itself.
@@ -360,30 +339,21 @@ where
         seen.steps += 1;
         let run = phase.run.as_ref();
         let changes = before.iter().zip(volumes(run));
-        seen.turnover += changes
-            .map(|(before, after)| (after - before).abs())
-            .sum::<f64>();
+        seen.turnover += changes.map(|(before, after)| (after - before).abs()).sum::<f64>();
         let taken = run.work().newton_iterations - iterations;
         if !seen.stopped {
             seen.most = seen.most.max(taken);
         }
         let [settlement, load] = [self.settlement(run), self.current_load(run)];
         seen.path.push([settlement * self.half_width, load]);
-        let water = if D == 2 {
-            "outflow (m²)"
-        } else {
-            "outflow (m³)"
-        };
+        let water = if D == 2 { "outflow (m²)" } else { "outflow (m³)" };
         Ok(Row(vec![
             ("time (s)", run.time()),
             ("load (Pa)", load),
             ("settlement (-)", settlement),
             (water, outflow(run)),
             ("newton_iterations (-)", taken as f64),
-            (
-                "parts (-)",
-                run.convergence().map_or(f64::NAN, |c| c.parts.into()),
-            ),
+            ("parts (-)", run.convergence().map_or(f64::NAN, |c| c.parts.into())),
         ]))
     }
 
@@ -399,9 +369,7 @@ where
         let quarter = all.is_multiple_of(QUARTERS) && seen.steps.is_multiple_of(all / QUARTERS);
         (quarter && seen.steps < all).then(|| Snapshot {
             time: phase.run.time(),
-            columns: self
-                .particles(seen, Columns::positions(phase.run.as_mut()))
-                .done(),
+            columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done(),
         })
     }
 
@@ -428,9 +396,7 @@ where
         let run = phase.run.as_ref();
         let settlement = self.settlement(run);
         let swept = settlement * self.half_width * self.area(D);
-        let lost = run
-            .water()
-            .map_or(f64::NAN, |w| (w.imbalance / swept).abs());
+        let lost = run.water().map_or(f64::NAN, |w| (w.imbalance / swept).abs());
         let rests = self.surcharge() * SIDE.powi(D as i32 - 1);
         let all = last * self.area(D) + rests;
         let held = -run.on(BASE).force[D - 1];
@@ -446,10 +412,7 @@ where
         vec![
             (SETTLEMENT, settlement),
             (SETTLEMENT_RATIO, ratio),
-            (
-                PRESSURE_ERROR,
-                rms(self.pressure_errors::<D>(&pressures, false)),
-            ),
+            (PRESSURE_ERROR, rms(self.pressure_errors::<D>(&pressures, false))),
             (PRESSURE_ERROR_LARGEST, largest),
             (ROUGHNESS, self.roughness::<D>(&pressures)),
             (LEAST_PRESSURE, least),

@@ -11,13 +11,7 @@ use crate::exact::terzaghi as exact;
 use crate::prelude::*;
 use run::{FINITE, HEIGHT};
 
-const LEVELS: [(&str, f64); 5] = [
-    ("n10", 10.0),
-    ("n20", 20.0),
-    ("n40", 40.0),
-    ("n80", 80.0),
-    ("n160", 160.0),
-];
+const LEVELS: [(&str, f64); 5] = [("n10", 10.0), ("n20", 20.0), ("n40", 40.0), ("n80", 80.0), ("n160", 160.0)];
 /// First steps c_v Δt/h² that are run on their own.
 const SHARES: [f64; 8] = [0.05, 0.1, 1.0 / 6.0, 0.25, 0.35, 2.0 / 3.0, 0.75, 1.0];
 
@@ -80,10 +74,7 @@ pub(super) fn case() -> Case {
             headline(MASS_ERROR, "water made (–)", 1.0, 10),
             headline(ENTRIES, "entries of a matrix", 1.0, 0),
         ],
-        quantities: vec![
-            error(PRESSURE_L2_STEPS, "rms error of p/q in space"),
-            error(PRESSURE_L2, "rms error of p/q"),
-        ],
+        quantities: vec![error(PRESSURE_L2_STEPS, "rms error of p/q in space"), error(PRESSURE_L2, "rms error of p/q")],
         watched: &["base_pressure", "settlement"],
         sketch: sketch(),
         cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-2)),
@@ -118,36 +109,11 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         // A first step of T = 4·10⁻⁵ on 20 and on 160 cells, and eighty growing ones after it.
         .runs(Pr, "n20", &linear, "first_step=0.016 steps=1")
         .runs(Pr, "n160", &linear, "first_step=1.024 steps=1")
-        .runs(
-            Nightly,
-            "n20",
-            &linear,
-            "first_step=0.016 steps=80 time_end=1",
-        )
-        .runs(
-            Nightly,
-            "n160",
-            &linear,
-            "first_step=1.024 steps=80 time_end=1",
-        )
-        .each(
-            Pr,
-            "n20",
-            &linear,
-            SHARES.map(|r| format!("first_step={r} steps=1")),
-        )
-        .each(
-            Nightly,
-            "n20",
-            &gimp,
-            SHARES.map(|r| format!("first_step={r} steps=1")),
-        )
-        .each(
-            Pr,
-            "n80",
-            &linear,
-            [5, 10, 20, 80].map(|n| format!("steps={n}")),
-        )
+        .runs(Nightly, "n20", &linear, "first_step=0.016 steps=80 time_end=1")
+        .runs(Nightly, "n160", &linear, "first_step=1.024 steps=80 time_end=1")
+        .each(Pr, "n20", &linear, SHARES.map(|r| format!("first_step={r} steps=1")))
+        .each(Nightly, "n20", &gimp, SHARES.map(|r| format!("first_step={r} steps=1")))
+        .each(Pr, "n80", &linear, [5, 10, 20, 80].map(|n| format!("steps={n}")))
         .done()
 }
 
@@ -213,20 +179,14 @@ fn tables() -> Vec<ResultTable> {
     let counts = [5.0, 10.0, 20.0, 40.0, 80.0].map(|n| (n, format!("{n} steps")));
     let mut of_cells = Column::levels(cells, PRESSURE_L2_STEPS, scientific(2));
     of_cells.push(Column::order(PRESSURE_L2_STEPS));
-    of_cells.extend(Column::levels(
-        [("n160", "entries, n = 160")],
-        ENTRIES,
-        fixed(0),
-    ));
+    of_cells.extend(Column::levels([("n160", "entries, n = 160")], ENTRIES, fixed(0)));
     let share = |r: &Record| Setup::<Terzaghi>::number_of(r, |c| c.share());
     let steps = |r: &Record| Setup::<Terzaghi>::number_of(r, |c| f64::from(c.steps));
     vec![
         ResultTable::new("terzaghi-cells", |r| r.is_default(), &[SCHEME], of_cells),
         ResultTable::new(
             "terzaghi-first-step",
-            move |r| {
-                r.level == "n20" && steps(r) == 1.0 && r.changes_none_but(&["steps", "first_step"])
-            },
+            move |r| r.level == "n20" && steps(r) == 1.0 && r.changes_none_but(&["steps", "first_step"]),
             &[SCHEME],
             Column::over(shares, share, OVERSHOOT_FIRST_STEP, percent(2)),
         ),
@@ -247,61 +207,37 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     let single = |r: &Record| number(r, |c| f64::from(c.steps)) == 1.0;
     let profile = |level: &str, title: &str| {
         let own = |r: &&&Record| {
-            single(r)
-                && r.level == level
-                && (number(r, |c| c.first_and_growth().0) - 4e-5).abs() < 1e-12
+            single(r) && r.level == level && (number(r, |c| c.first_and_growth().0) - 4e-5).abs() < 1e-12
         };
         Panel::new(title, ["depth (m)", "p/q"])
             .x_range(0.0, 0.25)
             .profiles(gallery, runs.iter().filter(own).copied(), |r, t| {
                 let load = number(r, |c| c.load);
-                t.pairs(["reference_x", "pore_pressure"], |x, p| {
-                    (HEIGHT - x, p / load)
-                })
+                t.pairs(["reference_x", "pore_pressure"], |x, p| (HEIGHT - x, p / load))
             })
             .map(|panel| panel.exact("exact", 0.0..=0.25, |z| exact::pressure(z, 4e-5)))
     };
     let grows = |r: &&&Record| r.level == "n20" && number(r, |c| c.time_end) == 1.0;
-    let fades = Panel::new(
-        "20 cells, growing steps",
-        ["log₁₀ T", "largest p/q − 1 (%)"],
-    )
-    .histories(gallery, runs.iter().filter(grows).copied(), |_, t| {
-        t.pairs(["time_factor", "overshoot"], |t, o| (t.log10(), 100.0 * o))
-    })?;
-    let profiles = [
-        profile("n20", "20 cells")?,
-        profile("n160", "160 cells")?,
-        fades,
-    ];
+    let fades = Panel::new("20 cells, growing steps", ["log₁₀ T", "largest p/q − 1 (%)"]).histories(
+        gallery,
+        runs.iter().filter(grows).copied(),
+        |_, t| t.pairs(["time_factor", "overshoot"], |t, o| (t.log10(), 100.0 * o)),
+    )?;
+    let profiles = [profile("n20", "20 cells")?, profile("n160", "160 cells")?, fades];
     let mut first = Panel::new("", ["c_v Δt/h²", "largest p/q − 1 (%)"]);
     for space in [TwoGrid, Equal, Ppp] {
         let scheme = Scheme::poro(Linear, space);
         let own = |r: &&&Record| single(r) && r.level == "n20" && r.scheme() == scheme;
-        let Some(column) = runs
-            .iter()
-            .find(own)
-            .and_then(|r| Setup::<Terzaghi>::of_record(r).ok())
-        else {
+        let Some(column) = runs.iter().find(own).and_then(|r| Setup::<Terzaghi>::of_record(r).ok()) else {
             continue;
         };
         let closed = |share| 100.0 * column.equations(share).overshoot(column.cells());
         first = first
-            .curve(Series {
-                name: format!("{space}, closed form"),
-                ..history(scheme, sampled(0.0..=1.0, closed))
-            })
+            .curve(Series { name: format!("{space}, closed form"), ..history(scheme, sampled(0.0..=1.0, closed)) })
             .points(runs.iter().filter(own).copied(), |r| {
-                (
-                    number(r, |c| c.share()),
-                    100.0 * r.metric(OVERSHOOT_FIRST_STEP),
-                )
+                (number(r, |c| c.share()), 100.0 * r.metric(OVERSHOOT_FIRST_STEP))
             })
-            .styled(|_, s| Series {
-                name: space.to_string(),
-                dash: Dash::Dotted,
-                ..s
-            });
+            .styled(|_, s| Series { name: space.to_string(), dash: Dash::Dotted, ..s });
     }
     Figure::new(
         "figures",
@@ -310,10 +246,5 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
         profiles,
     )
     .draw(gallery)?;
-    Figure::new(
-        "overshoot",
-        "Overshoot of the first step on 20 cells, and its closed form.",
-        [first],
-    )
-    .draw(gallery)
+    Figure::new("overshoot", "Overshoot of the first step on 20 cells, and its closed form.", [first]).draw(gallery)
 }

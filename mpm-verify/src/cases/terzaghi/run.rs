@@ -3,9 +3,7 @@
 use super::*;
 use crate::cases::growth;
 use crate::cases::parameters::{least_strain, require_quotient};
-use crate::cases::poro::{
-    ROUNDING, WATER_WEIGHT, base_pressure, mass_error, matrix_entries, outflow,
-};
+use crate::cases::poro::{ROUNDING, WATER_WEIGHT, base_pressure, mass_error, matrix_entries, outflow};
 use crate::exact::terzaghi::FirstStep;
 use crate::statistics::rms;
 use mpm_core::material::Hencky;
@@ -85,11 +83,7 @@ impl Setup<Terzaghi> {
     /// Cells of the pressure.
     pub(super) fn cells(&self) -> u32 {
         let cells = (HEIGHT / self.h).round() as u32;
-        if self.space() == Some(TwoGrid) {
-            cells / 2
-        } else {
-            cells
-        }
+        if self.space() == Some(TwoGrid) { cells / 2 } else { cells }
     }
 
     /// The discrete equations of a step with c_v Δt/h² = `share`.
@@ -102,13 +96,8 @@ impl Setup<Terzaghi> {
 
     /// Difference at the end between Terzaghi's settlement and that of the discrete equations.
     pub(super) fn settlement_distance(&self) -> f64 {
-        let shares: Vec<f64> = self
-            .durations()
-            .iter()
-            .map(|t| t * (HEIGHT / self.h).powi(2))
-            .collect();
-        let settled =
-            exact::settlement_of_equations(|r| self.equations(r), self.cells() as usize, &shares);
+        let shares: Vec<f64> = self.durations().iter().map(|t| t * (HEIGHT / self.h).powi(2)).collect();
+        let settled = exact::settlement_of_equations(|r| self.equations(r), self.cells() as usize, &shares);
         (settled - exact::settlement(self.end())).abs()
     }
 
@@ -157,18 +146,11 @@ impl Problem<1> for Setup<Terzaghi> {
         // Nothing moves by its weight: any density will do.
         let particles = Particles::new(self.start_at(places), spacing, 1000.0, [0.5 * spacing])?;
         let law = Hencky::new(self.young_modulus, self.poisson_ratio)?;
-        let floor = Wall {
-            axis: 0,
-            end: End::Lo,
-            kind: WallKind::Roller,
-        };
-        let scene =
-            Scene::new(Grid::new(self.h, [axis])?, Body::new(law, particles)?).constrain(floor);
+        let floor = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
+        let scene = Scene::new(Grid::new(self.h, [axis])?, Body::new(law, particles)?).constrain(floor);
         let (load, h) = (self.load, self.h);
         let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
-        let top = Face::loaded(&scene.body.particles, topmost, (0, End::Hi), move |_| {
-            [-load]
-        });
+        let top = Face::loaded(&scene.body.particles, topmost, (0, End::Hi), move |_| [-load]);
         let water = Water::new(self.porosity, Conductivity::Constant(self.kappa()))
             .drained(move |x| x[0] > HEIGHT - 0.25 * h)
             .face(top);
@@ -226,15 +208,9 @@ impl Problem<1> for Setup<Terzaghi> {
         };
         vec![
             (PRESSURE_L2, error(&|z| exact::pressure(z, t))),
-            (
-                PRESSURE_L2_STEPS,
-                error(&|z| exact::pressure_of_steps(z, &steps)),
-            ),
+            (PRESSURE_L2_STEPS, error(&|z| exact::pressure_of_steps(z, &steps))),
             (OVERSHOOT_FIRST_STEP, seen.overshoot_first_step),
-            (
-                SETTLEMENT_ERROR,
-                (self.settlement(run) - exact::settlement(t)).abs(),
-            ),
+            (SETTLEMENT_ERROR, (self.settlement(run) - exact::settlement(t)).abs()),
             (MASS_ERROR, mass_error(run)),
             (NEWTON_ITERATIONS, run.work().newton_iterations as f64),
             (ENTRIES, matrix_entries(run)),

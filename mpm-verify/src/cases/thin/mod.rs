@@ -26,9 +26,7 @@ const SLOWEST: f64 = 0.3;
 /// Poisson's ratio from which on a body is nearly incompressible.
 const STIFF: f64 = 0.49;
 
-const CFL: Parameter = common::CFL
-    .with_default("0.3")
-    .within(number(1e-3, 100.0, false));
+const CFL: Parameter = common::CFL.with_default("0.3").within(number(1e-3, 100.0, false));
 
 parameters! {
     /// Parameters of the beam.
@@ -60,7 +58,8 @@ pub(super) fn case() -> Case {
         description: "A free beam, twenty times as long as it is deep, swings in its first mode, one, two or four cells over its depth: \
                       its frequency against Timoshenko's, and against that of the stiffness that cells and particles leave.",
         references: vec![
-            "Timoshenko's free beam in plane strain, first symmetric mode: solved in src/cases/thin/theory.rs.".to_owned(),
+            "Timoshenko's free beam in plane strain, first symmetric mode: solved in src/cases/thin/theory.rs."
+                .to_owned(),
             "The bending stiffness of cells and particles, docs/thin.md.".to_owned(),
         ],
         limits: &[
@@ -88,10 +87,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let plain = [RemedyName::None];
     let both = [RemedyName::None, FbarConsistent];
     let of = |rule, bases: &[BasisName]| implicit(&[rule], bases, &plain);
-    let (few, all) = (
-        pairs(&[Linear, Gimp, Bspline2], &both),
-        pairs(&BASES, &both),
-    );
+    let (few, all) = (pairs(&[Linear, Gimp, Bspline2], &both), pairs(&BASES, &both));
     let linear = of(RuleName::Midpoint, &[Linear]);
     let splines = of(RuleName::Midpoint, &[Bspline2]);
     let consistent = "cfl=5 lumped=0";
@@ -104,30 +100,15 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Pr, "t1 t2", &linear, consistent)
         // One cell of quadratic splines, and any of cubic ones, has more functions than particles to give them a mass.
         .runs(Pr, "t2", &splines, consistent)
-        .runs(
-            Pr,
-            "t1 t2",
-            &pairs(&[Linear, Gimp, Bspline2], &plain),
-            "shift=0.5",
-        )
+        .runs(Pr, "t1 t2", &pairs(&[Linear, Gimp, Bspline2], &plain), "shift=0.5")
         .runs(Nightly, "t1 t2 t4", &all, "")
         .runs(Nightly, "t1 t2 t4", &all, "poisson_ratio=0.49")
         .runs(Nightly, "t1 t2", &all, "ppc_per_direction=4")
         .runs(Nightly, "t1 t2", &all, "shift=0.5")
         .runs(Nightly, "t1 t2 t4", &linear, consistent)
         .runs(Nightly, "t2 t4", &splines, consistent)
-        .runs(
-            Nightly,
-            "t1 t2 t4",
-            &of(RuleName::Midpoint, &[Linear, Gimp, Bspline2]),
-            "cfl=5",
-        )
-        .runs(
-            Nightly,
-            "t1 t2 t4",
-            &of(RuleName::Newmark, &[Linear, Gimp, Bspline2]),
-            "cfl=5",
-        )
+        .runs(Nightly, "t1 t2 t4", &of(RuleName::Midpoint, &[Linear, Gimp, Bspline2]), "cfl=5")
+        .runs(Nightly, "t1 t2 t4", &of(RuleName::Newmark, &[Linear, Gimp, Bspline2]), "cfl=5")
         .done()
 }
 
@@ -178,10 +159,7 @@ impl Beam<'_> {
 
 fn about(what: &str, run: &Beam) -> String {
     let set = run.set.join(" ");
-    let text = format!(
-        "{} {what} of {} {} {set}",
-        FREQUENCY_RATIO.name, run.scheme, run.level
-    );
+    let text = format!("{} {what} of {} {} {set}", FREQUENCY_RATIO.name, run.scheme, run.level);
     text.trim_end().to_owned()
 }
 
@@ -191,10 +169,7 @@ fn checks() -> Vec<Check> {
     let averaged = |check: Check| {
         check
             .when(|b| b.remedy() == FbarConsistent)
-            .pairs(|b, plain| {
-                same_but_scheme(b, plain)
-                    && plain.scheme == Scheme::flip(b.basis(), RemedyName::None)
-            })
+            .pairs(|b, plain| same_but_scheme(b, plain) && plain.scheme == Scheme::flip(b.basis(), RemedyName::None))
     };
     let over_plain = |averaged: &Beam, plain: &Beam| averaged.frequency() / plain.frequency();
     vec![
@@ -245,25 +220,12 @@ fn orders(records: &[Record]) -> Vec<Finding> {
 
 fn tables() -> Vec<ResultTable> {
     const LEVELS: [(&str, &str); 3] = [("t1", "one cell"), ("t2", "two"), ("t4", "four")];
-    const RATIO: Label = ("ν", |r| {
-        Setup::<Thin>::number_of(r, |b| b.poisson_ratio).to_string()
-    });
+    const RATIO: Label = ("ν", |r| Setup::<Thin>::number_of(r, |b| b.poisson_ratio).to_string());
     const SET: Label = ("changed", |r| r.set.join(", "));
     let of = |metric, title: &str| {
-        Column::levels(
-            LEVELS.map(|(level, cells)| (level, format!("{title}, {cells}"))),
-            metric,
-            fixed(3),
-        )
+        Column::levels(LEVELS.map(|(level, cells)| (level, format!("{title}, {cells}"))), metric, fixed(3))
     };
-    let columns = || {
-        [
-            of(FREQUENCY_RATIO, "frequency"),
-            of(PREDICTED_RATIO, "predicted"),
-        ]
-        .into_iter()
-        .flatten()
-    };
+    let columns = || [of(FREQUENCY_RATIO, "frequency"), of(PREDICTED_RATIO, "predicted")].into_iter().flatten();
     let shows = |r: &Record| r.scheme().rule().is_none() && r.changes_none_but(&["poisson_ratio"]);
     vec![
         ResultTable::new("thin", shows, &[SCHEME, RATIO], columns()),

@@ -52,20 +52,12 @@ impl Problem<2> for Swing {
         setup.check_rule()?;
         let (ratio, cfl) = (setup.poisson_ratio, setup.cfl);
         if setup.is_explicit() && cfl >= 1.0 {
-            return Err(Error::Input(format!(
-                "cfl = {cfl} is out of range for the solver explicit; allowed: below 1"
-            )));
+            return Err(Error::Input(format!("cfl = {cfl} is out of range for the solver explicit; allowed: below 1")));
         }
         let law = NeoHookean::new(YOUNG_MODULUS, ratio)?;
         let first = |factor| Beam::new(YOUNG_MODULUS, ratio, DENSITY, factor).first();
         let (cells, per_direction) = (DEPTH / setup.h, setup.ppc_per_direction as f64);
-        let stiffness = stiffness(
-            setup.basis(),
-            ratio,
-            cells,
-            per_direction,
-            setup.shift > 0.0,
-        );
+        let stiffness = stiffness(setup.basis(), ratio, cells, per_direction, setup.shift > 0.0);
         let mode = first(1.0);
         let predicted = stiffness.map(|factor| first(factor).frequency);
         // With GIMP and with an average it is a bound.
@@ -74,20 +66,11 @@ impl Problem<2> for Swing {
         let longest = courant_time_step(cfl, setup.h, law.wave_speed(DENSITY));
         let steps = (PERIODS * period / longest).ceil();
         let dt = PERIODS * period / steps;
-        Ok(Self {
-            setup,
-            law,
-            mode,
-            stiffness,
-            predicted,
-            dt,
-            steps: steps as u64,
-        })
+        Ok(Self { setup, law, mode, stiffness, predicted, dt, steps: steps as u64 })
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup
-            .discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
+        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
     }
 
     fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
@@ -108,19 +91,12 @@ impl Problem<2> for Swing {
             [at[0], foot + at[1]]
         };
         let places = (0..along * across).map(place);
-        let mut particles = Particles::new(
-            self.setup.start_at(places),
-            spacing * spacing,
-            DENSITY,
-            [0.5 * spacing; 2],
-        )?;
+        let mut particles =
+            Particles::new(self.setup.start_at(places), spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
         let speed = DEFLECTION * self.mode.frequency;
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             let above = x[1] - foot - 0.5 * DEPTH;
-            *v = [
-                -speed * above * self.mode.turn(x[0]),
-                speed * self.mode.deflection(x[0]),
-            ];
+            *v = [-speed * above * self.mode.turn(x[0]), speed * self.mode.deflection(x[0])];
         }
         let scene = Scene::new(grid, Body::new(self.law, particles)?).constrain(Wall {
             axis: 0,
@@ -152,9 +128,7 @@ impl Problem<2> for Swing {
 
     fn particles<'a>(&self, _: &Rows, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
         let stress = columns.run().force_stress();
-        columns
-            .references()
-            .each("stress_xx", "Pa", |_, k| stress[k].get(0, 0))
+        columns.references().each("stress_xx", "Pa", |_, k| stress[k].get(0, 0))
     }
 
     fn metrics(&self, seen: &Rows, _: &mut Phase<2>) -> Vec<(Metric, f64)> {
@@ -168,14 +142,10 @@ impl Problem<2> for Swing {
         let half_period = fit_line(&zeros).map_or(f64::NAN, |line| line.slope);
         let ratio = 0.5 * TAU / half_period / self.mode.frequency;
         let period = ROWS as usize;
-        let largest =
-            |points: &[(f64, f64)]| points.iter().map(|(_, u)| u.abs()).fold(0.0, f64::max);
+        let largest = |points: &[(f64, f64)]| points.iter().map(|(_, u)| u.abs()).fold(0.0, f64::max);
         let kept = largest(&points[points.len() - period..]) / largest(&points[..period]);
-        let mut values = vec![
-            (FREQUENCY_RATIO, ratio),
-            (FREQUENCY_ERROR, (ratio - 1.0).abs()),
-            (AMPLITUDE_RATIO, kept),
-        ];
+        let mut values =
+            vec![(FREQUENCY_RATIO, ratio), (FREQUENCY_ERROR, (ratio - 1.0).abs()), (AMPLITUDE_RATIO, kept)];
         let predicted = self.predicted.map(|f| f / self.mode.frequency);
         values.extend(predicted.map(|f| (PREDICTED_RATIO, f)));
         values.extend(self.stiffness.map(|s| (STIFFNESS_RATIO, s)));

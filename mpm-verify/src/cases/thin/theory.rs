@@ -51,10 +51,7 @@ impl Beam {
     /// α, β and Ω of a frequency (rad/s).
     fn waves(&self, frequency: f64) -> [f64; 3] {
         let square = frequency * frequency;
-        let (stiff, slack) = (
-            self.bending * self.shear,
-            self.inertia * square - self.shear,
-        );
+        let (stiff, slack) = (self.bending * self.shear, self.inertia * square - self.shear);
         let middle = square * (self.inertia * self.shear + self.mass * self.bending);
         let last = self.mass * square * slack;
         let root = (middle * middle - 4.0 * stiff * last).sqrt();
@@ -87,13 +84,7 @@ impl Beam {
         let [alpha, beta, omega] = self.waves(high);
         // No shear at the end.
         let ratio = -(beta * HALF).sin() / beta * alpha / (alpha * HALF).sinh();
-        Mode {
-            frequency: high,
-            alpha,
-            beta,
-            omega,
-            ratio,
-        }
+        Mode { frequency: high, alpha, beta, omega, ratio }
     }
 }
 
@@ -116,13 +107,7 @@ fn plane_modulus(young: f64, ratio: f64) -> f64 {
 
 /// Bending stiffness over the exact one of `cells` over the depth with `per_cell` particles a direction, with GIMP a bound:
 /// see `docs/thin.md`. None where it is not known.
-pub(super) fn stiffness(
-    basis: BasisName,
-    ratio: f64,
-    cells: f64,
-    per_cell: f64,
-    shifted: bool,
-) -> Option<f64> {
+pub(super) fn stiffness(basis: BasisName, ratio: f64, cells: f64, per_cell: f64, shifted: bool) -> Option<f64> {
     let seen = 1.0 - 1.0 / (per_cell * per_cell);
     match basis {
         BasisName::Bspline2 | BasisName::Bspline3 => Some(1.0 - 1.0 / (cells * per_cell).powi(2)),
@@ -142,12 +127,7 @@ mod tests {
 
     #[test]
     fn a_slender_beam_has_eulers_frequency() {
-        let beam = Beam {
-            bending: 1.0,
-            shear: 1e9,
-            mass: 1.0,
-            inertia: 1e-9,
-        };
+        let beam = Beam { bending: 1.0, shear: 1e9, mass: 1.0, inertia: 1e-9 };
         let mode = beam.first();
         // βL of a free beam's first mode is 4.730041, its nodes at 0.2242 of the length from the ends.
         assert!((mode.frequency.sqrt() - 0.5 * 4.730_041).abs() < 1e-5);
@@ -159,11 +139,7 @@ mod tests {
     fn shear_and_rotation_slow_a_beam_by_what_the_expansion_says() {
         // Of the first order in I/(A L²), with c₁ = 49.5 of a free beam: Goens.
         let beam = Beam::new(1e6, 0.0, 1000.0, 1.0);
-        let slender = Beam {
-            shear: 1e9 * beam.shear,
-            inertia: 1e-9 * beam.inertia,
-            ..beam
-        };
+        let slender = Beam { shear: 1e9 * beam.shear, inertia: 1e-9 * beam.inertia, ..beam };
         let slower = beam.first().frequency / slender.first().frequency;
         assert!((0.97..0.995).contains(&slower), "{slower}");
     }

@@ -9,10 +9,7 @@ use super::parameters::{self as common, TimeStep, Wall as WallTreatment};
 use crate::prelude::*;
 use run::{PERIOD, Translation};
 
-const LEVELS: [Level; 1] = [Level {
-    name: "n8",
-    h: 1.0 / PERIOD as f64,
-}];
+const LEVELS: [Level; 1] = [Level { name: "n8", h: 1.0 / PERIOD as f64 }];
 /// Rounding of a stress over many steps.
 const ROUNDING: f64 = 1e-9;
 /// Ratio of the swing of an oscillator to its static answer, for a force that acts at once.
@@ -60,7 +57,8 @@ pub(super) fn case() -> Case {
                       hundred of them: exactly, nothing changes. What does is the noise of crossing, basis by basis.",
         references: vec![
             "Exact: translation keeps a uniform stress.".to_owned(),
-            "The forces of a lattice under a uniform stress and the stiffness that they meet, docs/translate.md.".to_owned(),
+            "The forces of a lattice under a uniform stress and the stiffness that they meet, docs/translate.md."
+                .to_owned(),
         ],
         limits: &[
             "One lattice, seven particles to four cells along the motion: another has other waves.",
@@ -116,9 +114,7 @@ impl Setup<Translate> {
     }
 
     fn is_plain(&self) -> bool {
-        self.remedy() == RemedyName::None
-            && self.transfer() == TransferName::Flip
-            && self.flip == 1.0
+        self.remedy() == RemedyName::None && self.transfer() == TransferName::Flip && self.flip == 1.0
     }
 
     fn is_musl(&self) -> bool {
@@ -175,10 +171,5 @@ fn tables() -> Vec<ResultTable> {
         Column::metric("noise of the velocity", VELOCITY_NOISE, share(3)),
         Column::metric("energy gain", ENERGY_GAIN, SHORT),
     ];
-    vec![ResultTable::new(
-        "translate",
-        Record::is_default,
-        &[SCHEME],
-        columns,
-    )]
+    vec![ResultTable::new("translate", Record::is_default, &[SCHEME], columns)]
 }

@@ -63,11 +63,7 @@ impl Translation {
             let (below, above) = (waves.floor(), waves.ceil());
             let nearest = waves.round();
             force(waves, &of_basis)
-                * if waves - below == 0.5 {
-                    0.5 * (passes(below) + passes(above))
-                } else {
-                    passes(nearest)
-                }
+                * if waves - below == 0.5 { 0.5 * (passes(below) + passes(above)) } else { passes(nearest) }
         });
         answers.map(|a| a * a).sum::<f64>().sqrt()
     }
@@ -103,15 +99,8 @@ impl Problem<2> for Translation {
     }
 
     fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
-        let (h, stretch, across) = (
-            self.setup.h,
-            self.setup.stretch,
-            self.setup.ppc_per_direction,
-        );
-        let grid = Grid::new(
-            h,
-            [Axis::periodic(0.0, PERIOD), Axis::periodic(0.0, ACROSS)],
-        )?;
+        let (h, stretch, across) = (self.setup.h, self.setup.stretch, self.setup.ppc_per_direction);
+        let grid = Grid::new(h, [Axis::periodic(0.0, PERIOD), Axis::periodic(0.0, ACROSS)])?;
         let counts = [self.setup.particles, ACROSS * across];
         let size = [PERIOD as f64 * h / counts[0] as f64, h / across as f64];
         let place = |k: usize| {
@@ -125,10 +114,7 @@ impl Problem<2> for Translation {
             .deformed(|x| (*x, Matrix2::identity() * stretch));
         particles.velocity.fill([self.speed, 0.0]);
         let scene = Scene::new(grid, Body::new(self.law, particles)?);
-        let settings = self
-            .setup
-            .settings(self.dt, 0.0)?
-            .transfer(Flip::new(self.setup.flip)?);
+        let settings = self.setup.settings(self.dt, 0.0)?.transfer(Flip::new(self.setup.flip)?);
         mpm_solvers::solver(self.setup.scheme, scene, settings)
     }
 
@@ -156,21 +142,13 @@ impl Problem<2> for Translation {
 
     fn particles<'a>(&self, _: &Rows, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
         let stress = columns.run().force_stress();
-        columns
-            .each("vx", "m/s", |p, k| p.velocity[k][0])
-            .each("stress_xx", "Pa", |_, k| stress[k].get(0, 0))
+        columns.each("vx", "m/s", |p, k| p.velocity[k][0]).each("stress_xx", "Pa", |_, k| stress[k].get(0, 0))
     }
 
     fn metrics(&self, seen: &Rows, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
-        let [noise, kept, of_velocity, momentum, kinetic, stored] = [
-            "stress_noise",
-            "stress_kept",
-            "velocity_noise",
-            "momentum",
-            "kinetic_energy",
-            "stored_energy",
-        ]
-        .map(|name| seen.column(name));
+        let [noise, kept, of_velocity, momentum, kinetic, stored] =
+            ["stress_noise", "stress_kept", "velocity_noise", "momentum", "kinetic_energy", "stored_energy"]
+                .map(|name| seen.column(name));
         let rows = 0..noise.len();
         let largest = |of: &dyn Fn(usize) -> f64| rows.clone().map(of).fold(0.0, f64::max);
         let late = &noise[noise.len() / 2..];
@@ -181,14 +159,8 @@ impl Problem<2> for Translation {
             (STRESS_NOISE, largest(&|k| noise[k]).max(LEAST_NOISE)),
             (STRESS_NOISE_MEAN, mean.max(LEAST_NOISE)),
             (STRESS_KEPT, kept.last().copied().unwrap_or(f64::NAN)),
-            (
-                VELOCITY_NOISE,
-                largest(&|k| of_velocity[k]).max(LEAST_NOISE),
-            ),
-            (
-                MOMENTUM_ERROR,
-                largest(&|k| (momentum[k] / momentum[0] - 1.0).abs()).max(LEAST_ERROR),
-            ),
+            (VELOCITY_NOISE, largest(&|k| of_velocity[k]).max(LEAST_NOISE)),
+            (MOMENTUM_ERROR, largest(&|k| (momentum[k] / momentum[0] - 1.0).abs()).max(LEAST_ERROR)),
             (ENERGY_GAIN, largest(&rise)),
             (ENERGY_LOSS, largest(&|k| -rise(k))),
             (MASS, phase.run.totals().mass),

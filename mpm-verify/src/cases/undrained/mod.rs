@@ -29,9 +29,7 @@ choices! {
 }
 
 const DOMAIN: Parameter = Domain::Square.by_default().named("domain");
-const PRESSURE_FUNCTIONS: Parameter = PressureFunctions::Same
-    .by_default()
-    .named("pressure_functions");
+const PRESSURE_FUNCTIONS: Parameter = PressureFunctions::Same.by_default().named("pressure_functions");
 
 parameters! {
     /// Parameters of the undrained body.
@@ -144,8 +142,7 @@ fn sketch() -> Sketch {
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Undrained>;
     type Of = Setup<Undrained>;
-    let is_square =
-        |space| move |b: &Run<Undrained>| b.domain == Domain::Square && b.space() == Some(space);
+    let is_square = |space| move |b: &Run<Undrained>| b.domain == Domain::Square && b.space() == Some(space);
     vec![
         Check::truth("inf-sup-bounded", "two grids, three levels: β falls by no power of h: an order of at most 0.15")
             .study(|records| {
@@ -183,25 +180,14 @@ fn checks() -> Vec<Check> {
 }
 
 /// The order of a metric of the square with a pressure space is at least the formal one less the slack, by order and source.
-fn at_least(
-    records: &[Record],
-    metric: Metric,
-    space: SpaceName,
-    (formal, why): (f64, &str),
-) -> Vec<Finding> {
+fn at_least(records: &[Record], metric: Metric, space: SpaceName, (formal, why): (f64, &str)) -> Vec<Finding> {
     let own = |b: &Setup<Undrained>| b.domain == Domain::Square && b.space() == Some(space);
     let orders = orders(records, metric, own).into_iter();
-    orders
-        .map(|(name, order)| Finding::above(name, order, formal - SLACK, why))
-        .collect()
+    orders.map(|(name, order)| Finding::above(name, order, formal - SLACK, why)).collect()
 }
 
 /// The order of a metric over three levels, for every scheme and every body.
-fn orders(
-    records: &[Record],
-    metric: Metric,
-    own: impl Fn(&Setup<Undrained>) -> bool,
-) -> Vec<(String, f64)> {
+fn orders(records: &[Record], metric: Metric, own: impl Fn(&Setup<Undrained>) -> bool) -> Vec<(String, f64)> {
     let mut ladders: BTreeMap<(Scheme, &[String]), Vec<&Record>> = BTreeMap::new();
     for r in records.iter().filter(|r| Setup::holds(r, &own)) {
         ladders.entry((r.scheme(), &r.set)).or_default().push(r);
@@ -223,11 +209,7 @@ fn tables() -> Vec<ResultTable> {
     let numbers = |name: &str, shows: fn(&Record) -> bool| {
         let mut columns = by_level("β", INF_SUP, fixed(4));
         columns.push(Column::order(INF_SUP).titled("order in h (between levels)"));
-        columns.extend(Column::levels(
-            [("n16", "without effect, n = 16")],
-            ZERO_MODES,
-            fixed(0),
-        ));
+        columns.extend(Column::levels([("n16", "without effect, n = 16")], ZERO_MODES, fixed(0)));
         ResultTable::new(name, shows, &[SCHEME], columns)
     };
     let errors = [
@@ -238,17 +220,8 @@ fn tables() -> Vec<ResultTable> {
     vec![
         numbers("undrained-square", |r| r.is_default()),
         numbers("undrained-across", |r| r.set == ["layout=across"]),
-        numbers("undrained-splines", |r| {
-            r.set == ["pressure_functions=linear"]
-        }),
-        numbers("undrained-ellipse", |r| {
-            r.set.first().is_some_and(|s| s == "domain=ellipse")
-        }),
-        ResultTable::new(
-            "undrained-errors",
-            |r| r.is_default(),
-            &[SCHEME],
-            errors.into_iter().flatten(),
-        ),
+        numbers("undrained-splines", |r| r.set == ["pressure_functions=linear"]),
+        numbers("undrained-ellipse", |r| r.set.first().is_some_and(|s| s == "domain=ellipse")),
+        ResultTable::new("undrained-errors", |r| r.is_default(), &[SCHEME], errors.into_iter().flatten()),
     ]
 }

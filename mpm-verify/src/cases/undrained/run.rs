@@ -47,22 +47,13 @@ fn in_ellipse(x: &[f64; 2]) -> bool {
 /// The exact motion and pressure: u = curl of sin² πx sin² πy, p = cos πx cos πy, over G.
 fn exact([x, y]: &[f64; 2]) -> [f64; 3] {
     let (sx, sy) = ((PI * x).sin(), (PI * y).sin());
-    [
-        PI * sx * sx * (2.0 * PI * y).sin(),
-        -PI * (2.0 * PI * x).sin() * sy * sy,
-        (PI * x).cos() * (PI * y).cos(),
-    ]
+    [PI * sx * sx * (2.0 * PI * y).sin(), -PI * (2.0 * PI * x).sin() * sy * sy, (PI * x).cos() * (PI * y).cos()]
 }
 
 /// The force per volume that balances it, −Δu + ∇p.
 fn force([x, y]: &[f64; 2]) -> [f64; 2] {
-    let of_shear = |x: f64, y: f64| {
-        -2.0 * PI.powi(3) * (2.0 * PI * y).sin() * (2.0 * (2.0 * PI * x).cos() - 1.0)
-    };
-    [
-        of_shear(*x, *y) - PI * (PI * x).sin() * (PI * y).cos(),
-        -of_shear(*y, *x) - PI * (PI * x).cos() * (PI * y).sin(),
-    ]
+    let of_shear = |x: f64, y: f64| -2.0 * PI.powi(3) * (2.0 * PI * y).sin() * (2.0 * (2.0 * PI * x).cos() - 1.0);
+    [of_shear(*x, *y) - PI * (PI * x).sin() * (PI * y).cos(), -of_shear(*y, *x) - PI * (PI * x).cos() * (PI * y).sin()]
 }
 
 /// Functions of a displacement and a pressure.
@@ -125,21 +116,12 @@ impl Analysis for Body {
             true => vec![[s, 0.0], [s, 1.0], [0.0, s], [1.0, s]],
             false => vec![[s, 0.0]],
         });
-        Ok(Self {
-            pair,
-            grid,
-            pressure_grid,
-            cloud,
-            held: held.collect(),
-            fitted,
-            setup,
-        })
+        Ok(Self { pair, grid, pressure_grid, cloud, held: held.collect(), fitted, setup })
     }
 
     fn discretisation(&self) -> Discretisation {
         // Nothing moves: any step will do, and a record has one.
-        self.setup
-            .discretisation(2, self.setup.points_per_direction.pow(2), 1.0)
+        self.setup.discretisation(2, self.setup.points_per_direction.pow(2), 1.0)
     }
 
     fn rows(&self) -> usize {
@@ -203,15 +185,9 @@ impl Analysis for Body {
 }
 
 impl Body {
-    fn fields<I: Interpolation<2>, J: Interpolation<2>>(
-        &self,
-        u: &I,
-    ) -> Result<[forms::Field; 2], mpm_core::Error> {
+    fn fields<I: Interpolation<2>, J: Interpolation<2>>(&self, u: &I) -> Result<[forms::Field; 2], mpm_core::Error> {
         let p = J::on(self.pressure_grid)?;
-        Ok([
-            forms::Field::new(u, &self.cloud, &self.held),
-            forms::Field::new(&p, &self.cloud, &[]),
-        ])
+        Ok([forms::Field::new(u, &self.cloud, &self.held), forms::Field::new(&p, &self.cloud, &[])])
     }
 
     /// With the ghost penalty of the displacement, of a body that fits no grid.
@@ -232,16 +208,8 @@ impl Body {
         self.found(&fields, norm)
     }
 
-    fn found(
-        &self,
-        [u, p]: &[forms::Field; 2],
-        norm: DMatrix<f64>,
-    ) -> Result<Found, mpm_core::Error> {
-        let singular = || mpm_core::Error::Singular {
-            time: 0.0,
-            step: 0,
-            iteration: 0,
-        };
+    fn found(&self, [u, p]: &[forms::Field; 2], norm: DMatrix<f64>) -> Result<Found, mpm_core::Error> {
+        let singular = || mpm_core::Error::Singular { time: 0.0, step: 0, iteration: 0 };
         let cloud = &self.cloud;
         let norm = norm.cholesky().ok_or_else(singular)?;
         let coupling = u.coupling(p, cloud);
@@ -268,20 +236,10 @@ impl Body {
         } else {
             [f64::NAN; 3]
         };
-        Ok(Found {
-            inf_sup,
-            zero_modes: zero_modes as f64,
-            unknowns: [2.0 * u.count as f64, p.count as f64],
-            errors,
-        })
+        Ok(Found { inf_sup, zero_modes: zero_modes as f64, unknowns: [2.0 * u.count as f64, p.count as f64], errors })
     }
 
-    fn errors(
-        &self,
-        [u, p]: [&forms::Field; 2],
-        motion: &[DVector<f64>; 2],
-        pressure: &DVector<f64>,
-    ) -> [f64; 3] {
+    fn errors(&self, [u, p]: [&forms::Field; 2], motion: &[DVector<f64>; 2], pressure: &DVector<f64>) -> [f64; 3] {
         let places = &self.cloud.places;
         let exact: Vec<[f64; 3]> = places.iter().map(exact).collect();
         let of_motion = |a: usize| {
@@ -293,13 +251,9 @@ impl Body {
         // A constant pressure moves nothing where all of the edge is held.
         let values = p.values(pressure);
         let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let of_pressure = values
-            .iter()
-            .zip(&exact)
-            .map(|(v, e)| (v - mean - e[2], e[2]));
+        let of_pressure = values.iter().zip(&exact).map(|(v, e)| (v - mean - e[2], e[2]));
         let of_pressure: Vec<(f64, f64)> = of_pressure.collect();
-        let relative =
-            |pairs: &[(f64, f64)]| rms(pairs.iter().map(|p| p.0)) / rms(pairs.iter().map(|p| p.1));
+        let relative = |pairs: &[(f64, f64)]| rms(pairs.iter().map(|p| p.0)) / rms(pairs.iter().map(|p| p.1));
         let scale = rms(exact.iter().map(|e| e[2]));
         let checkerboard = self.checkerboard(p, pressure) / scale;
         [relative(&both), relative(&of_pressure), checkerboard]
@@ -316,10 +270,7 @@ impl Body {
         }
         let cell = |k: usize| {
             let (a, b) = (k / n, k % n);
-            let (same, other) = (
-                grid[(a, b)] + grid[(a + 1, b + 1)],
-                grid[(a + 1, b)] + grid[(a, b + 1)],
-            );
+            let (same, other) = (grid[(a, b)] + grid[(a + 1, b + 1)], grid[(a + 1, b)] + grid[(a, b + 1)]);
             0.25 * (same - other)
         };
         rms((0..n * n).map(cell))
@@ -353,8 +304,7 @@ mod tests {
         let d = 1e-4;
         for x in [[0.2, 0.3], [0.71, 0.44], [0.5, 0.9]] {
             let at = |dx: f64, dy: f64, k: usize| exact(&[x[0] + dx, x[1] + dy])[k];
-            let divergence =
-                (at(d, 0.0, 0) - at(-d, 0.0, 0) + at(0.0, d, 1) - at(0.0, -d, 1)) / (2.0 * d);
+            let divergence = (at(d, 0.0, 0) - at(-d, 0.0, 0) + at(0.0, d, 1) - at(0.0, -d, 1)) / (2.0 * d);
             assert!(divergence.abs() < 1e-5);
             for a in 0..2 {
                 let sum = at(d, 0.0, a) + at(-d, 0.0, a) + at(0.0, d, a) + at(0.0, -d, a);

@@ -21,10 +21,7 @@ fn run(name: &str, columns: Vec<Column>) -> Run {
 fn golden() -> Golden {
     let series = |quantity, values: [f64; 2], response| {
         let [first, last] = values;
-        let points = [
-            point(Some(0.5), first, 0.0),
-            point(Some(1.0), last, response),
-        ];
+        let points = [point(Some(0.5), first, 0.0), point(Some(1.0), last, response)];
         column(quantity, &points)
     };
     let columns = vec![
@@ -69,9 +66,7 @@ fn a_file_reads_back_as_it_was() {
     assert_eq!(Golden::read(&path).unwrap(), golden);
     assert_eq!(golden.run("b/h2"), Some(&golden.runs[1]));
     assert_eq!(golden.run("c/h2"), None);
-    assert!(
-        golden.runs[0].has_series() && !run("c", golden.runs[0].columns[..1].into()).has_series()
-    );
+    assert!(golden.runs[0].has_series() && !run("c", golden.runs[0].columns[..1].into()).has_series());
 }
 
 #[test]
@@ -81,10 +76,7 @@ fn damaged_files_of_goldens_are_refused() {
     let refused = |text: &str, named: &str| {
         std::fs::write(&path, text).unwrap();
         let error = Golden::read(&path).unwrap_err().to_string();
-        assert!(
-            error.contains("case.json") && error.contains(named),
-            "{error}\n{text}"
-        );
+        assert!(error.contains("case.json") && error.contains(named), "{error}\n{text}");
     };
     for (old, new, named) in [
         ("first", "fi\\trst", "control characters"),
@@ -116,10 +108,7 @@ fn damaged_files_of_goldens_are_refused() {
     }
     refused(&TEXT[..TEXT.len() - 9], "EOF while parsing");
     refused("", "EOF while parsing");
-    let none = Golden {
-        blessings: Vec::new(),
-        ..golden()
-    };
+    let none = Golden { blessings: Vec::new(), ..golden() };
     none.write(&path).unwrap();
     let error = Golden::read(&path).unwrap_err().to_string();
     assert!(error.contains("no line of a blessing"), "{error}");
@@ -129,23 +118,14 @@ fn damaged_files_of_goldens_are_refused() {
 #[test]
 fn numbers_may_move_as_far_as_rounding_takes_them() {
     let scale = column("metric/tip (m)", &[point(None, -2.5, 0.0)]);
-    assert_eq!(
-        (scale.scale(), scale.tolerance(&scale.points[0])),
-        (2.5, 2.5e-7)
-    );
+    assert_eq!((scale.scale(), scale.tolerance(&scale.points[0])), (2.5, 2.5e-7));
     let series = &golden().runs[0].columns[1];
     // Of the column, not of the row.
-    assert_eq!(
-        (series.scale(), series.tolerance(&series.points[1])),
-        (1.0, 1e-7)
-    );
+    assert_eq!((series.scale(), series.tolerance(&series.points[1])), (1.0, 1e-7));
     assert_eq!((series.response(), series.is_blunt()), (1e-12, false));
     assert!(!series.is_count() && series.is_loose().is_none());
     let count = column("work/steps", &[point(None, 195.0, 2.0)]);
-    assert_eq!(
-        (count.is_count(), count.tolerance(&count.points[0])),
-        (true, 20.0)
-    );
+    assert_eq!((count.is_count(), count.tolerance(&count.points[0])), (true, 20.0));
     let still = column("work/steps", &[point(None, 195.0, 0.0)]);
     assert_eq!(still.tolerance(&still.points[0]), 0.0);
     let blunt = |response| column("metric/tip (m)", &[point(None, 10.0, response)]).is_blunt();
@@ -162,21 +142,13 @@ fn numbers_may_move_as_far_as_rounding_takes_them() {
 fn a_blessing_replaces_what_it_blesses() {
     let mut golden = golden();
     golden.runs.push(run("dropped/h2", Vec::new()));
-    let new = run(
-        "a/h2",
-        vec![column("metric/tip (m)", &[point(None, 7.0, 0.0)])],
-    );
+    let new = run("a/h2", vec![column("metric/tip (m)", &[point(None, 7.0, 0.0)])]);
     let first = run("new/h2", Vec::new());
     let unplanned = run("unplanned/h2", Vec::new());
     let planned = ["new/h2", "b/h2", "a/h2"].map(str::to_owned);
     let of = record("h2", Vec::new());
     let others = golden.runs[1].clone();
-    golden.bless(
-        vec![new.clone(), first.clone(), unplanned],
-        &planned,
-        &of,
-        "  it is\nright ",
-    );
+    golden.bless(vec![new.clone(), first.clone(), unplanned], &planned, &of, "  it is\nright ");
     assert_eq!(golden.runs, [first, others, new]);
     assert_eq!(golden.blessings.len(), 3);
     let (day, said) = golden.blessings[2].split_once(": ").unwrap();
@@ -194,9 +166,7 @@ fn a_blessing_replaces_what_it_blesses() {
 fn a_picture_shows_schemes_beside_each_other() {
     let mut golden = golden();
     let columns = golden.runs[0].columns.clone();
-    let names = |golden: &Golden| -> Vec<String> {
-        golden.shown().into_iter().map(|run| run.name).collect()
-    };
+    let names = |golden: &Golden| -> Vec<String> { golden.shown().into_iter().map(|run| run.name).collect() };
     assert_eq!(names(&golden), ["a/h2", "b/h2"]);
     // Of as many the first; of more, those.
     golden.runs.push(run("a/h1", columns.clone()));
@@ -209,10 +179,7 @@ fn a_picture_shows_schemes_beside_each_other() {
     assert_eq!(names(&golden), ["a/h2", "b/h2"]);
     let many = (0..SHOWN + 1).map(|k| run(&format!("{k}/h4"), columns.clone()));
     golden.runs.extend(many);
-    assert_eq!(
-        (golden.shown().len(), &*golden.shown()[0].name),
-        (SHOWN, "0/h4")
-    );
+    assert_eq!((golden.shown().len(), &*golden.shown()[0].name), (SHOWN, "0/h4"));
     golden.runs.clear();
     assert!(golden.shown().is_empty());
 }

@@ -7,25 +7,11 @@ use super::*;
 fn the_field_of_the_first_run_is_kept_and_compared() {
     let made = Made::of(0);
     let [file, picture] = field::files(&made.goldens(), "cook");
-    assert_eq!(
-        [&file, &picture],
-        [
-            &made.goldens().join("cook-field.csv"),
-            &made.goldens().join("cook-field.png")
-        ]
-    );
+    assert_eq!([&file, &picture], [&made.goldens().join("cook-field.csv"), &made.goldens().join("cook-field.png")]);
     let text = fs::read_to_string(&file).unwrap();
     let rows: Vec<&str> = text.lines().collect();
     // That beside the window is not kept; those on its edge are.
-    assert_eq!(
-        rows,
-        [
-            "particle,x (m),y (m),value",
-            "0,10,10,-1",
-            "1,20,30,0",
-            "3,0,60,1"
-        ]
-    );
+    assert_eq!(rows, ["particle,x (m),y (m),value", "0,10,10,-1", "1,20,30,0", "3,0,60,1"]);
     let (pixel, colour) = (60.0 / 240.0, 2.0 / 16.0);
     let view = cases::find("cook").unwrap().field.unwrap();
     let differ = || {
@@ -49,11 +35,7 @@ fn the_field_of_the_first_run_is_kept_and_compared() {
     }
     // A pixel is a share of what is shown, wherever that begins.
     let shown = [(8.0, 32.0), (6.0, 36.0)];
-    let view = crate::case::FieldView {
-        window: shown,
-        range: (-2.0, 1.0),
-        ..view
-    };
+    let view = crate::case::FieldView { window: shown, range: (-2.0, 1.0), ..view };
     let files = ["part.csv", "part.png"].map(|name| made.folder.path().join(name));
     made.write("particles.csv", &Made::particles());
     field::bless(&files, &view, &made.record, made.folder.path()).unwrap();
@@ -79,14 +61,8 @@ fn the_field_of_the_first_run_is_kept_and_compared() {
     assert_eq!(differ(), Some(2.0));
     made.write("particles.csv", &Made::particles()[..3]);
     let goldens = Goldens::open(&made.goldens()).unwrap();
-    let said = goldens
-        .compare(&made.record, made.folder.path())
-        .unwrap_err()
-        .to_string();
-    assert!(
-        said.contains("particles.csv") && said.contains("no column mean_stress"),
-        "{said}"
-    );
+    let said = goldens.compare(&made.record, made.folder.path()).unwrap_err().to_string();
+    assert!(said.contains("particles.csv") && said.contains("no column mean_stress"), "{said}");
 
     made.write("particles.csv", &Made::particles());
     let mut other = read_picture(&picture).unwrap();
@@ -96,16 +72,8 @@ fn the_field_of_the_first_run_is_kept_and_compared() {
     assert_eq!((drift.len(), drift[0].1), (1, Some(1.0)));
     fs::remove_file(&picture).unwrap();
     assert!(made.drift()[0].2.contains("cook-field.png"));
-    for damaged in [
-        rows[0].to_owned() + "\n",
-        text.replace("value", "stress"),
-        text[..40].to_owned(),
-    ] {
+    for damaged in [rows[0].to_owned() + "\n", text.replace("value", "stress"), text[..40].to_owned()] {
         fs::write(&file, damaged).unwrap();
-        assert!(
-            made.drift()[0].2.contains("cook-field.csv"),
-            "{:?}",
-            made.drift()
-        );
+        assert!(made.drift()[0].2.contains("cook-field.csv"), "{:?}", made.drift());
     }
 }

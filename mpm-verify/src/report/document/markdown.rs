@@ -19,21 +19,11 @@ impl Block {
             }
             Self::Paragraph { text, .. } => text.markdown() + "\n",
             Self::Table { table, .. } => table.markdown(),
-            Self::Picture {
-                picture: Shown { file, caption, .. },
-            } => format!("![{caption}]({file})\n"),
+            Self::Picture { picture: Shown { file, caption, .. } } => format!("![{caption}]({file})\n"),
             Self::Drawing { caption, .. } => format!("{caption}\n"),
-            Self::List { items } => items
-                .iter()
-                .map(|item| format!("- {}\n", item.markdown()))
-                .collect(),
-            Self::Facts { facts } => facts
-                .iter()
-                .map(|[name, value]| format!("- {name}: {value}\n"))
-                .collect(),
-            Self::Folded {
-                summary, blocks, ..
-            } => {
+            Self::List { items } => items.iter().map(|item| format!("- {}\n", item.markdown())).collect(),
+            Self::Facts { facts } => facts.iter().map(|[name, value]| format!("- {name}: {value}\n")).collect(),
+            Self::Folded { summary, blocks, .. } => {
                 let blocks: Vec<String> = blocks.iter().map(Self::markdown).collect();
                 format!("### {summary}\n\n{}", blocks.join("\n"))
             }

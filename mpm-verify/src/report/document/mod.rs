@@ -40,16 +40,10 @@ impl Text {
 
     /// Words with `code`, **strong** ones and [links](target) in them.
     pub(super) fn marked(words: &str) -> Self {
-        let marks = [
-            ("`", "`", "code"),
-            ("**", "**", "strong"),
-            ("[", ")", "link"),
-        ];
+        let marks = [("`", "`", "code"), ("**", "**", "strong"), ("[", ")", "link")];
         let (mut text, mut rest) = (Self::default(), words);
         loop {
-            let found = marks
-                .iter()
-                .filter_map(|mark| Some((rest.find(mark.0)?, mark)));
+            let found = marks.iter().filter_map(|mark| Some((rest.find(mark.0)?, mark)));
             let first = found.min_by_key(|(place, _)| *place);
             let parts = first.and_then(|(place, (open, close, kind))| {
                 let (inner, after) = rest[place + open.len()..].split_once(close)?;
@@ -135,42 +129,27 @@ pub(super) struct Cell {
 impl<T: Into<Text>> From<T> for Cell {
     fn from(text: T) -> Self {
         let text = text.into();
-        Self {
-            text,
-            ..Self::default()
-        }
+        Self { text, ..Self::default() }
     }
 }
 
 impl Cell {
     pub(super) fn of(text: impl Into<Text>, class: &str) -> Self {
         let class = class.to_owned();
-        Self {
-            class,
-            ..Self::from(text)
-        }
+        Self { class, ..Self::from(text) }
     }
 
     /// What a row is about.
     pub(super) fn head(text: impl Into<Text>) -> Self {
-        Self {
-            is_head: true,
-            ..Self::from(text)
-        }
+        Self { is_head: true, ..Self::from(text) }
     }
 
     pub(super) fn titled(self, title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            ..self
-        }
+        Self { title: title.into(), ..self }
     }
 
     pub(super) fn aside(self, aside: impl Into<String>) -> Self {
-        Self {
-            aside: aside.into(),
-            ..self
-        }
+        Self { aside: aside.into(), ..self }
     }
 
     /// A text that is a number, if it looks like one, to the right.
@@ -206,18 +185,10 @@ impl From<Sheet> for Table {
     fn from(sheet: Sheet) -> Self {
         let row = |row: &Vec<String>| {
             let rest = row.iter().skip(1).map(|cell| Cell::of_sheet(cell));
-            row.first()
-                .map(|cell| Cell::head(cell.as_str()))
-                .into_iter()
-                .chain(rest)
-                .into()
+            row.first().map(|cell| Cell::head(cell.as_str())).into_iter().chain(rest).into()
         };
         let head = sheet.head.iter().map(|title| title.as_str().into());
-        Self {
-            class: "",
-            head: head.collect(),
-            rows: sheet.rows.iter().map(row).collect(),
-        }
+        Self { class: "", head: head.collect(), rows: sheet.rows.iter().map(row).collect() }
     }
 }
 
@@ -237,18 +208,9 @@ impl Shown {
         let stem = file.rsplit_once('.').map_or(&*file, |(stem, _)| stem);
         let [svg, still] = ["svg", "still.png"].map(|ending| {
             let beside = format!("{stem}.{ending}");
-            if out.join(&beside).exists() {
-                beside
-            } else {
-                String::new()
-            }
+            if out.join(&beside).exists() { beside } else { String::new() }
         });
-        Self {
-            file,
-            caption,
-            svg,
-            still,
-        }
+        Self { file, caption, svg, still }
     }
 }
 
@@ -349,28 +311,15 @@ impl Document {
     }
 
     pub(super) fn facts(&mut self, facts: impl IntoIterator<Item = (&'static str, String)>) {
-        let facts = facts
-            .into_iter()
-            .map(|(name, value)| [name.to_owned(), value])
-            .collect();
+        let facts = facts.into_iter().map(|(name, value)| [name.to_owned(), value]).collect();
         self.blocks.push(Block::Facts { facts });
     }
 
-    pub(super) fn folded(
-        &mut self,
-        id: &str,
-        summary: impl Into<String>,
-        fill: impl FnOnce(&mut Self),
-    ) {
+    pub(super) fn folded(&mut self, id: &str, summary: impl Into<String>, fill: impl FnOnce(&mut Self)) {
         let mut inner = Self::default();
         fill(&mut inner);
         let (id, summary) = (id.to_owned(), summary.into());
-        self.blocks.push(Block::Folded {
-            id,
-            open: false,
-            summary,
-            blocks: inner.blocks,
-        });
+        self.blocks.push(Block::Folded { id, open: false, summary, blocks: inner.blocks });
     }
 
     /// Shows what was folded last.

@@ -25,9 +25,7 @@ pub(in crate::report) fn painted(of: Outcome, text: &str) -> String {
 
 /// A text in lines that begin with `indent`.
 pub(in crate::report) fn wrapped(text: &str, first: &str, indent: &str) -> String {
-    let options = textwrap::Options::new(WIDTH)
-        .initial_indent(first)
-        .subsequent_indent(indent);
+    let options = textwrap::Options::new(WIDTH).initial_indent(first).subsequent_indent(indent);
     textwrap::fill(text, options) + "\n"
 }
 
@@ -109,14 +107,9 @@ pub(in crate::report) fn aligned(sheet: Sheet) -> String {
     };
     let head = (0..height).map(|k| {
         let cell = |title: &'_ Vec<String>| (k + title.len()).checked_sub(height);
-        let cells = titles
-            .iter()
-            .map(|t| cell(t).map_or("", |place| &*t[place]));
+        let cells = titles.iter().map(|t| cell(t).map_or("", |place| &*t[place]));
         line(cells.collect())
     });
-    let rows = sheet
-        .rows
-        .iter()
-        .map(|row| line(row.iter().map(String::as_str).collect()));
+    let rows = sheet.rows.iter().map(|row| line(row.iter().map(String::as_str).collect()));
     head.chain(rows).collect()
 }

@@ -25,19 +25,14 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
     let mut lead = Text::from(sentence(study));
     if let Some(best) = nearest(case, study) {
         lead = lead
-            .then(format!(
-                " Best error: {} where {} is allowed (",
-                best.error, best.tolerance
-            ))
+            .then(format!(" Best error: {} where {} is allowed (", best.error, best.tolerance))
             .then(Text::code(best.metric))
             .then(format!(", {}).", best.run));
     }
     page.classed("lead", lead);
     page.paragraph(case.description);
     let failed = verdicts::of_case(study).filter(|(_, v)| v.failed());
-    let failed: Vec<_> = failed
-        .map(|(record, v)| (Some(run(study, record)), v))
-        .collect();
+    let failed: Vec<_> = failed.map(|(record, v)| (Some(run(study, record)), v)).collect();
     let has_failed = !failed.is_empty();
     if has_failed {
         page.section("failed", "What failed");
@@ -54,9 +49,7 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
     }
     for p in prices {
         let (target, label) = (p.aim(), p.label);
-        page.paragraph(format!(
-            "To reach {target} in {label}, the least error that half of the schemes reach:"
-        ));
+        page.paragraph(format!("To reach {target} in {label}, the least error that half of the schemes reach:"));
         page.table(format!("Cost of {label}"), p.table());
     }
     if pictures.len() > 0 {
@@ -67,17 +60,11 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
     }
     page.section("more", "More");
     let runs = study.records.len();
-    page.folded(
-        "runs",
-        format!("Runs ({runs}), and what decides their verdicts"),
-        |page| {
-            let file = format!("{}/verdicts.csv", case.name);
-            page.note(Text::marked(&format!(
-                "Every verdict, with its source: [verdicts.csv]({file})."
-            )));
-            page.table("Runs", of_runs(case, study));
-        },
-    );
+    page.folded("runs", format!("Runs ({runs}), and what decides their verdicts"), |page| {
+        let file = format!("{}/verdicts.csv", case.name);
+        page.note(Text::marked(&format!("Every verdict, with its source: [verdicts.csv]({file}).")));
+        page.table("Runs", of_runs(case, study));
+    });
     page.folded("checks", "Checks, and how often each came out how", |page| {
         page.note(Text::marked(&format!(
             "Faults seen: of {} put into the code on purpose, those that turn the check red ([which](faults.html)).",
@@ -87,16 +74,9 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
     });
     if !study.verdicts.is_empty() {
         let title = "Verdicts on runs together";
-        page.folded(
-            "together",
-            format!("{title} ({})", study.verdicts.len()),
-            |page| {
-                page.table(
-                    title,
-                    verdicts::table(study.verdicts.iter().map(|v| (None, v))),
-                );
-            },
-        );
+        page.folded("together", format!("{title} ({})", study.verdicts.len()), |page| {
+            page.table(title, verdicts::table(study.verdicts.iter().map(|v| (None, v))));
+        });
         if has_failed {
             page.unfold();
         }
@@ -108,15 +88,8 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
     page.folded("metrics", "Metrics, and what made the runs", |page| {
         let metrics = case.metrics.iter();
         let metrics = metrics.map(|m| [m.name, m.unit, m.meaning].map(str::to_owned).into());
-        page.table(
-            "Metrics",
-            Sheet::new(["metric", "unit", "what it measures"]).with(metrics),
-        );
-        page.facts(
-            ["program", "night", "commit"]
-                .into_iter()
-                .zip(made_by(study)),
-        );
+        page.table("Metrics", Sheet::new(["metric", "unit", "what it measures"]).with(metrics));
+        page.facts(["program", "night", "commit"].into_iter().zip(made_by(study)));
     });
     page
 }
@@ -137,35 +110,22 @@ fn sentence(study: &CaseStudy) -> String {
         1 => "Of one run,".to_owned(),
         several => format!("Of {several} runs,"),
     };
-    format!(
-        "{all} {right} right, {known} wrong as known, {not_judged} not judged, {failed} FAILED.{seen}"
-    )
+    format!("{all} {right} right, {known} wrong as known, {not_judged} not judged, {failed} FAILED.{seen}")
 }
 
 /// The quantities of the case, scheme by level; of more than two the others are folded.
 fn errors(page: &mut Document, case: &Case, study: &CaseStudy) {
     let tables = case.quantities.iter().filter_map(|q| {
         let own = study.convergence.iter();
-        let own: Vec<_> = own
-            .filter(|c| c.set == case.ladder && c.metric == q.metric.name)
-            .collect();
+        let own: Vec<_> = own.filter(|c| c.set == case.ladder && c.metric == q.metric.name).collect();
         (!own.is_empty()).then(|| (q, by_level(case, &own)))
     });
     let mut tables: Vec<(&Quantity, Sheet)> = tables.collect();
     if tables.is_empty() {
         return;
     }
-    let ladder = case
-        .ladder
-        .iter()
-        .map(|set| (*set).to_owned())
-        .collect::<Vec<_>>()
-        .join(" ");
-    let changed = if ladder.is_empty() {
-        String::new()
-    } else {
-        format!(", {ladder}")
-    };
+    let ladder = case.ladder.iter().map(|set| (*set).to_owned()).collect::<Vec<_>>().join(" ");
+    let changed = if ladder.is_empty() { String::new() } else { format!(", {ladder}") };
     page.section("errors", format!("Errors by scheme and level{changed}"));
     let others = tables.split_off(tables.len().min(2));
     let show = |page: &mut Document, tables: Vec<(&Quantity, Sheet)>| {
@@ -176,9 +136,7 @@ fn errors(page: &mut Document, case: &Case, study: &CaseStudy) {
     };
     show(page, tables);
     if !others.is_empty() {
-        page.folded("", format!("{} more", others.len()), |page| {
-            show(page, others)
-        });
+        page.folded("", format!("{} more", others.len()), |page| show(page, others));
     }
     let name = case.name;
     page.note(Text::marked(&format!(
@@ -207,10 +165,7 @@ fn by_level(case: &Case, own: &[&Convergence]) -> Sheet {
 fn of_runs(case: &Case, study: &CaseStudy) -> Table {
     let row = |r: &Record| {
         let outcome = outcome_of_run(r);
-        let own = r
-            .verdicts
-            .iter()
-            .filter(|v| v.outcome == outcome && outcome != Outcome::Right);
+        let own = r.verdicts.iter().filter(|v| v.outcome == outcome && outcome != Outcome::Right);
         let deciding = distinct(own.filter(|v| v.judges() || v.failed()).map(|v| &*v.check));
         let why = match &r.error {
             Some(e) => format!("broke down at {} s", number(Some(e.time))),
@@ -222,20 +177,13 @@ fn of_runs(case: &Case, study: &CaseStudy) -> Table {
         let values = case.headlines.iter().map(|h| h.of_run(r));
         let values = values.chain([number(Some(r.time.cpu_s))]).map(Cell::from);
         let cells = first.into_iter().chain(verdict).chain(values).collect();
-        Row {
-            id: anchor(r),
-            cells,
-        }
+        Row { id: anchor(r), cells }
     };
     let head = ["scheme", "level", "changed", "verdict", "for"].map(Cell::from);
     let values = case.headlines.iter().map(|h| Cell::from(&*h.title));
     Table {
         class: "numbers",
-        head: head
-            .into_iter()
-            .chain(values)
-            .chain(["CPU (s)".into()])
-            .collect(),
+        head: head.into_iter().chain(values).chain(["CPU (s)".into()]).collect(),
         rows: study.records.iter().map(row).collect(),
     }
 }
@@ -259,49 +207,24 @@ fn checks(case: &Case, study: &CaseStudy, seeded: &[Fault]) -> Table {
         };
         let first = [Cell::head(name), Cell::of(kind(of), "tight")];
         let last = [Cell::of(seen, "number"), Cell::of(statement, "wordy")];
-        first
-            .into_iter()
-            .chain(OUTCOMES.map(count))
-            .chain(last)
-            .into()
+        first.into_iter().chain(OUTCOMES.map(count)).chain(last).into()
     };
-    let head = [
-        "check",
-        "kind",
-        "right",
-        "wrong as known",
-        "not judged",
-        "FAILED",
-        "faults seen",
-        "statement",
-    ];
-    Table {
-        class: "",
-        head: head.map(Cell::from).to_vec(),
-        rows: declared.chain(others).map(row).collect(),
-    }
+    let head = ["check", "kind", "right", "wrong as known", "not judged", "FAILED", "faults seen", "statement"];
+    Table { class: "", head: head.map(Cell::from).to_vec(), rows: declared.chain(others).map(row).collect() }
 }
 
 fn set_up(page: &mut Document, case: &Case) {
     let title = "Set-up: geometry, parameters, schemes, levels, references";
     page.folded("set-up", title, |page| {
-        page.drawing(
-            sketch::svg(&case.sketch, case.title),
-            case.sketch.description,
-        );
+        page.drawing(sketch::svg(&case.sketch, case.title), case.sketch.description);
         let parameters = case.parameters.iter().map(|p| {
             let allowed = p.domain.to_string();
-            [p.name, p.unit, p.default, &allowed, p.meaning]
-                .map(str::to_owned)
-                .into()
+            [p.name, p.unit, p.default, &allowed, p.meaning].map(str::to_owned).into()
         });
         let head = ["name", "unit", "default", "allowed", "meaning"];
         page.table("Parameters", Sheet::new(head).with(parameters));
         page.heading(3, "", "Schemes");
-        let schemes = case
-            .schemes()
-            .into_iter()
-            .map(|s| Text::code(s.to_string()));
+        let schemes = case.schemes().into_iter().map(|s| Text::code(s.to_string()));
         page.paragraph(Text::joined(schemes, ", "));
         page.heading(3, "", "Levels");
         let level = |l: &Level| Text::code(l.name).then(format!(": cells of {} m", l.h));

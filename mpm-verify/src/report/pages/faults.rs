@@ -7,12 +7,7 @@ use crate::study::summary::Summary;
 
 /// A line a fault and a column a case that sees any, in the order of the cases; a case has a link where it has a page.
 pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
-    let sees = |case: &str| {
-        faults
-            .iter()
-            .filter(|f| f.seen_by.contains_key(case))
-            .count()
-    };
+    let sees = |case: &str| faults.iter().filter(|f| f.seen_by.contains_key(case)).count();
     let names = cases::all().iter().map(|case| case.name);
     let names: Vec<&str> = names.filter(|name| sees(name) > 0).collect();
     let title = |name: &&str| match summary.cases.iter().any(|study| study.case == **name) {
@@ -20,11 +15,7 @@ pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
         false => Cell::of(*name, "steep"),
     };
     let line = |fault: &Fault| -> Row {
-        let class = if fault.hangs_on_one() {
-            "known"
-        } else {
-            "pass"
-        };
+        let class = if fault.hangs_on_one() { "known" } else { "pass" };
         let cells = names.iter().map(|name| match fault.seen_by.get(*name) {
             Some(checks) => Cell::of(checks.len().to_string(), class).titled(checks.join(", ")),
             None => Cell::default(),
@@ -32,16 +23,10 @@ pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
         [Cell::head(&*fault.name)].into_iter().chain(cells).into()
     };
     let seen = names.iter().map(|name| sees(name).to_string().into());
-    let last = [Cell::head("faults that a case sees")]
-        .into_iter()
-        .chain(seen)
-        .into();
+    let last = [Cell::head("faults that a case sees")].into_iter().chain(seen).into();
     let table = Table {
         class: "map faults",
-        head: ["fault".into()]
-            .into_iter()
-            .chain(names.iter().map(title))
-            .collect(),
+        head: ["fault".into()].into_iter().chain(names.iter().map(title)).collect(),
         rows: faults.iter().map(line).chain([last]).collect(),
     };
     let alone = faults.iter().filter(|f| f.hangs_on_one()).count();
@@ -54,8 +39,7 @@ pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
             faults.len()
         ),
     );
-    let key =
-        Text::from("A number is that of the checks of a case that go red, which its title names. ");
+    let key = Text::from("A number is that of the checks of a case that go red, which its title names. ");
     page.paragraph(
         key.then(Text::mark("3", "key pass"))
             .then(" others see the fault too · ")

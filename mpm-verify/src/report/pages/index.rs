@@ -34,32 +34,19 @@ pub(super) fn links() -> Vec<Text> {
     links.map(|(name, to)| Text::link(name, to)).collect()
 }
 
-pub(super) fn page(
-    summary: &Summary,
-    speed: &Speed,
-    picture: Option<Picture>,
-    out: &Path,
-) -> Result<Document, Error> {
-    let mut page =
-        Document::new(Text::from("Verification, tier ").then(Text::code(&*summary.tier)));
+pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, out: &Path) -> Result<Document, Error> {
+    let mut page = Document::new(Text::from("Verification, tier ").then(Text::code(&*summary.tier)));
     let counts = summary.counts.to_string();
     let result = match summary.exit_code() as u8 {
         0 => Text::mark("✓ nothing failed", "badge pass"),
-        _ => Text::mark("✗", "badge fail")
-            .then(" ")
-            .then(Text::link("something failed", "#failed")),
+        _ => Text::mark("✗", "badge fail").then(" ").then(Text::link("something failed", "#failed")),
     };
     let about = "The locking-free material point method against exact solutions, independent references and published results. ";
     let first = counts.lines().next().unwrap_or_default();
     page.paragraph(Text::from(about).then(result).then_below(first));
     schemes(&mut page);
     of_map(&mut page, summary, speed);
-    price(
-        &mut page,
-        summary,
-        speed,
-        picture.map(|p| Shown::of(&p, out)),
-    );
+    price(&mut page, summary, speed, picture.map(|p| Shown::of(&p, out)));
     page.section("cases", "Cases");
     page.table("Cases", of_cases(summary, out)?);
     for line in counts.lines() {
@@ -73,16 +60,9 @@ pub(super) fn page(
     page.section("programs", "What ran");
     let machines = summary.cases.iter().flat_map(|s| &s.records).map(|r| {
         let m = &r.machine;
-        format!(
-            "{} {}, {} cores, threads per run: {}",
-            m.os, m.arch, m.cores, m.threads
-        )
+        format!("{} {}, {} cores, threads per run: {}", m.os, m.arch, m.cores, m.threads)
     });
-    page.facts(
-        distinct(machines)
-            .into_iter()
-            .map(|machine| ("machine", machine)),
-    );
+    page.facts(distinct(machines).into_iter().map(|machine| ("machine", machine)));
     page.table("What ran", programs(summary));
     Ok(page)
 }
@@ -92,11 +72,7 @@ fn schemes(page: &mut Document) {
     page.section("advice", "Which scheme to take");
     let readme = in_repository("README.md", "README.md#which-scheme-to-take", "HEAD");
     let Some(table) = advice() else {
-        return page.paragraph(
-            Text::from("The table of ")
-                .then(readme)
-                .then(" is not at hand."),
-        );
+        return page.paragraph(Text::from("The table of ").then(readme).then(" is not at hand."));
     };
     page.table("Which scheme to take", table);
     page.note(Text::from("The table of ").then(readme).then(Text::marked(
@@ -111,9 +87,7 @@ fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
     if panels.is_empty() {
         return page.paragraph("There is no run.");
     }
-    let key = |[symbol, text, class]: [&str; 3]| {
-        Text::mark(symbol, &format!("key {class}")).then(format!(" {text}"))
-    };
+    let key = |[symbol, text, class]: [&str; 3]| Text::mark(symbol, &format!("key {class}")).then(format!(" {text}"));
     page.paragraph(Text::joined(map::legend().map(key), " · "));
     page.note(Text::marked(
         "A cell shows the worst outcome of a scheme's runs in a case; it is pale if less than half of them came out so, and blank if \
@@ -165,10 +139,7 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
     let row = |study: &CaseStudy| -> Result<Row, Error> {
         let case = cases::find(&study.case)?;
         let name = Text::link(case.title, file_of(study));
-        let name = name
-            .then_below(Text::code(case.name))
-            .then(" · ")
-            .then(docs(study));
+        let name = name.then_below(Text::code(case.name)).then(" · ").then(docs(study));
         let thumb = pictures(study, out).into_iter().next();
         let thumb = thumb.map(|p| {
             let still = if p.still.is_empty() { p.file } else { p.still };
@@ -183,11 +154,7 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
         );
         let together = study.verdicts.iter().filter(|v| v.failed()).count();
         let counts = OUTCOMES.map(|outcome| {
-            let runs = study
-                .records
-                .iter()
-                .filter(|r| outcome_of_run(r) == outcome)
-                .count();
+            let runs = study.records.iter().filter(|r| outcome_of_run(r) == outcome).count();
             match (outcome, runs + together) {
                 (Outcome::Failed, n) if n > 0 => Text::mark(format!("✗ {n}"), "badge fail"),
                 _ => runs.to_string().into(),
@@ -197,39 +164,16 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
         let pairs = format!("{:.2}", 1e-9 * sum(|r| r.work.particle_node_pairs as f64));
         let cpu = format!("{:.1}", sum(|r| r.time.cpu_s));
         let numbers = counts.into_iter().chain([pairs.into(), cpu.into()]);
-        let first = [
-            Cell::head(name),
-            thumb.unwrap_or_default().into(),
-            best.into(),
-        ];
-        Ok(first
-            .into_iter()
-            .chain(numbers.map(|n| Cell::of(n, "number")))
-            .into())
+        let first = [Cell::head(name), thumb.unwrap_or_default().into(), best.into()];
+        Ok(first.into_iter().chain(numbers.map(|n| Cell::of(n, "number"))).into())
     };
-    let head = [
-        "case",
-        "",
-        "best of the runs that are right: error, tolerance",
-    ]
-    .map(Cell::from);
-    let numbers = [
-        "right",
-        "wrong as known",
-        "not judged",
-        "FAILED",
-        "10⁹ pairs",
-        "CPU (s)",
-    ];
+    let head = ["case", "", "best of the runs that are right: error, tolerance"].map(Cell::from);
+    let numbers = ["right", "wrong as known", "not judged", "FAILED", "10⁹ pairs", "CPU (s)"];
     let numbers = numbers.map(|title| Cell::of(title, "number"));
     Ok(Table {
         class: "",
         head: head.into_iter().chain(numbers).collect(),
-        rows: summary
-            .cases
-            .iter()
-            .map(row)
-            .collect::<Result<_, Error>>()?,
+        rows: summary.cases.iter().map(row).collect::<Result<_, Error>>()?,
     })
 }
 
@@ -268,8 +212,7 @@ fn failed(page: &mut Document, summary: &Summary) {
     page.section("failed", "What failed");
     let broken = verdicts::broken(summary).map(|(study, record, message)| {
         let mark = Text::marked("**⚠ Broke down:** ");
-        mark.then(run(study, Some(record)))
-            .then(format!(": {message}"))
+        mark.then(run(study, Some(record))).then(format!(": {message}"))
     });
     let broken: Vec<Text> = broken.collect();
     let failures = |which: fn(&Verdict) -> bool| {

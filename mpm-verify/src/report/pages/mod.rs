@@ -18,12 +18,7 @@ use std::path::Path;
 
 /// Writes `index.html`, `faults.html` and the page of every case into `out`; on the index the picture of speed against
 /// error, if there is one.
-pub(super) fn write(
-    summary: &Summary,
-    speed: &Speed,
-    picture: Option<Picture>,
-    out: &Path,
-) -> Result<(), Error> {
+pub(super) fn write(summary: &Summary, speed: &Speed, picture: Option<Picture>, out: &Path) -> Result<(), Error> {
     let faults = seeded::faults();
     let title = format!("Verification, tier {}", summary.tier);
     let of = |what: &str| format!("{what}: verification, tier {}", summary.tier);
@@ -31,11 +26,7 @@ pub(super) fn write(
     let page = index::page(summary, speed, picture, out)?;
     page.write_page(&title, index::links(), &out.join("index.html"))?;
     let page = faults::page(&faults, summary);
-    page.write_page(
-        &of("Seeded faults"),
-        vec![up.clone()],
-        &out.join("faults.html"),
-    )?;
+    page.write_page(&of("Seeded faults"), vec![up.clone()], &out.join("faults.html"))?;
     for study in &summary.cases {
         let case = cases::find(&study.case)?;
         let page = case::page(case, study, &faults, out);
@@ -66,9 +57,7 @@ fn in_repository(name: &str, file: &str, commit: &str) -> Text {
     let variable = |name| env::var(name).ok();
     let place = variable("GITHUB_SERVER_URL").zip(variable("GITHUB_REPOSITORY"));
     match place {
-        Some((server, repository)) => {
-            Text::link(name, format!("{server}/{repository}/blob/{commit}/{file}"))
-        }
+        Some((server, repository)) => Text::link(name, format!("{server}/{repository}/blob/{commit}/{file}")),
         None => Text::code(name),
     }
 }

@@ -14,8 +14,7 @@ fn write_in(folder: &Path, summary: &Summary) {
 fn pages(summary: &Summary) -> [String; 2] {
     let folder = tempfile::tempdir().unwrap();
     write_in(folder.path(), summary);
-    ["index.html", "cook.html"]
-        .map(|file| std::fs::read_to_string(folder.path().join(file)).unwrap())
+    ["index.html", "cook.html"].map(|file| std::fs::read_to_string(folder.path().join(file)).unwrap())
 }
 
 /// Values of an attribute on a page, which must be well formed and without scripts.
@@ -39,10 +38,7 @@ fn all(page: &str, wanted: &str) -> Vec<String> {
 #[test]
 fn no_text_breaks_a_page_and_each_says_what_failed_and_what_made_it() {
     let mut summary = summary();
-    summary.cases[0].pictures = vec![Picture {
-        file: "cook/rest.png".to_owned(),
-        caption: NASTY.to_owned(),
-    }];
+    summary.cases[0].pictures = vec![Picture { file: "cook/rest.png".to_owned(), caption: NASTY.to_owned() }];
     let [index, case] = pages(&summary);
     for page in [&index, &case] {
         assert!(page.contains("&lt;script&gt;") && !all(page, "class").is_empty());
@@ -53,11 +49,7 @@ fn no_text_breaks_a_page_and_each_says_what_failed_and_what_made_it() {
     assert!(case.contains("Of 3 runs, 1 right, 0 wrong as known, 0 not judged, 2 FAILED."));
     assert!(case.contains("broke down at 1 s"));
     summary.cases[0].night = None;
-    assert!(
-        pages(&summary)
-            .iter()
-            .all(|page| !page.contains("2026-01-02"))
-    );
+    assert!(pages(&summary).iter().all(|page| !page.contains("2026-01-02")));
 }
 
 #[test]
@@ -76,10 +68,7 @@ fn every_link_to_a_run_has_its_target_once() {
 fn a_picture_has_a_link_to_its_svg_where_there_is_one() {
     let mut summary = summary();
     summary.cases[0].pictures = ["cook/chart.png", "cook/field.png"]
-        .map(|file| Picture {
-            file: file.to_owned(),
-            caption: String::new(),
-        })
+        .map(|file| Picture { file: file.to_owned(), caption: String::new() })
         .to_vec();
     let folder = tempfile::tempdir().unwrap();
     write_whole(&folder.path().join("cook/chart.svg"), b"<svg/>").unwrap();
@@ -99,14 +88,8 @@ fn pages_are_small() {
             let check = |c: &crate::check::Check| {
                 let numbers = (1.234_5e-5, 1.1e-5, 2e-6);
                 let (value, reference, tolerance) = numbers;
-                crate::check::Finding::within(
-                    "displacement_l2",
-                    value,
-                    reference,
-                    tolerance,
-                    c.statement,
-                )
-                .verdict(c.name, c.kind)
+                crate::check::Finding::within("displacement_l2", value, reference, tolerance, c.statement)
+                    .verdict(c.name, c.kind)
             };
             let verdicts = case.checks.iter().map(check).collect();
             let mut run = crate::record::fixture::record(spec.level.name, verdicts);
@@ -114,8 +97,7 @@ fn pages_are_small() {
             run.discretisation.h = spec.level.h;
             for m in &case.metrics {
                 let (value, unit) = (Some(-1.234_5e-5), m.unit.to_owned());
-                run.metrics
-                    .insert(m.name.to_owned(), Measured { value, unit });
+                run.metrics.insert(m.name.to_owned(), Measured { value, unit });
             }
             run
         });

@@ -26,10 +26,7 @@ fn array(name: &str, rest: &str) -> String {
 
 fn columns(text: &str) -> Vec<(String, Vec<f64>)> {
     let table = table(text.as_bytes()).unwrap();
-    table
-        .iter()
-        .map(|(n, v)| (n.to_owned(), v.into()))
-        .collect()
+    table.iter().map(|(n, v)| (n.to_owned(), v.into())).collect()
 }
 
 fn column(name: &str, values: [f64; 2]) -> (String, Vec<f64>) {
@@ -40,13 +37,8 @@ fn column(name: &str, values: [f64; 2]) -> (String, Vec<f64>) {
 fn what_vtk_writes_is_read() {
     let integers: f64 = 2_f64.powi(40);
     for (layout, bytes) in OF_VTK {
-        let table = table(bytes)
-            .map_err(|said| format!("{layout}: {said}"))
-            .unwrap();
-        let found: Vec<_> = table
-            .iter()
-            .map(|(n, v)| (n.to_owned(), v.to_vec()))
-            .collect();
+        let table = table(bytes).map_err(|said| format!("{layout}: {said}")).unwrap();
+        let found: Vec<_> = table.iter().map(|(n, v)| (n.to_owned(), v.to_vec())).collect();
         // The scalars behind a vector, none of the cells, and the points, which VTK puts behind.
         let expected = [
             column("Float64", [-0.1, 1e30]),
@@ -120,84 +112,40 @@ fn what_is_no_grid_is_refused() {
     };
     let piece = |n: &str| with("\"2\"", &format!("\"{n}\""));
     for (text, named) in [
-        (
-            with("UnstructuredGrid\"", "PolyData\""),
-            "no VTKFile of type UnstructuredGrid",
-        ),
+        (with("UnstructuredGrid\"", "PolyData\""), "no VTKFile of type UnstructuredGrid"),
         (
             with("<VTKFile ", "<VTKFile compressor=\"vtkLZ4DataCompressor\" "),
             "a compressor other than vtkZLibDataCompressor",
         ),
-        (
-            with("<PointData>", "<Piece NumberOfPoints=\"2\"/><PointData>"),
-            "more than one piece",
-        ),
+        (with("<PointData>", "<Piece NumberOfPoints=\"2\"/><PointData>"), "more than one piece"),
         (piece("0"), "NumberOfPoints: 1 to 5000000 are allowed"),
         (piece("5000001"), "NumberOfPoints: 1 to 5000000 are allowed"),
         (piece("two"), "NumberOfPoints: 1 to 5000000 are allowed"),
-        (
-            with(">1 2", "/>1 2<DataArray>"),
-            "array \"a\": not 2 numbers",
-        ),
+        (with(">1 2", "/>1 2<DataArray>"), "array \"a\": not 2 numbers"),
         (with("1 2", "1"), "array \"a\": not 2 numbers"),
         (with("1 2", "1 2 3"), "array \"a\": not 2 numbers"),
         (with("1 2", "1 two"), "array \"a\": \"two\" is no number"),
         (with("1 2", "1 nan"), "array \"a\", point 2: NaN"),
         (with("1 2", "inf 2"), "array \"a\", point 1: inf"),
-        (
-            with("ascii", "text"),
-            "format \"text\"; allowed: ascii, binary, appended",
-        ),
+        (with("ascii", "text"), "format \"text\"; allowed: ascii, binary, appended"),
         (with("ascii", "appended"), "no header"),
-        (
-            with("ascii\"", "appended\" offset=\"1\""),
-            "an offset behind the data",
-        ),
-        (
-            with("ascii\"", "appended\" offset=\"-1\""),
-            "an offset behind the data",
-        ),
-        (
-            with("Float64", "Float16").replace("ascii", "binary"),
-            "type \"Float16\"",
-        ),
-        (
-            with("</PointData>", &(array("a", ">1 2") + "</PointData>")),
-            "array \"a\" is there twice",
-        ),
-        (
-            with("PointData", "CellData"),
-            "no points and no scalar point data",
-        ),
-        (
-            with("\"a\"", "\"a\" NumberOfComponents=\"x\""),
-            "no points and no scalar point data",
-        ),
-        (
-            "<VTKFile type=\"UnstructuredGrid\"/>".to_owned(),
-            "no piece with NumberOfPoints",
-        ),
+        (with("ascii\"", "appended\" offset=\"1\""), "an offset behind the data"),
+        (with("ascii\"", "appended\" offset=\"-1\""), "an offset behind the data"),
+        (with("Float64", "Float16").replace("ascii", "binary"), "type \"Float16\""),
+        (with("</PointData>", &(array("a", ">1 2") + "</PointData>")), "array \"a\" is there twice"),
+        (with("PointData", "CellData"), "no points and no scalar point data"),
+        (with("\"a\"", "\"a\" NumberOfComponents=\"x\""), "no points and no scalar point data"),
+        ("<VTKFile type=\"UnstructuredGrid\"/>".to_owned(), "no piece with NumberOfPoints"),
         (String::new(), "no piece with NumberOfPoints"),
         (with("</Piece>", "</Part>"), "Piece"),
     ] {
         let said = table(text.as_bytes()).unwrap_err();
         assert!(said.contains(named), "{text}\n{said}");
     }
-    assert_eq!(
-        columns(&with("<VTKFile ", "<VTKFile compressor=\"\" ")),
-        [column("a", [1.0, 2.0])]
-    );
-    assert!(
-        table(b"<VTKFile type=\"\xff\"/>")
-            .unwrap_err()
-            .contains("UTF-8")
-    );
+    assert_eq!(columns(&with("<VTKFile ", "<VTKFile compressor=\"\" ")), [column("a", [1.0, 2.0])]);
+    assert!(table(b"<VTKFile type=\"\xff\"/>").unwrap_err().contains("UTF-8"));
     let most = piece("5000000");
-    assert!(
-        table(most.as_bytes())
-            .unwrap_err()
-            .contains("not 5000000 numbers")
-    );
+    assert!(table(most.as_bytes()).unwrap_err().contains("not 5000000 numbers"));
 }
 
 /// Bytes in base64, its digits in their order and back from its first padding.
@@ -205,18 +153,12 @@ fn what_is_no_grid_is_refused() {
 fn base64_is_decoded() {
     let decoded = |text: &str| {
         let mut bytes = Vec::new();
-        Base64::new(text.as_bytes())
-            .read_to_end(&mut bytes)
-            .unwrap();
+        Base64::new(text.as_bytes()).read_to_end(&mut bytes).unwrap();
         bytes
     };
     let digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let bits: Vec<u8> = (0..64_u8)
-        .flat_map(|d| (0..6).rev().map(move |k| d >> k & 1))
-        .collect();
-    let bytes = bits
-        .chunks(8)
-        .map(|byte| byte.iter().fold(0, |b, bit| b << 1 | bit));
+    let bits: Vec<u8> = (0..64_u8).flat_map(|d| (0..6).rev().map(move |k| d >> k & 1)).collect();
+    let bytes = bits.chunks(8).map(|byte| byte.iter().fold(0, |b, bit| b << 1 | bit));
     assert_eq!(decoded(digits), bytes.collect::<Vec<u8>>());
     // Examples of RFC 4648, section 10; pieces that are filled up each; blanks between; what is no digit ends it.
     for (text, plain) in [
@@ -236,33 +178,16 @@ fn base64_is_decoded() {
 
 #[test]
 fn packed_numbers_are_as_many_as_they_say() {
-    let layout = |compressed| Layout {
-        compressed,
-        ..Layout::default()
-    };
+    let layout = |compressed| Layout { compressed, ..Layout::default() };
     let of = |kind: &str| {
         let element = BytesStart::new("DataArray");
-        Array {
-            kind: kind.to_owned(),
-            ..Array::of(&element, false)
-        }
+        Array { kind: kind.to_owned(), ..Array::of(&element, false) }
     };
-    let unpack = |compressed, count, bytes: &[u8]| {
-        of("UInt16").unpack(&layout(compressed), count, &mut &bytes[..])
-    };
+    let unpack = |compressed, count, bytes: &[u8]| of("UInt16").unpack(&layout(compressed), count, &mut &bytes[..]);
     let said = |compressed, bytes: &[u8]| unpack(compressed, 2, bytes).unwrap_err();
-    assert_eq!(
-        unpack(false, 2, &[4, 0, 0, 0, 1, 1, 2, 0, 9]).unwrap(),
-        [257.0, 2.0]
-    );
-    assert_eq!(
-        said(false, &[5, 0, 0, 0, 1, 0, 2, 0, 9]),
-        "5 bytes, where 4 bytes are described"
-    );
-    assert_eq!(
-        said(false, &[4, 0, 0, 0, 1, 0, 2]),
-        "3 bytes, where 4 bytes are described"
-    );
+    assert_eq!(unpack(false, 2, &[4, 0, 0, 0, 1, 1, 2, 0, 9]).unwrap(), [257.0, 2.0]);
+    assert_eq!(said(false, &[5, 0, 0, 0, 1, 0, 2, 0, 9]), "5 bytes, where 4 bytes are described");
+    assert_eq!(said(false, &[4, 0, 0, 0, 1, 0, 2]), "3 bytes, where 4 bytes are described");
     assert_eq!(said(false, &[4, 0, 0]), "no header");
     let header = |blocks: u32, sizes: &[u32]| -> Vec<u8> {
         let all = [blocks, 0, 0].into_iter().chain(sizes.iter().copied());
@@ -270,9 +195,7 @@ fn packed_numbers_are_as_many_as_they_say() {
     };
     let packed = |bytes: &[u8]| {
         let mut packed = Vec::new();
-        flate2::read::ZlibEncoder::new(bytes, flate2::Compression::fast())
-            .read_to_end(&mut packed)
-            .unwrap();
+        flate2::read::ZlibEncoder::new(bytes, flate2::Compression::fast()).read_to_end(&mut packed).unwrap();
         packed
     };
     let blocks = |blocks: &[&[u8]]| {
@@ -280,21 +203,11 @@ fn packed_numbers_are_as_many_as_they_say() {
         let sizes: Vec<u32> = blocks.iter().map(|b| b.len() as u32).collect();
         [header(sizes.len() as u32, &sizes), blocks.concat()].concat()
     };
-    for whole in [
-        &[&[1, 1, 2, 0][..]][..],
-        &[&[1, 1], &[2, 0]],
-        &[&[1], &[], &[1, 2, 0]],
-    ] {
+    for whole in [&[&[1, 1, 2, 0][..]][..], &[&[1, 1], &[2, 0]], &[&[1], &[], &[1, 2, 0]]] {
         assert_eq!(unpack(true, 2, &blocks(whole)).unwrap(), [257.0, 2.0]);
     }
-    assert_eq!(
-        said(true, &blocks(&[&[1, 1], &[2]])),
-        "3 bytes, where 4 bytes are described"
-    );
-    assert_eq!(
-        said(true, &blocks(&[&[1, 1], &[2, 0, 3]])),
-        "5 bytes, where 4 bytes are described"
-    );
+    assert_eq!(said(true, &blocks(&[&[1, 1], &[2]])), "3 bytes, where 4 bytes are described");
+    assert_eq!(said(true, &blocks(&[&[1, 1], &[2, 0, 3]])), "5 bytes, where 4 bytes are described");
     // What inflates to more is not inflated: one byte too many is enough to see it.
     let bomb = blocks(&[&[0; 1 << 20], &[0; 1 << 20]]);
     assert_eq!(said(true, &bomb), "5 bytes, where 4 bytes are described");
@@ -306,15 +219,9 @@ fn packed_numbers_are_as_many_as_they_say() {
     loose.append(&mut second);
     let all = [header(2, &sizes), loose].concat();
     assert_eq!(unpack(true, 3, &all).unwrap(), [257.0, 2.0, 3.0]);
-    assert_eq!(
-        said(true, &header(100_001, &[])),
-        "too many blocks, where 4 bytes are described"
-    );
+    assert_eq!(said(true, &header(100_001, &[])), "too many blocks, where 4 bytes are described");
     assert_eq!(said(true, &header(100_000, &[])), "no header");
     assert_eq!(said(true, &header(1, &[])), "no header");
     let broken = said(true, &[header(1, &[4]), vec![1, 2, 3, 4]].concat());
-    assert!(
-        broken.ends_with(", where 4 bytes are described"),
-        "{broken}"
-    );
+    assert!(broken.ends_with(", where 4 bytes are described"), "{broken}");
 }

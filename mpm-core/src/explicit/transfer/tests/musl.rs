@@ -47,13 +47,7 @@ fn strains_are_of_the_new_velocities<const D: usize, const S: usize, B: Basis<S>
     }
     frozen.lattice.unfold(&mut nodes);
     let mut musl = Musl::default();
-    let sweeps = musl.prepare(
-        &frozen.lattice,
-        &frozen.particles,
-        &frozen.slabs,
-        &nodes,
-        &[],
-    );
+    let sweeps = musl.prepare(&frozen.lattice, &frozen.particles, &frozen.slabs, &nodes, &[]);
     assert_eq!(sweeps, 1);
     let flip = Flip::default();
     let places = frozen.particles.position.clone();
@@ -113,15 +107,8 @@ fn what_is_held_has_no_other_velocity_in_strains() {
     }
     nodes[wall].motion = Node::from([0.0, 0.0, 0.0, nodes[wall].mass()]);
     nodes[wall].change = Node::ZERO;
-    let held = [Prescribed {
-        node: wall,
-        axis: 0,
-        velocity: 0.0,
-        full_velocity: 0.0,
-        bound: Bound::Equal,
-        force: 0.0,
-        by: 0,
-    }];
+    let held =
+        [Prescribed { node: wall, axis: 0, velocity: 0.0, full_velocity: 0.0, bound: Bound::Equal, force: 0.0, by: 0 }];
     let slope = |held: &[Prescribed]| {
         let mut musl = Musl::default();
         let (particles, slabs) = (&frozen.particles, &frozen.slabs);

@@ -51,10 +51,8 @@ fn isotropic_compression_has_its_two_lines() {
             assert!((volume(&law, p, largest) - end).abs() < 1e-12, "{end}: {p}");
         }
         // λ: what the volume changes by over ln p.
-        let slope =
-            |p: f64| (volume(&law, p * 1.001, p * 1.001) - volume(&law, p, p)) / 1.001_f64.ln();
-        let kappa =
-            |p: f64| (elastic_volume(&law, p * 1.001) - elastic_volume(&law, p)) / 1.001_f64.ln();
+        let slope = |p: f64| (volume(&law, p * 1.001, p * 1.001) - volume(&law, p, p)) / 1.001_f64.ln();
+        let kappa = |p: f64| (elastic_volume(&law, p * 1.001) - elastic_volume(&law, p)) / 1.001_f64.ln();
         assert!((slope(2e5) - kappa(2e5) + PSI).abs() < 1e-9);
     }
 }
@@ -70,18 +68,14 @@ fn undrained(step: f64) -> Matrix3<f64> {
 fn undrained_shear_follows_its_stress_path() {
     for start in [1.0, 0.8, 0.25] {
         let law = clay(start * PRECONSOLIDATION);
-        let pc = |p: f64| {
-            PRECONSOLIDATION * ((elastic_volume(&law, p) - law.initial_volume) / PSI).exp()
-        };
+        let pc = |p: f64| PRECONSOLIDATION * ((elastic_volume(&law, p) - law.initial_volume) / PSI).exp();
         // p_c falls as p grows.
         let [low, _] = bisect([1.0, 2.0 * PRECONSOLIDATION], |p| pc(p) > 2.0 * p);
         for steps in [5, 40] {
             let mut state = law.initial_state();
             let mut flown = 0;
             for _ in 0..steps {
-                state = law
-                    .update(&undrained(0.3 / f64::from(steps)), 1.0, &state)
-                    .1;
+                state = law.update(&undrained(0.3 / f64::from(steps)), 1.0, &state).1;
                 let [p, q, found] = stresses(&law, &state);
                 if state.plastic_strain > 0.0 {
                     flown += 1;
@@ -130,9 +124,7 @@ fn undrained_shear_strain_converges_with_first_order() {
     let errors = [40, 80, 160].map(|steps| {
         let mut state = law.initial_state();
         for _ in 0..steps {
-            state = law
-                .update(&undrained(end / f64::from(steps)), 1.0, &state)
-                .1;
+            state = law.update(&undrained(end / f64::from(steps)), 1.0, &state).1;
         }
         stresses(&law, &state)[0] / exact - 1.0
     });
@@ -216,11 +208,7 @@ fn rates(law: &CamClay, v: f64, q: f64, pc: f64) -> [f64; 3] {
     let elastic = by_p * bulk + by_q * 2.0 * g;
     let hard = by_p * bulk * by_p + by_q * 3.0 * g * by_q - by_pc * pc / PSI * by_p;
     let flow = (elastic / hard).max(0.0);
-    [
-        -(1.0 - flow * by_p),
-        3.0 * g * (2.0 / 3.0 - flow * by_q),
-        pc / PSI * flow * by_p,
-    ]
+    [-(1.0 - flow * by_p), 3.0 * g * (2.0 / 3.0 - flow * by_q), pc / PSI * flow * by_p]
 }
 
 /// One-dimensional compression from the surface, against the rates by the classical Runge–Kutta method in 4000 steps:

@@ -5,9 +5,7 @@
 
 use super::super::parameters::{COLUMN, GHOST, LOAD_AT, LOAD_STEPS, PPC_PER_DIRECTION};
 use super::super::reference::{LargeLoad, large_load, load_shift, solution};
-use super::{
-    EDGE_TOLERANCE, Measure, RESOLVED, is_established, is_explicit, is_free_of_locking, m,
-};
+use super::{EDGE_TOLERANCE, Measure, RESOLVED, is_established, is_explicit, is_free_of_locking, m};
 use crate::check::Finding;
 use crate::metric::Metric;
 use crate::record::Record;
@@ -50,8 +48,7 @@ pub(super) fn is_short(r: &Record, of: Measure) -> bool {
     let (Some(shift), Ok(reference), true) = (known.0, known.1, held && h <= RESOLVED) else {
         return false;
     };
-    of.shift(shift).abs() + of.element_error() * h * of.exact(reference)
-        > of.tolerance(r, reference)
+    of.shift(shift).abs() + of.element_error() * h * of.exact(reference) > of.tolerance(r, reference)
 }
 
 /// u_y (m) of the finite elements with the load on the particles' line, if it is known for the run.
@@ -78,11 +75,7 @@ pub(in crate::cases::cook) fn mid_edge_error(r: &Record) -> f64 {
 /// The error that is to fall: with F̄ that of the load at its place. Without a remedy locking outweighs the rim on coarse cells
 /// and the rim locking on fine ones, so that the error there passes through zero; it stays that of the load on the side.
 pub(super) fn falling_error(r: &Record) -> f64 {
-    if is_judged(r) {
-        mid_edge_error(r)
-    } else {
-        r.metric(m::FEM_MID_EDGE_ERROR)
-    }
+    if is_judged(r) { mid_edge_error(r) } else { r.metric(m::FEM_MID_EDGE_ERROR) }
 }
 
 pub(super) fn at_the_loads_place(r: &Record) -> Vec<Finding> {
@@ -109,13 +102,9 @@ pub(super) fn too_soft(r: &Record) -> Vec<Finding> {
         let exact = in_place(r, of)?;
         let bound = of.element_error() * r.discretisation.h * exact;
         let what = format!("excess of {}", of.metric().name);
-        let why = "functions of the rim that see hardly any material bear hardly any load; the explicit case has them too";
-        Some(Finding::above(
-            what,
-            r.metric(of.metric()) - exact,
-            bound,
-            why,
-        ))
+        let why =
+            "functions of the rim that see hardly any material bear hardly any load; the explicit case has them too";
+        Some(Finding::above(what, r.metric(of.metric()) - exact, bound, why))
     };
     MEASURES.into_iter().filter_map(excess).collect()
 }
@@ -125,7 +114,8 @@ pub(super) fn short_by_the_loads_place(r: &Record) -> Vec<Finding> {
         let reference = solution(&r.parameters).ok()?;
         let short = of.exact(reference) - r.metric(of.metric());
         let what = format!("shortfall of {}", of.metric().name);
-        let why = "the load stands h/4 from the side, which by FEM takes off 1.1 % at h = 1 m; no soft rim makes up for it";
+        let why =
+            "the load stands h/4 from the side, which by FEM takes off 1.1 % at h = 1 m; no soft rim makes up for it";
         Some(Finding::above(what, short, of.tolerance(r, reference), why))
     };
     // Of the tip the shortfall is the tolerance, more or less.
@@ -145,15 +135,11 @@ fn deflections(r: &Record) -> Vec<(Metric, f64, f64, f64)> {
     let Some(exact) = under_large_load(r) else {
         return Vec::new();
     };
-    let both = [
-        (m::MID_EDGE_UY, exact.mid_edge_uy),
-        (m::EDGE_MEAN_UY, exact.edge_mean_uy),
-    ];
+    let both = [(m::MID_EDGE_UY, exact.mid_edge_uy), (m::EDGE_MEAN_UY, exact.edge_mean_uy)];
     let tolerance = |exact: f64| EDGE_TOLERANCE * r.discretisation.h * exact;
     let of = |(metric, exact): (Metric, f64)| (metric, r.metric(metric), exact, tolerance(exact));
-    let with_uncertainty = |(metric, value, reference, tolerance)| {
-        (metric, value, reference, tolerance + exact.uncertainty)
-    };
+    let with_uncertainty =
+        |(metric, value, reference, tolerance)| (metric, value, reference, tolerance + exact.uncertainty);
     both.map(of).map(with_uncertainty).to_vec()
 }
 

@@ -14,9 +14,7 @@ const REST_NOISE: f64 = 2e-3;
 /// How much faster the recursive F̄ creeps with half the time step.
 pub(super) fn creep_over_steps(records: &[Record]) -> Vec<Finding> {
     let faster = |slow: &Record| {
-        let half = |r: &&Record| {
-            r.set == ["cfl=0.15"] && r.scheme() == slow.scheme() && r.level == slow.level
-        };
+        let half = |r: &&Record| r.set == ["cfl=0.15"] && r.scheme() == slow.scheme() && r.level == slow.level;
         let halved = records.iter().find(half)?;
         Some(Finding::above(
             format!("creep_rate of {} {}", slow.scheme(), slow.level),
@@ -45,11 +43,7 @@ pub(super) fn error_falls(records: &[Record]) -> Vec<Finding> {
         let pairs = errors.windows(2);
         let ratios = pairs.map(|pair| pair[1] / pair[0].max(REST_NOISE));
         // A run that broke down has no error, and must not be lost among the others.
-        let worst = if errors.iter().any(|e| e.is_nan()) {
-            f64::NAN
-        } else {
-            ratios.fold(f64::NEG_INFINITY, f64::max)
-        };
+        let worst = if errors.iter().any(|e| e.is_nan()) { f64::NAN } else { ratios.fold(f64::NEG_INFINITY, f64::max) };
         let levels = errors.len();
         Finding::at_most(
             format!("mid-edge error of {scheme} over {levels} levels, largest ratio"),

@@ -9,12 +9,7 @@ use mpm_core::Memory;
 fn setup(level: Level, set: &[&str]) -> Setup<Landslide> {
     let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
     let values = Parameters::new(&Landslide::list(), &set).unwrap();
-    let spec = RunSpec {
-        scheme: Scheme::flip(Gimp, FbarConsistent),
-        level,
-        set,
-        perturbed: false,
-    };
+    let spec = RunSpec { scheme: Scheme::flip(Gimp, FbarConsistent), level, set, perturbed: false };
     Setup::of_spec(&spec, &values).unwrap()
 }
 
@@ -38,11 +33,7 @@ fn the_ground_has_the_papers_particles_and_time_step() {
 #[test]
 fn a_slice_is_four_cells_wide_and_a_width_is_whole_cells() {
     let wide = |name: &str, set: &[&str]| setup(level(name), set).whole_width();
-    let known = [
-        ("slice-h0.4", None, 1.6),
-        ("h0.5", None, 5.0),
-        ("h0.5", Some("width=2"), 2.0),
-    ];
+    let known = [("slice-h0.4", None, 1.6), ("h0.5", None, 5.0), ("h0.5", Some("width=2"), 2.0)];
     for (name, set, width) in known {
         let found = wide(name, set.as_slice()).unwrap();
         assert!((found - width).abs() < 1e-12, "{name} {set:?}: {found}");
@@ -73,8 +64,7 @@ fn only_the_peak_is_reduced() {
 #[test]
 fn the_reduced_slope_is_at_its_limit() {
     let slope = setup(LEVELS_2D[0], &[]).slope();
-    let factor =
-        |strength| slope.factor_of_safety(strength, crate::cases::slope::ground::STABILITY.0);
+    let factor = |strength| slope.factor_of_safety(strength, crate::cases::slope::ground::STABILITY.0);
     assert!((factor(40.82e3) - 1.653).abs() < 5e-4);
     assert!((factor(40.82e3 / 1.65) - 1.002).abs() < 5e-4);
     assert!((slope.longest_period() - 0.321).abs() < 5e-4);
@@ -82,14 +72,7 @@ fn the_reduced_slope_is_at_its_limit() {
 
 /// A small slope with a factor of safety of eight, whose strength is divided by twelve: it flows at once.
 fn small(release: &str) -> Driver<2, Slide<2>> {
-    let slope = [
-        "height=1",
-        "crest=2",
-        "floor=2",
-        "duration=0.1",
-        "reduction=12",
-        release,
-    ];
+    let slope = ["height=1", "crest=2", "floor=2", "duration=0.1", "reduction=12", release];
     Driver::new(Slide::new(setup(LEVELS_2D[0], &slope)).unwrap()).unwrap()
 }
 

@@ -1,9 +1,7 @@
 //! Claims on convergence that several motions share, and the known reasons why an order is lost.
 
 use super::Wave;
-use crate::cases::parameters::{
-    POISSON_RATIO, PPC_PER_DIRECTION, STEP_SCALING, UNSEEN, WALL, WALL_LINE,
-};
+use crate::cases::parameters::{POISSON_RATIO, PPC_PER_DIRECTION, STEP_SCALING, UNSEEN, WALL, WALL_LINE};
 use crate::exact::common::{AMPLITUDE, DIMENSION};
 use crate::exact::vortex_pressure::PRESSURE;
 use crate::prelude::*;
@@ -36,16 +34,15 @@ pub(in crate::cases) enum Claim {
 
 pub(in crate::cases) const TRANSFER: &str =
     "what a transfer takes from the velocity per step is part of the error: docs/manufactured.md";
-pub(in crate::cases) const HATS: &str = "displaced particles shift a linear basis's quadrature of mass and body force by u, a floor of about A² k";
-pub(in crate::cases) const JUMPS: &str =
-    "the gradient of a linear basis jumps where particles cross cells";
+pub(in crate::cases) const HATS: &str =
+    "displaced particles shift a linear basis's quadrature of mass and body force by u, a floor of about A² k";
+pub(in crate::cases) const JUMPS: &str = "the gradient of a linear basis jumps where particles cross cells";
 pub(in crate::cases) const NULL_SPACE: &str =
     "a pressure that Π can't see feeds the null space as particles pass each other (docs/modes.md)";
-pub(in crate::cases) const LOCKS: &str =
-    "without a remedy the error is that of locking until the cells resolve it";
-pub(in crate::cases) const OFF_NODE: &str = "the lumped mass of cubics next to a wall has its centre off the node: between first and second order";
-const LITTLE_TO_DIFFUSE: &str =
-    "Eq. (26) diffuses J; of an isochoric motion it has little to diffuse";
+pub(in crate::cases) const LOCKS: &str = "without a remedy the error is that of locking until the cells resolve it";
+pub(in crate::cases) const OFF_NODE: &str =
+    "the lumped mass of cubics next to a wall has its centre off the node: between first and second order";
+const LITTLE_TO_DIFFUSE: &str = "Eq. (26) diffuses J; of an isochoric motion it has little to diffuse";
 
 /// Whether a remedy neither locks nor creeps.
 pub(in crate::cases) fn is_sound(remedy: RemedyName) -> bool {
@@ -76,17 +73,11 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
         return Claim::Open("one particle per cell doesn't integrate what the basis can represent");
     }
     if r.values.is(WALL, WALL_LINE) {
-        return Claim::Stalls(
-            STALLED,
-            "splines that are not interpolatory at a wall meet it with first order",
-        );
+        return Claim::Stalls(STALLED, "splines that are not interpolatory at a wall meet it with first order");
     }
     match r.remedy() {
         FbarRecursive if r.values.is(STEP_SCALING, "h2") => {
-            return Claim::Stalls(
-                0.5,
-                "Eq. (26) diffuses J with D = ½ s² h²/Δt, which Δt ∝ h² keeps constant",
-            );
+            return Claim::Stalls(0.5, "Eq. (26) diffuses J with D = ½ s² h²/Δt, which Δt ∝ h² keeps constant");
         }
         FbarRecursive if crosses => {
             return Claim::Open("crossing of cells adds to the diffusion of Eq. (26)");
@@ -100,9 +91,7 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
     if crosses {
         return match r.basis() {
             Linear => Claim::Stalls(0.5, JUMPS),
-            _ => Claim::Open(
-                "the quadrature error of particles that left their lattice is a floor; see the page",
-            ),
+            _ => Claim::Open("the quadrature error of particles that left their lattice is a floor; see the page"),
         };
     }
     if is_other_transfer(r) {
@@ -114,9 +103,9 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
             [1.4, 2.6],
             "within a cell GIMP's weights are hats: displaced particles shift its quadrature, a floor of about A² k",
         ),
-        (Bspline3, remedy) if is_bar && is_sound(remedy) => Claim::Open(
-            "in one dimension F̄ averages all of the stress, next to walls where cubics lack an order",
-        ),
+        (Bspline3, remedy) if is_bar && is_sound(remedy) => {
+            Claim::Open("in one dimension F̄ averages all of the stress, next to walls where cubics lack an order")
+        }
         (Linear, _) if r.is_implicit() => Claim::Stalls(STALLED, HATS),
         (Linear, _) => Claim::Open(HATS),
         (Bspline3, _) => Claim::Observed([0.85, 2.3], OFF_NODE),
@@ -136,18 +125,12 @@ pub(in crate::cases) fn of_vortex(r: &Setup<()>) -> Claim {
         return Claim::Open(TRANSFER);
     }
     if r.h < FLOOR {
-        return Claim::Open(
-            "particles cross ten cells: the quadrature error of two per direction is a floor",
-        );
+        return Claim::Open("particles cross ten cells: the quadrature error of two per direction is a floor");
     }
     if feeds_null_space(r) {
         let shears_only = r.values.number(PRESSURE).is_nan();
         let clear = shears_only && r.remedy() == FbarRate && matches!(r.basis(), Gimp | Bspline2);
-        return if clear {
-            Claim::Stalls(1.0, NULL_SPACE)
-        } else {
-            Claim::Open(NULL_SPACE)
-        };
+        return if clear { Claim::Stalls(1.0, NULL_SPACE) } else { Claim::Open(NULL_SPACE) };
     }
     if r.is_implicit() && is_sound(r.remedy()) && r.h < FED {
         return Claim::Open(
@@ -160,10 +143,9 @@ pub(in crate::cases) fn of_vortex(r: &Setup<()>) -> Claim {
 /// Convergence of an isochoric motion whose order was observed between two bounds with a sound remedy.
 pub(in crate::cases) fn of_isochoric(r: &Setup<()>, observed: [f64; 2]) -> Claim {
     match r.remedy() {
-        remedy if is_sound(remedy) => Claim::Observed(
-            observed,
-            "second order until the quadrature error of sheared particles shows",
-        ),
+        remedy if is_sound(remedy) => {
+            Claim::Observed(observed, "second order until the quadrature error of sheared particles shows")
+        }
         RemedyName::None => Claim::Open(LOCKS),
         _ => Claim::Open(LITTLE_TO_DIFFUSE),
     }

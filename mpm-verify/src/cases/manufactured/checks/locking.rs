@@ -13,12 +13,8 @@ const LOCKED: f64 = 1.5;
 const COMPRESSIBLE: f64 = 0.3;
 
 /// Errors over the distance from incompressibility.
-pub(in crate::cases) const LOCKING_CURVE: Sweep = Sweep {
-    parameter: POISSON_RATIO,
-    label: "0.5 − ν",
-    abscissa: |nu| 0.5 - nu,
-    logarithmic: true,
-};
+pub(in crate::cases) const LOCKING_CURVE: Sweep =
+    Sweep { parameter: POISSON_RATIO, label: "0.5 − ν", abscissa: |nu| 0.5 - nu, logarithmic: true };
 
 /// The checks of locking.
 pub(in crate::cases) fn locking() -> [Check; 2] {
@@ -71,8 +67,5 @@ fn factor(stiff: &Run<()>, soft: &Run<()>) -> f64 {
 
 fn about(r: &Run<()>) -> String {
     let (metric, scheme, level) = (DISPLACEMENT_L2.name, r.scheme, &r.level);
-    format!(
-        "{metric} of {scheme} {level} at ν = {} over ν = 0.3",
-        ratio(r)
-    )
+    format!("{metric} of {scheme} {level} at ν = {} over ν = 0.3", ratio(r))
 }

@@ -11,12 +11,7 @@ fn run(scheme: Scheme, n: f64, (metric, value): (Metric, f64), set: &[&str]) -> 
     r.set = set.iter().map(|s| (*s).to_owned()).collect();
     r.scheme = scheme;
     r.discretisation.h = 1.0 / n;
-    let own: Vec<String> = r
-        .set
-        .iter()
-        .filter(|s| !s.starts_with("cfl="))
-        .cloned()
-        .collect();
+    let own: Vec<String> = r.set.iter().filter(|s| !s.starts_with("cfl=")).cloned().collect();
     r.parameters = Parameters::new(&known, &own).unwrap();
     let value = value.is_finite().then_some(value);
     let unit = metric.unit.to_owned();
@@ -37,26 +32,15 @@ fn an_order_is_that_of_the_errors_and_a_run_without_one_leaves_none() {
         let error = |n: f64| run(scheme, n, (DISPLACEMENT_L2, n.powf(-p)), &[]);
         [8.0, 16.0, 32.0, 64.0].map(error)
     };
-    for (p, fails) in [
-        (1.9, [false, false]),
-        (1.8, [true, false]),
-        (-0.1, [true, true]),
-    ] {
+    for (p, fails) in [(1.9, [false, false]), (1.8, [true, false]), (-0.1, [true, true])] {
         let found = verdicts(&orders(SECOND), &ladder(p));
         assert!((found[0].value.unwrap() - p).abs() < 1e-9, "{p}");
-        assert!(
-            (found[1].value.unwrap() - 2f64.powf(-p)).abs() < 1e-9,
-            "{p}"
-        );
+        assert!((found[1].value.unwrap() - 2f64.powf(-p)).abs() < 1e-9, "{p}");
         assert_eq!([found[0].failed(), found[1].failed()], fails, "{p}");
     }
     let mut broken = ladder(2.0);
     broken[2] = run(scheme, 32.0, (DISPLACEMENT_L2, f64::NAN), &[]);
-    assert!(
-        verdicts(&orders(SECOND), &broken)
-            .iter()
-            .all(Verdict::failed)
-    );
+    assert!(verdicts(&orders(SECOND), &broken).iter().all(Verdict::failed));
     assert!(verdicts(&orders(SECOND), &broken[..2]).is_empty());
 }
 
@@ -65,12 +49,7 @@ fn locking_is_the_error_over_that_of_the_compressible_body() {
     for (remedy, check) in [(FbarConsistent, "no-locking"), (RemedyName::None, "locks")] {
         let at = |ratio: &str, error: f64| {
             let set = format!("poisson_ratio={ratio}");
-            run(
-                Scheme::flip(Gimp, remedy),
-                8.0,
-                (DISPLACEMENT_L2, error),
-                &[&set],
-            )
+            run(Scheme::flip(Gimp, remedy), 8.0, (DISPLACEMENT_L2, error), &[&set])
         };
         let found = verdicts(&locking(), &[at("0.3", 2.0), at("0.499", 7.0)]);
         let found: Vec<_> = found.iter().map(|v| (&*v.check, v.value)).collect();
@@ -81,8 +60,8 @@ fn locking_is_the_error_over_that_of_the_compressible_body() {
 #[test]
 fn the_order_in_time_comes_from_successive_differences() {
     let explicit = Scheme::flip(Gimp, RemedyName::None);
-    let [midpoint, newmark] = [RuleName::Midpoint, RuleName::Newmark]
-        .map(|rule| Scheme::implicit(rule, Bspline2, RemedyName::None));
+    let [midpoint, newmark] =
+        [RuleName::Midpoint, RuleName::Newmark].map(|rule| Scheme::implicit(rule, Bspline2, RemedyName::None));
     for (scheme, lumped, check) in [
         (explicit, "lumped=0.1", "order-time"),
         (midpoint, "lumped=0", "order-time"),
