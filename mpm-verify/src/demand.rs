@@ -6,50 +6,14 @@ use crate::metric::Metric;
 use crate::parameter::ParameterSet;
 use crate::record::Record;
 use crate::scheme::Scheme;
-use crate::setup::Setup;
+use crate::setup::Run;
 use crate::verdict::Kind;
 use std::collections::BTreeMap;
-use std::ops::Deref;
 
 /// Largest deficit of an observed order from the order that theory gives.
 pub(crate) const SLACK: f64 = 0.15;
 /// Number of finest levels or steps that decide an order.
 const DECIDING: usize = 3;
-
-/// A run that has come to its end: its [`Setup`], and its record.
-pub(crate) struct Run<'a, P> {
-    /// The record.
-    pub(crate) record: &'a Record,
-    setup: Setup<P>,
-}
-
-impl<P> Deref for Run<'_, P> {
-    type Target = Setup<P>;
-
-    fn deref(&self) -> &Setup<P> {
-        &self.setup
-    }
-}
-
-impl<'a, P: ParameterSet> Run<'a, P> {
-    /// The run of a record; nothing if the parameters of the record are of other types.
-    pub(crate) fn of(record: &'a Record) -> Option<Self> {
-        let setup = Setup::of_record(record).ok()?;
-        Some(Self { record, setup })
-    }
-}
-
-impl<P> Run<'_, P> {
-    /// The value of a metric; NaN where there is none.
-    pub(crate) fn metric(&self, of: Metric) -> f64 {
-        self.record.metric(of)
-    }
-
-    /// Time step (s).
-    pub(crate) fn dt(&self) -> f64 {
-        self.record.discretisation.dt
-    }
-}
 
 type Of<P, T> = Box<dyn Fn(&Run<P>) -> T + Send + Sync>;
 

@@ -3,7 +3,7 @@
 pub(crate) use crate::case::Tier::{Long, Nightly, Pr, Quick};
 pub(crate) use crate::case::{Case, Family, FieldView, Plan};
 pub(crate) use crate::check::{Check, Finding};
-pub(crate) use crate::demand::{CheckOf, Demand, Over, Quantity, Run, SLACK, same_but_scheme};
+pub(crate) use crate::demand::{CheckOf, Demand, Over, Quantity, SLACK, same_but_scheme};
 pub(crate) use crate::draw::style::{history, series};
 pub(crate) use crate::draw::{Chart, Dash, Marker, ReferenceLine, Series};
 pub(crate) use crate::error::Error;
@@ -21,7 +21,7 @@ pub(crate) use crate::scheme::BasisName::{Bspline2, Bspline3, Gimp, Linear};
 pub(crate) use crate::scheme::RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal};
 pub(crate) use crate::scheme::SpaceName::{Equal, Ppp, TwoGrid};
 pub(crate) use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, SpaceName, TransferName};
-pub(crate) use crate::setup::Setup;
+pub(crate) use crate::setup::{Run, Setup};
 pub(crate) use crate::sketch::{Shape, Sketch};
 pub(crate) use crate::spec::{Level, RunSpec};
 pub(crate) use crate::table::Table;

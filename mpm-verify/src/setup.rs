@@ -2,6 +2,7 @@
 //! these are methods of a case's `Setup`, for scene, observation, checks, tables and figures alike.
 
 use crate::error::Error;
+use crate::metric::Metric;
 use crate::parameter::{ParameterSet, Parameters};
 use crate::record::Record;
 use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, SpaceName, TransferName};
@@ -136,5 +137,40 @@ impl<P> Setup<P> {
     /// Initial positions (m) of particles seeded at `positions`: these, or, in a perturbed run, the next floating-point numbers.
     pub fn start_at<const D: usize>(&self, positions: impl IntoIterator<Item = [f64; D]>) -> Vec<[f64; D]> {
         crate::spec::start_at(positions.into_iter().collect(), self.perturbed)
+    }
+}
+
+/// A run that has come to its end: its [`Setup`], and its record.
+pub(crate) struct Run<'a, P> {
+    /// The record.
+    pub(crate) record: &'a Record,
+    setup: Setup<P>,
+}
+
+impl<P> Deref for Run<'_, P> {
+    type Target = Setup<P>;
+
+    fn deref(&self) -> &Setup<P> {
+        &self.setup
+    }
+}
+
+impl<'a, P: ParameterSet> Run<'a, P> {
+    /// The run of a record; nothing if the parameters of the record are of other types.
+    pub(crate) fn of(record: &'a Record) -> Option<Self> {
+        let setup = Setup::of_record(record).ok()?;
+        Some(Self { record, setup })
+    }
+}
+
+impl<P> Run<'_, P> {
+    /// The value of a metric; NaN where there is none.
+    pub(crate) fn metric(&self, of: Metric) -> f64 {
+        self.record.metric(of)
+    }
+
+    /// Time step (s).
+    pub(crate) fn dt(&self) -> f64 {
+        self.record.discretisation.dt
     }
 }

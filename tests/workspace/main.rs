@@ -22,6 +22,7 @@ mod scene;
 mod score;
 mod shards;
 mod siege;
+mod sizes;
 mod tables;
 mod verify;
 mod words;
