@@ -159,21 +159,20 @@ pub(crate) enum Over {
     TimeStep,
 }
 
-type Names<P> = Box<dyn Fn(&Run<P>) -> String + Send + Sync>;
-
 enum Subject<P> {
     /// Quantities of one run.
     Run(Vec<Demand<P>>),
     /// The observed order of a metric over the runs of each scheme: name, metric, and the formal order.
-    Order { name: Names<P>, metric: Metric, over: Over, formal: f64 },
+    Order { name: Of<P, String>, metric: Metric, over: Over, formal: f64 },
     /// A number of two runs: the partner of the first, the number by name, and its demand on the first run.
     Pair { partner: PartnerOf<P>, name: PairName<P>, value: PairValue<P>, bound: Bound<P> },
     /// Findings of a function of its own.
-    Study(Box<dyn Fn(&[Record]) -> Vec<Finding> + Send + Sync>),
+    Study(Whole),
     /// Findings of a function of its own, of one run.
-    Own(Box<dyn Fn(&Run<P>) -> Vec<Finding> + Send + Sync>),
+    Own(Of<P, Vec<Finding>>),
 }
 
+type Whole = Box<dyn Fn(&[Record]) -> Vec<Finding> + Send + Sync>;
 type PartnerOf<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> bool + Send + Sync>;
 type PairName<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> String + Send + Sync>;
 type PairValue<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync>;
@@ -284,7 +283,7 @@ impl<P: ParameterSet> CheckOf<P> {
             Over::CellSize => format!("order of {}", metric.name),
             Over::TimeStep => format!("order in Δt of {}", metric.name),
         };
-        let name: Names<P> = Box::new(move |r| format!("{of} of {}", r.scheme));
+        let name: Of<P, String> = Box::new(move |r| format!("{of} of {}", r.scheme));
         let subject = Subject::Order { name, metric, over, formal };
         Self { subject, ..self }
     }
@@ -355,7 +354,7 @@ impl<P: ParameterSet> CheckOf<P> {
     fn orders(
         &self,
         records: &[Record],
-        (name, metric): (&Names<P>, Metric),
+        (name, metric): (&Of<P, String>, Metric),
         (over, formal): (Over, f64),
     ) -> Vec<Finding> {
         let runs = self.runs(records);

@@ -11,11 +11,11 @@ const MOVED_X: Asked = Asked::particle("ux", "m", "displacement along x under th
 const MOVED_Y: Asked = Asked::particle("uy", "m", "displacement along y under the whole weight");
 const STRESS: Asked = Asked::particle("stress_xx", "Pa", "Cauchy stress σ_xx under the whole weight, tension positive");
 
-/// The edge of a given result, its setup, and `columns` in the order of our particles.
-fn given_edge<const N: usize>(
-    given: &Given,
-    columns: [&Asked; N],
-) -> Result<(Edge, Setup<Cantilever>, [Vec<f64>; N]), Error> {
+/// The edge of a given result, its setup, and columns in the order of our particles.
+type GivenEdge<const N: usize> = (Edge, Setup<Cantilever>, [Vec<f64>; N]);
+
+/// The edge of a given result, with `columns`.
+fn given_edge<const N: usize>(given: &Given, columns: [&Asked; N]) -> Result<GivenEdge<N>, Error> {
     let setup = Setup::<Cantilever>::of_spec(&given.spec, &given.parameters)?;
     let edge = Edge::new(&setup);
     let order = given.in_order([&START_X, &START_Y], &edge.references, setup.spacing())?;
