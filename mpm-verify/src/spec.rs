@@ -43,7 +43,8 @@ impl RunSpec {
         folder
     }
 
-    /// Initial positions (m) of particles seeded at `positions`: see [`start_at`].
+    /// Initial positions (m) of particles seeded at `positions`: these, or, if the run is perturbed, their neighbours among the
+    /// floating-point numbers.
     #[must_use]
     pub fn start_at<const D: usize>(&self, positions: Vec<[f64; D]>) -> Vec<[f64; D]> {
         start_at(positions, self.perturbed)

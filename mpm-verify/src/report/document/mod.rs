@@ -38,7 +38,7 @@ impl Text {
         self
     }
 
-    /// Words with `code`, **strong** ones and [links](target) in them.
+    /// Words with `code`, **strong** ones and links in them.
     pub(super) fn marked(words: &str) -> Self {
         let marks = [("`", "`", "code"), ("**", "**", "strong"), ("[", ")", "link")];
         let (mut text, mut rest) = (Self::default(), words);
