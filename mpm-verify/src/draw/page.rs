@@ -2,7 +2,6 @@
 
 use super::colour::{Rgb, channels};
 use super::png_file::write_small_png;
-use super::text::FAMILY;
 use super::{PlotError, between};
 use crate::files::write_whole;
 use image::RgbImage;
@@ -21,6 +20,9 @@ pub(super) type Spot = (i32, i32);
 
 /// Fine pixels of a pixel, along each side: plotters counts in whole ones and smooths no area.
 pub(super) const FINE: u32 = 3;
+
+/// The fonts' name here, and what a browser takes that lacks them.
+pub(super) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// A white page. Its first failure is kept until it is finished.
 pub(super) struct Page<'a> {

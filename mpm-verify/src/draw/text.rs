@@ -2,7 +2,7 @@
 
 use super::colour::INK;
 use super::largest;
-use super::page::{FINE, Page, Point, ink, spot};
+use super::page::{FAMILY, FINE, Page, Point, ink, spot};
 use plotters::element::Text;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, FontFamily, FontStyle, FontTransform, TextStyle, register_font};
@@ -19,8 +19,6 @@ pub(super) const HEADING: Font = Font(32.0, true);
 /// Distance of lines and height of a capital, in sizes of the font.
 const LEADING: f64 = 1.35;
 const CAPITAL: f64 = 0.73;
-/// The fonts' name here, and what a browser takes that lacks them.
-pub(super) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 /// Plotters' size of a font: from ascent to descent, in sizes of the font.
 const FULL: f64 = 1.164;
 /// By how much plotters draws text too high, in sizes of the font: as pixels and as SVG.

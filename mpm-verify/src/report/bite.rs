@@ -22,17 +22,21 @@ fn beyond(verdict: &Verdict) -> Vec<f64> {
     }
 }
 
-/// Whether a check is red on a run one metric of which has another value.
+/// Whether a check is red on a run whose metric has another value: that of the check or, where the check is of a number that
+/// follows from the metric, as far from the metric's own as that of the check is from its own.
 fn turns_red(record: &Record, verdict: &Verdict, value: f64) -> bool {
-    let Ok(case) = cases::find(&record.case) else {
+    let (Ok(case), Some(own)) = (cases::find(&record.case), record.metrics[&verdict.metric].value) else {
         return false;
     };
-    let mut moved = record.clone();
-    if let Some(measured) = moved.metrics.get_mut(&verdict.metric) {
-        measured.value = Some(value);
-    }
+    let by = value - verdict.value.unwrap_or(own);
     let same = |v: &Verdict| v.check == verdict.check && v.metric == verdict.metric;
-    case.judge(&moved).iter().any(|v| same(v) && v.outcome == Outcome::Failed)
+    [value, own + by, own - by].into_iter().any(|moved| {
+        let mut record = record.clone();
+        if let Some(measured) = record.metrics.get_mut(&verdict.metric) {
+            measured.value = Some(moved);
+        }
+        case.judge(&record).iter().any(|v| same(v) && v.outcome == Outcome::Failed)
+    })
 }
 
 #[test]

@@ -181,7 +181,7 @@ mod tests {
         ];
         let errors = errors(curves.iter(), COSTS[0].2, COSTS[0].3);
         let quantity = error(metric("e", "-", ""), "error");
-        let schemes = curves.iter().map(|c| c.scheme).collect();
+        let schemes = distinct(curves.iter().map(|c| c.scheme));
         let panel = Panel { title: String::new(), schemes };
         let chart = by_cost(&errors, &quantity, &panel, errors.chart(&quantity, &panel));
         let points = |name: &str| {

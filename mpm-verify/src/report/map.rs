@@ -143,7 +143,7 @@ impl<'a> Panel<'a> {
 
     /// The table, with the cases in columns whose titles `title` links; on a page, cells have links too.
     pub(super) fn table(&self, title: impl Fn(&str) -> Text, is_page: bool) -> Table {
-        let number = |text: &str| document::Cell::of(text, "number");
+        let number = |text: &str| document::Cell::of(text, "num");
         let first = |name: &str, numbers: Vec<&str>| {
             let numbers = numbers.into_iter().map(number);
             [document::Cell::head(name)].into_iter().chain(numbers).collect::<Vec<_>>()

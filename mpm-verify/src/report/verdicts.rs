@@ -28,9 +28,9 @@ pub(super) fn table<'a>(verdicts: impl IntoIterator<Item = (Option<Text>, &'a Ve
             Cell::of(kind(v.kind), "tight"),
             Cell::head(&*v.check),
             Cell::from(&*v.metric),
-            Cell::of(shown(v.value), "number"),
-            Cell::of(shown(v.reference), "number"),
-            Cell::of(number(v.tolerance), "number"),
+            Cell::of(shown(v.value), "num"),
+            Cell::of(shown(v.reference), "num"),
+            Cell::of(number(v.tolerance), "num"),
             Cell::of(&*v.source, "wordy"),
         ];
         run.map(Cell::from).into_iter().chain(cells).into()
@@ -39,7 +39,7 @@ pub(super) fn table<'a>(verdicts: impl IntoIterator<Item = (Option<Text>, &'a Ve
     let named = rows.first().is_some_and(|row| row.cells.len() > HEAD.len());
     let run = named.then(|| Cell::from("run"));
     let head = HEAD.map(|title| match title {
-        "value" | "reference" | "tolerance" => Cell::of(title, "number"),
+        "value" | "reference" | "tolerance" => Cell::of(title, "num"),
         _ => Cell::from(title),
     });
     Table { class: "", head: run.into_iter().chain(head).collect(), rows }

@@ -1,6 +1,6 @@
 //! Checks of the strip footing. The tolerances are derived in `docs/footing.md`.
 
-use super::run::mechanism_extent;
+use super::curve::mechanism_extent;
 use super::*;
 use crate::accuracy::fit_order;
 

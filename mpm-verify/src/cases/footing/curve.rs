@@ -1,7 +1,6 @@
 //! The load over the penetration and the motion of the surface, and what is measured of them, whoever computed them.
 
 use super::reference::EXACT;
-use super::run::mechanism_extent;
 use super::*;
 use crate::statistics::fit_line;
 
@@ -26,6 +25,12 @@ pub(super) struct Load {
 /// Pressure over the undrained strength (Pa) of a force (N/m) on half of a footing of `width` (m).
 pub(super) fn bearing_factor(force: f64, width: f64, strength: f64) -> f64 {
     force / (0.5 * width) / strength
+}
+
+/// Distance (m) from the axis of a footing of [`WIDTH`] to which the ground rises at the limit load: Prandtl's mechanism under
+/// a rough one, Hill's, half as large, under a smooth one.
+pub(super) fn mechanism_extent(rough: bool) -> f64 {
+    WIDTH * if rough { 1.5 } else { 1.0 }
 }
 
 /// Penetration over B from which on the plateau of a run to `end` is observed.

@@ -34,12 +34,6 @@ const GIVES_WAY: f64 = 0.002;
 const OF_EXPLICIT: [&str; 7] = ["density", "penetration_rate", "ramp", "damping", "cfl", "flip", "wall"];
 const OF_QUASI_STATIC: [&str; 2] = ["load_steps", "tolerance"];
 
-/// Distance (m) from the axis of a footing of [`WIDTH`] to which the ground rises at the limit load: Prandtl's mechanism under
-/// a rough one, Hill's, half as large, under a smooth one.
-pub(super) fn mechanism_extent(rough: bool) -> f64 {
-    WIDTH * if rough { 1.5 } else { 1.0 }
-}
-
 /// Penetration over time.
 pub(super) struct Pace {
     /// Speed (m/s) after the start, and the duration (s) of the start.

@@ -92,7 +92,7 @@ impl Text {
     /// An outcome in words, with a symbol.
     pub(super) fn badge(outcome: Outcome) -> Self {
         let [symbol, words, class] = words::shown(outcome);
-        Self::mark(format!("{symbol} {words}"), &format!("badge {class}"))
+        Self::mark(format!("{symbol} {words}"), class)
     }
 
     /// What goes on behind it.
@@ -155,7 +155,7 @@ impl Cell {
     /// A text that is a number, if it looks like one, to the right.
     fn of_sheet(text: &str) -> Self {
         let is_number = text.starts_with(|c| "0123456789-−–≤≥~".contains(c)) || text == "never";
-        Self::of(text, if is_number { "number" } else { "" })
+        Self::of(text, if is_number { "num" } else { "" })
     }
 }
 

@@ -34,6 +34,8 @@ impl Document {
         environment.add_template("page.html", include_str!("../../../templates/page.html"))?;
         let page = environment.get_template("page.html")?;
         let blocks = &self.blocks;
-        page.render(Value::from(Serde(Page { title, links, blocks })))
+        let text = page.render(Value::from(Serde(Page { title, links, blocks })))?;
+        // A slash needs no escape within text and quoted values; runs and files have many.
+        Ok(text.replace("&#x2f;", "/"))
     }
 }

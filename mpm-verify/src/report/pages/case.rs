@@ -199,14 +199,14 @@ fn checks(case: &Case, study: &CaseStudy, seeded: &[Fault]) -> Table {
     let row = |(name, of, statement): (&str, Kind, &str)| -> Row {
         let count = |outcome| {
             let own = all().filter(|v| v.check == name && v.outcome == outcome);
-            Cell::of(own.count().to_string(), "number")
+            Cell::of(own.count().to_string(), "num")
         };
         let seen = match faults::seen(seeded, case.name, name) {
             0 => String::new(),
             n => n.to_string(),
         };
         let first = [Cell::head(name), Cell::of(kind(of), "tight")];
-        let last = [Cell::of(seen, "number"), Cell::of(statement, "wordy")];
+        let last = [Cell::of(seen, "num"), Cell::of(statement, "wordy")];
         first.into_iter().chain(OUTCOMES.map(count)).chain(last).into()
     };
     let head = ["check", "kind", "right", "wrong as known", "not judged", "FAILED", "faults seen", "statement"];

@@ -38,8 +38,8 @@ pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, o
     let mut page = Document::new(Text::from("Verification, tier ").then(Text::code(&*summary.tier)));
     let counts = summary.counts.to_string();
     let result = match summary.exit_code() as u8 {
-        0 => Text::mark("✓ nothing failed", "badge pass"),
-        _ => Text::mark("✗", "badge fail").then(" ").then(Text::link("something failed", "#failed")),
+        0 => Text::mark("✓ nothing failed", "pass"),
+        _ => Text::mark("✗", "fail").then(" ").then(Text::link("something failed", "#failed")),
     };
     let about = "The locking-free material point method against exact solutions, independent references and published results. ";
     let first = counts.lines().next().unwrap_or_default();
@@ -156,7 +156,7 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
         let counts = OUTCOMES.map(|outcome| {
             let runs = study.records.iter().filter(|r| outcome_of_run(r) == outcome).count();
             match (outcome, runs + together) {
-                (Outcome::Failed, n) if n > 0 => Text::mark(format!("✗ {n}"), "badge fail"),
+                (Outcome::Failed, n) if n > 0 => Text::mark(format!("✗ {n}"), "fail"),
                 _ => runs.to_string().into(),
             }
         });
@@ -165,11 +165,11 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
         let cpu = format!("{:.1}", sum(|r| r.time.cpu_s));
         let numbers = counts.into_iter().chain([pairs.into(), cpu.into()]);
         let first = [Cell::head(name), thumb.unwrap_or_default().into(), best.into()];
-        Ok(first.into_iter().chain(numbers.map(|n| Cell::of(n, "number"))).into())
+        Ok(first.into_iter().chain(numbers.map(|n| Cell::of(n, "num"))).into())
     };
     let head = ["case", "", "best of the runs that are right: error, tolerance"].map(Cell::from);
     let numbers = ["right", "wrong as known", "not judged", "FAILED", "10⁹ pairs", "CPU (s)"];
-    let numbers = numbers.map(|title| Cell::of(title, "number"));
+    let numbers = numbers.map(|title| Cell::of(title, "num"));
     Ok(Table {
         class: "",
         head: head.into_iter().chain(numbers).collect(),
