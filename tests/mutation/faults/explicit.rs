@@ -149,7 +149,7 @@ pub(crate) const EXPLICIT: [Fault; 23] = [
         name: "gravity pulls in every second step",
         file: "explicit/stages.rs",
         sound: "self.gravity += padded(&acceleration)",
-        broken: "if self.work.steps.is_multiple_of(2) { self.gravity += padded(&acceleration) }",
+        broken: "if self.ledger.work.steps.is_multiple_of(2) { self.gravity += padded(&acceleration) }",
         seen_by: &[(RESTING, "base-reaction")],
     },
     Fault {

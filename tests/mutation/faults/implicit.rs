@@ -148,14 +148,14 @@ pub(crate) const IMPLICIT: [Fault; 25] = [
         name: "half of the drained area is lost after the first step",
         file: "poro/outside.rs",
         sound: "penalty * area",
-        broken: "if self.time > 0.0 { 0.5 * penalty * area } else { penalty * area }",
+        broken: "if self.ledger.time > 0.0 { 0.5 * penalty * area } else { penalty * area }",
         seen_by: &[(FACE, "completes")],
     },
     Fault {
         name: "a tenth of a face's load is lost after the first step",
         file: "poro/outside.rs",
         sound: "of_corner * *w",
-        broken: "of_corner * (if self.time > 0.0 { 0.9 * *w } else { *w })",
+        broken: "of_corner * (if self.ledger.time > 0.0 { 0.9 * *w } else { *w })",
         seen_by: &[(FACE, "completes")],
     },
     Fault {
