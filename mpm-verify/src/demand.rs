@@ -47,6 +47,16 @@ enum Bound<P> {
     Above(Of<P, f64>),
 }
 
+impl<P> Bound<P> {
+    fn finding(&self, name: String, value: f64, run: &Run<P>, why: String) -> Finding {
+        match self {
+            Self::Within { reference, tolerance } => Finding::within(name, value, reference(run), tolerance(run), why),
+            Self::AtMost(bound) => Finding::at_most(name, value, bound(run), why),
+            Self::Above(bound) => Finding::above(name, value, bound(run), why),
+        }
+    }
+}
+
 enum Gate<P> {
     /// Nothing is said where it does not hold.
     When(Of<P, bool>),
@@ -54,13 +64,25 @@ enum Gate<P> {
     Unless(Of<P, Option<String>>),
 }
 
+/// What becomes of a run at the gates.
+enum Passage {
+    Judged,
+    Unmentioned,
+    NotJudged(String),
+}
+
 impl<P> Gate<P> {
-    /// The reason to stop at this gate: an empty one says nothing.
-    fn stops(gates: &[Self], run: &Run<P>) -> Option<String> {
-        gates.iter().find_map(|gate| match gate {
-            Self::When(holds) => (!holds(run)).then(String::new),
-            Self::Unless(reason) => reason(run),
-        })
+    /// The first gate that stops a run decides.
+    fn passage(gates: &[Self], run: &Run<P>) -> Passage {
+        let stops = |gate: &Self| match gate {
+            Self::When(holds) => (!holds(run)).then_some(Passage::Unmentioned),
+            Self::Unless(reason) => reason(run).map(Passage::NotJudged),
+        };
+        gates.iter().find_map(stops).unwrap_or(Passage::Judged)
+    }
+
+    fn all_pass(gates: &[Self], run: &Run<P>) -> bool {
+        matches!(Self::passage(gates, run), Passage::Judged)
     }
 }
 
@@ -130,19 +152,15 @@ impl<P: ParameterSet> Demand<P> {
 
     fn finding(&self, run: &Run<P>, why: &str) -> Option<Finding> {
         let name = &*self.quantity.name;
-        match Gate::stops(&self.gates, run) {
-            Some(silent) if silent.is_empty() => return None,
-            Some(reason) => return Some(Finding::not_applicable(name, reason)),
-            None => {}
+        match Gate::passage(&self.gates, run) {
+            Passage::Unmentioned => return None,
+            Passage::NotJudged(reason) => return Some(Finding::not_applicable(name, reason)),
+            Passage::Judged => {}
         }
         let own = self.why.as_ref().map(|why| why(run));
         let why = own.unwrap_or_else(|| why.to_owned());
         let value = (self.quantity.value)(run);
-        let found = match &self.bound {
-            Bound::Within { reference, tolerance } => Finding::within(name, value, reference(run), tolerance(run), why),
-            Bound::AtMost(bound) => Finding::at_most(name, value, bound(run), why),
-            Bound::Above(bound) => Finding::above(name, value, bound(run), why),
-        };
+        let found = self.bound.finding(name.to_owned(), value, run, why);
         Some(match &self.scale {
             Some(scale) => found.of_scale(scale(run)),
             None => found,
@@ -166,13 +184,10 @@ enum Subject<P> {
     Order { name: Of<P, String>, metric: Metric, over: Over, formal: f64 },
     /// A number of two runs: the partner of the first, the number by name, and its demand on the first run.
     Pair { partner: PartnerOf<P>, name: PairName<P>, value: PairValue<P>, bound: Bound<P> },
-    /// Findings of a function of its own.
-    Study(Whole),
     /// Findings of a function of its own, of one run.
     Own(Of<P, Vec<Finding>>),
 }
 
-type Whole = Box<dyn Fn(&[Record]) -> Vec<Finding> + Send + Sync>;
 type PartnerOf<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> bool + Send + Sync>;
 type PairName<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> String + Send + Sync>;
 type PairValue<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync>;
@@ -301,16 +316,15 @@ impl<P: ParameterSet> CheckOf<P> {
         PairsOf { check: self, partner: Box::new(partner) }
     }
 
-    /// Findings of a function on one run.
-    pub(crate) fn own(self, found: impl Fn(&Run<P>) -> Vec<Finding> + Send + Sync + 'static) -> Self {
+    /// Findings of a function on one run, with their sources.
+    pub(crate) fn own(self, found: impl Fn(&Run<P>) -> Vec<Finding> + Send + Sync + 'static) -> Check {
         let subject = Subject::Own(Box::new(found));
-        Self { subject, ..self }
+        Self { subject, ..self }.into()
     }
 
-    /// Findings of a function on all runs of the case.
-    pub(crate) fn study(self, found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static) -> Self {
-        let subject = Subject::Study(Box::new(found));
-        Self { subject, ..self }
+    /// Findings of a function on all runs of the case, with their sources; it selects its runs itself.
+    pub(crate) fn study(self, found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static) -> Check {
+        Check { name: self.name, kind: self.kind, statement: self.statement, on: On::Study(Box::new(found)) }
     }
 
     /// The source of reference and tolerance.
@@ -324,18 +338,40 @@ impl<P: ParameterSet> CheckOf<P> {
         self.into()
     }
 
-    fn of_run(&self, demands: &[Demand<P>], run: &Run<P>) -> Vec<Finding> {
-        match Gate::stops(&self.gates, run) {
-            Some(silent) if silent.is_empty() => return Vec::new(),
-            Some(reason) => {
-                let first = demands.first().map_or("", |d| &d.quantity.name);
-                return vec![Finding::not_applicable(first, reason)];
-            }
-            None => {}
+    fn of_run(&self, record: &Record) -> Vec<Finding> {
+        let unjudged = |reason: String| {
+            let first = match &self.subject {
+                Subject::Run(demands) => demands.first().map_or("", |d| &d.quantity.name),
+                _ => "",
+            };
+            vec![Finding::not_applicable(first, reason)]
+        };
+        let run = match Run::of(record) {
+            Ok(run) => run,
+            Err(error) => return unjudged(error.to_string()),
+        };
+        match Gate::passage(&self.gates, &run) {
+            Passage::Unmentioned => return Vec::new(),
+            Passage::NotJudged(reason) => return unjudged(reason),
+            Passage::Judged => {}
         }
-        let why = (self.why)(run);
-        let found = demands.iter().filter_map(|d| d.finding(run, &why));
-        found.map(|f| self.scaled(f, run)).collect()
+        match &self.subject {
+            Subject::Own(found) => found(&run),
+            Subject::Run(demands) => {
+                let why = (self.why)(&run);
+                let found = demands.iter().filter_map(|d| d.finding(&run, &why));
+                found.map(|f| self.scaled(f, &run)).collect()
+            }
+            Subject::Order { .. } | Subject::Pair { .. } => Vec::new(),
+        }
+    }
+
+    fn of_study(&self, records: &[Record]) -> Vec<Finding> {
+        match &self.subject {
+            Subject::Order { name, metric, over, formal } => self.orders(records, (name, *metric), (*over, *formal)),
+            Subject::Pair { partner, name, value, bound } => self.pair(records, (partner, name), (value, bound)),
+            Subject::Own(_) | Subject::Run(_) => Vec::new(),
+        }
     }
 
     fn scaled(&self, found: Finding, run: &Run<P>) -> Finding {
@@ -347,8 +383,8 @@ impl<P: ParameterSet> CheckOf<P> {
 
     /// The runs that pass `when`.
     fn runs<'a>(&self, records: &'a [Record]) -> Vec<Run<'a, P>> {
-        let runs = records.iter().filter_map(Run::of);
-        runs.filter(|r| Gate::stops(&self.gates, r).is_none()).collect()
+        let runs = Run::all(records);
+        runs.filter(|r| Gate::all_pass(&self.gates, r)).collect()
     }
 
     fn orders(
@@ -383,18 +419,11 @@ impl<P: ParameterSet> CheckOf<P> {
         (partner, name): (&PartnerOf<P>, &PairName<P>),
         (value, bound): (&PairValue<P>, &Bound<P>),
     ) -> Vec<Finding> {
-        let all: Vec<Run<P>> = records.iter().filter_map(Run::of).collect();
+        let all: Vec<Run<P>> = Run::all(records).collect();
         let found = self.runs(records).into_iter().filter_map(|run| {
             let other = all.iter().find(|other| partner(&run, other))?;
             let (name, value, why) = (name(&run, other), value(&run, other), (self.why)(&run));
-            let found = match bound {
-                Bound::Within { reference, tolerance } => {
-                    Finding::within(name, value, reference(&run), tolerance(&run), why)
-                }
-                Bound::AtMost(bound) => Finding::at_most(name, value, bound(&run), why),
-                Bound::Above(bound) => Finding::above(name, value, bound(&run), why),
-            };
-            Some(self.scaled(found, &run))
+            Some(self.scaled(bound.finding(name, value, &run, why), &run))
         });
         found.collect()
     }
@@ -455,25 +484,8 @@ impl<P: ParameterSet> From<CheckOf<P>> for Check {
     fn from(check: CheckOf<P>) -> Self {
         let (kind, name, statement) = (check.kind, check.name, check.statement);
         let on = match check.subject {
-            Subject::Run(_) | Subject::Own(_) => On::Run(Box::new(move |record| {
-                let Some(run) = Run::of(record) else {
-                    return Vec::new();
-                };
-                match &check.subject {
-                    Subject::Own(_) if Gate::stops(&check.gates, &run).is_some() => Vec::new(),
-                    Subject::Own(found) => found(&run),
-                    Subject::Run(demands) => check.of_run(demands, &run),
-                    _ => Vec::new(),
-                }
-            })),
-            _ => On::Study(Box::new(move |records| match &check.subject {
-                Subject::Order { name, metric, over, formal } => {
-                    check.orders(records, (name, *metric), (*over, *formal))
-                }
-                Subject::Pair { partner, name, value, bound } => check.pair(records, (partner, name), (value, bound)),
-                Subject::Study(found) => found(records),
-                _ => Vec::new(),
-            })),
+            Subject::Run(_) | Subject::Own(_) => On::Run(Box::new(move |record| check.of_run(record))),
+            _ => On::Study(Box::new(move |records| check.of_study(records))),
         };
         Self { name, kind, statement, on }
     }

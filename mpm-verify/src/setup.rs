@@ -156,10 +156,17 @@ impl<P> Deref for Run<'_, P> {
 }
 
 impl<'a, P: ParameterSet> Run<'a, P> {
-    /// The run of a record; nothing if the parameters of the record are of other types.
-    pub(crate) fn of(record: &'a Record) -> Option<Self> {
-        let setup = Setup::of_record(record).ok()?;
-        Some(Self { record, setup })
+    /// The run of a record.
+    ///
+    /// # Errors
+    /// A parameter of another type.
+    pub(crate) fn of(record: &'a Record) -> Result<Self, Error> {
+        Ok(Self { record, setup: Setup::of_record(record)? })
+    }
+
+    /// The runs of records whose parameters are of the case's types; the checks of a run name the others.
+    pub(crate) fn all(records: impl IntoIterator<Item = &'a Record>) -> impl Iterator<Item = Self> {
+        records.into_iter().filter_map(|record| Self::of(record).ok())
     }
 }
 

@@ -206,8 +206,7 @@ fn checks() -> Vec<Check> {
             .because("the lumped mass of cubics next to a wall has its centre off the node"),
         Gate::truth("frequency", "relative error of the frequency at most ½ (kh)², but for fbar-recursive and for waves of cubic splines with F̄ of which less than a twentieth is left")
             .when(|r| r.remedy() != FbarRecursive && moves(&r.values))
-            .own(|r| vec![of_frequency(r)])
-            .because(""),
+            .own(|r| vec![of_frequency(r)]),
         Gate::truth("no-energy-gain", "kinetic + stored energy never above its start by more than a share of the largest kinetic energy: explicit ½ ωΔt, the offset by half a step of velocities and positions, remedies that store what their force takes; midpoint the strain kA")
             .each([
                 Demand::at_most(ENERGY_GAIN, |r: &Run<()>| 0.5 * (frequency(&r.values) * r.dt()))
@@ -222,8 +221,7 @@ fn checks() -> Vec<Check> {
             .within(ENERGY_END, |r| -r.metric(LUMPING_LOSS), |r| strain(r))
             .because("the rule gives and takes none of a linear body: docs/implicit.md, Eq. (21)"),
         Gate::truth("steps-slow", "implicit: the frequency over that of the shortest steps is what 2 arctan(½ ωΔt)/ωΔt makes of it, within (kh)² of what it takes and 10⁻⁴")
-            .study(steps_slow)
-            .because(""),
+            .study(steps_slow),
         Gate::truth("averaging-softens", "linear functions, GIMP and quadratic splines: the square of the frequency over that without a remedy is 1 − ¼ (kh)² with fbar-total and fbar-rate, 1 − 0.064 (kh)² (quadratic splines: 1) with fbar-consistent, within (kh)³/(2π): the average acts once, with the spread of the basis")
             .when(|r| is_sound(r.remedy()) && !feeds_null_space(r) && softening(r.basis(), r.remedy()).is_some())
             .pairs(|soft, hard| same_but_scheme(soft, hard) && hard.remedy() == RemedyName::None && hard.basis() == soft.basis())
@@ -281,7 +279,7 @@ fn claim_of_damping(r: &Setup<()>) -> Claim {
 
 /// Runs that differ in their steps alone; those of cells cancel.
 fn steps_slow(records: &[Record]) -> Vec<Finding> {
-    let runs = records.iter().filter_map(Run::<()>::of);
+    let runs = Run::<()>::all(records);
     let implicit = |r: &Run<()>| r.is_implicit() && r.changes_only(CFL.name);
     let runs: Vec<Run<()>> = runs.filter(implicit).collect();
     let found = runs.iter().filter_map(|r| {

@@ -96,20 +96,20 @@ pub(super) fn checks() -> Vec<Check> {
             .each([Demand::at_most(STRESS_ERROR, |_| f64::NAN).when(|b| b.stresses().is_err()).unless(|b| b.stresses().err())])
             .each(stress)
             .because("finite elements of degree 5, this project; tolerance: the point moved by a cell"),
-        Check::truth("falls", "likewise: the errors of u_y and of these stresses fall from level to level").study(falls).because(""),
-        Check::truth("steps", "likewise at h = 0.05 m: 5 to 160 load steps change u_y of the corner by less than its error").study(steps).because(""),
-        Check::known_limit("q8-diverges", "serendipity elements: the error is above 2 % at every level and no smaller at the finest than at the coarsest").study(diverges).because(""),
+        Check::truth("falls", "likewise: the errors of u_y and of these stresses fall from level to level").study(falls),
+        Check::truth("steps", "likewise at h = 0.05 m: 5 to 160 load steps change u_y of the corner by less than its error").study(steps),
+        Check::known_limit("q8-diverges", "serendipity elements: the error is above 2 % at every level and no smaller at the finest than at the coarsest").study(diverges),
         Check::known_limit("no-stabilisation", "without stabilisation and run to its end: the condition of the scaled stiffness is beyond 10¹²")
             .when(|b| b.is_unstable())
             .above(LOG10_CONDITION, |_| BOUND)
             .because("functions at the rim see fewer strains than they have unknowns"),
-        Check::known_limit("linear-update", "jaumann-linear, quadratic splines: the error at 10 load steps is more than 1.5 times that at 20, which is more than 1.5 times that at 40: of first order").study(linear_update).because(""),
+        Check::known_limit("linear-update", "jaumann-linear, quadratic splines: the error at 10 load steps is more than 1.5 times that at 20, which is more than 1.5 times that at 40: of first order").study(linear_update),
     ]
 }
 
 /// Runs that have come to their end, in the order of the plan.
 fn ended(records: &[Record]) -> Vec<Beam<'_>> {
-    records.iter().filter(|r| r.status == Status::Ok).filter_map(Run::of).collect()
+    Run::all(records.iter().filter(|r| r.status == Status::Ok)).collect()
 }
 
 fn falls(records: &[Record]) -> Vec<Finding> {

@@ -148,20 +148,19 @@ fn checks() -> Vec<Check> {
             let found =
                 |(name, [before, after]): (_, [f64; 2])| Finding::above(name, after / before, 1.0 - ROUNDING, why);
             pairs.map(found).collect()
-        })
-        .because(""),
+        }),
         Check::truth(
             "no-body-bends-more",
             "the cantilever's deflection changes by nothing without a penalty and by less than nothing with one",
         )
         .at_most(DEFLECTION_CHANGE, |e| if e.alpha > 0.0 { -ROUNDING } else { ROUNDING })
         .because(WORK),
-        Check::truth("deflection-falls-with-strength", "the cantilever's deflection falls as α grows")
-            .study(|records| {
+        Check::truth("deflection-falls-with-strength", "the cantilever's deflection falls as α grows").study(
+            |records| {
                 let pairs = over_strength(records, DEFLECTION_CHANGE).into_iter();
                 pairs.map(|(name, [before, after])| Finding::at_most(name, after - before, ROUNDING, WORK)).collect()
-            })
-            .because(""),
+            },
+        ),
         Check::known_limit(
             "cuts-spoil-matrices",
             "GIMP without penalties, forty places: the displacement's condition number varies by more than a decade",
@@ -182,7 +181,7 @@ fn checks() -> Vec<Check> {
 /// A metric at two strengths next to each other, by name, for every scheme and number of places.
 fn over_strength(records: &[Record], metric: Metric) -> Vec<(String, [f64; 2])> {
     let mut ladders: BTreeMap<(String, usize), Vec<(f64, f64)>> = BTreeMap::new();
-    let runs = records.iter().filter_map(Run::<Ellipse>::of);
+    let runs = Run::<Ellipse>::all(records);
     for e in runs.filter(|e| e.changes_none_but(&["alpha", "positions"])) {
         let ladder = ladders.entry((e.scheme.to_string(), e.positions)).or_default();
         ladder.push((e.alpha, e.metric(metric)));

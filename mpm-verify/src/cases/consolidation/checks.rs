@@ -39,19 +39,16 @@ pub(super) fn checks() -> Vec<Check> {
             .at_most(BASE_PRESSURE_ERROR, |c| c.h / HEIGHT + c.errors_of_steps()[1])
             .because(AGAINST_EXACT),
         Check::truth("order-space", "GIMP, finest three levels where two cells of the pressure and more are in the layer at the top: order in h of settlement and base pressure at least 2 − 0.15")
-            .study(orders)
-            .because(""),
+            .study(orders),
         Check::truth("richardson", "GIMP: the settlement at T = 0.1 of the finest level is within the grid convergence index of the exact solution in space of the same steps")
-            .study(richardson)
-            .because(""),
+            .study(richardson),
         Check::truth("order-time", "order in the number of steps of the settlement at T = 2, of three refinements each twice the one before, at least 1 − 0.15")
             .study(|records| {
                 let own = records.iter().filter(|r| r.changes_none_but(&["refine"]));
                 let orders = orders_in_time(own, |r| number(r, |c| f64::from(c.refine)), 4, SETTLEMENT_END);
                 let found = |(name, order)| Finding::above(format!("order in time of {name}"), order, 1.0 - SLACK, "backward Euler's rule");
                 orders.into_iter().map(found).collect()
-            })
-            .because(""),
+            }),
         // A domain of h/2 that sinks by s ≤ S has the share 2 s/h in the next cell, whose strain is another by h ε′: settlements S
         // differ by 2 ∫ s ε′ dz, at most 2 S q/M₀.
         Check::truth("small-load", "0.003 M₀, where no particle crosses a cell: linear functions and GIMP of the same run differ by no more than 2 q/M₀: what domains see of the next cell")

@@ -232,8 +232,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .because_of(|c| c.reference_curve().map_or(String::new(), |curve| curve.name)),
         Check::truth("curve", "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
             .when(|c| c.reaches_limit())
-            .own(load_curve)
-            .because(""),
+            .own(load_curve),
         Check::known_limit("no-limit-load", "none: the load still grows by more than 0.5 % per 10⁻³ of s/B at the end")
             .when(|c| c.locks_at_limit())
             .above(PLATEAU_RISE, |_| FLAT.1)
@@ -260,11 +259,9 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .above(|_, _| NC_B.name.to_owned(), change_of_load, |_| RATE)
             .because_of(|c| format!("Eq. (26) averages the average and so diffuses J̄ in time: {}", halving(c))),
         Check::truth("contacts-agree", "all: the load through the barrier is that of held nodes within 2h/B")
-            .study(contacts)
-            .because(""),
+            .study(contacts),
         Check::truth("pressure-order", "fbar-rate, fbar-consistent with nodes on grid lines, over three levels: the error of the contact pressure by B falls with an order of 0.85 to 1.1 (the paper's Figure 9: slightly below one)")
-            .study(orders)
-            .because(""),
+            .study(orders),
     ]
 }
 
@@ -311,7 +308,7 @@ fn halving(run: &Run<Footing>) -> String {
 
 /// Change of the load by the barrier against held nodes.
 fn contacts(records: &[Record]) -> Vec<Finding> {
-    let runs: Vec<Run<Footing>> = records.iter().filter_map(Run::of).collect();
+    let runs: Vec<Run<Footing>> = Run::all(records).collect();
     let found = |run: &Run<Footing>| {
         let (scheme, level) = (run.scheme, &run.level);
         let same = |r: &&Run<Footing>| r.is_default() && r.scheme == scheme && r.level == *level;
@@ -327,7 +324,7 @@ fn contacts(records: &[Record]) -> Vec<Finding> {
 
 /// The order of the error of the contact pressure by B, over runs of the case's own parameters up to any penetration.
 fn orders(records: &[Record]) -> Vec<Finding> {
-    let runs: Vec<Run<Footing>> = records.iter().filter_map(Run::of).collect();
+    let runs: Vec<Run<Footing>> = Run::all(records).collect();
     let judged = |r: &&Run<Footing>| {
         r.is_free_of_locking() && (r.is_default() || r.changes_only("penetration")) && r.effective_width().0 > WIDTH
     };

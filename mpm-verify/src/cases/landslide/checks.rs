@@ -266,8 +266,7 @@ fn of_studies() -> Vec<Check> {
                 Finding::within(SETTLEMENT_AT_REST, value, expected, GROWN_ROUNDING * expected, why)
             };
             changed(records, "width").into_iter().map(like).collect()
-        })
-        .because(""),
+        }),
         // Where the slope fails at once: at the paper's reduction the onset itself is at stake.
         Check::truth("time-step", "fbar-consistent: half the time step moves the toe at 2.5 s by less than a cell")
             .study(|records| {
@@ -277,8 +276,7 @@ fn of_studies() -> Vec<Check> {
                     Finding::within(RUNOUT_2_5S, run.metric(RUNOUT_2_5S), own.metric(RUNOUT_2_5S), run.h, why)
                 };
                 changed(records, "cfl").into_iter().filter(halved).map(like).collect()
-            })
-            .because(""),
+            }),
     ]
 }
 
@@ -289,7 +287,7 @@ fn changed<'a>(records: &'a [Record], parameter: &str) -> Vec<(Slope<'a>, Slope<
     let own = |run: &'a Record| {
         let others = || run.set.iter().filter(|set| !changes(set));
         let same = |r: &&Record| r.scheme() == run.scheme() && r.level == run.level && r.set.iter().eq(others());
-        Some((Run::of(run)?, Run::of(ended().find(same)?)?))
+        Some((Run::of(run).ok()?, Run::of(ended().find(same)?).ok()?))
     };
     let runs = ended().filter(|run| run.set.iter().any(|set| changes(&set)));
     runs.filter_map(own).collect()

@@ -242,7 +242,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
         r.scheme() == scheme && r.level == "n16" && r.status == Status::Ok && r.changes_none_but(&["poisson_ratio"])
     };
     let runs = gallery.records.iter().filter(own);
-    let mut runs: Vec<Run<Mandel>> = runs.filter_map(Run::of).collect();
+    let mut runs: Vec<Run<Mandel>> = Run::all(runs).collect();
     runs.sort_by(|a, b| a.poisson_ratio.total_cmp(&b.poisson_ratio));
     let mut panel = Panel::new("", ["T", "p/(F/2a) in the middle"]);
     for (colour, run) in runs.iter().enumerate() {

@@ -241,7 +241,7 @@ fn on_ladders(check: Gate, of: &[(Metric, Claims)], found: fn(&str, &Ladder) -> 
         };
         of.iter().flat_map(of_metric).collect()
     };
-    check.study(study).because("")
+    check.study(study)
 }
 
 /// The checks on the order of errors.

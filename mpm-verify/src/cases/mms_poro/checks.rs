@@ -33,8 +33,7 @@ pub(super) fn checks() -> Vec<Check> {
                         Err(why) => Finding::not_applicable(name, why),
                     })
                 })
-            })
-            .because(""),
+            }),
         Check::known_limit("stalls", "linear functions whose particles have moved: order of the error of u below 2 − 0.15")
             .study(|records| {
                 of_ladders(records, |metric, runs| {
@@ -42,11 +41,9 @@ pub(super) fn checks() -> Vec<Check> {
                     let (name, order) = order(metric, runs);
                     stalls.then(|| Finding::at_most(name, order, 2.0 - SLACK, MOVED))
                 })
-            })
-            .because(""),
+            }),
         Check::truth("order-time", "source of rates, three finest steps at a level: order in Δt of the rms error of p at least 1 − 0.15")
-            .study(orders_in_time)
-            .because(""),
+            .study(orders_in_time),
     ]
 }
 

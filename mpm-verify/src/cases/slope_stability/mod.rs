@@ -120,18 +120,16 @@ fn checks() -> Vec<Check> {
             .above(STANDS_AT, move |c| upper(c) - c.resolution())
             .because("standard MPM locks: Zhao et al. 2023, Figure 14"),
         Check::truth("factor-converges", "fbar-consistent: from level to level the factor comes nearer to that of limit analysis, or stays within the uncertainty of both")
-            .study(converges)
-            .because(""),
+            .study(converges),
         Check::truth("solvers-agree", "fbar-consistent: the factor of equilibrium is that of the explicit run, within half of both brackets and the half per cent of a slow failure")
-            .study(agrees)
-            .because(""),
+            .study(agrees),
     ]
 }
 
 /// Runs of fbar-consistent with the default parameters that came to their end.
 fn ours(records: &[Record]) -> Vec<Run<'_, Stability>> {
     let ours = |r: &Run<Stability>| r.remedy() == FbarConsistent && r.record.status == Status::Ok && r.is_default();
-    records.iter().filter_map(Run::of).filter(ours).collect()
+    Run::all(records).filter(ours).collect()
 }
 
 /// Trials of equilibrium against those of motion.

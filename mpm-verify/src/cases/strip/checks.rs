@@ -22,8 +22,7 @@ pub(super) fn checks() -> Vec<Check> {
             })
             .because("the equations of all nodes add up to the balance of forces"),
         Check::truth("taylor-hood", "small load, three levels: the settlement of the finest is that of the finite elements but for the grid convergence index, their uncertainty and 10 q/G of finite strain")
-            .study(settlements)
-            .because(""),
+            .study(settlements),
         Check::truth("pressure", "small load, two grids, three levels: order in h of the pressure's rms distance from the finite elements at least 1 − 0.15")
             .study(|records| {
                 let why = "p depends on the angle around the strip's edge: of no order within h, on an area of h²";
@@ -31,8 +30,7 @@ pub(super) fn checks() -> Vec<Check> {
                     .into_iter()
                     .map(|(name, order)| Finding::above(name, order, 1.0 - SLACK, why))
                     .collect()
-            })
-            .because(""),
+            }),
         Check::known_limit("equal-order-does-not-converge", "where no water flows, equal order, three levels: the largest distance of p from the finite elements falls by an order below 1 − 0.15")
             .study(|records| {
                 let why = "nothing holds pressures that no change of volume sees";
@@ -40,11 +38,9 @@ pub(super) fn checks() -> Vec<Check> {
                     .into_iter()
                     .map(|(name, order)| Finding::at_most(name, order, 1.0 - SLACK, why))
                     .collect()
-            })
-            .because(""),
+            }),
         Check::truth("square", "a square, small load, two levels: the settlement of the finer is that of the finite elements but for an index of first order with a safety of 3, their uncertainty and 10 q/G of finite strain")
-            .study(squares)
-            .because(""),
+            .study(squares),
         Check::truth("smooth", "two grids, the whole load, elastic and Cam clay, three levels: order in h of the pressure's roughness at least 1 − 0.15")
             .study(|records| {
                 let why = "neighbours of a pressure with a bounded gradient differ by no more than O(h)";
@@ -55,8 +51,7 @@ pub(super) fn checks() -> Vec<Check> {
                     .chain(clay)
                     .map(|(name, order)| Finding::above(name, order, 1.0 - SLACK, why))
                     .collect()
-            })
-            .because(""),
+            }),
         Check::truth("order-time", "elastic, the whole load, 10, 20 and 40 steps: order in Δt of the settlement at least 1 − 0.15")
             .study(|records| {
                 let own = records.iter().filter(|r| is_set_but_steps(r, ""));
@@ -64,21 +59,17 @@ pub(super) fn checks() -> Vec<Check> {
                 let why = "backward Euler's rule, and ghost penalties on increments";
                 let found = |(name, order)| Finding::above(format!("order in Δt of {name}"), order, 1.0 - SLACK, why);
                 orders.into_iter().map(found).collect()
-            })
-            .because(""),
+            }),
         Check::truth("uniform-clay", "Cam clay under a load on its whole surface that water leaves freely, 10, 20 and 40 steps: order in Δt of the settlement's distance from the integrated rates at least 1 − 0.15")
-            .study(uniform)
-            .because(""),
+            .study(uniform),
         Check::truth("one-limit-load", "Cam clay: 10, 20 and 40 steps of the load end at the same one, but for what a step is halved to and the geometry of different settlements")
-            .study(one_limit)
-            .because(""),
+            .study(one_limit),
         Check::truth("plateau", "undrained clay under a settlement: in its last quarter the load grows by no more than a depth factor of 1 + s/B")
             .when(|s| s.is_driven() && s.is_plastic())
             .at_most(GROWTH, |s| 0.25 * s.penetration / s.half_width)
             .because("a strip that bears its limit; Hansen's depth factor is 1 + 0.2 s/B"),
         Check::truth("prandtl", "undrained clay, three levels, under a load and under a settlement: the limit of the finest is Prandtl's but for the grid convergence index and the settlement")
-            .study(limits)
-            .because(""),
+            .study(limits),
     ]
 }
 

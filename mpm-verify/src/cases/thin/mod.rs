@@ -182,8 +182,7 @@ fn checks() -> Vec<Check> {
             .at_most(Quantity::new(FREQUENCY_RATIO.name, |b: &Beam| b.frequency()), |b| (1.0 + b.slack()) * b.metric(PREDICTED_RATIO))
             .because("lumping adds inertia; functions that see a hair of the beam and averages of the volume change take stiffness"),
         Check::truth("order", "splines without a remedy, faces on grid lines: the error of the frequency falls from one cell to four at an order of at least 2 − 0.15")
-            .study(orders)
-            .because(""),
+            .study(orders),
         averaged(Check::truth("average-no-stiffer", "fbar-consistent: the frequency is at most that of no remedy with the same cells, to what reading it leaves"))
             .at_most(|b, _| about("over none", b), over_plain, |_| 1.0 + READ)
             .because("an average of the volume change stores no more energy than the volume change"),
@@ -206,7 +205,7 @@ fn checks() -> Vec<Check> {
 
 /// The order of each spline without a remedy whose faces lie on grid lines, over all levels.
 fn orders(records: &[Record]) -> Vec<Finding> {
-    let runs: Vec<Beam> = records.iter().filter_map(Run::of).collect();
+    let runs: Vec<Beam> = Run::all(records).collect();
     let judged = |b: &&Beam| b.is_spline() && b.is_plain() && b.shift == 0.0;
     let found = runs.iter().filter(judged).filter(|b| b.level == "t1").filter_map(|first| {
         let ladder = runs.iter().filter(|b| b.scheme == first.scheme && b.set == first.set);

@@ -149,11 +149,9 @@ fn checks() -> Vec<Check> {
                 let why = "a stable pair has a bound that no mesh changes";
                 let orders = orders(records, INF_SUP, |b: &Of| b.space() == Some(TwoGrid));
                 orders.into_iter().map(|(name, order)| Finding::at_most(name, order, SLACK, why)).collect()
-            })
-            .because(""),
+            }),
         Check::known_limit("equal-order-is-unstable", "equal order on the square, three levels: β falls as h, by an order of at least 1 − 0.15")
-            .study(|records| at_least(records, INF_SUP, Equal, (1.0, "bilinear pressures on the cells of the displacement are not stable")))
-            .because(""),
+            .study(|records| at_least(records, INF_SUP, Equal, (1.0, "bilinear pressures on the cells of the displacement are not stable"))),
         Check::truth("one-constant", "two grids on the square: one pressure has no effect, the constant one")
             .when(is_square(TwoGrid))
             .within(ZERO_MODES, |_| 1.0, |_| 0.0)
@@ -167,15 +165,13 @@ fn checks() -> Vec<Check> {
             .above(PRESSURE_ERROR, |_| 1.0)
             .because("pressures of small β answer to hardly any motion"),
         Check::truth("no-locking", "two grids on the square, three levels: order in h of the displacement's error at least 2 − 0.15")
-            .study(|records| at_least(records, DISPLACEMENT_ERROR, TwoGrid, (2.0, "a stable pair locks no motion: second order in the mean")))
-            .because(""),
+            .study(|records| at_least(records, DISPLACEMENT_ERROR, TwoGrid, (2.0, "a stable pair locks no motion: second order in the mean"))),
         Check::truth("smooth-pressure", "two grids on the square, three levels: order in h of the pressure's error, and of its checkerboard, at least 1 − 0.15")
             .study(|records| {
                 let why = "a stable pair has the pressure's error of the gradient's, first order";
                 let both = [PRESSURE_ERROR, CHECKERBOARD_RATIO];
                 both.into_iter().flat_map(|metric| at_least(records, metric, TwoGrid, (1.0, why))).collect()
-            })
-            .because(""),
+            }),
     ]
 }
 

@@ -27,7 +27,7 @@ pub(in crate::cases) fn locking() -> [Check; 2] {
             .because("the exact motion does not depend on ν; both runs take the same steps"),
         Gate::known_limit("locks", "none with linear functions and GIMP at ν ≥ 0.499: rms error of u above 1.5 times that at ν = 0.3 at the coarsest level")
             .study(|records| {
-                let runs: Vec<Run<()>> = records.iter().filter_map(Run::of).collect();
+                let runs: Vec<Run<()>> = Run::all(records).collect();
                 let coarsest = runs.iter().map(|r| r.h).fold(0.0, f64::max);
                 let locks = |r: &&Run<()>| {
                     r.remedy() == RemedyName::None
@@ -41,8 +41,7 @@ pub(in crate::cases) fn locking() -> [Check; 2] {
                     Some(Finding::above(about(r), factor(r, soft), LOCKED, why))
                 });
                 found.collect()
-            })
-            .because(""),
+            }),
     ]
 }
 
