@@ -127,7 +127,10 @@ impl Case {
         name: &'static str,
         title: &'static str,
         metrics: &[Metric],
-    ) -> Self {
+    ) -> Self
+    where
+        P::Parameters: ParameterSet,
+    {
         let begin = Box::new(crate::problem::begin::<D, P>);
         Self {
             cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-(D as i32) - 1)),

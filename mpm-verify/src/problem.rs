@@ -79,7 +79,7 @@ impl<const D: usize> Phase<D> {
 /// What a case simulates, observes and measures. All that changes from row to row is in [`Problem::Seen`].
 pub trait Problem<const D: usize>: Sized + Send {
     /// Its parameters.
-    type Parameters: ParameterSet;
+    type Parameters;
     /// Observations of the rows so far. They go into checkpoints.
     type Seen: Default + Serialize + DeserializeOwned + Send;
 
@@ -125,7 +125,10 @@ pub trait Problem<const D: usize>: Sized + Send {
 pub fn begin<const D: usize, P: Problem<D> + 'static>(
     spec: &RunSpec,
     parameters: &Parameters,
-) -> Result<Box<dyn Job>, Error> {
+) -> Result<Box<dyn Job>, Error>
+where
+    P::Parameters: ParameterSet,
+{
     let problem = P::new(Setup::of_spec(spec, parameters)?)?;
     Ok(Box::new(Driver::new(problem)?))
 }

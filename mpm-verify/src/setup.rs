@@ -41,15 +41,7 @@ impl<P: ParameterSet> Setup<P> {
     /// # Errors
     /// A parameter of another type.
     pub fn of_spec(spec: &RunSpec, values: &Parameters) -> Result<Self, Error> {
-        Ok(Self {
-            scheme: spec.scheme,
-            h: spec.level.h,
-            level: spec.level.name.to_owned(),
-            set: spec.set.clone(),
-            perturbed: spec.perturbed,
-            values: values.clone(),
-            own: P::read(values)?,
-        })
+        Ok(Self::new(spec, values, P::read(values)?))
     }
 
     /// The setup of a run that was made.
@@ -80,6 +72,19 @@ impl<P: ParameterSet> Setup<P> {
 }
 
 impl<P> Setup<P> {
+    /// The setup of a run to be made, with parameters of its `own`.
+    pub(crate) fn new(spec: &RunSpec, values: &Parameters, own: P) -> Self {
+        Self {
+            scheme: spec.scheme,
+            h: spec.level.h,
+            level: spec.level.name.to_owned(),
+            set: spec.set.clone(),
+            perturbed: spec.perturbed,
+            values: values.clone(),
+            own,
+        }
+    }
+
     /// The basis functions.
     pub fn basis(&self) -> BasisName {
         self.scheme.basis()

@@ -23,8 +23,8 @@ use crate::error::Error;
 use crate::files::{Mark, read_text};
 use crate::job::Job;
 use crate::parameter::Parameters;
+use crate::problem::{Driver, Problem};
 use crate::scheme::Scheme;
-use crate::sketch::Sketch;
 use crate::spec::{Level, RunSpec};
 use fault::Source;
 use form::{FORMAT, Form};
@@ -76,10 +76,10 @@ impl SceneFile {
         let found = look(&source, form)?;
         let scheme = found.scheme;
         let level = Level { name: Box::leak(format!("{:08x}", found.mark).into_boxed_str()), h };
-        let begin = move |_: &RunSpec, _: &Parameters| match dimension {
-            1 => begin::<1>(&source),
-            2 => begin::<2>(&source),
-            _ => begin::<3>(&source),
+        let begin = move |spec: &RunSpec, values: &Parameters| match dimension {
+            1 => begin::<1>(&source, spec, values),
+            2 => begin::<2>(&source, spec, values),
+            _ => begin::<3>(&source, spec, values),
         };
         Ok(Self {
             case: case(dimension, level, scheme, found.mass, Box::new(begin)),
@@ -117,14 +117,13 @@ where
     Ok(Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made: setup.made() })
 }
 
-fn begin<const D: usize>(source: &Source) -> Result<Box<dyn Job>, Error>
+fn begin<const D: usize>(source: &Source, spec: &RunSpec, values: &Parameters) -> Result<Box<dyn Job>, Error>
 where
     Compiled: Solving<D>,
 {
-    let form: Form = source.parse()?;
-    let every = form.output.get_ref().snapshot_rows;
-    let setup = Setup::<D>::new(source, form)?;
-    Ok(Box::new(Course::drive(setup, every.map(|rows| rows.0 as usize))?))
+    let made = Setup::<D>::new(source, source.parse()?)?;
+    let course = Course::new(crate::setup::Setup::new(spec, values, made))?;
+    Ok(Box::new(Driver::new(course)?))
 }
 
 /// The case of a scene in so many dimensions whose body has a `mass` (kg).
@@ -134,28 +133,12 @@ fn case(dimension: usize, level: Level, scheme: Scheme, mass: f64, begin: Begin)
         [judge(r, MASS).within(mass, ROUNDING * mass, why)]
     });
     Case {
-        name: "scene",
-        title: "A scene of one's own",
         description: "What a scene file describes.",
-        references: Vec::new(),
         limits: &["Nothing is known of the answer, so nothing is judged."],
-        parameters: Vec::new(),
         levels: vec![level],
         plan: vec![family(Tier::Long, &[level], &[scheme], &[])],
-        metrics: watch::metrics_in(dimension),
         checks: checks! { bookkeeping "mass": "The mass stays what it was." => kept; },
-        headlines: Vec::new(),
-        quantities: Vec::new(),
-        sweeps: Vec::new(),
         watched: &["displacement_max", "kinetic_energy"],
-        field: None,
-        sketch: Sketch::default(),
-        cost: Box::new(|_| 1.0),
-        ladder: &[],
-        own_runs: crate::record::of_defaults,
-        begin,
-        pictures: |_| Ok(()),
-        tables: Vec::new(),
-        breaks_down: |_| None,
+        ..Case::begun_by("scene", "A scene of one's own", &watch::metrics_in(dimension), Vec::new(), begin)
     }
 }

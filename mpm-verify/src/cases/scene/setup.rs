@@ -123,11 +123,6 @@ impl<const D: usize> Setup<D> {
         }
     }
 
-    /// Cell size (m).
-    pub(super) fn h(&self) -> f64 {
-        self.grid.h
-    }
-
     /// Names of supports, then of contacts, of a phase, in the scene's order.
     pub(super) fn parts(&self, phase: &str) -> [Vec<&str>; 2] {
         let supports = self.form.supports.iter().map(|s| match s.get_ref() {

@@ -1,15 +1,16 @@
 //! What is seen of a scene's run: phase by phase, row by row.
 
 use super::phase::Phase;
-use super::setup::Setup;
+use super::setup::Setup as Made;
 use super::solving::{Compiled, Solving};
-use crate::cases::observe::{checkerboard, column, position_columns};
-use crate::drive::{Drive, Stage, Watch};
+use crate::cases::observe::checkerboard;
 use crate::error::Error;
-use crate::job::{Column, Snapshot};
+use crate::job::{Row, Snapshot};
 use crate::metric::{Metric, metrics};
+use crate::problem::{self, Columns, Problem};
 use crate::record::Discretisation;
 use crate::scheme::Scheme;
+use crate::setup::Setup;
 use mpm_core::basis::WallTreatment;
 use mpm_core::{Field, Part, Simulation};
 use serde::{Deserialize, Serialize};
@@ -58,35 +59,16 @@ pub(super) struct Seen {
 
 /// A run of a scene file.
 pub(super) struct Course<const D: usize> {
-    setup: Setup<D>,
+    setup: Setup<Made<D>>,
     /// Names of all parts, and of the columns.
     parts: Vec<String>,
     columns: Vec<&'static str>,
-    snapshot_rows: Option<usize>,
 }
 
 impl<const D: usize> Course<D>
 where
     Compiled: Solving<D>,
 {
-    /// A run at its start.
-    ///
-    /// # Errors
-    /// The solver refuses the scene.
-    pub(super) fn drive(setup: Setup<D>, snapshot_rows: Option<usize>) -> Result<Drive<D, Self>, Error> {
-        let mut parts: Vec<String> = Vec::new();
-        for phase in &setup.phases {
-            for name in setup.parts(&phase.name).concat() {
-                if parts.iter().all(|known| known != name) {
-                    parts.push(name.to_owned());
-                }
-            }
-        }
-        let columns = columns::<D>(setup.scheme, &parts);
-        let course = Self { setup, parts, columns, snapshot_rows };
-        Ok(Drive::new(course, Seen::default())?)
-    }
-
     fn phase(&self, seen: &Seen) -> &Phase {
         &self.setup.phases[seen.phase.min(self.setup.phases.len() - 1)]
     }
@@ -97,7 +79,7 @@ where
     }
 
     /// Mean force (N) over the last row on every part of the scene, in all phases' order; zero on one that a phase has not.
-    fn forces(&self, seen: &mut Seen, stage: &Stage<D>) -> Vec<f64> {
+    fn forces(&self, seen: &mut Seen, run: &dyn Simulation<D>) -> Vec<f64> {
         let phase = self.phase(seen);
         let duration = phase.steps_per_row as f64 * phase.dt;
         let here = self.setup.parts(&phase.name);
@@ -110,7 +92,7 @@ where
                 (None, None) => None,
             };
             let now = part.map_or([0.0; 3], |part| {
-                let reaction = stage.run.on(part);
+                let reaction = run.on(part);
                 match self.setup.scheme {
                     Scheme::Explicit(_) => reaction.impulse,
                     _ => reaction.force.map(|f| f * duration),
@@ -162,11 +144,25 @@ fn most_moved<const D: usize>(run: &dyn Simulation<D>) -> f64 {
     squares.fold(0.0, f64::max).sqrt()
 }
 
-impl<const D: usize> Watch<D> for Course<D>
+impl<const D: usize> Problem<D> for Course<D>
 where
     Compiled: Solving<D>,
 {
+    type Parameters = Made<D>;
     type Seen = Seen;
+
+    fn new(setup: Setup<Made<D>>) -> Result<Self, Error> {
+        let mut parts: Vec<String> = Vec::new();
+        for phase in &setup.phases {
+            for name in setup.parts(&phase.name).concat() {
+                if parts.iter().all(|known| known != name) {
+                    parts.push(name.to_owned());
+                }
+            }
+        }
+        let columns = columns::<D>(setup.scheme, &parts);
+        Ok(Self { setup, parts, columns })
+    }
 
     fn discretisation(&self) -> Discretisation {
         let wall = match self.setup.walls() {
@@ -175,81 +171,72 @@ where
         };
         Discretisation {
             dim: D,
-            h: self.setup.h(),
+            h: self.setup.h,
             ppc: self.setup.per_cell(),
             dt: self.setup.phases[0].dt,
             wall: wall.to_owned(),
         }
     }
 
-    fn scene(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
         Compiled::solve(&self.setup, self.phase(seen))
     }
 
-    fn columns(&self) -> Vec<&'static str> {
-        self.columns.clone()
-    }
-
-    fn row(&self, seen: &mut Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut problem::Phase<D>) -> Result<Row, mpm_core::Error> {
         if seen.row == self.phase(seen).rows {
-            let body = stage.run.body()?;
-            seen.before += stage.run.time();
+            let body = phase.run.body()?;
+            seen.before += phase.run.time();
             (seen.phase, seen.row) = (seen.phase + 1, 0);
             seen.impulses.clear();
-            stage.enter(self.scene(seen)?, Some(&body))?;
+            phase.enter(self.begin(seen)?, Some(&body))?;
         }
         seen.impulses.resize(self.parts.len(), [0.0; 3]);
-        let iterations = stage.run.work().newton_iterations;
-        stage.steps(self.phase(seen).steps_per_row)?;
+        let iterations = phase.run.work().newton_iterations;
+        phase.steps(self.phase(seen).steps_per_row)?;
         (seen.row, seen.rows) = (seen.row + 1, seen.rows + 1);
-        let run = stage.run.as_ref();
+        let run = phase.run.as_ref();
         let totals = run.totals();
         let mut row = vec![seen.before + run.time(), totals.kinetic_energy, totals.stored_energy, most_moved(run)];
-        if !matches!(self.setup.scheme, Scheme::Explicit(_)) {
+        if !self.setup.is_explicit() {
             row.push((run.work().newton_iterations - iterations) as f64);
         }
         row.extend(run.water().map(|water| water.outflow));
-        row.extend(self.forces(seen, stage));
-        Ok(row)
+        row.extend(self.forces(seen, run));
+        Ok(Row(self.columns.iter().copied().zip(row).collect()))
     }
 
-    fn progress(&self, seen: &Seen, _: &Stage<D>) -> f64 {
+    fn progress(&self, seen: &Seen, _: &problem::Phase<D>) -> f64 {
         seen.rows as f64 / self.whole() as f64
     }
 
-    fn snapshot(&self, seen: &Seen, stage: &mut Stage<D>) -> Option<Snapshot> {
-        let every = self.snapshot_rows?;
-        let time = seen.before + stage.run.time();
-        seen.rows.is_multiple_of(every).then(|| Snapshot { time, columns: self.particles(seen, stage) })
+    fn snapshot(&self, seen: &Seen, phase: &mut problem::Phase<D>) -> Option<Snapshot> {
+        let every = self.setup.form.output.get_ref().snapshot_rows.as_ref()?.0 as usize;
+        let time = seen.before + phase.run.time();
+        let mut columns = || self.particles(seen, Columns::positions(phase.run.as_mut())).done();
+        seen.rows.is_multiple_of(every).then(|| Snapshot { time, columns: columns() })
     }
 
-    fn particles(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<Column> {
-        let run = stage.run.as_mut();
-        let fields = [
+    /// Without the velocities, which equilibrium lacks, and the fields that solver or law lacks.
+    fn particles<'a>(&self, _: &Seen, mut columns: Columns<'a, D>) -> Columns<'a, D> {
+        let count = columns.run().particles().len();
+        if !columns.run().particles().velocity.is_empty() {
+            columns = columns.axes(["velocity_x", "velocity_y", "velocity_z"], "m/s", |p, k| p.velocity[k]);
+        }
+        for (name, unit, field) in [
             ("mean_stress", "Pa", Field::MeanStress),
             ("mean_stress_averaged", "Pa", Field::AveragedMeanStress),
             ("plastic_strain", "-", Field::PlasticStrain),
             ("pore_pressure", "Pa", Field::PorePressure),
-        ];
-        // A run lacks the fields that its solver or law knows nothing of.
-        let fields = fields.map(|(name, unit, field)| (name, unit, run.field(field)));
-        let p = run.particles();
-        let mut columns = position_columns(p);
-        let of_velocity = [("velocity_x", 0), ("velocity_y", 1), ("velocity_z", 2)];
-        // Equilibrium has no velocities.
-        let components = if p.velocity.is_empty() { 0 } else { D };
-        for (name, a) in of_velocity.into_iter().take(components) {
-            columns.push(column(name, "m/s", p.seeded(|k| p.velocity[k][a])));
+        ] {
+            if columns.run().field(field).len() == count {
+                columns = columns.field(name, unit, field);
+            }
         }
-        for (name, unit, values) in fields.into_iter().filter(|f| f.2.len() == p.len()) {
-            columns.push(column(name, unit, p.seeded(|k| values[k])));
-        }
-        columns.push(column("jacobian", "-", p.seeded(|k| p.jacobian[k])));
-        columns
+        columns.jacobian()
     }
 
-    fn metrics(&self, _: &Seen, stage: &mut Stage<D>) -> Vec<(Metric, f64)> {
-        let run = stage.run.as_mut();
+    fn metrics(&self, _: &Seen, phase: &mut problem::Phase<D>) -> Vec<(Metric, f64)> {
+        let run = phase.run.as_mut();
         let mean = run.field(Field::MeanStress);
         let averaged = run.field(Field::AveragedMeanStress);
         let plastic = run.field(Field::PlasticStrain);
