@@ -13,6 +13,7 @@ use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::sketch::Sketch;
 use crate::spec::{Level, RunSpec};
 use crate::verdict::Verdict;
+use crate::wanted::{Wanted, settled};
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -91,6 +92,8 @@ pub struct Case {
     pub metrics: Vec<Metric>,
     /// Checks.
     pub checks: Vec<Check>,
+    /// Quantities for which it is run: all that have to be right for a run to be right.
+    pub wanted: Vec<Wanted>,
     /// What the table of results shows.
     pub headlines: Vec<Column>,
     /// Quantities whose convergence is studied.
@@ -157,6 +160,7 @@ impl Case {
             plan: Vec::new(),
             metrics: metrics.to_vec(),
             checks: Vec::new(),
+            wanted: Vec::new(),
             headlines: Vec::new(),
             quantities: Vec::new(),
             sweeps: Vec::new(),
@@ -173,9 +177,14 @@ impl Case {
         }
     }
 
-    /// Verdicts on a run that has come to its end.
+    /// Verdicts on a run that has come to its end, those on its wanted quantities first.
     #[must_use]
     pub fn judge(&self, record: &Record) -> Vec<Verdict> {
+        settled(&self.wanted, self.verdicts(record))
+    }
+
+    /// Verdicts of all checks on a run that has come to its end.
+    pub(crate) fn verdicts(&self, record: &Record) -> Vec<Verdict> {
         self.checks.iter().flat_map(|c| c.of_run(record)).collect()
     }
 

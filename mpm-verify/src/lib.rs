@@ -40,6 +40,7 @@ pub mod statistics;
 pub mod study;
 pub mod table;
 pub mod verdict;
+pub mod wanted;
 
 pub use mpm_exact::{self as exact, parameter};
 pub use mpm_solvers::scheme;

@@ -25,6 +25,7 @@ pub(crate) use crate::setup::{Run, Setup};
 pub(crate) use crate::sketch::{Shape, Sketch};
 pub(crate) use crate::spec::{Level, RunSpec};
 pub(crate) use crate::table::Table;
+pub(crate) use crate::wanted::Wanted;
 pub(crate) use mpm_core::stage::{End, Wall, WallKind};
 pub(crate) use mpm_core::{Axis, Body, Field, Grid, Particles, Scene, Side, Simulation};
 pub(crate) use serde::{Deserialize, Serialize};

@@ -17,6 +17,8 @@ pub enum Kind {
     /// That nothing was lost on the way: mass, counts, completion. It holds of a wrong solution as well, so it does
     /// not make a run judged.
     Bookkeeping,
+    /// A quantity for which the case is run, judged by its truths together. Only runs with all of these right are right.
+    Wanted,
 }
 
 /// What a check found.
@@ -61,6 +63,18 @@ impl Verdict {
         matches!(self.kind, Kind::Truth | Kind::KnownLimit)
     }
 
+    /// Whether it is on a wanted quantity.
+    #[must_use]
+    pub fn is_wanted(&self) -> bool {
+        self.kind == Kind::Wanted
+    }
+
+    /// Whether it may decide the outcome of a run.
+    #[must_use]
+    pub fn decides(&self) -> bool {
+        self.judges() || self.failed() || (self.is_wanted() && self.outcome == Outcome::NotJudged)
+    }
+
     /// Whether what the check states is so, a known limit included; nothing where it was not judged.
     #[must_use]
     pub fn holds(&self) -> Option<bool> {
@@ -77,10 +91,10 @@ impl Verdict {
         self.outcome == Outcome::Failed
     }
 
-    /// Whether the check was applied, is not one of drift, and does not hold.
+    /// Whether the check was applied, is not one of drift, and does not hold. A wanted quantity repeats what its truths say.
     #[must_use]
     pub fn misses_the_truth(&self) -> bool {
-        self.failed() && self.kind != Kind::Drift
+        self.failed() && !matches!(self.kind, Kind::Drift | Kind::Wanted)
     }
 
     /// Whether the result has drifted from its golden.

@@ -52,6 +52,12 @@ pub(super) fn case() -> Case {
             .runs(Nightly, "h0.25", &few, MILLION)
             .done(),
         levels,
+        wanted: vec![
+            Wanted::new("place", "largest distance of a particle from its place of rest", &["stays"])
+                .missed_by(&["cubic-out-of-balance", "pressure-relaxes"]),
+            Wanted::new("pressure", "mean pressure at the foot", &["base-pressure"])
+                .missed_by(&["cubic-out-of-balance", "pressure-relaxes"]),
+        ],
         checks: checks(),
         headlines: vec![
             headline(DISPLACEMENT_L2, "rms distance from rest (m)", 1.0, 6),

@@ -150,6 +150,9 @@ pub(super) fn case() -> Case {
             .each(Nightly, "n8 n16", &moved, ["cfl=10 duration=24", "cfl=40 duration=24"])
             .done(),
         levels,
+        wanted: vec![
+            Wanted::new("frequency", "frequency over the periods", &["frequency"]).missed_by(&["locks", "motion-lost"]),
+        ],
         checks: checks(),
         headlines: vec![
             headline(FREQUENCY_RATIO, "frequency / exact (–)", 1.0, 4),

@@ -103,6 +103,10 @@ pub(super) fn case() -> Case {
             .each(Nightly, "n8", &moved[..3], ["cfl=4 lumped=0", "cfl=4 lumped=1"])
             .done(),
         levels,
+        wanted: vec![
+            Wanted::new("frequency", "mean frequency of a hundred periods", &["frequency"]).missed_by(&["motion-lost", "fades", "cubic-walls-damp"]),
+            Wanted::new("amplitude", "energy left after a hundred periods", &["lumped-mass-takes"]).missed_by(&["motion-lost", "fades", "cubic-walls-damp"]),
+        ],
         checks: checks(),
         headlines: vec![
             headline(FREQUENCY_RATIO, "frequency / exact (–)", 1.0, 6),

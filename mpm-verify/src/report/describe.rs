@@ -90,6 +90,9 @@ pub fn explain(case: &Case) -> String {
     let metrics = case.metrics.iter();
     let metrics = metrics.map(|m| format!("{} ({})  {}", m.name, m.unit, m.meaning).into());
     list("Metrics", metrics.collect());
+    let wanted = case.wanted.iter();
+    let wanted = wanted.map(|w| format!("{}  {}; judged by {}", w.name, w.statement, w.by.join(", ")).into());
+    list("Wanted (a run is right only if each is right)", wanted.collect());
     let checks = case.checks.iter();
     let checks = checks.map(|c| format!("{} [{}]  {}", c.name, kind(c.kind), c.statement).into());
     list("Checks", checks.collect());
@@ -118,6 +121,7 @@ pub fn explain_json(case: &Case) -> Value {
         "schemes": case.schemes(),
         "levels": case.levels.iter().map(|l| json!({"name": l.name, "h": l.h})).collect::<Value>(),
         "metrics": metrics.collect::<Value>(),
+        "wanted": case.wanted,
         "checks": checks.collect::<Value>(),
         "references": case.references,
         "limits": case.limits,
@@ -134,6 +138,7 @@ pub fn verdict_line(v: &Verdict) -> String {
     };
     let line = match v.outcome {
         Outcome::Failed if v.check == "completes" => told,
+        _ if v.is_wanted() => format!("{told:24} {}", v.source),
         Outcome::NotJudged => format!("{told:24} {}", v.metric),
         _ => format!("{told:24} {} = {}", v.metric, demand(v)),
     };
@@ -141,6 +146,7 @@ pub fn verdict_line(v: &Verdict) -> String {
     let rest = line.strip_prefix(&name).unwrap_or(&line);
     let why = match v.outcome {
         Outcome::Right => String::new(),
+        _ if v.is_wanted() => String::new(),
         _ => wrapped(&v.source, &" ".repeat(18), &" ".repeat(18)),
     };
     format!("{}{rest}{why}", painted(v.outcome, &name))

@@ -35,6 +35,9 @@ pub(super) struct Row {
     wrong_as_known: usize,
     not_judged: usize,
     pub(super) failed: usize,
+    /// Wanted quantities that were not judged; none of rows of former programs.
+    #[serde(default)]
+    wanted_not_judged: usize,
     particles: u64,
     steps: u64,
     particle_node_pairs: u64,
@@ -82,6 +85,11 @@ impl Row {
             wrong_as_known: count(Outcome::WrongAsKnown),
             not_judged: count(Outcome::NotJudged),
             failed: count(Outcome::Failed),
+            wanted_not_judged: record
+                .verdicts
+                .iter()
+                .filter(|v| v.is_wanted() && v.outcome == Outcome::NotJudged)
+                .count(),
             particles: record.work.particles,
             steps: record.work.steps,
             particle_node_pairs: record.work.particle_node_pairs,
@@ -147,6 +155,7 @@ impl Row {
             (self.right, Kind::Truth, "", Outcome::Right),
             (self.wrong_as_known, Kind::KnownLimit, known, Outcome::WrongAsKnown),
             (self.failed, Kind::Truth, "", Outcome::Failed),
+            (self.wanted_not_judged, Kind::Wanted, "", Outcome::NotJudged),
         ];
         let verdict = |(_, kind, check, outcome): &(usize, Kind, &str, Outcome)| Verdict {
             check: (*check).to_owned(),

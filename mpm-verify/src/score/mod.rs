@@ -17,6 +17,7 @@ use crate::record::{Measured, Record};
 use crate::spec::RunSpec;
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
+use crate::wanted::settled;
 use manifest::{FILE, Manifest, Positive};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -121,7 +122,7 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<Vec<(
 /// what is measured from a column that is missing is not judged.
 fn judge(case: &Case, foreign: &Foreign, given: &Given, record: &Record) -> Vec<Verdict> {
     let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping);
-    let verdicts = case.judge(record).into_iter().filter(of_code);
+    let verdicts = case.verdicts(record).into_iter().filter(of_code);
     let judged = verdicts.filter_map(|v| {
         let mut groups = foreign.groups.iter();
         let group = groups.find(|g| g.metrics.iter().any(|m| m.name == v.metric))?;
@@ -133,7 +134,7 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, record: &Record) -> Vec<
         let why = format!("missing: {}", lacking.collect::<Vec<_>>().join(", "));
         Some(Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v })
     });
-    judged.collect()
+    settled(&case.wanted, judged.collect())
 }
 
 #[cfg(test)]

@@ -49,17 +49,18 @@ fn breaks_down(record: &Record, why: &str) -> Verdict {
     Finding::above("run", broke, 0.0, why).verdict(BREAKS_DOWN, Kind::KnownLimit)
 }
 
-/// The outcome of verdicts together, those of drift apart: failed if one fails, wrong as known if a known limit is there,
-/// right if a check against the truth holds, else not judged.
+/// The outcome of verdicts together, those of drift apart: failed if one fails, wrong as known if a known limit is there.
+/// Right if each wanted quantity is, or, without any, if a check against the truth holds. Else not judged.
 pub fn outcome_of<'a>(verdicts: impl Iterator<Item = &'a Verdict> + Clone) -> Outcome {
     let judged = |outcome| {
         let mut all = verdicts.clone();
         all.any(|v| v.judges() && v.outcome == outcome)
     };
+    let mut wanted = verdicts.clone().filter(|v| v.kind == Kind::Wanted);
     match verdicts.clone().any(Verdict::misses_the_truth) {
         true => Outcome::Failed,
         false if judged(Outcome::WrongAsKnown) => Outcome::WrongAsKnown,
-        false if judged(Outcome::Right) => Outcome::Right,
+        false if judged(Outcome::Right) && wanted.all(|v| v.outcome == Outcome::Right) => Outcome::Right,
         false => Outcome::NotJudged,
     }
 }

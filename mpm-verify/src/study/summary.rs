@@ -193,7 +193,7 @@ fn count(summary: &Summary) -> Counts {
             Outcome::Failed => &mut counts.failed_runs,
         } += 1;
     }
-    for (_, _, verdict) in summary.verdicts() {
+    for (_, _, verdict) in summary.verdicts().filter(|(.., v)| v.kind != Kind::Wanted) {
         *match (verdict.kind, verdict.outcome) {
             (Kind::Drift, Outcome::Failed) => &mut counts.drifted,
             (Kind::Drift, _) => &mut counts.undrifted,

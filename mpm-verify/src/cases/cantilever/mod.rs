@@ -115,6 +115,10 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels: levels.to_vec(),
+        wanted: vec![
+            Wanted::new("deflection", "u_y of the corner under the whole weight", &["corner"]),
+            Wanted::new("stress", "σ_xx at six points near the clamp", &["stress"]),
+        ],
         checks: checks::checks(),
         headlines: vec![
             headline(CORNER_UX, "corner u_x (m)", 1.0, 4),

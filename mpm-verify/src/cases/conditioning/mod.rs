@@ -71,6 +71,11 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(),
         levels: LEVELS.to_vec(),
+        wanted: vec![Wanted::new(
+            "bending",
+            "deflection of the cantilever over that without a penalty",
+            &["no-body-bends-more"],
+        )],
         checks: checks(),
         headlines: vec![
             headline(COND_UU, "log₁₀ cond uu, most", 1.0, 2),

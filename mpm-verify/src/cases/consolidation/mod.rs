@@ -88,6 +88,11 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels,
+        wanted: vec![
+            Wanted::new("settlement", "settlement over time", &["settlement"]).missed_by(&["logarithm-loses-water"]),
+            Wanted::new("pressure", "pressure at the base over time", &["base-pressure"])
+                .missed_by(&["logarithm-loses-water"]),
+        ],
         checks: checks::checks(),
         headlines: vec![
             headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 3),

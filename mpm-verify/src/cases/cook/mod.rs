@@ -51,6 +51,7 @@ pub(super) fn case() -> Case {
         plan: plan(levels),
         levels: levels.to_vec(),
         metrics: metrics::all(),
+        wanted: Vec::new(),
         checks: checks::checks(),
         headlines: headlines(),
         quantities: vec![

@@ -64,6 +64,9 @@ pub(super) fn case() -> Case {
         ],
         levels: LEVELS.to_vec(),
         plan: plan(),
+        wanted: vec![
+            Wanted::new("largest-step", "largest stable step over that of linear analysis", &["largest-step"]).missed_by(&["small-cut", "fed-by-mean-stress"]),
+        ],
         checks: checks(),
         headlines: vec![
             headline(CRITICAL_CFL, "critical CFL (–)", 1.0, 3),

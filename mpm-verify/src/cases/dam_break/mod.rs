@@ -146,6 +146,15 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels: levels.to_vec(),
+        wanted: vec![
+            Wanted::new("front", "place of the front over time, and its arrival", &["front", "arrival"]).missed_by(&[
+                "locked",
+                "makes-energy",
+                "creeps",
+            ]),
+            Wanted::new("pressure", "pressure behind the gate before the water flows", &["pressure-profile"])
+                .missed_by(&["smoothed-start", "creeps"]),
+        ],
         checks: checks::checks(),
         headlines: headlines(),
         quantities: QUANTITIES.to_vec(),

@@ -138,6 +138,9 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(),
         levels: LEVELS.to_vec(),
+        wanted: vec![
+            Wanted::new("stability", "whether the slope stands, whole and cut", &["stands-below-the-limit", "falls-above-the-limit"]),
+        ],
         checks: checks(),
         headlines: vec![
             headline(FACTOR_UNCUT, "factor, whole (–)", 1.0, 3),

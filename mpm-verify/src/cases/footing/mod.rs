@@ -126,6 +126,15 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels,
+        wanted: vec![
+            Wanted::new("limit-load", "load on the footing at the end", &["prandtl", "fem-plateau"]).missed_by(&[
+                "no-limit-load",
+                "locked",
+                "rate-dependent",
+            ]),
+            Wanted::new("pressure", "mean stress at five points at the end", &["mean-stress", "smooth-pressure"])
+                .missed_by(&["no-limit-load", "locked", "checkerboard"]),
+        ],
         checks: checks::checks(),
         headlines: vec![
             headline(NC_B, "N_c by B (–)", 1.0, 3),

@@ -146,6 +146,17 @@ fn case_of(
         description,
         references: references(),
         limits: LIMITS,
+        wanted: vec![
+            Wanted::new(
+                "geostatic-stress",
+                "vertical stress far from the face after the gravity stage",
+                &["overburden"],
+            )
+            .missed_by(&["locked-stress"]),
+            Wanted::new("stability", "whether the slope fails", &["stands", "fails"])
+                .missed_by(&["locked"])
+                .where_referenced(),
+        ],
         checks: checks::checks(),
         headlines: vec![
             headline(RUNOUT_2_5S, "run-out at 2.5 s (m)", 1.0, 2),

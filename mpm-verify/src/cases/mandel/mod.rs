@@ -69,6 +69,10 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels,
+        wanted: vec![
+            Wanted::new("pressure", "pressure in the middle over time", &["centre-pressure", "peak"]),
+            Wanted::new("motion", "paths of plate and side", &["settlement", "bulge"]),
+        ],
         checks: checks(),
         headlines: vec![
             headline(CENTRE_PRESSURE_ERROR, "error of p in the middle (% of F/2a)", 100.0, 3),

@@ -90,6 +90,9 @@ where
     Case {
         description,
         levels: levels(),
+        wanted: vec![
+            Wanted::new("displacement", "rms error of u at the end", &["error-bound"]).missed_by(&["motion-lost"]),
+        ],
         headlines: headlines(),
         quantities: ERRORS.to_vec(),
         watched: &["displacement_l2", "log_jacobian_gap_rms"],

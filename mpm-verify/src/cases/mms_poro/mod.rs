@@ -92,6 +92,9 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels,
+        wanted: vec![
+            Wanted::new("fields", "rms errors of u and p at the end", &["error-bound"]),
+        ],
         checks: checks::checks(),
         headlines: vec![
             headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 7),

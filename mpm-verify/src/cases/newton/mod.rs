@@ -62,6 +62,10 @@ pub(super) fn case() -> Case {
         limits: &["Uniaxial strain, one law, no stabilisation of cut cells."],
         plan: plan(&levels),
         levels,
+        wanted: vec![
+            Wanted::new("equilibrium", "last equilibrium that was found", &["never-wrong", "no-more-than-there-is"])
+                .missed_by(&["moved-quadrature", "hair-cut"]),
+        ],
         checks: checks(),
         headlines: vec![
             headline(CARRIED, "load carried (%)", 100.0, 1),

@@ -67,6 +67,20 @@ pub(super) fn case() -> Case {
         limits: &["Without an artificial viscosity what a front should take rings behind it: none is the default."],
         plan: plan(&levels),
         levels,
+        wanted: vec![
+            Wanted::new("front", "speed of the front", &["shock-speed"]).missed_by(&[
+                "recursion-smears",
+                "averaged-hats-lose-stress",
+                "rings",
+                "weak-viscosity-rings",
+            ]),
+            Wanted::new(
+                "stress",
+                "mean stress behind the front, and momentum that the wall takes",
+                &["stress", "wall-force"],
+            )
+            .missed_by(&["recursion-smears", "averaged-hats-lose-stress", "rings", "weak-viscosity-rings"]),
+        ],
         checks: checks(),
         headlines: vec![
             headline(SHOCK_SPEED_ERROR, "speed of the front (%)", 100.0, 2),

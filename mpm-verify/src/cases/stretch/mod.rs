@@ -64,6 +64,17 @@ pub(super) fn case() -> Case {
         limits: &["One law, undeformed domains, one lattice of particles; in the plane crushed only."],
         plan: plan(),
         levels: LEVELS.to_vec(),
+        wanted: vec![
+            Wanted::new("stress", "mean stress of the stretched or crushed body", &["stress-noise", "crushed-whole"])
+                .missed_by(&["jumps", "tears-early", "recursion-loses"]),
+            Wanted::new(
+                "end",
+                "stretch at which the body tears or the step is too long",
+                &["tears-no-earlier", "stops"],
+            )
+            .missed_by(&["jumps", "tears-early"])
+            .where_referenced(),
+        ],
         checks: checks(),
         headlines: vec![
             headline(TEAR_STRETCH, "tears at (–)", 1.0, 2),

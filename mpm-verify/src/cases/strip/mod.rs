@@ -131,6 +131,10 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels,
+        wanted: vec![
+            Wanted::new("settlement", "settlement of the finest of three levels", &["taylor-hood", "square"]),
+            Wanted::new("limit-load", "limit load of undrained clay", &["prandtl"]).where_referenced(),
+        ],
         checks: checks::checks(),
         headlines: vec![
             headline(SETTLEMENT, "settlement (% of B)", 100.0, 3),

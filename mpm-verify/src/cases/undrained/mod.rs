@@ -73,6 +73,9 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels,
+        wanted: vec![
+            Wanted::new("pressure-modes", "number of pressures without an effect", &["one-constant"]).missed_by(&["equal-order-has-checkerboards", "equal-order-loses-the-pressure"]),
+        ],
         checks: checks(),
         headlines: vec![
             headline(INF_SUP, "β", 1.0, 4),

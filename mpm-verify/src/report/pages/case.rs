@@ -166,7 +166,7 @@ fn of_runs(case: &Case, study: &CaseStudy) -> Table {
     let row = |r: &Record| {
         let outcome = outcome_of_run(r);
         let own = r.verdicts.iter().filter(|v| v.outcome == outcome && outcome != Outcome::Right);
-        let deciding = distinct(own.filter(|v| v.judges() || v.failed()).map(|v| &*v.check));
+        let deciding = distinct(own.filter(|v| v.decides()).map(|v| &*v.check));
         let why = match &r.error {
             Some(e) => format!("broke down at {} s", number(Some(e.time))),
             None => deciding.join(", "),

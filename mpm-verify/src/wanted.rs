@@ -1,0 +1,137 @@
+//! Quantities for which a case is run. A run is right only if each was judged and holds.
+
+use crate::verdict::{Kind, Outcome, Verdict};
+use serde::Serialize;
+
+/// A quantity for which a case is run.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Wanted {
+    /// Name.
+    pub name: &'static str,
+    /// The quantity, its norm and the time at which it counts.
+    pub statement: &'static str,
+    /// Truth checks that judge it.
+    pub by: &'static [&'static str],
+    /// Known limits that explain a miss of these checks.
+    pub limits: &'static [&'static str],
+    /// Whether runs of which none of the checks says anything have no reference for it, and are not asked.
+    pub only_where_referenced: bool,
+}
+
+impl Wanted {
+    /// A quantity that the checks `by` judge.
+    pub(crate) const fn new(name: &'static str, statement: &'static str, by: &'static [&'static str]) -> Self {
+        Self { name, statement, by, limits: &[], only_where_referenced: false }
+    }
+
+    /// With the known limits that explain a miss.
+    pub(crate) const fn missed_by(self, limits: &'static [&'static str]) -> Self {
+        Self { limits, ..self }
+    }
+
+    /// Not asked of runs of which none of its checks says anything.
+    pub(crate) const fn where_referenced(self) -> Self {
+        Self { only_where_referenced: true, ..self }
+    }
+
+    fn judging<'a>(&self, verdicts: &'a [Verdict]) -> impl Iterator<Item = &'a Verdict> + use<'a> {
+        let by = self.by;
+        verdicts.iter().filter(move |v| v.kind == Kind::Truth && by.contains(&&*v.check))
+    }
+
+    /// Turns a miss into *wrong as known* where a known limit explains it.
+    fn explain(&self, verdicts: &mut [Verdict]) {
+        let seen = |v: &&Verdict| v.outcome == Outcome::WrongAsKnown && self.limits.contains(&&*v.check);
+        let Some(limit) = verdicts.iter().find(seen).map(|v| v.check.clone()) else {
+            return;
+        };
+        let missed = |v: &&mut Verdict| v.kind == Kind::Truth && v.failed() && self.by.contains(&&*v.check);
+        for verdict in verdicts.iter_mut().filter(missed) {
+            verdict.outcome = Outcome::WrongAsKnown;
+            verdict.source = format!("known limit {limit}; {}", verdict.source);
+        }
+    }
+
+    /// The verdict of its checks together: the worst one, *not judged* where none of them was applied.
+    fn verdict(&self, verdicts: &[Verdict]) -> Option<Verdict> {
+        if self.only_where_referenced && self.judging(verdicts).next().is_none() {
+            return None;
+        }
+        let worst = [Outcome::Failed, Outcome::WrongAsKnown, Outcome::Right];
+        let outcome = worst.into_iter().find(|o| self.judging(verdicts).any(|v| v.outcome == *o));
+        let names = |outcome| {
+            let own = self.judging(verdicts).filter(move |v| v.outcome == outcome);
+            crate::distinct(own.map(|v| &*v.check)).join(", ")
+        };
+        let reason = || match self.judging(verdicts).next() {
+            Some(v) => format!("{}: {}", v.check, v.source),
+            None => format!("none of its checks was applied: {}", self.by.join(", ")),
+        };
+        Some(Verdict {
+            check: self.name.to_owned(),
+            kind: Kind::Wanted,
+            metric: self.statement.to_owned(),
+            value: None,
+            reference: None,
+            tolerance: None,
+            outcome: outcome.unwrap_or(Outcome::NotJudged),
+            source: outcome.map_or_else(reason, names),
+        })
+    }
+}
+
+/// The verdicts of a run, after those on its wanted quantities.
+pub(crate) fn settled(wanted: &[Wanted], mut verdicts: Vec<Verdict>) -> Vec<Verdict> {
+    wanted.iter().for_each(|w| w.explain(&mut verdicts));
+    let mut all: Vec<Verdict> = wanted.iter().filter_map(|w| w.verdict(&verdicts)).collect();
+    all.append(&mut verdicts);
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases;
+    use crate::check::Finding;
+    use crate::study::judge::outcome_of;
+
+    const DEFLECTION: Wanted = Wanted::new("deflection", "at rest", &["mid-edge", "tip"]).missed_by(&["locked"]);
+
+    fn found(holds: Option<bool>, check: &str, kind: Kind) -> Verdict {
+        let finding = match holds {
+            Some(holds) => Finding::at_most("m", if holds { 0.5 } else { 2.0 }, 1.0, ""),
+            None => Finding::not_applicable("m", "not at rest"),
+        };
+        finding.verdict(check, kind)
+    }
+
+    #[test]
+    fn a_run_is_right_only_if_each_wanted_quantity_holds() {
+        let law = || found(Some(true), "reaction", Kind::Truth);
+        let [hold, miss, none] = [Some(true), Some(false), None].map(|h| found(h, "tip", Kind::Truth));
+        let limit = |holds| found(Some(holds), "locked", Kind::KnownLimit);
+        let outcome = |verdicts: Vec<Verdict>| outcome_of(settled(&[DEFLECTION], verdicts).iter());
+        assert_eq!(outcome(vec![law(), hold.clone()]), Outcome::Right);
+        assert_eq!(outcome(vec![law(), hold.clone(), none.clone()]), Outcome::Right);
+        assert_eq!(outcome(vec![law(), none]), Outcome::NotJudged);
+        assert_eq!(outcome(vec![law()]), Outcome::NotJudged);
+        assert_eq!(outcome(vec![law(), miss.clone()]), Outcome::Failed);
+        assert_eq!(outcome(vec![law(), miss.clone(), limit(true)]), Outcome::WrongAsKnown);
+        assert_eq!(outcome(vec![law(), miss, limit(false)]), Outcome::Failed);
+        assert_eq!(outcome(vec![law(), hold, limit(false)]), Outcome::Failed);
+    }
+
+    /// Names of checks are keys: each is that of a check of its kind on single runs.
+    #[test]
+    fn every_case_wants_something_that_its_truths_judge() {
+        for case in cases::all() {
+            assert!(case.wanted.iter().any(|w| !w.only_where_referenced), "{}", case.name);
+            let is = |name: &str, kind| case.checks.iter().any(|c| c.name == name && c.kind == kind);
+            for wanted in &case.wanted {
+                let of = format!("{} {}", case.name, wanted.name);
+                assert!(!wanted.by.is_empty() && wanted.by.iter().all(|name| is(name, Kind::Truth)), "{of}");
+                assert!(wanted.limits.iter().all(|name| is(name, Kind::KnownLimit)), "{of}");
+            }
+        }
+    }
+}
